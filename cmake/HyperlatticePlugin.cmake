@@ -1,0 +1,54 @@
+# How a plugin is built, inside this project and outside (find_package(Hyperlattice) includes this file).
+#
+#   hyperlattice_add_plugin(loads.blast blast.cpp)
+#     a library `loads.blast.so` that is found by the type's name.
+#
+#   hyperlattice_add_material(materials.elastic elastic.cpp LAW elastic.hpp Elastic)
+#     the same, and the kernels that run the law over a lattice, compiled once for each instruction set; the processor chooses at run time.
+
+function(hyperlattice_add_plugin type)
+  add_library(${type} MODULE ${ARGN})
+  set_target_properties(${type} PROPERTIES PREFIX "" OUTPUT_NAME ${type} CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  target_compile_features(${type} PRIVATE cxx_std_20)
+  target_link_libraries(${type} PRIVATE Hyperlattice::sdk)
+  if(TARGET hyperlattice_flags) # this project's own plugins
+    target_link_libraries(${type} PRIVATE hyperlattice_flags)
+    set_target_properties(${type} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/hyperlattice)
+    install(TARGETS ${type} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/hyperlattice COMPONENT plugins)
+  endif()
+endfunction()
+
+function(hyperlattice_add_material type)
+  cmake_parse_arguments(ARG "" "" "LAW" ${ARGN})
+  list(GET ARG_LAW 0 header)
+  list(GET ARG_LAW 1 law)
+  hyperlattice_add_plugin(${type} ${ARG_UNPARSED_ARGUMENTS})
+  target_include_directories(${type} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  set(variants baseline)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    list(APPEND variants avx2 avx512)
+  endif()
+  set(flags_baseline "")
+  set(flags_avx2 -march=x86-64-v3)
+  set(flags_avx512 -march=x86-64-v4 -mprefer-vector-width=512)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    list(APPEND flags_baseline -Wno-psabi) # vectors stay inside one file, so their calling convention is nobody's concern
+    list(APPEND flags_avx2 -Wno-psabi)
+  endif()
+  foreach(variant ${variants})
+    set(file ${CMAKE_CURRENT_BINARY_DIR}/${type}.kernels.${variant}.cpp)
+    file(CONFIGURE OUTPUT ${file} @ONLY CONTENT
+"// Generated: the kernels of @law@ for the instruction set '@variant@'.
+#define HYPERLATTICE_INSTRUCTIONS @variant@
+#include <hyperlattice/kernels/sweep.hpp>
+#include \"@header@\"
+HYPERLATTICE_KERNELS(@law@)
+")
+    target_sources(${type} PRIVATE ${file})
+    set_source_files_properties(${file} PROPERTIES COMPILE_OPTIONS
+      "${flags_${variant}};-O3;-fno-math-errno;-fno-trapping-math;-ffp-contract=fast")
+  endforeach()
+  if("avx2" IN_LIST variants)
+    target_compile_definitions(${type} PRIVATE HYPERLATTICE_X86_KERNELS)
+  endif()
+endfunction()

@@ -1,0 +1,62 @@
+// A lattice: where particles sit and which of them springs join. A structured lattice is a box of sites with runs of particles along x,
+// and one short list of neighbours that every site shares; springs are never listed.
+#pragma once
+
+#include <hyperlattice/component.hpp>
+
+#include <array>
+
+namespace hyperlattice {
+
+inline constexpr std::size_t max_spring_classes = 4;
+inline constexpr std::size_t max_neighbours = 16;  ///< forward neighbours; one bit each in a site's 16 alive bits
+
+/// A forward neighbour: the site that follows in the order z, y, x, so that each pair stands once.
+struct Neighbour {
+  std::int32_t dx = 0, dy = 0, dz = 0;   ///< in sites
+  std::uint32_t spring_class = 0;        ///< which stiffness: cubic has 0 orthogonal, 1 diagonal
+};
+
+/// How springs and masses at a body's surface count (physics of the boundary).
+enum class Boundary : std::uint32_t { particles, cells };
+
+/// The fixed part of a structured lattice. Site (i, j, k) stands at origin + spacing * (i, j, k).
+struct Grid {
+  Vec3 origin;
+  double spacing = 0;                          ///< lattice constant l, metres
+  std::array<std::int32_t, 3> sites{};         ///< box of sites
+  double site_volume = 0;                      ///< volume of one particle, m3
+  double membrane_distance = 0;                ///< Delta: distance to the mirror copy in the fourth dimension, metres
+  std::span<const Neighbour> neighbours;       ///< forward neighbours
+  std::uint32_t spring_classes = 1;
+  Boundary boundary = Boundary::particles;
+};
+
+/// Receives a structured lattice: the grid once, then the runs of particles in the order z, y, x.
+struct LatticeSink {
+  void* self = nullptr;
+  void (*receive_grid)(void* self, const Grid& grid) = nullptr;
+  void (*receive_run)(void* self, std::int32_t j, std::int32_t k, std::int32_t begin, std::int32_t end) = nullptr;
+
+  void grid(const Grid& g) const { receive_grid(self, g); }
+  /// Particles at sites begin <= i < end of row (j, k).
+  void run(std::int32_t j, std::int32_t k, std::int32_t begin, std::int32_t end) const { receive_run(self, j, k, begin, end); }
+};
+
+struct LatticeFunctions {
+  bool (*build)(const void* lattice, const LatticeSink& sink, const Complaint& why) noexcept;
+};
+
+/// A lattice class has: void build(const LatticeSink&) const. It throws if no particle falls into the shape.
+template <class T>
+concept LatticeComponent = requires(const T& lattice, const LatticeSink& sink) { lattice.build(sink); };
+
+namespace detail {
+template <LatticeComponent T> struct FunctionsOf<T> {
+  static constexpr Family family = Family::lattices;
+  static constexpr LatticeFunctions table{[](const void* lattice, const LatticeSink& sink, const Complaint& why) noexcept {
+    return guarded(why, [&] { static_cast<const T*>(lattice)->build(sink); });
+  }};
+};
+}  // namespace detail
+}  // namespace hyperlattice

@@ -1,0 +1,81 @@
+// A material: the constants of its springs, and the law that gives a spring's force from its elongation. The law is scalar physics; the
+// kernels that run it over a lattice are instantiated from kernels/ inside the material's own library (CMake: hyperlattice_add_material).
+#pragma once
+
+#include <hyperlattice/component.hpp>
+#include <hyperlattice/lattice.hpp>
+
+#include <string>
+
+namespace hyperlattice {
+
+struct KernelRequest;  // kernels/request.hpp
+
+/// The lattice as a material sees it when it chooses its springs' stiffness.
+struct LatticeFacts {
+  double spacing = 0;            ///< l, metres
+  double site_volume = 0;        ///< m3 of one particle
+  double membrane_distance = 0;  ///< Delta, metres
+  std::span<const Neighbour> neighbours;
+  std::uint32_t spring_classes = 1;
+  std::uint64_t particles = 0;
+  std::uint64_t springs[max_spring_classes] = {};  ///< base springs of each class that exist in the body
+};
+
+/// What a material makes of it. Cross springs (beta, gamma) share their base spring's neighbour.
+struct MaterialConstants {
+  double density = 0;                                ///< kg/m3
+  double base_stiffness = 0;                         ///< k, N/m
+  double cross_ratio[max_spring_classes] = {};       ///< k_beta / k, k_gamma / k: one for each spring class
+  double alpha_ratio = 0;                            ///< k_alpha / k; meaningless if clamped
+  bool clamped = false;                              ///< k_alpha infinite: no motion in the fourth dimension (III, IV)
+
+  bool has_cross_springs() const {
+    for (const double ratio : cross_ratio)
+      if (ratio != 0) return true;
+    return false;
+  }
+};
+
+/// What is special in a kernel; everything not asked for costs no instruction.
+struct KernelChoice {
+  enum class Membrane : std::uint32_t { none, clamped, free };
+  Membrane membrane = Membrane::none;  ///< none, clamped: 3 degrees of freedom; free: 4
+  bool breakable = false;              ///< a failure criterion is present
+  bool mixed = false;                  ///< more than one material
+};
+
+/// Moves a block of particles by one step, or measures it. Null members: this library has no such kernel.
+struct KernelSet {
+  void (*step)(const KernelRequest& request) noexcept = nullptr;
+  void (*step_damped)(const KernelRequest& request) noexcept = nullptr;
+  void (*measure)(const KernelRequest& request) noexcept = nullptr;
+  const char* instructions = "";  ///< "avx512", "avx2", "baseline": what this processor was given
+};
+
+struct MaterialFunctions {
+  bool (*constants)(const void* material, const LatticeFacts& lattice, MaterialConstants& constants, const Complaint& why) noexcept;
+  KernelSet (*kernels)(const KernelChoice& choice) noexcept;
+  std::string_view law;  ///< materials with the same law share kernels and may stand in one body
+};
+
+/// A material class has: MaterialConstants constants(const LatticeFacts&) const, which throws when E, nu and membrane do not fit;
+/// static KernelSet kernels(const KernelChoice&); static constexpr std::string_view law.
+template <class T>
+concept MaterialComponent = requires(const T& material, const LatticeFacts& lattice, const KernelChoice& choice) {
+  { material.constants(lattice) } -> std::convertible_to<MaterialConstants>;
+  { T::kernels(choice) } -> std::convertible_to<KernelSet>;
+  { T::law } -> std::convertible_to<std::string_view>;
+};
+
+namespace detail {
+template <MaterialComponent T> struct FunctionsOf<T> {
+  static constexpr Family family = Family::materials;
+  static constexpr MaterialFunctions table{
+      [](const void* material, const LatticeFacts& lattice, MaterialConstants& constants, const Complaint& why) noexcept {
+        return guarded(why, [&] { constants = static_cast<const T*>(material)->constants(lattice); });
+      },
+      [](const KernelChoice& choice) noexcept { return T::kernels(choice); }, T::law};
+};
+}  // namespace detail
+}  // namespace hyperlattice

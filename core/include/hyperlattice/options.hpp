@@ -1,0 +1,160 @@
+// Options are declared once. From one declaration come parsing, units, validation, `hyperlattice plugins NAME`,
+// the JSON Schema and the page in docs/components.
+//
+//   struct Options { double peak; std::optional<double> area; std::string law; };
+//   static Schema<Options> schema() {
+//     return Schema<Options>("loads.blast", "Triangular pressure pulse on a surface")
+//         .add<&Options::peak>("peak", "Pa", "largest pressure").at_least(0)
+//         .add<&Options::area>("area", "m2", "true area of the surface").positive()      // optional: absent if not given
+//         .add<&Options::law>("law", "", "how it falls").choices(kLaws).fallback("\"linear\"");
+//   }
+#pragma once
+
+#include <hyperlattice/plain.hpp>
+
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace hyperlattice {
+
+enum class OptionKind : std::uint32_t { number, integer, boolean, text, choice, vector, numbers, texts, shape, region };
+
+/// A validated value in SI units, handed by the core to an option's setter. Texts and shapes outlive the component.
+struct OptionValue {
+  bool absent = false;  ///< not given, or given as the option's `word` ("auto")
+  bool boolean = false;
+  std::int64_t integer = 0;  ///< also the index of a choice
+  double number = 0;
+  std::string_view text;
+  std::span<const double> numbers;
+  std::span<const std::string_view> texts;
+  const Shape* shape = nullptr;
+  RegionId region;
+};
+
+/// One declared option. Every pointer stays valid while the plugin is loaded, which is for ever.
+struct Option {
+  std::string_view name;
+  std::string_view unit;      ///< SI unit that fixes the dimension: "m", "Pa", "kg/m3"; empty: dimensionless or not a number
+  std::string_view help;
+  std::string_view fallback;  ///< default as JSON text; empty: required, or absent if `optional`
+  std::string_view word;      ///< a word accepted in place of the value: "auto"
+  std::span<const std::string_view> choices;
+  double low = -infinity, high = infinity;
+  bool low_open = false, high_open = false;  ///< whether the bound itself is outside the range
+  bool optional = false;
+  OptionKind kind = OptionKind::number;
+  void (*set)(void* options, const OptionValue& value) = nullptr;
+};
+
+/// A fault that a cross-field check found: which option, and what was expected of it.
+struct FaultSink {
+  void* self = nullptr;
+  void (*receive)(void* self, std::string_view option, std::string_view expected) noexcept = nullptr;
+
+  void fault(std::string_view option, std::string_view expected) const { receive(self, option, expected); }
+};
+
+namespace detail {
+
+template <class T> struct Unwrapped { using type = T; static constexpr bool optional = false; };
+template <class T> struct Unwrapped<std::optional<T>> { using type = T; static constexpr bool optional = true; };
+
+template <class T> constexpr OptionKind kind_of() {
+  if constexpr (std::is_same_v<T, bool>) return OptionKind::boolean;
+  else if constexpr (std::is_enum_v<T>) return OptionKind::choice;
+  else if constexpr (std::is_integral_v<T>) return OptionKind::integer;
+  else if constexpr (std::is_floating_point_v<T>) return OptionKind::number;
+  else if constexpr (std::is_same_v<T, Vec3>) return OptionKind::vector;
+  else if constexpr (std::is_same_v<T, std::vector<double>>) return OptionKind::numbers;
+  else if constexpr (std::is_same_v<T, std::vector<std::string>>) return OptionKind::texts;
+  else if constexpr (std::is_same_v<T, const Shape*>) return OptionKind::shape;
+  else if constexpr (std::is_same_v<T, RegionId>) return OptionKind::region;
+  else { static_assert(std::is_same_v<T, std::string>, "an option of this type cannot be declared"); return OptionKind::text; }
+}
+
+template <class T> T convert(const OptionValue& value) {
+  if constexpr (std::is_same_v<T, bool>) return value.boolean;
+  else if constexpr (std::is_enum_v<T> || std::is_integral_v<T>) return static_cast<T>(value.integer);
+  else if constexpr (std::is_floating_point_v<T>) return static_cast<T>(value.number);
+  else if constexpr (std::is_same_v<T, Vec3>) return {value.numbers[0], value.numbers[1], value.numbers[2]};
+  else if constexpr (std::is_same_v<T, std::vector<double>>) return {value.numbers.begin(), value.numbers.end()};
+  else if constexpr (std::is_same_v<T, std::vector<std::string>>) return {value.texts.begin(), value.texts.end()};
+  else if constexpr (std::is_same_v<T, const Shape*>) return value.shape;
+  else if constexpr (std::is_same_v<T, RegionId>) return value.region;
+  else return std::string(value.text);
+}
+
+template <class Class, class T> T member_type(T Class::*);
+
+template <auto Member, class Options> void assign(void* options, const OptionValue& value) {
+  using Declared = decltype(member_type(Member));
+  auto& target = static_cast<Options*>(options)->*Member;
+  if constexpr (Unwrapped<Declared>::optional) {
+    if (value.absent) target.reset();
+    else target = convert<typename Unwrapped<Declared>::type>(value);
+  } else {
+    target = convert<Declared>(value);
+  }
+}
+
+}  // namespace detail
+
+/// The declaration of a component: what it is, its options, and checks across options.
+template <class Options> class Schema {
+ public:
+  Schema(std::string_view name, std::string_view summary) : name_(name), summary_(summary) {}
+
+  Schema& equation(std::string_view text) { equation_ = text; return *this; }      ///< shown in its page
+  Schema& source(std::string_view text) { source_ = text; return *this; }          ///< paper equation or reference
+  Schema& restrictions(std::string_view text) { restrictions_ = text; return *this; }
+
+  /// Declares the member as an option. A std::optional member may be left out of a scene; any other needs a fallback or is required.
+  template <auto Member> Schema& add(std::string_view name, std::string_view unit, std::string_view help) {
+    using Declared = decltype(detail::member_type(Member));
+    Option option;
+    option.name = name;
+    option.unit = unit;
+    option.help = help;
+    option.optional = detail::Unwrapped<Declared>::optional;
+    option.kind = detail::kind_of<typename detail::Unwrapped<Declared>::type>();
+    option.set = &detail::assign<Member, Options>;
+    options_.push_back(option);
+    return *this;
+  }
+  // Each of these says more about the option added last.
+  Schema& fallback(std::string_view json) { last().fallback = json; return *this; }
+  Schema& word(std::string_view text) { last().word = text; return *this; }
+  Schema& positive() { last().low = 0; last().low_open = true; return *this; }
+  Schema& at_least(double low) { last().low = low; return *this; }
+  Schema& at_most(double high) { last().high = high; return *this; }
+  Schema& above(double low) { last().low = low; last().low_open = true; return *this; }
+  Schema& below(double high) { last().high = high; last().high_open = true; return *this; }
+  /// Names allowed for a text, or for an enum member in the order of the enum's values. The array must be static.
+  template <std::size_t N> Schema& choices(const std::string_view (&names)[N]) {
+    last().kind = OptionKind::choice;
+    last().choices = names;
+    return *this;
+  }
+  /// A check across options, run when each option alone is valid.
+  Schema& check(void (*test)(const Options&, const FaultSink&)) { check_ = test; return *this; }
+
+  std::string_view name() const { return name_; }
+  std::string_view summary() const { return summary_; }
+  std::string_view equation() const { return equation_; }
+  std::string_view source() const { return source_; }
+  std::string_view restrictions() const { return restrictions_; }
+  std::span<const Option> options() const { return options_; }
+  auto cross_check() const { return check_; }
+
+ private:
+  Option& last() { return options_.back(); }
+
+  std::string_view name_, summary_, equation_, source_, restrictions_;
+  std::vector<Option> options_;
+  void (*check_)(const Options&, const FaultSink&) = nullptr;
+};
+
+}  // namespace hyperlattice

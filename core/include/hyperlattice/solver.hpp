@@ -1,0 +1,62 @@
+// A solver: the order of steps in time. What a step does to every particle is a kernel's work (kernels/); when outputs are due is the core's.
+#pragma once
+
+#include <hyperlattice/component.hpp>
+
+namespace hyperlattice {
+
+/// What a solver may know before the run.
+struct SolverFacts {
+  double start_time = 0;          ///< seconds; where the stage before ended
+  double critical_time_step = 0;  ///< seconds, undamped: 2 / omega_max
+  std::span<const double> corners;  ///< times where a load has a kink, ascending
+};
+
+/// What the solver will do, for `plan`, `summary.json` and the progress line.
+struct SolverPlan {
+  double end_time = 0;
+  double time_step = 0;             ///< the largest step that will be taken, seconds
+  double stable_time_step = 0;      ///< the limit that holds for this scheme, seconds
+  double damping = 0;               ///< local damping, alpha; 0: none
+  std::uint64_t steps = 0;
+};
+
+/// The running simulation as a solver sees it.
+struct SolverHost {
+  void* self = nullptr;
+  double time = 0;  ///< seconds; advanced by step()
+  bool (*take_step)(void* self, double time_step) = nullptr;
+  bool (*show)(void* self) = nullptr;
+
+  /// One step of central differences: v(n+1/2) = v(n-1/2) + dt a(n); u(n+1) = u(n) + dt v(n+1/2). False: the run must stop.
+  bool step(double time_step) const { return take_step(self, time_step); }
+  /// Lets history, probes and writers see the present state if they are due. Called once before the first step, then after each. False: stop.
+  bool observe() const { return show(self); }
+};
+
+struct SolverFunctions {
+  bool (*plan)(const void* solver, const SolverFacts& facts, SolverPlan& plan, const Complaint& why) noexcept;
+  bool (*run)(const void* solver, const SolverFacts& facts, SolverHost& host, const Complaint& why) noexcept;
+};
+
+/// A solver class has: SolverPlan plan(const SolverFacts&) const, which throws when what the scene asks for would be unstable;
+/// and void run(const SolverFacts&, SolverHost&) const.
+template <class T>
+concept SolverComponent = requires(const T& solver, const SolverFacts& facts, SolverHost& host) {
+  { solver.plan(facts) } -> std::convertible_to<SolverPlan>;
+  solver.run(facts, host);
+};
+
+namespace detail {
+template <SolverComponent T> struct FunctionsOf<T> {
+  static constexpr Family family = Family::solvers;
+  static constexpr SolverFunctions table{
+      [](const void* solver, const SolverFacts& facts, SolverPlan& plan, const Complaint& why) noexcept {
+        return guarded(why, [&] { plan = static_cast<const T*>(solver)->plan(facts); });
+      },
+      [](const void* solver, const SolverFacts& facts, SolverHost& host, const Complaint& why) noexcept {
+        return guarded(why, [&] { static_cast<const T*>(solver)->run(facts, host); });
+      }};
+};
+}  // namespace detail
+}  // namespace hyperlattice

@@ -1,0 +1,60 @@
+// The body: which sites of the grid hold particles, and which springs join them.
+#pragma once
+
+#include <geometry/region.hpp>
+
+#include <hyperlattice/lattice.hpp>
+#include <hyperlattice/load.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace hyperlattice {
+
+/// Particles begin <= i < end of row (j, k); the first is particle `first`.
+struct Run {
+  std::int32_t j = 0, k = 0, begin = 0, end = 0;
+  Particle first = 0;
+};
+
+struct Site {
+  std::int32_t i = 0, j = 0, k = 0;
+};
+
+struct Body {
+  Grid grid;                          ///< its neighbours point into `neighbours`
+  std::vector<Neighbour> neighbours;
+  std::vector<Run> runs;              ///< in the order z, y, x
+  std::vector<std::size_t> row_runs;  ///< [k * ny + j] first run of a row; one more entry at the end
+  std::uint64_t particles = 0;
+  std::uint64_t springs[max_spring_classes] = {};
+  std::int32_t reach = 1;             ///< planes that the farthest neighbour is away
+
+  Site site(Particle particle) const;
+  Vec3 position(Particle particle) const;                        ///< at rest, metres
+  /// The particle at a site, or no_particle.
+  Particle at(Site site) const;
+  static constexpr Particle no_particle = ~Particle{0};
+  std::uint64_t base_springs() const { std::uint64_t n = 0; for (auto s : springs) n += s; return n; }
+};
+
+/// Builds the body that a lattice component describes.
+Body build_body(const LatticeFunctions& functions, const void* lattice);
+
+/// Uncovered faces of a particle, to the side that the region means (see LoadBody).
+class Surfaces {
+ public:
+  explicit Surfaces(const Body& body);  ///< floods the box of sites once
+  ExposedFaces faces(Particle particle) const;         ///< all
+  ExposedFaces outer_faces(Particle particle) const;   ///< to the outside
+  ExposedFaces inner_faces(Particle particle) const;   ///< to cavities
+
+ private:
+  const Body& body_;
+  std::vector<bool> outside_;  ///< of each site of the box widened by one
+};
+
+/// Particles of a region, ascending. Surfaces follow from the body's shape; a cavity is an empty space that no path of empty sites joins to outside.
+std::vector<Particle> particles_in(const Body& body, const Surfaces& surfaces, const Region& region);
+
+}  // namespace hyperlattice

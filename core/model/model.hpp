@@ -1,0 +1,75 @@
+// The model: particles, springs, masses, loads; everything that stays the same during a run. Built from a scene, then immutable.
+#pragma once
+
+#include <model/body.hpp>
+#include <scene/scene.hpp>
+
+#include <hyperlattice/failure.hpp>
+#include <hyperlattice/load.hpp>
+#include <hyperlattice/material.hpp>
+#include <hyperlattice/kernels/request.hpp>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hyperlattice {
+
+/// A component made from its stage; destroyed by the plugin that made it.
+using ComponentPointer = std::unique_ptr<void, void (*)(void*)>;
+ComponentPointer make_component(const Stage& stage);  ///< InputError at the stage's pointer if it refuses its options
+
+struct Material {
+  const Stage* stage = nullptr;
+  ComponentPointer component{nullptr, [](void*) {}};
+  MaterialConstants constants;
+  double mass = 0;                      ///< of a particle, kg
+  double critical_time_step = 0;        ///< of the infinite lattice of this material, s
+  const Stage* failure_stage = nullptr; ///< null: unbreakable
+  ComponentPointer failure{nullptr, [](void*) {}};
+};
+
+/// A load's contributions, as it declared them.
+struct LoadedParticle {
+  Particle particle = 0;
+  Vec3 force;                   ///< amplitude, N
+  Axes displaced = 0, driven = 0;  ///< axes with a prescribed displacement, velocity
+  Vec3 displacement, velocity;  ///< amplitudes
+};
+struct Load {
+  const Stage* stage = nullptr;
+  ComponentPointer component{nullptr, [](void*) {}};
+  std::vector<LoadedParticle> particles;  ///< ascending, each once
+  Vec3 acceleration;
+  double factor(double time) const { return stage->functions<LoadFunctions>().factor(component.get(), time); }
+};
+
+struct Model {
+  const Scene* scene = nullptr;
+  Body body;
+  std::vector<Material> materials;
+  std::vector<std::uint8_t> material_of;  ///< of each particle; empty if there is one material
+  std::vector<Load> loads;
+  std::vector<std::pair<Particle, Vec3>> start_velocities;  ///< ascending
+  std::vector<double> corners;            ///< ascending, each once
+
+  std::vector<NeighbourGeometry> neighbours;
+  std::vector<SpringConstants> springs;   ///< [(a * materials + b) * spring_classes + class]
+  KernelChoice choice;
+  KernelSet kernels;
+  int degrees_of_freedom = 3;
+  double critical_time_step = 0;          ///< s: exact for one material, a rigorous lower bound for several
+  std::string critical_because;           ///< what limits it, in a sentence
+  Vec3 acceleration;                      ///< sum of the loads'
+
+  double mass(Particle particle) const { return materials[material_of.empty() ? 0 : material_of[particle]].mass; }
+  const SpringConstants& spring(std::uint8_t a, std::uint8_t b, std::uint32_t spring_class) const {
+    return springs[(a * materials.size() + b) * body.grid.spring_classes + spring_class];
+  }
+};
+
+/// Builds the model of a scene. Throws InputError for what only the built body shows (an empty region, two loads on one degree of freedom,
+/// a Poisson ratio out of a lattice's reach, particles without material).
+std::unique_ptr<Model> build_model(const Scene& scene);
+
+}  // namespace hyperlattice

@@ -1,0 +1,49 @@
+// The plan: what a run will load, allocate and compute, and what it leaves out; known before anything is computed.
+#pragma once
+
+#include <model/model.hpp>
+
+#include <hyperlattice/solver.hpp>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hyperlattice {
+
+struct LeftOut {
+  std::string what, why;
+};
+
+/// One solver stage, planned.
+struct PlannedStage {
+  const Stage* stage = nullptr;
+  ComponentPointer component{nullptr, [](void*) {}};
+  double start_time = 0;
+  SolverPlan plan;
+};
+
+struct Plan {
+  std::unique_ptr<Scene> scene;
+  std::unique_ptr<Model> model;
+  std::vector<PlannedStage> stages;
+  int threads = 1;
+  double bytes_per_particle = 0;      ///< of the state: what the kernel works on
+  double memory_bytes = 0;            ///< of the state, the model and the scratch
+  double output_bytes = 0;            ///< estimated
+  double expected_seconds = 0;        ///< estimated from the kernel's cost on a common machine
+  std::vector<LeftOut> left_out;
+
+  std::uint64_t steps() const;
+  double end_time() const;
+};
+
+/// Validates everything, computes nothing. Throws as read_scene and build_model do, and InputError if a solver refuses its time step.
+std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, int threads);
+
+std::string plan_text(const Plan& plan);          ///< for people
+nlohmann::json plan_json(const Plan& plan);       ///< the keys of summary.json that are known before a run, and left_out
+
+}  // namespace hyperlattice

@@ -1,0 +1,70 @@
+// The state: displacements, velocities and alive springs, in blocks of planes with ghost planes, one block a thread.
+#pragma once
+
+#include <model/model.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace hyperlattice {
+
+/// A base spring that broke. Its cross springs went with it.
+struct Breakage {
+  std::uint64_t step = 0;
+  double time = 0;        ///< s
+  Particle a = 0, b = 0;  ///< a stands first in the order z, y, x
+  std::uint32_t neighbour = 0;
+  double elongation = 0;  ///< when it broke, m
+};
+
+struct Balance {
+  double kinetic = 0, kinetic_mean = 0, stored = 0, injected = 0, dissipated_failure = 0, dissipated_damping = 0;  ///< J
+  Vec3 momentum;         ///< N s
+  double dissipated() const { return dissipated_failure + dissipated_damping; }
+  double error = 0;      ///< J: kinetic + stored + dissipated - injected - what the start had
+  double scale = 0;      ///< J: the largest energy seen so far
+  double relative_error() const { return scale > 0 ? error / scale : 0; }
+};
+
+/// The moving body. The same bits come out for any number of threads.
+class Simulation {
+ public:
+  Simulation(const Model& model, int threads);
+  ~Simulation();
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  void set_damping(double alpha);         ///< of the steps that follow
+  void step(double time_step);            ///< advances time; RunError if a law or criterion fails
+  double time() const;
+  std::uint64_t steps() const;
+
+  Balance balance();                      ///< of the present state; one extra sweep that changes nothing
+  std::vector<double> injected_by_load() const;  ///< J, one a load; up to the present state
+
+  const std::vector<Breakage>& breakages() const;
+  std::uint64_t broken_open() const;      ///< broken springs that are now longer than at rest
+  std::uint64_t broken_closed() const;
+  bool is_broken(std::size_t breakage_index, double& elongation_now) const;
+
+  /// Copies of a quantity, particles in the order z, y, x. Height is empty without a membrane.
+  void displacements(std::vector<double>& xyz) const;
+  void velocities(std::vector<double>& xyz) const;   ///< v(n-1/2)
+  void heights(std::vector<double>& values) const;
+  /// Sets the state of every particle; for tests and for stages that start from another state.
+  void set_displacements(const std::vector<double>& xyz, const std::vector<double>& heights);
+  void set_velocities(const std::vector<double>& xyz, const std::vector<double>& height_rates);
+
+  /// The particle that moves fastest, and whether every number is finite; for messages of a run that went bad.
+  Particle fastest(double& speed, bool& finite) const;
+  std::uint64_t hash() const;             ///< FNV-1a over displacements, velocities and alive springs, in the particles' order
+  double bytes() const;                   ///< of the state, without scratch
+  double scratch_bytes() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace hyperlattice

@@ -1,0 +1,65 @@
+// A scene: typed, in SI units, every option validated. What a run does is decided by this and nothing else.
+#pragma once
+
+#include <base/errors.hpp>
+#include <geometry/region.hpp>
+#include <host/host.hpp>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hyperlattice {
+
+/// The options of one component, filled and validated; owned memory of the plugin's type.
+using OptionsPointer = std::unique_ptr<void, void (*)(void*)>;
+
+/// When a writer or probe is due; keys that the core adds to those families (scene/common_options.hpp).
+struct Cadence {
+  double every = 0;     ///< seconds between outputs; 0: only first and last
+  bool first = true, last = true;
+};
+
+/// One stage of the pipeline.
+struct Stage {
+  const Component* component = nullptr;
+  OptionsPointer options{nullptr, [](void*) {}};
+  std::string pointer;                 ///< where it stands: "/pipeline/3"
+  std::string name;                    ///< label, unique among its type; default: type's last part, with a number if several
+  RegionId region;                     ///< materials: where the material is; default all
+  std::unique_ptr<Stage> failure;      ///< materials: the failure criterion, if any
+  Cadence cadence;                     ///< writers, probes
+  double record_every = 0;             ///< solvers: seconds between history records; 0: 200 records over the stage
+  double energy_tolerance = 0;         ///< solvers: relative balance error at which the run stops; 0: never
+
+  Family family() const { return component->info.family; }
+  /// The family's table of functions: stage.functions<LoadFunctions>().
+  template <class Functions> const Functions& functions() const { return *static_cast<const Functions*>(component->info.functions); }
+};
+
+struct Scene {
+  std::filesystem::path file;
+  std::string title;
+  Regions regions;
+  std::vector<Stage> stages;           ///< in the pipeline's order
+  std::string resolved;                ///< scene.resolved.json: every default filled, SI; running it gives the same bits
+  std::vector<std::string> texts;      ///< backing of text options
+
+  std::vector<const Stage*> of(Family family) const;
+};
+
+/// Reads, patches (`--set /pointer=value`) and validates a scene, loading the plugins it names.
+/// Throws InputError with every fault found; OutsideError if the file cannot be read or a library of it is refused.
+std::unique_ptr<Scene> read_scene(const std::filesystem::path& file, const std::vector<std::string>& settings, Host& host);
+
+/// The JSON Schema (2020-12) of a scene with the given components.
+std::string scene_schema(const std::vector<const Component*>& components);
+
+/// A component's documentation, as Markdown for people and pages, or as JSON for machines.
+std::string component_page(const Component& component);
+std::string component_json(const Component& component);
+
+}  // namespace hyperlattice
