@@ -37,6 +37,14 @@ struct Region {
   bool contains(Vec3 point) const;       ///< of a solid or a set of solids
 };
 
+/// Regions that need no description: "all", "surface", "inner_surface", "outer_surface", "x_min" ... "z_max". Null: no such name.
+std::shared_ptr<const Region> built_in_region(std::string_view name);
+const std::vector<std::string>& built_in_region_names();
+
+/// A set of regions: union, intersection, or the first without the others. Box, anchor and centre follow from the parts when all are solids;
+/// parts without a common point give an inverted box (low > high).
+std::shared_ptr<const Region> make_set(Region::Kind kind, std::vector<std::shared_ptr<const Region>> parts);
+
 /// The regions of a scene, by index (RegionId); index 0 is "all". Entries stay where they are.
 class Regions {
  public:

@@ -5,10 +5,10 @@
 #include <geometry/region.hpp>
 #include <host/host.hpp>
 
-#include <nlohmann/json_fwd.hpp>
-
+#include <deque>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +19,7 @@ using OptionsPointer = std::unique_ptr<void, void (*)(void*)>;
 
 /// When a writer or probe is due; keys that the core adds to those families (scene/common_options.hpp).
 struct Cadence {
-  double every = 0;     ///< seconds between outputs; 0: only first and last
+  std::optional<double> every;  ///< seconds between outputs; 0: only first and last; absent: 20 frames or 200 samples over the run
   bool first = true, last = true;
 };
 
@@ -28,7 +28,7 @@ struct Stage {
   const Component* component = nullptr;
   OptionsPointer options{nullptr, [](void*) {}};
   std::string pointer;                 ///< where it stands: "/pipeline/3"
-  std::string name;                    ///< label, unique among its type; default: type's last part, with a number if several
+  std::string name;                    ///< label, unique in its family; default: type's last part, with a number if several; fit for a file's name
   RegionId region;                     ///< materials: where the material is; default all
   std::unique_ptr<Stage> failure;      ///< materials: the failure criterion, if any
   Cadence cadence;                     ///< writers, probes
@@ -46,13 +46,15 @@ struct Scene {
   Regions regions;
   std::vector<Stage> stages;           ///< in the pipeline's order
   std::string resolved;                ///< scene.resolved.json: every default filled, SI; running it gives the same bits
-  std::vector<std::string> texts;      ///< backing of text options
+  std::shared_ptr<const Region> body;  ///< the solid that the lattice fills; null if its options name none
+  std::deque<std::string> texts;       ///< backing of text options; entries stay where they are
 
   std::vector<const Stage*> of(Family family) const;
 };
 
 /// Reads, patches (`--set /pointer=value`) and validates a scene, loading the plugins it names.
-/// Throws InputError with every fault found; OutsideError if the file cannot be read or a library of it is refused.
+/// Throws InputError with every fault found; OutsideError if the file is there but cannot be read, or if the only thing wrong is that the host
+/// refuses a library.
 std::unique_ptr<Scene> read_scene(const std::filesystem::path& file, const std::vector<std::string>& settings, Host& host);
 
 /// The JSON Schema (2020-12) of a scene with the given components.

@@ -132,9 +132,9 @@ template <class Options> class Schema {
   Schema& at_most(double high) { last().high = high; return *this; }
   Schema& above(double low) { last().low = low; last().low_open = true; return *this; }
   Schema& below(double high) { last().high = high; last().high_open = true; return *this; }
-  /// Names allowed for a text, or for an enum member in the order of the enum's values. The array must be static.
+  /// Names allowed for a text, for each of a list of texts, or for an enum member in the order of the enum's values. The array must be static.
   template <std::size_t N> Schema& choices(const std::string_view (&names)[N]) {
-    last().kind = OptionKind::choice;
+    if (last().kind == OptionKind::text) last().kind = OptionKind::choice;
     last().choices = names;
     return *this;
   }

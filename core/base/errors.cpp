@@ -1,0 +1,61 @@
+#include <base/errors.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace hyperlattice {
+
+namespace {
+
+std::string lines(const std::vector<Fault>& faults) {
+  std::string text;
+  for (const Fault& fault : faults) {
+    if (!text.empty()) text += '\n';
+    text += fault.pointer.empty() ? "scene" : fault.pointer;
+    if (!fault.value.empty()) text += ": " + fault.value;
+    text += ": expected " + fault.expected;
+  }
+  return text;
+}
+
+/// Edits (insert, delete, replace, swap of neighbours) that turn a into b: Damerau-Levenshtein, restricted.
+std::size_t edits(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before, above(b.size() + 1), row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    before = std::exchange(above, row);
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      row[j] = std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + (a[i - 1] == b[j - 1] ? 0u : 1u)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+InputError::InputError(std::vector<Fault> faults) : std::runtime_error(lines(faults)), faults_(std::move(faults)) {}
+
+void Faults::add(std::string pointer, std::string value, std::string expected) {
+  faults_.push_back({std::move(pointer), std::move(value), std::move(expected)});
+}
+
+void Faults::throw_if_any() const {
+  if (!faults_.empty()) throw InputError(faults_);
+}
+
+std::string nearest(std::string_view name, const std::vector<std::string>& candidates) {
+  std::string best;
+  std::size_t fewest = 2 + name.size() / 3;  // one more than what still counts as near
+  for (const std::string& candidate : candidates) {
+    const std::size_t count = edits(name, candidate);
+    if (count < fewest && count < candidate.size()) {  // not if every letter would have to change
+      fewest = count;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+}  // namespace hyperlattice

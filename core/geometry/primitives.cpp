@@ -1,0 +1,183 @@
+#include <geometry/primitives.hpp>
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+
+namespace hyperlattice {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Region solid(Vec3 low, Vec3 high, Vec3 anchor, Vec3 centre, std::function<bool(Vec3)> inside) {
+  Region region;
+  region.kind = Region::Kind::solid;
+  region.inside = std::move(inside);
+  region.low = low;
+  region.high = high;
+  region.anchor = anchor;
+  region.centre = centre;
+  return region;
+}
+
+/// Edges along the axes, by two corners or by centre and size.
+struct Box {
+  struct Options {
+    std::optional<Vec3> low, high, centre, size;
+  };
+  static Schema<Options> schema() {
+    return Schema<Options>("box", "Box with edges along the axes, by two corners or by centre and size")
+        .add<&Options::low>("low", "m", "corner with the smallest coordinates")
+        .add<&Options::high>("high", "m", "corner with the largest coordinates")
+        .add<&Options::centre>("centre", "m", "centre, with size; the origin if left out")
+        .add<&Options::size>("size", "m", "lengths of the edges")
+        .positive()
+        .check([](const Options& box, const FaultSink& faults) {
+          if (box.size) {
+            if (box.low || box.high) faults.fault("size", "either low and high, or centre and size, not both");
+          } else if (!box.low || !box.high || box.centre) {
+            faults.fault("", "a box by low and high, or by centre and size");
+          } else if (!(box.low->x < box.high->x && box.low->y < box.high->y && box.low->z < box.high->z)) {
+            faults.fault("high", "a corner above low in every coordinate");
+          }
+        });
+  }
+  static Region make(const Options& box) {
+    const Vec3 middle = box.centre.value_or(Vec3{});
+    const Vec3 low = box.size ? middle - 0.5 * *box.size : *box.low, high = box.size ? middle + 0.5 * *box.size : *box.high;
+    Region region = solid(low, high, low, 0.5 * (low + high), [low, high](Vec3 p) {
+      return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y && low.z <= p.z && p.z <= high.z;
+    });
+    const Vec3 edge = high - low;
+    region.outer_area = 2 * (edge.x * edge.y + edge.y * edge.z + edge.z * edge.x);
+    return region;
+  }
+};
+
+struct Sphere {
+  struct Options {
+    Vec3 centre;
+    double radius = 0;
+  };
+  static Schema<Options> schema() {
+    return Schema<Options>("sphere", "Ball")
+        .add<&Options::centre>("centre", "m", "centre")
+        .fallback("[0, 0, 0]")
+        .add<&Options::radius>("radius", "m", "radius")
+        .positive();
+  }
+  static Region make(const Options& sphere) {
+    const Vec3 c = sphere.centre;
+    const double r = sphere.radius;
+    Region region = solid(c - Vec3{r, r, r}, c + Vec3{r, r, r}, c, c, [c, r](Vec3 p) { return dot(p - c, p - c) <= r * r; });
+    region.outer_area = 4 * pi * r * r;
+    return region;
+  }
+};
+
+struct HollowSphere {
+  struct Options {
+    Vec3 centre;
+    double inner_radius = 0, outer_radius = 0;
+  };
+  static Schema<Options> schema() {
+    return Schema<Options>("hollow_sphere", "Ball with a round cavity in its middle")
+        .add<&Options::centre>("centre", "m", "centre")
+        .fallback("[0, 0, 0]")
+        .add<&Options::inner_radius>("inner_radius", "m", "radius of the cavity")
+        .positive()
+        .add<&Options::outer_radius>("outer_radius", "m", "radius of the ball")
+        .positive()
+        .check([](const Options& sphere, const FaultSink& faults) {
+          if (sphere.outer_radius <= sphere.inner_radius) faults.fault("outer_radius", "a radius above inner_radius");
+        });
+  }
+  static Region make(const Options& sphere) {
+    const Vec3 c = sphere.centre;
+    const double a = sphere.inner_radius, b = sphere.outer_radius;
+    Region region = solid(c - Vec3{b, b, b}, c + Vec3{b, b, b}, c, c, [c, a, b](Vec3 p) {
+      const double square = dot(p - c, p - c);
+      return a * a <= square && square <= b * b;
+    });
+    region.outer_area = 4 * pi * b * b;
+    region.inner_area = 4 * pi * a * a;
+    return region;
+  }
+};
+
+/// Anchored at its start: on the axis across, at the end along, so that whole cells fill an upright cylinder's length exactly.
+struct Cylinder {
+  struct Options {
+    Vec3 start, end;
+    double radius = 0;
+  };
+  static Schema<Options> schema() {
+    return Schema<Options>("cylinder", "Round cylinder between two points of its axis")
+        .add<&Options::start>("start", "m", "one end of the axis")
+        .add<&Options::end>("end", "m", "other end of the axis")
+        .add<&Options::radius>("radius", "m", "radius")
+        .positive()
+        .check([](const Options& cylinder, const FaultSink& faults) {
+          if (cylinder.start == cylinder.end) faults.fault("end", "a point other than start");
+        });
+  }
+  static Region make(const Options& cylinder) {
+    const Vec3 start = cylinder.start, axis = cylinder.end - start;
+    const double length = norm(axis), r = cylinder.radius;
+    const Vec3 d = (1 / length) * axis;
+    const auto reach = [r](double cosine) { return r * std::sqrt(std::max(0.0, 1 - cosine * cosine)); };
+    const Vec3 wide{reach(d.x), reach(d.y), reach(d.z)};
+    const Vec3 low{std::fmin(start.x, cylinder.end.x), std::fmin(start.y, cylinder.end.y), std::fmin(start.z, cylinder.end.z)};
+    const Vec3 high{std::fmax(start.x, cylinder.end.x), std::fmax(start.y, cylinder.end.y), std::fmax(start.z, cylinder.end.z)};
+    return solid(low - wide, high + wide, start, start + 0.5 * axis, [start, d, length, r](Vec3 p) {
+      const double along = dot(p - start, d);
+      const Vec3 across = p - start - along * d;
+      return 0 <= along && along <= length && dot(across, across) <= r * r;
+    });
+  }
+};
+
+/// Unbounded; for cutting other solids, and for regions.
+struct HalfSpace {
+  struct Options {
+    Vec3 point, normal;
+  };
+  static Schema<Options> schema() {
+    return Schema<Options>("half_space", "Everything on one side of a plane: where (x - point) . normal <= 0")
+        .add<&Options::point>("point", "m", "a point of the plane")
+        .fallback("[0, 0, 0]")
+        .add<&Options::normal>("normal", "", "direction that points out of the half-space, of any length")
+        .check([](const Options& half, const FaultSink& faults) {
+          if (half.normal == Vec3{}) faults.fault("normal", "a direction other than [0, 0, 0]");
+        });
+  }
+  static Region make(const Options& half) {
+    const Vec3 point = half.point, n = half.normal;
+    Vec3 low{-infinity, -infinity, -infinity}, high{infinity, infinity, infinity};
+    const auto bound = [](double normal, double at, double& below, double& above) { (normal > 0 ? above : below) = at; };
+    if (n.y == 0 && n.z == 0) bound(n.x, point.x, low.x, high.x);
+    if (n.z == 0 && n.x == 0) bound(n.y, point.y, low.y, high.y);
+    if (n.x == 0 && n.y == 0) bound(n.z, point.z, low.z, high.z);
+    return solid(low, high, point, point, [point, n](Vec3 p) { return dot(p - point, n) <= 0; });
+  }
+};
+
+template <class Solid>
+Primitive describe() {
+  static const auto schema = Solid::schema();
+  return {schema.name(), schema.summary(), option_set<Solid>(), [](const void* options) {
+            Region region = Solid::make(*static_cast<const typename Solid::Options*>(options));
+            region.primitive = schema.name();
+            return region;
+          }};
+}
+
+}  // namespace
+
+std::span<const Primitive> primitives() {
+  static const std::array all{describe<Box>(), describe<Sphere>(), describe<HollowSphere>(), describe<Cylinder>(), describe<HalfSpace>()};
+  return all;
+}
+
+}  // namespace hyperlattice
