@@ -1,0 +1,35 @@
+// The commands of the program, one file each. A command declares its arguments, and acts when it was the one named.
+#pragma once
+
+#include <plan/plan.hpp>
+
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace hyperlattice {
+
+struct Command {
+  CLI::App* arguments = nullptr;
+  std::function<int()> act;  ///< returns the exit code
+};
+
+Command run_command(CLI::App& program);
+Command plan_command(CLI::App& program);
+Command plugins_command(CLI::App& program);
+Command schema_command(CLI::App& program);
+
+/// What `run` and `plan` are both told.
+struct SceneArguments {
+  std::filesystem::path scene;
+  std::vector<std::string> settings;
+  int threads = 0;  ///< 0: every processor
+
+  void declare(CLI::App& command);
+  std::unique_ptr<Plan> plan(Host& host) const;
+};
+
+}  // namespace hyperlattice

@@ -1,0 +1,41 @@
+// hyperlattice: the four-dimensional lattice spring model from the command line.
+#include "commands.hpp"
+
+#include <base/errors.hpp>
+
+#include <iostream>
+#include <new>
+
+namespace {
+
+int complain(int code, const std::string& message) {
+  std::cerr << "hyperlattice: " << message << '\n';
+  return code;
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  using namespace hyperlattice;
+  CLI::App program("Simulates solids with the four-dimensional lattice spring model.", "hyperlattice");
+  program.set_version_flag("--version", "hyperlattice " HYPERLATTICE_VERSION);
+  program.require_subcommand(1);
+  program.footer("Exit codes: 0 done, 2 wrong input, 3 the run failed, 4 the outside failed (disk, memory, plugin), 130 interrupted.");
+  const Command commands[] = {run_command(program), plan_command(program), plugins_command(program), schema_command(program)};
+  try {
+    program.parse(count, words);
+    for (const Command& command : commands)
+      if (command.arguments->parsed()) return command.act();
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? exit_done : exit_input;
+  } catch (const InputError& error) {
+    return complain(exit_input, "wrong input, nothing was written\n" + std::string(error.what()));
+  } catch (const RunError& error) {
+    return complain(exit_run, error.what());
+  } catch (const std::bad_alloc&) {
+    return complain(exit_outside, "not enough memory; `hyperlattice plan SCENE` says how much a scene needs");
+  } catch (const std::exception& error) {
+    return complain(exit_outside, error.what());
+  }
+  return exit_input;
+}

@@ -1,0 +1,87 @@
+// hyperlattice plugins: what can be named in a scene, one component's page, and where it was all looked for.
+#include "commands.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <iostream>
+
+namespace hyperlattice {
+namespace {
+
+struct Arguments {
+  std::string name;
+  bool why = false, json = false;
+};
+
+[[noreturn]] void say_why_not(const Host& host, const std::string& name) {
+  if (host.refused(name)) throw OutsideError(host.why_not(name));
+  const std::string near = nearest(name, host.known_types());
+  throw InputError({{"NAME", name, "a type that can be found; " + host.why_not(name) + (near.empty() ? "" : "; did you mean '" + near + "'?")}});
+}
+
+void print_list(const std::vector<const Component*>& components) {
+  std::size_t width = 0;
+  for (const Component* component : components) width = std::max(width, component->info.name.size());
+  for (const std::string_view family : family_names) {
+    std::vector<const Component*> members;
+    for (const Component* component : components)
+      if (family_names[static_cast<std::size_t>(component->info.family)] == family) members.push_back(component);
+    if (members.empty()) continue;
+    std::sort(members.begin(), members.end(), [](const Component* a, const Component* b) { return a->info.name < b->info.name; });
+    std::cout << family << '\n';
+    for (const Component* member : members)
+      std::cout << "  " << member->type() << std::string(width + 2 - member->type().size(), ' ') << member->info.summary << '\n';
+  }
+}
+
+const char* verdict(const SearchOutcome& outcome) { return outcome.accepted ? "accepted" : outcome.absent ? "absent" : "refused"; }
+
+void print_searched(const Host& host) {
+  std::cout << "\nsearched\n";
+  for (const SearchOutcome& outcome : host.searched())
+    std::cout << "  " << verdict(outcome) << "  " << outcome.path.string() << "\n            " << outcome.reason << '\n';
+}
+
+nlohmann::json searched_json(const Host& host) {
+  auto places = nlohmann::json::array();
+  for (const SearchOutcome& outcome : host.searched())
+    places.push_back({{"path", outcome.path.string()}, {"outcome", verdict(outcome)}, {"reason", outcome.reason}});
+  return places;
+}
+
+int show(const Arguments& arguments) {
+  Host host;
+  const auto components = arguments.name.empty() ? host.load_all() : std::vector{host.find(arguments.name)};
+  if (!components.empty() && !components.front()) {
+    if (arguments.why) print_searched(host);
+    say_why_not(host, arguments.name);
+  }
+
+  if (arguments.json) {
+    nlohmann::json document;
+    for (const Component* component : components) document["components"].push_back(nlohmann::json::parse(component_json(*component)));
+    if (arguments.why) document["searched"] = searched_json(host);
+    std::cout << document.dump(2) << '\n';
+    return exit_done;
+  }
+  if (arguments.name.empty())
+    print_list(components);
+  else
+    std::cout << component_page(*components.front());
+  if (arguments.why) print_searched(host);
+  return exit_done;
+}
+
+}  // namespace
+
+Command plugins_command(CLI::App& program) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = program.add_subcommand("plugins", "list what a scene can name, or document one component");
+  command->add_option("NAME", arguments->name, "a component, e.g. loads.blast");
+  command->add_flag("--why", arguments->why, "also every place searched, and why a library was refused");
+  command->add_flag("--json", arguments->json, "print it for machines");
+  return {command, [arguments] { return show(*arguments); }};
+}
+
+}  // namespace hyperlattice

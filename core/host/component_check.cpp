@@ -1,0 +1,91 @@
+#include <host/component_check.hpp>
+
+#include <hyperlattice/failure.hpp>
+#include <hyperlattice/lattice.hpp>
+#include <hyperlattice/load.hpp>
+#include <hyperlattice/material.hpp>
+#include <hyperlattice/output.hpp>
+#include <hyperlattice/solver.hpp>
+
+#include <algorithm>
+#include <set>
+
+namespace hyperlattice {
+namespace {
+
+bool is_identifier(std::string_view text) {
+  const auto letter = [](char c) { return c >= 'a' && c <= 'z'; };
+  return !text.empty() && letter(text.front()) &&
+         std::all_of(text.begin(), text.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '_'; });
+}
+
+// Whether each function of a family's table is there.
+bool whole(const LatticeFunctions& f) { return f.build; }
+bool whole(const MaterialFunctions& f) { return f.constants && f.kernels && !f.law.empty(); }
+bool whole(const FailureFunctions& f) { return f.alarm && f.review; }
+bool whole(const LoadFunctions& f) { return f.declare && f.factor; }
+bool whole(const SolverFunctions& f) { return f.plan && f.run; }
+bool whole(const WriterFunctions& f) { return f.begin && f.frame && f.end; }
+bool whole(const ProbeFunctions& f) { return f.begin && f.sample; }
+
+template <class Functions>
+bool has_table(const ComponentInfo& info) {
+  return info.functions && info.functions_size == sizeof(Functions) && whole(*static_cast<const Functions*>(info.functions));
+}
+
+bool has_functions(const ComponentInfo& info) {
+  if (!info.create_options || !info.destroy_options || !info.create || !info.destroy) return false;
+  switch (info.family) {
+    case Family::lattices:
+      return has_table<LatticeFunctions>(info);
+    case Family::materials:
+      return has_table<MaterialFunctions>(info);
+    case Family::failures:
+      return has_table<FailureFunctions>(info);
+    case Family::loads:
+      return has_table<LoadFunctions>(info);
+    case Family::solvers:
+      return has_table<SolverFunctions>(info);
+    case Family::writers:
+      return has_table<WriterFunctions>(info);
+    case Family::probes:
+      return has_table<ProbeFunctions>(info);
+  }
+  return false;
+}
+
+std::string option_fault(const Option& option) {
+  if (!is_identifier(option.name)) return "its name must be small letters, digits and underscores, a letter first";
+  if (option.name == "type" || option.name == "name") return "a stage has that key already";
+  if (option.kind > OptionKind::region || !option.set) return "it cannot be set";
+  if (option.kind == OptionKind::choice && option.choices.empty()) return "it has no choices";
+  if (!(option.low <= option.high)) return "its range is empty";
+  return "";
+}
+
+}  // namespace
+
+bool is_type_name(std::string_view text) {
+  const auto dot = text.find('.');
+  return dot != text.npos && std::find(std::begin(family_names), std::end(family_names), text.substr(0, dot)) != std::end(family_names) &&
+         is_identifier(text.substr(dot + 1));
+}
+
+std::string component_fault(const ComponentInfo& info) {
+  const std::string name = std::string("'").append(info.name) + "'";
+  if (!is_type_name(info.name)) return "registers the name " + name + ", which is not of the form <family>.<name> in small letters";
+  const auto family = static_cast<std::size_t>(info.family);
+  if (family >= std::size(family_names) || !info.name.starts_with(family_names[family]) || info.name[family_names[family].size()] != '.')
+    return "registers " + name + ", but the class is one of the family '" +
+           (family < std::size(family_names) ? std::string(family_names[family]) : "unknown") + "'";
+  if (!has_functions(info)) return "registers " + name + " with a function missing: rebuild it against these headers";
+  std::set<std::string_view> names;
+  for (const Option& option : info.options) {
+    std::string fault = option_fault(option);
+    if (!names.insert(option.name).second) fault = "it is declared twice";
+    if (!fault.empty()) return "registers " + name + " with a bad option '" + std::string(option.name) + "': " + fault;
+  }
+  return "";
+}
+
+}  // namespace hyperlattice

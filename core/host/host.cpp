@@ -1,0 +1,226 @@
+#include <host/component_check.hpp>
+#include <host/gate.hpp>
+#include <host/host.hpp>
+
+#include <boost/core/demangle.hpp>
+#include <boost/dll/runtime_symbol_info.hpp>
+#include <boost/dll/shared_library.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <set>
+
+namespace hyperlattice {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string suffix = ".so";
+
+/// One spelling for each file or folder, whichever links lead to it.
+fs::path resolved(const fs::path& path) {
+  std::error_code error;
+  fs::path result = fs::weakly_canonical(fs::absolute(path), error);
+  if (error) result = fs::absolute(path).lexically_normal();
+  return result.has_filename() ? result : result.parent_path();
+}
+
+/// The entries of HYPERLATTICE_PLUGIN_PATH. An empty entry would mean the current directory, and is left out.
+std::vector<fs::path> environment_folders() {
+  std::vector<fs::path> folders;
+  const char* value = std::getenv("HYPERLATTICE_PLUGIN_PATH");
+  std::string_view rest = value ? value : "";
+  while (!rest.empty()) {
+    const auto end = std::min(rest.find(':'), rest.size());
+    if (end > 0) folders.emplace_back(resolved(rest.substr(0, end)));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return folders;
+}
+
+/// The folder `hyperlattice` beside this library, in a build as in an installed tree.
+fs::path install_folder() { return resolved(boost::dll::this_line_location()).parent_path() / "hyperlattice"; }
+
+/// Boost's message holds the loader's between words of its own; the loader's names symbols as the linker does.
+std::string loader_sentence(std::string message, const fs::path& library) {
+  const std::string before = "dlerror system message: ";
+  if (const auto begin = message.find(before); begin != message.npos) {
+    message.erase(0, begin + before.size());
+    if (const auto end = message.rfind("): "); end != message.npos) message.erase(end);
+  }
+  if (const auto own = library.string() + ": "; message.starts_with(own)) message.erase(0, own.size());
+  const std::string undefined = "undefined symbol: ";
+  if (const auto begin = message.find(undefined); begin != message.npos) {
+    const auto symbol = message.substr(begin + undefined.size());
+    return "cannot be loaded: undefined symbol " + boost::core::demangle(symbol.c_str()) + ": link the library that defines it";
+  }
+  return "cannot be loaded: " + message;
+}
+
+/// Loads a library that has passed the gate. It stays loaded for as long as the process lives: code of it may be needed until the very end.
+const boost::dll::shared_library& open(const fs::path& path) {
+  static auto& libraries = *new std::vector<std::unique_ptr<boost::dll::shared_library>>;
+  try {
+    libraries.push_back(std::make_unique<boost::dll::shared_library>(path, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local));
+  } catch (const std::system_error& error) {
+    throw Refusal(loader_sentence(error.what(), path));
+  }
+  return *libraries.back();
+}
+
+const Component* keep(Component component) {
+  static auto& components = *new std::vector<std::unique_ptr<Component>>;
+  components.push_back(std::make_unique<Component>(std::move(component)));
+  return components.back().get();
+}
+
+/// What a library registers, in the order of its registration. Each is sound by itself and none comes twice.
+std::vector<Component> registered(const fs::path& path) {
+  if (const std::string mismatch = gate_mismatch(read_gate(path), own_gate()); !mismatch.empty()) throw Refusal(mismatch);
+  const auto& library = open(path);
+  if (!library.has("hyperlattice_plugin")) throw Refusal("has a gate but no plugin behind it: write HYPERLATTICE_PLUGIN in it");
+  const auto& plugin = library.get<const PluginInfo>("hyperlattice_plugin");
+
+  std::vector<ComponentInfo> infos;
+  Registrar registrar(&infos, [](void* self, const ComponentInfo& info) { static_cast<std::vector<ComponentInfo>*>(self)->push_back(info); });
+  std::string complaint = "it does not say why";
+  const Complaint why{&complaint, [](void* self, std::string_view sentence) noexcept { *static_cast<std::string*>(self) = sentence; }};
+  if (!plugin.register_components(registrar, why)) throw Refusal("its registration failed: " + complaint);
+  if (infos.empty()) throw Refusal("registers nothing");
+
+  std::vector<Component> components;
+  std::set<std::string_view> names;
+  for (const ComponentInfo& info : infos) {
+    if (const std::string fault = component_fault(info); !fault.empty()) throw Refusal(fault);
+    if (!names.insert(info.name).second) throw Refusal("registers " + std::string(info.name) + " twice");
+    components.push_back({info, path.stem().string(), std::string(plugin.version), path});
+  }
+  return components;
+}
+
+}  // namespace
+
+Host::Host(std::vector<fs::path> scene_paths) {
+  folders_ = environment_folders();
+  folders_.push_back(install_folder());
+  for (const fs::path& folder : folders_) searched_.push_back(look_into(folder));
+  add_scene_paths({scene_paths.begin(), scene_paths.end()}, fs::current_path());
+}
+
+std::vector<SearchOutcome> Host::add_scene_paths(const std::vector<std::string>& entries, const fs::path& scene_folder) {
+  std::vector<SearchOutcome> outcomes;
+  std::vector<fs::path> folders;
+  for (const std::string& entry : entries) {
+    const fs::path path = resolved(scene_folder / entry);
+    std::error_code error;
+    if (fs::is_regular_file(path, error)) {
+      outcomes.push_back(load(path, ""));
+      continue;
+    }
+    if (fs::is_directory(path, error)) folders.push_back(path);
+    outcomes.push_back(look_into(path));
+    searched_.push_back(outcomes.back());
+  }
+  folders_.insert(folders_.begin(), folders.begin(), folders.end());
+  return outcomes;
+}
+
+SearchOutcome Host::look_into(const fs::path& folder) const {
+  std::error_code error;
+  if (!fs::exists(folder, error)) return {folder, false, true, "no such file or folder"};
+  const fs::directory_iterator files(folder, error);
+  if (error) return {folder, false, false, "cannot be searched: " + error.message()};
+  const auto count = std::count_if(begin(files), end(files),
+                                   [](const auto& file) { return file.path().extension() == suffix && is_type_name(file.path().stem().string()); });
+  return {folder, true, false, "has " + std::to_string(count) + (count == 1 ? " library" : " libraries") + " named after a type"};
+}
+
+std::vector<fs::path> Host::libraries_of(const std::string& type) const {
+  std::vector<fs::path> found;
+  for (const fs::path& folder : folders_) {
+    const fs::path library = resolved(folder / (type + suffix));
+    std::error_code error;
+    if (fs::exists(library, error) && std::find(found.begin(), found.end(), library) == found.end()) found.push_back(library);
+  }
+  return found;
+}
+
+const Component* Host::refuse(const std::string& type, const std::string& reason) {
+  refusals_[type] = reason;
+  return nullptr;
+}
+
+const Component* Host::find(const std::string& type) {
+  if (!is_type_name(type) || refused(type)) return nullptr;
+  auto libraries = libraries_of(type);
+  const auto known = components_.find(type);
+  if (known != components_.end() && std::find(libraries.begin(), libraries.end(), known->second->path) == libraries.end())
+    libraries.insert(libraries.begin(), known->second->path);
+  if (libraries.size() > 1)
+    return refuse(type, "two libraries have " + type + ", " + libraries[0].string() + " and " + libraries[1].string() + ": remove or rename one");
+  if (known != components_.end()) return known->second;
+  if (libraries.empty()) return nullptr;
+  const SearchOutcome& outcome = load(libraries.front(), type);
+  return outcome.accepted ? components_.at(type) : refuse(type, outcome.reason);
+}
+
+std::string Host::why_not(const std::string& type) const {
+  if (const auto refusal = refusals_.find(type); refusal != refusals_.end()) return refusal->second;
+  if (!is_type_name(type)) {
+    std::string families;
+    for (const std::string_view family : family_names) families += (families.empty() ? "" : ", ") + std::string(family);
+    return "a type has the form <family>.<name> in small letters, the family one of " + families;
+  }
+  std::string folders;
+  for (const fs::path& folder : folders_) folders += (folders.empty() ? "" : ", ") + folder.string();
+  return "no library " + type + suffix + " in " + folders;
+}
+
+std::vector<std::string> Host::known_types() const {
+  std::set<std::string> types;
+  for (const auto& [type, component] : components_) types.insert(type);
+  for (const fs::path& folder : folders_) {
+    std::error_code error;
+    for (const auto& file : fs::directory_iterator(folder, error))
+      if (file.path().extension() == suffix && is_type_name(file.path().stem().string())) types.insert(file.path().stem().string());
+  }
+  return {types.begin(), types.end()};
+}
+
+std::vector<const Component*> Host::load_all() {
+  for (const std::string& type : known_types()) find(type);
+  return order_;
+}
+
+const SearchOutcome& Host::load(const fs::path& library, const std::string& expected_type) {
+  for (const SearchOutcome& outcome : searched_)
+    if (outcome.path == library) return outcome;
+  SearchOutcome outcome;
+  outcome.path = library;
+  try {
+    auto components = registered(library);
+    std::string names;
+    bool expected = expected_type.empty();
+    for (const Component& component : components) {
+      if (const auto other = components_.find(component.type()); other != components_.end())
+        throw Refusal("registers " + component.type() + ", which " + other->second->path.string() + " registered before: remove or rename one");
+      expected = expected || component.type() == expected_type;
+      names += (names.empty() ? "" : ", ") + component.type();
+    }
+    if (!expected) throw Refusal("does not register " + expected_type + ", the type it is named after, but " + names);
+    for (Component& component : components) {
+      order_.push_back(keep(std::move(component)));
+      components_[order_.back()->type()] = order_.back();
+    }
+    outcome.accepted = true;
+    outcome.reason = "gives " + names;
+  } catch (const Refusal& refusal) {
+    outcome.reason = library.filename().string() + ": " + refusal.what();
+  } catch (const std::exception& error) {
+    outcome.reason = library.filename().string() + ": cannot be read: " + error.what();
+  }
+  return searched_.emplace_back(std::move(outcome));
+}
+
+}  // namespace hyperlattice
