@@ -34,6 +34,7 @@ inline constexpr std::string_view field_names[] = {"displacement", "velocity", "
 struct OutputContext {
   std::string_view directory;  ///< exists; ends without a slash
   std::string_view title;
+  std::span<const std::string_view> fields;  ///< those of field_names that this run has; empty: only the snapshot tells
   void* self = nullptr;
   std::span<const Particle> (*region_particles)(void* self, RegionId region) noexcept = nullptr;
 

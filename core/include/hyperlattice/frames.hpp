@@ -1,0 +1,114 @@
+// What writers of one file a frame share: which particles and fields, how the files are called.
+//
+//   struct Options : FrameOptions { bool compress; };
+//   static Schema<Options> schema() { ... add_frame_options(schema); schema.check(check_frame_options<Options>); ... }
+#pragma once
+
+#include <hyperlattice/fields.hpp>
+#include <hyperlattice/files.hpp>
+
+#include <algorithm>
+
+namespace hyperlattice {
+
+struct FrameOptions {
+  std::vector<std::string> fields;
+  std::string file;
+  RegionId region;
+  bool deformed = false;
+};
+
+/// Declares the options above.
+template <class Options>
+void add_frame_options(Schema<Options>& schema) {
+  schema.template add<&Options::fields>("fields", "", "fields to write")
+      .fallback(R"(["displacement", "velocity"])")
+      .template add<&Options::file>("file", "", "base name of the files")
+      .fallback("\"frames\"")
+      .template add<&Options::region>("region", "", "particles to write")
+      .fallback("\"all\"")
+      .template add<&Options::deformed>("deformed", "", "points at their displaced positions, not those at rest")
+      .fallback("false");
+}
+
+/// A base name becomes part of file names and of XML, so it is kept plain.
+inline void check_file_name(const std::string& file, const FaultSink& faults) {
+  const auto plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.';
+  };
+  if (file.empty() || file.front() == '.' || !std::all_of(file.begin(), file.end(), plain))
+    faults.fault("file", "a name of letters, digits, '_', '-' and '.', without folders");
+}
+
+/// The cross-field check of the options above.
+template <class Options>
+void check_frame_options(const Options& options, const FaultSink& faults) {
+  check_file_name(options.file, faults);
+  for (auto name = options.fields.begin(); name != options.fields.end(); ++name) {
+    if (!is_one_of(field_names, *name)) faults.fault("fields", "fields among " + joined(field_names) + "; \"" + *name + "\" is none of them");
+    if (std::find(options.fields.begin(), name, *name) != name) faults.fault("fields", "each field once; \"" + *name + "\" is there twice");
+  }
+}
+
+/// The numbered files of one writer: `<directory>/<file>_000000<extension>` and so on.
+class FrameFiles {
+ public:
+  FrameFiles() = default;
+  FrameFiles(const OutputContext& context, std::string_view file, std::string_view extension)
+      : base_(std::string(context.directory) + "/"), file_(file), extension_(extension) {}
+
+  /// Name of the present frame, without its folder.
+  std::string name() const {
+    std::string number = std::to_string(frame_);
+    if (number.size() < 6) number.insert(0, 6 - number.size(), '0');
+    return file_ + "_" + number + extension_;
+  }
+  std::string path() const { return base_ + name(); }
+  /// Path of a file that belongs to the whole series: `<directory>/<file><suffix>`.
+  std::string path_of_series(std::string_view suffix) const { return base_ + file_ + std::string(suffix); }
+  void next() { ++frame_; }
+
+ private:
+  std::string base_, file_, extension_;
+  std::uint64_t frame_ = 0;
+};
+
+/// The particles of a region, and their part of any field. A region that is the whole body costs nothing.
+class Selection {
+ public:
+  Selection() = default;
+  explicit Selection(std::span<const Particle> particles) : size_(particles.size()) {
+    if (particles.empty()) throw std::runtime_error("no particle lies in the region");
+    first_ = particles.front();
+    if (particles.back() - first_ + 1 != size_) scattered_.assign(particles.begin(), particles.end());
+  }
+
+  std::size_t size() const { return size_; }
+  Particle operator[](std::size_t n) const { return scattered_.empty() ? first_ + n : scattered_[n]; }
+
+  /// The selected particles' values; in `buffer` if they do not stand together.
+  std::span<const double> of(std::span<const double> values, std::size_t components, std::vector<double>& buffer) const {
+    if (scattered_.empty()) return values.subspan(first_ * components, size_ * components);
+    buffer.resize(size_ * components);
+    for (std::size_t n = 0; n < size_; ++n) std::copy_n(&values[scattered_[n] * components], components, &buffer[n * components]);
+    return buffer;
+  }
+
+  /// Their positions at rest plus `magnification` times their displacement, in `buffer`; metres.
+  std::span<const double> positions(const Snapshot& snapshot, double magnification, std::vector<double>& buffer) const {
+    if (magnification == 0) return of(snapshot.positions, 3, buffer);
+    const auto displacement = require_field(snapshot, "displacement").values;
+    buffer.resize(3 * size_);
+    for (std::size_t n = 0; n < size_; ++n)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        buffer[3 * n + axis] = snapshot.positions[3 * (*this)[n] + axis] + magnification * displacement[3 * (*this)[n] + axis];
+    return buffer;
+  }
+
+ private:
+  std::size_t size_ = 0;
+  Particle first_ = 0;
+  std::vector<Particle> scattered_;
+};
+
+}  // namespace hyperlattice

@@ -1,0 +1,93 @@
+// A disk that is full in the middle of a run: a clear refusal, no half-written file under a final name, and earlier frames untouched.
+#include <support/output.hpp>
+
+#include <hyperlattice/files.hpp>
+
+#include <gtest/gtest.h>
+
+#include <sys/resource.h>
+#include <csignal>
+#include <functional>
+
+namespace hyperlattice::test {
+namespace {
+
+/// No file may grow beyond `bytes` while this lives; a write beyond fails as on a full disk.
+class SmallDisk {
+ public:
+  explicit SmallDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  SmallDisk(const SmallDisk&) = delete;
+  SmallDisk& operator=(const SmallDisk&) = delete;
+  ~SmallDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
+std::string message_of(const std::function<void()>& code) {
+  try {
+    code();
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(AtomicFile, ReplacesOnlyWhenWhole) {
+  Folder folder("atomic");
+  write_file(folder.file("a"), "old");
+  {
+    AtomicFile file(folder.file("a"));
+    file.write("new");
+    EXPECT_EQ(contents(folder.file("a")), "old");
+  }
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"a"});
+  EXPECT_EQ(contents(folder.file("a")), "old");
+  write_file(folder.file("a"), "new");
+  EXPECT_EQ(contents(folder.file("a")), "new");
+}
+
+TEST(AtomicFile, SaysWhyTheSystemRefuses) {
+  Folder folder("atomic_full");
+  EXPECT_EQ(message_of([&] { write_file(folder.file("no/such/a"), "x"); }),
+            "cannot create " + folder.file("no/such/a") + ": No such file or directory");
+  std::filesystem::create_symlink("/dev/full", folder.file("a.part"));  // every write there fails: no space left
+  EXPECT_EQ(message_of([&] { write_file(folder.file("a"), "x"); }), "cannot write " + folder.file("a") + ": No space left on device");
+  EXPECT_TRUE(folder.names().empty());
+}
+
+class FullDisk : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Types, FullDisk, testing::Values("writers.vtu", "writers.csv"));
+
+TEST_P(FullDisk, LeavesEarlierFramesIntact) {
+  Folder folder("full_disk");
+  FakeBody body({20, 20, 20});
+  Plugin writer(GetParam());
+  writer.begin(body.context(folder.path()));
+  writer.frame(body.at(0));
+  const auto names = folder.names();
+  std::vector<std::string> before;
+  for (const std::string& name : names) before.push_back(contents(folder.file(name)));
+  std::string refusal;
+  {
+    const SmallDisk full(4096);
+    refusal = message_of([&] { writer.frame(body.at(1)); });
+  }
+  EXPECT_NE(refusal.find("_000001"), std::string::npos) << refusal;
+  EXPECT_NE(refusal.find(": File too large"), std::string::npos) << refusal;
+  EXPECT_EQ(folder.names(), names);
+  for (std::size_t n = 0; n < names.size(); ++n) EXPECT_TRUE(contents(folder.file(names[n])) == before[n]) << names[n];
+  writer.frame(body.at(2));  // there is room again: the series goes on where it stopped
+  EXPECT_EQ(folder.names().size(), names.size() + 1);
+}
+
+}  // namespace
+}  // namespace hyperlattice::test

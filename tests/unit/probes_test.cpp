@@ -1,0 +1,98 @@
+// Probes: which particles they take, what the columns say, and that the numbers are those of the known motion.
+#include <support/output.hpp>
+
+#include <gtest/gtest.h>
+
+namespace hyperlattice::test {
+namespace {
+
+std::string refusal(Plugin& probe, FakeBody& body) {
+  try {
+    probe.begin_probe(body.context("."), body.at(0));
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(PointProbe, TakesTheNearestParticleAndSaysWhere) {
+  FakeBody body({4, 4, 4});
+  Plugin probe("probes.point", {{"position", {1.9e-3, 0.1e-3, 3.6e-3}}});
+  const auto columns = probe.begin_probe(body.context("."), body.at(0));
+  EXPECT_EQ(columns, (std::vector<std::string>{"displacement_x@(0.0015 0.0005 0.0035)", "displacement_y@(0.0015 0.0005 0.0035)",
+                                               "displacement_z@(0.0015 0.0005 0.0035)"}));
+  const double t = 0.5, l = 1e-3;
+  const auto row = probe.sample(body.at(t), 3);
+  EXPECT_DOUBLE_EQ(row[0], t * (1.5 * l - l) + t * t * 0.5 * l);
+  EXPECT_DOUBLE_EQ(row[1], t * (0.5 * l - l) + t * t * 3.5 * l);
+  EXPECT_DOUBLE_EQ(row[2], t * (3.5 * l - l) + t * t * 1.5 * l);
+}
+
+TEST(PointProbe, GivesComponents) {
+  FakeBody body({4, 4, 4});
+  const std::vector<double> place{1.5e-3, 0.5e-3, 3.5e-3};
+  const auto value = [&](const std::string& component, const std::string& column) {
+    Plugin probe("probes.point", {{"position", place}, {"field", "velocity"}, {"component", component}, {"centre", {0.0, 0.0, 1e-3}}});
+    const auto columns = probe.begin_probe(body.context("."), body.at(0));
+    EXPECT_EQ(columns, std::vector<std::string>{column + "@(0.0015 0.0005 0.0035)"});
+    return probe.sample(body.at(0), 1)[0];
+  };
+  const double x = 0.5e-3, y = -0.5e-3, z = 2.5e-3;  // velocity at time 0
+  EXPECT_DOUBLE_EQ(value("y", "velocity_y"), y);
+  EXPECT_DOUBLE_EQ(value("magnitude", "velocity_magnitude"), std::sqrt(x * x + y * y + z * z));
+  EXPECT_DOUBLE_EQ(value("radial", "velocity_radial"), (x * 1.5 + y * 0.5 + z * 2.5) / std::sqrt(1.5 * 1.5 + 0.5 * 0.5 + 2.5 * 2.5));
+}
+
+TEST(PointProbe, RefusesWhatItCannotGive) {
+  FakeBody body({4, 4, 4});
+  Plugin away("probes.point", {{"position", {0.0, 0.0, 9e-3}}});
+  EXPECT_EQ(refusal(away, body), "no particle is near (0 0 0.009); the nearest stands at (0.0005 0.0005 0.0035) (metres)");
+  Plugin missing("probes.point", {{"position", {0.0, 0.0, 0.0}}, {"field", "height"}});
+  EXPECT_EQ(refusal(missing, body), "this run has no field \"height\"; it has displacement, velocity, broken_open");
+  const auto faults = Plugin("probes.point", {{"position", {0.0, 0.0, 0.0}}, {"field", "damage"}, {"component", "x"}}).faults();
+  EXPECT_EQ(faults, std::vector<std::string>{"component: no component, because \"damage\" is a single number"});
+}
+
+TEST(LineProbe, GivesEachParticleOnceAndNoneInTheOpen) {
+  FakeBody body({6, 2, 2});
+  // From inside to 4 mm beyond the end; many more points than particles.
+  Plugin probe("probes.line", {{"start", {0.5e-3, 0.6e-3, 0.6e-3}}, {"end", {10.5e-3, 0.6e-3, 0.6e-3}}, {"points", 101}, {"component", "x"}});
+  const auto columns = probe.begin_probe(body.context("."), body.at(0));
+  ASSERT_EQ(columns.size(), 6u);
+  EXPECT_EQ(columns[0], "displacement_x@(0.0005 0.0005 0.0005)");
+  EXPECT_EQ(columns[5], "displacement_x@(0.0055 0.0005 0.0005)");
+  const double t = 0.25, l = 1e-3;
+  const auto row = probe.sample(body.at(t), 6);
+  for (std::size_t n = 0; n < 6; ++n) EXPECT_DOUBLE_EQ(row[n], t * ((static_cast<double>(n) + 0.5) * l - l) + t * t * 0.5 * l);
+}
+
+TEST(LineProbe, RefusesALineOfNoLengthOrOutside) {
+  EXPECT_EQ(Plugin("probes.line", {{"start", {1.0, 1.0, 1.0}}, {"end", {1.0, 1.0, 1.0}}}).faults(),
+            std::vector<std::string>{"end: a point other than \"start\""});
+  FakeBody body({2, 2, 2});
+  Plugin outside("probes.line", {{"start", {1.0, 0.0, 0.0}}, {"end", {2.0, 0.0, 0.0}}});
+  EXPECT_EQ(refusal(outside, body), "no particle is near the line from (1 0 0) to (2 0 0) (metres)");
+}
+
+TEST(RegionProbe, GivesMeanAndExtremes) {
+  FakeBody body({4, 3, 2});
+  Plugin probe("probes.region", {{"region", "some"}, {"field", "broken_open"}});
+  EXPECT_EQ(probe.begin_probe(body.context("."), body.at(0)), (std::vector<std::string>{"broken_open_mean", "broken_open_min", "broken_open_max"}));
+  // particles 1, 4, 7, 10, 13, 16, 19, 22; only 10 is broken: 1 + 10 % 3 = 2 springs
+  EXPECT_EQ(probe.sample(body.at(1), 3), (std::vector<double>{0.25, 0, 2}));
+}
+
+TEST(RegionProbe, KnowsUniformExpansion) {
+  // u = t (x - c) + t^2 (y, z, x) is radial about c to first order in t; by its corners the block is symmetric.
+  FakeBody body({2, 2, 2});
+  Plugin probe("probes.region", {{"component", "radial"}, {"centre", {1e-3, 1e-3, 1e-3}}});
+  EXPECT_EQ(probe.begin_probe(body.context("."), body.at(0)),
+            (std::vector<std::string>{"displacement_radial_mean", "displacement_radial_min", "displacement_radial_max"}));
+  const double t = 1e-9, radius = std::sqrt(0.75) * 1e-3;
+  for (const double value : probe.sample(body.at(t), 3)) EXPECT_NEAR(value, t * radius, 1e-8 * t * radius);
+  Plugin all("probes.region");
+  EXPECT_EQ(all.begin_probe(body.context("."), body.at(0)).size(), 9u);
+}
+
+}  // namespace
+}  // namespace hyperlattice::test
