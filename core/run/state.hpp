@@ -20,10 +20,10 @@ struct Breakage {
 
 struct Balance {
   double kinetic = 0, kinetic_mean = 0, stored = 0, injected = 0, dissipated_failure = 0, dissipated_damping = 0;  ///< J
-  Vec3 momentum;         ///< N s
+  Vec3 momentum;                                                                                                   ///< N s
   double dissipated() const { return dissipated_failure + dissipated_damping; }
-  double error = 0;      ///< J: kinetic + stored + dissipated - injected - what the start had
-  double scale = 0;      ///< J: the largest energy seen so far
+  double error = 0;  ///< J: kinetic + stored + dissipated - injected - what the start had
+  double scale = 0;  ///< J: the largest energy seen so far
   double relative_error() const { return scale > 0 ? error / scale : 0; }
 };
 
@@ -35,22 +35,22 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  void set_damping(double alpha);         ///< of the steps that follow
-  void step(double time_step);            ///< advances time; RunError if a law or criterion fails
+  void set_damping(double alpha);  ///< of the steps that follow
+  void step(double time_step);     ///< advances time; RunError if a law or criterion fails
   double time() const;
   std::uint64_t steps() const;
 
-  Balance balance();                      ///< of the present state; one extra sweep that changes nothing
-  std::vector<double> injected_by_load() const;  ///< J, one a load; up to the present state
+  Balance balance();                       ///< of the present state; one extra sweep that changes nothing
+  std::vector<double> injected_by_load();  ///< J, one a load; up to the present state
 
   const std::vector<Breakage>& breakages() const;
-  std::uint64_t broken_open() const;      ///< broken springs that are now longer than at rest
+  double elongation_now(const Breakage& breakage) const;  ///< m, of a spring that is gone: open if above 0, closed if not
+  std::uint64_t broken_open() const;
   std::uint64_t broken_closed() const;
-  bool is_broken(std::size_t breakage_index, double& elongation_now) const;
 
   /// Copies of a quantity, particles in the order z, y, x. Height is empty without a membrane.
   void displacements(std::vector<double>& xyz) const;
-  void velocities(std::vector<double>& xyz) const;   ///< v(n-1/2)
+  void velocities(std::vector<double>& xyz) const;  ///< v(n-1/2)
   void heights(std::vector<double>& values) const;
   /// Sets the state of every particle; for tests and for stages that start from another state.
   void set_displacements(const std::vector<double>& xyz, const std::vector<double>& heights);
@@ -58,12 +58,19 @@ class Simulation {
 
   /// The particle that moves fastest, and whether every number is finite; for messages of a run that went bad.
   Particle fastest(double& speed, bool& finite) const;
-  std::uint64_t hash() const;             ///< FNV-1a over displacements, velocities and alive springs, in the particles' order
-  double bytes() const;                   ///< of the state, without scratch
+  std::uint64_t hash() const;  ///< FNV-1a over displacements, velocities and alive springs, in the particles' order
+  double bytes() const;        ///< of the state, without scratch
   double scratch_bytes() const;
 
  private:
   struct Parts;
+  struct Quantity {
+    bool velocity;
+    int first, components;
+  };
+  void copy(const Quantity& quantity, std::vector<double>& values) const;
+  void set(const Quantity& quantity, const std::vector<double>& values);
+
   std::unique_ptr<Parts> parts_;
 };
 

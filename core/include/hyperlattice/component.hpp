@@ -41,7 +41,8 @@ class Registrar {
   Registrar(void* self, void (*receive)(void* self, const ComponentInfo& info)) : self_(self), receive_(receive) {}
 
   /// Registers a component class of any family (see lattice.hpp, material.hpp, failure.hpp, load.hpp, solver.hpp, output.hpp).
-  template <class Component> void add();
+  template <class Component>
+  void add();
 
  private:
   void* self_;
@@ -57,7 +58,8 @@ struct PluginInfo {
 namespace detail {
 
 /// Runs code of a plugin; an exception becomes a sentence, so that none crosses the boundary.
-template <class Code> bool guarded(const Complaint& why, Code&& code) noexcept {
+template <class Code>
+bool guarded(const Complaint& why, Code&& code) noexcept {
   try {
     code();
     return true;
@@ -70,9 +72,11 @@ template <class Code> bool guarded(const Complaint& why, Code&& code) noexcept {
 }
 
 /// The family's table of functions for a component class; each family's header specialises it.
-template <class Component> struct FunctionsOf;
+template <class Component>
+struct FunctionsOf;
 
-template <class Component> ComponentInfo describe() {
+template <class Component>
+ComponentInfo describe() {
   using Options = typename Component::Options;
   static const Schema<Options> schema = Component::schema();
   ComponentInfo info;
@@ -123,21 +127,25 @@ template <unsigned Interface, unsigned CompilerAbi, unsigned LibraryAbi, unsigne
 struct HYPERLATTICE_EXPORT Gate {
   static const char marker;
 };
-template <unsigned A, unsigned B, unsigned C, unsigned D, unsigned E, unsigned F, unsigned G> const char Gate<A, B, C, D, E, F, G>::marker = 1;
+template <unsigned A, unsigned B, unsigned C, unsigned D, unsigned E, unsigned F, unsigned G>
+const char Gate<A, B, C, D, E, F, G>::marker = 1;
 
 using ThisGate = Gate<HYPERLATTICE_INTERFACE_VERSION, detail::compiler_abi, detail::library_abi, detail::eigen_alignment, sizeof(ComponentInfo),
                       sizeof(Option), sizeof(OptionValue)>;
 
-template <class Component> void Registrar::add() { receive_(self_, detail::describe<Component>()); }
+template <class Component>
+void Registrar::add() {
+  receive_(self_, detail::describe<Component>());
+}
 
 }  // namespace hyperlattice
 
 /// Begins the one registration function of a plugin; its body names the components.
-#define HYPERLATTICE_PLUGIN(version_text)                                                                                             \
-  static void hyperlattice_register_body(::hyperlattice::Registrar& plugin);                                                          \
-  extern "C" HYPERLATTICE_EXPORT const char* hyperlattice_gate() { return &::hyperlattice::ThisGate::marker; }                        \
-  extern "C" HYPERLATTICE_EXPORT const ::hyperlattice::PluginInfo hyperlattice_plugin{                                                \
-      version_text, [](::hyperlattice::Registrar& plugin, const ::hyperlattice::Complaint& why) noexcept {                            \
-        return ::hyperlattice::detail::guarded(why, [&] { hyperlattice_register_body(plugin); });                                     \
-      }};                                                                                                                             \
+#define HYPERLATTICE_PLUGIN(version_text)                                                                      \
+  static void hyperlattice_register_body(::hyperlattice::Registrar& plugin);                                   \
+  extern "C" HYPERLATTICE_EXPORT const char* hyperlattice_gate() { return &::hyperlattice::ThisGate::marker; } \
+  extern "C" HYPERLATTICE_EXPORT const ::hyperlattice::PluginInfo hyperlattice_plugin{                         \
+      version_text, [](::hyperlattice::Registrar& plugin, const ::hyperlattice::Complaint& why) noexcept {     \
+        return ::hyperlattice::detail::guarded(why, [&] { hyperlattice_register_body(plugin); });              \
+      }};                                                                                                      \
   static void hyperlattice_register_body(::hyperlattice::Registrar& plugin)

@@ -35,7 +35,8 @@ concept FailureComponent = requires(const T& failure, const SpringFacts& spring)
 };
 
 namespace detail {
-template <FailureComponent T> struct FunctionsOf<T> {
+template <FailureComponent T>
+struct FunctionsOf<T> {
   static constexpr Family family = Family::failures;
   static constexpr FailureFunctions table{
       [](const void* failure, const SpringFacts& spring) noexcept { return static_cast<double>(static_cast<const T*>(failure)->alarm(spring)); },

@@ -9,12 +9,12 @@
 namespace hyperlattice {
 
 inline constexpr std::size_t max_spring_classes = 4;
-inline constexpr std::size_t max_neighbours = 16;  ///< forward neighbours; one bit each in a site's 16 alive bits
+inline constexpr std::size_t max_neighbours = 15;  ///< forward neighbours; one bit each in a site's alive bits
 
 /// A forward neighbour: the site that follows in the order z, y, x, so that each pair stands once.
 struct Neighbour {
-  std::int32_t dx = 0, dy = 0, dz = 0;   ///< in sites
-  std::uint32_t spring_class = 0;        ///< which stiffness: cubic has 0 orthogonal, 1 diagonal
+  std::int32_t dx = 0, dy = 0, dz = 0;  ///< in sites
+  std::uint32_t spring_class = 0;       ///< which stiffness: cubic has 0 orthogonal, 1 diagonal
 };
 
 /// How springs and masses at a body's surface count (physics of the boundary).
@@ -23,11 +23,11 @@ enum class Boundary : std::uint32_t { particles, cells };
 /// The fixed part of a structured lattice. Site (i, j, k) stands at origin + spacing * (i, j, k).
 struct Grid {
   Vec3 origin;
-  double spacing = 0;                          ///< lattice constant l, metres
-  std::array<std::int32_t, 3> sites{};         ///< box of sites
-  double site_volume = 0;                      ///< volume of one particle, m3
-  double membrane_distance = 0;                ///< Delta: distance to the mirror copy in the fourth dimension, metres
-  std::span<const Neighbour> neighbours;       ///< forward neighbours
+  double spacing = 0;                     ///< lattice constant l, metres
+  std::array<std::int32_t, 3> sites{};    ///< box of sites
+  double site_volume = 0;                 ///< volume of one particle, m3
+  double membrane_distance = 0;           ///< Delta: distance to the mirror copy in the fourth dimension, metres
+  std::span<const Neighbour> neighbours;  ///< forward neighbours
   std::uint32_t spring_classes = 1;
   Boundary boundary = Boundary::particles;
 };
@@ -49,10 +49,13 @@ struct LatticeFunctions {
 
 /// A lattice class has: void build(const LatticeSink&) const. It throws if no particle falls into the shape.
 template <class T>
-concept LatticeComponent = requires(const T& lattice, const LatticeSink& sink) { lattice.build(sink); };
+concept LatticeComponent = requires(const T& lattice, const LatticeSink& sink) {
+  lattice.build(sink);
+};
 
 namespace detail {
-template <LatticeComponent T> struct FunctionsOf<T> {
+template <LatticeComponent T>
+struct FunctionsOf<T> {
   static constexpr Family family = Family::lattices;
   static constexpr LatticeFunctions table{[](const void* lattice, const LatticeSink& sink, const Complaint& why) noexcept {
     return guarded(why, [&] { static_cast<const T*>(lattice)->build(sink); });

@@ -22,8 +22,8 @@ struct LoadBody {
   Vec3 (*region_centre)(void* self, RegionId region) noexcept = nullptr;
 
   std::span<const Particle> particles(RegionId region) const { return region_particles(self, region); }  ///< in ascending order
-  Vec3 position(Particle particle) const { return particle_position(self, particle); }                    ///< metres, at rest
-  double mass(Particle particle) const { return particle_mass(self, particle); }                          ///< kg
+  Vec3 position(Particle particle) const { return particle_position(self, particle); }                   ///< metres, at rest
+  double mass(Particle particle) const { return particle_mass(self, particle); }                         ///< kg
   /// Faces open to the side that the region means: the cavity for "inner_surface", outside for "outer_surface", any for others.
   ExposedFaces exposed_faces(Particle particle, RegionId region) const { return particle_faces(self, particle, region); }
   /// Area in m2 of the surface that the scene's shape describes, if the shape knows it (spheres and hollow spheres do); else 0.
@@ -44,9 +44,9 @@ struct LoadSink {
   void (*receive_start_velocity)(void* self, Particle particle, Vec3 velocity) = nullptr;
   void (*receive_corner)(void* self, double time) = nullptr;
 
-  void force(Particle particle, Vec3 amplitude) const { receive_force(self, particle, amplitude); }  ///< newton
+  void force(Particle particle, Vec3 amplitude) const { receive_force(self, particle, amplitude); }                                 ///< newton
   void displacement(Particle particle, Axes axes, Vec3 amplitude) const { receive_displacement(self, particle, axes, amplitude); }  ///< metres
-  void velocity(Particle particle, Axes axes, Vec3 amplitude) const { receive_velocity(self, particle, axes, amplitude); }  ///< m/s
+  void velocity(Particle particle, Axes axes, Vec3 amplitude) const { receive_velocity(self, particle, axes, amplitude); }          ///< m/s
   /// The same for all particles, constant in time (gravity): m/s2; factor(t) does not apply.
   void acceleration(Vec3 value) const { receive_acceleration(self, value); }
   /// Velocity at time 0, before the first step: m/s; factor(t) does not apply.
@@ -68,7 +68,8 @@ concept LoadComponent = requires(const T& load, const LoadBody& body, const Load
 };
 
 namespace detail {
-template <LoadComponent T> struct FunctionsOf<T> {
+template <LoadComponent T>
+struct FunctionsOf<T> {
   static constexpr Family family = Family::loads;
   static constexpr LoadFunctions table{
       [](const void* load, const LoadBody& body, const LoadSink& sink, const Complaint& why) noexcept {

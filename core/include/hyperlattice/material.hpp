@@ -24,11 +24,11 @@ struct LatticeFacts {
 
 /// What a material makes of it. Cross springs (beta, gamma) share their base spring's neighbour.
 struct MaterialConstants {
-  double density = 0;                                ///< kg/m3
-  double base_stiffness = 0;                         ///< k, N/m
-  double cross_ratio[max_spring_classes] = {};       ///< k_beta / k, k_gamma / k: one for each spring class
-  double alpha_ratio = 0;                            ///< k_alpha / k; meaningless if clamped
-  bool clamped = false;                              ///< k_alpha infinite: no motion in the fourth dimension (III, IV)
+  double density = 0;                           ///< kg/m3
+  double base_stiffness = 0;                    ///< k, N/m
+  double cross_ratio[max_spring_classes] = {};  ///< k_beta / k, k_gamma / k: one for each spring class
+  double alpha_ratio = 0;                       ///< k_alpha / k; meaningless if clamped
+  bool clamped = false;                         ///< k_alpha infinite: no motion in the fourth dimension (III, IV)
 
   bool has_cross_springs() const {
     for (const double ratio : cross_ratio)
@@ -50,7 +50,9 @@ struct KernelSet {
   void (*step)(const KernelRequest& request) noexcept = nullptr;
   void (*step_damped)(const KernelRequest& request) noexcept = nullptr;
   void (*measure)(const KernelRequest& request) noexcept = nullptr;
-  const char* instructions = "";  ///< "avx512", "avx2", "baseline": what this processor was given
+  double (*force)(double stiffness, double elongation) noexcept = nullptr;   ///< of one spring, N
+  double (*energy)(double stiffness, double elongation) noexcept = nullptr;  ///< stored in one spring, J
+  const char* instructions = "";                                             ///< "avx512", "avx2", "baseline": what this processor was given
 };
 
 struct MaterialFunctions {
@@ -69,7 +71,8 @@ concept MaterialComponent = requires(const T& material, const LatticeFacts& latt
 };
 
 namespace detail {
-template <MaterialComponent T> struct FunctionsOf<T> {
+template <MaterialComponent T>
+struct FunctionsOf<T> {
   static constexpr Family family = Family::materials;
   static constexpr MaterialFunctions table{
       [](const void* material, const LatticeFacts& lattice, MaterialConstants& constants, const Complaint& why) noexcept {

@@ -37,7 +37,7 @@ struct OptionValue {
 /// One declared option. Every pointer stays valid while the plugin is loaded, which is for ever.
 struct Option {
   std::string_view name;
-  std::string_view unit;      ///< SI unit that fixes the dimension: "m", "Pa", "kg/m3"; empty: dimensionless or not a number
+  std::string_view unit;  ///< SI unit that fixes the dimension: "m", "Pa", "kg/m3"; empty: dimensionless or not a number
   std::string_view help;
   std::string_view fallback;  ///< default as JSON text; empty: required, or absent if `optional`
   std::string_view word;      ///< a word accepted in place of the value: "auto"
@@ -59,42 +59,77 @@ struct FaultSink {
 
 namespace detail {
 
-template <class T> struct Unwrapped { using type = T; static constexpr bool optional = false; };
-template <class T> struct Unwrapped<std::optional<T>> { using type = T; static constexpr bool optional = true; };
+template <class T>
+struct Unwrapped {
+  using type = T;
+  static constexpr bool optional = false;
+};
+template <class T>
+struct Unwrapped<std::optional<T>> {
+  using type = T;
+  static constexpr bool optional = true;
+};
 
-template <class T> constexpr OptionKind kind_of() {
-  if constexpr (std::is_same_v<T, bool>) return OptionKind::boolean;
-  else if constexpr (std::is_enum_v<T>) return OptionKind::choice;
-  else if constexpr (std::is_integral_v<T>) return OptionKind::integer;
-  else if constexpr (std::is_floating_point_v<T>) return OptionKind::number;
-  else if constexpr (std::is_same_v<T, Vec3>) return OptionKind::vector;
-  else if constexpr (std::is_same_v<T, std::vector<double>>) return OptionKind::numbers;
-  else if constexpr (std::is_same_v<T, std::vector<std::string>>) return OptionKind::texts;
-  else if constexpr (std::is_same_v<T, const Shape*>) return OptionKind::shape;
-  else if constexpr (std::is_same_v<T, RegionId>) return OptionKind::region;
-  else { static_assert(std::is_same_v<T, std::string>, "an option of this type cannot be declared"); return OptionKind::text; }
+template <class T>
+constexpr OptionKind kind_of() {
+  if constexpr (std::is_same_v<T, bool>)
+    return OptionKind::boolean;
+  else if constexpr (std::is_enum_v<T>)
+    return OptionKind::choice;
+  else if constexpr (std::is_integral_v<T>)
+    return OptionKind::integer;
+  else if constexpr (std::is_floating_point_v<T>)
+    return OptionKind::number;
+  else if constexpr (std::is_same_v<T, Vec3>)
+    return OptionKind::vector;
+  else if constexpr (std::is_same_v<T, std::vector<double>>)
+    return OptionKind::numbers;
+  else if constexpr (std::is_same_v<T, std::vector<std::string>>)
+    return OptionKind::texts;
+  else if constexpr (std::is_same_v<T, const Shape*>)
+    return OptionKind::shape;
+  else if constexpr (std::is_same_v<T, RegionId>)
+    return OptionKind::region;
+  else {
+    static_assert(std::is_same_v<T, std::string>, "an option of this type cannot be declared");
+    return OptionKind::text;
+  }
 }
 
-template <class T> T convert(const OptionValue& value) {
-  if constexpr (std::is_same_v<T, bool>) return value.boolean;
-  else if constexpr (std::is_enum_v<T> || std::is_integral_v<T>) return static_cast<T>(value.integer);
-  else if constexpr (std::is_floating_point_v<T>) return static_cast<T>(value.number);
-  else if constexpr (std::is_same_v<T, Vec3>) return {value.numbers[0], value.numbers[1], value.numbers[2]};
-  else if constexpr (std::is_same_v<T, std::vector<double>>) return {value.numbers.begin(), value.numbers.end()};
-  else if constexpr (std::is_same_v<T, std::vector<std::string>>) return {value.texts.begin(), value.texts.end()};
-  else if constexpr (std::is_same_v<T, const Shape*>) return value.shape;
-  else if constexpr (std::is_same_v<T, RegionId>) return value.region;
-  else return std::string(value.text);
+template <class T>
+T convert(const OptionValue& value) {
+  if constexpr (std::is_same_v<T, bool>)
+    return value.boolean;
+  else if constexpr (std::is_enum_v<T> || std::is_integral_v<T>)
+    return static_cast<T>(value.integer);
+  else if constexpr (std::is_floating_point_v<T>)
+    return static_cast<T>(value.number);
+  else if constexpr (std::is_same_v<T, Vec3>)
+    return {value.numbers[0], value.numbers[1], value.numbers[2]};
+  else if constexpr (std::is_same_v<T, std::vector<double>>)
+    return {value.numbers.begin(), value.numbers.end()};
+  else if constexpr (std::is_same_v<T, std::vector<std::string>>)
+    return {value.texts.begin(), value.texts.end()};
+  else if constexpr (std::is_same_v<T, const Shape*>)
+    return value.shape;
+  else if constexpr (std::is_same_v<T, RegionId>)
+    return value.region;
+  else
+    return std::string(value.text);
 }
 
-template <class Class, class T> T member_type(T Class::*);
+template <class Class, class T>
+T member_type(T Class::*);
 
-template <auto Member, class Options> void assign(void* options, const OptionValue& value) {
+template <auto Member, class Options>
+void assign(void* options, const OptionValue& value) {
   using Declared = decltype(member_type(Member));
   auto& target = static_cast<Options*>(options)->*Member;
   if constexpr (Unwrapped<Declared>::optional) {
-    if (value.absent) target.reset();
-    else target = convert<typename Unwrapped<Declared>::type>(value);
+    if (value.absent)
+      target.reset();
+    else
+      target = convert<typename Unwrapped<Declared>::type>(value);
   } else {
     target = convert<Declared>(value);
   }
@@ -103,16 +138,27 @@ template <auto Member, class Options> void assign(void* options, const OptionVal
 }  // namespace detail
 
 /// The declaration of a component: what it is, its options, and checks across options.
-template <class Options> class Schema {
+template <class Options>
+class Schema {
  public:
   Schema(std::string_view name, std::string_view summary) : name_(name), summary_(summary) {}
 
-  Schema& equation(std::string_view text) { equation_ = text; return *this; }      ///< shown in its page
-  Schema& source(std::string_view text) { source_ = text; return *this; }          ///< paper equation or reference
-  Schema& restrictions(std::string_view text) { restrictions_ = text; return *this; }
+  Schema& equation(std::string_view text) {
+    equation_ = text;
+    return *this;
+  }  ///< shown in its page
+  Schema& source(std::string_view text) {
+    source_ = text;
+    return *this;
+  }  ///< paper equation or reference
+  Schema& restrictions(std::string_view text) {
+    restrictions_ = text;
+    return *this;
+  }
 
   /// Declares the member as an option. A std::optional member may be left out of a scene; any other needs a fallback or is required.
-  template <auto Member> Schema& add(std::string_view name, std::string_view unit, std::string_view help) {
+  template <auto Member>
+  Schema& add(std::string_view name, std::string_view unit, std::string_view help) {
     using Declared = decltype(detail::member_type(Member));
     Option option;
     option.name = name;
@@ -125,21 +171,49 @@ template <class Options> class Schema {
     return *this;
   }
   // Each of these says more about the option added last.
-  Schema& fallback(std::string_view json) { last().fallback = json; return *this; }
-  Schema& word(std::string_view text) { last().word = text; return *this; }
-  Schema& positive() { last().low = 0; last().low_open = true; return *this; }
-  Schema& at_least(double low) { last().low = low; return *this; }
-  Schema& at_most(double high) { last().high = high; return *this; }
-  Schema& above(double low) { last().low = low; last().low_open = true; return *this; }
-  Schema& below(double high) { last().high = high; last().high_open = true; return *this; }
+  Schema& fallback(std::string_view json) {
+    last().fallback = json;
+    return *this;
+  }
+  Schema& word(std::string_view text) {
+    last().word = text;
+    return *this;
+  }
+  Schema& positive() {
+    last().low = 0;
+    last().low_open = true;
+    return *this;
+  }
+  Schema& at_least(double low) {
+    last().low = low;
+    return *this;
+  }
+  Schema& at_most(double high) {
+    last().high = high;
+    return *this;
+  }
+  Schema& above(double low) {
+    last().low = low;
+    last().low_open = true;
+    return *this;
+  }
+  Schema& below(double high) {
+    last().high = high;
+    last().high_open = true;
+    return *this;
+  }
   /// Names allowed for a text, for each of a list of texts, or for an enum member in the order of the enum's values. The array must be static.
-  template <std::size_t N> Schema& choices(const std::string_view (&names)[N]) {
+  template <std::size_t N>
+  Schema& choices(const std::string_view (&names)[N]) {
     if (last().kind == OptionKind::text) last().kind = OptionKind::choice;
     last().choices = names;
     return *this;
   }
   /// A check across options, run when each option alone is valid.
-  Schema& check(void (*test)(const Options&, const FaultSink&)) { check_ = test; return *this; }
+  Schema& check(void (*test)(const Options&, const FaultSink&)) {
+    check_ = test;
+    return *this;
+  }
 
   std::string_view name() const { return name_; }
   std::string_view summary() const { return summary_; }

@@ -16,8 +16,8 @@ struct Snapshot {
   double time = 0;  ///< seconds
   std::uint64_t step = 0;
   std::uint64_t particles = 0;
-  double spacing = 0;                ///< lattice constant, metres
-  std::span<const double> positions; ///< at rest, x y z of each particle, metres
+  double spacing = 0;                 ///< lattice constant, metres
+  std::span<const double> positions;  ///< at rest, x y z of each particle, metres
   void* self = nullptr;
   bool (*get_field)(void* self, std::string_view name, Field& field) noexcept = nullptr;
 
@@ -48,7 +48,8 @@ struct WriterFunctions {
 };
 
 /// A writer class has begin(const OutputContext&), frame(const Snapshot&), end(); each throws std::runtime_error when the disk refuses.
-/// It writes under a temporary name and renames, so that no half-written file stands under a final name; after each frame what is on disk is complete.
+/// It writes under a temporary name and renames, so that no half-written file stands under a final name; after each frame what is on disk is
+/// complete.
 template <class T>
 concept WriterComponent = requires(T& writer, const OutputContext& context, const Snapshot& snapshot) {
   writer.begin(context);
@@ -78,7 +79,8 @@ concept ProbeComponent = requires(T& probe, const OutputContext& context, const 
 };
 
 namespace detail {
-template <WriterComponent T> struct FunctionsOf<T> {
+template <WriterComponent T>
+struct FunctionsOf<T> {
   static constexpr Family family = Family::writers;
   static constexpr WriterFunctions table{
       [](void* writer, const OutputContext& context, const Complaint& why) noexcept {
@@ -90,7 +92,8 @@ template <WriterComponent T> struct FunctionsOf<T> {
       [](void* writer, const Complaint& why) noexcept { return guarded(why, [&] { static_cast<T*>(writer)->end(); }); }};
 };
 
-template <ProbeComponent T> struct FunctionsOf<T> {
+template <ProbeComponent T>
+struct FunctionsOf<T> {
   static constexpr Family family = Family::probes;
   static constexpr ProbeFunctions table{
       [](void* probe, const OutputContext& context, const Snapshot& first, const ColumnSink& columns, const Complaint& why) noexcept {

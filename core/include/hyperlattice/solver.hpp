@@ -7,17 +7,17 @@ namespace hyperlattice {
 
 /// What a solver may know before the run.
 struct SolverFacts {
-  double start_time = 0;          ///< seconds; where the stage before ended
-  double critical_time_step = 0;  ///< seconds, undamped: 2 / omega_max
+  double start_time = 0;            ///< seconds; where the stage before ended
+  double critical_time_step = 0;    ///< seconds, undamped: 2 / omega_max
   std::span<const double> corners;  ///< times where a load has a kink, ascending
 };
 
 /// What the solver will do, for `plan`, `summary.json` and the progress line.
 struct SolverPlan {
   double end_time = 0;
-  double time_step = 0;             ///< the largest step that will be taken, seconds
-  double stable_time_step = 0;      ///< the limit that holds for this scheme, seconds
-  double damping = 0;               ///< local damping, alpha; 0: none
+  double time_step = 0;         ///< the largest step that will be taken, seconds
+  double stable_time_step = 0;  ///< the limit that holds for this scheme, seconds
+  double damping = 0;           ///< local damping, alpha; 0: none
   std::uint64_t steps = 0;
 };
 
@@ -48,15 +48,15 @@ concept SolverComponent = requires(const T& solver, const SolverFacts& facts, So
 };
 
 namespace detail {
-template <SolverComponent T> struct FunctionsOf<T> {
+template <SolverComponent T>
+struct FunctionsOf<T> {
   static constexpr Family family = Family::solvers;
-  static constexpr SolverFunctions table{
-      [](const void* solver, const SolverFacts& facts, SolverPlan& plan, const Complaint& why) noexcept {
-        return guarded(why, [&] { plan = static_cast<const T*>(solver)->plan(facts); });
-      },
-      [](const void* solver, const SolverFacts& facts, SolverHost& host, const Complaint& why) noexcept {
-        return guarded(why, [&] { static_cast<const T*>(solver)->run(facts, host); });
-      }};
+  static constexpr SolverFunctions table{[](const void* solver, const SolverFacts& facts, SolverPlan& plan, const Complaint& why) noexcept {
+                                           return guarded(why, [&] { plan = static_cast<const T*>(solver)->plan(facts); });
+                                         },
+                                         [](const void* solver, const SolverFacts& facts, SolverHost& host, const Complaint& why) noexcept {
+                                           return guarded(why, [&] { static_cast<const T*>(solver)->run(facts, host); });
+                                         }};
 };
 }  // namespace detail
 }  // namespace hyperlattice

@@ -5,59 +5,64 @@
 
 namespace hyperlattice {
 
+inline constexpr std::uint16_t particle_bit = 1u << 15;
 inline constexpr int lanes = 8;  ///< rows are padded to this many sites, so that a vector never straddles two rows
 
 /// One class of springs between two materials. Cross springs (beta, gamma) go from a particle to the mirror copy of its neighbour.
 struct SpringConstants {
-  double stiffness = 0;         ///< k of the base spring, N/m
-  double cross_stiffness = 0;   ///< k_beta or k_gamma, N/m
-  double alarm = infinity;      ///< elongation above which a failure criterion must be asked, metres
+  double stiffness = 0;        ///< k of the base spring, N/m
+  double cross_stiffness = 0;  ///< k_beta or k_gamma, N/m
+  double alarm = infinity;     ///< elongation above which a failure criterion must be asked, metres
 };
 
 /// The same for all springs to one neighbour.
 struct NeighbourGeometry {
   Neighbour site;
-  Vec3 rest;                    ///< rest vector, metres
-  double rest_length = 0;       ///< |rest|
-  double cross_rest_length = 0; ///< sqrt(|rest|^2 + Delta^2)
+  Vec3 rest;                     ///< rest vector, metres
+  double rest_length = 0;        ///< |rest|
+  double cross_rest_length = 0;  ///< sqrt(|rest|^2 + Delta^2)
 };
 
 /// One row of particles: sites begin <= i < end of a line along x, stored from `start` on, padded to whole vectors.
 struct Row {
   std::int32_t begin = 0, end = 0;
-  std::uint64_t start = 0;         ///< place of site `begin` in the block's arrays
-  std::uint32_t neighbours = 0;    ///< bit n: some site of the row has a spring to neighbour n
-  std::int32_t material = 0;       ///< of all springs that touch the row, or -1 if they are several
+  std::uint64_t start = 0;                            ///< place of site `begin` in the block's arrays
+  std::uint32_t neighbours = 0;                       ///< bit n: some site of the row has a spring to neighbour n
+  std::int32_t material = 0;                          ///< of all springs that touch the row, or -1 if they are several
   std::uint32_t first_support = 0, last_support = 0;  ///< its range in KernelRequest::supports
 };
 
 /// A particle with an external force or a prescribed motion. Few particles have one; they are visited after their row is summed.
 struct Support {
-  std::uint64_t index = 0;  ///< place in the block's arrays
-  std::int32_t site = 0;    ///< i
-  std::uint32_t axes = 0;   ///< bits: components whose motion is prescribed
-  Vec3 force;               ///< external force during this step, newton
-  Vec3 velocity;            ///< prescribed mean velocity of this step, m/s
-  double force_work = 0;    ///< joule, summed over the run
-  double reaction_work = 0; ///< joule, what the prescription put in
+  std::uint64_t index = 0;   ///< place in the block's arrays
+  std::int32_t row = 0;      ///< in KernelRequest::rows
+  std::int32_t site = 0;     ///< i
+  double mass = 0;           ///< kg
+  std::uint32_t axes = 0;    ///< bits: components whose motion is prescribed
+  Vec3 force;                ///< external force at the step's start, newton
+  Vec3 velocity;             ///< prescribed velocity of the step, m/s
+  Vec3 path;                 ///< result: back v(n-1/2) + forward v(n+1/2), what the force's work is counted over, metres
+  double reaction_work = 0;  ///< result, summed over the run: joule that the prescription put in
+  double reaction_now = 0;   ///< result of measure(): its part that belongs to half a step before now, joule
+  double sum[3] = {}, speed_before[3] = {}, place_before[3] = {};  ///< the kernel's own notes while it moves the row
 };
 
 /// A spring above its alarm, reported during a step.
 struct AlarmRow {
-  std::uint32_t row = 0;         ///< index in KernelRequest::rows
-  std::uint32_t neighbour = 0;   ///< which spring
-  std::int32_t pair = 0;         ///< index in KernelRequest::springs, of the spring's materials and class
-  std::span<const std::int32_t> sites;
-  std::span<const double> elongation;  ///< metres
+  std::uint32_t row = 0;                ///< index in KernelRequest::rows
+  std::uint32_t neighbour = 0;          ///< which spring
+  std::span<const std::int32_t> sites;  ///< i of each
+  std::span<const double> elongation;   ///< metres
 };
 
 /// Sums of a measurement over one row.
 struct RowSums {
-  double stored = 0;         ///< energy of the springs at u(n), J
-  double kinetic = 0;        ///< 1/2 v(n-1/2).M.v(n+1/2), J: the scheme's own
-  double kinetic_mean = 0;   ///< 1/2 M ((v(n-1/2) + v(n+1/2))/2)^2, J
-  Vec3 momentum;             ///< of the mean velocity, N s
-  double potential = 0;      ///< work of the body acceleration since the start: sum m a.u, J
+  double stored = 0;        ///< energy of the springs at u(n), J
+  double kinetic = 0;       ///< 1/2 v(n-1/2).M.v(n+1/2), J: the scheme's own
+  double kinetic_mean = 0;  ///< 1/2 M ((v(n-1/2) + v(n+1/2))/2)^2, J
+  Vec3 momentum;            ///< of the mean velocity, N s
+  double potential = 0;     ///< work of the body acceleration since the start: sum m a.u, J
+  double damped = 0;        ///< energy that damping took in the half step before now, J
 };
 
 struct KernelRequest {
@@ -65,11 +70,11 @@ struct KernelRequest {
   std::int32_t rows_per_plane = 0;
   std::int32_t planes = 0;
   std::int32_t reach = 1;
-  const Row* rows = nullptr;              ///< (reach + planes + reach) * rows_per_plane rows
-  double* displacement[4] = {};           ///< x y z and height over the mirror plane's rest, metres; last is null without a membrane
-  double* velocity[4] = {};               ///< m/s
-  std::uint16_t* alive = nullptr;         ///< bit n: the spring to neighbour n exists
-  const std::uint8_t* material = nullptr; ///< of each site; null: one material
+  const Row* rows = nullptr;               ///< (reach + planes + reach) * rows_per_plane rows
+  double* displacement[4] = {};            ///< x y z and height over the mirror plane's rest, metres; last is null without a membrane
+  double* velocity[4] = {};                ///< m/s
+  std::uint16_t* alive = nullptr;          ///< bit n: the spring to neighbour n exists; bit 15: the site holds a particle
+  const std::uint8_t* material = nullptr;  ///< of each site; null: one material
 
   // the body
   std::span<const NeighbourGeometry> neighbours;
@@ -77,11 +82,11 @@ struct KernelRequest {
   const double* mass = nullptr;              ///< of each material's particle, kg
   const double* alpha = nullptr;             ///< k_alpha of each material, N/m
   std::uint32_t materials = 1, spring_classes = 1;
-  double membrane_distance = 0;              ///< Delta, metres
+  double membrane_distance = 0;  ///< Delta, metres
 
-  // the step
-  double kick = 0;     ///< seconds: v += kick * F / m
-  double drift = 0;    ///< seconds: u += drift * v
+  // the step: v(n+1/2) = v(n-1/2) + (back + forward) F(n) / m; u(n+1) = u(n) + 2 forward v(n+1/2)
+  double back = 0;     ///< half of the step before, s; 0 at the start
+  double forward = 0;  ///< half of this step, s
   double damping = 0;  ///< alpha of local damping
   Vec3 acceleration;   ///< of every particle, m/s2
   Support* supports = nullptr;
@@ -90,10 +95,10 @@ struct KernelRequest {
   const std::uint8_t* (*review)(void* self, const AlarmRow& springs) noexcept = nullptr;
 
   // scratch and results
-  double* scratch = nullptr;        ///< scratch_size(...) numbers, 64-byte aligned
-  std::int32_t scratch_width = 0;   ///< numbers in a scratch row
-  double* damped_work = nullptr;    ///< one number a row: energy that damping took, summed over the run, J
-  RowSums* sums = nullptr;          ///< one a row; for measure()
+  double* scratch = nullptr;       ///< scratch_size(...) numbers, 64-byte aligned
+  std::int32_t scratch_width = 0;  ///< numbers in a scratch row
+  double* damped_work = nullptr;   ///< one number a row, ghosts too: energy that damping took, summed over the run, J
+  RowSums* sums = nullptr;         ///< one a row of the block, ghosts too; for measure()
 };
 
 /// Sites left and right of a row that its neighbours may reach; scratch rows are that much wider on each side.

@@ -1,0 +1,162 @@
+// The springs of one row of particles to one neighbour: elongation, law, forces on both ends. This is the inner loop of everything.
+//
+// Base spring i-j and cross spring i-j' share the vector r between their ends in space. With the rest vector R, the difference d of
+// displacements, heights h over the mirror plane's rest and Delta the distance to the mirror copy:
+//   base:  |r|^2 + (h_j - h_i)^2           = L0^2 + q_b,   q_b = d.(2 R + d) + (h_j - h_i)^2
+//   cross: |r|^2 + (Delta + h_i + h_j)^2   = Lc^2 + q_c,   q_c = d.(2 R + d) + (h_i + h_j)(2 Delta + h_i + h_j)
+// so that the elongation L - L0 = q / (L + L0) comes without cancellation, however small it is. See docs/theory/mirror.md.
+#pragma once
+
+#include <hyperlattice/kernels/request.hpp>
+#include <hyperlattice/kernels/simd.hpp>
+#include <hyperlattice/material.hpp>
+
+namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
+
+using Membrane = KernelChoice::Membrane;
+constexpr int components_of(Membrane membrane) { return membrane == Membrane::free ? 4 : 3; }
+
+/// A spring after its law was asked: force along it divided by its length, and what it stores.
+struct Response {
+  Pack force_over_length, energy, q;
+};
+
+/// Force and, if asked, energy of springs whose squared length grew by q from rest_length^2.
+template <class Law, bool Energy>
+inline Response respond(Pack stiffness, double rest_length, Pack q) {
+  const Pack length = root(rest_length * rest_length + q);
+  const Pack inverse = 1.0 / (length * (length + rest_length));
+  Response response{{}, {}, q};
+  if constexpr (Law::linear) {
+    response.force_over_length = Law::force(stiffness, q * inverse);
+    if constexpr (Energy) response.energy = Law::energy(stiffness, q * length * inverse);
+  } else {
+    const Pack elongation = q * length * inverse;
+    response.force_over_length = Law::force(stiffness, elongation) * ((length + rest_length) * inverse);
+    if constexpr (Energy) response.energy = Law::energy(stiffness, elongation);
+  }
+  return response;
+}
+
+/// Where the particles of a row, and their neighbours, stand in the arrays. Element t belongs to site begin + t.
+template <int Components>
+struct RowPair {
+  const double* here[Components];
+  const double* there[Components];
+  double* own[Components];       ///< forces on the row itself
+  double* received[Components];  ///< forces on the neighbours' row
+  const std::uint16_t* alive;
+  const std::uint8_t *material_here, *material_there;
+};
+
+template <class Law, Membrane membrane, bool Breakable, bool Mixed, bool Energy>
+struct Springs {
+  static constexpr int components = components_of(membrane);
+
+  /// Adds the forces of `count` springs (padded to whole vectors). Returns whether any is above its alarm; adds energies to `stored`.
+  [[gnu::noinline]] static bool add(const KernelRequest& request, const RowPair<components>& pair, const NeighbourGeometry& neighbour,
+                                    std::uint16_t bit, const SpringConstants& constants, int count, Pack& stored) {
+    const Vec3 rest = neighbour.rest;
+    const double twice_delta = 2 * request.membrane_distance;
+    Pack base_stiffness = fill(constants.stiffness), cross_stiffness = fill(constants.cross_stiffness);
+    Pack alarm = fill(squared_growth(neighbour.rest_length, constants.alarm));
+    Mask rung{};
+    for (int t = 0; t < count; t += lanes) {
+      const Mask alive = lanes_with(pair.alive + t, bit);
+      if constexpr (Mixed) constants_of_lanes(request, pair, neighbour, t, base_stiffness, cross_stiffness, alarm);
+      const Pack dx = load(pair.there[0] + t) - load(pair.here[0] + t);
+      const Pack dy = load(pair.there[1] + t) - load(pair.here[1] + t);
+      const Pack dz = load(pair.there[2] + t) - load(pair.here[2] + t);
+      const Pack q = dx * (2 * rest.x + dx) + dy * (2 * rest.y + dy) + dz * (2 * rest.z + dz);
+
+      Pack difference{}, total{};  // of the heights
+      Response base;
+      if constexpr (membrane == Membrane::free) {
+        const Pack here = load(pair.here[3] + t), there = load(pair.there[3] + t);
+        difference = there - here;
+        total = there + here;
+        base = respond<Law, Energy>(base_stiffness, neighbour.rest_length, q + difference * difference);
+      } else {
+        base = respond<Law, Energy>(base_stiffness, neighbour.rest_length, q);
+      }
+      if constexpr (Breakable) rung |= alive & (base.q > alarm);
+      const Pack base_pull = where(alive, base.force_over_length);
+      Pack pull = base_pull;
+      if constexpr (Energy) stored += where(alive, base.energy);
+
+      if constexpr (membrane != Membrane::none) {
+        const Response cross = respond<Law, Energy>(cross_stiffness, neighbour.cross_rest_length, q + total * (twice_delta + total));
+        const Pack cross_pull = where(alive, cross.force_over_length);
+        pull += cross_pull;
+        if constexpr (Energy) stored += where(alive, cross.energy);
+        if constexpr (membrane == Membrane::free) {  // the cross spring pushes both heights the same way: no action and reaction
+          const Pack along = base_pull * difference, both = cross_pull * (request.membrane_distance + total);
+          add_to(pair.own[3] + t, along - both);
+          add_to(pair.received[3] + t, -(along + both));
+        }
+      }
+      const Pack fx = pull * (rest.x + dx), fy = pull * (rest.y + dy), fz = pull * (rest.z + dz);
+      add_to(pair.own[0] + t, fx);
+      add_to(pair.own[1] + t, fy);
+      add_to(pair.own[2] + t, fz);
+      add_to(pair.received[0] + t, -fx);
+      add_to(pair.received[1] + t, -fy);
+      add_to(pair.received[2] + t, -fz);
+    }
+    return Breakable && any(rung);
+  }
+
+  /// Asks the failure criterion about the row's springs above their alarm, and removes those that broke.
+  [[gnu::noinline]] static void review(const KernelRequest& request, const RowPair<components>& pair, const Row& row, std::uint32_t row_index,
+                                       std::uint32_t neighbour_index, const SpringConstants* uniform) {
+    constexpr int batch = 64;
+    const NeighbourGeometry& neighbour = request.neighbours[neighbour_index];
+    const auto bit = static_cast<std::uint16_t>(1u << neighbour_index);
+    std::int32_t sites[batch];
+    double elongations[batch];
+    int found = 0;
+    const auto ask = [&] {
+      const auto number = static_cast<std::size_t>(found);
+      const std::uint8_t* broken = request.review(request.self, {row_index, neighbour_index, {sites, number}, {elongations, number}});
+      for (int n = 0; n < found; ++n)
+        if (broken[n] != 0) request.alive[row.start + static_cast<std::uint64_t>(sites[n] - row.begin)] &= static_cast<std::uint16_t>(~bit);
+      found = 0;
+    };
+    for (int t = 0; t < row.end - row.begin; ++t) {
+      if ((pair.alive[t] & bit) == 0) continue;
+      const Vec3 d{pair.there[0][t] - pair.here[0][t], pair.there[1][t] - pair.here[1][t], pair.there[2][t] - pair.here[2][t]};
+      double q = dot(d, 2 * neighbour.rest + d);
+      if constexpr (membrane == Membrane::free) q += (pair.there[3][t] - pair.here[3][t]) * (pair.there[3][t] - pair.here[3][t]);
+      const SpringConstants& constants = uniform != nullptr ? *uniform : between(request, pair, neighbour, t);
+      const double elongation = q / (__builtin_sqrt(neighbour.rest_length * neighbour.rest_length + q) + neighbour.rest_length);
+      if (!(elongation > constants.alarm)) continue;
+      sites[found] = row.begin + t;
+      elongations[found] = elongation;
+      if (++found == batch) ask();
+    }
+    if (found > 0) ask();
+  }
+
+ private:
+  static void add_to(double* target, Pack value) { store(target, load(target) + value); }
+
+  /// (L0 + elongation)^2 - L0^2, lowered by rounding's worth so that the alarm rings rather too early than too late.
+  static double squared_growth(double rest_length, double elongation) { return elongation * (2 * rest_length + elongation) * (1 - 1e-12); }
+
+  static const SpringConstants& between(const KernelRequest& request, const RowPair<components>& pair, const NeighbourGeometry& neighbour, int t) {
+    const std::uint32_t a = pair.material_here[t], b = pair.material_there[t];
+    return request.springs[(a * request.materials + b) * request.spring_classes + neighbour.site.spring_class];
+  }
+
+  static void constants_of_lanes(const KernelRequest& request, const RowPair<components>& pair, const NeighbourGeometry& neighbour, int t,
+                                 Pack& base_stiffness, Pack& cross_stiffness, Pack& alarm) {
+    for (int lane = 0; lane < lanes; ++lane) {
+      const SpringConstants& constants = between(request, pair, neighbour, t + lane);
+      base_stiffness[lane] = constants.stiffness;
+      cross_stiffness[lane] = constants.cross_stiffness;
+      alarm[lane] = squared_growth(neighbour.rest_length, constants.alarm);
+    }
+  }
+};
+
+}  // namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS

@@ -1,0 +1,116 @@
+// Broken springs: the criterion's answer, the event, and the energy that went with it.
+#include <run/parts.hpp>
+
+#include <hyperlattice/failure.hpp>
+
+#include <cmath>
+
+namespace hyperlattice {
+namespace {
+
+/// The end of a spring: place and height, and how far it moved and rose in a step.
+struct End {
+  Vec3 place;
+  double height = 0;
+  Vec3 moved;
+  double raised = 0;
+};
+
+/// `dt` before now, when the particle's velocity has been what it is now.
+End end_of(const Block& block, std::uint64_t n, int components, double dt) {
+  const auto moved = [&](int c) { return dt * block.velocity[c][n]; };
+  const auto place = [&](int c) { return block.displacement[c][n] - moved(c); };
+  End end{{place(0), place(1), place(2)}, 0, {moved(0), moved(1), moved(2)}, 0};
+  if (components == 4) {
+    end.height = place(3);
+    end.raised = moved(3);
+  }
+  return end;
+}
+
+}  // namespace
+
+const std::uint8_t* Simulation::Parts::review(Block& block, const AlarmRow& alarm) const {
+  const NeighbourGeometry& neighbour = model.neighbours[alarm.neighbour];
+  block.answers.assign(alarm.sites.size(), 0);
+  const auto ask = [&](const Material& material, std::size_t first, std::size_t count) {
+    if (material.failure_stage == nullptr) return;
+    const SpringFacts facts{neighbour.rest_length, material.constants.base_stiffness, model.body.grid.spacing, neighbour.site.spring_class};
+    std::vector<std::uint8_t> answers(count, 0);
+    material.failure_stage->functions<FailureFunctions>().review(material.failure.get(), {time, facts, alarm.elongation.subspan(first, count)},
+                                                                 answers.data());
+    for (std::size_t n = 0; n < count; ++n) block.answers[first + n] |= answers[n];
+  };
+  if (model.material_of.empty()) {
+    ask(model.materials.front(), 0, alarm.sites.size());
+  } else {  // a spring between two materials breaks when either criterion says so
+    Site site = first_site_of_row(block, alarm.row);
+    for (std::size_t n = 0; n < alarm.sites.size(); ++n) {
+      site.i = alarm.sites[n];
+      const Site other{site.i + neighbour.site.dx, site.j + neighbour.site.dy, site.k + neighbour.site.dz};
+      const std::uint8_t here = model.material_of[model.body.at(site)], there = model.material_of[model.body.at(other)];
+      ask(model.materials[here], n, 1);
+      if (there != here) ask(model.materials[there], n, 1);
+    }
+  }
+  for (std::size_t n = 0; n < alarm.sites.size(); ++n)
+    if (block.answers[n] != 0) block.broken.push_back({alarm.row, alarm.neighbour, alarm.sites[n], alarm.elongation[n]});
+  return block.answers.data();
+}
+
+/// Blocks follow each other along z, and a block's list is in the order of its rows: the log does not depend on the number of threads.
+void Simulation::Parts::collect_breakages(double dt) {
+  for (Block& block : blocks) {
+    for (const Block::Broken& broken : block.broken) {
+      const Site row = first_site_of_row(block, broken.row);
+      const Neighbour& to = model.neighbours[broken.neighbour].site;
+      Breakage breakage;
+      breakage.step = steps;
+      breakage.time = time;
+      breakage.a = model.body.at({broken.site, row.j, row.k});
+      breakage.b = model.body.at({broken.site + to.dx, row.j + to.dy, row.k + to.dz});
+      breakage.neighbour = broken.neighbour;
+      breakage.elongation = broken.elongation;
+      failure_energy += energy_of(breakage, dt);
+      breakages.push_back(breakage);
+    }
+    block.broken.clear();
+  }
+}
+
+/// What is lost with a base spring and its cross springs. They pulled during the step that found them broken, so half a step of that work
+/// belongs to the energy that is gone: this keeps the scheme's balance exact to second order.
+double Simulation::Parts::energy_of(const Breakage& breakage, double dt) const {
+  const NeighbourGeometry& neighbour = model.neighbours[breakage.neighbour];
+  const auto [block_a, place_a] = at(breakage.a);
+  const auto [block_b, place_b] = at(breakage.b);
+  const End a = end_of(*block_a, place_a, model.degrees_of_freedom, dt), b = end_of(*block_b, place_b, model.degrees_of_freedom, dt);
+  const auto material = [&](Particle p) { return model.material_of.empty() ? std::uint8_t{0} : model.material_of[p]; };
+  const SpringConstants& constants = model.spring(material(breakage.a), material(breakage.b), neighbour.site.spring_class);
+
+  const Vec3 d = b.place - a.place, moved = b.moved - a.moved;
+  const double in_space = dot(d, 2 * neighbour.rest + d), rate_in_space = 2 * dot(neighbour.rest + d, moved);
+  const auto lost = [&](double stiffness, double rest_length, double growth, double rate) {  // of the squared length, as in kernels/springs.hpp
+    const double length = std::sqrt(rest_length * rest_length + growth), elongation = growth / (length + rest_length);
+    return model.kernels.energy(stiffness, elongation) + 0.5 * model.kernels.force(stiffness, elongation) * rate / (2 * length);
+  };
+  const double difference = b.height - a.height, total = b.height + a.height, delta = model.body.grid.membrane_distance;
+  double energy =
+      lost(constants.stiffness, neighbour.rest_length, in_space + difference * difference, rate_in_space + 2 * difference * (b.raised - a.raised));
+  if (model.choice.membrane != KernelChoice::Membrane::none)
+    energy += lost(constants.cross_stiffness, neighbour.cross_rest_length, in_space + total * (2 * delta + total),
+                   rate_in_space + 2 * (delta + total) * (b.raised + a.raised));
+  return energy;
+}
+
+double Simulation::Parts::elongation_now(const Breakage& breakage) const {
+  const NeighbourGeometry& neighbour = model.neighbours[breakage.neighbour];
+  const auto [block_a, place_a] = at(breakage.a);
+  const auto [block_b, place_b] = at(breakage.b);
+  const End a = end_of(*block_a, place_a, model.degrees_of_freedom, 0), b = end_of(*block_b, place_b, model.degrees_of_freedom, 0);
+  const Vec3 d = b.place - a.place;
+  const double growth = dot(d, 2 * neighbour.rest + d) + (b.height - a.height) * (b.height - a.height);
+  return growth / (std::sqrt(neighbour.rest_length * neighbour.rest_length + growth) + neighbour.rest_length);
+}
+
+}  // namespace hyperlattice

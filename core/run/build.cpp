@@ -1,0 +1,91 @@
+// How a Simulation is built: arrays, alive springs, supports. Each block is first touched by the thread that will work on it.
+#include <run/parts.hpp>
+
+#include <algorithm>
+
+namespace hyperlattice {
+
+Simulation::Parts::Parts(const Model& m, int wanted) : model(m), layout(m, wanted), blocks(layout.blocks.size()) {
+  threads = static_cast<int>(blocks.size());
+  for (const Material& material : model.materials) {
+    const MaterialConstants& constants = material.constants;
+    masses.push_back(material.mass);
+    alphas.push_back(constants.clamped ? 0 : constants.alpha_ratio * constants.base_stiffness);
+  }
+#pragma omp parallel for num_threads(threads) schedule(static, 1)
+  for (std::size_t b = 0; b < blocks.size(); ++b) allocate(blocks[b], layout.blocks[b]);
+  for (Block& block : blocks) add_supports(block);
+  for (const auto& [particle, velocity] : model.start_velocities) {
+    const auto [block, place] = at(particle);
+    for (int c = 0; c < 3; ++c) block->velocity[c][place] = component(velocity, c);
+  }
+}
+
+void Simulation::Parts::allocate(Block& block, const BlockLayout& planned) const {
+  const Body& body = model.body;
+  block.layout = &planned;
+  block.rows = planned.rows;
+  for (int c = 0; c < model.degrees_of_freedom; ++c) {
+    block.displacement[c] = AlignedArray<double>(planned.sites);
+    block.velocity[c] = AlignedArray<double>(planned.sites);
+  }
+  block.alive = AlignedArray<std::uint16_t>(planned.sites);
+  block.scratch =
+      AlignedArray<double>(scratch_size(body.grid.sites[1], body.reach, layout.scratch_width, static_cast<std::size_t>(model.degrees_of_freedom)));
+  block.damped_work.assign(block.rows.size(), 0);
+  block.sums.resize(block.rows.size());
+  if (!model.material_of.empty()) block.material = AlignedArray<std::uint8_t>(planned.sites);
+
+  for (std::size_t r = 0; r < block.rows.size(); ++r) {
+    const Row& row = block.rows[r];
+    if (row.begin == row.end) continue;
+    Site site = first_site_of_row(block, r);
+    fill_alive(body, site.j, site.k, row, block.alive.get() + row.start);
+    if (model.material_of.empty()) continue;
+    for (; site.i < row.end; ++site.i)
+      if (const Particle particle = body.at(site); particle != Body::no_particle)
+        block.material[row.start + static_cast<std::uint64_t>(site.i - row.begin)] = model.material_of[particle];
+  }
+}
+
+void Simulation::Parts::add_supports(Block& block) const {
+  std::vector<std::pair<Particle, Contribution>> found;
+  for (std::size_t l = 0; l < model.loads.size(); ++l)
+    for (const LoadedParticle& loaded : model.loads[l].particles)
+      if (owns(block, model.body.site(loaded.particle).k)) {
+        Contribution part;
+        part.load = static_cast<std::uint32_t>(l);
+        part.force = loaded.force;
+        part.displacement = loaded.displacement;
+        part.velocity = loaded.velocity;
+        part.displaced = loaded.displaced;
+        part.driven = loaded.driven;
+        found.emplace_back(loaded.particle, part);
+      }
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+
+  Particle last = Body::no_particle;
+  for (auto& [particle, part] : found) {
+    if (particle != last) {
+      const Site site = model.body.site(particle);
+      Support support;
+      support.row = static_cast<std::int32_t>(row_of(block, site));
+      support.site = site.i;
+      support.index = place_of(block, site);
+      support.mass = model.mass(particle);
+      block.supports.push_back(support);
+      last = particle;
+    }
+    part.support = static_cast<std::uint32_t>(block.supports.size() - 1);
+    block.supports.back().axes |= part.displaced | part.driven;
+    block.contributions.push_back(part);
+  }
+  std::uint32_t next = 0;
+  for (std::size_t r = 0; r < block.rows.size(); ++r) {
+    block.rows[r].first_support = next;
+    while (next < block.supports.size() && block.supports[next].row == static_cast<std::int32_t>(r)) ++next;
+    block.rows[r].last_support = next;
+  }
+}
+
+}  // namespace hyperlattice

@@ -1,0 +1,116 @@
+// What the rest of the runtime sees of the state.
+#include <run/parts.hpp>
+
+#include <cmath>
+#include <cstring>
+
+namespace hyperlattice {
+
+Simulation::Simulation(const Model& model, int threads) : parts_(std::make_unique<Parts>(model, threads)) {}
+Simulation::~Simulation() = default;
+
+void Simulation::set_damping(double alpha) { parts_->damping = alpha; }
+void Simulation::step(double time_step) { parts_->step(time_step); }
+double Simulation::time() const { return parts_->time; }
+std::uint64_t Simulation::steps() const { return parts_->steps; }
+Balance Simulation::balance() { return parts_->balance(); }
+
+std::vector<double> Simulation::injected_by_load() {
+  const RowSums sums = parts_->measure();
+  return parts_->work_by_load(sums.potential - parts_->start_potential);
+}
+
+const std::vector<Breakage>& Simulation::breakages() const { return parts_->breakages; }
+double Simulation::elongation_now(const Breakage& breakage) const { return parts_->elongation_now(breakage); }
+
+std::uint64_t Simulation::broken_open() const {
+  std::uint64_t open = 0;
+  for (const Breakage& breakage : parts_->breakages) open += elongation_now(breakage) > 0 ? 1 : 0;
+  return open;
+}
+std::uint64_t Simulation::broken_closed() const { return parts_->breakages.size() - broken_open(); }
+
+void Simulation::copy(const Quantity& quantity, std::vector<double>& values) const {
+  const auto components = static_cast<std::size_t>(quantity.components);
+  values.resize(parts_->model.body.particles * components);
+  parts_->for_runs([&](const Block& block, std::uint64_t place, Particle first, std::uint64_t count) {
+    for (std::size_t c = 0; c < components; ++c) {
+      const double* from = (quantity.velocity ? block.velocity : block.displacement)[quantity.first + static_cast<int>(c)].get() + place;
+      for (std::uint64_t n = 0; n < count; ++n) values[(first + n) * components + c] = from[n];
+    }
+  });
+}
+
+void Simulation::set(const Quantity& quantity, const std::vector<double>& values) {
+  const auto components = static_cast<std::size_t>(quantity.components);
+  parts_->for_runs([&](const Block& block, std::uint64_t place, Particle first, std::uint64_t count) {
+    for (std::size_t c = 0; c < components; ++c) {
+      double* to = (quantity.velocity ? block.velocity : block.displacement)[quantity.first + static_cast<int>(c)].get() + place;
+      for (std::uint64_t n = 0; n < count; ++n) to[n] = values[(first + n) * components + c];
+    }
+  });
+  parts_->start_known = false;
+}
+
+void Simulation::displacements(std::vector<double>& xyz) const { copy({false, 0, 3}, xyz); }
+void Simulation::velocities(std::vector<double>& xyz) const { copy({true, 0, 3}, xyz); }
+void Simulation::heights(std::vector<double>& values) const {
+  values.clear();
+  if (parts_->model.degrees_of_freedom == 4) copy({false, 3, 1}, values);
+}
+void Simulation::set_displacements(const std::vector<double>& xyz, const std::vector<double>& heights) {
+  set({false, 0, 3}, xyz);
+  if (!heights.empty()) set({false, 3, 1}, heights);
+}
+void Simulation::set_velocities(const std::vector<double>& xyz, const std::vector<double>& height_rates) {
+  set({true, 0, 3}, xyz);
+  if (!height_rates.empty()) set({true, 3, 1}, height_rates);
+}
+
+Particle Simulation::fastest(double& speed, bool& finite) const {
+  double largest = -1;
+  Particle found = 0;
+  finite = true;
+  parts_->for_runs([&](const Block& block, std::uint64_t place, Particle first, std::uint64_t count) {
+    if (!finite) return;
+    for (std::uint64_t n = 0; n < count; ++n) {
+      double square = 0;
+      for (int c = 0; c < parts_->model.degrees_of_freedom; ++c) square += block.velocity[c][place + n] * block.velocity[c][place + n];
+      if (!std::isfinite(square)) {
+        finite = false;
+        found = first + n;
+        largest = square;
+        return;
+      }
+      if (square > largest) {
+        largest = square;
+        found = first + n;
+      }
+    }
+  });
+  speed = std::sqrt(largest);
+  return found;
+}
+
+std::uint64_t Simulation::hash() const {
+  std::uint64_t hash = 14695981039346656037u;
+  const auto add = [&](std::uint64_t bits) { hash = (hash ^ bits) * 1099511628211u; };  // FNV-1a, a word at a time
+  parts_->for_runs([&](const Block& block, std::uint64_t place, Particle, std::uint64_t count) {
+    for (std::uint64_t n = place; n < place + count; ++n) {
+      for (int c = 0; c < parts_->model.degrees_of_freedom; ++c) {
+        std::uint64_t bits = 0;
+        std::memcpy(&bits, &block.displacement[c][n], sizeof bits);
+        add(bits);
+        std::memcpy(&bits, &block.velocity[c][n], sizeof bits);
+        add(bits);
+      }
+      add(block.alive[n]);
+    }
+  });
+  return hash;
+}
+
+double Simulation::bytes() const { return parts_->layout.state_bytes(parts_->model); }
+double Simulation::scratch_bytes() const { return parts_->layout.scratch_bytes(parts_->model); }
+
+}  // namespace hyperlattice

@@ -1,0 +1,129 @@
+// One step: ghost planes, loads, the kernel on every block, then the books of what broke.
+#include <run/parts.hpp>
+
+#include <algorithm>
+
+namespace hyperlattice {
+namespace {
+
+void set_component(Vec3& v, int c, double value) { (c == 0 ? v.x : c == 1 ? v.y : v.z) = value; }
+
+}  // namespace
+
+void Simulation::Parts::step(double dt) {
+  if (steps == 0) start_driven(dt);
+  const double back = last_step / 2, forward = dt / 2;
+  const auto kernel = damping != 0 ? model.kernels.step_damped : model.kernels.step;
+  struct Reviewer {
+    const Parts* parts;
+    Block* block;
+  };
+#pragma omp parallel num_threads(threads)
+  {
+#pragma omp for schedule(static, 1)
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      exchange(blocks[b]);
+      prepare_supports(blocks[b], dt);
+    }
+#pragma omp for schedule(static, 1)
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      Block& block = blocks[b];
+      Reviewer reviewer{this, &block};
+      KernelRequest request = request_for(block, back, forward);
+      request.self = &reviewer;
+      request.review = [](void* self, const AlarmRow& alarm) noexcept {
+        const auto* asked = static_cast<const Reviewer*>(self);
+        return asked->parts->review(*asked->block, alarm);
+      };
+      kernel(request);
+      for (Contribution& part : block.contributions) part.work += part.factor * dot(part.force, block.supports[part.support].path);
+    }
+  }
+  collect_breakages(dt);
+  const double added = dt - time_rest, sum = time + added;
+  time_rest = (sum - time) - added;
+  time = sum;
+  last_step = dt;
+  ++steps;
+}
+
+KernelRequest Simulation::Parts::request_for(Block& block, double back, double forward) const {
+  KernelRequest request;
+  request.rows_per_plane = model.body.grid.sites[1];
+  request.planes = block.layout->planes;
+  request.reach = model.body.reach;
+  request.rows = block.rows.data();
+  for (int c = 0; c < model.degrees_of_freedom; ++c) {
+    request.displacement[c] = block.displacement[c].get();
+    request.velocity[c] = block.velocity[c].get();
+  }
+  request.alive = block.alive.get();
+  request.material = block.material.get();
+  request.neighbours = model.neighbours;
+  request.springs = model.springs.data();
+  request.mass = masses.data();
+  request.alpha = alphas.data();
+  request.materials = static_cast<std::uint32_t>(model.materials.size());
+  request.spring_classes = model.body.grid.spring_classes;
+  request.membrane_distance = model.body.grid.membrane_distance;
+  request.back = back;
+  request.forward = forward;
+  request.damping = damping;
+  request.acceleration = model.acceleration;
+  request.supports = block.supports.data();
+  request.scratch = block.scratch.get();
+  request.scratch_width = layout.scratch_width;
+  request.damped_work = block.damped_work.data();
+  request.sums = block.sums.data();
+  return request;
+}
+
+/// Fills the ghost planes from the blocks that own them.
+void Simulation::Parts::exchange(Block& block) const {
+  const std::int32_t first = block.layout->first, end = first + block.layout->planes;
+  for (std::int32_t distance = 1; distance <= model.body.reach; ++distance)
+    for (const std::int32_t k : {first - distance, end + distance - 1}) {
+      if (k < 0 || k >= model.body.grid.sites[2]) continue;
+      const Block& owner = blocks[layout.block_of_plane(k)];
+      const std::uint64_t to = block.layout->plane_begin(model.body, k), from = owner.layout->plane_begin(model.body, k);
+      const std::uint64_t count = block.layout->plane_end(model.body, k) - to;
+      for (int c = 0; c < model.degrees_of_freedom; ++c) std::copy_n(owner.displacement[c].get() + from, count, block.displacement[c].get() + to);
+      if (model.choice.breakable && k < first) std::copy_n(owner.alive.get() + from, count, block.alive.get() + to);
+    }
+}
+
+/// External forces at the present time, and the velocities that prescribed particles have during a step of that length.
+void Simulation::Parts::prepare_supports(Block& block, double step) const {
+  for (Support& support : block.supports) support.force = support.velocity = {};
+  for (Contribution& part : block.contributions) {
+    const Load& load = model.loads[part.load];
+    Support& support = block.supports[part.support];
+    part.factor = load.factor(time);
+    support.force = support.force + part.factor * part.force;
+    if ((part.displaced | part.driven) == 0 || step <= 0) continue;
+    const double next = load.factor(time + step);
+    for (int c = 0; c < 3; ++c) {
+      const double here = block.displacement[c][support.index];
+      if ((part.displaced >> c & 1u) != 0) set_component(support.velocity, c, (next * component(part.displacement, c) - here) / step);
+      if ((part.driven >> c & 1u) != 0) set_component(support.velocity, c, 0.5 * (part.factor + next) * component(part.velocity, c));
+    }
+  }
+}
+
+/// Particles that a load drives already move with it when the run begins.
+void Simulation::Parts::start_driven(double step) {
+  bool driven = false;
+  for (Block& block : blocks) {
+    prepare_supports(block, step);
+    for (const Support& support : block.supports)
+      for (int c = 0; c < 3; ++c)
+        if ((support.axes >> c & 1u) != 0) {
+          block.velocity[c][support.index] = component(support.velocity, c);
+          driven = true;
+        }
+  }
+  if (driven) start_known = false;
+  find_start();
+}
+
+}  // namespace hyperlattice
