@@ -30,10 +30,11 @@ struct Plan {
   std::unique_ptr<Model> model;
   std::vector<PlannedStage> stages;
   int threads = 1;
-  double bytes_per_particle = 0;      ///< of the state: what the kernel works on
-  double memory_bytes = 0;            ///< of the state, the model and the scratch
-  double output_bytes = 0;            ///< estimated
-  double expected_seconds = 0;        ///< estimated from the kernel's cost on a common machine
+  double bytes_per_particle = 0;  ///< of the state: what the kernel works on
+  double memory_bytes = 0;        ///< of the state, the model and the scratch
+  double output_bytes = 0;        ///< estimated
+  double setup_seconds = 0;       ///< spent on building the model
+  double expected_seconds = 0;    ///< estimated from the kernel's cost on a common machine
   std::vector<LeftOut> left_out;
 
   std::uint64_t steps() const;
@@ -43,7 +44,13 @@ struct Plan {
 /// Validates everything, computes nothing. Throws as read_scene and build_model do, and InputError if a solver refuses its time step.
 std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, int threads);
 
-std::string plan_text(const Plan& plan);          ///< for people
-nlohmann::json plan_json(const Plan& plan);       ///< the keys of summary.json that are known before a run, and left_out
+/// Seconds between the outputs of a writer or probe in a run of `end_time` seconds; a scene that does not say gets 20 frames, 200 samples.
+double output_interval(const Stage& output, double end_time);
+
+/// Seconds between the records of a stage's history; a scene that does not say gets 200.
+double record_interval(const PlannedStage& stage);
+
+std::string plan_text(const Plan& plan);     ///< for people
+nlohmann::json plan_json(const Plan& plan);  ///< the keys of summary.json that are known before a run, and left_out
 
 }  // namespace hyperlattice

@@ -1,0 +1,72 @@
+#include <plan/fields.hpp>
+#include <plan/left_out.hpp>
+
+#include <hyperlattice/output.hpp>
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <set>
+
+namespace hyperlattice {
+
+namespace {
+
+void leave_out_kernel_parts(const Plan& plan, std::vector<LeftOut>& out) {
+  const Model& model = *plan.model;
+  using Membrane = KernelChoice::Membrane;
+  if (model.choice.membrane == Membrane::none) out.push_back({"fourth dimension", "the membrane is none: no spring leaves the three dimensions"});
+  if (model.choice.membrane == Membrane::clamped)
+    out.push_back({"motion in the fourth dimension", "the membrane is clamped: its cross springs act, but each particle keeps its height"});
+  if (model.choice.membrane != Membrane::none)
+    out.push_back({"second layer of the membrane", "it mirrors the first exactly, so one layer is computed"});
+  if (!model.choice.breakable) out.push_back({"failure", "no material names a failure law: no spring is tested"});
+  if (!model.choice.mixed) out.push_back({"mixed materials", "there is one material: no particle stores which"});
+  const auto is_damped = [](const PlannedStage& stage) { return stage.plan.damping > 0; };
+  if (std::none_of(plan.stages.begin(), plan.stages.end(), is_damped)) out.push_back({"local damping", "no solver stage asks for it"});
+  if (model.acceleration == Vec3{}) out.push_back({"body acceleration", "no load accelerates the whole body"});
+  out.push_back({"list of springs", "every site has the same neighbours, so springs are bits, not records"});
+}
+
+void leave_out_loads(const Plan& plan, std::vector<LeftOut>& out) {
+  bool any_force = false, any_motion = false;
+  for (const Load& load : plan.model->loads)
+    for (const LoadedParticle& particle : load.particles) {
+      if (!(particle.force == Vec3{})) any_force = true;
+      if (particle.displaced != 0 || particle.driven != 0) any_motion = true;
+    }
+  if (!any_force) out.push_back({"external forces", "no load applies one"});
+  if (!any_motion) out.push_back({"prescribed motion", "no load prescribes any"});
+}
+
+void leave_out_outputs(const Plan& plan, std::vector<LeftOut>& out) {
+  std::set<std::string, std::less<>> asked;
+  std::size_t outputs = 0;
+  for (const Family family : {Family::writers, Family::probes})
+    for (const Stage* stage : plan.scene->of(family)) {
+      ++outputs;
+      for (std::string& name : asked_fields(*plan.scene, *stage)) asked.insert(std::move(name));
+    }
+  if (plan.scene->of(Family::writers).empty()) out.push_back({"writers", "the scene has none: only tables and the summary are written"});
+  if (plan.scene->of(Family::probes).empty()) out.push_back({"probes", "the scene has none"});
+  if (outputs == 0) return;
+  for (const std::string_view name : field_names) {
+    if (!has_field(*plan.model, name))
+      out.push_back({fmt::format("field {}", name), "this run has no such quantity"});
+    else if (asked.find(name) == asked.end())
+      out.push_back({fmt::format("field {}", name), "no writer or probe names it"});
+  }
+}
+
+}  // namespace
+
+std::vector<LeftOut> left_out(const Plan& plan) {
+  std::vector<LeftOut> out;
+  leave_out_kernel_parts(plan, out);
+  leave_out_loads(plan, out);
+  leave_out_outputs(plan, out);
+  out.push_back({"all other plugins", "a library is opened only if the scene names its type"});
+  return out;
+}
+
+}  // namespace hyperlattice

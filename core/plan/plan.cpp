@@ -1,0 +1,161 @@
+#include <base/errors.hpp>
+#include <plan/fields.hpp>
+#include <plan/left_out.hpp>
+#include <plan/plan.hpp>
+#include <run/layout.hpp>
+
+#include <hyperlattice/output.hpp>
+
+#include <spdlog/fmt/fmt.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <new>
+
+namespace hyperlattice {
+
+namespace {
+
+/// A solver's objection belongs to the option that its first word names, if it names one.
+void add_objection(Faults& faults, const Scene& scene, const Stage& stage, const std::string& sentence) {
+  const std::string first = sentence.substr(0, sentence.find(' '));
+  const auto& options = stage.component->info.options;
+  const bool names_option = std::any_of(options.begin(), options.end(), [&](const Option& option) { return option.name == first; });
+  if (!names_option) return faults.add(stage.pointer, "", sentence);
+  const auto resolved = nlohmann::json::parse(scene.resolved).at(nlohmann::json::json_pointer(stage.pointer));
+  faults.add(stage.pointer + "/" + first, resolved.contains(first) ? resolved[first].dump() : "", sentence);
+}
+
+/// Each stage starts where the one before ends.
+void plan_stages(Plan& plan, Faults& faults) {
+  double start = 0;
+  for (const Stage* stage : plan.scene->of(Family::solvers)) {
+    PlannedStage planned;
+    planned.stage = stage;
+    planned.component = make_component(*stage);
+    planned.start_time = start;
+    std::string sentence;
+    const Complaint why{&sentence, [](void* self, std::string_view text) noexcept { static_cast<std::string*>(self)->assign(text); }};
+    const SolverFacts facts{start, plan.model->critical_time_step, plan.model->corners};
+    if (stage->functions<SolverFunctions>().plan(planned.component.get(), facts, planned.plan, why))
+      start = planned.plan.end_time;
+    else
+      add_objection(faults, *plan.scene, *stage, sentence);
+    plan.stages.push_back(std::move(planned));
+  }
+}
+
+/// Refuses outputs of fields that the run does not have, before anything is written.
+void check_fields(const Plan& plan, Faults& faults) {
+  std::vector<std::string_view> present;
+  for (const std::string_view name : field_names)
+    if (has_field(*plan.model, name)) present.push_back(name);
+  for (const Family family : {Family::writers, Family::probes})
+    for (const Stage* stage : plan.scene->of(family))
+      for (const std::string& name : asked_fields(*plan.scene, *stage))
+        if (!has_field(*plan.model, name)) faults.add(stage->pointer, name, fmt::format("fields that this run has: {}", fmt::join(present, ", ")));
+}
+
+/// Numbers a particle that the asked fields hold.
+double numbers_per_particle(const Scene& scene, const Stage& output) {
+  double numbers = 0;
+  for (const std::string& name : asked_fields(scene, output)) numbers += name == "displacement" || name == "velocity" ? 3 : 1;
+  return numbers;
+}
+
+double frames_of(const Stage& output, double end_time) {
+  const double every = output_interval(output, end_time);
+  return every > 0 ? std::floor(end_time / every) + 1 : 2;
+}
+
+double records_of(const PlannedStage& stage) {
+  return std::min((stage.plan.end_time - stage.start_time) / record_interval(stage), static_cast<double>(stage.plan.steps)) + 1;
+}
+
+void estimate_memory(Plan& plan) {
+  const Model& model = *plan.model;
+  const double particles = static_cast<double>(model.body.particles);
+  const Layout layout(model, plan.threads);
+  plan.bytes_per_particle = layout.state_bytes(model) / particles;
+
+  double model_bytes =
+      static_cast<double>(model.body.runs.size() * sizeof(Run) + model.body.row_runs.size() * sizeof(std::size_t) + model.material_of.size());
+  for (const Load& load : model.loads) model_bytes += static_cast<double>(load.particles.size() * (sizeof(LoadedParticle) + sizeof(Support)));
+  for (const BlockLayout& block : layout.blocks) model_bytes += static_cast<double>(block.rows.size() * 2 * sizeof(Row));
+
+  double output_numbers = 0;  // positions, and the fields of the most demanding output
+  for (const Family family : {Family::writers, Family::probes})
+    for (const Stage* stage : plan.scene->of(family)) output_numbers = std::max(output_numbers, 3 + numbers_per_particle(*plan.scene, *stage));
+  plan.memory_bytes = layout.state_bytes(model) + layout.scratch_bytes(model) + model_bytes + output_numbers * sizeof(double) * particles;
+}
+
+void estimate_output(Plan& plan) {
+  constexpr double bytes_per_number = 4.5, bytes_per_text_number = 19, history_numbers = 16;
+  const double particles = static_cast<double>(plan.model->body.particles);
+  for (const Stage* stage : plan.scene->of(Family::writers))
+    plan.output_bytes += frames_of(*stage, plan.end_time()) * particles * (3 + numbers_per_particle(*plan.scene, *stage)) * bytes_per_number;
+  for (const Stage* stage : plan.scene->of(Family::probes))
+    plan.output_bytes += frames_of(*stage, plan.end_time()) * (1 + std::max(1.0, numbers_per_particle(*plan.scene, *stage))) * bytes_per_text_number;
+  for (const PlannedStage& stage : plan.stages) {
+    plan.output_bytes += records_of(stage) * history_numbers * bytes_per_text_number;
+  }
+}
+
+/// From what the kernels take on one core of a common server processor (docs: performance); another machine may differ by a factor of two.
+void estimate_time(Plan& plan) {
+  constexpr double baseline = 10, avx2 = 4, avx512 = 2.8;  // ns a base spring and step
+  constexpr double fourth_dimension = 1.9, damped = 1.1, second_thread = 0.6;
+  const Model& model = *plan.model;
+  const std::string_view instructions = model.kernels.instructions;
+  double spring = instructions == "avx512" ? avx512 : instructions == "avx2" ? avx2 : baseline;
+  if (model.degrees_of_freedom == 4) spring *= fourth_dimension;
+  const double step = 1e-9 * spring * static_cast<double>(model.body.base_springs()) / (1 + second_thread * (plan.threads - 1));
+  for (const PlannedStage& stage : plan.stages)
+    plan.expected_seconds += step * (static_cast<double>(stage.plan.steps) * (stage.plan.damping > 0 ? damped : 1) + records_of(stage));
+}
+
+}  // namespace
+
+std::uint64_t Plan::steps() const {
+  std::uint64_t steps = 0;
+  for (const PlannedStage& stage : stages) steps += stage.plan.steps;
+  return steps;
+}
+
+double Plan::end_time() const { return stages.empty() ? 0 : stages.back().plan.end_time; }
+
+double output_interval(const Stage& output, double end_time) {
+  constexpr double frames = 20, samples = 200;
+  return output.cadence.every.value_or(end_time / (output.family() == Family::writers ? frames : samples));
+}
+
+double record_interval(const PlannedStage& stage) {
+  constexpr double records = 200;
+  return stage.stage->record_every > 0 ? stage.stage->record_every : (stage.plan.end_time - stage.start_time) / records;
+}
+
+std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, int threads) {
+  const auto start = std::chrono::steady_clock::now();
+  auto plan = std::make_unique<Plan>();
+  plan->scene = std::move(scene);
+  plan->threads = threads;
+  try {
+    plan->model = build_model(*plan->scene);
+  } catch (const std::bad_alloc&) {
+    throw OutsideError("out of memory while the lattice was built: too many particles for this machine");
+  }
+  Faults faults;
+  plan_stages(*plan, faults);
+  check_fields(*plan, faults);
+  faults.throw_if_any();
+  estimate_memory(*plan);
+  estimate_output(*plan);
+  estimate_time(*plan);
+  plan->left_out = left_out(*plan);
+  plan->setup_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return plan;
+}
+
+}  // namespace hyperlattice

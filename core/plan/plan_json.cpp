@@ -1,0 +1,84 @@
+#include <plan/plan.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace hyperlattice {
+
+namespace {
+
+/// The plugins that the scene's stages come from, each once.
+nlohmann::json plugins_json(const Scene& scene) {
+  auto list = nlohmann::json::array();
+  const auto add = [&](const Component& component) {
+    const nlohmann::json entry = {{"name", component.plugin}, {"version", component.version}, {"path", component.path.string()}};
+    if (std::find(list.begin(), list.end(), entry) == list.end()) list.push_back(entry);
+  };
+  for (const Stage& stage : scene.stages) {
+    add(*stage.component);
+    if (stage.failure) add(*stage.failure->component);
+  }
+  return list;
+}
+
+const char* membrane_name(KernelChoice::Membrane membrane) {
+  switch (membrane) {
+    case KernelChoice::Membrane::none:
+      return "none";
+    case KernelChoice::Membrane::clamped:
+      return "clamped";
+    default:
+      return "free";
+  }
+}
+
+}  // namespace
+
+nlohmann::json plan_json(const Plan& plan) {
+  const Model& model = *plan.model;
+  double time_step = 0;
+  auto stages = nlohmann::json::array();
+  for (const PlannedStage& stage : plan.stages) {
+    time_step = std::max(time_step, stage.plan.time_step);
+    stages.push_back({{"type", stage.stage->component->type()},
+                      {"name", stage.stage->name},
+                      {"start_time", stage.start_time},
+                      {"end_time", stage.plan.end_time},
+                      {"steps", stage.plan.steps},
+                      {"time_step", stage.plan.time_step},
+                      {"stable_time_step", stage.plan.stable_time_step},
+                      {"damping", stage.plan.damping}});
+  }
+  auto left_out = nlohmann::json::array();
+  for (const LeftOut& left : plan.left_out) left_out.push_back({{"what", left.what}, {"why", left.why}});
+
+  const double particles = static_cast<double>(model.body.particles), springs = static_cast<double>(model.body.base_springs());
+  return {{"title", plan.scene->title},
+          {"version", HYPERLATTICE_VERSION},
+          {"particles", model.body.particles},
+          {"springs", model.body.base_springs()},
+          {"springs_per_particle", springs / particles},
+          {"degrees_of_freedom", model.degrees_of_freedom},
+          {"membrane", membrane_name(model.choice.membrane)},
+          {"breakable", model.choice.breakable},
+          {"materials", model.materials.size()},
+          {"loads", model.loads.size()},
+          {"precision", "double"},
+          {"instructions", model.kernels.instructions},
+          {"threads", plan.threads},
+          {"steps", plan.steps()},
+          {"end_time", plan.end_time()},
+          {"time_step", time_step},
+          {"critical_time_step", model.critical_time_step},
+          {"critical_because", model.critical_because},
+          {"stages", stages},
+          {"bytes_per_particle", plan.bytes_per_particle},
+          {"memory_bytes", plan.memory_bytes},
+          {"output_bytes", plan.output_bytes},
+          {"expected_seconds", plan.expected_seconds},
+          {"plugins", plugins_json(*plan.scene)},
+          {"left_out", left_out}};
+}
+
+}  // namespace hyperlattice

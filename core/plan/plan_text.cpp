@@ -1,0 +1,90 @@
+// The plan as a page for people; every number comes from the JSON form, so that the two never differ.
+#include <plan/plan.hpp>
+
+#include <spdlog/fmt/fmt.h>
+#include <nlohmann/json.hpp>
+
+#include <iterator>
+
+namespace hyperlattice {
+
+namespace {
+
+/// "1.25 GB".
+std::string bytes_text(double bytes) {
+  static constexpr const char* units[] = {"B", "kB", "MB", "GB", "TB"};
+  std::size_t unit = 0;
+  while (bytes >= 1000 && unit + 1 < std::size(units)) {
+    bytes /= 1000;
+    ++unit;
+  }
+  return fmt::format("{:.3g} {}", bytes, units[unit]);
+}
+
+std::string duration_text(double seconds) {
+  if (seconds < 1) return "less than a second";
+  if (seconds < 120) return fmt::format("about {:.0f} s", seconds);
+  if (seconds < 7200) return fmt::format("about {:.0f} min", seconds / 60);
+  return fmt::format("about {:.1f} h", seconds / 3600);
+}
+
+/// Integers with a space between thousands: "490 432".
+std::string count_text(std::uint64_t number) {
+  if (number < 1000) return fmt::format("{}", number);
+  return fmt::format("{} {:03}", count_text(number / 1000), number % 1000);
+}
+
+class Page {
+ public:
+  void section(std::string_view title) { fmt::format_to(std::back_inserter(text_), "\n{}\n", title); }
+  void line(std::string_view name, std::string_view value) { fmt::format_to(std::back_inserter(text_), "  {:<22} {}\n", name, value); }
+  std::string take() { return std::move(text_); }
+  void title(std::string_view text) { text_ = fmt::format("{}\n", text); }
+
+ private:
+  std::string text_;
+};
+
+}  // namespace
+
+std::string plan_text(const Plan& plan) {
+  const nlohmann::json facts = plan_json(plan);
+  const auto number = [&](const char* key) { return facts.at(key).get<double>(); };
+  const auto count = [&](const char* key) { return count_text(facts.at(key).get<std::uint64_t>()); };
+  const auto word = [&](const char* key) { return facts.at(key).get<std::string>(); };
+
+  Page page;
+  page.title(plan.scene->title.empty() ? plan.scene->file.string() : plan.scene->title);
+
+  page.section("Loaded");
+  for (const auto& plugin : facts.at("plugins"))
+    page.line(plugin.at("name").get<std::string>(),
+              fmt::format("{}  {}", plugin.at("version").get<std::string>(), plugin.at("path").get<std::string>()));
+
+  page.section("Allocated");
+  page.line("particles", count("particles"));
+  page.line("state", fmt::format("{:.1f} bytes per particle", number("bytes_per_particle")));
+  page.line("memory", bytes_text(number("memory_bytes")));
+
+  page.section("Computed");
+  page.line("springs", fmt::format("{}, {:.2f} per particle", count("springs"), number("springs_per_particle")));
+  page.line("kernel",
+            fmt::format("{} degrees of freedom, membrane {}, {}, {} precision, {} instructions, {} thread{}",
+                        facts.at("degrees_of_freedom").get<int>(), word("membrane"), facts.at("breakable").get<bool>() ? "breakable" : "unbreakable",
+                        word("precision"), word("instructions"), plan.threads, plan.threads == 1 ? "" : "s"));
+  page.line("critical time step", fmt::format("{:.6g} s: {}", number("critical_time_step"), word("critical_because")));
+  for (const PlannedStage& stage : plan.stages)
+    page.line(stage.stage->component->type(),
+              fmt::format("{:.6g} s to {:.6g} s in {} steps of at most {:.6g} s, {:.3g} of the stable {:.6g} s{}", stage.start_time,
+                          stage.plan.end_time, count_text(stage.plan.steps), stage.plan.time_step, stage.plan.time_step / stage.plan.stable_time_step,
+                          stage.plan.stable_time_step, stage.plan.damping > 0 ? fmt::format(", local damping {:g}", stage.plan.damping) : ""));
+  page.line("steps", count("steps"));
+  page.line("output", fmt::format("about {}", bytes_text(number("output_bytes"))));
+  page.line("run time", fmt::format("{} on a common processor", duration_text(number("expected_seconds"))));
+
+  page.section("Left out");
+  for (const LeftOut& left : plan.left_out) page.line(left.what, left.why);
+  return page.take();
+}
+
+}  // namespace hyperlattice

@@ -1,0 +1,101 @@
+#include <plan/fields.hpp>
+#include <plan/plan.hpp>
+#include <run/outputs.hpp>
+
+#include <spdlog/fmt/fmt.h>
+
+namespace hyperlattice {
+
+namespace {
+
+/// A function of a plugin that may complain: runs it, and throws its complaint.
+template <class Call>
+void call(const Stage& stage, Call&& function) {
+  std::string sentence;
+  const Complaint why{&sentence, [](void* self, std::string_view text) noexcept { static_cast<std::string*>(self)->assign(text); }};
+  if (!function(why)) throw OutsideError(fmt::format("{} ({}) failed: {}", stage.component->type(), stage.pointer, sentence));
+}
+
+}  // namespace
+
+Outputs::Outputs(const Model& model, const Simulation& simulation, const std::filesystem::path& directory, double end_time)
+    : model_(model), simulation_(simulation), source_(model, simulation), directory_(directory) {
+  for (const std::string_view name : field_names)
+    if (has_field(model, name)) fields_.push_back(name);
+  for (const Family family : {Family::writers, Family::probes})
+    for (const Stage* stage : model.scene->of(family)) {
+      Output& output = outputs_.emplace_back();
+      output.stage = stage;
+      output.component = make_component(*stage);
+      output.schedule = Schedule(0, output_interval(*stage, end_time), stage->cadence.first);
+      begin(output);
+    }
+  surfaces_.reset();
+}
+
+void Outputs::begin(Output& output) {
+  const Stage& stage = *output.stage;
+  const bool is_probe = stage.family() == Family::probes;
+  const std::string type = stage.component->type();
+  const bool is_labelled = stage.name != type.substr(type.find('.') + 1);  // two writers of a type must not share their files
+  output.directory = (is_probe ? directory_ / "probes" : is_labelled ? directory_ / stage.name : directory_).string();
+  std::filesystem::create_directories(output.directory);
+  OutputContext context;
+  context.directory = output.directory;
+  context.title = model_.scene->title;
+  context.fields = fields_;
+  context.self = this;
+  context.region_particles = [](void* self, RegionId region) noexcept { return static_cast<Outputs*>(self)->particles(region); };
+  if (!is_probe) {
+    call(stage, [&](const Complaint& why) { return stage.functions<WriterFunctions>().begin(output.component.get(), context, why); });
+    return;
+  }
+  std::vector<std::string> columns{"time"};
+  const ColumnSink sink{&columns, [](void* self, std::string_view name) { static_cast<std::vector<std::string>*>(self)->emplace_back(name); }};
+  call(stage,
+       [&](const Complaint& why) { return stage.functions<ProbeFunctions>().begin(output.component.get(), context, source_.take(), sink, why); });
+  source_.rethrow();
+  output.row.resize(columns.size());
+  output.table.emplace(directory_ / "probes" / (stage.name + ".csv"), columns);
+}
+
+void Outputs::show(double time_step) {
+  for (Output& output : outputs_)
+    if (output.schedule.due(simulation_.time(), time_step)) show_to(output);
+}
+
+void Outputs::show_last() {
+  for (Output& output : outputs_)
+    if (output.stage->cadence.last && output.seen != simulation_.steps()) show_to(output);
+}
+
+void Outputs::show_to(Output& output) {
+  const Snapshot& snapshot = source_.take();
+  const Stage& stage = *output.stage;
+  call(stage, [&](const Complaint& why) {
+    return output.table ? stage.functions<ProbeFunctions>().sample(output.component.get(), snapshot, output.row.data() + 1, why)
+                        : stage.functions<WriterFunctions>().frame(output.component.get(), snapshot, why);
+  });
+  source_.rethrow();
+  output.seen = snapshot.step;
+  if (!output.table) return;
+  output.row[0] = snapshot.time;
+  output.table->row(output.row);
+}
+
+void Outputs::end() {
+  for (Output& output : outputs_)
+    if (!output.table)
+      call(*output.stage, [&](const Complaint& why) { return output.stage->functions<WriterFunctions>().end(output.component.get(), why); });
+}
+
+std::span<const Particle> Outputs::particles(RegionId region) {
+  const auto [entry, is_new] = regions_.try_emplace(region.index);
+  if (is_new) {
+    if (!surfaces_) surfaces_.emplace(model_.body);
+    entry->second = particles_in(model_.body, *surfaces_, model_.scene->regions[region]);
+  }
+  return entry->second;
+}
+
+}  // namespace hyperlattice

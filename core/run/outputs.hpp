@@ -1,0 +1,48 @@
+// Writers and probes of a run: made at the start, shown the body when due, ended in order.
+#pragma once
+
+#include <run/schedule.hpp>
+#include <run/snapshot.hpp>
+#include <run/table.hpp>
+
+#include <filesystem>
+#include <list>
+#include <optional>
+
+namespace hyperlattice {
+
+/// Everything here throws OutsideError when a writer, a probe or the disk refuses.
+class Outputs {
+ public:
+  /// Begins every writer and probe. `end_time` is the run's, for those that do not say how often.
+  Outputs(const Model& model, const Simulation& simulation, const std::filesystem::path& directory, double end_time);
+
+  void show(double time_step);  ///< to those that are due, at the present state
+  void show_last();             ///< to those that want the last state and have not seen it
+  void end();                   ///< closes the writers
+
+ private:
+  struct Output {
+    const Stage* stage = nullptr;
+    ComponentPointer component{nullptr, [](void*) {}};
+    std::string directory;
+    Schedule schedule;
+    std::optional<std::uint64_t> seen;  ///< step of the latest state it was shown
+    std::optional<Table> table;         ///< of a probe
+    std::vector<double> row;
+  };
+  void begin(Output& output);
+  void show_to(Output& output);
+  std::span<const Particle> particles(RegionId region);
+
+  const Model& model_;
+  const Simulation& simulation_;
+  SnapshotSource source_;
+  std::filesystem::path directory_;
+  std::vector<std::string_view> fields_;  ///< that this run has
+  std::list<Output> outputs_;
+  std::optional<Surfaces> surfaces_;
+  std::map<std::uint32_t, std::vector<Particle>> regions_;
+};
+
+}  // namespace hyperlattice

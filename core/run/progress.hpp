@@ -1,0 +1,33 @@
+// The progress of a run on standard error: one line that renews itself on a terminal, else a line every few seconds, or JSON lines for
+// programs (HYPERLATTICE_PROGRESS=json).
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace hyperlattice {
+
+class Progress {
+ public:
+  Progress(std::uint64_t steps, bool quiet);
+  ~Progress();  ///< leaves a terminal's line
+
+  /// Shows the state if the last time is long enough ago.
+  void update(std::uint64_t step, double time, double time_step, std::uint64_t broken);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  enum class Form { none, terminal, lines, json };
+
+  std::uint64_t steps_;
+  Form form_ = Form::none;
+  Clock::time_point start_ = Clock::now(), shown_ = start_;
+  Clock::duration pause_{};
+  bool line_open_ = false;
+};
+
+/// "1:02:03", "4:05", "0:12".
+std::string clock_time(double seconds);
+
+}  // namespace hyperlattice

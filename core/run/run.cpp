@@ -1,0 +1,238 @@
+// The run: planned solver stages one after the other. Each step belongs to the solver; records, outputs, guards and the end are here.
+#include <run/guard.hpp>
+#include <run/interrupt.hpp>
+#include <run/outputs.hpp>
+#include <run/progress.hpp>
+#include <run/run.hpp>
+#include <run/summary.hpp>
+
+#include <hyperlattice/files.hpp>
+
+#include <spdlog/spdlog.h>
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <new>
+
+namespace hyperlattice {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+class Running {
+ public:
+  Running(Plan& plan, const RunOptions& options) : plan_(plan), options_(options) {}
+
+  void start(Outcome& outcome);
+  void solve();
+  void finish();
+  std::uint64_t steps() const { return simulation_->steps(); }
+  void note(Outcome& outcome);  ///< what became of it, at any point
+
+ private:
+  static constexpr std::uint64_t guard_every = 50;  ///< steps; a guard reads the velocities once, a fraction of a step's work
+
+  struct Calls;
+  void solve_stage(const PlannedStage& stage);
+  void step(double time_step);
+  void observe();
+  void record();
+  template <class Output>
+  void timed(Output&& output);
+
+  Plan& plan_;
+  const RunOptions& options_;
+  std::unique_ptr<Simulation> simulation_;
+  std::unique_ptr<Guard> guard_;
+  std::unique_ptr<History> history_;
+  std::unique_ptr<FailureLog> failures_;
+  std::unique_ptr<Outputs> outputs_;
+  std::unique_ptr<Progress> progress_;
+
+  Schedule record_schedule_;
+  double time_step_ = 0;
+  Record last_;
+  bool recorded_ = false;
+  double largest_relative_error_ = 0;
+  double solve_seconds_ = 0, output_seconds_ = 0;
+};
+
+/// What a solver calls. The solver is a plugin's: an exception thrown below it waits here until its call has returned.
+struct Running::Calls {
+  Running& running;
+  SolverHost host;
+  std::exception_ptr thrown;
+
+  explicit Calls(Running& r) : running(r) {
+    host.self = this;
+    host.time = running.simulation_->time();
+    host.take_step = [](void* self, double time_step) {
+      auto& calls = *static_cast<Calls*>(self);
+      return calls.guarded([&] {
+        calls.running.step(time_step);
+        calls.host.time = calls.running.simulation_->time();
+      });
+    };
+    host.show = [](void* self) {
+      auto& calls = *static_cast<Calls*>(self);
+      return calls.guarded([&] { calls.running.observe(); });
+    };
+  }
+
+  template <class Code>
+  bool guarded(Code&& code) noexcept {
+    try {
+      code();
+      return !stop_requested();
+    } catch (...) {
+      thrown = std::current_exception();
+      return false;
+    }
+  }
+};
+
+template <class Output>
+void Running::timed(Output&& output) {
+  const auto start = Clock::now();
+  output();
+  output_seconds_ += seconds_since(start);
+}
+
+void Running::start(Outcome& outcome) {
+  const auto start = Clock::now();
+  namespace fs = std::filesystem;
+  fs::create_directories(options_.directory);
+  for (const char* stale : {"summary.json", "failures.csv"}) fs::remove(options_.directory / stale);
+  write_file((options_.directory / "scene.resolved.json").string(), plan_.scene->resolved);
+  simulation_ = std::make_unique<Simulation>(*plan_.model, plan_.threads);
+  guard_ = std::make_unique<Guard>(*plan_.model, *simulation_);
+  history_ = std::make_unique<History>(options_.directory);
+  if (plan_.model->choice.breakable) failures_ = std::make_unique<FailureLog>(options_.directory);
+  outputs_ = std::make_unique<Outputs>(*plan_.model, *simulation_, options_.directory, plan_.end_time());
+  progress_ = std::make_unique<Progress>(plan_.steps(), options_.quiet);
+  outcome.setup_seconds += seconds_since(start);
+}
+
+void Running::solve() {
+  for (const PlannedStage& stage : plan_.stages) {
+    if (stop_requested()) return;
+    const auto start = Clock::now();
+    const double output_before = output_seconds_;
+    const auto clock = [&] { solve_seconds_ += seconds_since(start) - (output_seconds_ - output_before); };
+    try {
+      solve_stage(stage);
+    } catch (...) {
+      clock();
+      throw;
+    }
+    clock();
+  }
+}
+
+void Running::solve_stage(const PlannedStage& stage) {
+  guard_->start(stage);
+  simulation_->set_damping(stage.plan.damping);
+  record_schedule_ = Schedule(stage.start_time, record_interval(stage), true);
+  time_step_ = stage.plan.time_step;
+
+  Calls calls(*this);
+  std::string sentence;
+  const Complaint why{&sentence, [](void* self, std::string_view text) noexcept { static_cast<std::string*>(self)->assign(text); }};
+  const bool done = stage.stage->functions<SolverFunctions>().run(
+      stage.component.get(), {stage.start_time, plan_.model->critical_time_step, plan_.model->corners}, calls.host, why);
+  if (calls.thrown) std::rethrow_exception(calls.thrown);
+  if (!done) throw RunError(fmt::format("{} ({}) failed: {}", stage.stage->component->type(), stage.stage->pointer, sentence));
+  record();
+}
+
+void Running::step(double time_step) {
+  simulation_->step(time_step);
+  time_step_ = time_step;
+  if (simulation_->steps() % guard_every == 0) guard_->check_motion(time_step);
+}
+
+void Running::observe() {
+  if (record_schedule_.due(simulation_->time(), time_step_)) record();
+  timed([&] { outputs_->show(time_step_); });
+  progress_->update(simulation_->steps(), simulation_->time(), time_step_, simulation_->breakages().size());
+}
+
+void Running::record() {
+  if (recorded_ && last_.step == simulation_->steps()) return;
+  const Record record{simulation_->time(), simulation_->steps(), simulation_->balance(), simulation_->broken_open(), simulation_->broken_closed()};
+  if (record.step > 0) guard_->check_motion(time_step_);
+  guard_->check_finite(record.balance, time_step_);
+  last_ = record;
+  recorded_ = true;
+  largest_relative_error_ = std::max(largest_relative_error_, std::abs(record.balance.relative_error()));
+  timed([&] {
+    history_->write(record);
+    if (failures_) failures_->write_new(simulation_->breakages());
+  });
+  guard_->check_balance(record.balance, time_step_);
+}
+
+void Running::finish() {
+  progress_.reset();
+  timed([&] {
+    outputs_->show_last();
+    outputs_->end();
+  });
+}
+
+void Running::note(Outcome& outcome) {
+  outcome.solve_seconds = solve_seconds_;
+  outcome.output_seconds = output_seconds_;
+  outcome.last = last_;
+  outcome.largest_relative_error = largest_relative_error_;
+  if (!simulation_) return;
+  outcome.steps = simulation_->steps();
+  outcome.time = simulation_->time();
+  outcome.injected_by_load = simulation_->injected_by_load();
+  outcome.state_hash = simulation_->hash();
+}
+
+}  // namespace
+
+int run(Plan& plan, const RunOptions& options) {
+  const FileLimitGuard file_limit;
+  Outcome outcome;
+  outcome.setup_seconds = plan.setup_seconds;
+  const auto end = [&](const char* status, int exit_code, std::string reason) {
+    outcome.status = status;
+    outcome.exit_code = exit_code;
+    outcome.reason = std::move(reason);
+  };
+  {
+    Running running(plan, options);
+    try {
+      running.start(outcome);
+      running.solve();
+      running.finish();
+      if (stop_requested() && running.steps() < plan.steps()) end("interrupted", exit_interrupted, "asked to stop by a signal");
+    } catch (const RunError& error) {
+      end("failed", exit_run, error.what());
+    } catch (const std::bad_alloc&) {
+      end("failed", exit_outside, fmt::format("out of memory: this run needs about {:.0f} MB", plan.memory_bytes / 1e6));
+    } catch (const std::exception& error) {
+      end("failed", exit_outside, error.what());
+    }
+    running.note(outcome);
+  }
+  forget_stop();
+  try {
+    write_file((options.directory / "summary.json").string(), summary_json(plan, outcome).dump(2) + "\n");
+  } catch (const std::exception& error) {
+    spdlog::error("{}", error.what());
+    if (outcome.exit_code == exit_done) end("failed", exit_outside, error.what());
+  }
+  if (outcome.exit_code == exit_done)
+    spdlog::info("done: {} steps in {:.3g} s, results in {}", outcome.steps, outcome.solve_seconds, options.directory.string());
+  else
+    spdlog::error("{}: {}", outcome.status, outcome.reason);
+  return outcome.exit_code;
+}
+
+}  // namespace hyperlattice

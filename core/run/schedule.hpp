@@ -1,0 +1,30 @@
+// When an output is due.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+namespace hyperlattice {
+
+/// Instants at a regular distance. An output belongs to the step nearest to its instant.
+class Schedule {
+ public:
+  Schedule() = default;
+  /// Due at `start`, if `first`, and then every `every` seconds; 0: never again.
+  Schedule(double start, double every, bool first) : start_(start), every_(every), count_(first ? 0 : 1) {}
+
+  /// Whether an instant has come, for a body at `time` whose steps are `time_step` long. Says so once for each instant.
+  bool due(double time, double time_step) {
+    if (count_ > 0 && !(every_ > 0)) return false;
+    const double reached = time + 0.5 * time_step - start_;
+    if (reached < static_cast<double>(count_) * every_) return false;
+    count_ = every_ > 0 ? static_cast<std::uint64_t>(reached / every_) + 1 : 1;
+    return true;
+  }
+
+ private:
+  double start_ = 0, every_ = 0;
+  std::uint64_t count_ = 0;
+};
+
+}  // namespace hyperlattice

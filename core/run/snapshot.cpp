@@ -1,0 +1,106 @@
+#include <plan/fields.hpp>
+#include <run/snapshot.hpp>
+
+#include <utility>
+
+namespace hyperlattice {
+
+SnapshotSource::SnapshotSource(const Model& model, const Simulation& simulation) : model_(model), simulation_(simulation) {
+  snapshot_.particles = model.body.particles;
+  snapshot_.spacing = model.body.grid.spacing;
+  snapshot_.self = this;
+  snapshot_.get_field = [](void* self, std::string_view name, Field& out) noexcept {
+    auto& source = *static_cast<SnapshotSource*>(self);
+    try {
+      return source.field(name, out);
+    } catch (...) {
+      source.thrown_ = std::current_exception();
+      return false;
+    }
+  };
+}
+
+const Snapshot& SnapshotSource::take() {
+  if (positions_.empty()) {
+    positions_.reserve(3 * model_.body.particles);
+    for (Particle particle = 0; particle < model_.body.particles; ++particle) {
+      const Vec3 x = model_.body.position(particle);
+      positions_.insert(positions_.end(), {x.x, x.y, x.z});
+    }
+    snapshot_.positions = positions_;
+  }
+  for (auto& [name, values] : fields_) values.current = false;
+  snapshot_.time = simulation_.time();
+  snapshot_.step = simulation_.steps();
+  return snapshot_;
+}
+
+void SnapshotSource::rethrow() {
+  if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
+}
+
+bool SnapshotSource::field(std::string_view name, Field& out) {
+  if (!has_field(model_, name)) return false;
+  Values& values = fields_.try_emplace(std::string(name)).first->second;
+  if (!values.current && !compute(name, values)) return false;
+  values.current = true;
+  out = {values.components, values.numbers};
+  return true;
+}
+
+bool SnapshotSource::compute(std::string_view name, Values& values) {
+  values.components = name == "displacement" || name == "velocity" ? 3 : 1;
+  if (name == "displacement")
+    simulation_.displacements(values.numbers);
+  else if (name == "velocity")
+    simulation_.velocities(values.numbers);
+  else if (name == "height")
+    simulation_.heights(values.numbers);
+  else if (name == "material" && model_.material_of.empty())
+    values.numbers.assign(model_.body.particles, 0.0);
+  else if (name == "material")
+    values.numbers.assign(model_.material_of.begin(), model_.material_of.end());
+  else if (name == "broken_open")
+    count_broken(values.numbers, true);
+  else if (name == "broken_closed")
+    count_broken(values.numbers, false);
+  else if (name == "damage")
+    compute_damage(values.numbers);
+  else
+    return false;
+  return true;
+}
+
+void SnapshotSource::count_broken(std::vector<double>& numbers, bool open) {
+  numbers.assign(model_.body.particles, 0.0);
+  for (const Breakage& breakage : simulation_.breakages()) {
+    if ((simulation_.elongation_now(breakage) > 0) != open) continue;
+    numbers[breakage.a] += 1;
+    numbers[breakage.b] += 1;
+  }
+}
+
+void SnapshotSource::compute_damage(std::vector<double>& numbers) {
+  const Body& body = model_.body;
+  if (springs_of_.empty()) {
+    springs_of_.assign(body.particles, 0);
+    for (Particle a = 0; a < body.particles; ++a) {
+      const Site site = body.site(a);
+      for (const Neighbour& neighbour : body.neighbours) {
+        const Particle b = body.at({site.i + neighbour.dx, site.j + neighbour.dy, site.k + neighbour.dz});
+        if (b == Body::no_particle) continue;
+        ++springs_of_[a];
+        ++springs_of_[b];
+      }
+    }
+  }
+  numbers.assign(body.particles, 0.0);
+  for (const Breakage& breakage : simulation_.breakages()) {
+    numbers[breakage.a] += 1;
+    numbers[breakage.b] += 1;
+  }
+  for (Particle a = 0; a < body.particles; ++a)
+    if (springs_of_[a] > 0) numbers[a] /= springs_of_[a];
+}
+
+}  // namespace hyperlattice

@@ -1,0 +1,46 @@
+// What writers and probes see of a running simulation.
+#pragma once
+
+#include <run/state.hpp>
+
+#include <hyperlattice/output.hpp>
+
+#include <exception>
+#include <map>
+#include <string>
+
+namespace hyperlattice {
+
+/// Makes snapshots of the present state. A field is computed when it is first asked for at an instant; others cost nothing.
+class SnapshotSource {
+ public:
+  SnapshotSource(const Model& model, const Simulation& simulation);
+  SnapshotSource(const SnapshotSource&) = delete;
+  SnapshotSource& operator=(const SnapshotSource&) = delete;
+
+  /// The present state; valid until the next call, and while the simulation stands still.
+  const Snapshot& take();
+  /// Throws what went wrong while a field was computed inside a plugin's call, if anything did.
+  void rethrow();
+
+ private:
+  struct Values {
+    std::uint32_t components = 1;
+    bool current = false;
+    std::vector<double> numbers;
+  };
+  bool field(std::string_view name, Field& out);
+  bool compute(std::string_view name, Values& values);
+  void count_broken(std::vector<double>& numbers, bool open);
+  void compute_damage(std::vector<double>& numbers);
+
+  const Model& model_;
+  const Simulation& simulation_;
+  Snapshot snapshot_;
+  std::vector<double> positions_;
+  std::map<std::string, Values, std::less<>> fields_;
+  std::vector<std::uint8_t> springs_of_;  ///< of each particle at the start; filled when damage is first asked for
+  std::exception_ptr thrown_;
+};
+
+}  // namespace hyperlattice

@@ -1,0 +1,28 @@
+// summary.json: what a run was and how it ended.
+#pragma once
+
+#include <plan/plan.hpp>
+#include <run/history.hpp>
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace hyperlattice {
+
+/// How a run went.
+struct Outcome {
+  std::string status = "done";  ///< "done", "failed", "interrupted"
+  std::string reason;           ///< of a status other than done, a sentence
+  int exit_code = 0;
+  double setup_seconds = 0, solve_seconds = 0, output_seconds = 0;
+  Record last;                           ///< the latest record with finite numbers
+  double largest_relative_error = 0;     ///< of the energy balance, over all records
+  std::vector<double> injected_by_load;  ///< J
+  std::uint64_t steps = 0;               ///< taken
+  double time = 0;                       ///< reached, s
+  std::uint64_t state_hash = 0;
+};
+
+/// The keys that product.md names, and a few more.
+nlohmann::json summary_json(const Plan& plan, const Outcome& outcome);
+
+}  // namespace hyperlattice

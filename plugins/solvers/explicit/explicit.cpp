@@ -1,0 +1,119 @@
+// Explicit dynamics by central differences (velocity at half steps, displacement at whole ones):
+//
+//   v(n+1/2) = v(n-1/2) + dt F(u(n)) / m        u(n+1) = u(n) + dt v(n+1/2)
+//
+// stable for dt < dt_c = 2 / omega_max. With Cundall's local damping F becomes F - alpha |F| sign(v), and the limit dt_c / sqrt(1 + alpha).
+// Steps land exactly on the corners of the loads and on the end: between two of these instants all steps are equal.
+#include <hyperlattice/files.hpp>
+#include <hyperlattice/solver.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace hyperlattice {
+
+/// Equal steps up to an instant on which one must land.
+struct Segment {
+  double end = 0;  ///< s
+  std::uint64_t steps = 0;
+  double time_step = 0;  ///< s
+};
+
+/// Cuts [start, end] at the corners and each part into equal steps no longer than `longest`.
+inline std::vector<Segment> land(double start, double end, std::span<const double> corners, double longest) {
+  const double nearby = 1e-9 * longest;  // instants nearer than this are one
+  const double round_off = 1 - 1e-12;    // so that a step which divides the length is taken as it is
+  std::vector<Segment> segments;
+  double from = start;
+  const auto reach = [&](double to) {
+    const double parts = std::ceil((to - from) / longest * round_off);
+    if (!(parts < 1e15)) throw std::runtime_error("the time step is too small against the end time: more than 1e15 steps");
+    const auto steps = static_cast<std::uint64_t>(std::max(1.0, parts));
+    segments.push_back({to, steps, (to - from) / static_cast<double>(steps)});
+    from = to;
+  };
+  for (const double corner : corners)
+    if (corner > from + nearby && corner < end - nearby) reach(corner);
+  if (end > from) reach(end);
+  return segments;
+}
+
+class Explicit {
+ public:
+  struct Options {
+    double end_time = 0;
+    std::optional<double> time_step;
+    double safety = 0.9;
+    double damping = 0;
+  };
+
+  static Schema<Options> schema() {
+    return Schema<Options>("solvers.explicit", "Explicit dynamics by central differences, up to an instant")
+        .equation("v(n+1/2) = v(n-1/2) + dt (F - damping |F| sign(v)) / m,  u(n+1) = u(n) + dt v(n+1/2);  dt < dt_c / sqrt(1 + damping)")
+        .source("Zhao 2017, section 2.2 (central differences, local damping); limit: 2 / omega_max of the lattice by Bloch analysis")
+        .restrictions("Steps land on the corners of the loads and on end_time, so they may be a little shorter than time_step.")
+        .add<&Options::end_time>("end_time", "s", "instant at which the stage ends, counted from the start of the whole run, not of the stage")
+        .positive()
+        .add<&Options::time_step>("time_step", "s",
+                                  "longest step; auto: the fraction `safety` of the stable one; a number above the stable step is refused")
+        .word("auto")
+        .fallback("\"auto\"")
+        .positive()
+        .add<&Options::safety>("safety", "", "fraction of the stable step that auto takes; 0.8 for large strains")
+        .above(0)
+        .below(1)
+        .fallback("0.9")
+        .add<&Options::damping>("damping", "", "local non-viscous damping alpha, towards a static solution; 0: none")
+        .at_least(0)
+        .below(1)
+        .fallback("0");
+  }
+
+  explicit Explicit(const Options& options) : options_(options) {}
+
+  SolverPlan plan(const SolverFacts& facts) const {
+    SolverPlan plan;
+    plan.end_time = options_.end_time;
+    plan.damping = options_.damping;
+    plan.stable_time_step = facts.critical_time_step / std::sqrt(1 + options_.damping);
+    for (const Segment& segment : segments(facts)) {
+      plan.steps += segment.steps;
+      plan.time_step = std::max(plan.time_step, segment.time_step);
+    }
+    return plan;
+  }
+
+  void run(const SolverFacts& facts, SolverHost& host) const {
+    if (!host.observe()) return;
+    for (const Segment& segment : segments(facts))
+      for (std::uint64_t n = 1; n <= segment.steps; ++n) {
+        const bool last = n == segment.steps;  // takes what round-off left, to land exactly
+        if (!host.step(last ? segment.end - host.time : segment.time_step) || !host.observe()) return;
+      }
+  }
+
+ private:
+  std::vector<Segment> segments(const SolverFacts& facts) const {
+    if (!(options_.end_time > facts.start_time))
+      throw std::runtime_error("end_time after " + short_number(facts.start_time) +
+                               " s, where the stage starts: it counts from the start of the whole run");
+    const double stable = facts.critical_time_step / std::sqrt(1 + options_.damping);
+    const double longest = options_.time_step.value_or(options_.safety * stable);
+    if (!(longest <= stable))
+      throw std::runtime_error(
+          "time_step of at most " + short_number(stable) + " s, the stable limit" +
+          (options_.damping > 0 ? " (the critical step " + short_number(facts.critical_time_step) + " s over sqrt(1 + damping))" : "") +
+          "; \"auto\" takes " + short_number(options_.safety * stable) + " s");
+    return land(facts.start_time, options_.end_time, facts.corners, longest);
+  }
+
+  Options options_;
+};
+
+}  // namespace hyperlattice
+
+HYPERLATTICE_PLUGIN("1.0") { plugin.add<hyperlattice::Explicit>(); }
