@@ -1,0 +1,14 @@
+// Registers a table of functions with one missing.
+#include "law.hpp"
+
+struct Hollow : Law {
+  using Law::Law;
+};
+
+template <>
+struct hyperlattice::detail::FunctionsOf<Hollow> {
+  static constexpr Family family = Family::failures;
+  static constexpr FailureFunctions table{nullptr, nullptr};
+};
+
+HYPERLATTICE_PLUGIN("1.0") { plugin.add<Hollow>(); }

@@ -1,0 +1,4 @@
+// Forgets to register.
+#include "law.hpp"
+
+HYPERLATTICE_PLUGIN("1.0") { static_cast<void>(plugin); }
