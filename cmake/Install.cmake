@@ -1,0 +1,24 @@
+# The installed tree: program, runtime, plugins, what a plugin author compiles against, and the project to start from. It may be moved as a whole.
+include(CMakePackageConfigHelpers)
+
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/Hyperlattice)
+set(share ${CMAKE_INSTALL_DATADIR}/hyperlattice)
+
+install(TARGETS hyperlattice LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(DIRECTORY core/include/hyperlattice DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(TARGETS hyperlattice_sdk EXPORT HyperlatticeTargets)
+install(EXPORT HyperlatticeTargets NAMESPACE Hyperlattice:: DESTINATION ${package})
+
+configure_package_config_file(cmake/HyperlatticeConfig.cmake.in ${PROJECT_BINARY_DIR}/HyperlatticeConfig.cmake INSTALL_DESTINATION ${package}
+                              PATH_VARS CMAKE_INSTALL_BINDIR)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/HyperlatticeConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/HyperlatticeConfig.cmake ${PROJECT_BINARY_DIR}/HyperlatticeConfigVersion.cmake
+              cmake/HyperlatticePlugin.cmake DESTINATION ${package})
+
+install(DIRECTORY plugins/starter DESTINATION ${share})
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+foreach(folder docs scenes)
+  if(IS_DIRECTORY ${PROJECT_SOURCE_DIR}/${folder})
+    install(DIRECTORY ${folder}/ DESTINATION ${share}/${folder} FILES_MATCHING PATTERN "*.md" PATTERN "*.json" PATTERN "*.png" PATTERN "*.svg")
+  endif()
+endforeach()
