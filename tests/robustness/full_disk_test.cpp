@@ -65,7 +65,7 @@ TEST(AtomicFile, SaysWhyTheSystemRefuses) {
 }
 
 class FullDisk : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Types, FullDisk, testing::Values("writers.vtu", "writers.csv"));
+INSTANTIATE_TEST_SUITE_P(Types, FullDisk, testing::Values("writers.vtu", "writers.csv", "writers.picture"));
 
 TEST_P(FullDisk, LeavesEarlierFramesIntact) {
   Folder folder("full_disk");

@@ -12,6 +12,7 @@
 #include <deque>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -151,6 +152,7 @@ class FakeBody {
     displacements.resize(positions_.size());
     velocities.resize(positions_.size());
     open.assign(all_.size(), 0);
+    closed.assign(all_.size(), 0);
     for (std::size_t n = 0; n < all_.size(); ++n) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const double x = positions_[3 * n + axis], next = positions_[3 * n + (axis + 1) % 3];
@@ -158,6 +160,7 @@ class FakeBody {
         velocities[3 * n + axis] = x - spacing_ + 2 * time * next;
       }
       if (n % 5 == 0) open[n] = 1 + static_cast<double>(n % 3);
+      if (n % 10 == 0) closed[n] = 1;
     }
     Snapshot snapshot;
     snapshot.time = time;
@@ -174,6 +177,8 @@ class FakeBody {
         field = {3, body.velocities};
       else if (name == "broken_open")
         field = {1, body.open};
+      else if (name == "broken_closed")
+        field = {1, body.closed};
       else
         return false;
       return true;
@@ -184,7 +189,7 @@ class FakeBody {
   const std::vector<double>& positions() const { return positions_; }
   const std::vector<Particle>& some() const { return some_; }
 
-  std::vector<double> displacements, velocities, open;
+  std::vector<double> displacements, velocities, open, closed;
 
  private:
   double spacing_;

@@ -48,7 +48,7 @@ TEST(PointProbe, RefusesWhatItCannotGive) {
   Plugin away("probes.point", {{"position", {0.0, 0.0, 9e-3}}});
   EXPECT_EQ(refusal(away, body), "no particle is near (0 0 0.009); the nearest stands at (0.0005 0.0005 0.0035) (metres)");
   Plugin missing("probes.point", {{"position", {0.0, 0.0, 0.0}}, {"field", "height"}});
-  EXPECT_EQ(refusal(missing, body), "this run has no field \"height\"; it has displacement, velocity, broken_open");
+  EXPECT_EQ(refusal(missing, body), "this run has no field \"height\"; it has displacement, velocity, broken_open, broken_closed");
   const auto faults = Plugin("probes.point", {{"position", {0.0, 0.0, 0.0}}, {"field", "damage"}, {"component", "x"}}).faults();
   EXPECT_EQ(faults, std::vector<std::string>{"component: no component, because \"damage\" is a single number"});
 }

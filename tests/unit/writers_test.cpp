@@ -101,12 +101,12 @@ TEST_P(EveryWriter, RefusesAFieldThatTheRunLacks) {
   Folder folder("missing_field");
   FakeBody body({2, 2, 2});
   Plugin writer(GetParam(), {{"fields", {"height"}}});
-  const std::string expected = "this run has no field \"height\"; it has displacement, velocity, broken_open";
+  const std::string expected = "this run has no field \"height\"; it has displacement, velocity, broken_open, broken_closed";
   OutputContext context = body.context(folder.path());
   writer.begin(context);  // a context that does not know the fields leaves it to the first frame
   EXPECT_EQ(refusal(writer, body.at(0)), expected);
   EXPECT_TRUE(folder.names().empty());
-  const std::string_view present[] = {"displacement", "velocity", "broken_open"};
+  const std::string_view present[] = {"displacement", "velocity", "broken_open", "broken_closed"};
   context.fields = present;
   try {
     writer.begin(context);
