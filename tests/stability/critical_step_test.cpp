@@ -1,0 +1,40 @@
+// The critical time step is neither lax nor idle: every membrane is stable at 0.99 of it and unstable at 1.02.
+#include <support/scenes.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+using namespace hyperlattice;
+using namespace hyperlattice::test;
+
+class CriticalStep : public testing::TestWithParam<MembraneCase> {};
+INSTANTIATE_TEST_SUITE_P(Membranes, CriticalStep, testing::ValuesIn(membranes), [](const auto& info) { return std::string(info.param.name); });
+
+/// How much the largest displacement grows over a while, from noise so small that the springs stay linear.
+double growth(const Model& model, double fraction, double damping) {
+  Simulation simulation(model, 2);
+  simulation.set_damping(damping);
+  const double size = 1e-14;
+  simulation.set_displacements(noise(3 * model.body.particles, size, 1),
+                               model.degrees_of_freedom == 4 ? noise(model.body.particles, size, 2) : std::vector<double>{});
+  for (int n = 0; n < 600; ++n) simulation.step(fraction * model.critical_time_step);
+  const double found = largest(displacements(simulation));
+  return std::isfinite(found) ? found / size : HUGE_VAL;
+}
+
+TEST_P(CriticalStep, IsStableJustBelowAndUnstableJustAbove) {
+  const auto plan = plan_of(block(18, 18, 18, GetParam().material));
+  EXPECT_LT(growth(*plan->model, 0.99, 0), 100);
+  EXPECT_GT(growth(*plan->model, 1.02, 0), 1e6);
+}
+
+TEST_P(CriticalStep, HasATighterLimitWithLocalDamping) {
+  const auto plan = plan_of(block(12, 12, 12, GetParam().material));
+  const double limit = 1 / std::sqrt(1.8);
+  EXPECT_LT(growth(*plan->model, 0.97 * limit, 0.8), 10);
+  EXPECT_GT(growth(*plan->model, 1.06 * limit, 0.8), 100);
+}
+
+}  // namespace

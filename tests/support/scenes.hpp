@@ -1,0 +1,87 @@
+// Small scenes for tests, planned through the ordinary runtime: nothing is built by hand that a user would not build by JSON.
+#pragma once
+
+#include <plan/plan.hpp>
+#include <run/state.hpp>
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace hyperlattice::test {
+
+/// Plans a scene given as text.
+inline std::unique_ptr<Plan> plan_of(const std::string& scene, int threads = 1) {
+  static int count = 0;
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("hyperlattice_scene_" + std::to_string(::getpid()) + "_" + std::to_string(count++) + ".json");
+  std::ofstream(file) << scene;
+  Host host;
+  auto read = read_scene(file, {}, host);
+  std::filesystem::remove(file);
+  return make_plan(std::move(read), threads);
+}
+
+/// A free block of nx * ny * nz particles, 1 mm apart, corner at the origin, with `material` (the keys of a material after its constants) and
+/// more stages.
+inline std::string block(int nx, int ny, int nz, const std::string& material = R"("poisson": 0.25)", const std::string& stages = "") {
+  const auto size = [](int n) { return std::to_string(n) + "e-3"; };
+  return R"({ "format": "hyperlattice/1", "pipeline": [
+    { "type": "lattices.cubic", "spacing": 1e-3, "shape": { "box": { "low": [0, 0, 0], "high": [)" +
+         size(nx) + ", " + size(ny) + ", " + size(nz) + R"(] } } },
+    { "type": "materials.elastic", "young": 1e10, "density": 2500, )" +
+         material + " }" + (stages.empty() ? "" : ",\n" + stages) + R"(,
+    { "type": "solvers.explicit", "end_time": 1e-6 } ] })";
+}
+
+/// The material's keys for each membrane that the paper names, with a Poisson ratio in its reach.
+struct MembraneCase {
+  const char* name;
+  const char* material;
+};
+inline const MembraneCase membranes[] = {
+    {"none", R"("poisson": 0.25)"},
+    {"I", R"("membrane": "I", "poisson": 0.1)"},
+    {"II", R"("membrane": "II", "poisson": 0.1)"},
+    {"III", R"("membrane": "III", "lambda": 2)"},
+    {"IV", R"("membrane": "IV", "poisson": 0.1)"},
+    {"IV_negative", R"("membrane": "IV", "poisson": 0.3)"},
+    {"I_m", R"("membrane": "I-m", "poisson": 0.1)"},
+    {"I_m_small_ratio", R"("membrane": "I-m", "poisson": 0.23)"},
+    {"free", R"("membrane": "free", "k_alpha": 0.5, "k_beta": 1.5, "k_gamma": 0.4)"},
+};
+
+/// Displacements drawn evenly from [-amplitude, amplitude], the same in every run.
+inline std::vector<double> noise(std::size_t count, double amplitude, unsigned seed = 1) {
+  std::mt19937_64 random(seed);
+  std::vector<double> values(count);
+  for (double& value : values) value = amplitude * (2 * (static_cast<double>(random() >> 11) * 0x1p-53) - 1);
+  return values;
+}
+
+inline std::vector<double> displacements(const Simulation& simulation) {
+  std::vector<double> values;
+  simulation.displacements(values);
+  return values;
+}
+
+inline double largest(const std::vector<double>& values) {
+  double found = 0;
+  for (const double value : values) found = std::max(found, std::abs(value));
+  return found;
+}
+
+/// Largest difference of two fields.
+inline double distance(const std::vector<double>& a, const std::vector<double>& b) {
+  double found = 0;
+  for (std::size_t n = 0; n < a.size(); ++n) found = std::max(found, std::abs(a[n] - b[n]));
+  return found;
+}
+
+}  // namespace hyperlattice::test
