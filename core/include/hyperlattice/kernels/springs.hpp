@@ -16,6 +16,12 @@ namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 using Membrane = KernelChoice::Membrane;
 constexpr int components_of(Membrane membrane) { return membrane == Membrane::free ? 4 : 3; }
 
+/// A law may say `static constexpr bool linear = true`: its force is proportional to the elongation, which saves arithmetic.
+template <class Law>
+constexpr bool is_linear = requires {
+  requires Law::linear;
+};
+
 /// A spring after its law was asked: force along it divided by its length, and what it stores.
 struct Response {
   Pack force_over_length, energy, q;
@@ -27,7 +33,7 @@ inline Response respond(Pack stiffness, double rest_length, Pack q) {
   const Pack length = root(rest_length * rest_length + q);
   const Pack inverse = 1.0 / (length * (length + rest_length));
   Response response{{}, {}, q};
-  if constexpr (Law::linear) {
+  if constexpr (is_linear<Law>) {
     response.force_over_length = Law::force(stiffness, q * inverse);
     if constexpr (Energy) response.energy = Law::energy(stiffness, q * length * inverse);
   } else {
@@ -150,12 +156,16 @@ struct Springs {
 
   static void constants_of_lanes(const KernelRequest& request, const RowPair<components>& pair, const NeighbourGeometry& neighbour, int t,
                                  Pack& base_stiffness, Pack& cross_stiffness, Pack& alarm) {
+    double base[lanes], cross[lanes], alarms[lanes];
     for (int lane = 0; lane < lanes; ++lane) {
       const SpringConstants& constants = between(request, pair, neighbour, t + lane);
-      base_stiffness[lane] = constants.stiffness;
-      cross_stiffness[lane] = constants.cross_stiffness;
-      alarm[lane] = squared_growth(neighbour.rest_length, constants.alarm);
+      base[lane] = constants.stiffness;
+      cross[lane] = constants.cross_stiffness;
+      alarms[lane] = squared_growth(neighbour.rest_length, constants.alarm);
     }
+    base_stiffness = load(base);
+    cross_stiffness = load(cross);
+    alarm = load(alarms);
   }
 };
 
