@@ -27,17 +27,20 @@ struct Cadence {
 struct Stage {
   const Component* component = nullptr;
   OptionsPointer options{nullptr, [](void*) {}};
-  std::string pointer;                 ///< where it stands: "/pipeline/3"
-  std::string name;                    ///< label, unique in its family; default: type's last part, with a number if several; fit for a file's name
-  RegionId region;                     ///< materials: where the material is; default all
-  std::unique_ptr<Stage> failure;      ///< materials: the failure criterion, if any
-  Cadence cadence;                     ///< writers, probes
-  double record_every = 0;             ///< solvers: seconds between history records; 0: 200 records over the stage
-  double energy_tolerance = 0;         ///< solvers: relative balance error at which the run stops; 0: never
+  std::string pointer;             ///< where it stands: "/pipeline/3"
+  std::string name;                ///< label, unique in its family; default: type's last part, with a number if several; fit for a file's name
+  RegionId region;                 ///< materials: where the material is; default all
+  std::unique_ptr<Stage> failure;  ///< materials: the failure criterion, if any
+  Cadence cadence;                 ///< writers, probes
+  double record_every = 0;         ///< solvers: seconds between history records; 0: 200 records over the stage
+  double energy_tolerance = 0;     ///< solvers: relative balance error at which the run stops; 0: never
 
   Family family() const { return component->info.family; }
   /// The family's table of functions: stage.functions<LoadFunctions>().
-  template <class Functions> const Functions& functions() const { return *static_cast<const Functions*>(component->info.functions); }
+  template <class Functions>
+  const Functions& functions() const {
+    return *static_cast<const Functions*>(component->info.functions);
+  }
 };
 
 struct Scene {

@@ -1,0 +1,63 @@
+#include <scene/expectation.hpp>
+#include <scene/option_reader.hpp>
+#include <scene/value_reader.hpp>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace hyperlattice {
+
+OptionReader::OptionReader(const Json& object, std::string pointer, Reading reading, std::vector<std::string> keys)
+    : object_(object), pointer_(std::move(pointer)), reading_(reading), known_(std::move(keys)) {}
+
+OptionsPointer OptionReader::fill(const OptionSet& set, Json& resolved) {
+  OptionsPointer options(set.create(), set.destroy);
+  bool good = true;
+  for (const Option& option : set.options) {
+    known_.emplace_back(option.name);
+    good = fill_one(option, options.get(), resolved) && good;
+  }
+  if (!good || !check(set, options.get())) options.reset();
+  return options;
+}
+
+bool OptionReader::fill_one(const Option& option, void* options, Json& resolved) {
+  const std::string name(option.name), pointer = member(pointer_, option.name);
+  ReadValue value;
+  const auto given = object_.find(name);
+  if (given == object_.end() && option.fallback.empty()) {
+    if (!option.optional) {
+      reading_.faults.add(pointer, "", expectation(option) + " (it is required, but missing)");
+      return false;
+    }
+    value.plain.absent = true;
+  } else {
+    Json si;
+    if (!read_value(option, given != object_.end() ? *given : Json::parse(option.fallback), pointer, reading_, value, si)) return false;
+    resolved[name] = std::move(si);
+  }
+  option.set(options, value.plain);
+  return true;
+}
+
+bool OptionReader::check(const OptionSet& set, const void* options) {
+  if (set.check == nullptr) return true;
+  const std::size_t before = reading_.faults.size();
+  set.check(options, {this, [](void* self, std::string_view option, std::string_view expected) noexcept {
+                        const OptionReader& reader = *static_cast<OptionReader*>(self);
+                        const auto given = option.empty() ? reader.object_.end() : reader.object_.find(std::string(option));
+                        reader.reading_.faults.add(option.empty() ? reader.pointer_ : member(reader.pointer_, option),
+                                                   given == reader.object_.end() ? "" : shown(*given), std::string(expected));
+                      }});
+  return reading_.faults.size() == before;
+}
+
+void OptionReader::reject_unknown() {
+  for (const auto& item : object_.items())
+    if (std::find(known_.begin(), known_.end(), item.key()) == known_.end())
+      reading_.faults.add(member(pointer_, item.key()), shown(item.value()), "no such key here" + did_you_mean(item.key(), known_));
+}
+
+}  // namespace hyperlattice

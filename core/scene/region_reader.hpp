@@ -1,0 +1,53 @@
+// Region expressions of a scene: a name, a primitive solid, or a set of regions.
+#pragma once
+
+#include <geometry/region.hpp>
+#include <scene/json.hpp>
+
+#include <deque>
+#include <map>
+#include <optional>
+
+namespace hyperlattice {
+
+/// The keys of sets in a region expression, with what they mean.
+struct SetOperation {
+  const char* name;
+  Region::Kind kind;
+};
+inline constexpr SetOperation set_operations[] = {
+    {"union", Region::Kind::set_union}, {"intersection", Region::Kind::intersection}, {"difference", Region::Kind::difference}};
+
+class RegionReader {
+ public:
+  /// `named` is the scene's "regions": read on demand, since they may refer to each other. Null pointers in results stand for faults, added once.
+  RegionReader(const Json& named, Regions& regions, Faults& faults, std::deque<std::string>& texts);
+
+  /// Reads every named region; `resolved` becomes the same with SI numbers.
+  void read_named(Json& resolved);
+
+  /// An expression's region, and the expression with SI numbers.
+  std::shared_ptr<const Region> read(const Json& expression, const std::string& pointer, Json& resolved);
+  /// A region's place in the scene, registered under its name or its expression.
+  std::optional<RegionId> read_id(const Json& expression, const std::string& pointer, Json& resolved);
+  /// A bounded solid, for a lattice.
+  const Shape* read_shape(const Json& expression, const std::string& pointer, Json& resolved);
+  /// The solid behind the shape read first; null if there was none.
+  std::shared_ptr<const Region> first_solid() const { return first_solid_; }
+
+ private:
+  std::shared_ptr<const Region> read_name(const std::string& name, const std::string& pointer);
+  std::shared_ptr<const Region> read_primitive(const std::string& key, const Json& parameters, const std::string& pointer, Json& resolved);
+  std::shared_ptr<const Region> read_set(const SetOperation& operation, const Json& parts, const std::string& pointer, Json& resolved);
+
+  const Json& named_;
+  Regions& regions_;
+  Faults& faults_;
+  std::deque<std::string>& texts_;
+  std::map<std::string, std::shared_ptr<const Region>> done_;
+  std::map<std::string, std::string> resolved_;  // JSON text of the named regions that are done
+  std::vector<std::string> under_way_;
+  std::shared_ptr<const Region> first_solid_;
+};
+
+}  // namespace hyperlattice

@@ -1,0 +1,120 @@
+#include <scene/common_options.hpp>
+#include <scene/expectation.hpp>
+#include <scene/option_reader.hpp>
+#include <scene/scene_reader.hpp>
+#include <scene/settings.hpp>
+#include <scene/stage_reader.hpp>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace hyperlattice {
+
+namespace {
+
+constexpr std::string_view format = "hyperlattice/1";
+
+/// The top level's keys of plain kinds.
+struct Heading {
+  std::string format, title;
+  std::vector<std::string> plugins;
+};
+struct HeadingSchema {
+  using Options = Heading;
+  static Schema<Heading> schema() {
+    static constexpr std::string_view formats[] = {format};
+    return Schema<Heading>("", "")
+        .add<&Heading::format>("format", "", "the format of the scene")
+        .choices(formats)
+        .add<&Heading::title>("title", "", "what the scene shows")
+        .fallback("\"\"")
+        .add<&Heading::plugins>("plugins", "", "folders and libraries of plugins, relative to the scene's folder, searched before all others")
+        .fallback("[]");
+  }
+};
+
+class SceneReader {
+ public:
+  SceneReader(const Json& given, Scene& scene, Faults& faults, Catalogue& catalogue)
+      : given_(given), scene_(scene), faults_(faults), catalogue_(catalogue), regions_(named_regions(), scene.regions, faults, scene.texts) {}
+
+  void read() {
+    if (!given_.is_object()) return faults_.add("", shown(given_), "an object with format and pipeline");
+    Json resolved;
+    OptionReader reader(given_, "", reading(), {"regions", "pipeline"});
+    const OptionsPointer heading = reader.fill(option_set<HeadingSchema>(), resolved);
+    if (heading) scene_.title = static_cast<const Heading*>(heading.get())->title;
+    read_plugins(resolved);
+    resolved["regions"] = Json::object();
+    if (given_.contains("regions") && !given_["regions"].is_object())
+      faults_.add("/regions", shown(given_["regions"]), "an object that gives names to regions");
+    regions_.read_named(resolved["regions"]);
+    StageReader stages(reading(), catalogue_, refusals_);
+    resolved["pipeline"] = stages.read(given_, scene_.stages);
+    scene_.body = regions_.first_solid();
+    reader.reject_unknown();
+    finish();
+    scene_.resolved = resolved.dump(2) + '\n';
+  }
+
+ private:
+  Reading reading() { return {faults_, regions_, scene_.texts}; }
+
+  const Json& named_regions() const {
+    static const Json none = Json::object();
+    if (!given_.is_object() || !given_.contains("regions") || !given_["regions"].is_object()) return none;
+    return given_["regions"];
+  }
+
+  /// Also the entries that are well-formed when others are not: their components are needed to check the stages.
+  void read_plugins(Json& resolved) {
+    if (!given_.contains("plugins") || !given_["plugins"].is_array()) return;
+    const Json& entries = given_["plugins"];
+    for (std::size_t n = 0; n < entries.size(); ++n) {
+      if (!entries[n].is_string()) continue;
+      const auto outcomes = catalogue_.add_scene_paths({entries[n].get<std::string>()}, scene_.file.parent_path());
+      const SearchOutcome& outcome = outcomes.front();
+      if (outcome.absent)
+        faults_.add(member("/plugins", n), shown(entries[n]), fmt::format("a folder or library; there is no {}", outcome.path.string()));
+      else if (!outcome.accepted)
+        refusals_.push_back({member("/plugins", n), shown(entries[n]), outcome.reason});
+      if (resolved.contains("plugins")) resolved["plugins"][n] = outcome.path.string();
+    }
+  }
+
+  /// Refused libraries are the outside's failure, unless the input is wrong as well.
+  void finish() {
+    if (!faults_.empty())
+      for (const Fault& refusal : refusals_) faults_.add(refusal.pointer, refusal.value, "a library that can be loaded (" + refusal.expected + ")");
+    faults_.throw_if_any();
+    std::string message;
+    for (const Fault& refusal : refusals_) message += fmt::format("{}{}: {}", message.empty() ? "" : "\n", refusal.pointer, refusal.expected);
+    if (!message.empty()) throw OutsideError(message);
+  }
+
+  const Json& given_;
+  Scene& scene_;
+  Faults& faults_;
+  Catalogue& catalogue_;
+  RegionReader regions_;
+  std::vector<Fault> refusals_;  // of libraries: pointer and value of where they are named, and the reason
+};
+
+}  // namespace
+
+std::unique_ptr<Scene> read_scene_text(std::string_view text, const std::filesystem::path& file, const std::vector<std::string>& settings,
+                                       Catalogue& catalogue) {
+  Faults faults;
+  Json json;
+  if (!parse_json(text, json, faults)) faults.throw_if_any();
+  apply_settings(json, settings, faults);
+  auto scene = std::make_unique<Scene>();
+  scene->file = std::filesystem::absolute(file);
+  SceneReader(json, *scene, faults, catalogue).read();
+  faults.throw_if_any();
+  return scene;
+}
+
+}  // namespace hyperlattice

@@ -1,0 +1,160 @@
+// The JSON Schema of a scene, from the declarations of components, shapes and common keys.
+#include <geometry/primitives.hpp>
+#include <scene/common_options.hpp>
+#include <scene/region_reader.hpp>
+#include <scene/scene.hpp>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace hyperlattice {
+
+namespace {
+
+constexpr const char* number_with_unit =
+    R"(^\s*[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?\s*[^\s0-9.+-].*$|^\s*[-+]?[0-9.]+([eE][-+]?[0-9]+)?\s+1/.+$)";
+
+Json reference(const std::string& definition) { return {{"$ref", fmt::format("#/$defs/{}", definition)}}; }
+
+Json bounded(const Option& option, const char* type) {
+  Json number{{"type", type}};
+  if (option.low != -infinity) number[option.low_open ? "exclusiveMinimum" : "minimum"] = option.low;
+  if (option.high != infinity) number[option.high_open ? "exclusiveMaximum" : "maximum"] = option.high;
+  return number;
+}
+
+/// A plain SI number, or a text with a unit.
+Json quantity(const Option& option) { return {{"anyOf", {bounded(option, "number"), reference("quantity")}}}; }
+
+Json choices(const Option& option) { return {{"enum", std::vector<std::string>(option.choices.begin(), option.choices.end())}}; }
+
+Json value_schema(const Option& option) {
+  switch (option.kind) {
+    case OptionKind::number:
+      return quantity(option);
+    case OptionKind::integer:
+      return bounded(option, "integer");
+    case OptionKind::boolean:
+      return {{"type", "boolean"}};
+    case OptionKind::text:
+      return {{"type", "string"}};
+    case OptionKind::choice:
+      return choices(option);
+    case OptionKind::vector:
+      return {{"type", "array"}, {"items", quantity(option)}, {"minItems", 3}, {"maxItems", 3}};
+    case OptionKind::numbers:
+      return {{"type", "array"}, {"items", quantity(option)}};
+    case OptionKind::texts:
+      return {{"type", "array"}, {"items", option.choices.empty() ? Json{{"type", "string"}} : choices(option)}};
+    case OptionKind::shape:
+      return reference("solid");
+    case OptionKind::region:
+      return reference("region");
+  }
+  return true;
+}
+
+Json option_schema(const Option& option) {
+  Json value = value_schema(option);
+  if (!option.word.empty()) value = {{"anyOf", {std::move(value), {{"const", option.word}}}}};
+  value["description"] = option.unit.empty() ? std::string(option.help) : fmt::format("{} [{}]", option.help, option.unit);
+  if (!option.fallback.empty()) value["default"] = Json::parse(option.fallback);
+  return value;
+}
+
+/// Adds options to the schema of an object.
+void declare(Json& object, std::span<const Option> options) {
+  for (const Option& option : options) {
+    object["properties"][std::string(option.name)] = option_schema(option);
+    if (option.fallback.empty() && !option.optional) object["required"].push_back(option.name);
+  }
+}
+
+Json object_schema(std::string_view description) {
+  return {
+      {"type", "object"}, {"description", description}, {"properties", Json::object()}, {"required", Json::array()}, {"additionalProperties", false}};
+}
+
+Json component_schema(const ComponentInfo& info) {
+  Json object = object_schema(info.summary);
+  object["properties"]["type"] = {{"const", info.name}};
+  object["required"].push_back("type");
+  declare(object, info.options);
+  declare(object, common_options(info.family).options);
+  if (info.family == Family::materials) {
+    object["properties"]["failure"] = reference("failure");
+    object["properties"]["failure"]["description"] = failure_help;
+  }
+  return object;
+}
+
+/// An object whose "type" is one of the types; that type's schema then applies.
+Json one_of(const std::vector<std::string>& types) {
+  if (types.empty()) return false;
+  Json schema{{"type", "object"}, {"required", {"type"}}, {"properties", {{"type", {{"enum", types}}}}}, {"allOf", Json::array()}};
+  for (const std::string& type : types)
+    schema["allOf"].push_back({{"if", {{"properties", {{"type", {{"const", type}}}}}, {"required", {"type"}}}}, {"then", reference(type)}});
+  return schema;
+}
+
+/// An expression: a name, a primitive, or a set of expressions of the same definition.
+Json expression(const std::string& definition, Json name) {
+  Json alternatives = Json::array({std::move(name)});
+  const auto add = [&](std::string_view key, Json content) {
+    Json object = object_schema("");
+    object.erase("description");
+    object["properties"][std::string(key)] = std::move(content);
+    object["required"].push_back(key);
+    alternatives.push_back(std::move(object));
+  };
+  for (const Primitive& primitive : primitives()) {
+    Json parameters = object_schema(primitive.summary);
+    declare(parameters, primitive.options.options);
+    add(primitive.name, std::move(parameters));
+  }
+  for (const SetOperation& operation : set_operations) add(operation.name, {{"type", "array"}, {"items", reference(definition)}, {"minItems", 1}});
+  return {{"oneOf", std::move(alternatives)}};
+}
+
+}  // namespace
+
+std::string scene_schema(const std::vector<const Component*>& components) {
+  std::vector<std::string> of_family[std::size(family_names)], stages, later;
+  Json definitions{{"quantity", {{"type", "string"}, {"description", "a number with a unit, such as \"1 mm\""}, {"pattern", number_with_unit}}},
+                   {"region", expression("region", {{"type", "string"}})},
+                   {"solid", expression("solid", {{"type", "string"}, {"not", {{"enum", built_in_region_names()}}}})}};
+  for (const Component* component : components) {
+    const Family family = component->info.family;
+    definitions[component->type()] = component_schema(component->info);
+    of_family[static_cast<std::size_t>(family)].push_back(component->type());
+    if (family != Family::failures && family != Family::lattices) later.push_back(component->type());
+  }
+  const auto types = [&](Family family) { return of_family[static_cast<std::size_t>(family)]; };
+  definitions["failure"] = one_of(types(Family::failures));
+  const auto holds = [&](Family family) {
+    Json has{{"properties", {{"type", {{"pattern", fmt::format(R"(^{}\.)", family_name(family))}}}}}, {"required", {"type"}}};
+    return Json{{"contains", std::move(has)}};
+  };
+  const Json pipeline{{"type", "array"},
+                      {"description", "the lattice first, then the other stages in their order"},
+                      {"prefixItems", Json::array({one_of(types(Family::lattices))})},
+                      {"items", one_of(later)},
+                      {"minItems", 1},
+                      {"allOf", {holds(Family::materials), holds(Family::solvers)}}};
+  Json named{{"type", "object"}, {"propertyNames", {{"not", {{"enum", built_in_region_names()}}}}}, {"additionalProperties", reference("region")}};
+  const Json scene{{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+                   {"title", "Hyperlattice scene"},
+                   {"type", "object"},
+                   {"properties",
+                    {{"format", {{"const", "hyperlattice/1"}}},
+                     {"title", {{"type", "string"}}},
+                     {"plugins", {{"type", "array"}, {"items", {{"type", "string"}}}}},
+                     {"regions", std::move(named)},
+                     {"pipeline", pipeline}}},
+                   {"required", {"format", "pipeline"}},
+                   {"additionalProperties", false},
+                   {"$defs", std::move(definitions)}};
+  return scene.dump(2);
+}
+
+}  // namespace hyperlattice

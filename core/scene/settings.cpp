@@ -1,0 +1,101 @@
+#include <scene/settings.hpp>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <charconv>
+#include <optional>
+
+namespace hyperlattice {
+
+namespace {
+
+Json value_of(const std::string& text) {
+  Json value;
+  Faults ignored;
+  if (parse_json(text, value, ignored) && ignored.empty()) return value;
+  return text;
+}
+
+/// The keys of a pointer, "~1" and "~0" put back; nothing if it is none.
+std::optional<std::vector<std::string>> keys_of(std::string_view pointer) {
+  if (pointer.empty() || pointer.front() != '/') return std::nullopt;
+  std::vector<std::string> keys;
+  for (std::size_t n = 0; n < pointer.size(); ++n) {
+    if (pointer[n] == '/') {
+      keys.emplace_back();
+    } else if (pointer[n] == '~') {
+      if (++n == pointer.size() || (pointer[n] != '0' && pointer[n] != '1')) return std::nullopt;
+      keys.back() += pointer[n] == '0' ? '~' : '/';
+    } else {
+      keys.back() += pointer[n];
+    }
+  }
+  return keys;
+}
+
+std::optional<std::size_t> index_of(std::string_view key) {
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), index);
+  if (error != std::errc() || end != key.data() + key.size() || (key.size() > 1 && key.front() == '0')) return std::nullopt;
+  return index;
+}
+
+/// The member to set; null, with what was expected in `expected`, if there is no place for it.
+Json* find(Json& scene, const std::vector<std::string>& keys, std::string& expected) {
+  Json* at = &scene;
+  std::string pointer;
+  for (std::size_t n = 0; n < keys.size(); ++n) {
+    const std::string& key = keys[n];
+    const bool last = n + 1 == keys.size();
+    if (at->is_array()) {
+      const std::size_t size = at->size();
+      const auto index = last && key == "-" ? size : index_of(key);
+      if (!index || *index > size || (*index == size && !last)) {
+        expected = fmt::format("an index into {}, which has {} {}", pointer.empty() ? "the scene" : pointer, size, size == 1 ? "entry" : "entries");
+        return nullptr;
+      }
+      at = *index == size ? &at->emplace_back() : &(*at)[*index];
+    } else if (at->is_object()) {
+      if (!last && !at->contains(key)) {
+        std::vector<std::string> present;
+        for (const auto& item : at->items()) present.push_back(item.key());
+        const std::string near = nearest(key, present);
+        expected = fmt::format("an existing parent; {} has no \"{}\"", pointer.empty() ? "the scene" : pointer, key) +
+                   (near.empty() ? "" : fmt::format(", did you mean \"{}\"?", near));
+        return nullptr;
+      }
+      at = &(*at)[key];
+    } else {
+      expected = fmt::format("an existing parent; {} is {}, which has no members", pointer.empty() ? "the scene" : pointer, shown(*at));
+      return nullptr;
+    }
+    pointer = member(pointer, key);
+  }
+  return at;
+}
+
+}  // namespace
+
+void apply_settings(Json& scene, const std::vector<std::string>& settings, Faults& faults) {
+  for (const std::string& setting : settings) {
+    const auto equals = setting.find('=');
+    const auto keys = keys_of(std::string_view(setting).substr(0, equals));
+    if (equals == std::string::npos || !keys) {
+      faults.add("--set", shown(setting), "/pointer=value with a JSON pointer such as /pipeline/0/spacing=0.001");
+      continue;
+    }
+    const Json value = value_of(setting.substr(equals + 1));
+    if (value.is_string() && Json::parse(value.dump(-1, ' ', false, Json::error_handler_t::replace)) != value) {
+      faults.add("--set " + setting.substr(0, equals), shown(value), "text in UTF-8");
+      continue;
+    }
+    std::string expected;
+    if (Json* place = find(scene, *keys, expected))
+      *place = value;
+    else
+      faults.add("--set " + setting.substr(0, equals), shown(value), expected);
+  }
+}
+
+}  // namespace hyperlattice

@@ -1,0 +1,14 @@
+// `--set /pointer=value`: changes to a scene from the command line, made before it is validated.
+#pragma once
+
+#include <scene/json.hpp>
+
+#include <vector>
+
+namespace hyperlattice {
+
+/// Each setting replaces the value at its pointer, or adds a member to an object or array that is there. What stands behind the first "="
+/// is read as JSON; if it is none, as a text.
+void apply_settings(Json& scene, const std::vector<std::string>& settings, Faults& faults);
+
+}  // namespace hyperlattice

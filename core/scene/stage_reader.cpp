@@ -1,0 +1,187 @@
+#include <scene/common_options.hpp>
+#include <scene/expectation.hpp>
+#include <scene/stage_reader.hpp>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace hyperlattice {
+
+namespace {
+
+const std::vector<std::string> all_families(std::begin(family_names), std::end(family_names));
+
+void take_common(const CommonOptions& common, Stage& stage) {
+  stage.name = common.name.value_or("");
+  stage.region = common.region;
+  stage.cadence = {common.every, common.first, common.last};
+  stage.record_every = common.record_every.value_or(0);
+  stage.energy_tolerance = common.energy_tolerance;
+}
+
+/// Whether a component declares a key that belongs to the core; its options could not be told apart.
+std::string taken_key(const ComponentInfo& info) {
+  std::vector<std::string_view> keys{"type"};
+  for (const Option& option : common_options(info.family).options) keys.push_back(option.name);
+  if (info.family == Family::materials) keys.push_back("failure");
+  for (const Option& option : info.options)
+    if (std::find(keys.begin(), keys.end(), option.name) != keys.end()) return std::string(option.name);
+  return "";
+}
+
+}  // namespace
+
+StageReader::StageReader(Reading reading, Catalogue& catalogue, std::vector<Fault>& refusals)
+    : reading_(reading), catalogue_(catalogue), refusals_(refusals) {}
+
+Json StageReader::read(const Json& scene, std::vector<Stage>& stages) {
+  Json resolved = Json::array();
+  const auto pipeline = scene.find("pipeline");
+  if (pipeline == scene.end() || !pipeline->is_array() || pipeline->empty()) {
+    reading_.faults.add("/pipeline", pipeline == scene.end() ? "" : shown(*pipeline),
+                        "a list of stages: a lattice, materials, loads, solvers, writers, probes");
+    return resolved;
+  }
+  std::vector<std::optional<Family>> families;
+  for (std::size_t n = 0; n < pipeline->size(); ++n) {
+    const Json& given = (*pipeline)[n];
+    const std::string pointer = member("/pipeline", n);
+    Json stage_resolved;
+    families.push_back(read_family(given, pointer));
+    if (families.back())
+      if (auto stage = read_stage(given, pointer, stage_resolved)) {
+        stages.push_back(std::move(*stage));
+        resolved.push_back(std::move(stage_resolved));
+      }
+  }
+  check_order(families);
+  if (stages.size() == pipeline->size()) give_names(stages, resolved);
+  return resolved;
+}
+
+/// The family that a stage's type means; nothing after a fault.
+std::optional<Family> StageReader::read_family(const Json& given, const std::string& pointer) {
+  if (!given.is_object()) {
+    reading_.faults.add(pointer, shown(given), "a stage: an object with a type");
+    return std::nullopt;
+  }
+  const auto type = given.find("type");
+  if (type == given.end() || !type->is_string()) {
+    reading_.faults.add(member(pointer, "type"), type == given.end() ? "" : shown(*type), "the type of a component: \"<family>.<name>\"");
+    return std::nullopt;
+  }
+  const std::string text = type->get<std::string>();
+  if (const auto family = family_of(text)) return family;
+  const std::string prefix = text.substr(0, text.find('.'));
+  reading_.faults.add(member(pointer, "type"), shown(*type),
+                      "a type of one of the families " + fmt::format("{}", fmt::join(all_families, ", ")) + did_you_mean(prefix, all_families));
+  return std::nullopt;
+}
+
+const Component* StageReader::find(const Json& given, const std::string& pointer, Family family) {
+  const std::string type = given["type"].get<std::string>(), at = member(pointer, "type");
+  const Component* component = catalogue_.find(type);
+  if (component == nullptr && catalogue_.refused(type)) {
+    refusals_.push_back({at, shown(given["type"]), catalogue_.why_not(type)});
+  } else if (component == nullptr) {
+    std::vector<std::string> candidates;
+    for (const std::string& known : catalogue_.known_types())
+      if (family_of(known) == family) candidates.push_back(known);
+    const std::string near = did_you_mean(type, candidates);
+    std::string all;
+    if (near.empty() && !candidates.empty()) all = fmt::format("; there {} {}", candidates.size() == 1 ? "is" : "are", fmt::join(candidates, ", "));
+    reading_.faults.add(at, shown(given["type"]), fmt::format("a known type ({}){}{}", catalogue_.why_not(type), near, all));
+  } else if (const std::string key = taken_key(component->info); !key.empty()) {
+    refusals_.push_back({at, shown(given["type"]), fmt::format("{} declares the option \"{}\", a key of the core's own", type, key)});
+    return nullptr;
+  }
+  return component;
+}
+
+std::optional<Stage> StageReader::read_stage(const Json& given, const std::string& pointer, Json& resolved) {
+  const Family family = *family_of(given["type"].get<std::string>());
+  if (family == Family::failures) {
+    reading_.faults.add(member(pointer, "type"), shown(given["type"]), "a failure criterion inside its material, as its \"failure\"");
+    return std::nullopt;
+  }
+  Stage stage;
+  stage.component = find(given, pointer, family);
+  if (stage.component == nullptr) return std::nullopt;
+  stage.pointer = pointer;
+  resolved = {{"type", given["type"]}, {"name", ""}};
+
+  std::vector<std::string> keys{"type"};
+  const auto failure = family == Family::materials ? given.find("failure") : given.end();
+  if (family == Family::materials) keys.emplace_back("failure");
+  OptionReader reader(given, pointer, reading_, std::move(keys));
+  const OptionsPointer common = reader.fill(common_options(family), resolved);
+  stage.options = reader.fill(option_set(stage.component->info), resolved);
+  reader.reject_unknown();
+  if (failure != given.end()) stage.failure = read_failure(*failure, member(pointer, "failure"), resolved["failure"]);
+  if (!common || !stage.options || (failure != given.end() && !stage.failure)) return std::nullopt;
+  take_common(*static_cast<const CommonOptions*>(common.get()), stage);
+  return stage;
+}
+
+std::unique_ptr<Stage> StageReader::read_failure(const Json& given, const std::string& pointer, Json& resolved) {
+  const auto family = read_family(given, pointer);
+  if (!family) return nullptr;
+  if (*family != Family::failures) {
+    reading_.faults.add(member(pointer, "type"), shown(given["type"]), "a type of the family failures");
+    return nullptr;
+  }
+  auto stage = std::make_unique<Stage>();
+  stage->component = find(given, pointer, Family::failures);
+  if (stage->component == nullptr) return nullptr;
+  stage->pointer = pointer;
+  const std::string type = stage->component->type();
+  stage->name = type.substr(type.rfind('.') + 1);
+  resolved = {{"type", given["type"]}};
+  OptionReader reader(given, pointer, reading_, {"type"});
+  stage->options = reader.fill(option_set(stage->component->info), resolved);
+  reader.reject_unknown();
+  return stage->options ? std::move(stage) : nullptr;
+}
+
+void StageReader::check_order(const std::vector<std::optional<Family>>& families) {
+  const bool all_known = std::all_of(families.begin(), families.end(), [](const auto& family) { return family.has_value(); });
+  const auto count = [&](Family family) { return std::count(families.begin(), families.end(), family); };
+  bool lattice_seen = families.front() == Family::lattices;
+  for (std::size_t n = 1; n < families.size(); ++n)
+    if (families[n] == Family::lattices) {
+      reading_.faults.add(member("/pipeline", n), "", lattice_seen ? "no second lattice" : "the lattice as the first stage of the pipeline");
+      lattice_seen = true;
+    }
+  if (!all_known) return;  // what seems to be missing may be what could not be read
+  if (!lattice_seen) reading_.faults.add("/pipeline/0", "", "a lattice as the first stage of the pipeline");
+  if (count(Family::materials) == 0) reading_.faults.add("/pipeline", "", "at least one material");
+  if (count(Family::solvers) == 0) reading_.faults.add("/pipeline", "", "at least one solver");
+}
+
+void StageReader::give_names(std::vector<Stage>& stages, Json& resolved) {
+  std::map<Family, std::vector<std::string>> taken;
+  for (const Stage& stage : stages) {
+    if (stage.name.empty()) continue;
+    auto& names = taken[stage.family()];
+    if (std::find(names.begin(), names.end(), stage.name) != names.end())
+      reading_.faults.add(member(stage.pointer, "name"), shown(stage.name),
+                          fmt::format("a label of its own among the {}", family_name(stage.family())));
+    names.push_back(stage.name);
+  }
+  for (std::size_t n = 0; n < stages.size(); ++n) {
+    Stage& stage = stages[n];
+    auto& names = taken[stage.family()];
+    const std::string type = stage.component->type(), label = type.substr(type.rfind('.') + 1);
+    if (stage.name.empty()) {
+      stage.name = label;
+      for (int number = 2; std::find(names.begin(), names.end(), stage.name) != names.end(); ++number)
+        stage.name = fmt::format("{}_{}", label, number);
+      names.push_back(stage.name);
+    }
+    resolved[n]["name"] = stage.name;
+  }
+}
+
+}  // namespace hyperlattice

@@ -1,0 +1,138 @@
+#include <scene/expectation.hpp>
+#include <scene/units.hpp>
+#include <scene/value_reader.hpp>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace hyperlattice {
+
+namespace {
+
+/// A number, or a text with a unit, in SI.
+bool read_number(const Option& option, const Json& given, const std::string& pointer, const std::string& expected, Faults& faults, double& number) {
+  const auto wrong = [&](const std::string& why) {
+    faults.add(pointer, shown(given), why.empty() ? expected : fmt::format("{} ({})", expected, why));
+    return false;
+  };
+  if (given.is_string()) {
+    const Quantity quantity = read_quantity(given.get_ref<const std::string&>(), option.unit);
+    if (!quantity.problem.empty()) return wrong(quantity.problem);
+    number = quantity.value;
+  } else if (given.is_number()) {
+    number = given.get<double>();
+  } else {
+    return wrong("");
+  }
+  return in_range(option, number) || wrong("");
+}
+
+bool read_integer(const Json& given, std::int64_t& integer) {
+  if (given.is_number_unsigned() && given.get<std::uint64_t>() > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())) return false;
+  if (given.is_number_integer()) {
+    integer = given.get<std::int64_t>();
+    return true;
+  }
+  if (!given.is_number()) return false;
+  const double number = given.get<double>();  // 1e6 is a whole number too
+  if (std::trunc(number) != number || std::abs(number) > 9e15) return false;
+  integer = static_cast<std::int64_t>(number);
+  return true;
+}
+
+std::vector<std::string> names_of(const Option& option) { return {option.choices.begin(), option.choices.end()}; }
+
+/// The index of a text among the option's choices, or -1.
+std::int64_t choice_of(const Option& option, const Json& given) {
+  if (!given.is_string()) return -1;
+  const auto found = std::find(option.choices.begin(), option.choices.end(), given.get_ref<const std::string&>());
+  return found == option.choices.end() ? -1 : found - option.choices.begin();
+}
+
+bool read_numbers(const Option& option, const Json& given, const std::string& pointer, Faults& faults, ReadValue& value, Json& resolved) {
+  bool good = true;
+  for (std::size_t n = 0; n < given.size(); ++n) {
+    double number = 0;
+    good = read_number(option, given[n], member(pointer, n), entry_expectation(option), faults, number) && good;
+    value.numbers.push_back(number);
+  }
+  value.plain.numbers = value.numbers;
+  resolved = value.numbers;
+  return good;
+}
+
+bool read_texts(const Option& option, const Json& given, const std::string& pointer, Reading reading, ReadValue& value) {
+  bool good = true;
+  for (std::size_t n = 0; n < given.size(); ++n) {
+    const Json& entry = given[n];
+    if (!entry.is_string() || (!option.choices.empty() && choice_of(option, entry) < 0)) {
+      const std::string near = entry.is_string() ? did_you_mean(entry.get_ref<const std::string&>(), names_of(option)) : "";
+      reading.faults.add(member(pointer, n), shown(entry), entry_expectation(option) + near);
+      good = false;
+    } else {
+      value.texts.push_back(reading.texts.emplace_back(entry.get<std::string>()));
+    }
+  }
+  value.plain.texts = value.texts;
+  return good;
+}
+
+}  // namespace
+
+bool read_value(const Option& option, const Json& given, const std::string& pointer, Reading reading, ReadValue& value, Json& resolved) {
+  const auto wrong = [&](const std::string& more = "") {
+    reading.faults.add(pointer, shown(given), expectation(option) + more);
+    return false;
+  };
+  OptionValue& plain = value.plain;
+  resolved = given;
+  if (!option.word.empty() && given.is_string() && given.get_ref<const std::string&>() == option.word) {
+    plain.absent = true;
+    return true;
+  }
+  switch (option.kind) {
+    case OptionKind::number:
+      if (!read_number(option, given, pointer, expectation(option), reading.faults, plain.number)) return false;
+      resolved = plain.number;
+      return true;
+    case OptionKind::integer:
+      if (!read_integer(given, plain.integer) || !in_range(option, static_cast<double>(plain.integer))) return wrong();
+      resolved = plain.integer;
+      return true;
+    case OptionKind::boolean:
+      if (!given.is_boolean()) return wrong();
+      plain.boolean = given.get<bool>();
+      return true;
+    case OptionKind::text:
+      if (!given.is_string()) return wrong();
+      plain.text = reading.texts.emplace_back(given.get<std::string>());
+      return true;
+    case OptionKind::choice:
+      plain.integer = choice_of(option, given);
+      if (plain.integer < 0) return wrong(given.is_string() ? did_you_mean(given.get_ref<const std::string&>(), names_of(option)) : "");
+      plain.text = option.choices[static_cast<std::size_t>(plain.integer)];
+      return true;
+    case OptionKind::vector:
+      if (!given.is_array() || given.size() != 3) return wrong();
+      return read_numbers(option, given, pointer, reading.faults, value, resolved);
+    case OptionKind::numbers:
+      if (!given.is_array()) return wrong();
+      return read_numbers(option, given, pointer, reading.faults, value, resolved);
+    case OptionKind::texts:
+      if (!given.is_array()) return wrong();
+      return read_texts(option, given, pointer, reading, value);
+    case OptionKind::shape:
+      plain.shape = reading.regions.read_shape(given, pointer, resolved);
+      return plain.shape != nullptr;
+    case OptionKind::region: {
+      const auto id = reading.regions.read_id(given, pointer, resolved);
+      plain.region = id.value_or(RegionId{});
+      return id.has_value();
+    }
+  }
+  return wrong();
+}
+
+}  // namespace hyperlattice
