@@ -21,9 +21,10 @@ struct LoadBody {
   double (*region_true_area)(void* self, RegionId region) noexcept = nullptr;
   Vec3 (*region_centre)(void* self, RegionId region) noexcept = nullptr;
 
-  std::span<const Particle> particles(RegionId region) const { return region_particles(self, region); }  ///< in ascending order
-  Vec3 position(Particle particle) const { return particle_position(self, particle); }                   ///< metres, at rest
-  double mass(Particle particle) const { return particle_mass(self, particle); }                         ///< kg
+  /// In ascending order. Empty is a fault that the core reports itself; the load then need not do anything.
+  std::span<const Particle> particles(RegionId region) const { return region_particles(self, region); }
+  Vec3 position(Particle particle) const { return particle_position(self, particle); }  ///< metres, at rest
+  double mass(Particle particle) const { return particle_mass(self, particle); }        ///< kg
   /// Faces open to the side that the region means: the cavity for "inner_surface", outside for "outer_surface", any for others.
   ExposedFaces exposed_faces(Particle particle, RegionId region) const { return particle_faces(self, particle, region); }
   /// Area in m2 of the surface that the scene's shape describes, if the shape knows it (spheres and hollow spheres do); else 0.
@@ -33,6 +34,14 @@ struct LoadBody {
 
 /// Which components of the displacement a prescription fixes: bits 0 x, 1 y, 2 z.
 using Axes = std::uint32_t;
+
+/// The same as an option: .choices(axis_set_names).
+enum class AxisSet : std::uint32_t { x, y, xy, z, xz, yz, xyz };
+inline constexpr std::string_view axis_set_names[] = {"x", "y", "xy", "z", "xz", "yz", "xyz"};
+constexpr Axes axes_of(AxisSet set) { return static_cast<Axes>(set) + 1; }
+
+/// From 0 to 1 in a straight line during `rise` seconds, then constant; 1 from the start if rise is 0.
+constexpr double ramp(double time, double rise) { return time >= rise ? 1 : time / rise; }
 
 /// Receives what a load does. Each amplitude is multiplied by the load's factor(t).
 struct LoadSink {
@@ -59,7 +68,7 @@ struct LoadFunctions {
   double (*factor)(const void* load, double time) noexcept;
 };
 
-/// A load class has: void declare(const LoadBody&, const LoadSink&) const, which throws when its region is empty or unsuitable;
+/// A load class has: void declare(const LoadBody&, const LoadSink&) const, which throws when its region is unsuitable;
 /// and double factor(double time) const, which must not throw.
 template <class T>
 concept LoadComponent = requires(const T& load, const LoadBody& body, const LoadSink& sink) {

@@ -1,0 +1,81 @@
+// A triangular pressure pulse on a surface, acting along the radii from a centre:
+//   F_i = p(t) A_i e_i,  A_i = S * sum over the open faces f of particle i of  l^2 (-n_f . e_i),  e_i = (x_i - c) / |x_i - c|
+//   p(t) = 0 until start, rises to peak during `rise`, falls to 0 during `fall`.
+// A surface of cubic cells is rougher than the true one; S makes the sum of |A_i| the true area.
+#include <hyperlattice/load.hpp>
+
+#include <stdexcept>
+#include <vector>
+
+namespace {
+using namespace hyperlattice;
+
+class Blast {
+ public:
+  struct Options {
+    RegionId on;
+    double peak = 0, rise = 0, fall = 0, start = 0;
+    std::optional<Vec3> centre;
+    std::optional<double> area;
+  };
+
+  static Schema<Options> schema() {
+    return Schema<Options>("loads.blast", "Triangular pressure pulse on a surface, along the radii from a centre")
+        .equation("F = p(t) A e_r; p: 0 at start, peak at start + rise, 0 at start + rise + fall")
+        .source("Zhao 2017, section 3.2, figure 7")
+        .restrictions("for surfaces around or inside a centre: spheres, cavities, bore holes")
+        .add<&Options::on>("on", "", "the loaded surface")
+        .add<&Options::peak>("peak", "Pa", "largest pressure").at_least(0)
+        .add<&Options::rise>("rise", "s", "time from nothing to the peak").positive()
+        .add<&Options::fall>("fall", "s", "time from the peak to nothing").positive()
+        .add<&Options::start>("start", "s", "time at which the pulse begins").at_least(0).fallback("0")
+        .add<&Options::centre>("centre", "m", "where the radii begin; left out: the centre of the shape behind the region")
+        .add<&Options::area>("area", "m2", "true area of the loaded surface; left out: the shape's, if known, else that of the cells").positive();
+  }
+
+  explicit Blast(const Options& options) : o_(options) {}
+
+  void declare(const LoadBody& body, const LoadSink& sink) const {
+    const std::span<const Particle> particles = body.particles(o_.on);
+    const Vec3 centre = o_.centre.value_or(body.centre(o_.on));
+    const double face = body.spacing * body.spacing;
+
+    std::vector<double> areas;  // projected on the radius; positive where the pressure pushes away from the centre
+    areas.reserve(particles.size());
+    double sum = 0;
+    for (const Particle particle : particles) {
+      const Vec3 radius = direction(body.position(particle), centre);
+      const ExposedFaces open = body.exposed_faces(particle, o_.on);
+      double area = 0;
+      for (unsigned f = 0; f < 6; ++f)
+        if (open >> f & 1U) area -= face * dot(face_normals[f], radius);
+      areas.push_back(area);
+      sum += std::abs(area);
+    }
+    if (!particles.empty() && sum == 0) throw std::invalid_argument("the region has no open face: expected a surface, such as inner_surface");
+
+    const double known = o_.area.value_or(body.true_area(o_.on));
+    const double scale = known > 0 ? known / sum : 1;
+    for (std::size_t n = 0; n < particles.size(); ++n)
+      if (areas[n] != 0) sink.force(particles[n], scale * areas[n] * o_.peak * direction(body.position(particles[n]), centre));
+    for (const double corner : {o_.start, o_.start + o_.rise, o_.start + o_.rise + o_.fall}) sink.corner(corner);
+  }
+
+  double factor(double time) const {
+    const double since = time - o_.start;
+    if (since <= 0 || since >= o_.rise + o_.fall) return 0;
+    return since < o_.rise ? since / o_.rise : (o_.rise + o_.fall - since) / o_.fall;
+  }
+
+ private:
+  static Vec3 direction(Vec3 position, Vec3 centre) {
+    const Vec3 r = position - centre;
+    const double length = norm(r);
+    return length > 0 ? (1 / length) * r : Vec3{};  // a particle at the centre has no radius and gets no force
+  }
+
+  Options o_;
+};
+}  // namespace
+
+HYPERLATTICE_PLUGIN("1.0") { plugin.add<Blast>(); }

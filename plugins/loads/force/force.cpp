@@ -1,0 +1,44 @@
+// A force on a region: `total`, shared evenly by its particles, or `each`, on every one of them.
+//   F_i = f(t) total / N   or   F_i = f(t) each
+#include <hyperlattice/load.hpp>
+
+namespace {
+using namespace hyperlattice;
+
+class Force {
+ public:
+  struct Options {
+    RegionId on;
+    std::optional<Vec3> total, each;
+    double rise = 0;
+  };
+
+  static Schema<Options> schema() {
+    return Schema<Options>("loads.force", "Force on a region, in total or on each particle")
+        .equation("F = f(t) total / N or f(t) each; f rises in a straight line to 1 and stays")
+        .add<&Options::on>("on", "", "the loaded particles")
+        .add<&Options::total>("total", "N", "shared evenly by the particles")
+        .add<&Options::each>("each", "N", "on every particle")
+        .add<&Options::rise>("rise", "s", "time from nothing to the full force; 0: at once").at_least(0).fallback("0")
+        .check([](const Options& o, const FaultSink& faults) {
+          if (o.total.has_value() == o.each.has_value()) faults.fault(o.total ? "each" : "total", "exactly one of total and each");
+        });
+  }
+
+  explicit Force(const Options& options) : o_(options) {}
+
+  void declare(const LoadBody& body, const LoadSink& sink) const {
+    const std::span<const Particle> particles = body.particles(o_.on);
+    const Vec3 amplitude = o_.each ? *o_.each : (1 / static_cast<double>(particles.size())) * *o_.total;
+    for (const Particle particle : particles) sink.force(particle, amplitude);
+    if (o_.rise > 0) sink.corner(o_.rise);
+  }
+
+  double factor(double time) const { return ramp(time, o_.rise); }
+
+ private:
+  Options o_;
+};
+}  // namespace
+
+HYPERLATTICE_PLUGIN("1.0") { plugin.add<Force>(); }
