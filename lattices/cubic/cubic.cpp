@@ -42,7 +42,7 @@ class Cubic {
         .fallback("\"particles\"");
   }
 
-  explicit Cubic(const Options& options) : spacing_(options.spacing), shape_(*options.shape), anchor_(options.anchor.value_or(shape_.anchor)) {}
+  explicit Cubic(const Options& options) : spacing_(options.spacing), shape_(*options.shape), anchor_(options.anchor.value_or(options.shape->anchor)) {}
 
   void build(const LatticeSink& sink) const {
     const Span x = cells(shape_.low.x, shape_.high.x, anchor_.x), y = cells(shape_.low.y, shape_.high.y, anchor_.y),
@@ -57,6 +57,7 @@ class Cubic {
     grid.site_volume = spacing_ * spacing_ * spacing_;
     grid.neighbours = neighbours;
     grid.spring_classes = 2;
+    grid.shape = &shape_;
     sink.grid(grid);
 
     bool empty = true;
@@ -98,7 +99,7 @@ class Cubic {
   }
 
   double spacing_;
-  Shape shape_;
+  const Shape& shape_;
   Vec3 anchor_;
 };
 }  // namespace

@@ -1,0 +1,35 @@
+// The steps of build_model, and how a component's refusal becomes a fault.
+#pragma once
+
+#include <model/model.hpp>
+#include <model/region_index.hpp>
+
+namespace hyperlattice {
+
+/// What a component said when it refused, as a fault of its stage.
+inline InputError refusal(const Stage& stage, const std::string& sentence) {
+  return InputError({{stage.pointer, stage.component->type(), "what the component accepts; it says: " + sentence}});
+}
+
+inline void add_all(Faults& faults, const InputError& error) {
+  for (const Fault& fault : error.faults()) faults.add(fault.pointer, fault.value, fault.expected);
+}
+
+/// Takes the sentence with which a component refuses.
+struct Refusal {
+  std::string sentence;
+  Complaint why{this, [](void* self, std::string_view text) noexcept { static_cast<Refusal*>(self)->sentence = text; }};
+};
+
+// The steps, in their order. Each adds its faults and leaves the model usable for the next where it can.
+
+/// Makes the materials and their failure criteria, and says which particle is of which.
+void add_materials(Model& model, RegionIndex& regions, Faults& faults);
+
+/// Neighbour geometry, the springs between all materials, alarms, and which kernel is needed.
+void set_springs(Model& model, Faults& faults);
+
+/// Loads, merged for each particle, with start velocities, corners and body acceleration.
+void add_loads(Model& model, RegionIndex& regions, Faults& faults);
+
+}  // namespace hyperlattice

@@ -1,0 +1,96 @@
+#include <model/critical_step.hpp>
+
+#include <spdlog/fmt/fmt.h>
+
+#include <array>
+#include <map>
+
+namespace hyperlattice {
+
+namespace {
+
+InfiniteLattice lattice_of(const Model& model, std::size_t material) {
+  const std::size_t classes = model.body.grid.spring_classes;
+  const MaterialConstants& constants = model.materials[material].constants;
+  return {model.neighbours, std::span(model.springs).subspan((material * model.materials.size() + material) * classes, classes),
+          constants.alpha_ratio * constants.base_stiffness, model.body.grid.membrane_distance, model.choice.membrane};
+}
+
+/// A particle's material, and those of its neighbours on both sides; absent neighbours count as more of its own, which is on the safe side.
+using Environment = std::array<std::uint8_t, 1 + 2 * max_neighbours>;
+
+Environment uniform(std::uint8_t material) {
+  Environment all;
+  all.fill(material);
+  return all;
+}
+
+double bound(const Model& model, const Environment& environment) {
+  const std::uint8_t own = environment[0];
+  const MaterialConstants& constants = model.materials[own].constants;
+  StiffnessBound sum;
+  for (std::size_t n = 0; n < model.neighbours.size(); ++n)
+    for (const int side : {1, -1}) {
+      const NeighbourGeometry& neighbour = model.neighbours[n];
+      const std::uint8_t other = environment[1 + 2 * n + (side < 0 ? 1 : 0)];
+      sum.add(neighbour, side, model.spring(own, other, neighbour.site.spring_class), model.body.grid.membrane_distance, model.choice.membrane);
+    }
+  if (model.choice.membrane == KernelChoice::Membrane::free) sum.add_alpha(constants.alpha_ratio * constants.base_stiffness);
+  return sum.value();
+}
+
+/// Every environment that occurs, with one particle that has it. Most particles are surrounded by their own material and are passed over.
+std::map<Environment, Particle> environments(const Model& model) {
+  std::map<Environment, Particle> found;
+  for (std::size_t material = 0; material < model.materials.size(); ++material)
+    found.emplace(uniform(static_cast<std::uint8_t>(material)), Body::no_particle);
+  for (const Run& run : model.body.runs)
+    for (std::int32_t i = run.begin; i < run.end; ++i) {
+      const Particle particle = run.first + static_cast<Particle>(i - run.begin);
+      Environment here = uniform(model.material_of[particle]);
+      bool mixed = false;
+      for (std::size_t n = 0; n < model.neighbours.size(); ++n)
+        for (const int side : {1, -1}) {
+          const Neighbour& step = model.neighbours[n].site;
+          const Particle other = model.body.at({i + side * step.dx, run.j + side * step.dy, run.k + side * step.dz});
+          if (other == Body::no_particle || model.material_of[other] == here[0]) continue;
+          here[1 + 2 * n + (side < 0 ? 1 : 0)] = model.material_of[other];
+          mixed = true;
+        }
+      if (mixed) found.emplace(here, particle);
+    }
+  return found;
+}
+
+double step_of(double stiffness, double mass) { return 2 / std::sqrt(stiffness / mass); }
+
+}  // namespace
+
+void find_critical_step(Model& model, Faults& faults) {
+  const std::size_t before = faults.size();
+  for (std::size_t n = 0; n < model.materials.size(); ++n) {
+    Material& material = model.materials[n];
+    const InfiniteLattice lattice = lattice_of(model, n);
+    if (const auto sentence = instability(lattice)) {
+      faults.add(material.stage->pointer, material.stage->component->type(), "springs that make a stable lattice; with these, " + *sentence);
+      continue;
+    }
+    const Wave wave = stiffest_wave(lattice);
+    material.critical_time_step = step_of(wave.stiffness, material.mass);
+    model.critical_time_step = material.critical_time_step;
+    model.critical_because = "the stiffest of all waves of the lattice: " + describe(wave);
+  }
+  if (faults.size() > before || model.materials.size() == 1) return;
+
+  model.critical_time_step = infinity;
+  for (const auto& [environment, particle] : environments(model)) {
+    const Material& own = model.materials[environment[0]];
+    const double step = step_of(bound(model, environment), own.mass);
+    if (step >= model.critical_time_step) continue;
+    model.critical_time_step = step;
+    const std::string where = particle == Body::no_particle ? "inside" : "at the border of";
+    model.critical_because = fmt::format("a safe bound for several materials: the springs of a particle {} {} ({})", where, own.stage->name, own.stage->pointer);
+  }
+}
+
+}  // namespace hyperlattice

@@ -1,0 +1,180 @@
+#include <model/build.hpp>
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <stdexcept>
+#include <unordered_map>
+
+namespace hyperlattice {
+
+namespace {
+
+constexpr Axes all_axes = 7;
+
+bool is_finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+std::string axis_names(Axes axes) { return std::string(axis_set_names[axes - 1]); }
+
+/// The body as one load sees it; remembers a region that turned out empty.
+struct View {
+  const Model& model;
+  RegionIndex& regions;
+  std::optional<RegionId> empty;
+
+  LoadBody body() {
+    LoadBody seen;
+    seen.self = this;
+    seen.spacing = model.body.grid.spacing;
+    seen.region_particles = [](void* self, RegionId region) noexcept {
+      View& view = *static_cast<View*>(self);
+      const std::span<const Particle> found = view.regions.particles(region);
+      if (found.empty()) view.empty = region;
+      return found;
+    };
+    seen.particle_position = [](void* self, Particle particle) noexcept { return static_cast<View*>(self)->model.body.position(particle); };
+    seen.particle_mass = [](void* self, Particle particle) noexcept {
+      const Model& model = static_cast<View*>(self)->model;
+      return model.materials.empty() ? 0 : model.mass(particle);  // none only if the materials have faults, and then nothing runs
+    };
+    seen.particle_faces = [](void* self, Particle particle, RegionId region) noexcept { return static_cast<View*>(self)->regions.faces(particle, region); };
+    seen.region_true_area = [](void* self, RegionId region) noexcept { return static_cast<View*>(self)->regions.true_area(region); };
+    seen.region_centre = [](void* self, RegionId region) noexcept { return static_cast<View*>(self)->regions.centre(region); };
+    return seen;
+  }
+};
+
+/// Takes what one load declares, merged for each particle.
+struct Collector {
+  const Body& body;
+  std::unordered_map<Particle, LoadedParticle> particles;
+  std::map<Particle, Vec3> start_velocities;
+  std::vector<double> corners;
+  Vec3 acceleration;
+
+  LoadedParticle& at(Particle particle, Vec3 amplitude) {
+    if (particle >= body.particles) throw std::out_of_range("it loads a particle that does not exist");
+    if (!is_finite(amplitude)) throw std::range_error("it gives an amplitude that is not finite");
+    LoadedParticle& loaded = particles[particle];
+    loaded.particle = particle;
+    return loaded;
+  }
+
+  static void prescribe(LoadedParticle& loaded, Axes axes, Axes& kind, Vec3& value, Vec3 amplitude) {
+    if ((axes & ~all_axes) != 0) throw std::out_of_range("it prescribes an axis that does not exist");
+    if (((loaded.displaced | loaded.driven) & axes) != 0) throw std::invalid_argument("it prescribes an axis of a particle twice");
+    kind |= axes;
+    if (axes & 1U) value.x = amplitude.x;
+    if (axes & 2U) value.y = amplitude.y;
+    if (axes & 4U) value.z = amplitude.z;
+  }
+
+  LoadSink sink() {
+    LoadSink to;
+    to.self = this;
+    to.receive_force = [](void* self, Particle particle, Vec3 amplitude) {
+      LoadedParticle& loaded = static_cast<Collector*>(self)->at(particle, amplitude);
+      loaded.force = loaded.force + amplitude;
+    };
+    to.receive_displacement = [](void* self, Particle particle, Axes axes, Vec3 amplitude) {
+      LoadedParticle& loaded = static_cast<Collector*>(self)->at(particle, amplitude);
+      prescribe(loaded, axes, loaded.displaced, loaded.displacement, amplitude);
+    };
+    to.receive_velocity = [](void* self, Particle particle, Axes axes, Vec3 amplitude) {
+      LoadedParticle& loaded = static_cast<Collector*>(self)->at(particle, amplitude);
+      prescribe(loaded, axes, loaded.driven, loaded.velocity, amplitude);
+    };
+    to.receive_acceleration = [](void* self, Vec3 value) {
+      Collector& c = *static_cast<Collector*>(self);
+      c.acceleration = c.acceleration + value;
+    };
+    to.receive_start_velocity = [](void* self, Particle particle, Vec3 velocity) {
+      Collector& c = *static_cast<Collector*>(self);
+      if (particle >= c.body.particles || !is_finite(velocity)) throw std::range_error("it gives a start velocity that is not finite, or to no particle");
+      c.start_velocities[particle] = c.start_velocities[particle] + velocity;
+    };
+    to.receive_corner = [](void* self, double time) {
+      if (time > 0 && std::isfinite(time)) static_cast<Collector*>(self)->corners.push_back(time);
+    };
+    return to;
+  }
+};
+
+std::vector<LoadedParticle> in_order(const std::unordered_map<Particle, LoadedParticle>& particles) {
+  std::vector<LoadedParticle> all;
+  all.reserve(particles.size());
+  for (const auto& entry : particles) all.push_back(entry.second);
+  std::sort(all.begin(), all.end(), [](const LoadedParticle& a, const LoadedParticle& b) { return a.particle < b.particle; });
+  return all;
+}
+
+/// Two loads that prescribe one axis of one particle contradict each other.
+void check_conflicts(const Model& model, Faults& faults) {
+  struct Conflict {
+    Axes axes = 0;
+    std::uint64_t particles = 0;
+    Particle first = 0;
+  };
+  std::map<std::pair<std::size_t, std::size_t>, Conflict> conflicts;      // (earlier load, later load)
+  std::unordered_map<Particle, std::array<std::size_t, 3>> prescribed_by;  // load + 1 of each axis; 0: free
+  for (std::size_t later = 0; later < model.loads.size(); ++later)
+    for (const LoadedParticle& loaded : model.loads[later].particles) {
+      const Axes axes = loaded.displaced | loaded.driven;
+      if (axes == 0) continue;
+      std::array<std::size_t, 3>& owners = prescribed_by[loaded.particle];
+      std::map<std::size_t, Axes> shared;
+      for (unsigned axis = 0; axis < 3; ++axis) {
+        if ((axes >> axis & 1U) == 0) continue;
+        if (owners[axis] != 0) shared[owners[axis] - 1] |= 1U << axis;
+        else owners[axis] = later + 1;
+      }
+      for (const auto& [earlier, common] : shared) {
+        Conflict& conflict = conflicts[{earlier, later}];
+        if (conflict.particles++ == 0) conflict.first = loaded.particle;
+        conflict.axes |= common;
+      }
+    }
+  for (const auto& [pair, conflict] : conflicts) {
+    const Stage &earlier = *model.loads[pair.first].stage, &later = *model.loads[pair.second].stage;
+    const Vec3 at = model.body.position(conflict.first);
+    faults.add(later.pointer, later.component->type(),
+               fmt::format("axes that no other load prescribes; {} of {} particles, the first at ({:.6g}, {:.6g}, {:.6g}) m, already follows {} ({})",
+                           axis_names(conflict.axes), conflict.particles, at.x, at.y, at.z, earlier.pointer, earlier.component->type()));
+  }
+}
+
+}  // namespace
+
+void add_loads(Model& model, RegionIndex& regions, Faults& faults) {
+  std::map<Particle, Vec3> start_velocities;
+  for (const Stage* stage : model.scene->of(Family::loads)) try {
+      Load load;
+      load.stage = stage;
+      load.component = make_component(*stage);
+      View view{model, regions, std::nullopt};
+      Collector collector{model.body, {}, {}, {}, {}};
+      Refusal refused;
+      const bool accepted = stage->functions<LoadFunctions>().declare(load.component.get(), view.body(), collector.sink(), refused.why);
+      if (view.empty) {
+        faults.add(stage->pointer, stage->component->type(), regions.expected_particles(*view.empty));
+        continue;
+      }
+      if (!accepted) throw refusal(*stage, refused.sentence);
+      load.particles = in_order(collector.particles);
+      load.acceleration = collector.acceleration;
+      model.acceleration = model.acceleration + load.acceleration;
+      for (const auto& [particle, velocity] : collector.start_velocities) start_velocities[particle] = start_velocities[particle] + velocity;
+      model.corners.insert(model.corners.end(), collector.corners.begin(), collector.corners.end());
+      model.loads.push_back(std::move(load));
+    } catch (const InputError& error) {
+      add_all(faults, error);
+    }
+  check_conflicts(model, faults);
+  model.start_velocities.assign(start_velocities.begin(), start_velocities.end());
+  std::sort(model.corners.begin(), model.corners.end());
+  model.corners.erase(std::unique(model.corners.begin(), model.corners.end()), model.corners.end());
+}
+
+}  // namespace hyperlattice

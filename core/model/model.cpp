@@ -1,0 +1,45 @@
+#include <model/build.hpp>
+#include <model/critical_step.hpp>
+
+namespace hyperlattice {
+
+ComponentPointer make_component(const Stage& stage) {
+  Refusal refused;
+  ComponentPointer made{stage.component->info.create(stage.options.get(), refused.why), stage.component->info.destroy};
+  if (!made) throw refusal(stage, refused.sentence);
+  return made;
+}
+
+namespace {
+
+Body make_body(const Scene& scene) {
+  Faults faults;
+  const std::vector<const Stage*> lattices = scene.of(Family::lattices);
+  if (lattices.empty()) faults.add("/pipeline", "", "a stage that is a lattice");
+  for (std::size_t n = 1; n < lattices.size(); ++n) faults.add(lattices[n]->pointer, lattices[n]->component->type(), "one lattice only");
+  faults.throw_if_any();
+  const ComponentPointer lattice = make_component(*lattices[0]);
+  try {
+    return build_body(lattices[0]->functions<LatticeFunctions>(), lattice.get());
+  } catch (const std::invalid_argument& refused) {
+    throw refusal(*lattices[0], refused.what());
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<Model> build_model(const Scene& scene) {
+  auto model = std::make_unique<Model>();
+  model->scene = &scene;
+  model->body = make_body(scene);
+  RegionIndex regions(model->body, scene.regions);
+  Faults faults;
+  add_materials(*model, regions, faults);
+  if (faults.empty()) set_springs(*model, faults);
+  if (faults.empty()) find_critical_step(*model, faults);
+  add_loads(*model, regions, faults);
+  faults.throw_if_any();
+  return model;
+}
+
+}  // namespace hyperlattice

@@ -1,0 +1,79 @@
+#include <model/region_index.hpp>
+
+#include <spdlog/fmt/fmt.h>
+
+namespace hyperlattice {
+
+namespace {
+
+bool is_surface(const Region& region) {
+  return region.kind == Region::Kind::surface || region.kind == Region::Kind::inner_surface || region.kind == Region::Kind::outer_surface;
+}
+
+bool is_set(const Region& region) { return !region.parts.empty(); }
+
+std::string text(Vec3 v) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z); }
+
+std::string what(const Region& region) {
+  switch (region.kind) {
+    case Region::Kind::all: return "all particles";
+    case Region::Kind::surface: return "the particles with an open face";
+    case Region::Kind::inner_surface: return "the particles around closed cavities";
+    case Region::Kind::outer_surface: return "the particles with a face to the outside";
+    case Region::Kind::face: return "the outermost layer of one side";
+    case Region::Kind::solid: return fmt::format("a {} between {} and {} m", region.primitive, text(region.low), text(region.high));
+    default: break;
+  }
+  std::string parts;
+  for (const auto& part : region.parts) parts += (parts.empty() ? "" : "; ") + what(*part);
+  const char* name = region.kind == Region::Kind::set_union ? "union" : region.kind == Region::Kind::intersection ? "intersection" : "difference";
+  return fmt::format("the {} of ({})", name, parts);
+}
+
+}  // namespace
+
+const Surfaces& RegionIndex::surfaces() {
+  if (!surfaces_) surfaces_ = std::make_unique<Surfaces>(body_);
+  return *surfaces_;
+}
+
+const Region* RegionIndex::filled() const {
+  return body_.grid.shape == nullptr ? nullptr : static_cast<const Region*>(body_.grid.shape->self);  // see Regions::shape
+}
+
+std::span<const Particle> RegionIndex::particles(RegionId region) {
+  const auto [entry, is_new] = particles_.try_emplace(region.index);
+  if (is_new) entry->second = particles_in(body_, surfaces(), regions_[region]);
+  return entry->second;
+}
+
+ExposedFaces RegionIndex::faces(Particle particle, RegionId region) { return open_faces(body_, surfaces(), regions_[region], particle); }
+
+double RegionIndex::true_area(RegionId region) const {
+  const Region* shape = filled();
+  if (shape == nullptr) return 0;
+  switch (regions_[region].kind) {
+    case Region::Kind::inner_surface: return shape->inner_area;
+    case Region::Kind::outer_surface: return shape->outer_area;
+    case Region::Kind::surface: return shape->outer_area > 0 ? shape->outer_area + shape->inner_area : 0;
+    default: return 0;
+  }
+}
+
+Vec3 RegionIndex::centre(RegionId region) {
+  const Region* of = &regions_[region];
+  while (is_set(*of)) of = of->parts.front().get();
+  if (is_surface(*of) || of->kind == Region::Kind::all) of = filled();
+  if (of != nullptr && of->is_solid() && std::isfinite(norm(of->high - of->low))) return of->centre;
+  Vec3 sum;
+  for (const Particle particle : particles(region)) sum = sum + body_.position(particle);
+  const std::size_t count = particles(region).size();
+  return count == 0 ? sum : (1 / static_cast<double>(count)) * sum;
+}
+
+std::string RegionIndex::expected_particles(RegionId region) const {
+  return fmt::format("a region with particles; \"{}\", {}, holds none of the body's, which stand between {} and {} m", regions_.name(region),
+                     what(regions_[region]), text(body_.position(body_.low)), text(body_.position(body_.high)));
+}
+
+}  // namespace hyperlattice

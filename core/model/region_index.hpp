@@ -1,0 +1,34 @@
+// What the regions of a scene mean for a body: each is worked out once, when first asked for.
+#pragma once
+
+#include <model/body.hpp>
+
+#include <map>
+#include <memory>
+#include <string>
+
+namespace hyperlattice {
+
+class RegionIndex {
+ public:
+  RegionIndex(const Body& body, const Regions& regions) : body_(body), regions_(regions) {}
+
+  std::span<const Particle> particles(RegionId region);  ///< ascending
+  ExposedFaces faces(Particle particle, RegionId region);
+  double true_area(RegionId region) const;               ///< m2, of a surface of the shape that the lattice filled; 0 if unknown
+  Vec3 centre(RegionId region);                          ///< of the shape behind the region; else of its particles
+
+  /// What an empty region is and where the body is, for a fault: "a region with particles; "slab", a box ..., holds none ...".
+  std::string expected_particles(RegionId region) const;
+
+ private:
+  const Surfaces& surfaces();
+  const Region* filled() const;  ///< the shape that the lattice filled, or null
+
+  const Body& body_;
+  const Regions& regions_;
+  std::unique_ptr<Surfaces> surfaces_;
+  std::map<std::uint32_t, std::vector<Particle>> particles_;
+};
+
+}  // namespace hyperlattice

@@ -1,0 +1,89 @@
+// Springs between all pairs of materials. A spring between two materials is half of each: two half springs in series,
+//   k = 2 a b / (a + b),
+// nothing if either has none. (Stiffnesses of opposite sign, which only some membranes have, add up to no series; they take the mean.)
+#include <model/build.hpp>
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+
+namespace hyperlattice {
+
+namespace {
+
+using Membrane = KernelChoice::Membrane;
+
+double between(double a, double b) {
+  if (a == b) return a;
+  if (a == 0 || b == 0) return 0;
+  return (a > 0) == (b > 0) ? 2 * a * b / (a + b) : (a + b) / 2;
+}
+
+std::vector<NeighbourGeometry> geometry_of(const Grid& grid) {
+  std::vector<NeighbourGeometry> all;
+  for (const Neighbour& n : grid.neighbours) {
+    const Vec3 rest = grid.spacing * Vec3{double(n.dx), double(n.dy), double(n.dz)};
+    all.push_back({n, rest, norm(rest), std::hypot(norm(rest), grid.membrane_distance)});
+  }
+  return all;
+}
+
+double rest_length(const Model& model, std::uint32_t spring_class) {
+  const auto of_class = [spring_class](const NeighbourGeometry& n) { return n.site.spring_class == spring_class; };
+  const auto found = std::find_if(model.neighbours.begin(), model.neighbours.end(), of_class);
+  return found == model.neighbours.end() ? 0 : found->rest_length;
+}
+
+double alarm_of(const Material& material, const SpringFacts& facts) {
+  return material.failure ? material.failure_stage->functions<FailureFunctions>().alarm(material.failure.get(), facts) : infinity;
+}
+
+SpringConstants spring_between(const Model& model, const Material& a, const Material& b, std::uint32_t spring_class) {
+  const MaterialConstants &left = a.constants, &right = b.constants;
+  SpringConstants spring;
+  spring.stiffness = between(left.base_stiffness, right.base_stiffness);
+  spring.cross_stiffness = between(left.cross_ratio[spring_class] * left.base_stiffness, right.cross_ratio[spring_class] * right.base_stiffness);
+  const SpringFacts facts{rest_length(model, spring_class), spring.stiffness, model.body.grid.spacing, spring_class};
+  spring.alarm = std::min(alarm_of(a, facts), alarm_of(b, facts));
+  return spring;
+}
+
+/// Free as soon as one material's membrane is; clamped and free ones cannot stand in one body.
+Membrane membrane_of(const std::vector<Material>& materials, Faults& faults) {
+  const Material *clamped = nullptr, *free = nullptr;
+  for (const Material& material : materials)
+    if (material.constants.has_cross_springs()) (material.constants.clamped ? clamped : free) = &material;
+  if (clamped != nullptr && free != nullptr)
+    faults.add(clamped->stage->pointer, clamped->stage->component->type(),
+               fmt::format("a membrane that can move in the fourth dimension, as that of {}: clamped and free ones cannot stand in one body", free->stage->pointer));
+  return free != nullptr ? Membrane::free : clamped != nullptr ? Membrane::clamped : Membrane::none;
+}
+
+/// Where a membrane can move, a material without one still has heights, which nothing would hold. An alpha spring holds them at rest; as
+/// stiff as the sum of the base springs along an axis, it changes neither the body's elasticity nor its time step.
+void hold_heights(Model& model) {
+  for (Material& material : model.materials) {
+    if (material.constants.has_cross_springs()) continue;
+    double ratio = 0;
+    for (const NeighbourGeometry& n : model.neighbours) ratio += 2 * n.rest.x * n.rest.x / (n.rest_length * n.rest_length);
+    material.constants.alpha_ratio = std::max(material.constants.alpha_ratio, ratio);
+  }
+}
+
+}  // namespace
+
+void set_springs(Model& model, Faults& faults) {
+  model.neighbours = geometry_of(model.body.grid);
+  model.choice.membrane = membrane_of(model.materials, faults);
+  if (model.choice.membrane == Membrane::free) hold_heights(model);
+  model.degrees_of_freedom = model.choice.membrane == Membrane::free ? 4 : 3;
+  model.choice.mixed = model.materials.size() > 1;
+  for (const Material& material : model.materials) model.choice.breakable |= material.failure != nullptr;
+  model.kernels = model.materials[0].stage->functions<MaterialFunctions>().kernels(model.choice);
+
+  for (const Material& a : model.materials)
+    for (const Material& b : model.materials)
+      for (std::uint32_t c = 0; c < model.body.grid.spring_classes; ++c) model.springs.push_back(spring_between(model, a, b, c));
+}
+
+}  // namespace hyperlattice
