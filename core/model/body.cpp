@@ -25,7 +25,8 @@ struct Builder {
     body.neighbours.assign(grid.neighbours.begin(), grid.neighbours.end());
     body.grid.neighbours = body.neighbours;
     for (const Neighbour& n : body.neighbours) {
-      if (!is_forward(n) || n.spring_class >= grid.spring_classes) throw std::invalid_argument("the lattice has a neighbour that does not follow its site");
+      if (!is_forward(n) || n.spring_class >= grid.spring_classes)
+        throw std::invalid_argument("the lattice has a neighbour that does not follow its site");
       body.reach = std::max(body.reach, n.dz);
     }
     body.row_runs.reserve(row_count() + 1);
@@ -92,10 +93,9 @@ Particle Body::at(Site site) const {
 
 Body build_body(const LatticeFunctions& functions, const void* lattice) {
   Builder builder;
-  const LatticeSink sink{&builder, [](void* self, const Grid& grid) { static_cast<Builder*>(self)->grid(grid); },
-                         [](void* self, std::int32_t j, std::int32_t k, std::int32_t begin, std::int32_t end) {
-                           static_cast<Builder*>(self)->run(j, k, begin, end);
-                         }};
+  const LatticeSink sink{
+      &builder, [](void* self, const Grid& grid) { static_cast<Builder*>(self)->grid(grid); },
+      [](void* self, std::int32_t j, std::int32_t k, std::int32_t begin, std::int32_t end) { static_cast<Builder*>(self)->run(j, k, begin, end); }};
   std::string sentence;
   const Complaint why{&sentence, [](void* self, std::string_view text) noexcept { *static_cast<std::string*>(self) = text; }};
   if (!functions.build(lattice, sink, why)) throw std::invalid_argument(sentence);

@@ -23,14 +23,14 @@ struct Site {
 };
 
 struct Body {
-  Grid grid;                          ///< its neighbours point into `neighbours`
+  Grid grid;  ///< its neighbours point into `neighbours`
   std::vector<Neighbour> neighbours;
   std::vector<Run> runs;              ///< in the order z, y, x
   std::vector<std::size_t> row_runs;  ///< [k * ny + j] first run of a row; one more entry at the end
   std::uint64_t particles = 0;
   std::uint64_t springs[max_spring_classes] = {};
-  std::int32_t reach = 1;             ///< planes that the farthest neighbour is away
-  Site low, high;                     ///< first and last site of the box that the particles fill
+  std::int32_t reach = 1;  ///< planes that the farthest neighbour is away
+  Site low, high;          ///< first and last site of the box that the particles fill
 
   Site site(Particle particle) const;
   Vec3 position(Site site) const { return grid.origin + grid.spacing * Vec3{double(site.i), double(site.j), double(site.k)}; }  ///< at rest, metres
@@ -38,7 +38,11 @@ struct Body {
   /// The particle at a site, or no_particle.
   Particle at(Site site) const;
   static constexpr Particle no_particle = ~Particle{0};
-  std::uint64_t base_springs() const { std::uint64_t n = 0; for (auto s : springs) n += s; return n; }
+  std::uint64_t base_springs() const {
+    std::uint64_t n = 0;
+    for (auto s : springs) n += s;
+    return n;
+  }
 };
 
 /// Builds the body that a lattice component describes. Throws std::invalid_argument with the component's sentence if it refuses.
@@ -47,10 +51,10 @@ Body build_body(const LatticeFunctions& functions, const void* lattice);
 /// Uncovered faces of a particle's cell. A cavity is an empty space that no path of empty sites joins to the outside.
 class Surfaces {
  public:
-  explicit Surfaces(const Body& body);  ///< floods the box of sites once
-  ExposedFaces faces(Site particle) const;         ///< all
-  ExposedFaces outer_faces(Site particle) const;   ///< to the outside
-  ExposedFaces inner_faces(Site particle) const;   ///< to cavities
+  explicit Surfaces(const Body& body);            ///< floods the box of sites once
+  ExposedFaces faces(Site particle) const;        ///< all
+  ExposedFaces outer_faces(Site particle) const;  ///< to the outside
+  ExposedFaces inner_faces(Site particle) const;  ///< to cavities
 
  private:
   bool is_outside(Site site) const;

@@ -89,7 +89,8 @@ void find_critical_step(Model& model, Faults& faults) {
     if (step >= model.critical_time_step) continue;
     model.critical_time_step = step;
     const std::string where = particle == Body::no_particle ? "inside" : "at the border of";
-    model.critical_because = fmt::format("a safe bound for several materials: the springs of a particle {} {} ({})", where, own.stage->name, own.stage->pointer);
+    model.critical_because =
+        fmt::format("a safe bound for several materials: the springs of a particle {} {} ({})", where, own.stage->name, own.stage->pointer);
   }
 }
 

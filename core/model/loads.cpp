@@ -39,7 +39,9 @@ struct View {
       const Model& model = static_cast<View*>(self)->model;
       return model.materials.empty() ? 0 : model.mass(particle);  // none only if the materials have faults, and then nothing runs
     };
-    seen.particle_faces = [](void* self, Particle particle, RegionId region) noexcept { return static_cast<View*>(self)->regions.faces(particle, region); };
+    seen.particle_faces = [](void* self, Particle particle, RegionId region) noexcept {
+      return static_cast<View*>(self)->regions.faces(particle, region);
+    };
     seen.region_true_area = [](void* self, RegionId region) noexcept { return static_cast<View*>(self)->regions.true_area(region); };
     seen.region_centre = [](void* self, RegionId region) noexcept { return static_cast<View*>(self)->regions.centre(region); };
     return seen;
@@ -92,7 +94,8 @@ struct Collector {
     };
     to.receive_start_velocity = [](void* self, Particle particle, Vec3 velocity) {
       Collector& c = *static_cast<Collector*>(self);
-      if (particle >= c.body.particles || !is_finite(velocity)) throw std::range_error("it gives a start velocity that is not finite, or to no particle");
+      if (particle >= c.body.particles || !is_finite(velocity))
+        throw std::range_error("it gives a start velocity that is not finite, or to no particle");
       c.start_velocities[particle] = c.start_velocities[particle] + velocity;
     };
     to.receive_corner = [](void* self, double time) {
@@ -117,7 +120,7 @@ void check_conflicts(const Model& model, Faults& faults) {
     std::uint64_t particles = 0;
     Particle first = 0;
   };
-  std::map<std::pair<std::size_t, std::size_t>, Conflict> conflicts;      // (earlier load, later load)
+  std::map<std::pair<std::size_t, std::size_t>, Conflict> conflicts;       // (earlier load, later load)
   std::unordered_map<Particle, std::array<std::size_t, 3>> prescribed_by;  // load + 1 of each axis; 0: free
   for (std::size_t later = 0; later < model.loads.size(); ++later)
     for (const LoadedParticle& loaded : model.loads[later].particles) {
@@ -127,8 +130,10 @@ void check_conflicts(const Model& model, Faults& faults) {
       std::map<std::size_t, Axes> shared;
       for (unsigned axis = 0; axis < 3; ++axis) {
         if ((axes >> axis & 1U) == 0) continue;
-        if (owners[axis] != 0) shared[owners[axis] - 1] |= 1U << axis;
-        else owners[axis] = later + 1;
+        if (owners[axis] != 0)
+          shared[owners[axis] - 1] |= 1U << axis;
+        else
+          owners[axis] = later + 1;
       }
       for (const auto& [earlier, common] : shared) {
         Conflict& conflict = conflicts[{earlier, later}];

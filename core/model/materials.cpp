@@ -47,7 +47,8 @@ void check_laws(const std::vector<Material>& materials, Faults& faults) {
     const std::string_view other = material.stage->functions<MaterialFunctions>().law;
     if (other != law)
       faults.add(material.stage->pointer, material.stage->component->type(),
-                 fmt::format("a material with the law \"{}\" of {}, because one body has one law; this one has \"{}\"", law, materials[0].stage->pointer, other));
+                 fmt::format("a material with the law \"{}\" of {}, because one body has one law; this one has \"{}\"", law,
+                             materials[0].stage->pointer, other));
   }
 }
 
@@ -64,12 +65,13 @@ void assign(Model& model, RegionIndex& regions, Faults& faults) {
   if (!faults.empty()) return;
   for (const std::uint8_t material : material_of) ++count[material];
   for (std::size_t n = 0; n < model.materials.size(); ++n)
-    if (count[n] == 0)
-      faults.add(model.materials[n].stage->pointer + "/region", "", "particles of its own; later materials take all of this one's");
+    if (count[n] == 0) faults.add(model.materials[n].stage->pointer + "/region", "", "particles of its own; later materials take all of this one's");
   if (count[no_material] > 0) {
     const auto first = std::find(material_of.begin(), material_of.end(), no_material) - material_of.begin();
     const Vec3 at = model.body.position(static_cast<Particle>(first));
-    faults.add("/pipeline", "", fmt::format("a material for every particle; {} have none, the first at ({:.6g}, {:.6g}, {:.6g}) m", count[no_material], at.x, at.y, at.z));
+    faults.add(
+        "/pipeline", "",
+        fmt::format("a material for every particle; {} have none, the first at ({:.6g}, {:.6g}, {:.6g}) m", count[no_material], at.x, at.y, at.z));
   }
   if (model.materials.size() > 1) model.material_of = std::move(material_of);
 }

@@ -16,13 +16,20 @@ std::string text(Vec3 v) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v
 
 std::string what(const Region& region) {
   switch (region.kind) {
-    case Region::Kind::all: return "all particles";
-    case Region::Kind::surface: return "the particles with an open face";
-    case Region::Kind::inner_surface: return "the particles around closed cavities";
-    case Region::Kind::outer_surface: return "the particles with a face to the outside";
-    case Region::Kind::face: return "the outermost layer of one side";
-    case Region::Kind::solid: return fmt::format("a {} between {} and {} m", region.primitive, text(region.low), text(region.high));
-    default: break;
+    case Region::Kind::all:
+      return "all particles";
+    case Region::Kind::surface:
+      return "the particles with an open face";
+    case Region::Kind::inner_surface:
+      return "the particles around closed cavities";
+    case Region::Kind::outer_surface:
+      return "the particles with a face to the outside";
+    case Region::Kind::face:
+      return "the outermost layer of one side";
+    case Region::Kind::solid:
+      return fmt::format("a {} between {} and {} m", region.primitive, text(region.low), text(region.high));
+    default:
+      break;
   }
   std::string parts;
   for (const auto& part : region.parts) parts += (parts.empty() ? "" : "; ") + what(*part);
@@ -53,10 +60,14 @@ double RegionIndex::true_area(RegionId region) const {
   const Region* shape = filled();
   if (shape == nullptr) return 0;
   switch (regions_[region].kind) {
-    case Region::Kind::inner_surface: return shape->inner_area;
-    case Region::Kind::outer_surface: return shape->outer_area;
-    case Region::Kind::surface: return shape->outer_area > 0 ? shape->outer_area + shape->inner_area : 0;
-    default: return 0;
+    case Region::Kind::inner_surface:
+      return shape->inner_area;
+    case Region::Kind::outer_surface:
+      return shape->outer_area;
+    case Region::Kind::surface:
+      return shape->outer_area > 0 ? shape->outer_area + shape->inner_area : 0;
+    default:
+      return 0;
   }
 }
 

@@ -15,8 +15,8 @@ class RegionIndex {
 
   std::span<const Particle> particles(RegionId region);  ///< ascending
   ExposedFaces faces(Particle particle, RegionId region);
-  double true_area(RegionId region) const;               ///< m2, of a surface of the shape that the lattice filled; 0 if unknown
-  Vec3 centre(RegionId region);                          ///< of the shape behind the region; else of its particles
+  double true_area(RegionId region) const;  ///< m2, of a surface of the shape that the lattice filled; 0 if unknown
+  Vec3 centre(RegionId region);             ///< of the shape behind the region; else of its particles
 
   /// What an empty region is and where the body is, for a fault: "a region with particles; "slab", a box ..., holds none ...".
   std::string expected_particles(RegionId region) const;

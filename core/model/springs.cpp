@@ -55,7 +55,8 @@ Membrane membrane_of(const std::vector<Material>& materials, Faults& faults) {
     if (material.constants.has_cross_springs()) (material.constants.clamped ? clamped : free) = &material;
   if (clamped != nullptr && free != nullptr)
     faults.add(clamped->stage->pointer, clamped->stage->component->type(),
-               fmt::format("a membrane that can move in the fourth dimension, as that of {}: clamped and free ones cannot stand in one body", free->stage->pointer));
+               fmt::format("a membrane that can move in the fourth dimension, as that of {}: clamped and free ones cannot stand in one body",
+                           free->stage->pointer));
   return free != nullptr ? Membrane::free : clamped != nullptr ? Membrane::clamped : Membrane::none;
 }
 

@@ -25,14 +25,20 @@ struct Reader {
   bool holds(const Region& region, const Place& place) const {
     const auto part_holds = [&](const auto& part) { return holds(*part, place); };
     switch (region.kind) {
-      case Region::Kind::all: return true;
-      case Region::Kind::solid: return region.inside(place.position);
+      case Region::Kind::all:
+        return true;
+      case Region::Kind::solid:
+        return region.inside(place.position);
       case Region::Kind::surface:
       case Region::Kind::inner_surface:
-      case Region::Kind::outer_surface: return faces(region, place) != 0;
-      case Region::Kind::face: return is_outermost(place.site, region.direction);
-      case Region::Kind::set_union: return std::any_of(region.parts.begin(), region.parts.end(), part_holds);
-      case Region::Kind::intersection: return std::all_of(region.parts.begin(), region.parts.end(), part_holds);
+      case Region::Kind::outer_surface:
+        return faces(region, place) != 0;
+      case Region::Kind::face:
+        return is_outermost(place.site, region.direction);
+      case Region::Kind::set_union:
+        return std::any_of(region.parts.begin(), region.parts.end(), part_holds);
+      case Region::Kind::intersection:
+        return std::all_of(region.parts.begin(), region.parts.end(), part_holds);
       case Region::Kind::difference:
         return part_holds(region.parts.front()) && std::none_of(region.parts.begin() + 1, region.parts.end(), part_holds);
     }
@@ -43,11 +49,16 @@ struct Reader {
     switch (region.kind) {
       case Region::Kind::all:
       case Region::Kind::solid:
-      case Region::Kind::surface: return surfaces.faces(place.site);
-      case Region::Kind::inner_surface: return surfaces.inner_faces(place.site);
-      case Region::Kind::outer_surface: return surfaces.outer_faces(place.site);
-      case Region::Kind::face: return surfaces.faces(place.site) & 1U << region.direction;
-      case Region::Kind::difference: return faces(*region.parts.front(), place);
+      case Region::Kind::surface:
+        return surfaces.faces(place.site);
+      case Region::Kind::inner_surface:
+        return surfaces.inner_faces(place.site);
+      case Region::Kind::outer_surface:
+        return surfaces.outer_faces(place.site);
+      case Region::Kind::face:
+        return surfaces.faces(place.site) & 1U << region.direction;
+      case Region::Kind::difference:
+        return faces(*region.parts.front(), place);
       case Region::Kind::set_union: {
         ExposedFaces open = 0;
         for (const auto& part : region.parts)
@@ -65,12 +76,18 @@ struct Reader {
 
   bool is_outermost(Site site, int direction) const {
     switch (direction) {
-      case 0: return site.i == body.low.i;
-      case 1: return site.i == body.high.i;
-      case 2: return site.j == body.low.j;
-      case 3: return site.j == body.high.j;
-      case 4: return site.k == body.low.k;
-      default: return site.k == body.high.k;
+      case 0:
+        return site.i == body.low.i;
+      case 1:
+        return site.i == body.high.i;
+      case 2:
+        return site.j == body.low.j;
+      case 3:
+        return site.j == body.high.j;
+      case 4:
+        return site.k == body.low.k;
+      default:
+        return site.k == body.high.k;
     }
   }
 };

@@ -18,9 +18,9 @@ namespace hyperlattice {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr int grid = 24;              // waves along an axis of the zone; even, so that 0 and pi are among them
-constexpr int refined = 6;            // how many of the best are followed to their peak
-constexpr double round_off = 1e-9;    // relative to the stiffest wave
+constexpr int grid = 24;            // waves along an axis of the zone; even, so that 0 and pi are among them
+constexpr int refined = 6;          // how many of the best are followed to their peak
+constexpr double round_off = 1e-9;  // relative to the stiffest wave
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4>;
 using Modes = Eigen::SelfAdjointEigenSolver<Matrix>;
@@ -52,7 +52,8 @@ Wave wave(const Modes& found, Vec3 q, Eigen::Index mode) {
 }
 
 /// The wave vector where `value` is largest: the zone on a grid, then each of the best climbed by halved steps.
-template <class Value> Vec3 peak(const Value& value) {
+template <class Value>
+Vec3 peak(const Value& value) {
   struct Candidate {
     double value;
     Vec3 q;
@@ -76,8 +77,10 @@ template <class Value> Vec3 peak(const Value& value) {
         const Vec3 q = candidate.q + step * direction;
         if (const double here = value(q); here > next.value) next = {here, q};
       }
-      if (next.value > candidate.value) candidate = next;
-      else step /= 2;
+      if (next.value > candidate.value)
+        candidate = next;
+      else
+        step /= 2;
     }
   return std::min_element(best.begin(), best.end(), above)->q;
 }
@@ -122,7 +125,8 @@ std::optional<std::string> instability(const InfiniteLattice& lattice) {
     static constexpr std::array<const char*, 7> names{"xx", "yy", "zz", "yz", "xz", "xy", "height"};
     std::string mode;
     for (Eigen::Index n = 0; n < strains.eigenvalues().size(); ++n)
-      if (const double share = strains.eigenvectors()(n, 0); std::abs(share) > 0.01) mode += fmt::format("{}{} {:.3g}", mode.empty() ? "" : ", ", names[static_cast<std::size_t>(n)], share);
+      if (const double share = strains.eigenvectors()(n, 0); std::abs(share) > 0.01)
+        mode += fmt::format("{}{} {:.3g}", mode.empty() ? "" : ", ", names[static_cast<std::size_t>(n)], share);
     return fmt::format("a homogeneous deformation (wave vector 0; {}) releases energy and grows", mode);
   }
 
@@ -146,7 +150,8 @@ std::string describe(const Wave& wave) {
   const auto share = [](double part) { return fmt::format("{:.3g}", std::abs(part) < 1e-4 ? 0 : part); };
   const bool in_space = norm(wave.direction) > 1e-4;
   std::string motion = in_space ? fmt::format("along ({}, {}, {})", share(wave.direction.x), share(wave.direction.y), share(wave.direction.z)) : "";
-  if (std::abs(wave.height) > 1e-4) motion += in_space ? fmt::format(" and by {} in the fourth dimension", share(wave.height)) : "in the fourth dimension";
+  if (std::abs(wave.height) > 1e-4)
+    motion += in_space ? fmt::format(" and by {} in the fourth dimension", share(wave.height)) : "in the fourth dimension";
   return fmt::format("the wave with vector ({}, {}, {}) a site, moving {}", angle(wave.vector.x), angle(wave.vector.y), angle(wave.vector.z), motion);
 }
 
@@ -154,7 +159,8 @@ void StiffnessBound::add(const NeighbourGeometry& neighbour, int side, const Spr
                          KernelChoice::Membrane membrane) {
   const auto add_square = [this](double stiffness, const std::array<double, 4>& n) {
     for (int row = 0, at = 0; row < 4; ++row)
-      for (int column = 0; column <= row; ++column) sum_[at++] += std::abs(stiffness) * n[static_cast<std::size_t>(row)] * n[static_cast<std::size_t>(column)];
+      for (int column = 0; column <= row; ++column)
+        sum_[at++] += std::abs(stiffness) * n[static_cast<std::size_t>(row)] * n[static_cast<std::size_t>(column)];
   };
   const auto [x, y, z] = -side * neighbour.rest;  // a particle that goes away from its neighbour lengthens the spring
   const double base = neighbour.rest_length, cross = neighbour.cross_rest_length;

@@ -11,8 +11,8 @@ using namespace hyperlattice;
 
 // Half of the 18 neighbours, those that follow in the order z, y, x: so each spring stands once.
 constexpr Neighbour neighbours[] = {
-    {1, 0, 0, 0},                                               // along the row
-    {-1, 1, 0, 1}, {0, 1, 0, 0}, {1, 1, 0, 1},                  // to the next row
+    {1, 0, 0, 0},                                                            // along the row
+    {-1, 1, 0, 1}, {0, 1, 0, 0},  {1, 1, 0, 1},                              // to the next row
     {0, -1, 1, 1}, {-1, 0, 1, 1}, {0, 0, 1, 0}, {1, 0, 1, 1}, {0, 1, 1, 1},  // to the next plane
 };
 
@@ -34,7 +34,8 @@ class Cubic {
     return Schema<Options>("lattices.cubic", "Cubic lattice of 18 neighbours")
         .equation("x = anchor + (i + 1/2, j + 1/2, k + 1/2) spacing; V = spacing^3, Delta = spacing")
         .source("Zhao 2017, section 2.1 and figure 1; particles at cell centres reproduce its count of 490,432")
-        .add<&Options::spacing>("spacing", "m", "lattice constant l, the length of an orthogonal spring").positive()
+        .add<&Options::spacing>("spacing", "m", "lattice constant l, the length of an orthogonal spring")
+        .positive()
         .add<&Options::shape>("shape", "", "the solid that is filled: a particle stands wherever a cell's centre is inside")
         .add<&Options::anchor>("anchor", "m", "where a corner of the cells is; left out: the centre of a round shape, the low corner of a box")
         .add<&Options::boundary>("boundary", "", "particles: every particle and spring counts in full, as printed in the paper")
@@ -42,7 +43,8 @@ class Cubic {
         .fallback("\"particles\"");
   }
 
-  explicit Cubic(const Options& options) : spacing_(options.spacing), shape_(*options.shape), anchor_(options.anchor.value_or(options.shape->anchor)) {}
+  explicit Cubic(const Options& options)
+      : spacing_(options.spacing), shape_(*options.shape), anchor_(options.anchor.value_or(options.shape->anchor)) {}
 
   void build(const LatticeSink& sink) const {
     const Span x = cells(shape_.low.x, shape_.high.x, anchor_.x), y = cells(shape_.low.y, shape_.high.y, anchor_.y),

@@ -2,11 +2,10 @@
 // the springs in the fourth dimension relative to k. Closed forms of the infinite cubic lattice (hyperlattice/calibration.hpp):
 //   I-m: lambda = 7 (1 - 4 nu) / (1 + 5 nu),  k = 0.4 E l / eta,  eta = (18/5) (1 + nu) (1 - 2 nu) / (1 + 5 nu)
 // E is the modulus of one layer, and every particle has the mass density * l^3.
-#include "elastic.hpp"
-
 #include <hyperlattice/calibration.hpp>
-#include <hyperlattice/material.hpp>
+#include <hyperlattice/kernels/choose.hpp>
 
+#include <locale>
 #include <sstream>
 #include <stdexcept>
 
@@ -19,7 +18,8 @@ constexpr std::string_view parameter_names[] = {"closed_form", "paper"};
 enum class Stiffness : std::uint32_t { bulk, eq15 };
 constexpr std::string_view stiffness_names[] = {"bulk", "eq15"};
 
-template <class... Parts> std::string text(const Parts&... parts) {
+template <class... Parts>
+std::string text(const Parts&... parts) {
   std::ostringstream out;
   out.imbue(std::locale::classic());
   (out << ... << parts);
@@ -46,11 +46,16 @@ class Elastic {
     return Schema<Options>("materials.elastic", "Linear elastic springs, from Young's modulus and the Poisson ratio")
         .equation("f = k u; k = 0.4 E l / eta(lambda); I-m: lambda = 7 (1 - 4 nu) / (1 + 5 nu)")
         .source("Zhao 2017, equations (1) to (5), (10) to (15), (31); closed forms of the infinite lattice")
-        .restrictions("the cubic lattice; a Poisson ratio within the membrane's reach: I (-0.212, 0.25], II (-0.5, 0.25], I-m (-0.2, 0.25], III (0, 0.267), "
-                      "IV (0, 0.333), none 0.25. Only I-m is isotropic; for the others E and nu hold along [100]")
-        .add<&Options::young>("young", "Pa", "Young's modulus of the body").positive()
-        .add<&Options::poisson>("poisson", "", "Poisson ratio; may be left out without a membrane, with lambda, and with free ratios").above(-1).below(0.5)
-        .add<&Options::density>("density", "kg/m3", "mass density").positive()
+        .restrictions(
+            "the cubic lattice; a Poisson ratio within the membrane's reach: I (-0.212, 0.25], II (-0.5, 0.25], I-m (-0.2, 0.25], III (0, 0.267), "
+            "IV (0, 0.333), none 0.25. Only I-m is isotropic; for the others E and nu hold along [100]")
+        .add<&Options::young>("young", "Pa", "Young's modulus of the body")
+        .positive()
+        .add<&Options::poisson>("poisson", "", "Poisson ratio; may be left out without a membrane, with lambda, and with free ratios")
+        .above(-1)
+        .below(0.5)
+        .add<&Options::density>("density", "kg/m3", "mass density")
+        .positive()
         .add<&Options::membrane>("membrane", "", "which springs there are in the fourth dimension; free: k_alpha, k_beta, k_gamma")
         .choices(calibration::membrane_names)
         .fallback("\"none\"")
@@ -81,7 +86,8 @@ class Elastic {
     const double eta = o_.parameters == Parameters::paper ? calibration::paper_modulus_ratio(lambda()) : elasticity.modulus_ratio();
     if (o_.membrane == Membrane::free && !(eta > 0)) throw std::invalid_argument("these ratios give a lattice without stiffness");
     if (o_.membrane == Membrane::free && o_.poisson && std::abs(*o_.poisson - elasticity.poisson()) > 1e-4)
-      throw std::invalid_argument(text("poisson ", *o_.poisson, " does not fit these ratios: they give ", elasticity.poisson(), " along [100]; leave poisson out"));
+      throw std::invalid_argument(
+          text("poisson ", *o_.poisson, " does not fit these ratios: they give ", elasticity.poisson(), " along [100]; leave poisson out"));
 
     MaterialConstants constants;
     constants.density = o_.density;
@@ -93,7 +99,7 @@ class Elastic {
     return constants;
   }
 
-  static KernelSet kernels(const KernelChoice&) { return {}; }
+  static KernelSet kernels(const KernelChoice& choice) { return kernels_for_processor(choice); }
 
  private:
   calibration::Ratios ratios() const {
@@ -118,7 +124,8 @@ class Elastic {
   static void check(const Options& o, const FaultSink& faults) {
     const bool has_ratios = o.k_beta != 0 || o.k_gamma != 0 || o.k_alpha != 0.0;
     if (o.membrane != Membrane::free && has_ratios) faults.fault("membrane", "free, because k_alpha, k_beta or k_gamma is given");
-    if (o.parameters == Parameters::paper && o.membrane != Membrane::I_m) faults.fault("parameters", "closed_form: the paper's polynomials are of membrane I-m");
+    if (o.parameters == Parameters::paper && o.membrane != Membrane::I_m)
+      faults.fault("parameters", "closed_form: the paper's polynomials are of membrane I-m");
     if (o.lambda && (o.membrane == Membrane::none || o.membrane == Membrane::free))
       faults.fault("lambda", "no lambda: only membranes I, II, III, IV and I-m have one");
     else if (o.lambda && o.poisson)
@@ -140,7 +147,8 @@ class Elastic {
     const double nu = *o.poisson;
     if (o.parameters == Parameters::paper) {
       if (nu < calibration::paper_poisson_low || nu > calibration::paper_poisson_high)
-        faults.fault("poisson", text(calibration::paper_poisson_low, " to ", calibration::paper_poisson_high, ", where the paper's polynomials were fitted"));
+        faults.fault("poisson",
+                     text(calibration::paper_poisson_low, " to ", calibration::paper_poisson_high, ", where the paper's polynomials were fitted"));
       return;
     }
     const calibration::Reach reach = calibration::reach(o.membrane);
@@ -148,9 +156,9 @@ class Elastic {
     std::string others;
     for (const Membrane other : {Membrane::I_m, Membrane::I, Membrane::II, Membrane::III, Membrane::IV})
       if (calibration::reach(other).holds(nu)) others += (others.empty() ? "" : ", ") + std::string(name(other));
-    const std::string within = o.membrane == Membrane::none
-                                   ? "0.25, or left out: that is what the lattice without a membrane has"
-                                   : text("within (", reach.low, ", ", reach.high, reach.open ? ")" : "]", ", the reach of membrane ", name(o.membrane));
+    const std::string within = o.membrane == Membrane::none ? "0.25, or left out: that is what the lattice without a membrane has"
+                                                            : text("within (", reach.low, ", ", reach.high, reach.open ? ")" : "]",
+                                                                   ", the reach of membrane ", name(o.membrane));
     faults.fault("poisson", within + (others.empty() ? "; no membrane of this lattice reaches it"
                                                      : text("; ", nu, " is within the reach of membrane ", others)));
   }

@@ -22,12 +22,18 @@ struct Ratios {
 /// Equations (1) to (5) for lambda = the 4D stiffness ratio. `none` and `free` have no lambda and give zeros.
 constexpr Ratios ratios(Membrane membrane, double lambda) {
   switch (membrane) {
-    case Membrane::I: return {lambda, lambda, lambda, false};
-    case Membrane::II: return {lambda, lambda, 0, false};
-    case Membrane::III: return {0, lambda, lambda, true};
-    case Membrane::IV: return {0, lambda, 0, true};
-    case Membrane::I_m: return {lambda, lambda, 0.75 * lambda, false};
-    default: return {};
+    case Membrane::I:
+      return {lambda, lambda, lambda, false};
+    case Membrane::II:
+      return {lambda, lambda, 0, false};
+    case Membrane::III:
+      return {0, lambda, lambda, true};
+    case Membrane::IV:
+      return {0, lambda, 0, true};
+    case Membrane::I_m:
+      return {lambda, lambda, 0.75 * lambda, false};
+    default:
+      return {};
   }
 }
 
@@ -37,11 +43,11 @@ struct Elasticity {
   double C1 = 6, C2 = 2, C3 = 0, C4 = 0;
   double D1 = 6, D2 = 2, D3 = 2;
 
-  double poisson() const { return D2 / (D1 + D2); }                                ///< nu', equation (31): pull along [100]
-  double poisson_shear() const { return (2 * D3 - D1) / (2 * D3 - 2 * D1); }       ///< nu'', equation (32): equal to nu' if isotropic
-  double modulus() const { return (D1 - D2) * (D1 + 2 * D2) / (2 * (D1 + D2)); }   ///< E l / k along [100]
-  double modulus_ratio() const { return modulus() / 2.5; }                         ///< eta = E / E(3D lattice), equation (12)
-  double zener() const { return 2 * D3 / (D1 - D2); }                              ///< A: 1 if isotropic
+  double poisson() const { return D2 / (D1 + D2); }                               ///< nu', equation (31): pull along [100]
+  double poisson_shear() const { return (2 * D3 - D1) / (2 * D3 - 2 * D1); }      ///< nu'', equation (32): equal to nu' if isotropic
+  double modulus() const { return (D1 - D2) * (D1 + 2 * D2) / (2 * (D1 + D2)); }  ///< E l / k along [100]
+  double modulus_ratio() const { return modulus() / 2.5; }                        ///< eta = E / E(3D lattice), equation (12)
+  double zener() const { return 2 * D3 / (D1 - D2); }                             ///< A: 1 if isotropic
 };
 
 constexpr Elasticity elasticity(const Ratios& r) {
@@ -61,12 +67,18 @@ constexpr Elasticity elasticity(const Ratios& r) {
 constexpr double lambda(Membrane membrane, double nu) {
   const double excess = 1 - 4 * nu;
   switch (membrane) {
-    case Membrane::I: return 144 * excess / (25 + 118 * nu);
-    case Membrane::II: return 8 * excess / (1 + 2 * nu);
-    case Membrane::III: return -6 * excess / (4 - 15 * nu);
-    case Membrane::IV: return 2 * excess / nu;
-    case Membrane::I_m: return 7 * excess / (1 + 5 * nu);
-    default: return 0;
+    case Membrane::I:
+      return 144 * excess / (25 + 118 * nu);
+    case Membrane::II:
+      return 8 * excess / (1 + 2 * nu);
+    case Membrane::III:
+      return -6 * excess / (4 - 15 * nu);
+    case Membrane::IV:
+      return 2 * excess / nu;
+    case Membrane::I_m:
+      return 7 * excess / (1 + 5 * nu);
+    default:
+      return 0;
   }
 }
 
@@ -81,13 +93,20 @@ struct Reach {
 /// `none` has 1/4 only; nothing is known of `free` beforehand, so its reach is empty.
 constexpr Reach reach(Membrane membrane) {
   switch (membrane) {
-    case Membrane::none: return {0.25 * (1 - 1e-12), 0.25 * (1 + 1e-12), false};
-    case Membrane::I: return {-25.0 / 118, 0.25, false};
-    case Membrane::II: return {-0.5, 0.25, false};
-    case Membrane::III: return {0, 4.0 / 15, true};
-    case Membrane::IV: return {0, 1.0 / 3, true};
-    case Membrane::I_m: return {-0.2, 0.25, false};
-    case Membrane::free: break;
+    case Membrane::none:
+      return {0.25 * (1 - 1e-12), 0.25 * (1 + 1e-12), false};
+    case Membrane::I:
+      return {-25.0 / 118, 0.25, false};
+    case Membrane::II:
+      return {-0.5, 0.25, false};
+    case Membrane::III:
+      return {0, 4.0 / 15, true};
+    case Membrane::IV:
+      return {0, 1.0 / 3, true};
+    case Membrane::I_m:
+      return {-0.2, 0.25, false};
+    case Membrane::free:
+      break;
   }
   return {};
 }

@@ -16,7 +16,8 @@ class Elongation {
     return Schema<Options>("failures.elongation", "A spring breaks when it is longer by more than a limit")
         .equation("u_n = |r| - |r0| > limit")
         .source("Zhao 2017, section 3.2")
-        .add<&Options::limit>("limit", "m", "u_n*, the elongation that breaks a base spring, the same for every class").positive();
+        .add<&Options::limit>("limit", "m", "u_n*, the elongation that breaks a base spring, the same for every class")
+        .positive();
   }
 
   explicit Elongation(const Options& options) : limit_(options.limit) {}

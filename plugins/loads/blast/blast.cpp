@@ -25,12 +25,18 @@ class Blast {
         .source("Zhao 2017, section 3.2, figure 7")
         .restrictions("for surfaces around or inside a centre: spheres, cavities, bore holes")
         .add<&Options::on>("on", "", "the loaded surface")
-        .add<&Options::peak>("peak", "Pa", "largest pressure").at_least(0)
-        .add<&Options::rise>("rise", "s", "time from nothing to the peak").positive()
-        .add<&Options::fall>("fall", "s", "time from the peak to nothing").positive()
-        .add<&Options::start>("start", "s", "time at which the pulse begins").at_least(0).fallback("0")
+        .add<&Options::peak>("peak", "Pa", "largest pressure")
+        .at_least(0)
+        .add<&Options::rise>("rise", "s", "time from nothing to the peak")
+        .positive()
+        .add<&Options::fall>("fall", "s", "time from the peak to nothing")
+        .positive()
+        .add<&Options::start>("start", "s", "time at which the pulse begins")
+        .at_least(0)
+        .fallback("0")
         .add<&Options::centre>("centre", "m", "where the radii begin; left out: the centre of the shape behind the region")
-        .add<&Options::area>("area", "m2", "true area of the loaded surface; left out: the shape's, if known, else that of the cells").positive();
+        .add<&Options::area>("area", "m2", "true area of the loaded surface; left out: the shape's, if known, else that of the cells")
+        .positive();
   }
 
   explicit Blast(const Options& options) : o_(options) {}

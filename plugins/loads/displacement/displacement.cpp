@@ -21,7 +21,8 @@ class Displacement {
         .add<&Options::axes>("axes", "", "along which the displacement is prescribed; value is ignored along the others")
         .choices(axis_set_names)
         .fallback("\"xyz\"")
-        .add<&Options::rise>("rise", "s", "time from rest to the full value, at constant speed").positive();
+        .add<&Options::rise>("rise", "s", "time from rest to the full value, at constant speed")
+        .positive();
   }
 
   explicit Displacement(const Options& options) : o_(options) {}

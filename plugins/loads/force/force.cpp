@@ -19,7 +19,9 @@ class Force {
         .add<&Options::on>("on", "", "the loaded particles")
         .add<&Options::total>("total", "N", "shared evenly by the particles")
         .add<&Options::each>("each", "N", "on every particle")
-        .add<&Options::rise>("rise", "s", "time from nothing to the full force; 0: at once").at_least(0).fallback("0")
+        .add<&Options::rise>("rise", "s", "time from nothing to the full force; 0: at once")
+        .at_least(0)
+        .fallback("0")
         .check([](const Options& o, const FaultSink& faults) {
           if (o.total.has_value() == o.each.has_value()) faults.fault(o.total ? "each" : "total", "exactly one of total and each");
         });

@@ -20,7 +20,9 @@ class Pressure {
         .restrictions("a surface that is not parallel to the axes is loaded as the staircase that its particles make of it")
         .add<&Options::on>("on", "", "the loaded surface; x_min and its like load only the faces of that side")
         .add<&Options::pressure>("pressure", "Pa", "positive pushes on the body, negative pulls")
-        .add<&Options::rise>("rise", "s", "time from nothing to the full pressure; 0: at once").at_least(0).fallback("0");
+        .add<&Options::rise>("rise", "s", "time from nothing to the full pressure; 0: at once")
+        .at_least(0)
+        .fallback("0");
   }
 
   explicit Pressure(const Options& options) : o_(options) {}

@@ -21,7 +21,9 @@ class Velocity {
         .add<&Options::axes>("axes", "", "along which the velocity is prescribed; value is ignored along the others")
         .choices(axis_set_names)
         .fallback("\"xyz\"")
-        .add<&Options::rise>("rise", "s", "time from rest to the full velocity; 0: at once").at_least(0).fallback("0");
+        .add<&Options::rise>("rise", "s", "time from rest to the full velocity; 0: at once")
+        .at_least(0)
+        .fallback("0");
   }
 
   explicit Velocity(const Options& options) : o_(options) {}
