@@ -11,13 +11,14 @@
 
 namespace hyperlattice {
 
-/// Memory aligned to cache lines and left untouched, so that the thread that first writes it decides where it lives.
+/// Zeros in memory aligned to cache lines, written first by the thread that makes the array: that thread's memory holds it.
 template <class T>
 class AlignedArray {
  public:
   AlignedArray() = default;
-  explicit AlignedArray(std::size_t size) : data_(static_cast<T*>(::operator new[](size * sizeof(T), std::align_val_t{64}))), size_(size) {}
-  void clear() { std::fill_n(data_.get(), size_, T{}); }
+  explicit AlignedArray(std::size_t size) : data_(static_cast<T*>(::operator new[](size * sizeof(T), std::align_val_t{64}))), size_(size) {
+    std::uninitialized_fill_n(data_.get(), size, T{});
+  }
   T* get() const { return data_.get(); }
   std::size_t size() const { return size_; }
   T& operator[](std::size_t n) const { return data_.get()[n]; }
