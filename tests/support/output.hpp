@@ -135,7 +135,8 @@ class FakeBody {
     }
   }
 
-  OutputContext context(const std::string& directory) {
+  /// Valid as long as the directory's text.
+  OutputContext context(std::string_view directory) {
     OutputContext context;
     context.directory = directory;
     context.title = "a fake body";
@@ -201,7 +202,8 @@ class FakeBody {
 /// A folder that vanishes with the test.
 class Folder {
  public:
-  explicit Folder(const std::string& name) : path_(std::filesystem::temp_directory_path() / ("hyperlattice_" + name + std::to_string(getpid()))) {
+  explicit Folder(const std::string& name)
+      : path_((std::filesystem::temp_directory_path() / ("hyperlattice_" + name + std::to_string(getpid()))).string()) {
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }
@@ -209,8 +211,8 @@ class Folder {
   Folder& operator=(const Folder&) = delete;
   ~Folder() { std::filesystem::remove_all(path_); }
 
-  std::string path() const { return path_.string(); }
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
+  const std::string& path() const { return path_; }
+  std::string file(const std::string& name) const { return path_ + "/" + name; }
   std::vector<std::string> names() const {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(path_)) names.push_back(entry.path().filename().string());
@@ -219,7 +221,7 @@ class Folder {
   }
 
  private:
-  std::filesystem::path path_;
+  std::string path_;
 };
 
 inline std::string contents(const std::string& path) {

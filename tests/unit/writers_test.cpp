@@ -88,13 +88,10 @@ TEST(Csv, WritesOnlyTheRegionAndTheDeformedPlaces) {
 class EveryWriter : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Types, EveryWriter, testing::Values("writers.vtu", "writers.csv"));
 
-TEST_P(EveryWriter, RefusesUnknownAndRepeatedFieldsAndFolders) {
-  const auto faults = Plugin(GetParam(), {{"fields", {"velocty", "damage", "damage"}}, {"file", "a/b"}}).faults();
-  ASSERT_EQ(faults.size(), 3u);
-  EXPECT_EQ(faults[0], "file: a name of letters, digits, '_', '-' and '.', without folders");
-  EXPECT_EQ(faults[1],
-            "fields: fields among displacement, velocity, height, material, broken_open, broken_closed, damage; \"velocty\" is none of them");
-  EXPECT_EQ(faults[2], "fields: each field once; \"damage\" is there twice");
+TEST_P(EveryWriter, RefusesRepeatedFieldsAndFolders) {
+  const auto faults = Plugin(GetParam(), {{"fields", {"damage", "damage"}}, {"file", "a/b"}}).faults();
+  EXPECT_EQ(faults, (std::vector<std::string>{"file: a name of letters, digits, '_', '-' and '.', without folders",
+                                              "fields: each field once; \"damage\" is there twice"}));
 }
 
 TEST_P(EveryWriter, RefusesAFieldThatTheRunLacks) {

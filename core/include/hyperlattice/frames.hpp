@@ -22,6 +22,7 @@ struct FrameOptions {
 template <class Options>
 void add_frame_options(Schema<Options>& schema) {
   schema.template add<&Options::fields>("fields", "", "fields to write")
+      .choices(field_names)
       .fallback(R"(["displacement", "velocity"])")
       .template add<&Options::file>("file", "", "base name of the files")
       .fallback("\"frames\"")
@@ -44,10 +45,8 @@ inline void check_file_name(const std::string& file, const FaultSink& faults) {
 template <class Options>
 void check_frame_options(const Options& options, const FaultSink& faults) {
   check_file_name(options.file, faults);
-  for (auto name = options.fields.begin(); name != options.fields.end(); ++name) {
-    if (!is_one_of(field_names, *name)) faults.fault("fields", "fields among " + joined(field_names) + "; \"" + *name + "\" is none of them");
+  for (auto name = options.fields.begin(); name != options.fields.end(); ++name)
     if (std::find(options.fields.begin(), name, *name) != name) faults.fault("fields", "each field once; \"" + *name + "\" is there twice");
-  }
 }
 
 /// The numbered files of one writer: `<directory>/<file>_000000<extension>` and so on.
