@@ -3,6 +3,9 @@
 
 #include <base/errors.hpp>
 
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
 #include <iostream>
 #include <new>
 
@@ -17,6 +20,8 @@ int complain(int code, const std::string& message) {
 
 int main(int count, char** words) {
   using namespace hyperlattice;
+  spdlog::set_default_logger(spdlog::stderr_logger_mt("hyperlattice"));  // standard output is for what a command prints
+  spdlog::set_pattern("hyperlattice: %v");
   CLI::App program("Simulates solids with the four-dimensional lattice spring model.", "hyperlattice");
   program.set_version_flag("--version", "hyperlattice " HYPERLATTICE_VERSION);
   program.require_subcommand(1);
