@@ -1,7 +1,7 @@
 // The body: particles in their order, the paper's counts of particles and springs, and what a lattice component may not do.
 #include <model/body.hpp>
 
-#include "../support/body.hpp"
+#include <support/body.hpp>
 
 #include <gtest/gtest.h>
 

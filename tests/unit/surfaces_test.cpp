@@ -1,7 +1,7 @@
 // Which particles and faces the surfaces, faces and sets of regions mean.
 #include <model/body.hpp>
 
-#include "../support/body.hpp"
+#include <support/body.hpp>
 
 #include <gtest/gtest.h>
 
