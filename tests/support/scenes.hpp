@@ -6,6 +6,7 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -71,17 +72,18 @@ inline std::vector<double> displacements(const Simulation& simulation) {
   return values;
 }
 
+/// Largest size of the values; infinite if one is not a number.
 inline double largest(const std::vector<double>& values) {
   double found = 0;
-  for (const double value : values) found = std::max(found, std::abs(value));
+  for (const double value : values) found = std::isnan(value) ? HUGE_VAL : std::max(found, std::abs(value));
   return found;
 }
 
 /// Largest difference of two fields.
 inline double distance(const std::vector<double>& a, const std::vector<double>& b) {
-  double found = 0;
-  for (std::size_t n = 0; n < a.size(); ++n) found = std::max(found, std::abs(a[n] - b[n]));
-  return found;
+  std::vector<double> differences(a.size());
+  for (std::size_t n = 0; n < a.size(); ++n) differences[n] = a[n] - b[n];
+  return largest(differences);
 }
 
 }  // namespace hyperlattice::test

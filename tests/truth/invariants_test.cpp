@@ -139,7 +139,7 @@ TEST_P(EveryMembrane, ABodyThatOnlyTurnedStoresNothing) {
 }
 
 TEST_P(EveryMembrane, TheSameBitsForAnyNumberOfThreads) {
-  const std::string material = std::string(GetParam().material) + R"(, "failure": { "type": "failures.elongation", "limit": 2.5e-6 })";
+  const std::string material = std::string(GetParam().material) + R"(, "failure": { "type": "failures.elongation", "limit": 1.5e-6 })";
   const auto plan = plan_of(block(9, 8, 11, material, R"({ "type": "loads.gravity", "acceleration": [0, 0, -9.81] },
     { "type": "loads.fixed", "on": "z_min", "axes": "xyz" }, { "type": "loads.force", "on": "z_max", "total": [10, 0, 20] })"));
   std::vector<std::uint64_t> hashes;

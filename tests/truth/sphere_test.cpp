@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <sstream>
 
 namespace {
@@ -24,7 +25,7 @@ struct Table {
     for (std::istringstream cells(line); std::getline(cells, cell, ',');) names.push_back(cell);
     while (std::getline(file, line)) {
       rows.emplace_back();
-      for (std::istringstream cells(line); std::getline(cells, cell, ',');) rows.back().push_back(std::stod(cell));
+      for (std::istringstream cells(line); std::getline(cells, cell, ',');) rows.back().push_back(std::strtod(cell.c_str(), nullptr));
     }
   }
 };
