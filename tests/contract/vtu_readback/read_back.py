@@ -3,10 +3,10 @@
 import subprocess
 import sys
 import tempfile
-import xml.etree.ElementTree as xml
 
 import numpy as np
 import vtk
+from series import read, times
 from vtk.util.numpy_support import vtk_to_numpy
 
 program, compress = sys.argv[1:]
@@ -23,30 +23,17 @@ def same(what, read, dump, components):
         faults.append(f"{what}: values differ")
 
 
-def read(path):
-    """The grid, or None with a fault if VTK's reader complains."""
-    complaints = []
-    reader = vtk.vtkXMLUnstructuredGridReader()
-    reader.AddObserver("ErrorEvent", lambda *_: complaints.append(path))
-    reader.SetFileName(path)
-    reader.Update()
-    if complaints:
-        faults.append(f"{path}: VTK's reader complains")
-    return reader.GetOutput()
-
-
 def check(folder, file, region, deformed):
     subprocess.run([program, folder, compress, file, region, deformed], check=True)
-    collection = xml.parse(f"{folder}/{file}.pvd").getroot()
-    entries = collection.findall("./Collection/DataSet")
-    if collection.get("type") != "Collection" or len(entries) != 3:
-        faults.append(f"{file}.pvd: not a collection of three files")
-    for number, entry in enumerate(entries):
+    entries = times(f"{folder}/{file}.pvd")
+    if len(entries) != 3:
+        faults.append(f"{file}.pvd: {len(entries)} files, expected three")
+    for number, (stated, name) in enumerate(entries):
         base = f"{folder}/{file}{number}"
         time = np.fromfile(base + ".time", dtype=np.float64)
-        if float(entry.get("timestep")) != time[0] or entry.get("file") != f"{file}_{number:06d}.vtu":
-            faults.append(f"{file}.pvd: entry {number} is {entry.attrib}")
-        grid = read(f"{folder}/{entry.get('file')}")
+        if stated != time[0] or name != f"{file}_{number:06d}.vtu":
+            faults.append(f"{file}.pvd: entry {number} is {name} at {stated}")
+        grid = read(f"{folder}/{name}")
         same("TimeValue", vtk_to_numpy(grid.GetFieldData().GetArray("TimeValue")), base + ".time", 1)
         same("points", vtk_to_numpy(grid.GetPoints().GetData()), base + ".points", 3)
         data = grid.GetPointData()
