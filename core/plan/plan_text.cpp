@@ -1,5 +1,6 @@
 // The plan as a page for people; every number comes from the JSON form, so that the two never differ.
 #include <plan/plan.hpp>
+#include <run/state.hpp>
 
 #include <spdlog/fmt/fmt.h>
 #include <nlohmann/json.hpp>
@@ -37,7 +38,7 @@ std::string count_text(std::uint64_t number) {
 class Page {
  public:
   void section(std::string_view title) { fmt::format_to(std::back_inserter(text_), "\n{}\n", title); }
-  void line(std::string_view name, std::string_view value) { fmt::format_to(std::back_inserter(text_), "  {:<22} {}\n", name, value); }
+  void line(std::string_view name, std::string_view value) { fmt::format_to(std::back_inserter(text_), "  {:<30} {}\n", name, value); }
   std::string take() { return std::move(text_); }
   void title(std::string_view text) { text_ = fmt::format("{}\n", text); }
 
@@ -64,7 +65,8 @@ std::string plan_text(const Plan& plan) {
   page.section("Allocated");
   page.line("particles", count("particles"));
   page.line("state", fmt::format("{:.1f} bytes per particle", number("bytes_per_particle")));
-  page.line("memory", bytes_text(number("memory_bytes")));
+  page.line("memory", bytes_text(number("memory_bytes")) +
+                          (facts.at("breakable").get<bool>() ? fmt::format(", and {} bytes for each spring that breaks", sizeof(Breakage)) : ""));
 
   page.section("Computed");
   page.line("springs", fmt::format("{}, {:.2f} per particle", count("springs"), number("springs_per_particle")));

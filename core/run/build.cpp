@@ -2,6 +2,7 @@
 #include <run/parts.hpp>
 
 #include <algorithm>
+#include <exception>
 
 namespace hyperlattice {
 
@@ -12,8 +13,15 @@ Simulation::Parts::Parts(const Model& m, int wanted) : model(m), layout(m, wante
     masses.push_back(material.mass);
     alphas.push_back(constants.clamped ? 0 : constants.alpha_ratio * constants.base_stiffness);
   }
+  std::exception_ptr thrown;  // most likely for want of memory; none may leave a parallel region
 #pragma omp parallel for num_threads(threads) schedule(static, 1)
-  for (std::size_t b = 0; b < blocks.size(); ++b) allocate(blocks[b], layout.blocks[b]);
+  for (std::size_t b = 0; b < blocks.size(); ++b) try {
+      allocate(blocks[b], layout.blocks[b]);
+    } catch (...) {
+#pragma omp critical
+      thrown = std::current_exception();
+    }
+  if (thrown) std::rethrow_exception(thrown);
   for (Block& block : blocks) add_supports(block);
   for (const auto& [particle, velocity] : model.start_velocities) {
     const auto [block, place] = at(particle);

@@ -11,7 +11,7 @@ class Guard {
   Guard(const Model& model, const Simulation& simulation) : model_(model), simulation_(simulation) {}
 
   void start(const PlannedStage& stage) { stage_ = &stage; }
-  /// RunError if a number is not finite or a particle moves by more than a lattice spacing in one step. Reads all velocities once.
+  /// RunError if a number is not finite or a particle runs away. Reads all velocities once.
   void check_motion(double time_step) const;
   /// RunError if an energy is not a number.
   void check_finite(const Balance& balance, double time_step) const;

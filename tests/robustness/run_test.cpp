@@ -163,6 +163,31 @@ TEST_F(Run, an_output_folder_that_cannot_be_is_an_outside_fault) {
   EXPECT_NE(result.err.find("file/out"), std::string::npos) << result.err;
 }
 
+TEST_F(Run, too_little_memory_says_how_much_is_needed) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "the address sanitizer needs all of the address space";
+#endif
+  json scene = small_sphere();
+  scene["pipeline"][0]["shape"]["hollow_sphere"] = {{"inner_radius", "20 mm"}, {"outer_radius", "50 mm"}};
+  Launch launch;
+  launch.memory_limit = 50'000'000;  // the lattice fits, the state does not
+  const Result result = run(scene, {"--threads", "1"}, launch);
+  EXPECT_EQ(result.exit_code, 4) << result.err;
+  EXPECT_NE(result.err.find("needs about"), std::string::npos) << result.err;
+  EXPECT_EQ(summary()["status"], "failed");
+}
+
+TEST_F(Run, two_writers_of_a_kind_keep_apart) {
+  json scene = small_sphere();
+  scene["pipeline"].push_back({{"type", "writers.csv"}, {"every", 0}});
+  scene["pipeline"].push_back({{"type", "writers.csv"}, {"every", 0}, {"first", false}, {"name", "late"}});
+  ASSERT_EQ(run(scene).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(out + "/frames_000001.csv"));
+  EXPECT_TRUE(std::filesystem::exists(out + "/late/frames_000000.csv"));
+  EXPECT_FALSE(std::filesystem::exists(out + "/late/frames_000001.csv"));
+  EXPECT_EQ(contents(out + "/frames_000001.csv"), contents(out + "/late/frames_000000.csv"));
+}
+
 TEST_F(Run, lost_balance_stops_and_says_where) {
   json scene = small_sphere();
   scene["pipeline"][solver]["energy_tolerance"] = 1e-14;

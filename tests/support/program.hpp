@@ -21,6 +21,7 @@ struct Result {
 
 struct Launch {
   std::uint64_t file_limit = 0;          ///< bytes that any file may have; 0: no limit
+  std::uint64_t memory_limit = 0;        ///< bytes of address space; 0: no limit
   std::function<void(pid_t)> meanwhile;  ///< called while the program runs
   std::vector<std::string> environment;  ///< "NAME=value"
 };
@@ -40,6 +41,10 @@ inline Result run_program(const std::vector<std::string>& arguments, const Launc
     if (launch.file_limit > 0) {
       const struct rlimit limit = {launch.file_limit, launch.file_limit};
       setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    if (launch.memory_limit > 0) {
+      const struct rlimit limit = {launch.memory_limit, launch.memory_limit};
+      setrlimit(RLIMIT_AS, &limit);
     }
     execv(program.c_str(), words.data());
     _exit(127);
