@@ -83,8 +83,10 @@ Vec3 RegionIndex::centre(RegionId region) {
 }
 
 std::string RegionIndex::expected_particles(RegionId region) const {
-  return fmt::format("a region with particles; \"{}\", {}, holds none of the body's, which stand between {} and {} m", regions_.name(region),
-                     what(regions_[region]), text(body_.position(body_.low)), text(body_.position(body_.high)));
+  const std::string& name = regions_.name(region);
+  const std::string named = name.starts_with('{') ? "" : fmt::format("\"{}\", ", name);  // one that the scene describes in place has no name
+  return fmt::format("a region with particles; {}{}, holds none of the body's, which stand between {} and {} m", named, what(regions_[region]),
+                     text(body_.position(body_.low)), text(body_.position(body_.high)));
 }
 
 }  // namespace hyperlattice

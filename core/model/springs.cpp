@@ -81,6 +81,8 @@ void set_springs(Model& model, Faults& faults) {
   model.choice.mixed = model.materials.size() > 1;
   for (const Material& material : model.materials) model.choice.breakable |= material.failure != nullptr;
   model.kernels = model.materials[0].stage->functions<MaterialFunctions>().kernels(model.choice);
+  if (model.kernels.step == nullptr || model.kernels.step_damped == nullptr || model.kernels.measure == nullptr)
+    throw refusal(*model.materials[0].stage, "its library has no kernel for this membrane");
 
   for (const Material& a : model.materials)
     for (const Material& b : model.materials)

@@ -46,8 +46,12 @@ Modes modes(const InfiniteLattice& lattice, Vec3 q) {
   return Modes(sum.topLeftCorner(size, size));
 }
 
+/// One of the waves found, with its sign chosen so that the largest part of its motion is positive.
 Wave wave(const Modes& found, Vec3 q, Eigen::Index mode) {
-  const auto motion = found.eigenvectors().col(mode);
+  Eigen::VectorXd motion = found.eigenvectors().col(mode);
+  Eigen::Index largest = 0;
+  motion.cwiseAbs().maxCoeff(&largest);
+  if (motion(largest) < 0) motion = -motion;
   return {q, found.eigenvalues()(mode), {motion(0), motion(1), motion(2)}, motion.size() == 4 ? motion(3) : 0};
 }
 

@@ -49,6 +49,8 @@ class Cubic {
   void build(const LatticeSink& sink) const {
     const Span x = cells(shape_.low.x, shape_.high.x, anchor_.x), y = cells(shape_.low.y, shape_.high.y, anchor_.y),
                z = cells(shape_.low.z, shape_.high.z, anchor_.z);
+    constexpr const char* nothing_inside = "no cell's centre is inside the shape: expected a smaller spacing or a larger shape";
+    if (x.count() * y.count() * z.count() == 0) throw std::invalid_argument(nothing_inside);
     if (x.count() * y.count() * z.count() > most_sites)
       throw std::invalid_argument("spacing is too small for this shape: its box would hold more than 4e9 sites");
 
@@ -77,7 +79,7 @@ class Cubic {
           empty = false;
         }
       }
-    if (empty) throw std::invalid_argument("no cell's centre is inside the shape: expected a smaller spacing or a larger shape");
+    if (empty) throw std::invalid_argument(nothing_inside);
   }
 
  private:

@@ -1,0 +1,63 @@
+// Models for tests, built from scenes given as text, and the faults of scenes that cannot be built.
+#pragma once
+
+#include <model/model.hpp>
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+
+namespace hyperlattice::test {
+
+/// A scene with its model. The scene ends last.
+struct BuiltScene {
+  std::unique_ptr<Scene> scene;
+  std::unique_ptr<Model> model;
+  const Model& operator*() const { return *model; }
+  const Model* operator->() const { return model.get(); }
+};
+
+/// Reads and builds a pipeline given as the text between its brackets, without a solver.
+inline BuiltScene build(const std::string& pipeline) {
+  static int count = 0;
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("hyperlattice_model_" + std::to_string(::getpid()) + "_" + std::to_string(count++) + ".json");
+  std::ofstream(file) << R"({ "format": "hyperlattice/1", "pipeline": [)" << pipeline << R"(, { "type": "solvers.explicit", "end_time": 1e-6 } ] })";
+  Host host;
+  BuiltScene built;
+  try {
+    built.scene = read_scene(file, {}, host);
+  } catch (...) {
+    std::filesystem::remove(file);
+    throw;
+  }
+  std::filesystem::remove(file);
+  built.model = build_model(*built.scene);
+  return built;
+}
+
+/// The faults of a pipeline that cannot be built, as the user reads them; "" if it can.
+inline std::string faults_of(const std::string& pipeline) {
+  try {
+    build(pipeline);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// A lattice stage: a box of nx * ny * nz particles, 1 m apart, corner at the origin.
+inline std::string box_lattice(int nx, int ny, int nz) {
+  return R"({ "type": "lattices.cubic", "spacing": 1, "shape": { "box": { "low": [0, 0, 0], "high": [)" + std::to_string(nx) + ", " +
+         std::to_string(ny) + ", " + std::to_string(nz) + "] } } }";
+}
+
+/// A material stage: young 1e9, density 1000, and more keys.
+inline std::string elastic(const std::string& more = R"("poisson": 0.25)") {
+  return R"({ "type": "materials.elastic", "young": 1e9, "density": 1000, )" + more + " }";
+}
+
+}  // namespace hyperlattice::test
