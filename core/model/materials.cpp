@@ -73,7 +73,7 @@ void assign(Model& model, RegionIndex& regions, Faults& faults) {
         "/pipeline", "",
         fmt::format("a material for every particle; {} have none, the first at ({:.6g}, {:.6g}, {:.6g}) m", count[no_material], at.x, at.y, at.z));
   }
-  if (model.materials.size() > 1) model.material_of = std::move(material_of);
+  if (faults.empty() && model.materials.size() > 1) model.material_of = std::move(material_of);
 }
 
 }  // namespace
