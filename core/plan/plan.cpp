@@ -132,8 +132,9 @@ double output_interval(const Stage& output, double end_time) {
 }
 
 double record_interval(const PlannedStage& stage) {
-  constexpr double records = 200;
-  return stage.stage->record_every > 0 ? stage.stage->record_every : (stage.plan.end_time - stage.start_time) / records;
+  constexpr double records = 200, steps = 10;  // a record costs as much as a step
+  if (stage.stage->record_every > 0) return stage.stage->record_every;
+  return std::max((stage.plan.end_time - stage.start_time) / records, steps * stage.plan.time_step);
 }
 
 std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, int threads) {

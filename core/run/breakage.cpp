@@ -71,8 +71,11 @@ void Simulation::Parts::collect_breakages(double dt) {
       breakage.b = model.body.at({broken.site + to.dx, row.j + to.dy, row.k + to.dz});
       breakage.neighbour = broken.neighbour;
       breakage.elongation = broken.elongation;
-      failure_energy += energy_of(breakage, dt);
+      const auto [block_a, place_a] = at(breakage.a);
+      const auto [block_b, place_b] = at(breakage.b);
       breakages.push_back(breakage);
+      ends.push_back({block_a, block_b, place_a, place_b});
+      failure_energy += energy_of(breakages.size() - 1, dt);
     }
     block.broken.clear();
   }
@@ -80,11 +83,11 @@ void Simulation::Parts::collect_breakages(double dt) {
 
 /// What is lost with a base spring and its cross springs. They pulled during the step that found them broken, so half a step of that work
 /// belongs to the energy that is gone: this keeps the scheme's balance exact to second order.
-double Simulation::Parts::energy_of(const Breakage& breakage, double dt) const {
+double Simulation::Parts::energy_of(std::size_t index, double dt) const {
+  const Breakage& breakage = breakages[index];
+  const Ends& where = ends[index];
   const NeighbourGeometry& neighbour = model.neighbours[breakage.neighbour];
-  const auto [block_a, place_a] = at(breakage.a);
-  const auto [block_b, place_b] = at(breakage.b);
-  const End a = end_of(*block_a, place_a, model.degrees_of_freedom, dt), b = end_of(*block_b, place_b, model.degrees_of_freedom, dt);
+  const End a = end_of(*where.block_a, where.a, model.degrees_of_freedom, dt), b = end_of(*where.block_b, where.b, model.degrees_of_freedom, dt);
   const auto material = [&](Particle p) { return model.material_of.empty() ? std::uint8_t{0} : model.material_of[p]; };
   const SpringConstants& constants = model.spring(material(breakage.a), material(breakage.b), neighbour.site.spring_class);
 
@@ -103,11 +106,10 @@ double Simulation::Parts::energy_of(const Breakage& breakage, double dt) const {
   return energy;
 }
 
-double Simulation::Parts::elongation_now(const Breakage& breakage) const {
-  const NeighbourGeometry& neighbour = model.neighbours[breakage.neighbour];
-  const auto [block_a, place_a] = at(breakage.a);
-  const auto [block_b, place_b] = at(breakage.b);
-  const End a = end_of(*block_a, place_a, model.degrees_of_freedom, 0), b = end_of(*block_b, place_b, model.degrees_of_freedom, 0);
+double Simulation::Parts::elongation_now(std::size_t index) const {
+  const NeighbourGeometry& neighbour = model.neighbours[breakages[index].neighbour];
+  const Ends& where = ends[index];
+  const End a = end_of(*where.block_a, where.a, model.degrees_of_freedom, 0), b = end_of(*where.block_b, where.b, model.degrees_of_freedom, 0);
   const Vec3 d = b.place - a.place;
   const double growth = dot(d, 2 * neighbour.rest + d) + (b.height - a.height) * (b.height - a.height);
   return growth / (std::sqrt(neighbour.rest_length * neighbour.rest_length + growth) + neighbour.rest_length);

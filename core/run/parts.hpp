@@ -22,6 +22,11 @@ struct Simulation::Parts {
   double time = 0, time_rest = 0;  ///< compensated sum
   std::uint64_t steps = 0;
   std::vector<Breakage> breakages;
+  struct Ends {
+    const Block *block_a, *block_b;
+    std::uint64_t a, b;
+  };
+  std::vector<Ends> ends;     ///< where the particles of each breakage are stored
   double failure_energy = 0;  ///< J, dissipated since the start
   bool start_known = false;
   double start_energy = 0, start_potential = 0, largest_energy = 0;  ///< J
@@ -42,8 +47,8 @@ struct Simulation::Parts {
   // breakage.cpp
   const std::uint8_t* review(Block& block, const AlarmRow& alarm) const;
   void collect_breakages(double dt);
-  double energy_of(const Breakage& breakage, double dt) const;
-  double elongation_now(const Breakage& breakage) const;
+  double energy_of(std::size_t breakage, double dt) const;
+  double elongation_now(std::size_t breakage) const;
 
   // balance.cpp
   RowSums measure();

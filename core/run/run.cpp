@@ -161,7 +161,8 @@ void Running::observe() {
 
 void Running::record() {
   if (recorded_ && last_.step == simulation_->steps()) return;
-  const Record record{simulation_->time(), simulation_->steps(), simulation_->balance(), simulation_->broken_open(), simulation_->broken_closed()};
+  const std::uint64_t open = simulation_->broken_open();
+  const Record record{simulation_->time(), simulation_->steps(), simulation_->balance(), open, simulation_->breakages().size() - open};
   if (record.step > 0) guard_->check_motion(time_step_);
   guard_->check_finite(record.balance, time_step_);
   last_ = record;

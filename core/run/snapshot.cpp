@@ -73,10 +73,11 @@ bool SnapshotSource::compute(std::string_view name, Values& values) {
 
 void SnapshotSource::count_broken(std::vector<double>& numbers, bool open) {
   numbers.assign(model_.body.particles, 0.0);
-  for (const Breakage& breakage : simulation_.breakages()) {
-    if ((simulation_.elongation_now(breakage) > 0) != open) continue;
-    numbers[breakage.a] += 1;
-    numbers[breakage.b] += 1;
+  const std::vector<Breakage>& breakages = simulation_.breakages();
+  for (std::size_t n = 0; n < breakages.size(); ++n) {
+    if ((simulation_.elongation_now(n) > 0) != open) continue;
+    numbers[breakages[n].a] += 1;
+    numbers[breakages[n].b] += 1;
   }
 }
 

@@ -21,14 +21,14 @@ std::vector<double> Simulation::injected_by_load() {
 }
 
 const std::vector<Breakage>& Simulation::breakages() const { return parts_->breakages; }
-double Simulation::elongation_now(const Breakage& breakage) const { return parts_->elongation_now(breakage); }
+double Simulation::elongation_now(std::size_t breakage) const { return parts_->elongation_now(breakage); }
 
 std::uint64_t Simulation::broken_open() const {
   std::uint64_t open = 0;
-  for (const Breakage& breakage : parts_->breakages) open += elongation_now(breakage) > 0 ? 1 : 0;
+#pragma omp parallel for num_threads(parts_->threads) reduction(+ : open)
+  for (std::size_t n = 0; n < parts_->breakages.size(); ++n) open += elongation_now(n) > 0 ? 1 : 0;
   return open;
 }
-std::uint64_t Simulation::broken_closed() const { return parts_->breakages.size() - broken_open(); }
 
 void Simulation::copy(const Quantity& quantity, std::vector<double>& values) const {
   const auto components = static_cast<std::size_t>(quantity.components);

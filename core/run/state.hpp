@@ -44,9 +44,8 @@ class Simulation {
   std::vector<double> injected_by_load();  ///< J, one a load; up to the present state
 
   const std::vector<Breakage>& breakages() const;
-  double elongation_now(const Breakage& breakage) const;  ///< m, of a spring that is gone: open if above 0, closed if not
-  std::uint64_t broken_open() const;
-  std::uint64_t broken_closed() const;
+  double elongation_now(std::size_t breakage) const;  ///< m, of a spring that is gone: open if above 0, closed if not
+  std::uint64_t broken_open() const;                  ///< how many are open; the others are closed
 
   /// Copies of a quantity, particles in the order z, y, x. Height is empty without a membrane.
   void displacements(std::vector<double>& xyz) const;

@@ -30,7 +30,9 @@ struct Common {
     if (family == Family::materials)
       declared.add<&Options::region>("region", "", "where the material is; of several, the last one counts").fallback("\"all\"");
     if (family == Family::solvers)
-      declared.add<&Options::record_every>("record_every", "s", "time between records of the history; 200 records over the stage if left out")
+      declared
+          .add<&Options::record_every>(
+              "record_every", "s", "time between records of the history; 200 records over the stage if left out, but no more than one in ten steps")
           .positive()
           .add<&Options::energy_tolerance>("energy_tolerance", "", "relative error of the energy balance at which the run stops; 0: never")
           .at_least(0)
