@@ -19,22 +19,24 @@ struct Region {
     inner_surface,  ///< with a face to a cavity that is closed off from outside
     outer_surface,  ///< with a face to the outside
     face,           ///< the outermost layer towards face_normals[direction]: x_min ... z_max
-    set_union, intersection, difference  ///< of `parts`; difference: the first without the others
+    set_union,
+    intersection,
+    difference  ///< of `parts`; difference: the first without the others
   };
   Kind kind = Kind::all;
   int direction = 0;
   std::vector<std::shared_ptr<const Region>> parts;
 
   // of a solid: what a primitive knows
-  std::string primitive;                 ///< "box", "sphere", "hollow_sphere", "cylinder", "half_space"
-  std::function<bool(Vec3)> inside;      ///< on the boundary counts as inside
-  Vec3 low, high;                        ///< bounding box; infinite for a half-space
-  Vec3 anchor, centre;                   ///< see Shape::anchor
-  double outer_area = 0, inner_area = 0; ///< true areas in m2 of the outer surface and of the cavity's, 0 if unknown
+  std::string primitive;                  ///< "box", "sphere", "hollow_sphere", "cylinder", "half_space"
+  std::function<bool(Vec3)> inside;       ///< on the boundary counts as inside
+  Vec3 low, high;                         ///< bounding box; infinite for a half-space
+  Vec3 anchor, centre;                    ///< see Shape::anchor
+  double outer_area = 0, inner_area = 0;  ///< true areas in m2 of the outer surface and of the cavity's, 0 if unknown
 
   /// Whether the region is a solid (or a set of solids), so that `contains` has a meaning without a lattice.
   bool is_solid() const;
-  bool contains(Vec3 point) const;       ///< of a solid or a set of solids
+  bool contains(Vec3 point) const;  ///< of a solid or a set of solids
 };
 
 /// Regions that need no description: "all", "surface", "inner_surface", "outer_surface", "x_min" ... "z_max". Null: no such name.
@@ -60,7 +62,10 @@ class Regions {
   const Shape* shape(std::shared_ptr<const Region> region);
 
  private:
-  struct Entry { std::shared_ptr<const Region> region; std::string name; };
+  struct Entry {
+    std::shared_ptr<const Region> region;
+    std::string name;
+  };
   std::vector<Entry> regions_;
   std::vector<std::unique_ptr<std::pair<std::shared_ptr<const Region>, Shape>>> shapes_;
 };

@@ -5,9 +5,9 @@
 #include <scene/scene.hpp>
 
 #include <hyperlattice/failure.hpp>
+#include <hyperlattice/kernels/request.hpp>
 #include <hyperlattice/load.hpp>
 #include <hyperlattice/material.hpp>
-#include <hyperlattice/kernels/request.hpp>
 
 #include <memory>
 #include <string>
@@ -23,18 +23,18 @@ struct Material {
   const Stage* stage = nullptr;
   ComponentPointer component{nullptr, [](void*) {}};
   MaterialConstants constants;
-  double mass = 0;                      ///< of a particle, kg
-  double critical_time_step = 0;        ///< of the infinite lattice of this material, s
-  const Stage* failure_stage = nullptr; ///< null: unbreakable
+  double mass = 0;                       ///< of a particle, kg
+  double critical_time_step = 0;         ///< of the infinite lattice of this material, s
+  const Stage* failure_stage = nullptr;  ///< null: unbreakable
   ComponentPointer failure{nullptr, [](void*) {}};
 };
 
 /// A load's contributions, as it declared them.
 struct LoadedParticle {
   Particle particle = 0;
-  Vec3 force;                   ///< amplitude, N
+  Vec3 force;                      ///< amplitude, N
   Axes displaced = 0, driven = 0;  ///< axes with a prescribed displacement, velocity
-  Vec3 displacement, velocity;  ///< amplitudes
+  Vec3 displacement, velocity;     ///< amplitudes
 };
 struct Load {
   const Stage* stage = nullptr;
@@ -51,16 +51,16 @@ struct Model {
   std::vector<std::uint8_t> material_of;  ///< of each particle; empty if there is one material
   std::vector<Load> loads;
   std::vector<std::pair<Particle, Vec3>> start_velocities;  ///< ascending
-  std::vector<double> corners;            ///< ascending, each once
+  std::vector<double> corners;                              ///< ascending, each once
 
   std::vector<NeighbourGeometry> neighbours;
-  std::vector<SpringConstants> springs;   ///< [(a * materials + b) * spring_classes + class]
+  std::vector<SpringConstants> springs;  ///< [(a * materials + b) * spring_classes + class]
   KernelChoice choice;
   KernelSet kernels;
   int degrees_of_freedom = 3;
-  double critical_time_step = 0;          ///< s: exact for one material, a rigorous lower bound for several
-  std::string critical_because;           ///< what limits it, in a sentence
-  Vec3 acceleration;                      ///< sum of the loads'
+  double critical_time_step = 0;  ///< s: exact for one material, a rigorous lower bound for several
+  std::string critical_because;   ///< what limits it, in a sentence
+  Vec3 acceleration;              ///< sum of the loads'
 
   double mass(Particle particle) const { return materials[material_of.empty() ? 0 : material_of[particle]].mass; }
   const SpringConstants& spring(std::uint8_t a, std::uint8_t b, std::uint32_t spring_class) const {

@@ -10,7 +10,7 @@ namespace hyperlattice {
 
 struct RunOptions {
   std::filesystem::path directory;
-  bool quiet = false;               ///< no progress lines
+  bool quiet = false;  ///< no progress lines
 };
 
 /// Runs a plan. Returns the exit code and leaves summary.json in any case but a failure to write it. Messages go to the log.

@@ -15,7 +15,8 @@ class Strain {
   static Schema<Options> schema() {
     return Schema<Options>("failures.strain", "A spring breaks when its strain passes a limit")
         .equation("(|r| - |r0|) / |r0| > limit")
-        .add<&Options::limit>("limit", "", "strain that breaks a base spring").positive();
+        .add<&Options::limit>("limit", "", "strain that breaks a base spring")
+        .positive();
   }
 
   explicit Strain(const Options& options) : limit_(options.limit) {}

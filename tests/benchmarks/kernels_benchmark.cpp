@@ -46,8 +46,7 @@ void explicit_step(benchmark::State& state) {
   for (auto _ : state) simulation.step(plan->stages.front().plan.time_step);
   const auto particles = static_cast<double>(plan->model->body.particles);
   state.counters["particle_steps/s"] = benchmark::Counter(particles, benchmark::Counter::kIsIterationInvariantRate);
-  state.counters["s/particle_step"] =
-      benchmark::Counter(particles, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["s/particle_step"] = benchmark::Counter(particles, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
   state.SetLabel(std::string(membranes[state.range(0)]) + (state.range(1) != 0 ? ", breakable, " : ", ") + plan->model->kernels.instructions);
 }
 BENCHMARK(explicit_step)

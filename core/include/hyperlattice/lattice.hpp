@@ -30,7 +30,7 @@ struct Grid {
   std::span<const Neighbour> neighbours;  ///< forward neighbours
   std::uint32_t spring_classes = 1;
   Boundary boundary = Boundary::particles;
-  const Shape* shape = nullptr;                ///< the solid that was filled, as it came in the options; null: none
+  const Shape* shape = nullptr;  ///< the solid that was filled, as it came in the options; null: none
 };
 
 /// Receives a structured lattice: the grid once, then the runs of particles in the order z, y, x.
