@@ -24,7 +24,6 @@ int main(int count, char** words) {
   spdlog::set_pattern("hyperlattice: %v");
   CLI::App program("Simulates solids with the four-dimensional lattice spring model.", "hyperlattice");
   program.set_version_flag("--version", "hyperlattice " HYPERLATTICE_VERSION);
-  program.require_subcommand(1);
   program.footer("Exit codes: 0 done, 2 wrong input, 3 the run failed, 4 the outside failed (disk, memory, plugin), 130 interrupted.");
   const Command commands[] = {run_command(program), plan_command(program), plugins_command(program), schema_command(program)};
   try {
@@ -42,5 +41,6 @@ int main(int count, char** words) {
   } catch (const std::exception& error) {
     return complain(exit_outside, error.what());
   }
+  std::cerr << program.help();
   return exit_input;
 }

@@ -31,6 +31,8 @@ Command run_command(CLI::App& program) {
   return {command, [arguments] {
             RunOptions& options = arguments->options;
             if (options.directory.empty()) options.directory = arguments->scene.stem().string() + "_out";
+            if (std::filesystem::exists(options.directory) && !std::filesystem::is_directory(options.directory))
+              throw InputError({{"--out", options.directory.string(), "a folder, or a name that is free"}});
             Host host;
             const auto plan = arguments->plan(host);
             stop_gently_when_interrupted();

@@ -3,9 +3,9 @@
 #include <host/host.hpp>
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
+#include <unistd.h>
+#include <support/program.hpp>
 
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 
@@ -16,20 +16,11 @@ namespace fs = std::filesystem;
 
 const fs::path folder = HYPERLATTICE_BUILD "/tests/bad_plugins";
 
-struct Outcome {
-  int exit_code = 0;
-  std::string output;
-};
-
-/// What the program prints, both streams, when its plugin path holds the bad plugins.
-Outcome program(const std::string& arguments) {
-  const std::string command = "HYPERLATTICE_PLUGIN_PATH=" + folder.string() + " " HYPERLATTICE_BUILD "/bin/hyperlattice " + arguments + " 2>&1";
-  Outcome outcome;
-  FILE* pipe = popen(command.c_str(), "r");
-  char text[4096];
-  while (std::fgets(text, sizeof text, pipe)) outcome.output += text;
-  outcome.exit_code = WEXITSTATUS(pclose(pipe));
-  return outcome;
+/// What the program does when its plugin path holds the bad plugins.
+test::Result program(const std::vector<std::string>& arguments) {
+  test::Launch launch;
+  launch.environment = {"HYPERLATTICE_PLUGIN_PATH=" + folder.string()};
+  return test::run_program(arguments, launch);
 }
 
 /// A scene that is sound but for the component it names.
@@ -83,13 +74,13 @@ TEST_P(Refused, InASentenceAndWithoutATrace) {
 }
 
 TEST_P(Refused, WithExitCode4WhereASceneNeedsIt) {
-  const Outcome page = program(std::string("plugins ") + GetParam().type);
+  const test::Result page = program({"plugins", GetParam().type});
   EXPECT_EQ(page.exit_code, 4);
-  EXPECT_NE(page.output.find(GetParam().sentence), std::string::npos) << page.output;
+  EXPECT_NE(page.err.find(GetParam().sentence), std::string::npos) << page.err;
   const fs::path scene = scene_with(GetParam().type);
-  const Outcome plan = program("plan " + scene.string());
+  const test::Result plan = program({"plan", scene.string()});
   EXPECT_EQ(plan.exit_code, 4);
-  EXPECT_NE(plan.output.find(GetParam().sentence), std::string::npos) << plan.output;
+  EXPECT_NE(plan.err.find(GetParam().sentence), std::string::npos) << plan.err;
   fs::remove(scene);
 }
 
@@ -189,37 +180,37 @@ TEST(BadPlugins, AMissingLibraryIsAnUnknownTypeAndExit2) {
   EXPECT_EQ(host.find("failures.missing"), nullptr);
   EXPECT_FALSE(host.refused("failures.missing"));
   EXPECT_NE(host.why_not("failures.missing").find("no library failures.missing.so in " + folder.string()), std::string::npos);
-  EXPECT_EQ(program("plugins failures.missing").exit_code, 2);
-  const Outcome near = program("plugins failures.sond");
+  EXPECT_EQ(program({"plugins", "failures.missing"}).exit_code, 2);
+  const test::Result near = program({"plugins", "failures.sond"});
   EXPECT_EQ(near.exit_code, 2);
-  EXPECT_NE(near.output.find("failures.sound"), std::string::npos) << near.output;
+  EXPECT_NE(near.err.find("failures.sound"), std::string::npos) << near.err;
   const fs::path unknown_type = scene_with("failures.missing");
-  EXPECT_EQ(program("plan " + unknown_type.string()).exit_code, 2);
+  EXPECT_EQ(program({"plan", unknown_type.string()}).exit_code, 2);
   const fs::path absent_entry = scene_with("failures.sound", "\"no_such_folder\"");
-  EXPECT_EQ(program("plan " + absent_entry.string()).exit_code, 2);
+  EXPECT_EQ(program({"plan", absent_entry.string()}).exit_code, 2);
   fs::remove(absent_entry);
 }
 
 TEST(BadPlugins, ARefusedLibraryNamedDirectlyIsExit4) {
   const fs::path scene = scene_with("failures.sound", '"' + (folder / "failures.text.so").string() + '"');
-  const Outcome plan = program("plan " + scene.string());
+  const test::Result plan = program({"plan", scene.string()});
   EXPECT_EQ(plan.exit_code, 4);
-  EXPECT_NE(plan.output.find("failures.text.so: is not a shared library"), std::string::npos) << plan.output;
+  EXPECT_NE(plan.err.find("failures.text.so: is not a shared library"), std::string::npos) << plan.err;
   fs::remove(scene);
 }
 
 TEST(BadPlugins, ASoundOneAmongThemRuns) {
   const fs::path scene = scene_with("failures.sound");
-  const Outcome plan = program("plan " + scene.string());
-  EXPECT_EQ(plan.exit_code, 0) << plan.output;
+  const test::Result plan = program({"plan", scene.string()});
+  EXPECT_EQ(plan.exit_code, 0) << plan.err;
   fs::remove(scene);
 }
 
 TEST(BadPlugins, WhyListsEveryRefusal) {
-  const Outcome why = program("plugins --why");
+  const test::Result why = program({"plugins", "--why"});
   EXPECT_EQ(why.exit_code, 0);
   for (const char* part : {"refused  ", "failures.text.so: is not a shared library", "interface version 999", "accepted  ", "gives failures.sound"})
-    EXPECT_NE(why.output.find(part), std::string::npos) << part << "\n" << why.output;
+    EXPECT_NE(why.out.find(part), std::string::npos) << part << "\n" << why.out;
 }
 
 TEST(Gate, NamesEachNumberThatDiffers) {

@@ -24,6 +24,7 @@ struct Launch {
   std::uint64_t memory_limit = 0;        ///< bytes of address space; 0: no limit
   std::function<void(pid_t)> meanwhile;  ///< called while the program runs
   std::vector<std::string> environment;  ///< "NAME=value"
+  std::string directory;                 ///< where it runs; empty: here
 };
 
 /// Runs `hyperlattice` of this build with the arguments.
@@ -46,6 +47,7 @@ inline Result run_program(const std::vector<std::string>& arguments, const Launc
       const struct rlimit limit = {launch.memory_limit, launch.memory_limit};
       setrlimit(RLIMIT_AS, &limit);
     }
+    if (!launch.directory.empty() && chdir(launch.directory.c_str()) != 0) _exit(127);
     execv(program.c_str(), words.data());
     _exit(127);
   }

@@ -1,0 +1,92 @@
+// The commands as a user types them: exit codes, where results go, what machines read.
+#include <gtest/gtest.h>
+#include <support/program.hpp>
+
+namespace hyperlattice {
+namespace {
+
+using nlohmann::json;
+
+/// A folder of its own, with one small scene in it, that is also the current directory of the program.
+class CommandLine : public testing::Test {
+ protected:
+  CommandLine() {
+    std::ofstream(folder_.file("cube.json")) << R"({"format": "hyperlattice/1", "pipeline": [
+      {"type": "lattices.cubic", "spacing": 1, "shape": {"box": {"low": [0, 0, 0], "high": [3, 3, 3]}}},
+      {"type": "materials.elastic", "young": 1e9, "poisson": 0.25, "density": 1000},
+      {"type": "loads.start_velocity", "on": "z_max", "linear": [0, 0, 0.001]},
+      {"type": "solvers.explicit", "end_time": 0.01}]})";
+  }
+
+  test::Result run(const std::vector<std::string>& arguments, const std::string& subfolder = "") const {
+    test::Launch launch;
+    launch.directory = folder_.file(subfolder);
+    return test::run_program(arguments, launch);
+  }
+  bool exists(const std::string& file) const { return std::filesystem::exists(folder_.file(file)); }
+  json read(const std::string& file) const { return test::read_json(folder_.file(file)); }
+
+  test::Folder folder_{"command_line"};
+};
+
+TEST_F(CommandLine, WhatCannotBeUnderstoodIsExit2) {
+  const std::vector<std::vector<std::string>> lines = {{},
+                                                       {"frobnicate"},
+                                                       {"run"},
+                                                       {"plan"},
+                                                       {"run", "cube.json", "--frobnicate"},
+                                                       {"run", "cube.json", "--threads", "0"},
+                                                       {"run", "cube.json", "--threads", "many"},
+                                                       {"run", "cube.json", "--set"},
+                                                       {"run", "cube.json", "--out", "cube.json"},
+                                                       {"run", "nowhere.json"},
+                                                       {"plan", "nowhere.json"},
+                                                       {"plugins", "nothing"},
+                                                       {"schema", "cube.json"}};
+  for (const auto& line : lines) EXPECT_EQ(run(line).exit_code, 2) << testing::PrintToString(line);
+  EXPECT_NE(run({"frobnicate"}).err.find("frobnicate"), std::string::npos);
+}
+
+TEST_F(CommandLine, HelpAndVersionAreExit0) {
+  for (const char* command : {"run", "plan", "plugins", "schema"}) EXPECT_EQ(run({command, "--help"}).exit_code, 0) << command;
+  EXPECT_EQ(run({"--help"}).exit_code, 0);
+  EXPECT_EQ(run({"--version"}).exit_code, 0);
+}
+
+TEST_F(CommandLine, ResultsLieBesideTheUserNotTheScene) {
+  std::filesystem::create_directory(folder_.file("elsewhere"));
+  const test::Result result = run({"run", "../cube.json"}, "elsewhere");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(read("elsewhere/cube_out/summary.json").at("status"), "done");
+  EXPECT_FALSE(exists("cube_out"));
+}
+
+TEST_F(CommandLine, ASecondRunReplacesTheFirst) {
+  ASSERT_EQ(run({"run", "cube.json", "--out", "results"}).exit_code, 0);
+  const json first = read("results/summary.json");
+  const test::Result result = run({"run", "cube.json", "--out", "results", "--threads", "1", "--set", "/pipeline/3/end_time=0.02"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(read("results/summary.json").at("end_time"), 0.02);
+  EXPECT_NE(read("results/summary.json").at("state_hash"), first.at("state_hash"));
+}
+
+TEST_F(CommandLine, WrongInputNamesEveryFaultAndWritesNothing) {
+  const test::Result result = run({"run", "cube.json", "--set", "/pipeline/1/young=-1", "--set", "/pipeline/3/end_tme=2"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("/pipeline/1/young"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("/pipeline/3/end_tme"), std::string::npos) << result.err;
+  EXPECT_FALSE(exists("cube_out"));
+}
+
+TEST_F(CommandLine, MachinesReadWhatPeopleRead) {
+  EXPECT_EQ(json::parse(run({"plan", "cube.json", "--json"}).out).at("particles"), 27);
+  const json plugins = json::parse(run({"plugins", "--json", "--why"}).out);
+  EXPECT_GE(plugins.at("components").size(), 10u);
+  EXPECT_EQ(plugins.at("searched").at(0).at("outcome"), "accepted");
+  EXPECT_EQ(json::parse(run({"plugins", "loads.fixed", "--json"}).out).at("components").size(), 1u);
+  EXPECT_EQ(json::parse(run({"schema"}).out).at("type"), "object");
+  EXPECT_NE(run({"plugins"}).out.find("\nloads\n  loads.blast "), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hyperlattice
