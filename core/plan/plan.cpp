@@ -2,6 +2,7 @@
 #include <plan/fields.hpp>
 #include <plan/left_out.hpp>
 #include <plan/plan.hpp>
+#include <plan/rehearsal.hpp>
 #include <run/layout.hpp>
 
 #include <hyperlattice/output.hpp>
@@ -150,6 +151,7 @@ std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, int threads) {
   Faults faults;
   plan_stages(*plan, faults);
   check_fields(*plan, faults);
+  if (faults.empty()) rehearse_outputs(*plan, faults);
   faults.throw_if_any();
   estimate_memory(*plan);
   estimate_output(*plan);

@@ -19,7 +19,7 @@ void call(const Stage& stage, Call&& function) {
 }  // namespace
 
 Outputs::Outputs(const Model& model, const Simulation& simulation, const std::filesystem::path& directory, double end_time)
-    : model_(model), simulation_(simulation), source_(model, simulation), directory_(directory) {
+    : model_(model), simulation_(simulation), source_(model, simulation), directory_(directory), regions_(model.body, model.scene->regions) {
   for (const std::string_view name : field_names)
     if (has_field(model, name)) fields_.push_back(name);
   for (const Family family : {Family::writers, Family::probes})
@@ -30,7 +30,6 @@ Outputs::Outputs(const Model& model, const Simulation& simulation, const std::fi
       output.schedule = Schedule(0, output_interval(*stage, end_time), stage->cadence.first);
       begin(output);
     }
-  surfaces_.reset();
 }
 
 void Outputs::begin(Output& output) {
@@ -45,7 +44,7 @@ void Outputs::begin(Output& output) {
   context.title = model_.scene->title;
   context.fields = fields_;
   context.self = this;
-  context.region_particles = [](void* self, RegionId region) noexcept { return static_cast<Outputs*>(self)->particles(region); };
+  context.region_particles = [](void* self, RegionId region) noexcept { return static_cast<Outputs*>(self)->regions_.particles(region); };
   if (!is_probe) {
     call(stage, [&](const Complaint& why) { return stage.functions<WriterFunctions>().begin(output.component.get(), context, why); });
     return;
@@ -87,15 +86,6 @@ void Outputs::end() {
   for (Output& output : outputs_)
     if (!output.table)
       call(*output.stage, [&](const Complaint& why) { return output.stage->functions<WriterFunctions>().end(output.component.get(), why); });
-}
-
-std::span<const Particle> Outputs::particles(RegionId region) {
-  const auto [entry, is_new] = regions_.try_emplace(region.index);
-  if (is_new) {
-    if (!surfaces_) surfaces_.emplace(model_.body);
-    entry->second = particles_in(model_.body, *surfaces_, model_.scene->regions[region]);
-  }
-  return entry->second;
 }
 
 }  // namespace hyperlattice

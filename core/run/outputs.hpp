@@ -1,6 +1,7 @@
 // Writers and probes of a run: made at the start, shown the body when due, ended in order.
 #pragma once
 
+#include <model/region_index.hpp>
 #include <run/schedule.hpp>
 #include <run/snapshot.hpp>
 #include <run/table.hpp>
@@ -33,7 +34,6 @@ class Outputs {
   };
   void begin(Output& output);
   void show_to(Output& output);
-  std::span<const Particle> particles(RegionId region);
 
   const Model& model_;
   const Simulation& simulation_;
@@ -41,8 +41,7 @@ class Outputs {
   std::filesystem::path directory_;
   std::vector<std::string_view> fields_;  ///< that this run has
   std::list<Output> outputs_;
-  std::optional<Surfaces> surfaces_;
-  std::map<std::uint32_t, std::vector<Particle>> regions_;
+  RegionIndex regions_;
 };
 
 }  // namespace hyperlattice

@@ -47,6 +47,7 @@ struct WriterFunctions {
   bool (*end)(void* writer, const Complaint& why) noexcept;
 };
 
+/// begin() writes nothing: the plan calls it too, with no directory, to find what does not fit before a run is begun.
 /// A writer class has begin(const OutputContext&), frame(const Snapshot&), end(); each throws std::runtime_error when the disk refuses.
 /// It writes under a temporary name and renames, so that no half-written file stands under a final name; after each frame what is on disk is
 /// complete.

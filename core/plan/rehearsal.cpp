@@ -1,0 +1,76 @@
+#include <model/region_index.hpp>
+#include <plan/fields.hpp>
+#include <plan/rehearsal.hpp>
+
+#include <hyperlattice/output.hpp>
+
+namespace hyperlattice {
+namespace {
+
+/// The body at rest: every field that the run has is zero.
+class AtRest {
+ public:
+  explicit AtRest(const Model& model) : model_(model), regions_(model.body, model.scene->regions) {
+    for (const std::string_view name : field_names)
+      if (has_field(model, name)) fields_.push_back(name);
+    for (Particle particle = 0; particle < model.body.particles; ++particle) {
+      const Vec3 x = model.body.position(particle);
+      positions_.insert(positions_.end(), {x.x, x.y, x.z});
+    }
+    zeros_.assign(positions_.size(), 0.0);
+  }
+
+  OutputContext context() {
+    OutputContext context;
+    context.title = model_.scene->title;
+    context.fields = fields_;
+    context.self = this;
+    context.region_particles = [](void* self, RegionId region) noexcept { return static_cast<AtRest*>(self)->regions_.particles(region); };
+    return context;
+  }
+
+  Snapshot snapshot() {
+    Snapshot snapshot;
+    snapshot.particles = model_.body.particles;
+    snapshot.spacing = model_.body.grid.spacing;
+    snapshot.positions = positions_;
+    snapshot.self = this;
+    snapshot.get_field = [](void* self, std::string_view name, Field& field) noexcept {
+      const auto& rest = *static_cast<AtRest*>(self);
+      field.components = name == "displacement" || name == "velocity" ? 3 : 1;
+      field.values = std::span(rest.zeros_).first(field.components * rest.model_.body.particles);
+      return has_field(rest.model_, name);
+    };
+    return snapshot;
+  }
+
+ private:
+  const Model& model_;
+  RegionIndex regions_;
+  std::vector<std::string_view> fields_;
+  std::vector<double> positions_, zeros_;
+};
+
+}  // namespace
+
+void rehearse_outputs(const Plan& plan, Faults& faults) {
+  const auto probes = plan.scene->of(Family::probes), writers = plan.scene->of(Family::writers);
+  if (probes.empty() && writers.empty()) return;
+  AtRest rest(*plan.model);
+  const OutputContext context = rest.context();
+  const Snapshot snapshot = rest.snapshot();
+  std::string sentence;
+  const Complaint why{&sentence, [](void* self, std::string_view text) noexcept { static_cast<std::string*>(self)->assign(text); }};
+  for (const Stage* stage : writers) {
+    const ComponentPointer writer = make_component(*stage);
+    if (!stage->functions<WriterFunctions>().begin(writer.get(), context, why)) faults.add(stage->pointer, stage->component->type(), sentence);
+  }
+  const ColumnSink columns{nullptr, [](void*, std::string_view) {}};
+  for (const Stage* stage : probes) {
+    const ComponentPointer probe = make_component(*stage);
+    if (!stage->functions<ProbeFunctions>().begin(probe.get(), context, snapshot, columns, why))
+      faults.add(stage->pointer, stage->component->type(), sentence);
+  }
+}
+
+}  // namespace hyperlattice

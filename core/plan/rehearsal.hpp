@@ -1,0 +1,11 @@
+// Writers and probes are begun once before the run, on the body at rest, so that what does not fit is wrong input and nothing is written.
+#pragma once
+
+#include <plan/plan.hpp>
+
+namespace hyperlattice {
+
+/// Begins a copy of every writer and probe; a refusal becomes a fault at its stage.
+void rehearse_outputs(const Plan& plan, Faults& faults);
+
+}  // namespace hyperlattice
