@@ -8,17 +8,18 @@
 
 namespace hyperlattice {
 
-/// Sums of the present state, in the rows' order whatever the blocks are. Changes nothing but the results in rows and supports.
-RowSums Simulation::Parts::measure() {
+/// Sums of the present state, in the rows' order whatever the blocks are; `back`: half of the step before. Changes nothing but the results in
+/// rows and supports.
+RowSums Simulation::Parts::measure(double back) {
 #pragma omp parallel num_threads(threads)
   {
 #pragma omp for schedule(static, 1)
     for (std::size_t b = 0; b < blocks.size(); ++b) {
       exchange(blocks[b]);
-      prepare_supports(blocks[b], last_step);
+      prepare_supports(blocks[b], 2 * back);
     }
 #pragma omp for schedule(static, 1)
-    for (std::size_t b = 0; b < blocks.size(); ++b) model.kernels.measure(request_for(blocks[b], last_step / 2, 0));
+    for (std::size_t b = 0; b < blocks.size(); ++b) model.kernels.measure(request_for(blocks[b], back, 0));
   }
   RowSums total;
   for (const Block& block : blocks)
@@ -39,7 +40,7 @@ RowSums Simulation::Parts::measure() {
 void Simulation::Parts::find_start() {
   if (start_known) return;
   start_known = true;
-  const RowSums sums = measure();
+  const RowSums sums = measure(last_step / 2);
   start_potential = sums.potential;
   start_energy = sums.kinetic + sums.stored + sums.damped + failure_energy;
   for (const double work : work_by_load(0)) start_energy -= work;
@@ -67,7 +68,7 @@ std::vector<double> Simulation::Parts::work_by_load(double potential) const {
 
 Balance Simulation::Parts::balance() {
   find_start();
-  const RowSums sums = measure();
+  const RowSums sums = measure(last_step / 2);
   Balance balance;
   balance.kinetic = sums.kinetic;
   balance.kinetic_mean = sums.kinetic_mean;

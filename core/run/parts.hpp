@@ -42,7 +42,7 @@ struct Simulation::Parts {
   KernelRequest request_for(Block& block, double back, double forward) const;
   void exchange(Block& block) const;
   void prepare_supports(Block& block, double step) const;
-  void start_driven(double step);
+  void start(double step);
 
   // breakage.cpp
   const std::uint8_t* review(Block& block, const AlarmRow& alarm) const;
@@ -51,7 +51,7 @@ struct Simulation::Parts {
   double elongation_now(std::size_t breakage) const;
 
   // balance.cpp
-  RowSums measure();
+  RowSums measure(double back);
   void find_start();
   std::vector<double> work_by_load(double potential) const;
   Balance balance();

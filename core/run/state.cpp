@@ -16,7 +16,7 @@ std::uint64_t Simulation::steps() const { return parts_->steps; }
 Balance Simulation::balance() { return parts_->balance(); }
 
 std::vector<double> Simulation::injected_by_load() {
-  const RowSums sums = parts_->measure();
+  const RowSums sums = parts_->measure(parts_->last_step / 2);
   return parts_->work_by_load(sums.potential - parts_->start_potential);
 }
 
