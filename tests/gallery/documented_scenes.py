@@ -1,0 +1,22 @@
+# Every scene that stands in the documents, as JSON between fences, is one that the program accepts.
+#   documented_scenes.py PROGRAM SOURCE
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+program, source = sys.argv[1], pathlib.Path(sys.argv[2])
+pages = [source / "README.md", *sorted((source / "docs" / "guide").glob("*.md"))]
+scenes = [(page, text) for page in pages for text in re.findall(r"^```json\n(.*?)^```", page.read_text(), re.M | re.S) if '"format"' in text]
+refused = 0
+with tempfile.TemporaryDirectory() as folder:
+    for page, text in scenes:
+        file = pathlib.Path(folder) / "scene.json"
+        file.write_text(text)
+        done = subprocess.run([program, "plan", file], capture_output=True, text=True)
+        if done.returncode:
+            refused += 1
+            print(f"{page}: {done.stderr}")
+print(f"{len(scenes)} scenes, {refused} refused")
+sys.exit(1 if refused or len(scenes) < 2 else 0)
