@@ -33,24 +33,25 @@ End end_of(const Block& block, std::uint64_t n, int components, double dt) {
 const std::uint8_t* Simulation::Parts::review(Block& block, const AlarmRow& alarm) const {
   const NeighbourGeometry& neighbour = model.neighbours[alarm.neighbour];
   block.answers.assign(alarm.sites.size(), 0);
-  const auto ask = [&](const Material& material, std::size_t first, std::size_t count) {
+  const auto ask = [&](const Material& material, double stiffness, std::size_t first, std::size_t count) {
     if (material.failure_stage == nullptr) return;
-    const SpringFacts facts{neighbour.rest_length, material.constants.base_stiffness, model.body.grid.spacing, neighbour.site.spring_class};
+    const SpringFacts facts{neighbour.rest_length, stiffness, model.body.grid.spacing, neighbour.site.spring_class};
     std::vector<std::uint8_t> answers(count, 0);
     material.failure_stage->functions<FailureFunctions>().review(material.failure.get(), {time, facts, alarm.elongation.subspan(first, count)},
                                                                  answers.data());
     for (std::size_t n = 0; n < count; ++n) block.answers[first + n] |= answers[n];
   };
   if (model.material_of.empty()) {
-    ask(model.materials.front(), 0, alarm.sites.size());
+    ask(model.materials.front(), model.spring(0, 0, neighbour.site.spring_class).stiffness, 0, alarm.sites.size());
   } else {  // a spring between two materials breaks when either criterion says so
     Site site = first_site_of_row(block, alarm.row);
     for (std::size_t n = 0; n < alarm.sites.size(); ++n) {
       site.i = alarm.sites[n];
       const Site other{site.i + neighbour.site.dx, site.j + neighbour.site.dy, site.k + neighbour.site.dz};
       const std::uint8_t here = model.material_of[model.body.at(site)], there = model.material_of[model.body.at(other)];
-      ask(model.materials[here], n, 1);
-      if (there != here) ask(model.materials[there], n, 1);
+      const double stiffness = model.spring(here, there, neighbour.site.spring_class).stiffness;
+      ask(model.materials[here], stiffness, n, 1);
+      if (there != here) ask(model.materials[there], stiffness, n, 1);
     }
   }
   for (std::size_t n = 0; n < alarm.sites.size(); ++n)
