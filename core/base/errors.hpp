@@ -43,6 +43,7 @@ class Faults {
   void add(std::string pointer, std::string value, std::string expected);
   bool empty() const { return faults_.empty(); }
   std::size_t size() const { return faults_.size(); }
+  const std::vector<Fault>& all() const { return faults_; }
   void throw_if_any() const;  ///< InputError with everything collected
 
  private:

@@ -20,7 +20,7 @@ const OptionSet& common_options(Family family);
 inline constexpr std::string_view failure_help =
     "criterion by which springs break: an object with the type of a component of the family failures; unbreakable if left out";
 
-/// Family of a type's first part ("loads.blast"), if there is one of that name.
+/// Family of a type's first part ("loads"), if there is one of that name.
 std::optional<Family> family_of(std::string_view type);
 inline std::string_view family_name(Family family) { return family_names[static_cast<std::size_t>(family)]; }
 

@@ -1,8 +1,11 @@
 #include <scene/examples.hpp>
 #include <scene/expectation.hpp>
+#include <scene/option_reader.hpp>
 #include <scene/units.hpp>
 
 #include <nlohmann/json.hpp>
+
+#include <algorithm>
 
 namespace hyperlattice {
 
@@ -21,9 +24,24 @@ Json example_number(const Option& option) {
   return number;
 }
 
+/// Options that a component misses in a stage, though each may be left out: "exactly one of total and each".
+std::vector<std::string> missing(const ComponentInfo& info, const Json& stage) {
+  Faults faults;
+  Regions regions;
+  std::deque<std::string> texts;
+  const Json none = Json::object();
+  RegionReader region_reader(none, regions, faults, texts);
+  Json resolved;
+  OptionReader(stage, "", {faults, region_reader, texts}).fill(option_set(info), resolved);
+  std::vector<std::string> names;
+  for (const Fault& fault : faults.all())
+    if (fault.value.empty() && !fault.pointer.empty()) names.push_back(fault.pointer.substr(1));
+  return names;
+}
+
 }  // namespace
 
-Json example_value(const Option& option) {
+Json example_value(const Option& option, std::size_t axis) {
   if (!option.fallback.empty()) return Json::parse(option.fallback);
   switch (option.kind) {
     case OptionKind::number:
@@ -36,8 +54,12 @@ Json example_value(const Option& option) {
       return "text";
     case OptionKind::choice:
       return option.choices.front();
-    case OptionKind::vector:
-      return Json::array({example_number(option), example_number(option), example_number(option)});
+    case OptionKind::vector: {
+      const Json number = example_number(option), other = in_range(option, 0) ? Json(0) : number;
+      Json vector = Json::array({other, other, other});
+      vector[axis % 3] = number;
+      return vector;
+    }
     case OptionKind::numbers:
       return Json::array({example_number(option)});
     case OptionKind::texts:
@@ -52,8 +74,16 @@ Json example_value(const Option& option) {
 
 Json example_stage(const ComponentInfo& info) {
   Json stage{{"type", info.name}};
+  std::size_t vectors = 0;
+  const auto add = [&](const Option& option) {
+    stage[std::string(option.name)] = example_value(option, vectors);
+    if (option.kind == OptionKind::vector) ++vectors;
+  };
   for (const Option& option : info.options)
-    if (option.fallback.empty() && !option.optional) stage[std::string(option.name)] = example_value(option);
+    if (option.fallback.empty() && !option.optional) add(option);
+  const std::vector<std::string> missed = missing(info, stage);
+  for (const Option& option : info.options)
+    if (std::find(missed.begin(), missed.end(), option.name) != missed.end()) add(option);
   return stage;
 }
 

@@ -2,7 +2,7 @@
 #include <scene/expectation.hpp>
 #include <scene/units.hpp>
 
-#include <fmt/format.h>
+#include <spdlog/fmt/fmt.h>
 
 namespace hyperlattice {
 

@@ -1,6 +1,6 @@
 #include <scene/json.hpp>
 
-#include <fmt/format.h>
+#include <spdlog/fmt/fmt.h>
 #include <nlohmann/json.hpp>
 
 namespace hyperlattice {

@@ -2,7 +2,7 @@
 #include <scene/option_reader.hpp>
 #include <scene/value_reader.hpp>
 
-#include <fmt/format.h>
+#include <spdlog/fmt/fmt.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -55,9 +55,12 @@ bool OptionReader::check(const OptionSet& set, const void* options) {
 }
 
 void OptionReader::reject_unknown() {
-  for (const auto& item : object_.items())
-    if (std::find(known_.begin(), known_.end(), item.key()) == known_.end())
-      reading_.faults.add(member(pointer_, item.key()), shown(item.value()), "no such key here" + did_you_mean(item.key(), known_));
+  for (const auto& item : object_.items()) {
+    if (std::find(known_.begin(), known_.end(), item.key()) != known_.end()) continue;
+    const std::string near = did_you_mean(item.key(), known_);
+    reading_.faults.add(member(pointer_, item.key()), shown(item.value()),
+                        near.empty() ? fmt::format("no key but {}", fmt::join(known_, ", ")) : "a known key" + near);
+  }
 }
 
 }  // namespace hyperlattice

@@ -4,7 +4,7 @@
 #include <scene/expectation.hpp>
 #include <scene/scene.hpp>
 
-#include <fmt/format.h>
+#include <spdlog/fmt/fmt.h>
 #include <nlohmann/json.hpp>
 
 namespace hyperlattice {
@@ -29,6 +29,7 @@ std::string range_column(const Option& option) {
       Option plain = option;
       plain.unit = "";
       text = range_text(plain);
+      if (option.kind == OptionKind::number && text.empty()) text = "any number";
       if (option.kind == OptionKind::integer) text = text.empty() ? "integer" : "integer " + text;
       if (option.kind == OptionKind::vector) text = text.empty() ? "[x, y, z]" : "[x, y, z], each " + text;
       if (option.kind == OptionKind::numbers) text = text.empty() ? "list" : "list, each " + text;

@@ -3,7 +3,7 @@
 #include <scene/option_reader.hpp>
 #include <scene/region_reader.hpp>
 
-#include <fmt/format.h>
+#include <spdlog/fmt/fmt.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -138,7 +138,6 @@ const Shape* RegionReader::read_shape(const Json& expression, const std::string&
     faults_.add(pointer, shown(expression), "a bounded solid; a half-space needs an intersection with one");
     return nullptr;
   }
-  if (!first_solid_) first_solid_ = region;
   return regions_.shape(std::move(region));
 }
 

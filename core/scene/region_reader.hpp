@@ -32,8 +32,6 @@ class RegionReader {
   std::optional<RegionId> read_id(const Json& expression, const std::string& pointer, Json& resolved);
   /// A bounded solid, for a lattice.
   const Shape* read_shape(const Json& expression, const std::string& pointer, Json& resolved);
-  /// The solid behind the shape read first; null if there was none.
-  std::shared_ptr<const Region> first_solid() const { return first_solid_; }
 
  private:
   std::shared_ptr<const Region> read_name(const std::string& name, const std::string& pointer);
@@ -47,7 +45,6 @@ class RegionReader {
   std::map<std::string, std::shared_ptr<const Region>> done_;
   std::map<std::string, std::string> resolved_;  // JSON text of the named regions that are done
   std::vector<std::string> under_way_;
-  std::shared_ptr<const Region> first_solid_;
 };
 
 }  // namespace hyperlattice

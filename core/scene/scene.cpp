@@ -1,6 +1,6 @@
 #include <scene/scene_reader.hpp>
 
-#include <fmt/format.h>
+#include <spdlog/fmt/fmt.h>
 
 #include <cerrno>
 #include <fstream>

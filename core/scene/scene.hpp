@@ -47,10 +47,9 @@ struct Scene {
   std::filesystem::path file;
   std::string title;
   Regions regions;
-  std::vector<Stage> stages;           ///< in the pipeline's order
-  std::string resolved;                ///< scene.resolved.json: every default filled, SI; running it gives the same bits
-  std::shared_ptr<const Region> body;  ///< the solid that the lattice fills; null if its options name none
-  std::deque<std::string> texts;       ///< backing of text options; entries stay where they are
+  std::vector<Stage> stages;      ///< in the pipeline's order
+  std::string resolved;           ///< scene.resolved.json: every default filled, SI; running it gives the same bits
+  std::deque<std::string> texts;  ///< backing of text options; entries stay where they are
 
   std::vector<const Stage*> of(Family family) const;
 };

@@ -5,7 +5,7 @@
 #include <scene/settings.hpp>
 #include <scene/stage_reader.hpp>
 
-#include <fmt/format.h>
+#include <spdlog/fmt/fmt.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -53,7 +53,6 @@ class SceneReader {
     regions_.read_named(resolved["regions"]);
     StageReader stages(reading(), catalogue_, refusals_);
     resolved["pipeline"] = stages.read(given_, scene_.stages);
-    scene_.body = regions_.first_solid();
     reader.reject_unknown();
     finish();
     scene_.resolved = resolved.dump(2) + '\n';

@@ -4,7 +4,7 @@
 #include <scene/region_reader.hpp>
 #include <scene/scene.hpp>
 
-#include <fmt/format.h>
+#include <spdlog/fmt/fmt.h>
 #include <nlohmann/json.hpp>
 
 namespace hyperlattice {
@@ -12,7 +12,7 @@ namespace hyperlattice {
 namespace {
 
 constexpr const char* number_with_unit =
-    R"(^\s*[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?\s*[^\s0-9.+-].*$|^\s*[-+]?[0-9.]+([eE][-+]?[0-9]+)?\s+1/.+$)";
+    R"(^\s*[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?\s*[^\s0-9.,+-].*$|^\s*[-+]?[0-9.]+([eE][-+]?[0-9]+)?\s+1/.+$)";
 
 Json reference(const std::string& definition) { return {{"$ref", fmt::format("#/$defs/{}", definition)}}; }
 

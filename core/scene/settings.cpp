@@ -1,6 +1,6 @@
 #include <scene/settings.hpp>
 
-#include <fmt/format.h>
+#include <spdlog/fmt/fmt.h>
 #include <nlohmann/json.hpp>
 
 #include <charconv>

@@ -2,7 +2,7 @@
 #include <scene/expectation.hpp>
 #include <scene/stage_reader.hpp>
 
-#include <fmt/format.h>
+#include <spdlog/fmt/fmt.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -64,7 +64,7 @@ Json StageReader::read(const Json& scene, std::vector<Stage>& stages) {
 /// The family that a stage's type means; nothing after a fault.
 std::optional<Family> StageReader::read_family(const Json& given, const std::string& pointer) {
   if (!given.is_object()) {
-    reading_.faults.add(pointer, shown(given), "a stage: an object with a type");
+    reading_.faults.add(pointer, shown(given), "an object with a type");
     return std::nullopt;
   }
   const auto type = given.find("type");
@@ -107,20 +107,22 @@ std::optional<Stage> StageReader::read_stage(const Json& given, const std::strin
     return std::nullopt;
   }
   Stage stage;
-  stage.component = find(given, pointer, family);
-  if (stage.component == nullptr) return std::nullopt;
   stage.pointer = pointer;
   resolved = {{"type", given["type"]}, {"name", ""}};
+  const auto failure = family == Family::materials ? given.find("failure") : given.end();
+  Json failure_resolved;  // read first, so that its faults are found even if the material is unknown
+  if (failure != given.end()) stage.failure = read_failure(*failure, member(pointer, "failure"), failure_resolved);
+  stage.component = find(given, pointer, family);
+  if (stage.component == nullptr) return std::nullopt;
 
   std::vector<std::string> keys{"type"};
-  const auto failure = family == Family::materials ? given.find("failure") : given.end();
   if (family == Family::materials) keys.emplace_back("failure");
   OptionReader reader(given, pointer, reading_, std::move(keys));
   const OptionsPointer common = reader.fill(common_options(family), resolved);
   stage.options = reader.fill(option_set(stage.component->info), resolved);
   reader.reject_unknown();
-  if (failure != given.end()) stage.failure = read_failure(*failure, member(pointer, "failure"), resolved["failure"]);
   if (!common || !stage.options || (failure != given.end() && !stage.failure)) return std::nullopt;
+  if (stage.failure) resolved["failure"] = std::move(failure_resolved);
   take_common(*static_cast<const CommonOptions*>(common.get()), stage);
   return stage;
 }

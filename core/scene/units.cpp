@@ -1,7 +1,7 @@
 #include <base/errors.hpp>
 #include <scene/units.hpp>
 
-#include <fmt/format.h>
+#include <spdlog/fmt/fmt.h>
 #include <udunits2.h>
 
 #include <charconv>

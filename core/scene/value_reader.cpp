@@ -2,7 +2,7 @@
 #include <scene/units.hpp>
 #include <scene/value_reader.hpp>
 
-#include <fmt/format.h>
+#include <spdlog/fmt/fmt.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>

@@ -111,8 +111,6 @@ TEST(Calibration, PapersPolynomials) {  // values printed with the paper's fits
   EXPECT_NEAR(paper_lambda(0.24646), 0, 5e-4);
   EXPECT_NEAR(paper_lambda(0.25), -0.0482, 5e-4);
   EXPECT_NEAR(paper_modulus_ratio(0), 1.00369223, 1e-12);
-  for (const double nu : {paper_poisson_low, 0.1, 0.2, paper_poisson_high}) EXPECT_NEAR(paper_poisson(paper_lambda(nu)), nu, 1e-13);
-  EXPECT_GE(paper_lambda_high, paper_lambda(paper_poisson_low));
   for (const double nu : {0.05, 0.1, 0.15, 0.2, 0.23}) {  // close to the infinite lattice
     const Elasticity e = elasticity(ratios(Membrane::I_m, paper_lambda(nu)));
     EXPECT_NEAR(e.poisson(), nu, 2.6e-3);

@@ -10,21 +10,12 @@ using namespace hyperlattice;
 
 namespace {
 
-std::vector<Fault> collected(const Faults& faults) {
-  try {
-    faults.throw_if_any();
-  } catch (const InputError& error) {
-    return error.faults();
-  }
-  return {};
-}
-
 /// The first fault of a text, as "pointer: expected".
 std::string fault(std::string_view text) {
   Json json;
   Faults faults;
   const bool parsed = parse_json(text, json, faults);
-  const auto all = collected(faults);
+  const auto all = faults.all();
   EXPECT_TRUE(parsed || !all.empty());
   return all.empty() ? "" : all[0].pointer + ": " + all[0].expected;
 }
@@ -42,7 +33,7 @@ std::string set(std::string_view text, const std::vector<std::string>& settings)
   Json json = parse(text);
   Faults faults;
   apply_settings(json, settings, faults);
-  return faults.empty() ? json.dump() : InputError(collected(faults)).what();
+  return faults.empty() ? json.dump() : InputError(faults.all()).what();
 }
 
 }  // namespace
@@ -56,7 +47,7 @@ TEST(Json, DuplicateKeysAreFoundEverywhere) {
   Json json;
   Faults faults;
   EXPECT_TRUE(parse_json(R"({"a": 1, "a": 2, "list": [{"x/y": 1, "x/y": 2}], "o": {"a": 1}})", json, faults));
-  const auto all = collected(faults);
+  const auto all = faults.all();
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(all[0].pointer, "/a");
   EXPECT_EQ(all[1].pointer, "/list/0/x~1y");

@@ -90,9 +90,6 @@ TEST(Scene, CommonKeysReachTheStage) {
   EXPECT_FALSE(scene->stages[6].cadence.last);
   EXPECT_FALSE(scene->stages[7].cadence.every);
   EXPECT_TRUE(scene->stages[7].cadence.last);
-  EXPECT_EQ(scene->body, scene->body);
-  ASSERT_TRUE(scene->body);
-  EXPECT_EQ(scene->body->kind, Region::Kind::difference);
   EXPECT_EQ(scene->of(Family::solvers).size(), 2u);
 }
 

@@ -111,10 +111,6 @@ constexpr Reach reach(Membrane membrane) {
   return {};
 }
 
-/// The bound of lambda: at and below it the mirrored lattice is unstable. lambda = 0 itself is the 3D lattice.
-constexpr double least_lambda(Membrane membrane) { return membrane == Membrane::III ? -1.5 : membrane == Membrane::IV ? -2.0 : 0; }
-constexpr bool stable(Membrane membrane, double lambda) { return lambda == 0 || lambda > least_lambda(membrane); }
-
 /// k of a base spring in the infinite lattice, N/m: equations (14) and (15) for one particle, V = l^3.
 constexpr double stiffness_bulk(double young, double spacing, double modulus_ratio) { return 0.4 * young * spacing / modulus_ratio; }
 
@@ -124,16 +120,10 @@ constexpr double stiffness_eq15(double young, double volume, double sum_of_squar
   return 6 * volume * young / (modulus_ratio * sum_of_squared_lengths);
 }
 
-/// The paper's fits for lattice I-m, of a virtual test on 20^3 particles. Only to be used between the values given.
-inline constexpr double paper_poisson_low = 0.04, paper_poisson_high = 0.2464, paper_lambda_high = 4.96;
+/// The paper's fits for lattice I-m, of a virtual test on 20^3 particles. Only to be used between the Poisson ratios given.
+inline constexpr double paper_poisson_low = 0.04, paper_poisson_high = 0.2464;
 constexpr double paper_lambda(double nu) {  ///< equation (11)
   return ((-211.13493779 * nu + 162.84655851) * nu - 55.42449719) * nu + 6.92902211;
-}
-/// The Poisson ratio for which equation (11) gives this lambda, by Newton's method: the polynomial falls everywhere.
-constexpr double paper_poisson(double lambda) {
-  double nu = 0.15;
-  for (int n = 0; n < 30; ++n) nu += (paper_lambda(nu) - lambda) / ((3 * 211.13493779 * nu - 2 * 162.84655851) * nu + 55.42449719);
-  return nu;
 }
 constexpr double paper_modulus_ratio(double lambda) {  ///< equation (13)
   return (-0.0078506 * lambda + 0.41613615) * lambda + 1.00369223;

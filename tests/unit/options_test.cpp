@@ -1,0 +1,169 @@
+// Single options: what each kind accepts, what becomes of it, and how it is described.
+#include "support/fake_components.hpp"
+
+#include <geometry/primitives.hpp>
+#include <scene/common_options.hpp>
+#include <scene/examples.hpp>
+#include <scene/expectation.hpp>
+#include <scene/option_reader.hpp>
+#include <scene/value_reader.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <gtest/gtest.h>
+
+using namespace hyperlattice;
+
+namespace {
+
+/// Reads one value by one option; the SI value as JSON text, or the fault's expectation.
+std::string read(const Option& option, const std::string& given) {
+  Faults faults;
+  std::deque<std::string> texts;
+  Regions regions;
+  const Json none = Json::object();
+  RegionReader region_reader(none, regions, faults, texts);
+  ReadValue value;
+  Json resolved;
+  const bool good = read_value(option, Json::parse(given), "/option", {faults, region_reader, texts}, value, resolved);
+  EXPECT_EQ(good, faults.empty()) << given;
+  return good ? resolved.dump() : faults.all().at(0).pointer + ": " + faults.all().at(0).expected;
+}
+
+Option make(OptionKind kind, std::string_view unit = "") {
+  Option option;
+  option.name = "option";
+  option.kind = kind;
+  option.unit = unit;
+  return option;
+}
+
+}  // namespace
+
+TEST(Options, Numbers) {
+  Option length = make(OptionKind::number, "m");
+  EXPECT_EQ(read(length, "2"), "2.0");
+  EXPECT_EQ(read(length, "\"2 mm\""), "0.002");
+  EXPECT_EQ(read(length, "\"2 kg\""), "/option: a length such as \"1 mm\" (it is a mass)");
+  length.low = 0;
+  EXPECT_EQ(read(length, "0"), "0.0");
+  EXPECT_EQ(read(length, "-1e-300"), "/option: a length of at least 0 m such as \"1 mm\"");
+  length.high = 1;
+  length.low_open = true;
+  EXPECT_EQ(read(length, "0"), "/option: a length above 0 m and at most 1 m such as \"1 mm\"");
+  EXPECT_EQ(read(length, "1"), "1.0");
+  length.word = "auto";
+  EXPECT_EQ(read(length, "\"auto\""), "\"auto\"");
+  EXPECT_EQ(read(length, "\"Auto\""), "/option: a length above 0 m and at most 1 m such as \"1 mm\", or \"auto\" (it does not begin with a number)");
+}
+
+TEST(Options, Integers) {
+  Option integer = make(OptionKind::integer);
+  EXPECT_EQ(read(integer, "3"), "3");
+  EXPECT_EQ(read(integer, "-3"), "-3");
+  EXPECT_EQ(read(integer, "1e6"), "1000000");
+  EXPECT_EQ(read(integer, "9223372036854775807"), "9223372036854775807");
+  for (const char* bad : {"3.7", "\"3\"", "true", "null", "9223372036854775808", "1e300", "[3]"})
+    EXPECT_EQ(read(integer, bad), "/option: an integer") << bad;
+  integer.low = 1;
+  integer.high = 9;
+  EXPECT_EQ(read(integer, "10"), "/option: an integer from 1 to 9");
+}
+
+TEST(Options, BooleansTextsChoices) {
+  EXPECT_EQ(read(make(OptionKind::boolean), "true"), "true");
+  EXPECT_EQ(read(make(OptionKind::boolean), "1"), "/option: true or false");
+  EXPECT_EQ(read(make(OptionKind::text), "\"1 mm\""), "\"1 mm\"");
+  EXPECT_EQ(read(make(OptionKind::text), "1"), "/option: a text");
+  static constexpr std::string_view names[] = {"linear", "cubic"};
+  Option choice = make(OptionKind::choice);
+  choice.choices = names;
+  EXPECT_EQ(read(choice, "\"cubic\""), "\"cubic\"");
+  EXPECT_EQ(read(choice, "\"qubic\""), "/option: one of \"linear\", \"cubic\"; did you mean \"cubic\"?");
+  EXPECT_EQ(read(choice, "0"), "/option: one of \"linear\", \"cubic\"");
+}
+
+TEST(Options, Lists) {
+  const Option vector = make(OptionKind::vector, "m");
+  EXPECT_EQ(read(vector, "[1, \"2 mm\", -3]"), "[1.0,0.002,-3.0]");
+  EXPECT_EQ(read(vector, "[1, 2]"), "/option: a list [x, y, z] of three, each a length such as \"1 mm\"");
+  EXPECT_EQ(read(vector, "[1, 2, {}]"), "/option/2: a length such as \"1 mm\"");
+  Option numbers = make(OptionKind::numbers, "s");
+  numbers.low = 0;
+  EXPECT_EQ(read(numbers, "[]"), "[]");
+  EXPECT_EQ(read(numbers, "[0, -1]"), "/option/1: a time of at least 0 s such as \"1 us\"");
+  const Option texts = make(OptionKind::texts);
+  EXPECT_EQ(read(texts, "[\"a\", \"b\"]"), R"(["a","b"])");
+  EXPECT_EQ(read(texts, "[\"a\", 1]"), "/option/1: a text");
+  EXPECT_EQ(read(texts, "\"a\""), "/option: a list, each entry a text");
+}
+
+TEST(Options, ShapesAndRegions) {
+  EXPECT_EQ(read(make(OptionKind::shape), R"({"sphere": {"radius": "1 mm"}})"), R"({"sphere":{"centre":[0.0,0.0,0.0],"radius":0.001}})");
+  EXPECT_EQ(read(make(OptionKind::region), "\"z_max\""), "\"z_max\"");
+  EXPECT_EQ(read(make(OptionKind::region), R"({"union": ["x_min", {"box": {"size": [1, 1, 1]}}]})"),
+            R"({"union":["x_min",{"box":{"size":[1.0,1.0,1.0]}}]})");
+}
+
+TEST(Options, EveryFaultOfAnObjectIsFound) {
+  Faults faults;
+  std::deque<std::string> texts;
+  Regions regions;
+  const Json none = Json::object(), given = Json::parse(R"({"young": "1 s", "poison": 0.1, "law": "qubic"})");
+  RegionReader region_reader(none, regions, faults, texts);
+  OptionReader reader(given, "/m", {faults, region_reader, texts});
+  Json resolved;
+  EXPECT_EQ(reader.fill(option_set<fakes::Spring>(), resolved), nullptr);
+  reader.reject_unknown();
+  EXPECT_EQ(faults.size(), 5u);  // young, poisson and density missing, law, poison
+}
+
+TEST(Options, RangesInWords) {
+  Option option = make(OptionKind::number, "m");
+  EXPECT_EQ(range_text(option), "");
+  option.low = 0;
+  EXPECT_EQ(range_text(option), "of at least 0 m");
+  option.high = 0.25;
+  EXPECT_EQ(range_text(option), "from 0 to 0.25 m");
+  option.low = -infinity;
+  EXPECT_EQ(range_text(option), "at most 0.25 m");
+  option.high_open = true;
+  EXPECT_EQ(range_text(option), "below 0.25 m");
+}
+
+TEST(Options, ExamplesAreAcceptedByTheirOwnOptions) {
+  fakes::Catalogue catalogue;
+  for (const Component* component : catalogue.all())
+    for (const Option& option : component->info.options)
+      EXPECT_NE(read(option, example_value(option).dump())[0], '/') << component->type() << ' ' << option.name;
+  for (const Primitive& primitive : primitives())
+    for (const Option& option : primitive.options.options) EXPECT_NE(read(option, example_value(option).dump())[0], '/') << primitive.name;
+}
+
+TEST(Pages, SayWhatIsDeclared) {
+  fakes::Catalogue catalogue;
+  const std::string page = component_page(*catalogue.find("materials.spring"));
+  for (const char* part :
+       {"# materials.spring\n\nLinear springs", "f = k s", "| `young` | Pa | above 0 | required | Young's modulus |",
+        "| `poisson` |  | above -1 and at most 0.25 | required |", "| `law` |  | `\"linear\"`, `\"cubic\"` | `\"linear\"` | force by elongation |",
+        "`failure`", "`region`", "## Restrictions\n\npoisson up to 1/4", "## Source\n\nthe paper, eq. (2)", "\"type\":\"materials.spring\""})
+    EXPECT_NE(page.find(part), std::string::npos) << part << "\nis not in\n" << page;
+  const Json json = Json::parse(component_json(*catalogue.find("solvers.march")));
+  EXPECT_EQ(json["type"], "solvers.march");
+  EXPECT_EQ(json["options"][1]["word"], "auto");
+  EXPECT_EQ(json["options"][0]["above"], 0);
+  EXPECT_TRUE(json["options"][0]["required"]);
+  EXPECT_EQ(json["common_options"][2]["name"], "energy_tolerance");
+}
+
+TEST(Pages, SchemaIsStrict) {
+  fakes::Catalogue catalogue;
+  const Json schema = Json::parse(scene_schema(catalogue.all()));
+  EXPECT_EQ(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
+  EXPECT_EQ(schema["additionalProperties"], false);
+  for (const Component* component : catalogue.all()) {
+    const Json& stage = schema["$defs"][component->type()];
+    EXPECT_EQ(stage["additionalProperties"], false);
+    for (const Option& option : component->info.options) EXPECT_TRUE(stage["properties"].contains(std::string(option.name)));
+  }
+}
