@@ -28,13 +28,10 @@ function(hyperlattice_add_material type)
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     list(APPEND variants avx2 avx512)
   endif()
-  set(flags_baseline "")
-  set(flags_avx2 -march=x86-64-v3)
+  # -Wno-psabi: vectors stay inside one file, so their calling convention is nobody's concern
+  set(flags_baseline -Wno-psabi)
+  set(flags_avx2 -march=x86-64-v3 -Wno-psabi)
   set(flags_avx512 -march=x86-64-v4 -mprefer-vector-width=512)
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    list(APPEND flags_baseline -Wno-psabi) # vectors stay inside one file, so their calling convention is nobody's concern
-    list(APPEND flags_avx2 -Wno-psabi)
-  endif()
   foreach(variant ${variants})
     set(file ${CMAKE_CURRENT_BINARY_DIR}/${type}.kernels.${variant}.cpp)
     file(CONFIGURE OUTPUT ${file} @ONLY CONTENT
