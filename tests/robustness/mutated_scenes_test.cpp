@@ -1,0 +1,86 @@
+// Scenes damaged at random: the reader accepts them or says what is wrong; nothing else ever happens.
+#include "support/fake_components.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+using namespace hyperlattice;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+const std::string good = R"({ "format": "hyperlattice/1", "title": "t",
+  "regions": { "tip": { "box": { "low": [0, 0, "9 mm"], "high": ["10 mm", "10 mm", "10 mm"] } },
+               "body": { "difference": [ { "sphere": { "radius": "10 mm" } }, "tip" ] } },
+  "pipeline": [
+    { "type": "lattices.grid", "spacing": "1 mm", "shape": "body" },
+    { "type": "materials.spring", "young": "10 GPa", "poisson": 0.2, "density": 2500, "failure": { "type": "failures.limit", "limit": "3.5e-3 mm" } },
+    { "type": "loads.push", "times": [0, "2 us"], "on": { "intersection": ["x_max", "tip"] }, "repeats": 3 },
+    { "type": "solvers.march", "end_time": "40 us", "time_step": "auto" },
+    { "type": "writers.table", "every": "2 us", "fields": ["velocity", "damage"] } ] })";
+
+/// Whether the text was accepted; what is accepted must read back from its resolved form. Throws if anything but an InputError came out.
+bool accepted(const std::string& text) {
+  fakes::Catalogue catalogue;
+  try {
+    const auto scene = read_scene_text(text, "scene.json", {}, catalogue);
+    EXPECT_EQ(read_scene_text(scene->resolved, "scene.json", {}, catalogue)->resolved, scene->resolved);
+    return true;
+  } catch (const InputError& error) {
+    EXPECT_FALSE(error.faults().empty());
+    return false;
+  }
+}
+
+/// Every place in a document where a value stands.
+void collect(const Json& value, const Json::json_pointer& at, std::vector<Json::json_pointer>& places) {
+  places.push_back(at);
+  if (value.is_object())
+    for (const auto& item : value.items()) collect(item.value(), at / item.key(), places);
+  else if (value.is_array())
+    for (std::size_t n = 0; n < value.size(); ++n) collect(value[n], at / n, places);
+}
+
+}  // namespace
+
+TEST(MutatedScenes, DamagedBytes) {
+  std::mt19937 random(11);
+  const auto below = [&](std::size_t n) { return std::uniform_int_distribution<std::size_t>(0, n - 1)(random); };
+  const std::string bytes = "{}[]\",:/\\0123456789.eE+- tnfu\n\x01\xC3\xFF";
+  int count = 0;
+  for (int n = 0; n < 5'000; ++n) {
+    std::string text = good;
+    for (std::size_t changes = 1 + below(3); changes > 0; --changes) {
+      const std::size_t at = below(text.size());
+      if (below(3) == 0)
+        text.erase(at, 1 + below(5));
+      else if (below(2) == 0)
+        text.insert(at, 1, bytes[below(bytes.size())]);
+      else
+        text[at] = bytes[below(bytes.size())];
+    }
+    count += accepted(text);
+  }
+  EXPECT_GT(count, 0);
+  EXPECT_LT(count, 5'000);
+}
+
+TEST(MutatedScenes, MisplacedValues) {
+  std::mt19937 random(13);
+  const Json scene = Json::parse(good);
+  std::vector<Json::json_pointer> places;
+  collect(scene, Json::json_pointer(), places);
+  const auto pick = [&]() -> const Json::json_pointer& { return places[std::uniform_int_distribution<std::size_t>(0, places.size() - 1)(random)]; };
+  int count = 0;
+  for (int n = 0; n < 5'000; ++n) {
+    Json mixed = scene;
+    const Json value = scene[pick()];
+    mixed[pick()] = value;
+    count += accepted(mixed.dump());
+  }
+  EXPECT_GT(count, 0);
+  EXPECT_LT(count, 5'000);
+}
