@@ -34,7 +34,6 @@ std::string value_expectation(const Option& option) {
     case OptionKind::vector:
       return "a list [x, y, z] of three, each " + entry_expectation(option);
     case OptionKind::numbers:
-      return "a list, each entry " + entry_expectation(option);
     case OptionKind::texts:
       return "a list, each entry " + entry_expectation(option);
     case OptionKind::shape:
