@@ -1,4 +1,5 @@
 #include <model/critical_step.hpp>
+#include <model/stability.hpp>
 
 #include <spdlog/fmt/fmt.h>
 
@@ -71,8 +72,9 @@ void find_critical_step(Model& model, Faults& faults) {
   for (std::size_t n = 0; n < model.materials.size(); ++n) {
     Material& material = model.materials[n];
     const InfiniteLattice lattice = lattice_of(model, n);
-    if (const auto sentence = instability(lattice)) {
-      faults.add(material.stage->pointer, material.stage->component->type(), "springs that make a stable lattice; with these, " + *sentence);
+    if (const auto unstable = find_instability(lattice, Sector::mirrored)) {
+      faults.add(material.stage->pointer, material.stage->component->type(),
+                 "springs that make a stable lattice; with these, " + describe(*unstable));
       continue;
     }
     const Wave wave = stiffest_wave(lattice);

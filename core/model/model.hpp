@@ -68,6 +68,9 @@ struct Model {
   }
 };
 
+/// Rest vectors and lengths of a lattice's forward neighbours.
+std::vector<NeighbourGeometry> geometry_of(const Grid& grid);
+
 /// Builds the model of a scene. Throws InputError for what only the built body shows (an empty region, two loads on one degree of freedom,
 /// a Poisson ratio out of a lattice's reach, particles without material).
 std::unique_ptr<Model> build_model(const Scene& scene);

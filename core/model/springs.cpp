@@ -19,15 +19,6 @@ double between(double a, double b) {
   return (a > 0) == (b > 0) ? 2 * a * b / (a + b) : (a + b) / 2;
 }
 
-std::vector<NeighbourGeometry> geometry_of(const Grid& grid) {
-  std::vector<NeighbourGeometry> all;
-  for (const Neighbour& n : grid.neighbours) {
-    const Vec3 rest = grid.spacing * Vec3{double(n.dx), double(n.dy), double(n.dz)};
-    all.push_back({n, rest, norm(rest), std::hypot(norm(rest), grid.membrane_distance)});
-  }
-  return all;
-}
-
 double rest_length(const Model& model, std::uint32_t spring_class) {
   const auto of_class = [spring_class](const NeighbourGeometry& n) { return n.site.spring_class == spring_class; };
   const auto found = std::find_if(model.neighbours.begin(), model.neighbours.end(), of_class);
@@ -72,6 +63,15 @@ void hold_heights(Model& model) {
 }
 
 }  // namespace
+
+std::vector<NeighbourGeometry> geometry_of(const Grid& grid) {
+  std::vector<NeighbourGeometry> all;
+  for (const Neighbour& n : grid.neighbours) {
+    const Vec3 rest = grid.spacing * Vec3{double(n.dx), double(n.dy), double(n.dz)};
+    all.push_back({n, rest, norm(rest), std::hypot(norm(rest), grid.membrane_distance)});
+  }
+  return all;
+}
 
 void set_springs(Model& model, Faults& faults) {
   model.neighbours = geometry_of(model.body.grid);

@@ -1,0 +1,75 @@
+#include <model/stability.hpp>
+#include <model/zone.hpp>
+
+#include <Eigen/Dense>
+
+#include <spdlog/fmt/fmt.h>
+
+namespace hyperlattice {
+
+namespace {
+
+using Membrane = KernelChoice::Membrane;
+
+constexpr double round_off = 1e-9;  // relative to the stiffest deformation
+
+/// Energy of homogeneous strains (xx, yy, zz, 2 yz, 2 xz, 2 xy) and of a common height (in units of l), per site: its 7 x 7 matrix.
+Eigen::MatrixXd homogeneous(const InfiniteLattice& lattice) {
+  using Vector7 = Eigen::Matrix<double, 7, 1>;
+  Eigen::Matrix<double, 7, 7> sum = Eigen::Matrix<double, 7, 7>::Zero();
+  double length = 0;
+  for (const NeighbourGeometry& n : lattice.neighbours) length = std::max(length, n.rest_length);
+  for (const NeighbourGeometry& n : lattice.neighbours) {
+    const SpringConstants& spring = lattice.springs[n.site.spring_class];
+    const auto [x, y, z] = n.rest;
+    Vector7 stretch;
+    stretch << x * x, y * y, z * z, y * z, x * z, x * y, 0;
+    sum += spring.stiffness / (n.rest_length * n.rest_length) * stretch * stretch.transpose();
+    if (lattice.membrane == Membrane::none) continue;
+    stretch(6) = 2 * lattice.membrane_distance * length;
+    sum += spring.cross_stiffness / (n.cross_rest_length * n.cross_rest_length) * stretch * stretch.transpose();
+  }
+  sum(6, 6) += 2 * lattice.alpha * length * length;
+  const int size = lattice.membrane == Membrane::free ? 7 : 6;
+  return sum.topLeftCorner(size, size) / (length * length);
+}
+
+}  // namespace
+
+std::optional<Instability> find_instability(const InfiniteLattice& lattice, Sector sector) {
+  if (sector == Sector::opposed && lattice.membrane == Membrane::none) return std::nullopt;  // two layers that do not know of each other
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> strains(homogeneous(lattice));
+  const double largest = strains.eigenvalues().cwiseAbs().maxCoeff();
+  if (sector == Sector::mirrored && strains.eigenvalues()(0) < -round_off * largest) {
+    Instability found;
+    found.homogeneous = true;
+    for (Eigen::Index n = 0; n < strains.eigenvalues().size(); ++n) found.strain[static_cast<std::size_t>(n)] = strains.eigenvectors()(n, 0);
+    return found;
+  }
+
+  // Long mirrored waves are always soft; what counts is their stiffness for their length. Opposed ones have no such limit: uniform
+  // displacements shear the membrane, and heights with them turn it, which costs nothing.
+  const auto softness = [&](Vec3 q) {
+    const double softest = stiffness_range(lattice, q, sector).softest;
+    if (sector == Sector::opposed) return -softest;
+    const double size = 4 - 4 * std::pow(std::cos(q.x / 2) * std::cos(q.y / 2) * std::cos(q.z / 2), 2);
+    return size < 1e-6 ? -infinity : -softest / size;
+  };
+  const Wave softest = waves(lattice, zone_peak(lattice.neighbours, softness), sector).front();
+  if (softest.stiffness >= -round_off * largest) return std::nullopt;
+  Instability found;
+  found.wave = softest;
+  return found;
+}
+
+std::string describe(const Instability& instability) {
+  if (!instability.homogeneous) return describe(instability.wave) + ", grows";
+  static constexpr std::array<const char*, 7> names{"xx", "yy", "zz", "yz", "xz", "xy", "height"};
+  std::string mode;
+  for (std::size_t n = 0; n < names.size(); ++n)
+    if (const double share = instability.strain[n]; std::abs(share) > 0.01)
+      mode += fmt::format("{}{} {:.3g}", mode.empty() ? "" : ", ", names[n], share);
+  return fmt::format("a homogeneous deformation (wave vector 0; {}) releases energy and grows", mode);
+}
+
+}  // namespace hyperlattice
