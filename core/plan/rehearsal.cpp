@@ -63,7 +63,8 @@ void rehearse_outputs(const Plan& plan, Faults& faults) {
   const Complaint why{&sentence, [](void* self, std::string_view text) noexcept { static_cast<std::string*>(self)->assign(text); }};
   for (const Stage* stage : writers) {
     const ComponentPointer writer = make_component(*stage);
-    if (!stage->functions<WriterFunctions>().begin(writer.get(), context, why)) faults.add(stage->pointer, stage->component->type(), "an output that fits the body: " + sentence);
+    if (!stage->functions<WriterFunctions>().begin(writer.get(), context, why))
+      faults.add(stage->pointer, stage->component->type(), "an output that fits the body: " + sentence);
   }
   const ColumnSink columns{nullptr, [](void*, std::string_view) {}};
   for (const Stage* stage : probes) {
