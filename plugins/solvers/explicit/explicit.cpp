@@ -31,7 +31,7 @@ inline std::vector<Segment> land(double start, double end, std::span<const doubl
   double from = start;
   const auto reach = [&](double to) {
     const double parts = std::ceil((to - from) / longest * round_off);
-    if (!(parts < 1e15)) throw std::runtime_error("the time step is too small against the end time: more than 1e15 steps");
+    if (!(parts < 1e15)) throw std::runtime_error("a longer time step or an earlier end: this would take more than 1e15 steps");
     const auto steps = static_cast<std::uint64_t>(std::max(1.0, parts));
     segments.push_back({to, steps, (to - from) / static_cast<double>(steps)});
     from = to;
