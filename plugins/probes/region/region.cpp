@@ -39,7 +39,7 @@ class RegionProbe {
       row[3 * n + 1] = infinity;
       row[3 * n + 2] = -infinity;
     }
-    double values[3];
+    double values[3] = {};
     for (const Particle particle : particles_) {
       quantity_.evaluate(snapshot, field, particle, values);
       for (std::size_t n = 0; n < count; ++n) {
