@@ -21,6 +21,7 @@ Command run_command(CLI::App& program);
 Command plan_command(CLI::App& program);
 Command plugins_command(CLI::App& program);
 Command schema_command(CLI::App& program);
+Command analyze_command(CLI::App& program);
 
 /// What `run` and `plan` are both told.
 struct SceneArguments {

@@ -13,25 +13,15 @@ using Membrane = KernelChoice::Membrane;
 
 constexpr double round_off = 1e-9;  // relative to the stiffest deformation
 
-/// Energy of homogeneous strains (xx, yy, zz, 2 yz, 2 xz, 2 xy) and of a common height (in units of l), per site: its 7 x 7 matrix.
+/// The energies, N/m, of uniform strains that the lattice can have: a clamped membrane keeps its thickness.
 Eigen::MatrixXd homogeneous(const InfiniteLattice& lattice) {
-  using Vector7 = Eigen::Matrix<double, 7, 1>;
-  Eigen::Matrix<double, 7, 7> sum = Eigen::Matrix<double, 7, 7>::Zero();
+  StrainEnergy energy = strain_energy(lattice);
   double length = 0;
   for (const NeighbourGeometry& n : lattice.neighbours) length = std::max(length, n.rest_length);
-  for (const NeighbourGeometry& n : lattice.neighbours) {
-    const SpringConstants& spring = lattice.springs[n.site.spring_class];
-    const auto [x, y, z] = n.rest;
-    Vector7 stretch;
-    stretch << x * x, y * y, z * z, y * z, x * z, x * y, 0;
-    sum += spring.stiffness / (n.rest_length * n.rest_length) * stretch * stretch.transpose();
-    if (lattice.membrane == Membrane::none) continue;
-    stretch(6) = 2 * lattice.membrane_distance * length;
-    sum += spring.cross_stiffness / (n.cross_rest_length * n.cross_rest_length) * stretch * stretch.transpose();
-  }
-  sum(6, 6) += 2 * lattice.alpha * length * length;
-  const int size = lattice.membrane == Membrane::free ? 7 : 6;
-  return sum.topLeftCorner(size, size) / (length * length);
+  for (auto& row : energy)
+    for (double& entry : row) entry /= length * length;
+  const Eigen::Index size = lattice.membrane == Membrane::free ? 7 : 6;
+  return Eigen::Map<const Eigen::Matrix<double, uniform_strains, uniform_strains>>(energy[0].data()).topLeftCorner(size, size);  // symmetric
 }
 
 }  // namespace
@@ -64,7 +54,7 @@ std::optional<Instability> find_instability(const InfiniteLattice& lattice, Sect
 
 std::string describe(const Instability& instability) {
   if (!instability.homogeneous) return describe(instability.wave) + ", grows";
-  static constexpr std::array<const char*, 7> names{"xx", "yy", "zz", "yz", "xz", "xy", "height"};
+  static constexpr std::array<const char*, uniform_strains> names{"xx", "yy", "zz", "yz", "xz", "xy", "height"};
   std::string mode;
   for (std::size_t n = 0; n < names.size(); ++n)
     if (const double share = instability.strain[n]; std::abs(share) > 0.01)

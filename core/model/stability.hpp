@@ -1,7 +1,7 @@
 // Stability of the endless lattice over the whole Brillouin zone.
 #pragma once
 
-#include <model/waves.hpp>
+#include <model/strain_energy.hpp>
 
 #include <optional>
 
@@ -9,9 +9,9 @@ namespace hyperlattice {
 
 /// What releases energy and so grows by itself.
 struct Instability {
-  bool homogeneous = false;        ///< a uniform strain; else a wave
-  std::array<double, 7> strain{};  ///< homogeneous: share of xx, yy, zz, 2 yz, 2 xz, 2 xy and of the height
-  Wave wave;                       ///< if not homogeneous; its sector says which lattice has it
+  bool homogeneous = false;                      ///< a uniform strain; else a wave
+  std::array<double, uniform_strains> strain{};  ///< homogeneous: the share of each
+  Wave wave;                                     ///< if not homogeneous; its sector says which lattice has it
 };
 
 /// What grows in the mirrored layer (Sector::mirrored), or in the full two-layer lattice besides that (Sector::opposed); nothing if stable.

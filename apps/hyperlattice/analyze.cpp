@@ -1,0 +1,93 @@
+// hyperlattice analyze: elasticity, stability over the Brillouin zone, critical time step and dispersion of a lattice; the map of cubic crystals.
+#include "commands.hpp"
+
+#include <analyze/analysis.hpp>
+#include <analyze/crystal_report.hpp>
+#include <analyze/dispersion.hpp>
+#include <analyze/membrane_choice.hpp>
+#include <base/gnuplot.hpp>
+
+#include <hyperlattice/files.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <iostream>
+
+namespace hyperlattice {
+namespace {
+
+struct Arguments {
+  std::string lattice = "lattices.cubic";
+  MembraneChoice membrane;
+  std::string dispersion, crystals, plot;
+  bool json = false;
+};
+
+Json ratios_json(const ChosenMembrane& chosen) {
+  Json json = {{"membrane", calibration::membrane_names[static_cast<std::size_t>(chosen.membrane)]}};
+  if (chosen.lambda) json["lambda"] = *chosen.lambda;
+  json["k_alpha"] = chosen.ratios.clamped ? Json("infinite") : Json(chosen.ratios.alpha);
+  json["k_beta"] = chosen.ratios.beta;
+  json["k_gamma"] = chosen.ratios.gamma;
+  return json;
+}
+
+/// What was asked for together makes sense.
+void check(const Arguments& arguments) {
+  Faults faults;
+  const MembraneChoice& m = arguments.membrane;
+  const bool needs = m.poisson || m.lambda || m.k_alpha || m.k_beta || m.k_gamma || !arguments.dispersion.empty();
+  if (m.membrane.empty() && (needs || (arguments.crystals.empty() && arguments.plot.empty())))
+    faults.add("--membrane", "", "a membrane: none, I, II, III, IV, I-m or free");
+  if (arguments.lattice != "lattices.cubic" && !(arguments.crystals.empty() && arguments.plot.empty()))
+    faults.add("--lattice", arguments.lattice, "lattices.cubic, the one whose crystals are known");
+  faults.throw_if_any();
+}
+
+int analyze(const Arguments& arguments) {
+  check(arguments);
+  const auto crystals = arguments.crystals.empty() ? std::vector<FittedCrystal>{} : fit_all(read_crystals(arguments.crystals));
+  Json json = {{"lattice", arguments.lattice}};
+  std::string text;
+  std::optional<MapPoint> point;
+  if (!arguments.membrane.membrane.empty()) {
+    Host host;
+    const LatticeGeometry geometry = load_lattice(host, arguments.lattice);
+    const ChosenMembrane chosen = resolve(arguments.membrane, geometry);
+    const SpringLattice lattice = with_ratios(geometry, chosen.ratios);
+    const Analysis analysis = analyse(lattice);
+    point = MapPoint{analysis.elasticity.poisson_bulk(), analysis.elasticity.poisson_shear()};
+    json.update(ratios_json(chosen));
+    json.update(analysis_json(analysis));
+    text = analysis_text(analysis);
+    if (!arguments.dispersion.empty()) write_file(arguments.dispersion, dispersion_csv(lattice.endless(), lattice.base_stiffness()));
+  }
+  if (!crystals.empty()) {
+    json.update(crystals_json(crystals));
+    text += (text.empty() ? "" : "\n") + crystals_text(crystals);
+  }
+  if (!arguments.plot.empty()) draw_svg(arguments.plot, crystal_map_script(crystals, point));
+  std::cout << (arguments.json ? json.dump(2) + "\n" : text) << std::flush;
+  return exit_done;
+}
+
+}  // namespace
+
+Command analyze_command(CLI::App& program) {
+  const auto a = std::make_shared<Arguments>();
+  CLI::App* command = program.add_subcommand("analyze", "elasticity, stability and time step of a lattice; the map of cubic crystals");
+  command->add_option("--lattice", a->lattice, "a lattice component (default: lattices.cubic)");
+  command->add_option("--membrane", a->membrane.membrane, "none, I, II, III, IV, I-m, or free with the ratios below");
+  command->add_option("--poisson", a->membrane.poisson, "Poisson ratio along [100]; gives lambda");
+  command->add_option("--lambda", a->membrane.lambda, "4D stiffness ratio, in place of --poisson");
+  command->add_option("--k_alpha", a->membrane.k_alpha, "membrane free: k_alpha / k, or infinite");
+  command->add_option("--k_beta", a->membrane.k_beta, "membrane free: k_beta / k, beside springs of the lattice's first class");
+  command->add_option("--k_gamma", a->membrane.k_gamma, "membrane free: k_gamma / k, beside springs of the second class");
+  command->add_option("--dispersion", a->dispersion, "write omega / sqrt(k/m) of the waves along [100], [110] and [111] to this CSV file");
+  command->add_option("--crystals", a->crystals, "read cubic crystals from this CSV file and find lattices with their elastic constants");
+  command->add_option("--plot", a->plot, "draw the map of Poisson ratios (figure 4) to this SVG file; needs gnuplot");
+  command->add_flag("--json", a->json, "print it for machines");
+  return {command, [a] { return analyze(*a); }};
+}
+
+}  // namespace hyperlattice

@@ -1,0 +1,92 @@
+#include <analyze/crystals.hpp>
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+
+namespace hyperlattice {
+
+namespace {
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells(1);
+  for (const char c : line)
+    if (c == ',')
+      cells.emplace_back();
+    else if (c != '\r')
+      cells.back() += c;
+  return cells;
+}
+
+struct Columns {
+  static constexpr std::array<const char*, 4> names{"name", "C11_GPa", "C12_GPa", "C44_GPa"};
+  std::array<std::size_t, 4> at{};
+  std::optional<std::size_t> reliability;
+};
+
+std::optional<Columns> columns_of(const std::vector<std::string>& header, const std::string& file, Faults& faults) {
+  const auto find = [&](const std::string& name) -> std::optional<std::size_t> {
+    const auto found = std::find(header.begin(), header.end(), name);
+    return found == header.end() ? std::nullopt : std::optional<std::size_t>(found - header.begin());
+  };
+  const std::size_t before = faults.size();
+  Columns columns;
+  for (std::size_t n = 0; n < columns.at.size(); ++n)
+    if (const auto place = find(Columns::names[n]))
+      columns.at[n] = *place;
+    else
+      faults.add(file + ":1", "", fmt::format("a column {}, named in the first line", Columns::names[n]));
+  columns.reliability = find("reliability");
+  return faults.size() > before ? std::nullopt : std::optional(columns);
+}
+
+/// The constants of one line; they must be those of a crystal that does not fall apart.
+std::optional<Crystal> crystal_of(const std::vector<std::string>& cells, const Columns& columns, const std::string& where, Faults& faults) {
+  if (cells.size() <= *std::max_element(columns.at.begin(), columns.at.end())) {
+    faults.add(where, cells.front(), "a value in each of the columns name, C11_GPa, C12_GPa, C44_GPa");
+    return std::nullopt;
+  }
+  Crystal crystal;
+  crystal.name = cells[columns.at[0]];
+  if (columns.reliability && *columns.reliability < cells.size()) crystal.reliability = cells[*columns.reliability];
+  const std::array<double*, 3> constants{&crystal.C11, &crystal.C12, &crystal.C44};
+  const std::size_t before = faults.size();
+  for (std::size_t n = 0; n < constants.size(); ++n) {
+    const std::string& cell = cells[columns.at[n + 1]];
+    const auto read = std::from_chars(cell.data(), cell.data() + cell.size(), *constants[n]);
+    if (read.ec != std::errc() || read.ptr != cell.data() + cell.size() || !std::isfinite(*constants[n]))
+      faults.add(where, cell, fmt::format("a number in column {}", Columns::names[n + 1]));
+  }
+  if (faults.size() > before) return std::nullopt;
+  if (crystal.C44 > 0 && crystal.C11 > crystal.C12 && crystal.C11 + 2 * crystal.C12 > 0) return crystal;
+  faults.add(where, crystal.name, "constants of a stable crystal: C44 > 0, C11 > C12, C11 + 2 C12 > 0");
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<Crystal> read_crystals(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  if (!stream) throw InputError({{"--crystals", file.string(), "a file that can be read"}});
+  Faults faults;
+  std::vector<Crystal> crystals;
+  std::optional<Columns> columns;
+  std::string line;
+  for (int number = 1; std::getline(stream, line); ++number) {
+    if (number == 1) {
+      columns = columns_of(cells_of(line), file.string(), faults);
+      faults.throw_if_any();
+    } else if (!line.empty() && line != "\r") {
+      if (auto crystal = crystal_of(cells_of(line), *columns, fmt::format("{}:{}", file.string(), number), faults)) crystals.push_back(*crystal);
+    }
+  }
+  if (crystals.empty() && faults.empty()) faults.add(file.string(), "", "at least one crystal");
+  faults.throw_if_any();
+  return crystals;
+}
+
+}  // namespace hyperlattice

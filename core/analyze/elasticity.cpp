@@ -1,0 +1,57 @@
+#include <analyze/elasticity.hpp>
+#include <model/strain_energy.hpp>
+
+#include <algorithm>
+
+namespace hyperlattice {
+
+namespace {
+
+constexpr std::size_t ww = 6;
+
+double mean(double a, double b, double c) { return (a + b + c) / 3; }
+
+/// How far the matrix is from that of a cubic lattice along the axes.
+double cubic_distance(const LatticeElasticity& e) {
+  double distance = 0;
+  for (std::size_t i = 0; i < 6; ++i)
+    for (std::size_t j = 0; j < 6; ++j) {
+      const double cubic = i < 3 && j < 3 ? (i == j ? e.C11 : e.C12) : i == j ? e.C44 : 0;
+      distance = std::max(distance, std::abs(e.stiffness[i][j] - cubic));
+    }
+  return distance;
+}
+
+}  // namespace
+
+LatticeElasticity elasticity(const SpringLattice& lattice) {
+  const InfiniteLattice endless = lattice.endless();
+  const double l = lattice.geometry().spacing, k = lattice.base_stiffness();
+  const StrainEnergy energy = strain_energy(endless);
+
+  LatticeElasticity e;
+  const double both_layers = 2 / (k * l * l);
+  e.C1 = both_layers * mean(energy[0][0], energy[1][1], energy[2][2]);
+  e.C2 = both_layers * mean(energy[1][2], energy[0][2], energy[0][1]);
+  e.C3 = both_layers * energy[ww][ww];
+  e.C4 = both_layers * mean(energy[0][ww], energy[1][ww], energy[2][ww]);
+
+  const bool relaxes = endless.membrane == KernelChoice::Membrane::free;
+  const double unit = l / (k * lattice.geometry().site_volume);
+  for (std::size_t i = 0; i < 6; ++i)
+    for (std::size_t j = 0; j < 6; ++j) {
+      const double height = energy[i][ww] * energy[j][ww];  // what the free height takes away
+      e.stiffness[i][j] = unit * (energy[i][j] - (relaxes && height != 0 ? height / energy[ww][ww] : 0));
+    }
+  const auto& s = e.stiffness;
+  e.C11 = mean(s[0][0], s[1][1], s[2][2]);
+  e.C12 = mean(s[1][2], s[0][2], s[0][1]);
+  e.C44 = mean(s[3][3], s[4][4], s[5][5]);
+
+  constexpr double rounding = 1e-9;
+  e.cubic = cubic_distance(e) <= rounding * std::abs(e.C11);
+  e.isotropic = e.cubic && std::abs(e.C11 - e.C12 - 2 * e.C44) <= rounding * std::abs(e.C11);
+  return e;
+}
+
+}  // namespace hyperlattice

@@ -1,0 +1,98 @@
+#include <analyze/elasticity.hpp>
+#include <analyze/membrane_choice.hpp>
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <charconv>
+
+namespace hyperlattice {
+
+namespace {
+
+using calibration::Membrane;
+using calibration::membrane_names;
+
+std::optional<Membrane> membrane_named(const std::string& name, Faults& faults) {
+  const auto found = std::find(std::begin(membrane_names), std::end(membrane_names), name);
+  if (found != std::end(membrane_names)) return static_cast<Membrane>(found - std::begin(membrane_names));
+  const std::vector<std::string> names(std::begin(membrane_names), std::end(membrane_names));
+  const std::string near = nearest(name, names);
+  faults.add("--membrane", name, fmt::format("one of {}{}", fmt::join(names, ", "), near.empty() ? "" : "; did you mean '" + near + "'?"));
+  return std::nullopt;
+}
+
+void check_finite(const char* option, const std::optional<double>& value, Faults& faults) {
+  if (value && !std::isfinite(*value)) faults.add(option, fmt::format("{}", *value), "a finite number");
+}
+
+/// "infinite" clamps the membrane.
+calibration::Ratios free_ratios(const MembraneChoice& choice, const LatticeGeometry& geometry, Faults& faults) {
+  calibration::Ratios ratios{0, choice.k_beta.value_or(0), choice.k_gamma.value_or(0), false};
+  if (choice.k_alpha == "infinite")
+    ratios.clamped = true;
+  else if (choice.k_alpha) {
+    const char* end = choice.k_alpha->data() + choice.k_alpha->size();
+    const auto read = std::from_chars(choice.k_alpha->data(), end, ratios.alpha);
+    if (read.ec != std::errc() || read.ptr != end || !std::isfinite(ratios.alpha))
+      faults.add("--k_alpha", *choice.k_alpha, "a finite number, or infinite");
+  }
+  if (ratios.gamma != 0 && geometry.spring_classes < 2)
+    faults.add("--k_gamma", fmt::format("{}", ratios.gamma), "none: this lattice has one class of springs, that of k_beta");
+  return ratios;
+}
+
+/// lambda as given, or from the Poisson ratio.
+double lambda_of(const MembraneChoice& choice, Membrane membrane, const LatticeGeometry& geometry, Faults& faults) {
+  if (choice.poisson.has_value() == choice.lambda.has_value()) {
+    faults.add(choice.poisson ? "--lambda" : "--poisson", choice.lambda ? fmt::format("{}", *choice.lambda) : "",
+               choice.poisson ? "one of --poisson and --lambda: each follows from the other" : "a Poisson ratio, or --lambda in its place");
+    return 0;
+  }
+  if (choice.lambda) return *choice.lambda;
+  const double lambda = *lambda_for(geometry, membrane, *choice.poisson);
+  const auto within = reach(geometry, membrane);
+  constexpr double rounding = 1e-9;  // of the reach's own ends
+  const double high = within->open ? *choice.poisson : *choice.poisson - rounding;
+  if (!std::isfinite(lambda) || !within->holds(high))
+    faults.add("--poisson", fmt::format("{}", *choice.poisson), reach_sentence(geometry, membrane, *choice.poisson));
+  return lambda;
+}
+
+}  // namespace
+
+ChosenMembrane resolve(const MembraneChoice& choice, const LatticeGeometry& geometry) {
+  Faults faults;
+  const std::optional<Membrane> membrane = membrane_named(choice.membrane, faults);
+  check_finite("--poisson", choice.poisson, faults);
+  check_finite("--lambda", choice.lambda, faults);
+  check_finite("--k_beta", choice.k_beta, faults);
+  check_finite("--k_gamma", choice.k_gamma, faults);
+  faults.throw_if_any();
+
+  ChosenMembrane chosen;
+  chosen.membrane = *membrane;
+  const bool has_lambda = *membrane != Membrane::none && *membrane != Membrane::free;
+  if (!has_lambda && choice.lambda) faults.add("--lambda", fmt::format("{}", *choice.lambda), "none: only membranes I, II, III, IV and I-m have one");
+  if (*membrane != Membrane::free)
+    for (const auto& [option, given] :
+         {std::pair{"--k_alpha", choice.k_alpha.has_value()}, {"--k_beta", choice.k_beta.has_value()}, {"--k_gamma", choice.k_gamma.has_value()}})
+      if (given) faults.add(option, "", "none, or --membrane free: the other membranes set it themselves");
+
+  if (has_lambda) {
+    chosen.lambda = lambda_of(choice, *membrane, geometry, faults);
+    chosen.ratios = calibration::ratios(*membrane, *chosen.lambda);
+  } else if (*membrane == Membrane::free) {
+    chosen.ratios = free_ratios(choice, geometry, faults);
+  }
+  if (!has_lambda && choice.poisson && faults.empty()) {
+    const double poisson = elasticity(with_ratios(geometry, chosen.ratios)).poisson_bulk();
+    if (std::abs(poisson - *choice.poisson) > 1e-4)
+      faults.add("--poisson", fmt::format("{}", *choice.poisson),
+                 fmt::format("none, or {:.6g}: that is what these springs have along [100]", poisson));
+  }
+  faults.throw_if_any();
+  return chosen;
+}
+
+}  // namespace hyperlattice
