@@ -4,13 +4,15 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <array>
 #include <iterator>
+#include <memory>
 
 namespace hyperlattice {
 
 namespace {
 
-constexpr int columns = 100, rows = 200;  // nu' from 0 to 0.5, nu'' from -0.5 to 0.5
+constexpr std::size_t columns = 100, rows = 200;  // nu' from 0 to 0.5, nu'' from -0.5 to 0.5
 constexpr double cell = 0.005;
 
 enum Kind { nothing, any, stable };
@@ -25,26 +27,32 @@ Kind at(double bulk, double shear) {
   return kind_of(fit(crystal));
 }
 
+using Map = std::array<std::array<Kind, columns>, rows>;
+
+double bulk_at(double column) { return cell * column; }
+double shear_at(double row) { return cell * row - 0.5; }
+
 /// The map as bars of one kind along nu': x, y, half width, half height.
-void append_region(std::string& text, const std::vector<Kind>& map, Kind kind) {
+void append_region(std::string& text, const Map& map, Kind kind) {
   fmt::format_to(std::back_inserter(text), "$region{} << EOD\n", static_cast<int>(kind));
-  for (int row = 0; row < rows; ++row)
-    for (int begin = 0, end = 0; begin < columns; begin = end) {
-      const auto here = [&](int column) { return map[static_cast<std::size_t>(row * columns + column)]; };
-      for (end = begin + 1; end < columns && here(end) == here(begin);) ++end;
-      if (here(begin) == kind)
-        fmt::format_to(std::back_inserter(text), "{:.5g} {:.5g} {:.5g} {:.5g}\n", cell * (begin + end) / 2, cell * (row + 0.5) - 0.5,
-                       cell * (end - begin) / 2, cell / 2);
+  for (std::size_t row = 0; row < rows; ++row)
+    for (std::size_t begin = 0, end = 0; begin < columns; begin = end) {
+      for (end = begin + 1; end < columns && map[row][end] == map[row][begin];) ++end;
+      if (map[row][begin] != kind) continue;
+      const auto first = static_cast<double>(begin), last = static_cast<double>(end);
+      fmt::format_to(std::back_inserter(text), "{:.5g} {:.5g} {:.5g} {:.5g}\n", bulk_at((first + last) / 2), shear_at(static_cast<double>(row) + 0.5),
+                     cell * (last - first) / 2, cell / 2);
     }
   text += "0 -9 0 0\nEOD\n";  // never empty
 }
 
 void append_regions(std::string& text) {
-  std::vector<Kind> map;
-  for (int row = 0; row < rows; ++row)
-    for (int column = 0; column < columns; ++column) map.push_back(at(cell * (column + 0.5), cell * (row + 0.5) - 0.5));
-  append_region(text, map, any);
-  append_region(text, map, stable);
+  auto map = std::make_unique<Map>();
+  for (std::size_t row = 0; row < rows; ++row)
+    for (std::size_t column = 0; column < columns; ++column)
+      (*map)[row][column] = at(bulk_at(static_cast<double>(column) + 0.5), shear_at(static_cast<double>(row) + 0.5));
+  append_region(text, *map, any);
+  append_region(text, *map, stable);
 }
 
 /// From the membrane's first stable lambda upwards, evenly in lambda / (lambda + 4).

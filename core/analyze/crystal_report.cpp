@@ -35,6 +35,7 @@ Json fit_json(const CrystalFit& fit) {
 
 std::vector<FittedCrystal> fit_all(const std::vector<Crystal>& crystals) {
   std::vector<FittedCrystal> all;
+  all.reserve(crystals.size());
   for (const Crystal& crystal : crystals) all.push_back({crystal, fit(crystal)});
   return all;
 }
