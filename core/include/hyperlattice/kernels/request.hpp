@@ -23,12 +23,15 @@ struct NeighbourGeometry {
   double cross_rest_length = 0;  ///< sqrt(|rest|^2 + Delta^2)
 };
 
+inline constexpr std::uint64_t no_weights = ~std::uint64_t{0};
+
 /// One row of particles: sites begin <= i < end of a line along x, stored from `start` on, padded to whole vectors.
 struct Row {
   std::int32_t begin = 0, end = 0;
   std::uint64_t start = 0;                            ///< place of site `begin` in the block's arrays
   std::uint32_t neighbours = 0;                       ///< bit n: some site of the row has a spring to neighbour n
   std::int32_t material = 0;                          ///< of all springs that touch the row, or -1 if they are several
+  std::uint64_t weights = no_weights;                 ///< place of its weights in KernelRequest::weights; none: all are 1
   std::uint32_t first_support = 0, last_support = 0;  ///< its range in KernelRequest::supports
 };
 
@@ -75,6 +78,7 @@ struct KernelRequest {
   double* velocity[4] = {};                ///< m/s
   std::uint16_t* alive = nullptr;          ///< bit n: the spring to neighbour n exists; bit 15: the site holds a particle
   const std::uint8_t* material = nullptr;  ///< of each site; null: one material
+  const double* weights = nullptr;         ///< of a row that has them: shares of a whole particle (mass, alpha), one a site
 
   // the body
   std::span<const NeighbourGeometry> neighbours;

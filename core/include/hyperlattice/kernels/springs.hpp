@@ -7,14 +7,9 @@
 // so that the elongation L - L0 = q / (L + L0) comes without cancellation, however small it is. See docs/theory/mirror.md.
 #pragma once
 
-#include <hyperlattice/kernels/request.hpp>
-#include <hyperlattice/kernels/simd.hpp>
-#include <hyperlattice/material.hpp>
+#include <hyperlattice/kernels/motion.hpp>
 
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
-
-using Membrane = KernelChoice::Membrane;
-constexpr int components_of(Membrane membrane) { return membrane == Membrane::free ? 4 : 3; }
 
 /// A law may say `static constexpr bool linear = true`: its force is proportional to the elongation, which saves arithmetic.
 template <class Law>

@@ -10,8 +10,6 @@
 
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
-enum class Task { step, step_damped, measure };
-
 template <class Law, Membrane membrane, bool Breakable, bool Mixed, Task task>
 class Sweep {
   static constexpr int components = components_of(membrane);
@@ -40,7 +38,7 @@ class Sweep {
   void one_row(const Row& row, std::uint32_t index, int j, int k) {
     const bool owned = k >= 0;
     const int count = (row.end - row.begin + lanes - 1) / lanes * lanes;
-    begin_row(row, count);
+    for (int c = 0; c < components; ++c) set_body_force<Mixed>(request_, row, c, own_row(c));
     Pack stored{};
     for (std::uint32_t n = 0; n < request_.neighbours.size(); ++n) {
       const NeighbourGeometry& neighbour = request_.neighbours[n];
@@ -60,147 +58,21 @@ class Sweep {
         Springs<Law, membrane, Breakable, Mixed, measuring>::review(request_, pair, row, index, n, uniform ? constants : nullptr);
     }
     if (!owned) return;
-    if constexpr (measuring) request_.sums[index].stored = sum(stored);
-    end_row(row, index, j, k, count);
+    end_row(row, index, j, k, count, stored);
   }
 
-  /// The row's own forces start with the body acceleration's.
-  void begin_row(const Row& row, int count) {
-    const double acceleration[4] = {request_.acceleration.x, request_.acceleration.y, request_.acceleration.z, 0};
+  /// Joins what the row received to its own forces, then moves or measures it.
+  void end_row(const Row& row, std::uint32_t index, int j, int k, int count, Pack stored) {
+    double* forces[components];
     for (int c = 0; c < components; ++c) {
-      double* own = own_row(c);
-      for (int t = 0; t < count; t += lanes) {
-        Pack start{};
-        if (acceleration[c] != 0) start = where(lanes_with(request_.alive + row.start + t, particle_bit), acceleration[c] * mass_of(row, t));
-        store(own + t, start);
-      }
-    }
-  }
-
-  /// Sums the forces on the row, then moves it by one step, or measures it.
-  void end_row(const Row& row, std::uint32_t index, int j, int k, int count) {
-    const double kick = request_.back + request_.forward, drift = 2 * request_.forward;
-    RowSums measured;
-    Pack damped{}, kinetic{}, kinetic_mean{}, stored{};
-    Pack momentum[4] = {}, potential{};
-    const double acceleration[4] = {request_.acceleration.x, request_.acceleration.y, request_.acceleration.z, 0};
-    for (int c = 0; c < components; ++c) {
-      double* own = own_row(c);
+      forces[c] = own_row(c);
       double* received = received_row(c, j, k) + row.begin;
       for (int t = 0; t < count; t += lanes) {
-        store(own + t, load(own + t) + load(received + t));
+        store(forces[c] + t, load(forces[c] + t) + load(received + t));
         store(received + t, Pack{});
       }
     }
-    supports_before(row);
-    for (int t = 0; t < count; t += lanes) {
-      const Pack mass = mass_of(row, t), inverse_mass = 1.0 / mass;
-      Pack alpha{};
-      if constexpr (membrane == Membrane::free) alpha = alpha_of(row, t);
-      for (int c = 0; c < components; ++c) {
-        double* u = request_.displacement[c] + row.start + t;
-        double* v = request_.velocity[c] + row.start + t;
-        const Pack displacement = load(u), velocity = load(v);
-        Pack force = load(own_row(c) + t);
-        if (membrane == Membrane::free && c == 3) {  // the alpha spring joins the particle to its own mirror copy
-          force -= 2.0 * alpha * displacement;
-          if constexpr (measuring) stored += alpha * displacement * displacement;
-        }
-        Pack drag{};
-        if (task == Task::step_damped || (measuring && request_.damping != 0)) {
-          drag = with_sign(request_.damping * absolute(force), velocity);
-          force -= drag;
-        }
-        if constexpr (measuring) {
-          const Pack kicked = velocity + 2 * request_.back * inverse_mass * force, mean = velocity + request_.back * inverse_mass * force;
-          kinetic += 0.5 * mass * velocity * kicked;
-          kinetic_mean += 0.5 * mass * mean * mean;
-          momentum[c] += mass * mean;
-          potential += mass * acceleration[c] * displacement;
-          damped += request_.back * drag * velocity;
-        } else {
-          const Pack faster = velocity + kick * inverse_mass * force;
-          store(v, faster);
-          store(u, displacement + drift * faster);
-          if constexpr (task == Task::step_damped) damped += drag * (request_.back * velocity + request_.forward * faster);
-        }
-      }
-    }
-    if constexpr (task == Task::step_damped) request_.damped_work[index] += sum(damped);
-    if constexpr (measuring) {
-      measured.stored = request_.sums[index].stored + sum(stored);
-      measured.kinetic = sum(kinetic);
-      measured.kinetic_mean = sum(kinetic_mean);
-      measured.momentum = {sum(momentum[0]), sum(momentum[1]), sum(momentum[2])};
-      measured.potential = sum(potential);
-      measured.damped = sum(damped);
-      supports_measured(row, measured);
-      request_.sums[index] = measured;
-    } else {
-      supports_after(row);
-    }
-  }
-
-  // The few particles with external forces or prescribed motion. Their state before the row is moved waits in the support itself.
-  void supports_before(const Row& row) {
-    for (std::uint32_t n = row.first_support; n < row.last_support; ++n) {
-      Support& support = request_.supports[n];
-      const double force[3] = {support.force.x, support.force.y, support.force.z};
-      for (int c = 0; c < 3; ++c) {
-        double& sum_of_forces = own_row(c)[support.site - row.begin];
-        sum_of_forces += force[c];
-        support.sum[c] = sum_of_forces;
-        support.speed_before[c] = request_.velocity[c][support.index];
-        support.place_before[c] = request_.displacement[c][support.index];
-      }
-    }
-  }
-
-  void supports_after(const Row& row) {
-    const double kick = request_.back + request_.forward, drift = 2 * request_.forward;
-    for (std::uint32_t n = row.first_support; n < row.last_support; ++n) {
-      Support& support = request_.supports[n];
-      const double prescribed[3] = {support.velocity.x, support.velocity.y, support.velocity.z};
-      double path[3];
-      for (int c = 0; c < 3; ++c) {
-        double& v = request_.velocity[c][support.index];
-        const bool held = (support.axes >> c & 1u) != 0;
-        if (held) {
-          v = prescribed[c];
-          request_.displacement[c][support.index] = support.place_before[c] + drift * v;
-        }
-        path[c] = request_.back * support.speed_before[c] + request_.forward * v;
-        if (held) support.reaction_work += (support.mass * (v - support.speed_before[c]) / kick - support.sum[c]) * path[c];
-      }
-      support.path = {path[0], path[1], path[2]};
-    }
-  }
-
-  /// A prescribed component ends the half step before now with the prescribed velocity, not with what its forces would give it.
-  void supports_measured(const Row& row, RowSums& measured) {
-    for (std::uint32_t n = row.first_support; n < row.last_support; ++n) {
-      Support& support = request_.supports[n];
-      const double prescribed[3] = {support.velocity.x, support.velocity.y, support.velocity.z};
-      double half_path[3], momentum[3] = {0, 0, 0};
-      support.reaction_now = 0;
-      for (int c = 0; c < 3; ++c) {
-        const double before = support.speed_before[c];
-        half_path[c] = request_.back * before;
-        if ((support.axes >> c & 1u) == 0) continue;
-        double force = support.sum[c];
-        if (request_.damping != 0 && before != 0) force -= __builtin_copysign(request_.damping * __builtin_fabs(force), before);
-        const double free_mean = before + request_.back * force / support.mass;
-        const double free_after = before + 2 * request_.back * force / support.mass;
-        const double after = request_.back > 0 ? prescribed[c] : before;
-        const double mean = 0.5 * (before + after);
-        measured.kinetic += 0.5 * support.mass * before * (after - free_after);
-        measured.kinetic_mean += 0.5 * support.mass * (mean * mean - free_mean * free_mean);
-        momentum[c] = support.mass * (mean - free_mean);
-        if (request_.back > 0) support.reaction_now += (support.mass * (after - before) / (2 * request_.back) - support.sum[c]) * half_path[c];
-      }
-      measured.momentum = measured.momentum + Vec3{momentum[0], momentum[1], momentum[2]};
-      support.path = {half_path[0], half_path[1], half_path[2]};
-    }
+    Motion<membrane, Mixed, task>(request_, row, forces).run(index, stored);
   }
 
   // Where things are.
@@ -231,15 +103,6 @@ class Sweep {
     pair.material_there = Mixed ? request_.material + there : nullptr;
     return pair;
   }
-
-  Pack per_material(const double* values, const Row& row, int t) const {
-    if (!Mixed || row.material >= 0) return fill(values[Mixed ? row.material : 0]);
-    Pack pack;
-    for (int lane = 0; lane < lanes; ++lane) pack[lane] = values[request_.material[row.start + static_cast<std::uint64_t>(t + lane)]];
-    return pack;
-  }
-  Pack mass_of(const Row& row, int t) const { return per_material(request_.mass, row, t); }
-  Pack alpha_of(const Row& row, int t) const { return per_material(request_.alpha, row, t); }
 
   const KernelRequest& request_;
 };
