@@ -20,6 +20,18 @@ std::vector<double> Simulation::injected_by_load() {
   return parts_->work_by_load(sums.potential - parts_->start_potential);
 }
 
+std::vector<Vec3> Simulation::force_on_load() {
+  parts_->measure(parts_->last_step / 2);
+  std::vector<Vec3> forces(parts_->model.loads.size());
+  for (const Block& block : parts_->blocks)
+    for (const Contribution& part : block.contributions) {
+      const double* sum = block.supports[part.support].sum;
+      const auto along = [&](unsigned axis) { return ((part.displaced | part.driven) >> axis & 1u) != 0 ? sum[axis] : 0; };
+      forces[part.load] = forces[part.load] + Vec3{along(0), along(1), along(2)};
+    }
+  return forces;
+}
+
 const std::vector<Breakage>& Simulation::breakages() const { return parts_->breakages; }
 double Simulation::elongation_now(std::size_t breakage) const { return parts_->elongation_now(breakage); }
 
@@ -57,6 +69,10 @@ void Simulation::velocities(std::vector<double>& xyz) const { copy({true, 0, 3},
 void Simulation::heights(std::vector<double>& values) const {
   values.clear();
   if (parts_->model.degrees_of_freedom == 4) copy({false, 3, 1}, values);
+}
+void Simulation::height_rates(std::vector<double>& values) const {
+  values.clear();
+  if (parts_->model.degrees_of_freedom == 4) copy({true, 3, 1}, values);
 }
 void Simulation::set_displacements(const std::vector<double>& xyz, const std::vector<double>& heights) {
   set({false, 0, 3}, xyz);

@@ -42,6 +42,9 @@ class Simulation {
 
   Balance balance();                       ///< of the present state; one extra sweep that changes nothing
   std::vector<double> injected_by_load();  ///< J, one a load; up to the present state
+  /// N, one a load: what acts on the particles that the load moves, along the axes that it prescribes, in the present state. At rest, the force
+  /// with which the body pushes the load. One extra sweep that changes nothing.
+  std::vector<Vec3> force_on_load();
 
   const std::vector<Breakage>& breakages() const;
   double elongation_now(std::size_t breakage) const;  ///< m, of a spring that is gone: open if above 0, closed if not
@@ -51,6 +54,7 @@ class Simulation {
   void displacements(std::vector<double>& xyz) const;
   void velocities(std::vector<double>& xyz) const;  ///< v(n-1/2)
   void heights(std::vector<double>& values) const;
+  void height_rates(std::vector<double>& values) const;
   /// Sets the state of every particle; for tests and for stages that start from another state.
   void set_displacements(const std::vector<double>& xyz, const std::vector<double>& heights);
   void set_velocities(const std::vector<double>& xyz, const std::vector<double>& height_rates);

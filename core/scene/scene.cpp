@@ -52,4 +52,9 @@ std::unique_ptr<Scene> read_scene(const std::filesystem::path& file, const std::
   return read_scene_text(read_text(file), file, settings, catalogue);
 }
 
+std::unique_ptr<Scene> read_scene_text(std::string_view text, Host& host) {
+  HostCatalogue catalogue(host);
+  return read_scene_text(text, std::filesystem::current_path() / "scene", {}, catalogue);
+}
+
 }  // namespace hyperlattice

@@ -59,6 +59,9 @@ struct Scene {
 /// refuses a library.
 std::unique_ptr<Scene> read_scene(const std::filesystem::path& file, const std::vector<std::string>& settings, Host& host);
 
+/// The same of a scene that stands in no file; what it names is looked for in the present folder.
+std::unique_ptr<Scene> read_scene_text(std::string_view text, Host& host);
+
 /// The JSON Schema (2020-12) of a scene with the given components.
 std::string scene_schema(const std::vector<const Component*>& components);
 

@@ -2,49 +2,25 @@
 #include <hyperlattice/calibration.hpp>
 
 #include <gtest/gtest.h>
-
-#include <fstream>
-#include <map>
-#include <sstream>
-#include <string>
-#include <vector>
+#include <support/reference_table.hpp>
 
 using namespace hyperlattice;
 using namespace hyperlattice::calibration;
 
 namespace {
 
-Membrane membrane_named(const std::string& name) {
-  for (std::size_t n = 0; n < std::size(membrane_names); ++n)
-    if (membrane_names[n] == name) return static_cast<Membrane>(n);
-  throw std::runtime_error("no membrane " + name);
-}
-
 constexpr Membrane with_lambda[] = {Membrane::I, Membrane::II, Membrane::III, Membrane::IV, Membrane::I_m};
 
 TEST(Calibration, AgreesWithTheTableOfTheInfiniteLattice) {
-  std::ifstream file(std::string(HYPERLATTICE_SOURCE) + "/tests/data/nu_eta_table.csv");
-  std::string line;
-  std::vector<std::string> header;
   int rows = 0;
-  while (std::getline(file, line)) {
-    std::vector<std::string> cells;
-    std::stringstream stream(line);
-    for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
-    if (header.empty()) {
-      header = cells;
-      continue;
-    }
-    std::map<std::string, std::string> row;
-    for (std::size_t n = 0; n < cells.size(); ++n) row[header[n]] = cells[n];
-    const Membrane membrane = membrane_named(row["lattice"]);
-    const double lambda_given = std::stod(row["lambda"]);
-    const Elasticity e = elasticity(ratios(membrane, lambda_given));
-    EXPECT_NEAR(e.poisson(), std::stod(row["nu_inf"]), 1e-6) << line;
-    EXPECT_NEAR(e.modulus_ratio(), std::stod(row["eta_inf"]), 1e-6) << line;
-    EXPECT_NEAR(e.zener(), std::stod(row["A_inf"]), 1e-6) << line;
+  for (const test::Row& row : test::nu_eta_table()) {
+    const double lambda_given = row.number("lambda");
+    const Elasticity e = elasticity(ratios(row.membrane, lambda_given));
+    EXPECT_NEAR(e.poisson(), row.number("nu_inf"), 1e-6) << row.text;
+    EXPECT_NEAR(e.modulus_ratio(), row.number("eta_inf"), 1e-6) << row.text;
+    EXPECT_NEAR(e.zener(), row.number("A_inf"), 1e-6) << row.text;
     if (e.poisson() < 0.2666) {  // III's lambda has a pole at 4/15
-      EXPECT_NEAR(lambda(membrane, e.poisson()), lambda_given, 1e-9 * (1 + std::abs(lambda_given))) << line;
+      EXPECT_NEAR(lambda(row.membrane, e.poisson()), lambda_given, 1e-9 * (1 + std::abs(lambda_given))) << row.text;
     }
     ++rows;
   }

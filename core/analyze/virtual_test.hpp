@@ -1,0 +1,52 @@
+// The virtual uniaxial compression test: elastic constants measured on a cube of particles as one would in a laboratory (Zhao 2017, section 2.3
+// and figure 2). The cube is an ordinary scene, run by the ordinary runtime.
+#pragma once
+
+#include <host/host.hpp>
+
+#include <hyperlattice/calibration.hpp>
+
+#include <string>
+
+namespace hyperlattice {
+
+/// Elastic constants as an experiment or the infinite lattice has them, along [100].
+struct ElasticPair {
+  double poisson = 0;        ///< nu
+  double modulus_ratio = 0;  ///< eta: E over that of the lattice without a membrane, of the same base springs
+};
+
+struct Measured : ElasticPair {
+  double young = 0;               ///< E l / k, with the area of N^2 cells
+  double residual = 0;            ///< of the forces, see relax()
+  std::uint64_t evaluations = 0;  ///< of all forces
+  double seconds = 0;             ///< building and running
+};
+
+/// A cube of N^3 particles between frictionless platens: only the axial displacement of the two end layers is prescribed. nu is the mean outward
+/// displacement of the lateral faces over the mean inward one of the end faces, all over all particles of a face.
+class VirtualTest {
+ public:
+  struct Options {
+    std::string lattice = "lattices.cubic";
+    int particles = 20;      ///< N, along an edge
+    double strain = 1e-3;    ///< by which the platens shorten the length (N - 1) l
+    double residual = 1e-8;  ///< at which the cube counts as at rest
+    int threads = 1;
+  };
+
+  /// Measures the lattice without a membrane, to compare others with. Throws as read_scene and build_model do; RunError if a cube does not come to
+  /// rest.
+  VirtualTest(Host& host, Options options);
+
+  Measured measure(const calibration::Ratios& ratios);
+
+ private:
+  Measured compress(const calibration::Ratios& ratios);
+
+  Host& host_;
+  Options options_;
+  double base_young_;
+};
+
+}  // namespace hyperlattice
