@@ -16,9 +16,9 @@ inline void add_all(Faults& faults, const InputError& error) {
 }
 
 /// Takes the sentence with which a component refuses.
-struct Refusal {
+struct Objection {
   std::string sentence;
-  Complaint why{this, [](void* self, std::string_view text) noexcept { static_cast<Refusal*>(self)->sentence = text; }};
+  Complaint why{this, [](void* self, std::string_view text) noexcept { static_cast<Objection*>(self)->sentence = text; }};
 };
 
 // The steps, in their order. Each adds its faults and leaves the model usable for the next where it can.

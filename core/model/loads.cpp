@@ -160,7 +160,7 @@ void add_loads(Model& model, RegionIndex& regions, Faults& faults) {
       load.component = make_component(*stage);
       View view{model, regions, std::nullopt};
       Collector collector{model.body, {}, {}, {}, {}};
-      Refusal refused;
+      Objection refused;
       const bool accepted = stage->functions<LoadFunctions>().declare(load.component.get(), view.body(), collector.sink(), refused.why);
       if (view.empty) {
         faults.add(stage->pointer, stage->component->type(), regions.expected_particles(*view.empty));

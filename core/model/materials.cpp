@@ -30,7 +30,7 @@ Material make_material(const Stage& stage, const Body& body) {
     material.failure_stage = stage.failure.get();
     material.failure = make_component(*stage.failure);
   }
-  Refusal refused;
+  Objection refused;
   if (!stage.functions<MaterialFunctions>().constants(material.component.get(), facts_of(body), material.constants, refused.why))
     throw refusal(stage, refused.sentence);
   const MaterialConstants& constants = material.constants;

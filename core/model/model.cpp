@@ -4,7 +4,7 @@
 namespace hyperlattice {
 
 ComponentPointer make_component(const Stage& stage) {
-  Refusal refused;
+  Objection refused;
   ComponentPointer made{stage.component->info.create(stage.options.get(), refused.why), stage.component->info.destroy};
   if (!made) throw refusal(stage, refused.sentence);
   return made;
