@@ -4,7 +4,6 @@
 #include <analyze/analysis.hpp>
 #include <analyze/crystal_report.hpp>
 #include <analyze/dispersion.hpp>
-#include <analyze/membrane_choice.hpp>
 #include <base/gnuplot.hpp>
 
 #include <hyperlattice/files.hpp>
@@ -16,21 +15,10 @@
 namespace hyperlattice {
 namespace {
 
-struct Arguments {
-  std::string lattice = "lattices.cubic";
-  MembraneChoice membrane;
+struct Arguments : LatticeArguments {
   std::string dispersion, crystals, plot;
   bool json = false;
 };
-
-Json ratios_json(const ChosenMembrane& chosen) {
-  Json json = {{"membrane", calibration::membrane_names[static_cast<std::size_t>(chosen.membrane)]}};
-  if (chosen.lambda) json["lambda"] = *chosen.lambda;
-  json["k_alpha"] = chosen.ratios.clamped ? Json("infinite") : Json(chosen.ratios.alpha);
-  json["k_beta"] = chosen.ratios.beta;
-  json["k_gamma"] = chosen.ratios.gamma;
-  return json;
-}
 
 /// What was asked for together makes sense.
 void check(const Arguments& arguments) {
@@ -57,7 +45,7 @@ int analyze(const Arguments& arguments) {
     const SpringLattice lattice = with_ratios(geometry, chosen.ratios);
     const Analysis analysis = analyse(lattice);
     point = MapPoint{analysis.elasticity.poisson_bulk(), analysis.elasticity.poisson_shear()};
-    json.update(ratios_json(chosen));
+    json.update(chosen_json(chosen));
     json.update(analysis_json(analysis));
     text = analysis_text(analysis);
     if (!arguments.dispersion.empty()) write_file(arguments.dispersion, dispersion_csv(lattice.endless(), lattice.base_stiffness()));
@@ -76,13 +64,7 @@ int analyze(const Arguments& arguments) {
 Command analyze_command(CLI::App& program) {
   const auto a = std::make_shared<Arguments>();
   CLI::App* command = program.add_subcommand("analyze", "elasticity, stability and time step of a lattice; the map of cubic crystals");
-  command->add_option("--lattice", a->lattice, "a lattice component (default: lattices.cubic)");
-  command->add_option("--membrane", a->membrane.membrane, "none, I, II, III, IV, I-m, or free with the ratios below");
-  command->add_option("--poisson", a->membrane.poisson, "Poisson ratio along [100]; gives lambda");
-  command->add_option("--lambda", a->membrane.lambda, "4D stiffness ratio, in place of --poisson");
-  command->add_option("--k_alpha", a->membrane.k_alpha, "membrane free: k_alpha / k, or infinite");
-  command->add_option("--k_beta", a->membrane.k_beta, "membrane free: k_beta / k, beside springs of the lattice's first class");
-  command->add_option("--k_gamma", a->membrane.k_gamma, "membrane free: k_gamma / k, beside springs of the second class");
+  a->declare(*command);
   command->add_option("--dispersion", a->dispersion, "write omega / sqrt(k/m) of the waves along [100], [110] and [111] to this CSV file");
   command->add_option("--crystals", a->crystals, "read cubic crystals from this CSV file and find lattices with their elastic constants");
   command->add_option("--plot", a->plot, "draw the map of Poisson ratios (figure 4) to this SVG file; needs gnuplot");

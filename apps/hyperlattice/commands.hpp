@@ -1,6 +1,7 @@
 // The commands of the program, one file each. A command declares its arguments, and acts when it was the one named.
 #pragma once
 
+#include <analyze/membrane_choice.hpp>
 #include <plan/plan.hpp>
 
 #include <CLI/CLI.hpp>
@@ -22,15 +23,32 @@ Command plan_command(CLI::App& program);
 Command plugins_command(CLI::App& program);
 Command schema_command(CLI::App& program);
 Command analyze_command(CLI::App& program);
+Command calibrate_command(CLI::App& program);
+
+/// --threads.
+struct ThreadArgument {
+  int threads = 0;  ///< 0: every processor
+
+  void declare(CLI::App& command);
+  int count() const;  ///< at least 1
+};
 
 /// What `run` and `plan` are both told.
 struct SceneArguments {
   std::filesystem::path scene;
   std::vector<std::string> settings;
-  int threads = 0;  ///< 0: every processor
+  ThreadArgument threads;
 
   void declare(CLI::App& command);
   std::unique_ptr<Plan> plan(Host& host) const;
+};
+
+/// What `analyze` and `calibrate` are both told.
+struct LatticeArguments {
+  std::string lattice = "lattices.cubic";
+  MembraneChoice membrane;
+
+  void declare(CLI::App& command);
 };
 
 }  // namespace hyperlattice

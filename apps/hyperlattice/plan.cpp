@@ -8,18 +8,21 @@
 
 namespace hyperlattice {
 
+void ThreadArgument::declare(CLI::App& command) {
+  command.add_option("--threads", threads, "threads to run on; results do not depend on it (default: every processor)")->check(CLI::Range(1, 4096));
+}
+
+int ThreadArgument::count() const { return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+
 void SceneArguments::declare(CLI::App& command) {
   command.add_option("SCENE", scene, "the scene file (JSON)")->required();
   command.add_option("--set", settings, "replace a value of the scene, e.g. --set /pipeline/1/poisson=0.23; may be repeated")
       ->type_name("/POINTER=VALUE")
       ->allow_extra_args(false);
-  command.add_option("--threads", threads, "threads to run on; results do not depend on it (default: every processor)")->check(CLI::Range(1, 4096));
+  threads.declare(command);
 }
 
-std::unique_ptr<Plan> SceneArguments::plan(Host& host) const {
-  const int processors = static_cast<int>(std::thread::hardware_concurrency());
-  return make_plan(read_scene(scene, settings, host), threads > 0 ? threads : std::max(1, processors));
-}
+std::unique_ptr<Plan> SceneArguments::plan(Host& host) const { return make_plan(read_scene(scene, settings, host), threads.count()); }
 
 Command plan_command(CLI::App& program) {
   struct Arguments : SceneArguments {

@@ -2,6 +2,7 @@
 #include <analyze/membrane_choice.hpp>
 
 #include <spdlog/fmt/fmt.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -12,15 +13,6 @@ namespace {
 
 using calibration::Membrane;
 using calibration::membrane_names;
-
-std::optional<Membrane> membrane_named(const std::string& name, Faults& faults) {
-  const auto found = std::find(std::begin(membrane_names), std::end(membrane_names), name);
-  if (found != std::end(membrane_names)) return static_cast<Membrane>(found - std::begin(membrane_names));
-  const std::vector<std::string> names(std::begin(membrane_names), std::end(membrane_names));
-  const std::string near = nearest(name, names);
-  faults.add("--membrane", name, fmt::format("one of {}{}", fmt::join(names, ", "), near.empty() ? "" : "; did you mean '" + near + "'?"));
-  return std::nullopt;
-}
 
 void check_finite(const char* option, const std::optional<double>& value, Faults& faults) {
   if (value && !std::isfinite(*value)) faults.add(option, fmt::format("{}", *value), "a finite number");
@@ -61,6 +53,15 @@ double lambda_of(const MembraneChoice& choice, Membrane membrane, const LatticeG
 
 }  // namespace
 
+std::optional<Membrane> membrane_named(const std::string& name, Faults& faults) {
+  const auto found = std::find(std::begin(membrane_names), std::end(membrane_names), name);
+  if (found != std::end(membrane_names)) return static_cast<Membrane>(found - std::begin(membrane_names));
+  const std::vector<std::string> names(std::begin(membrane_names), std::end(membrane_names));
+  const std::string near = nearest(name, names);
+  faults.add("--membrane", name, fmt::format("one of {}{}", fmt::join(names, ", "), near.empty() ? "" : "; did you mean '" + near + "'?"));
+  return std::nullopt;
+}
+
 ChosenMembrane resolve(const MembraneChoice& choice, const LatticeGeometry& geometry) {
   Faults faults;
   const std::optional<Membrane> membrane = membrane_named(choice.membrane, faults);
@@ -72,20 +73,21 @@ ChosenMembrane resolve(const MembraneChoice& choice, const LatticeGeometry& geom
 
   ChosenMembrane chosen;
   chosen.membrane = *membrane;
-  const bool has_lambda = *membrane != Membrane::none && *membrane != Membrane::free;
-  if (!has_lambda && choice.lambda) faults.add("--lambda", fmt::format("{}", *choice.lambda), "none: only membranes I, II, III, IV and I-m have one");
+  const bool with_lambda = has_lambda(*membrane);
+  if (!with_lambda && choice.lambda)
+    faults.add("--lambda", fmt::format("{}", *choice.lambda), "none: only membranes I, II, III, IV and I-m have one");
   if (*membrane != Membrane::free)
     for (const auto& [option, given] :
          {std::pair{"--k_alpha", choice.k_alpha.has_value()}, {"--k_beta", choice.k_beta.has_value()}, {"--k_gamma", choice.k_gamma.has_value()}})
       if (given) faults.add(option, "", "none, or --membrane free: the other membranes set it themselves");
 
-  if (has_lambda) {
+  if (with_lambda) {
     chosen.lambda = lambda_of(choice, *membrane, geometry, faults);
     chosen.ratios = calibration::ratios(*membrane, *chosen.lambda);
   } else if (*membrane == Membrane::free) {
     chosen.ratios = free_ratios(choice, geometry, faults);
   }
-  if (!has_lambda && choice.poisson && faults.empty()) {
+  if (!with_lambda && choice.poisson && faults.empty()) {
     const double poisson = elasticity(with_ratios(geometry, chosen.ratios)).poisson_bulk();
     if (std::abs(poisson - *choice.poisson) > 1e-4)
       faults.add("--poisson", fmt::format("{}", *choice.poisson),
@@ -93,6 +95,15 @@ ChosenMembrane resolve(const MembraneChoice& choice, const LatticeGeometry& geom
   }
   faults.throw_if_any();
   return chosen;
+}
+
+Json chosen_json(const ChosenMembrane& chosen) {
+  Json json = {{"membrane", membrane_names[static_cast<std::size_t>(chosen.membrane)]}};
+  if (chosen.lambda) json["lambda"] = *chosen.lambda;
+  json["k_alpha"] = chosen.ratios.clamped ? Json("infinite") : Json(chosen.ratios.alpha);
+  json["k_beta"] = chosen.ratios.beta;
+  json["k_gamma"] = chosen.ratios.gamma;
+  return json;
 }
 
 }  // namespace hyperlattice

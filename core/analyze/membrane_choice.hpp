@@ -2,6 +2,7 @@
 #pragma once
 
 #include <analyze/membranes.hpp>
+#include <scene/json.hpp>
 
 namespace hyperlattice {
 
@@ -19,7 +20,13 @@ struct ChosenMembrane {
   calibration::Ratios ratios;
 };
 
+/// Empty, and a fault at --membrane, if there is none of that name.
+std::optional<calibration::Membrane> membrane_named(const std::string& name, Faults& faults);
+
 /// Throws InputError with every fault. A lambda or ratios that make an unstable lattice are no fault: to find that out is what one asks for.
 ChosenMembrane resolve(const MembraneChoice& choice, const LatticeGeometry& geometry);
+
+/// Its keys for `--json`.
+Json chosen_json(const ChosenMembrane& chosen);
 
 }  // namespace hyperlattice

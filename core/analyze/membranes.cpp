@@ -14,13 +14,15 @@ using calibration::Membrane;
 
 constexpr Membrane with_lambda[] = {Membrane::I_m, Membrane::I, Membrane::II, Membrane::III, Membrane::IV};
 
-bool has_lambda(Membrane membrane) { return std::find(std::begin(with_lambda), std::end(with_lambda), membrane) != std::end(with_lambda); }
-
 std::string_view name(Membrane membrane) { return calibration::membrane_names[static_cast<std::size_t>(membrane)]; }
 
-bool is_stable(const LatticeGeometry& geometry, Membrane membrane, double lambda) {
-  const SpringLattice lattice = with_ratios(geometry, calibration::ratios(membrane, lambda));
-  return !find_instability(lattice.endless(), Sector::mirrored);
+/// Of all membranes but one, those for which something holds, as a list of names.
+template <class Holds>
+std::string others(Membrane but, const Holds& holds) {
+  std::string names;
+  for (const Membrane other : with_lambda)
+    if (other != but && holds(other)) names += (names.empty() ? "" : ", ") + std::string(name(other));
+  return names;
 }
 
 /// C11 and C12 as functions of lambda: a + b lambda.
@@ -51,16 +53,30 @@ struct LinearElasticity {
 /// Where stability begins, going up; nothing if small positive lambda are unstable already.
 std::optional<double> least_stable_lambda(const LatticeGeometry& geometry, Membrane membrane) {
   constexpr double small = 1e-6;
+  const auto grows = [&](double lambda) { return !is_stable(geometry, calibration::ratios(membrane, lambda)); };
   double stable = small, unstable = -8;
-  if (!is_stable(geometry, membrane, stable)) return std::nullopt;
+  if (grows(stable)) return std::nullopt;
   while (stable - unstable > small) {
     const double middle = (stable + unstable) / 2;
-    (is_stable(geometry, membrane, middle) ? stable : unstable) = middle;
+    (grows(middle) ? unstable : stable) = middle;
   }
   return std::abs(stable) < 2 * small ? 0 : stable;
 }
 
 }  // namespace
+
+bool has_lambda(Membrane membrane) { return std::find(std::begin(with_lambda), std::end(with_lambda), membrane) != std::end(with_lambda); }
+
+bool is_stable(const LatticeGeometry& geometry, const calibration::Ratios& ratios) {
+  const SpringLattice lattice = with_ratios(geometry, ratios);
+  return !find_instability(lattice.endless(), Sector::mirrored);
+}
+
+bool is_stable(const LatticeGeometry& geometry, Membrane membrane, double lambda) {
+  const std::optional<double> least = least_stable_lambda(geometry, membrane);
+  constexpr double edge = 1e-5;
+  return least && (*least == 0 ? lambda >= 0 : lambda > *least + edge) && is_stable(geometry, calibration::ratios(membrane, lambda));
+}
 
 SpringLattice with_ratios(const LatticeGeometry& geometry, const calibration::Ratios& ratios) {
   MaterialConstants constants;
@@ -86,16 +102,23 @@ std::optional<calibration::Reach> reach(const LatticeGeometry& geometry, Membran
   return calibration::Reach{std::min(start, limit), std::max(start, limit), *least < 0 || limit > start};
 }
 
+std::string stable_sentence(const LatticeGeometry& geometry, Membrane membrane, double lambda) {
+  const std::optional<double> least = least_stable_lambda(geometry, membrane);
+  const std::string stable = others(membrane, [&](Membrane other) { return is_stable(geometry, other, lambda); });
+  return (!least ? fmt::format("another membrane: {} is unstable for small lambda", name(membrane))
+                 : fmt::format("{} {:.4g}: with less, membrane {} is unstable", *least == 0 ? "at least" : "above", *least, name(membrane))) +
+         (stable.empty() ? "; no membrane of this lattice is stable with it" : fmt::format("; {} is stable with {}", lambda, stable));
+}
+
 std::string reach_sentence(const LatticeGeometry& geometry, Membrane membrane, double poisson) {
   const calibration::Reach own = reach(geometry, membrane).value_or(calibration::Reach{});
-  std::string others;
-  for (const Membrane other : with_lambda) {
+  const std::string reached_by = others(membrane, [&](Membrane other) {
     const std::optional<double> lambda = lambda_for(geometry, other, poisson);
-    if (other != membrane && std::isfinite(*lambda) && is_stable(geometry, other, *lambda))
-      others += (others.empty() ? "" : ", ") + std::string(name(other));
-  }
-  return fmt::format("within ({:.4g}, {:.4g}{}, the reach of membrane {}; {}", own.low, own.high, own.open ? ")" : "]", name(membrane),
-                     others.empty() ? "no membrane of this lattice reaches it" : fmt::format("{} is within the reach of {}", poisson, others));
+    return std::isfinite(*lambda) && is_stable(geometry, other, *lambda);
+  });
+  return fmt::format(
+      "within ({:.4g}, {:.4g}{}, the reach of membrane {}; {}", own.low, own.high, own.open ? ")" : "]", name(membrane),
+      reached_by.empty() ? "no membrane of this lattice reaches it" : fmt::format("{} is within the reach of {}", poisson, reached_by));
 }
 
 }  // namespace hyperlattice

@@ -122,11 +122,14 @@ constexpr double stiffness_eq15(double young, double volume, double sum_of_squar
 
 /// The paper's fits for lattice I-m, of a virtual test on 20^3 particles. Only to be used between the Poisson ratios given.
 inline constexpr double paper_poisson_low = 0.04, paper_poisson_high = 0.2464;
-constexpr double paper_lambda(double nu) {  ///< equation (11)
-  return ((-211.13493779 * nu + 162.84655851) * nu - 55.42449719) * nu + 6.92902211;
+inline constexpr double paper_cubic[] = {-211.13493779, 162.84655851, -55.42449719, 6.92902211};  ///< (11), highest power first
+inline constexpr double paper_quadratic[] = {-0.0078506, 0.41613615, 1.00369223};                 ///< (13)
+constexpr double polynomial(std::span<const double> coefficients, double x) {
+  double value = 0;
+  for (const double coefficient : coefficients) value = value * x + coefficient;
+  return value;
 }
-constexpr double paper_modulus_ratio(double lambda) {  ///< equation (13)
-  return (-0.0078506 * lambda + 0.41613615) * lambda + 1.00369223;
-}
+constexpr double paper_lambda(double nu) { return polynomial(paper_cubic, nu); }                     ///< equation (11)
+constexpr double paper_modulus_ratio(double lambda) { return polynomial(paper_quadratic, lambda); }  ///< equation (13)
 
 }  // namespace hyperlattice::calibration

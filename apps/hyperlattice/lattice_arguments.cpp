@@ -1,0 +1,16 @@
+// The lattice and its membrane, as `analyze` and `calibrate` are both told.
+#include "commands.hpp"
+
+namespace hyperlattice {
+
+void LatticeArguments::declare(CLI::App& command) {
+  command.add_option("--lattice", lattice, "a lattice component (default: lattices.cubic)");
+  command.add_option("--membrane", membrane.membrane, "none, I, II, III, IV, I-m, or free with the ratios below");
+  command.add_option("--poisson", membrane.poisson, "Poisson ratio along [100]; gives lambda");
+  command.add_option("--lambda", membrane.lambda, "4D stiffness ratio, in place of --poisson");
+  command.add_option("--k_alpha", membrane.k_alpha, "membrane free: k_alpha / k, or infinite");
+  command.add_option("--k_beta", membrane.k_beta, "membrane free: k_beta / k, beside springs of the lattice's first class");
+  command.add_option("--k_gamma", membrane.k_gamma, "membrane free: k_gamma / k, beside springs of the second class");
+}
+
+}  // namespace hyperlattice
