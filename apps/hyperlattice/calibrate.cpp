@@ -46,7 +46,8 @@ void check(const Arguments& a) {
 }
 
 int calibrate_curve(const Arguments& a, Host& host, const LatticeGeometry& geometry) {
-  const CurveChoice choice = std::make_from_tuple<CurveChoice>(*a.curve);
+  const auto& [from, to, points] = *a.curve;
+  const CurveChoice choice{from, to, points};
   const VirtualTest::Options options = a.virtual_test();
   check_curve(choice, a.choice, geometry);
   std::optional<VirtualTest> virtual_test;
