@@ -36,10 +36,10 @@ std::string horner(std::span<const double> coefficients, const char* x) {
   return text;
 }
 
-/// 1, 2 or 5 times a power of ten: at most a fourth of a range.
+/// 1, 2 or 5 times a power of ten, that divides a range into five parts at most.
 double tic_step(double range) {
-  const double power = std::pow(10, std::floor(std::log10(range / 4))), share = range / 4 / power;
-  return power * (share < 2 ? 1 : share < 5 ? 2 : 5);
+  const double power = std::pow(10, std::floor(std::log10(range / 5))), share = range / 5 / power;
+  return power * (share <= 1 ? 1 : share <= 2 ? 2 : share <= 5 ? 5 : 10);
 }
 
 }  // namespace
