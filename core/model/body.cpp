@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace hyperlattice {
 
@@ -27,6 +28,8 @@ struct Builder {
     for (const Neighbour& n : body.neighbours) {
       if (!is_forward(n) || n.spring_class >= grid.spring_classes)
         throw std::invalid_argument("the lattice has a neighbour that does not follow its site");
+      if (grid.boundary == Boundary::cells && std::max({std::abs(n.dx), std::abs(n.dy), n.dz}) > 1)
+        throw std::invalid_argument("the lattice has boundary cells and a spring that is longer than a cell");
       body.reach = std::max(body.reach, n.dz);
     }
     body.row_runs.reserve(row_count() + 1);
@@ -36,7 +39,8 @@ struct Builder {
   void run(std::int32_t j, std::int32_t k, std::int32_t begin, std::int32_t end) {
     if (!has_grid) throw std::invalid_argument("the lattice gave particles before its grid");
     const auto& [nx, ny, nz] = body.grid.sites;
-    if (j < 0 || j >= ny || k < 0 || k >= nz || begin < 0 || end > nx || begin >= end)
+    const std::int32_t last = body.grid.boundary == Boundary::cells && body.cells.empty() ? 1 : 0;  // a cell ends at the next site
+    if (j < 0 || j >= ny - last || k < 0 || k >= nz - last || begin < 0 || end > nx - last || begin >= end)
       throw std::invalid_argument("the lattice gave particles outside its box");
     const std::size_t row = row_of(j, k);
     if (row + 1 < body.row_runs.size() || (row + 1 == body.row_runs.size() && begin < body.runs.back().end))
@@ -51,7 +55,8 @@ struct Builder {
 
   void finish() {
     if (body.particles == 0) throw std::invalid_argument("the lattice has no particles");
-    body.row_runs.resize(row_count() + 1, body.runs.size());
+    end_rows();
+    if (body.grid.boundary == Boundary::cells) take_corners();
     count_springs();
   }
 
@@ -61,17 +66,23 @@ struct Builder {
     return static_cast<std::size_t>(k) * static_cast<std::size_t>(body.grid.sites[1]) + static_cast<std::size_t>(j);
   }
 
-  /// A run has as many springs to a neighbour as its sites, shifted, have in common with the runs of the neighbour's row.
+  void end_rows() { body.row_runs.resize(row_count() + 1, body.runs.size()); }
+
+  /// The runs were of cells: particles stand at their corners.
+  void take_corners() {
+    body.cells = Cells(std::exchange(body.runs, {}), std::exchange(body.row_runs, {}), body.grid.sites[1]);
+    body.particles = 0;
+    for (std::int32_t k = 0; k < body.grid.sites[2]; ++k)
+      for (std::int32_t j = 0; j < body.grid.sites[1]; ++j)
+        for (const Range& range : body.cells.sites(j, k)) run(j, k, range.begin, range.end);
+    end_rows();
+  }
+
   void count_springs() {
-    for (const Run& run : body.runs)
-      for (const Neighbour& n : body.neighbours) {
-        const std::int32_t j = run.j + n.dy, k = run.k + n.dz;
-        if (j < 0 || j >= body.grid.sites[1] || k >= body.grid.sites[2]) continue;
-        for (std::size_t other = body.row_runs[row_of(j, k)]; other < body.row_runs[row_of(j, k) + 1]; ++other) {
-          const std::int32_t common = std::min(run.end + n.dx, body.runs[other].end) - std::max(run.begin + n.dx, body.runs[other].begin);
-          if (common > 0) body.springs[n.spring_class] += static_cast<std::uint64_t>(common);
-        }
-      }
+    for (std::int32_t k = 0; k < body.grid.sites[2]; ++k)
+      for (std::int32_t j = 0; j < body.grid.sites[1]; ++j)
+        for (const Neighbour& n : body.neighbours)
+          for (const Range& range : body.springs_of(j, k, n)) body.springs[n.spring_class] += static_cast<std::uint64_t>(range.end - range.begin);
   }
 };
 
@@ -84,11 +95,26 @@ Site Body::site(Particle particle) const {
 }
 
 Particle Body::at(Site site) const {
-  if (site.j < 0 || site.j >= grid.sites[1] || site.k < 0 || site.k >= grid.sites[2]) return no_particle;
-  const std::size_t row = static_cast<std::size_t>(site.k) * static_cast<std::size_t>(grid.sites[1]) + static_cast<std::size_t>(site.j);
-  for (std::size_t n = row_runs[row]; n < row_runs[row + 1]; ++n)
-    if (site.i < runs[n].end) return site.i < runs[n].begin ? no_particle : runs[n].first + static_cast<Particle>(site.i - runs[n].begin);
+  for (const Run& run : row(site.j, site.k))
+    if (site.i < run.end) return site.i < run.begin ? no_particle : run.first + static_cast<Particle>(site.i - run.begin);
   return no_particle;
+}
+
+std::span<const Run> Body::row(std::int32_t j, std::int32_t k) const {
+  if (j < 0 || k < 0 || j >= grid.sites[1] || k >= grid.sites[2]) return {};
+  const std::size_t row = static_cast<std::size_t>(k) * static_cast<std::size_t>(grid.sites[1]) + static_cast<std::size_t>(j);
+  return {runs.data() + row_runs[row], runs.data() + row_runs[row + 1]};
+}
+
+std::vector<Range> Body::springs_of(std::int32_t j, std::int32_t k, const Neighbour& to) const {
+  if (!cells.empty()) return cells.sites(j, k, to);
+  std::vector<Range> found;
+  for (const Run& run : row(j, k))
+    for (const Run& other : row(j + to.dy, k + to.dz)) {
+      const Range common{std::max(run.begin, other.begin - to.dx), std::min(run.end, other.end - to.dx)};
+      if (common.begin < common.end) found.push_back(common);
+    }
+  return found;
 }
 
 Body build_body(const LatticeFunctions& functions, const void* lattice) {

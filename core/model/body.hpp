@@ -2,6 +2,7 @@
 #pragma once
 
 #include <geometry/region.hpp>
+#include <model/cells.hpp>
 
 #include <hyperlattice/lattice.hpp>
 #include <hyperlattice/load.hpp>
@@ -12,21 +13,12 @@
 
 namespace hyperlattice {
 
-/// Particles begin <= i < end of row (j, k); the first is particle `first`.
-struct Run {
-  std::int32_t j = 0, k = 0, begin = 0, end = 0;
-  Particle first = 0;
-};
-
-struct Site {
-  std::int32_t i = 0, j = 0, k = 0;
-};
-
 struct Body {
   Grid grid;  ///< its neighbours point into `neighbours`
   std::vector<Neighbour> neighbours;
   std::vector<Run> runs;              ///< in the order z, y, x
   std::vector<std::size_t> row_runs;  ///< [k * ny + j] first run of a row; one more entry at the end
+  Cells cells;                        ///< none if the boundary is particles
   std::uint64_t particles = 0;
   std::uint64_t springs[max_spring_classes] = {};
   std::int32_t reach = 1;  ///< planes that the farthest neighbour is away
@@ -38,6 +30,12 @@ struct Body {
   /// The particle at a site, or no_particle.
   Particle at(Site site) const;
   static constexpr Particle no_particle = ~Particle{0};
+
+  std::span<const Run> row(std::int32_t j, std::int32_t k) const;  ///< its runs; none outside the box
+  /// Ranges of sites of row (j, k) that a spring joins to the neighbour, ascending and apart.
+  std::vector<Range> springs_of(std::int32_t j, std::int32_t k, const Neighbour& to) const;
+  /// What counts of a spring from a site, or with `to` {} of the particle there: 1, or less at the surface of a body of cells.
+  double share(Site site, const Neighbour& to = {}) const { return cells.empty() ? 1 : cells.share(site, to); }
   std::uint64_t base_springs() const {
     std::uint64_t n = 0;
     for (auto s : springs) n += s;

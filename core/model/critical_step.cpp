@@ -82,7 +82,13 @@ void find_critical_step(Model& model, Faults& faults) {
     model.critical_time_step = material.critical_time_step;
     model.critical_because = "the stiffest of all waves of the lattice: " + describe(wave);
   }
-  if (faults.size() > before || model.materials.size() == 1) return;
+  if (faults.size() > before) return;
+  if (!model.body.cells.empty()) {
+    model.critical_time_step = 2 / std::sqrt(cell_bound(model));
+    model.critical_because = "a safe bound for a body of cells: the stiffest motion of a cell that moves alone";
+    return;
+  }
+  if (model.materials.size() == 1) return;
 
   model.critical_time_step = infinity;
   for (const auto& [environment, particle] : environments(model)) {

@@ -18,7 +18,12 @@ class StiffnessBound {
   double sum_[10] = {};  // lower triangle of the 4 x 4 matrix, by rows
 };
 
-/// Sets the model's critical time step and what limits it: exact for one material, a safe bound for several. A fault for each unstable material.
+/// Bound of omega^2 for a body of cells. Its stiffness and its mass are sums over its cells, so that for any motion u.K.u / u.M.u is at most the
+/// largest of its cells' own: those of a cell that moves alone. Exact for a body of one cell.
+double cell_bound(const Model& model);
+
+/// Sets the model's critical time step and what limits it: exact for one material and whole particles, a safe bound otherwise. A fault for each
+/// unstable material.
 void find_critical_step(Model& model, Faults& faults);
 
 }  // namespace hyperlattice

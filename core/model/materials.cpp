@@ -19,6 +19,10 @@ LatticeFacts facts_of(const Body& body) {
   facts.spring_classes = body.grid.spring_classes;
   facts.particles = body.particles;
   std::copy(std::begin(body.springs), std::end(body.springs), std::begin(facts.springs));
+  if (body.cells.empty()) return facts;
+  facts.particles = body.cells.count();  // the shares of a cell sum to one particle, and to one spring to each neighbour
+  std::fill(std::begin(facts.springs), std::end(facts.springs), 0);
+  for (const Neighbour& to : body.neighbours) facts.springs[to.spring_class] += body.cells.count();
   return facts;
 }
 

@@ -23,7 +23,7 @@ struct Material {
   const Stage* stage = nullptr;
   ComponentPointer component{nullptr, [](void*) {}};
   MaterialConstants constants;
-  double mass = 0;                       ///< of a particle, kg
+  double mass = 0;                       ///< of a whole particle, kg
   double critical_time_step = 0;         ///< of the infinite lattice of this material, s
   const Stage* failure_stage = nullptr;  ///< null: unbreakable
   ComponentPointer failure{nullptr, [](void*) {}};
@@ -62,7 +62,9 @@ struct Model {
   std::string critical_because;   ///< what limits it, in a sentence
   Vec3 acceleration;              ///< sum of the loads'
 
-  double mass(Particle particle) const { return materials[material_of.empty() ? 0 : material_of[particle]].mass; }
+  double mass(Particle particle) const {  ///< kg
+    return body.share(body.site(particle)) * materials[material_of.empty() ? 0 : material_of[particle]].mass;
+  }
   const SpringConstants& spring(std::uint8_t a, std::uint8_t b, std::uint32_t spring_class) const {
     return springs[(a * materials.size() + b) * body.grid.spring_classes + spring_class];
   }

@@ -104,7 +104,7 @@ double Simulation::Parts::energy_of(std::size_t index, double dt) const {
   if (model.choice.membrane != KernelChoice::Membrane::none)
     energy += lost(constants.cross_stiffness, neighbour.cross_rest_length, in_space + total * (2 * delta + total),
                    rate_in_space + 2 * (delta + total) * (b.raised + a.raised));
-  return energy;
+  return energy * model.body.share(model.body.site(breakage.a), neighbour.site);
 }
 
 double Simulation::Parts::elongation_now(std::size_t index) const {

@@ -6,23 +6,6 @@
 namespace hyperlattice {
 namespace {
 
-/// Runs of row (j, k); none outside the box.
-std::span<const Run> runs_of(const Body& body, std::int32_t j, std::int32_t k) {
-  if (j < 0 || k < 0 || j >= body.grid.sites[1] || k >= body.grid.sites[2]) return {};
-  const auto row = static_cast<std::size_t>(k) * static_cast<std::size_t>(body.grid.sites[1]) + static_cast<std::size_t>(j);
-  return {body.runs.data() + body.row_runs[row], body.runs.data() + body.row_runs[row + 1]};
-}
-
-/// Calls visit(begin, end) for every range of sites of row (j, k) that has a spring to the neighbour.
-template <class Visit>
-void for_springs(const Body& body, std::int32_t j, std::int32_t k, const Neighbour& to, const Visit& visit) {
-  for (const Run& run : runs_of(body, j, k))
-    for (const Run& other : runs_of(body, j + to.dy, k + to.dz)) {
-      const std::int32_t begin = std::max(run.begin, other.begin - to.dx), end = std::min(run.end, other.end - to.dx);
-      if (begin < end) visit(begin, end);
-    }
-}
-
 std::int32_t material_of_row(const Model& model, std::int32_t j, std::int32_t k) {
   if (model.material_of.empty()) return 0;
   std::int32_t found = -2;
@@ -35,9 +18,9 @@ std::int32_t material_of_row(const Model& model, std::int32_t j, std::int32_t k)
       }
     return true;
   };
-  if (!look(runs_of(model.body, j, k))) return -1;
+  if (!look(model.body.row(j, k))) return -1;
   for (const Neighbour& to : model.body.neighbours)
-    if (!look(runs_of(model.body, j + to.dy, k + to.dz))) return -1;
+    if (!look(model.body.row(j + to.dy, k + to.dz))) return -1;
   return found;
 }
 
@@ -47,7 +30,7 @@ std::vector<std::uint64_t> particles_per_plane(const Body& body) {
   return counts;
 }
 
-BlockLayout make_block(const Model& model, std::int32_t first, std::int32_t planes, std::uint64_t padding) {
+BlockLayout make_block(const Model& model, std::int32_t first, std::int32_t planes, std::uint64_t padding, WeightSets& weights) {
   const Body& body = model.body;
   BlockLayout block;
   block.first = first;
@@ -57,13 +40,15 @@ BlockLayout make_block(const Model& model, std::int32_t first, std::int32_t plan
     for (std::int32_t j = 0; j < body.grid.sites[1]; ++j) {
       Row row;
       row.start = place;
-      const auto runs = runs_of(body, j, k);
+      const auto runs = body.row(j, k);
       if (!runs.empty()) {
         row.begin = runs.front().begin;
         row.end = runs.back().end;
         for (std::uint32_t n = 0; n < body.neighbours.size(); ++n)
-          for_springs(body, j, k, body.neighbours[n], [&](std::int32_t, std::int32_t) { row.neighbours |= 1u << n; });
+          if (!body.springs_of(j, k, body.neighbours[n]).empty()) row.neighbours |= 1u << n;
         row.material = material_of_row(model, j, k);
+        if (!body.cells.empty()) row.weights = block.weight_sets.size();
+        weights.add_row(body, j, k, row, block.weight_sets);
         place += static_cast<std::uint64_t>((row.end - row.begin + lanes - 1) / lanes * lanes);
       }
       block.rows.push_back(row);
@@ -100,7 +85,7 @@ Layout::Layout(const Model& model, int threads) {
     const std::uint64_t target = body.particles * (block + 1) / wanted;
     do before += counts[static_cast<std::size_t>(next++)];
     while (next < planes - rest && (rest == 0 || before + counts[static_cast<std::size_t>(next)] / 2 < target));
-    blocks.push_back(make_block(model, first, next - first, padding));
+    blocks.push_back(make_block(model, first, next - first, padding, weights));
     first = next;
   }
 }
@@ -113,8 +98,9 @@ std::size_t Layout::block_of_plane(std::int32_t k) const {
 
 double Layout::state_bytes(const Model& model) const {
   const double a_site = 2.0 * model.degrees_of_freedom * sizeof(double) + sizeof(std::uint16_t) + (model.material_of.empty() ? 0.0 : 1.0);
-  double bytes = 0;
-  for (const BlockLayout& block : blocks) bytes += static_cast<double>(block.sites) * a_site;
+  double bytes = weights.bytes();
+  for (const BlockLayout& block : blocks)
+    bytes += static_cast<double>(block.sites) * a_site + static_cast<double>(block.weight_sets.size() * sizeof(std::uint32_t));
   return bytes;
 }
 
@@ -125,12 +111,11 @@ double Layout::scratch_bytes(const Model& model) const {
 }
 
 void fill_alive(const Body& body, std::int32_t j, std::int32_t k, const Row& row, std::uint16_t* alive) {
-  for (const Run& run : runs_of(body, j, k))
+  for (const Run& run : body.row(j, k))
     for (std::int32_t i = run.begin; i < run.end; ++i) alive[i - row.begin] = particle_bit;
   for (std::uint32_t n = 0; n < body.neighbours.size(); ++n)
-    for_springs(body, j, k, body.neighbours[n], [&](std::int32_t begin, std::int32_t end) {
-      for (std::int32_t i = begin; i < end; ++i) alive[i - row.begin] = static_cast<std::uint16_t>(alive[i - row.begin] | 1u << n);
-    });
+    for (const Range& range : body.springs_of(j, k, body.neighbours[n]))
+      for (std::int32_t i = range.begin; i < range.end; ++i) alive[i - row.begin] = static_cast<std::uint16_t>(alive[i - row.begin] | 1u << n);
 }
 
 }  // namespace hyperlattice

@@ -1,6 +1,7 @@
 #include <plan/fields.hpp>
 #include <run/snapshot.hpp>
 
+#include <algorithm>
 #include <utility>
 
 namespace hyperlattice {
@@ -85,15 +86,13 @@ void SnapshotSource::compute_damage(std::vector<double>& numbers) {
   const Body& body = model_.body;
   if (springs_of_.empty()) {
     springs_of_.assign(body.particles, 0);
-    for (Particle a = 0; a < body.particles; ++a) {
-      const Site site = body.site(a);
-      for (const Neighbour& neighbour : body.neighbours) {
-        const Particle b = body.at({site.i + neighbour.dx, site.j + neighbour.dy, site.k + neighbour.dz});
-        if (b == Body::no_particle) continue;
-        ++springs_of_[a];
-        ++springs_of_[b];
-      }
-    }
+    for (const Run& run : body.runs)
+      for (const Neighbour& to : body.neighbours)
+        for (const Range& range : body.springs_of(run.j, run.k, to))
+          for (std::int32_t i = std::max(run.begin, range.begin); i < std::min(run.end, range.end); ++i) {
+            ++springs_of_[body.at({i, run.j, run.k})];
+            ++springs_of_[body.at({i + to.dx, run.j + to.dy, run.k + to.dz})];
+          }
   }
   numbers.assign(body.particles, 0.0);
   for (const Breakage& breakage : simulation_.breakages()) {

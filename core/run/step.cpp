@@ -59,6 +59,8 @@ KernelRequest Simulation::Parts::request_for(Block& block, double back, double f
   }
   request.alive = block.alive.get();
   request.material = block.material.get();
+  request.weight_sets = block.layout->weight_sets.data();
+  request.weights = layout.weights.values();
   request.neighbours = model.neighbours;
   request.springs = model.springs.data();
   request.mass = masses.data();

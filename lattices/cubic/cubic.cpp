@@ -1,5 +1,6 @@
-// The cubic lattice with 18 neighbours: particles at the centres of cubic cells of side l that lie inside a shape,
+// The cubic lattice with 18 neighbours: particles at the centres of the cubic cells of side l whose centres lie inside a shape,
 //   x = anchor + (i + 1/2, j + 1/2, k + 1/2) l,
+// or with boundary cells at the corners of these cells, x = anchor + (i, j, k) l,
 // joined by orthogonal springs of length l (class 0) and face-diagonal springs of length sqrt(2) l (class 1).
 #include <hyperlattice/lattice.hpp>
 
@@ -16,9 +17,9 @@ constexpr Neighbour neighbours[] = {
     {0, -1, 1, 1}, {-1, 0, 1, 1}, {0, 0, 1, 0}, {1, 0, 1, 1}, {0, 1, 1, 1},  // to the next plane
 };
 
-constexpr std::string_view boundaries[] = {"particles"};
+constexpr std::string_view boundaries[] = {"particles", "cells"};
 
-constexpr double most_sites_along_an_axis = 2147483647.0;
+constexpr double most_sites_along_an_axis = 2147483646.0;
 constexpr double most_sites = 4e9;
 
 class Cubic {
@@ -32,19 +33,24 @@ class Cubic {
 
   static Schema<Options> schema() {
     return Schema<Options>("lattices.cubic", "Cubic lattice of 18 neighbours")
-        .equation("x = anchor + (i + 1/2, j + 1/2, k + 1/2) spacing; V = spacing^3, Delta = spacing")
+        .equation(
+            "particles: x = anchor + (i + 1/2, j + 1/2, k + 1/2) spacing; cells: x = anchor + (i, j, k) spacing; V = spacing^3, Delta = spacing")
         .source("Zhao 2017, section 2.1 and figure 1; particles at cell centres reproduce its count of 490,432")
         .add<&Options::spacing>("spacing", "m", "lattice constant l, the length of an orthogonal spring")
         .positive()
-        .add<&Options::shape>("shape", "", "the solid that is filled: a particle stands wherever a cell's centre is inside")
+        .add<&Options::shape>("shape", "", "the solid that is filled: with the cubic cells whose centres are inside")
         .add<&Options::anchor>("anchor", "m", "where a corner of the cells is; left out: the centre of a round shape, the low corner of a box")
-        .add<&Options::boundary>("boundary", "", "particles: every particle and spring counts in full, as printed in the paper")
+        .add<&Options::boundary>(
+            "boundary", "",
+            "particles: one at each cell's centre; every particle and spring counts in full, as printed in the paper. cells: particles "
+            "at the cells' corners; a particle's mass and alpha spring count by its cells / 8, an orthogonal spring by its cells / 4, "
+            "a diagonal one by its cells / 2, so that the body is exactly the union of its cells")
         .choices(boundaries)
         .fallback("\"particles\"");
   }
 
   explicit Cubic(const Options& options)
-      : spacing_(options.spacing), shape_(*options.shape), anchor_(options.anchor.value_or(options.shape->anchor)) {}
+      : spacing_(options.spacing), shape_(*options.shape), anchor_(options.anchor.value_or(options.shape->anchor)), boundary_(options.boundary) {}
 
   void build(const LatticeSink& sink) const {
     const Span x = cells(shape_.low.x, shape_.high.x, anchor_.x), y = cells(shape_.low.y, shape_.high.y, anchor_.y),
@@ -55,9 +61,13 @@ class Cubic {
       throw std::invalid_argument("spacing is too small for this shape: its box would hold more than 4e9 sites");
 
     Grid grid;
-    grid.origin = {centre(x.first, anchor_.x), centre(y.first, anchor_.y), centre(z.first, anchor_.z)};
+    grid.boundary = boundary_;
+    const double corner = boundary_ == Boundary::cells ? 0.5 : 0;  // from a cell's centre back to its low corner, in cells
+    grid.origin = {centre(x.first - corner, anchor_.x), centre(y.first - corner, anchor_.y), centre(z.first - corner, anchor_.z)};
     grid.spacing = grid.membrane_distance = spacing_;
-    grid.sites = {static_cast<std::int32_t>(x.count()), static_cast<std::int32_t>(y.count()), static_cast<std::int32_t>(z.count())};
+    const auto nx = static_cast<std::int32_t>(x.count()), ny = static_cast<std::int32_t>(y.count()), nz = static_cast<std::int32_t>(z.count());
+    const std::int32_t more = boundary_ == Boundary::cells ? 1 : 0;  // corners than cells
+    grid.sites = {nx + more, ny + more, nz + more};
     grid.site_volume = spacing_ * spacing_ * spacing_;
     grid.neighbours = neighbours;
     grid.spring_classes = 2;
@@ -65,15 +75,15 @@ class Cubic {
     sink.grid(grid);
 
     bool empty = true;
-    for (std::int32_t k = 0; k < grid.sites[2]; ++k)
-      for (std::int32_t j = 0; j < grid.sites[1]; ++j) {
+    for (std::int32_t k = 0; k < nz; ++k)
+      for (std::int32_t j = 0; j < ny; ++j) {
         const auto inside = [&](std::int32_t i) {
           return shape_.contains({centre(x.first + i, anchor_.x), centre(y.first + j, anchor_.y), centre(z.first + k, anchor_.z)});
         };
-        for (std::int32_t i = 0; i < grid.sites[0]; ++i) {
+        for (std::int32_t i = 0; i < nx; ++i) {
           if (!inside(i)) continue;
           const std::int32_t begin = i;
-          while (++i < grid.sites[0] && inside(i)) {
+          while (++i < nx && inside(i)) {
           }
           sink.run(j, k, begin, i);
           empty = false;
@@ -105,6 +115,7 @@ class Cubic {
   double spacing_;
   const Shape& shape_;
   Vec3 anchor_;
+  Boundary boundary_;
 };
 }  // namespace
 

@@ -17,7 +17,9 @@ struct Neighbour {
   std::uint32_t spring_class = 0;       ///< which stiffness: cubic has 0 orthogonal, 1 diagonal
 };
 
-/// How springs and masses at a body's surface count (physics of the boundary).
+/// How a body ends. particles: where its last particles are, each a whole one, with whole springs. cells: it is a union of cells, each spanning the
+/// sites (i, j, k) to (i + 1, j + 1, k + 1), with particles at their corners; particles and springs at its surface count by the share of their
+/// cells that are there.
 enum class Boundary : std::uint32_t { particles, cells };
 
 /// The fixed part of a structured lattice. Site (i, j, k) stands at origin + spacing * (i, j, k).
@@ -25,7 +27,7 @@ struct Grid {
   Vec3 origin;
   double spacing = 0;                     ///< lattice constant l, metres
   std::array<std::int32_t, 3> sites{};    ///< box of sites
-  double site_volume = 0;                 ///< volume of one particle, m3
+  double site_volume = 0;                 ///< volume of one whole particle, m3
   double membrane_distance = 0;           ///< Delta: distance to the mirror copy in the fourth dimension, metres
   std::span<const Neighbour> neighbours;  ///< forward neighbours
   std::uint32_t spring_classes = 1;
@@ -33,14 +35,14 @@ struct Grid {
   const Shape* shape = nullptr;  ///< the solid that was filled, as it came in the options; null: none
 };
 
-/// Receives a structured lattice: the grid once, then the runs of particles in the order z, y, x.
+/// Receives a structured lattice: the grid once, then the runs of particles (boundary cells: of cells) in the order z, y, x.
 struct LatticeSink {
   void* self = nullptr;
   void (*receive_grid)(void* self, const Grid& grid) = nullptr;
   void (*receive_run)(void* self, std::int32_t j, std::int32_t k, std::int32_t begin, std::int32_t end) = nullptr;
 
   void grid(const Grid& g) const { receive_grid(self, g); }
-  /// Particles at sites begin <= i < end of row (j, k).
+  /// Particles at sites begin <= i < end of row (j, k); with boundary cells, the cells whose low corners these sites are.
   void run(std::int32_t j, std::int32_t k, std::int32_t begin, std::int32_t end) const { receive_run(self, j, k, begin, end); }
 };
 

@@ -18,8 +18,8 @@ struct LatticeFacts {
   double membrane_distance = 0;  ///< Delta, metres
   std::span<const Neighbour> neighbours;
   std::uint32_t spring_classes = 1;
-  std::uint64_t particles = 0;
-  std::uint64_t springs[max_spring_classes] = {};  ///< base springs of each class that exist in the body
+  std::uint64_t particles = 0;                     ///< of the body, in whole ones: with boundary cells the sum of their shares
+  std::uint64_t springs[max_spring_classes] = {};  ///< base springs of each class that exist in the body, in whole ones
 };
 
 /// What a material makes of it. Cross springs (beta, gamma) share their base spring's neighbour.

@@ -20,20 +20,22 @@ class RowValues {
   RowValues(const KernelRequest& request, const Row& row)
       : material_(Mixed && row.material < 0 ? request.material + row.start : nullptr),
         uniform_(row.material < 0 ? 0 : row.material),
-        shares_(row.weights == no_weights ? nullptr : request.weights + row.weights) {}
+        weight_sets_(row.weights == no_weights ? nullptr : request.weight_sets + row.weights),
+        weights_(request.weights) {}
 
   /// `values`: of a whole particle of each material.
   Pack at(const double* values, int t) const {
     Pack pack = fill(values[uniform_]);
     if (material_ != nullptr)
       for (int lane = 0; lane < lanes; ++lane) pack[lane] = values[material_[t + lane]];
-    return shares_ == nullptr ? pack : pack * load(shares_ + t);
+    return weight_sets_ == nullptr ? pack : pack * load(weights_ + weight_sets_[t / lanes]);
   }
 
  private:
   const std::uint8_t* material_;
   std::int32_t uniform_;
-  const double* shares_;
+  const std::uint32_t* weight_sets_;
+  const double* weights_;
 };
 
 /// Forces on a row start with the body acceleration's.

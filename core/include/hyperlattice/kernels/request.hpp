@@ -31,7 +31,7 @@ struct Row {
   std::uint64_t start = 0;                            ///< place of site `begin` in the block's arrays
   std::uint32_t neighbours = 0;                       ///< bit n: some site of the row has a spring to neighbour n
   std::int32_t material = 0;                          ///< of all springs that touch the row, or -1 if they are several
-  std::uint64_t weights = no_weights;                 ///< place of its weights in KernelRequest::weights; none: all are 1
+  std::uint64_t weights = no_weights;                 ///< place of its first vector's in KernelRequest::weight_sets; none: all weights are 1
   std::uint32_t first_support = 0, last_support = 0;  ///< its range in KernelRequest::supports
 };
 
@@ -78,7 +78,10 @@ struct KernelRequest {
   double* velocity[4] = {};                ///< m/s
   std::uint16_t* alive = nullptr;          ///< bit n: the spring to neighbour n exists; bit 15: the site holds a particle
   const std::uint8_t* material = nullptr;  ///< of each site; null: one material
-  const double* weights = nullptr;         ///< of a row that has them: shares of a whole particle (mass, alpha), one a site
+  /// Of rows that have weights, for each vector of sites the place in `weights` of its set: `lanes` shares of a whole particle (mass, alpha), then
+  /// for each neighbour `lanes` shares of a whole spring (force and energy, cross springs' too). Sites without a particle weigh 1.
+  const std::uint32_t* weight_sets = nullptr;
+  const double* weights = nullptr;
 
   // the body
   std::span<const NeighbourGeometry> neighbours;

@@ -48,9 +48,11 @@ struct RowPair {
   double* received[Components];  ///< forces on the neighbours' row
   const std::uint16_t* alive;
   const std::uint8_t *material_here, *material_there;
+  const std::uint32_t* weight_sets;  ///< of a row that has weights, for each vector
+  const double* weights;             ///< what these places count from: the neighbour's in the sets
 };
 
-template <class Law, Membrane membrane, bool Breakable, bool Mixed, bool Energy>
+template <class Law, Membrane membrane, bool Breakable, bool Mixed, bool Weighted, bool Energy>
 struct Springs {
   static constexpr int components = components_of(membrane);
 
@@ -64,6 +66,10 @@ struct Springs {
     Mask rung{};
     for (int t = 0; t < count; t += lanes) {
       const Mask alive = lanes_with(pair.alive + t, bit);
+      const auto counted = [&](Pack whole) {
+        if constexpr (Weighted) whole *= load(pair.weights + pair.weight_sets[t / lanes]);
+        return where(alive, whole);
+      };
       if constexpr (Mixed) constants_of_lanes(request, pair, neighbour, t, base_stiffness, cross_stiffness, alarm);
       const Pack dx = load(pair.there[0] + t) - load(pair.here[0] + t);
       const Pack dy = load(pair.there[1] + t) - load(pair.here[1] + t);
@@ -81,15 +87,15 @@ struct Springs {
         base = respond<Law, Energy>(base_stiffness, neighbour.rest_length, q);
       }
       if constexpr (Breakable) rung |= alive & (base.q > alarm);
-      const Pack base_pull = where(alive, base.force_over_length);
+      const Pack base_pull = counted(base.force_over_length);
       Pack pull = base_pull;
-      if constexpr (Energy) stored += where(alive, base.energy);
+      if constexpr (Energy) stored += counted(base.energy);
 
       if constexpr (membrane != Membrane::none) {
         const Response cross = respond<Law, Energy>(cross_stiffness, neighbour.cross_rest_length, q + total * (twice_delta + total));
-        const Pack cross_pull = where(alive, cross.force_over_length);
+        const Pack cross_pull = counted(cross.force_over_length);
         pull += cross_pull;
-        if constexpr (Energy) stored += where(alive, cross.energy);
+        if constexpr (Energy) stored += counted(cross.energy);
         if constexpr (membrane == Membrane::free) {  // the cross spring pushes both heights the same way: no action and reaction
           const Pack along = base_pull * difference, both = cross_pull * (request.membrane_distance + total);
           add_to(pair.own[3] + t, along - both);

@@ -43,19 +43,25 @@ class Sweep {
     for (std::uint32_t n = 0; n < request_.neighbours.size(); ++n) {
       const NeighbourGeometry& neighbour = request_.neighbours[n];
       if ((row.neighbours >> n & 1u) == 0 || (!owned && k + neighbour.site.dz < 0)) continue;
-      const RowPair<components> pair = pair_of(row, neighbour.site, j, k);
+      RowPair<components> pair = pair_of(row, neighbour.site, j, k);
       const auto bit = static_cast<std::uint16_t>(1u << n);
       const bool uniform = !Mixed || row.material >= 0;
       const SpringConstants* constants = request_.springs + neighbour.site.spring_class;
       if constexpr (Mixed)
         if (uniform) constants += static_cast<std::uint32_t>(row.material) * (request_.materials + 1) * request_.spring_classes;
+      const auto add = [&]<bool Several, bool Weighted>() {
+        return Springs<Law, membrane, Breakable, Several, Weighted, measuring>::add(request_, pair, neighbour, bit, *constants, count, stored);
+      };
       bool rung;
-      if (uniform)
-        rung = Springs<Law, membrane, Breakable, false, measuring>::add(request_, pair, neighbour, bit, *constants, count, stored);
-      else
-        rung = Springs<Law, membrane, Breakable, Mixed, measuring>::add(request_, pair, neighbour, bit, *constants, count, stored);
+      if (row.weights == no_weights) {
+        rung = uniform ? add.template operator()<false, false>() : add.template operator()<Mixed, false>();
+      } else {
+        pair.weight_sets = request_.weight_sets + row.weights;
+        pair.weights = request_.weights + lanes * (n + 1);
+        rung = uniform ? add.template operator()<false, true>() : add.template operator()<Mixed, true>();
+      }
       if (Breakable && rung && owned && !measuring)
-        Springs<Law, membrane, Breakable, Mixed, measuring>::review(request_, pair, row, index, n, uniform ? constants : nullptr);
+        Springs<Law, membrane, Breakable, Mixed, false, measuring>::review(request_, pair, row, index, n, uniform ? constants : nullptr);
     }
     if (!owned) return;
     end_row(row, index, j, k, count, stored);
@@ -91,7 +97,7 @@ class Sweep {
     const Row& other = request_.rows[row_index(j + to.dy, k + to.dz)];
     const auto here = static_cast<std::ptrdiff_t>(row.start);
     const auto there = static_cast<std::ptrdiff_t>(other.start) + (row.begin + to.dx - other.begin);
-    RowPair<components> pair;
+    RowPair<components> pair{};
     for (int c = 0; c < components; ++c) {
       pair.here[c] = request_.displacement[c] + here;
       pair.there[c] = request_.displacement[c] + there;

@@ -1,0 +1,45 @@
+#include <model/cells.hpp>
+
+#include <algorithm>
+
+namespace hyperlattice {
+
+Cells::Cells(std::vector<Run> runs, std::vector<std::size_t> row_runs, std::int32_t rows)
+    : runs_(std::move(runs)), row_runs_(std::move(row_runs)), rows_(rows) {
+  for (const Run& run : runs_) count_ += static_cast<std::uint64_t>(run.end - run.begin);
+}
+
+std::span<const Run> Cells::row(std::int32_t j, std::int32_t k) const {
+  if (j < 0 || j >= rows_ || k < 0) return {};
+  const std::size_t row = static_cast<std::size_t>(k) * static_cast<std::size_t>(rows_) + static_cast<std::size_t>(j);
+  if (row + 1 >= row_runs_.size()) return {};
+  return {runs_.data() + row_runs_[row], runs_.data() + row_runs_[row + 1]};
+}
+
+bool Cells::holds(Site cell) const {
+  const auto inside = [cell](const Run& run) { return run.begin <= cell.i && cell.i < run.end; };
+  const std::span<const Run> runs = row(cell.j, cell.k);
+  return std::any_of(runs.begin(), runs.end(), inside);
+}
+
+double Cells::share(Site site, const Neighbour& to) const {
+  return share_of_cells(to, [&](int di, int dj, int dk) { return holds({site.i + di, site.j + dj, site.k + dk}); });
+}
+
+std::vector<Range> Cells::sites(std::int32_t j, std::int32_t k, const Neighbour& to) const {
+  std::vector<Range> found;
+  for_cells_of(to, [&](int di, int dj, int dk) {
+    for (const Run& run : row(j + dj, k + dk)) found.push_back({run.begin - di, run.end - di});
+  });
+  std::sort(found.begin(), found.end(), [](const Range& a, const Range& b) { return a.begin < b.begin; });
+  std::vector<Range> apart;
+  for (const Range& range : found) {
+    if (!apart.empty() && range.begin <= apart.back().end)
+      apart.back().end = std::max(apart.back().end, range.end);
+    else
+      apart.push_back(range);
+  }
+  return apart;
+}
+
+}  // namespace hyperlattice

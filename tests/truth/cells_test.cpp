@@ -1,0 +1,269 @@
+// A body of cells is exactly the union of its cells: every homogeneous strain needs the tractions of the continuum on every surface, and
+// nothing inside; large motions have the forces of the cells' own springs, written out one cell after the other.
+#include <run/relax.hpp>
+
+#include <support/cells.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+namespace {
+using namespace hyperlattice;
+using namespace hyperlattice::test;
+
+constexpr double l = 1e-3;
+
+/// Elastic constants of the endless lattice, in closed form (Zhao 2017, equations (27) to (30)), and how the height follows a strain.
+struct Elasticity {
+  double c11, c12, c44, relaxation = 0;
+
+  explicit Elasticity(const Model& model) {
+    const MaterialConstants& m = model.materials[0].constants;
+    const double kb = m.cross_ratio[0], kg = m.cross_ratio[1], ka = m.alpha_ratio;
+    const double C1 = 6 + kb + 8 * kg / 3, C2 = 2 + 4 * kg / 3, C3 = ka + 3 * kb + 4 * kg, C4 = kb + 8 * kg / 3;
+    if (model.degrees_of_freedom == 4) relaxation = C4 / C3;
+    const double unit = m.base_stiffness / (2 * l), taken = relaxation * C4;
+    c11 = unit * (C1 - taken);
+    c12 = unit * (C2 - taken);
+    c44 = unit * C2;
+  }
+  using Tensor = std::array<std::array<double, 3>, 3>;
+  Tensor stress(const Tensor& e) const {
+    Tensor s{};
+    for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t b = 0; b < 3; ++b) s[a][b] = a == b ? c11 * e[a][a] + c12 * (e[0][0] + e[1][1] + e[2][2] - e[a][a]) : 2 * c44 * e[a][b];
+    return s;
+  }
+};
+
+/// What uniform stress asks of each corner: a quarter of the traction on each uncovered face. The heights of a free membrane ask for something
+/// else: sheared by e in the plane of its faces' diagonals, a cell pushes its corners up and down in turn, by k_gamma e l / 3. Around a corner
+/// inside the body or on its faces that is nothing in sum; on edges something is left, which only an edge's own heights can balance.
+std::map<CellIndex, Force> tractions(const CellShape& shape, const Elasticity::Tensor& stress, const Elasticity::Tensor& push) {
+  std::map<CellIndex, Force> all;
+  for (const CellIndex& cell : shape.cells()) {
+    for (int n = 0; n < 8; ++n)
+      for (int a = 0; a < 3; ++a)
+        for (int b = a + 1; b < 3; ++b) {
+          const bool alike = (n >> a & 1) == (n >> b & 1);
+          all[{cell[0] + (n & 1), cell[1] + (n >> 1 & 1), cell[2] + (n >> 2)}][3] +=
+              (alike ? 1 : -1) * push[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)] * l / 3;
+        }
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (const int side : {0, 1}) {
+        CellIndex beyond = cell;
+        beyond[axis] += 2 * side - 1;
+        if (shape.holds(beyond[0] + 0.5, beyond[1] + 0.5, beyond[2] + 0.5)) continue;
+        for (int n = 0; n < 4; ++n) {
+          CellIndex corner = cell;
+          corner[axis] += side;
+          corner[(axis + 1) % 3] += n & 1;
+          corner[(axis + 2) % 3] += n >> 1;
+          for (std::size_t c = 0; c < 3; ++c) all[corner][c] += (2 * side - 1) * stress[c][axis] * l * l / 4;
+        }
+      }
+  }
+  return all;
+}
+
+class CellsOfMembrane : public testing::TestWithParam<MembraneCase> {};
+INSTANTIATE_TEST_SUITE_P(Membranes, CellsOfMembrane, testing::ValuesIn(membranes), [](const auto& info) { return std::string(info.param.name); });
+
+TEST_P(CellsOfMembrane, PatchTestIsExact) {
+  double worst_of_all = 0;
+  for (const CellShape& shape : cell_shapes()) {
+    const auto plan = plan_of(scene_of_cells(shape.shape, GetParam().material));
+    const Model& model = *plan->model;
+    const Elasticity elasticity(model);
+    ASSERT_EQ(model.body.cells.count(), shape.cells().size()) << shape.name;
+    for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t b = a; b < 3; ++b) {
+        Elasticity::Tensor strain{};
+        strain[a][b] = strain[b][a] = 1e-20;  // so small that the springs are linear to the last bit
+        std::vector<double> u(3 * model.body.particles);
+        for (Particle p = 0; p < model.body.particles; ++p) {
+          const CellIndex x = corner_of(model, p);
+          for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t d = 0; d < 3; ++d) u[3 * p + c] += strain[c][d] * x[d] * l;
+        }
+        std::vector<double> heights;
+        if (model.degrees_of_freedom == 4) {
+          const double trace = strain[0][0] + strain[1][1] + strain[2][2];
+          heights.assign(model.body.particles, -elasticity.relaxation * trace * model.body.grid.membrane_distance / 2);
+        }
+        const auto found = forces(model, u, heights);
+        Elasticity::Tensor push{};
+        if (model.degrees_of_freedom == 4) push[a][b] = model.spring(0, 0, 1).cross_stiffness * strain[a][b];
+        auto expected = tractions(shape, elasticity.stress(strain), push);
+        const double scale = model.materials[0].constants.base_stiffness * 1e-20 * l;
+        double worst = 0;
+        for (Particle p = 0; p < model.body.particles; ++p) {
+          const Force& outer = expected[corner_of(model, p)];
+          for (std::size_t c = 0; c < 4; ++c) worst = std::max(worst, std::abs(found[p][c] + outer[c]) / scale);
+        }
+        EXPECT_LT(worst, 1e-12) << shape.name << ", strain " << a << b;
+        worst_of_all = std::max(worst_of_all, worst);
+      }
+  }
+  std::printf("largest force without a traction: %.1e k eps l\n", worst_of_all);
+}
+
+/// One cell after the other, in positions, with no care for speed.
+std::vector<Force> forces_by_cells(const CellShape& shape, const Model& model, const std::vector<double>& u, const std::vector<double>& heights) {
+  const auto particles = particles_by_corner(model);
+  const double delta = model.body.grid.membrane_distance;
+  const bool has_heights = !heights.empty();
+  std::vector<Force> all(model.body.particles, Force{});
+  const auto place = [&](Particle p) {
+    const CellIndex x = corner_of(model, p);
+    std::array<double, 4> at{};
+    for (std::size_t c = 0; c < 3; ++c) at[c] = x[c] * l + u[3 * p + c];
+    at[3] = delta / 2 + (has_heights ? heights[p] : 0);
+    return at;
+  };
+  const auto material = [&](Particle p) { return model.material_of.empty() ? std::uint8_t{0} : model.material_of[p]; };
+  for (const CellIndex& cell : shape.cells())
+    for (int m = 0; m < 8; ++m) {
+      const auto corner = [&](int n) { return particles.at({cell[0] + (n & 1), cell[1] + (n >> 1 & 1), cell[2] + (n >> 2 & 1)}); };
+      const Particle a = corner(m);
+      const MaterialConstants& own = model.materials[material(a)].constants;
+      if (has_heights) all[a][3] -= own.alpha_ratio * own.base_stiffness / 8 * (2 * place(a)[3] - delta);
+      for (int n = 0; n < 8; ++n) {
+        const int differing = (m ^ n) == 0 ? 0 : __builtin_popcount(static_cast<unsigned>(m ^ n));
+        if (differing != 1 && differing != 2) continue;
+        const Particle b = corner(n);
+        const double share = differing == 1 ? 0.25 : 0.5, rest = std::sqrt(differing) * l;
+        const SpringConstants& spring = model.spring(material(a), material(b), differing == 1 ? 0 : 1);
+        const auto from = place(a), to = place(b);
+        const auto pull = [&](double k, double unstretched, double across, double lever) {
+          double square = across * across;
+          for (std::size_t c = 0; c < 3; ++c) square += (to[c] - from[c]) * (to[c] - from[c]);
+          const double tension = share * k * (std::sqrt(square) - unstretched) / std::sqrt(square);
+          for (std::size_t c = 0; c < 3; ++c) all[a][c] += tension * (to[c] - from[c]);
+          if (has_heights) all[a][3] += tension * lever;
+        };
+        pull(spring.stiffness, rest, to[3] - from[3], to[3] - from[3]);
+        if (model.choice.membrane != KernelChoice::Membrane::none)
+          pull(spring.cross_stiffness, std::sqrt(rest * rest + delta * delta), to[3] + from[3], -(to[3] + from[3]));
+      }
+    }
+  return all;
+}
+
+TEST_P(CellsOfMembrane, LargeMotionsHaveTheForcesOfTheCellsTheirOwnSprings) {
+  for (const bool two_materials : {false, true})
+    for (const CellShape& shape : cell_shapes()) {
+      const std::string other = R"({ "type": "materials.elastic", "young": 3e10, "density": 7000, "region": { "half_space": { "point": [2e-3, 0, 0],
+                                  "normal": [-1, 0.2, 0] } }, )" +
+                                std::string(GetParam().material) + " }";
+      if (two_materials && shape.cells().size() < 30) continue;
+      const auto plan = plan_of(scene_of_cells(shape.shape, GetParam().material, two_materials ? other : ""));
+      const Model& model = *plan->model;
+      const auto u = noise(3 * model.body.particles, 0.1 * l, 5);
+      const auto heights = model.degrees_of_freedom == 4 ? noise(model.body.particles, 0.1 * l, 6) : std::vector<double>{};
+      const auto found = forces(model, u, heights), expected = forces_by_cells(shape, model, u, heights);
+      double worst = 0, largest_force = 0;
+      for (Particle p = 0; p < model.body.particles; ++p)
+        for (std::size_t c = 0; c < 4; ++c) {
+          worst = std::max(worst, std::abs(found[p][c] - expected[p][c]));
+          largest_force = std::max(largest_force, std::abs(expected[p][c]));
+        }
+      EXPECT_LT(worst, 1e-12 * largest_force) << shape.name << (two_materials ? ", two materials" : "");
+    }
+}
+
+/// Poisson ratio and E l / k of a cube at rest between frictionless platens.
+struct Uniaxial {
+  double poisson, modulus;
+
+  Uniaxial(int n, const std::string& boundary, const char* membrane) {
+    constexpr double strain = 1e-12;
+    const std::string size = std::to_string(n);
+    const auto plan = plan_of(R"({ "format": "hyperlattice/1", "pipeline": [
+      { "type": "lattices.cubic", "spacing": 1, "boundary": ")" +
+                              boundary + R"(", "shape": { "box": { "low": [0, 0, 0], "high": [)" + size + ", " + size + ", " + size + R"(] } } },
+      { "type": "materials.elastic", "young": 1, "density": 1, )" +
+                              membrane + R"( },
+      { "type": "loads.fixed", "on": "z_min", "axes": "z" },
+      { "type": "loads.displacement", "on": "z_max", "axes": "z", "value": [0, 0, 1e-12], "rise": 1e-9 },
+      { "type": "solvers.explicit", "end_time": 1 } ] })");
+    const Model& model = *plan->model;
+    Simulation simulation(model, 1);
+    std::vector<double> u(3 * model.body.particles);
+    for (Particle p = 0; p < model.body.particles; ++p) u[3 * p + 2] = strain * model.body.site(p).k / model.body.high.k;
+    simulation.set_displacements(u, {});
+    relax(simulation, model, 1e-9);
+    u = displacements(simulation);
+    double spread = 0;  // mean over the lateral faces of what they moved inwards
+    std::size_t faces = 0;
+    for (Particle p = 0; p < model.body.particles; ++p) {
+      const Site at = model.body.site(p);
+      const int sides[2] = {(at.i == model.body.high.i) - (at.i == model.body.low.i), (at.j == model.body.high.j) - (at.j == model.body.low.j)};
+      for (std::size_t c = 0; c < 2; ++c)
+        if (sides[c] != 0) {
+          spread -= sides[c] * u[3 * p + c];
+          ++faces;
+        }
+    }
+    poisson = 2 * spread / static_cast<double>(faces) / strain;
+    const double span = boundary == "cells" ? n : n - 1;  // what the particles span
+    const double force = -simulation.force_on_load().at(1).z;
+    modulus = force / (n * n) / (strain / span) / model.materials[0].constants.base_stiffness;
+  }
+};
+
+struct UniaxialCase {
+  const char* name;
+  const char* membrane;
+  double poisson, modulus;                              ///< of the endless lattice
+  double poisson_4, modulus_4, poisson_10, modulus_10;  ///< of whole particles, 4^3 and 10^3
+};
+const UniaxialCase uniaxial_cases[] = {
+    {"L_0", R"("membrane": "none")", .25, 2.5, .230965, 2.127954, .243257, 2.352596},
+    {"L_1", R"("membrane": "I-m", "lambda": 1)", 2. / 11, 39. / 11, .168642, 3.005948, .177543, 3.325861},
+    {"L_2_8", R"("membrane": "I-m", "lambda": 2.8)", .1, 5.28, .097305, 4.478673, .099889, 4.947698},
+};
+class UniaxialTest : public testing::TestWithParam<UniaxialCase> {};
+INSTANTIATE_TEST_SUITE_P(Ratios, UniaxialTest, testing::ValuesIn(uniaxial_cases), [](const auto& info) { return std::string(info.param.name); });
+
+TEST_P(UniaxialTest, CellsGiveTheEndlessLatticeAtAnySize) {
+  for (const int n : {4, 6, 10}) {
+    const Uniaxial found(n, "cells", GetParam().membrane);
+    std::printf("cells %d: %.6f %.6f\n", n, found.poisson, found.modulus);
+    EXPECT_NEAR(found.poisson, GetParam().poisson, 1e-9) << n;
+    EXPECT_NEAR(found.modulus, GetParam().modulus, 1e-9) << n;
+  }
+}
+
+TEST_P(UniaxialTest, WholeParticlesAreSofter) {
+  const UniaxialCase& c = GetParam();
+  for (const auto& [n, poisson, modulus] : {std::tuple{4, c.poisson_4, c.modulus_4}, {10, c.poisson_10, c.modulus_10}}) {
+    const Uniaxial found(n, "particles", c.membrane);
+    std::printf("particles %d: %.6f %.6f\n", n, found.poisson, found.modulus);
+    EXPECT_NEAR(found.poisson, poisson, 1e-6) << n;
+    EXPECT_NEAR(found.modulus, modulus, 1e-6) << n;
+  }
+}
+
+TEST(Cells, EquationFifteenIsTheBulkStiffness) {
+  const auto stiffness = [](const char* kind) {
+    return plan_of(scene_of_cells(cell_shapes()[5].shape, R"("membrane": "I-m", "poisson": 0.1, "stiffness": ")" + std::string(kind) + "\""))
+        ->model->materials[0]
+        .constants.base_stiffness;
+  };
+  EXPECT_NEAR(stiffness("eq15") / stiffness("bulk"), 1, 1e-14);
+}
+
+TEST(Cells, MassIsThatOfTheVolume) {
+  for (const CellShape& shape : cell_shapes()) {
+    const auto plan = plan_of(scene_of_cells(shape.shape, R"("poisson": 0.25)"));
+    double mass = 0;
+    for (Particle p = 0; p < plan->model->body.particles; ++p) mass += plan->model->mass(p);
+    const double volume = static_cast<double>(shape.cells().size()) * l * l * l;
+    EXPECT_NEAR(mass, 2500 * volume, 1e-12 * mass) << shape.name;
+  }
+}
+
+}  // namespace
