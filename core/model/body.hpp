@@ -5,9 +5,7 @@
 #include <model/cells.hpp>
 
 #include <hyperlattice/lattice.hpp>
-#include <hyperlattice/load.hpp>
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -45,29 +43,5 @@ struct Body {
 
 /// Builds the body that a lattice component describes. Throws std::invalid_argument with the component's sentence if it refuses.
 Body build_body(const LatticeFunctions& functions, const void* lattice);
-
-/// Uncovered faces of a particle's cell. A cavity is an empty space that no path of empty sites joins to the outside.
-class Surfaces {
- public:
-  explicit Surfaces(const Body& body);            ///< floods the box of sites once
-  ExposedFaces faces(Site particle) const;        ///< all
-  ExposedFaces outer_faces(Site particle) const;  ///< to the outside
-  ExposedFaces inner_faces(Site particle) const;  ///< to cavities
-
- private:
-  bool is_outside(Site site) const;
-
-  const Body& body_;
-  std::array<std::int64_t, 3> widened_;
-  std::vector<bool> outside_;  ///< of each site of the box widened by one
-};
-
-/// Particles of a region, ascending.
-std::vector<Particle> particles_in(const Body& body, const Surfaces& surfaces, const Region& region);
-
-/// Open faces of a particle to the side that the region means (see LoadBody): those to the cavity for inner_surface, to the outside for
-/// outer_surface, of that one direction for x_min ... z_max, any for other regions. Of a union those of the parts that hold the particle;
-/// of an intersection those that all parts mean; of a difference those of its first part.
-ExposedFaces open_faces(const Body& body, const Surfaces& surfaces, const Region& region, Particle particle);
 
 }  // namespace hyperlattice

@@ -24,23 +24,29 @@ struct View {
   RegionIndex& regions;
   std::optional<RegionId> empty;
 
+  std::span<const Particle> particles(RegionId region) {
+    const std::span<const Particle> found = regions.particles(region);
+    if (found.empty()) empty = region;
+    return found;
+  }
+
   LoadBody body() {
     LoadBody seen;
     seen.self = this;
     seen.spacing = model.body.grid.spacing;
-    seen.region_particles = [](void* self, RegionId region) noexcept {
-      View& view = *static_cast<View*>(self);
-      const std::span<const Particle> found = view.regions.particles(region);
-      if (found.empty()) view.empty = region;
-      return found;
-    };
+    seen.region_particles = [](void* self, RegionId region) noexcept { return static_cast<View*>(self)->particles(region); };
     seen.particle_position = [](void* self, Particle particle) noexcept { return static_cast<View*>(self)->model.body.position(particle); };
     seen.particle_mass = [](void* self, Particle particle) noexcept {
       const Model& model = static_cast<View*>(self)->model;
       return model.materials.empty() ? 0 : model.mass(particle);  // none only if the materials have faults, and then nothing runs
     };
-    seen.particle_faces = [](void* self, Particle particle, RegionId region) noexcept {
-      return static_cast<View*>(self)->regions.faces(particle, region);
+    seen.particle_share = [](void* self, Particle particle) noexcept {
+      const Body& body = static_cast<View*>(self)->model.body;
+      return body.share(body.site(particle));
+    };
+    seen.region_open_areas = [](void* self, RegionId region) noexcept {
+      View& view = *static_cast<View*>(self);
+      return view.particles(region).empty() ? std::span<const OpenArea>() : view.regions.open_areas(region);
     };
     seen.region_true_area = [](void* self, RegionId region) noexcept { return static_cast<View*>(self)->regions.true_area(region); };
     seen.region_centre = [](void* self, RegionId region) noexcept { return static_cast<View*>(self)->regions.centre(region); };

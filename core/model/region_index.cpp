@@ -54,7 +54,11 @@ std::span<const Particle> RegionIndex::particles(RegionId region) {
   return entry->second;
 }
 
-ExposedFaces RegionIndex::faces(Particle particle, RegionId region) { return open_faces(body_, surfaces(), regions_[region], particle); }
+std::span<const OpenArea> RegionIndex::open_areas(RegionId region) {
+  const auto [entry, is_new] = open_areas_.try_emplace(region.index);
+  if (is_new) entry->second = hyperlattice::open_areas(body_, surfaces(), regions_[region]);
+  return entry->second;
+}
 
 double RegionIndex::true_area(RegionId region) const {
   const Region* shape = filled();

@@ -1,7 +1,7 @@
 // What the regions of a scene mean for a body: each is worked out once, when first asked for.
 #pragma once
 
-#include <model/body.hpp>
+#include <model/surfaces.hpp>
 
 #include <map>
 #include <memory>
@@ -14,7 +14,7 @@ class RegionIndex {
   RegionIndex(const Body& body, const Regions& regions) : body_(body), regions_(regions) {}
 
   std::span<const Particle> particles(RegionId region);  ///< ascending
-  ExposedFaces faces(Particle particle, RegionId region);
+  std::span<const OpenArea> open_areas(RegionId region);
   double true_area(RegionId region) const;  ///< m2, of a surface of the shape that the lattice filled; 0 if unknown
   Vec3 centre(RegionId region);             ///< of the shape behind the region; else of its particles
 
@@ -29,6 +29,7 @@ class RegionIndex {
   const Regions& regions_;
   std::unique_ptr<Surfaces> surfaces_;
   std::map<std::uint32_t, std::vector<Particle>> particles_;
+  std::map<std::uint32_t, std::vector<OpenArea>> open_areas_;
 };
 
 }  // namespace hyperlattice

@@ -81,8 +81,8 @@ void estimate_memory(Plan& plan) {
   const Layout layout(model, plan.threads);
   plan.bytes_per_particle = layout.state_bytes(model) / particles;
 
-  double model_bytes =
-      static_cast<double>(model.body.runs.size() * sizeof(Run) + model.body.row_runs.size() * sizeof(std::size_t) + model.material_of.size());
+  const std::size_t runs = model.body.runs.size() + model.body.cells.runs().size();
+  double model_bytes = static_cast<double>(runs * sizeof(Run) + model.body.row_runs.size() * sizeof(std::size_t) + model.material_of.size());
   for (const Load& load : model.loads) model_bytes += static_cast<double>(load.particles.size() * (sizeof(LoadedParticle) + sizeof(Support)));
   for (const BlockLayout& block : layout.blocks) model_bytes += static_cast<double>(block.rows.size() * 2 * sizeof(Row));
 

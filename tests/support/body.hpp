@@ -33,7 +33,7 @@ inline Region box(Vec3 size) {
 }
 
 /// The body that lattices.cubic makes of a region. Throws as build_body does.
-inline Body cubic_body(const Region& region, double spacing) {
+inline Body cubic_body(const Region& region, double spacing, Boundary boundary = Boundary::particles) {
   static Host host({std::string(HYPERLATTICE_BUILD) + "/lib/hyperlattice"});
   const Component* cubic = host.find("lattices.cubic");
   if (cubic == nullptr) throw std::runtime_error(host.why_not("lattices.cubic"));
@@ -43,6 +43,7 @@ inline Body cubic_body(const Region& region, double spacing) {
   for (const Option& option : cubic->info.options) {
     OptionValue value;
     value.number = spacing;
+    value.integer = static_cast<std::int64_t>(boundary);  // the only choice
     value.shape = &shape;
     value.absent = option.optional;
     option.set(options.get(), value);

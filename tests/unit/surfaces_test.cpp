@@ -1,11 +1,12 @@
 // Which particles and faces the surfaces, faces and sets of regions mean.
-#include <model/body.hpp>
+#include <model/surfaces.hpp>
 
 #include <support/body.hpp>
 
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <numbers>
 
 using namespace hyperlattice;
 using namespace hyperlattice::test;
@@ -30,16 +31,21 @@ TEST(Surfaces, PapersCavityHas4344Particles) {
   EXPECT_EQ(count(body, surfaces, *named("all")), body.particles);
 }
 
-// Every open face of a closed surface has its opposite: the sums over each direction are equal.
-TEST(Surfaces, OpenFacesCloseTheSurface) {
-  const Body body = cubic_body(ball(4, 9), 1);
-  const Surfaces surfaces(body);
-  for (const char* name : {"inner_surface", "outer_surface"}) {
-    std::array<int, 6> faces{};
-    for (const Particle p : particles_in(body, surfaces, *named(name)))
-      for (std::size_t f = 0; f < 6; ++f) faces[f] += static_cast<int>(open_faces(body, surfaces, *named(name), p) >> f & 1U);
-    for (const int number : faces) EXPECT_EQ(number, faces[0]) << name;
-    EXPECT_GT(faces[0], 0);
+// A closed surface has as much area one way as the other.
+TEST(Surfaces, OpenAreasCloseTheSurface) {
+  for (const Boundary boundary : {Boundary::particles, Boundary::cells}) {
+    const Body body = cubic_body(ball(4, 9), 1, boundary);
+    const Surfaces surfaces(body);
+    for (const char* name : {"inner_surface", "outer_surface"}) {
+      Vec3 sum;
+      double size = 0;
+      for (const OpenArea& open : open_areas(body, surfaces, *named(name))) {
+        sum = sum + open.area;
+        size += norm(open.area);
+      }
+      EXPECT_EQ(sum, Vec3{}) << name;
+      EXPECT_GT(size, 4 * std::numbers::pi * 14) << name;
+    }
   }
 }
 
@@ -66,7 +72,9 @@ TEST(Surfaces, FacesAreTheOutermostLayerAndLookOneWay) {
     const auto& [name, expected] = sides[direction];
     const Part side = named(name);
     EXPECT_EQ(count(body, surfaces, *side), expected) << name;
-    for (const Particle p : particles_in(body, surfaces, *side)) EXPECT_EQ(open_faces(body, surfaces, *side, p), 1U << direction) << name;
+    const auto areas = open_areas(body, surfaces, *side);
+    EXPECT_EQ(areas.size(), expected) << name;
+    for (const OpenArea& open : areas) EXPECT_EQ(open.area, face_normals[direction]) << name;
   }
   EXPECT_EQ(std::popcount(surfaces.faces({0, 0, 0})), 3);
   EXPECT_EQ(surfaces.faces({1, 1, 1}), 0u);
@@ -84,7 +92,14 @@ TEST(Surfaces, SetsOfSurfacesAndSolids) {
   EXPECT_EQ(number(Region::Kind::difference, {named("all"), sphere(7)}) + count(body, surfaces, *sphere(7)), body.particles);
 
   const Part near = make_set(Region::Kind::intersection, {named("inner_surface"), sphere(7)});
-  for (const Particle p : particles_in(body, surfaces, *near)) EXPECT_EQ(open_faces(body, surfaces, *near, p), surfaces.inner_faces(body.site(p)));
+  const auto areas = open_areas(body, surfaces, *near);
+  EXPECT_EQ(areas.size(), inner);
+  for (const OpenArea& open : areas) {
+    Vec3 expected;
+    for (unsigned face = 0; face < 6; ++face)
+      if ((surfaces.inner_faces(body.site(open.particle)) >> face & 1U) != 0) expected = expected + face_normals[face];
+    EXPECT_EQ(open.area, expected);
+  }
 }
 
 }  // namespace

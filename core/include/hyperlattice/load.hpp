@@ -6,9 +6,14 @@
 
 namespace hyperlattice {
 
-/// Outward faces of a particle's cell that no other particle covers: bit 0 -x, 1 +x, 2 -y, 3 +y, 4 -z, 5 +z.
-using ExposedFaces = std::uint32_t;
+/// Outward normals of a cell's faces.
 inline constexpr Vec3 face_normals[6] = {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}};
+
+/// A particle at a surface.
+struct OpenArea {
+  Particle particle = 0;
+  Vec3 area;  ///< sum of the outward normals of the faces that it stands for, each as long as the particle's part of the face is large, m2
+};
 
 /// The body as a load sees it.
 struct LoadBody {
@@ -17,7 +22,8 @@ struct LoadBody {
   std::span<const Particle> (*region_particles)(void* self, RegionId region) noexcept = nullptr;
   Vec3 (*particle_position)(void* self, Particle particle) noexcept = nullptr;
   double (*particle_mass)(void* self, Particle particle) noexcept = nullptr;
-  ExposedFaces (*particle_faces)(void* self, Particle particle, RegionId region) noexcept = nullptr;
+  double (*particle_share)(void* self, Particle particle) noexcept = nullptr;
+  std::span<const OpenArea> (*region_open_areas)(void* self, RegionId region) noexcept = nullptr;
   double (*region_true_area)(void* self, RegionId region) noexcept = nullptr;
   Vec3 (*region_centre)(void* self, RegionId region) noexcept = nullptr;
 
@@ -25,8 +31,10 @@ struct LoadBody {
   std::span<const Particle> particles(RegionId region) const { return region_particles(self, region); }
   Vec3 position(Particle particle) const { return particle_position(self, particle); }  ///< metres, at rest
   double mass(Particle particle) const { return particle_mass(self, particle); }        ///< kg
-  /// Faces open to the side that the region means: the cavity for "inner_surface", outside for "outer_surface", any for others.
-  ExposedFaces exposed_faces(Particle particle, RegionId region) const { return particle_faces(self, particle, region); }
+  double share(Particle particle) const { return particle_share(self, particle); }      ///< of a whole particle: below 1 where a body of cells ends
+  /// The open faces of the region: to the cavity for "inner_surface", to the outside for "outer_surface", of one side for "x_min" and its like, any
+  /// for others. Each particle once, ascending; none if no face is open. The sum is the area of the faces exactly.
+  std::span<const OpenArea> open_areas(RegionId region) const { return region_open_areas(self, region); }
   /// Area in m2 of the surface that the scene's shape describes, if the shape knows it (spheres and hollow spheres do); else 0.
   double true_area(RegionId region) const { return region_true_area(self, region); }
   Vec3 centre(RegionId region) const { return region_centre(self, region); }  ///< of the shape behind the region; else of its particles

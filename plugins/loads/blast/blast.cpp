@@ -1,11 +1,11 @@
 // A triangular pressure pulse on a surface, acting along the radii from a centre:
-//   F_i = p(t) A_i e_i,  A_i = S * sum over the open faces f of particle i of  l^2 (-n_f . e_i),  e_i = (x_i - c) / |x_i - c|
+//   F_i = p(t) A_i e_i,  A_i = S * sum over the open faces f of particle i of  a_f (-n_f . e_i),  e_i = (x_i - c) / |x_i - c|
 //   p(t) = 0 until start, rises to peak during `rise`, falls to 0 during `fall`.
-// A surface of cubic cells is rougher than the true one; S makes the sum of |A_i| the true area.
+// with a_f the area of the face that is the particle's. A surface of cubic cells is rougher than the true one; S makes the sum of |A_i| the true
+// area.
 #include <hyperlattice/load.hpp>
 
 #include <stdexcept>
-#include <vector>
 
 namespace {
 using namespace hyperlattice;
@@ -42,28 +42,18 @@ class Blast {
   explicit Blast(const Options& options) : o_(options) {}
 
   void declare(const LoadBody& body, const LoadSink& sink) const {
-    const std::span<const Particle> particles = body.particles(o_.on);
+    const std::span<const OpenArea> surface = body.open_areas(o_.on);
     const Vec3 centre = o_.centre.value_or(body.centre(o_.on));
-    const double face = body.spacing * body.spacing;
-
-    std::vector<double> areas;  // projected on the radius; positive where the pressure pushes away from the centre
-    areas.reserve(particles.size());
+    const auto projected = [&](const OpenArea& open) { return -dot(open.area, direction(body.position(open.particle), centre)); };
     double sum = 0;
-    for (const Particle particle : particles) {
-      const Vec3 radius = direction(body.position(particle), centre);
-      const ExposedFaces open = body.exposed_faces(particle, o_.on);
-      double area = 0;
-      for (unsigned f = 0; f < 6; ++f)
-        if (open >> f & 1U) area -= face * dot(face_normals[f], radius);
-      areas.push_back(area);
-      sum += std::abs(area);
-    }
-    if (!particles.empty() && sum == 0) throw std::invalid_argument("the region has no open face: expected a surface, such as inner_surface");
+    for (const OpenArea& open : surface) sum += std::abs(projected(open));
+    if (sum == 0) throw std::invalid_argument("the region has no open face: expected a surface, such as inner_surface");
 
     const double known = o_.area.value_or(body.true_area(o_.on));
     const double scale = known > 0 ? known / sum : 1;
-    for (std::size_t n = 0; n < particles.size(); ++n)
-      if (areas[n] != 0) sink.force(particles[n], scale * areas[n] * o_.peak * direction(body.position(particles[n]), centre));
+    for (const OpenArea& open : surface)  // positive where the pressure pushes away from the centre
+      if (const double area = projected(open); area != 0)
+        sink.force(open.particle, scale * area * o_.peak * direction(body.position(open.particle), centre));
     for (const double corner : {o_.start, o_.start + o_.rise, o_.start + o_.rise + o_.fall}) sink.corner(corner);
   }
 

@@ -1,5 +1,6 @@
-// A pressure on the open faces of a region's particles:
-//   F_i = - p(t) l^2 * (sum of the outward normals of its open faces)
+// A pressure on the open faces of a region:
+//   F_i = - p(t) A_i,  A_i the sum of the outward normals of the particle's faces, each by its area:
+// l^2, or a quarter of that for each corner of a face in a body of cells.
 #include <hyperlattice/load.hpp>
 
 #include <stdexcept>
@@ -16,7 +17,7 @@ class Pressure {
 
   static Schema<Options> schema() {
     return Schema<Options>("loads.pressure", "Pressure on the open faces of a surface")
-        .equation("F = -p(t) l^2 n for each open face; p rises in a straight line and stays")
+        .equation("F = -p(t) A n for each open face; p rises in a straight line and stays")
         .restrictions("a surface that is not parallel to the axes is loaded as the staircase that its particles make of it")
         .add<&Options::on>("on", "", "the loaded surface; x_min and its like load only the faces of that side")
         .add<&Options::pressure>("pressure", "Pa", "positive pushes on the body, negative pulls")
@@ -28,18 +29,10 @@ class Pressure {
   explicit Pressure(const Options& options) : o_(options) {}
 
   void declare(const LoadBody& body, const LoadSink& sink) const {
-    const double force = o_.pressure * body.spacing * body.spacing;
-    const std::span<const Particle> particles = body.particles(o_.on);
-    bool any = particles.empty();
-    for (const Particle particle : particles) {
-      const ExposedFaces open = body.exposed_faces(particle, o_.on);
-      Vec3 normal;
-      for (unsigned f = 0; f < 6; ++f)
-        if (open >> f & 1U) normal = normal + face_normals[f];
-      if (open != 0) any = true;
-      if (normal != Vec3{}) sink.force(particle, -force * normal);
-    }
-    if (!any) throw std::invalid_argument("the region has no open face: expected a surface, such as x_max");
+    const std::span<const OpenArea> surface = body.open_areas(o_.on);
+    for (const OpenArea& open : surface)
+      if (open.area != Vec3{}) sink.force(open.particle, -o_.pressure * open.area);
+    if (surface.empty()) throw std::invalid_argument("the region has no open face: expected a surface, such as x_max");
     if (o_.rise > 0) sink.corner(o_.rise);
   }
 

@@ -1,0 +1,173 @@
+// What the regions of a scene mean for a body: particles and faces.
+#include <model/surfaces.hpp>
+
+#include <algorithm>
+#include <map>
+
+namespace hyperlattice {
+
+namespace {
+
+struct Face {
+  Site cell;
+  int direction = 0;  ///< as face_normals
+};
+
+/// Answers for one body what regions mean.
+struct Reader {
+  const Body& body;
+  const Surfaces& surfaces;
+
+  bool holds(const Region& region, Site particle) const {
+    const auto part_holds = [&](const auto& part) { return holds(*part, particle); };
+    switch (region.kind) {
+      case Region::Kind::all:
+        return true;
+      case Region::Kind::solid:
+        return body.cells.empty() ? region.inside(body.position(particle)) : touches(region, body.position(particle));
+      case Region::Kind::surface:
+      case Region::Kind::inner_surface:
+      case Region::Kind::outer_surface:
+        return has_face(region, particle);
+      case Region::Kind::face:
+        return is_outermost(particle, region.direction);
+      case Region::Kind::set_union:
+        return std::any_of(region.parts.begin(), region.parts.end(), part_holds);
+      case Region::Kind::intersection:
+        return std::all_of(region.parts.begin(), region.parts.end(), part_holds);
+      case Region::Kind::difference:
+        return part_holds(region.parts.front()) && std::none_of(region.parts.begin() + 1, region.parts.end(), part_holds);
+    }
+    return false;
+  }
+
+  /// Whether the region means the open face.
+  bool means(const Region& region, const Face& face) const {
+    const auto part_means = [&](const auto& part) { return means(*part, face); };
+    const auto part_holds = [&](const auto& part) { return holds_all(*part, face); };
+    switch (region.kind) {
+      case Region::Kind::set_union:
+        return std::any_of(region.parts.begin(), region.parts.end(), part_means);
+      case Region::Kind::intersection:
+        return std::all_of(region.parts.begin(), region.parts.end(), part_means);
+      case Region::Kind::difference:
+        return part_means(region.parts.front()) && std::none_of(region.parts.begin() + 1, region.parts.end(), part_holds);
+      default:
+        return is_open(region, face) && holds_all(region, face);
+    }
+  }
+
+  /// Whether the face is open to the side that the region means.
+  bool is_open(const Region& region, const Face& face) const {
+    const auto among = [&](OpenFaces open) { return (open >> face.direction & 1U) != 0; };
+    switch (region.kind) {
+      case Region::Kind::inner_surface:
+        return among(surfaces.inner_faces(face.cell));
+      case Region::Kind::outer_surface:
+        return among(surfaces.outer_faces(face.cell));
+      case Region::Kind::face:
+        return face.direction == region.direction && among(surfaces.faces(face.cell));
+      default:
+        return among(surfaces.faces(face.cell));
+    }
+  }
+
+  bool holds_all(const Region& region, const Face& face) const {
+    bool all = true;
+    for_particles(face, [&](Site particle) { all = all && holds(region, particle); });
+    return all;
+  }
+
+  /// Calls visit(site) for each particle that the face belongs to: its corners, or the one whose cell it is.
+  template <class Visit>
+  void for_particles(const Face& face, const Visit& visit) const {
+    const Site cell = face.cell;
+    if (body.cells.empty()) return visit(cell);
+    const auto corner = [&](int axis, int along, int across) {  // 0 or 1 cells from the low corner, along one axis
+      return axis == face.direction / 2 ? face.direction % 2 : axis == (face.direction / 2 + 1) % 3 ? along : across;
+    };
+    for (const int along : {0, 1})
+      for (const int across : {0, 1})
+        visit(Site{cell.i + corner(0, along, across), cell.j + corner(1, along, across), cell.k + corner(2, along, across)});
+  }
+
+  /// Whether a face that belongs to the particle is open to the side that the region means.
+  bool has_face(const Region& region, Site particle) const {
+    const auto any_open = [&](Site cell, auto&& touched) {
+      for (int direction = 0; direction < 6; ++direction)
+        if (touched(direction) && is_open(region, {cell, direction})) return true;
+      return false;
+    };
+    if (body.cells.empty()) return any_open(particle, [](int) { return true; });
+    bool found = false;
+    for_cells_of({}, [&](int di, int dj, int dk) {
+      const Site cell{particle.i + di, particle.j + dj, particle.k + dk};
+      const int offset[3] = {di, dj, dk};  // of a cell below the particle, that is at the cell's upper face
+      found = found || (body.cells.holds(cell) && any_open(cell, [&](int direction) { return (direction % 2 == 1) == (offset[direction / 2] < 0); }));
+    });
+    return found;
+  }
+
+  /// Whether the solid holds the point or one near to it.
+  bool touches(const Region& solid, Vec3 point) const {
+    const double rounding = 1e-6 * body.grid.spacing;
+    const Vec3 low = solid.low - point, high = solid.high - point;
+    if (std::max({low.x, low.y, low.z}) > rounding || std::min({high.x, high.y, high.z}) < -rounding) return false;
+    if (solid.inside(point)) return true;
+    for (const double x : {-rounding, 0.0, rounding})
+      for (const double y : {-rounding, 0.0, rounding})
+        for (const double z : {-rounding, 0.0, rounding})
+          if (solid.inside(point + Vec3{x, y, z})) return true;
+    return false;
+  }
+
+  bool is_outermost(Site site, int direction) const {
+    switch (direction) {
+      case 0:
+        return site.i == body.low.i;
+      case 1:
+        return site.i == body.high.i;
+      case 2:
+        return site.j == body.low.j;
+      case 3:
+        return site.j == body.high.j;
+      case 4:
+        return site.k == body.low.k;
+      default:
+        return site.k == body.high.k;
+    }
+  }
+};
+
+}  // namespace
+
+std::vector<Particle> particles_in(const Body& body, const Surfaces& surfaces, const Region& region) {
+  const Reader reader{body, surfaces};
+  std::vector<Particle> found;
+  for (const Run& run : body.runs)
+    for (std::int32_t i = run.begin; i < run.end; ++i)
+      if (reader.holds(region, {i, run.j, run.k})) found.push_back(run.first + static_cast<Particle>(i - run.begin));
+  return found;
+}
+
+std::vector<OpenArea> open_areas(const Body& body, const Surfaces& surfaces, const Region& region) {
+  const Reader reader{body, surfaces};
+  const double face_area = body.grid.spacing * body.grid.spacing, share = body.cells.empty() ? 1 : 0.25;
+  std::map<Particle, Vec3> areas;
+  for (const Run& run : body.cells.empty() ? std::span(body.runs) : body.cells.runs())
+    for (Site cell{run.begin, run.j, run.k}; cell.i < run.end; ++cell.i) {
+      const OpenFaces open = surfaces.faces(cell);
+      for (int direction = 0; direction < 6; ++direction) {
+        if ((open >> direction & 1U) == 0 || !reader.means(region, {cell, direction})) continue;
+        reader.for_particles({cell, direction}, [&](Site particle) {
+          Vec3& area = areas[body.at(particle)];
+          area = area + (share * face_area) * face_normals[direction];
+        });
+      }
+    }
+  std::vector<OpenArea> found;
+  for (const auto& [particle, area] : areas) found.push_back({particle, area});
+  return found;
+}
+
+}  // namespace hyperlattice
