@@ -166,6 +166,7 @@ std::vector<OpenArea> open_areas(const Body& body, const Surfaces& surfaces, con
       }
     }
   std::vector<OpenArea> found;
+  found.reserve(areas.size());
   for (const auto& [particle, area] : areas) found.push_back({particle, area});
   return found;
 }

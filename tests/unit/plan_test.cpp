@@ -2,11 +2,13 @@
 #include "support/program.hpp"
 
 #include <plan/plan.hpp>
+#include <run/layout.hpp>
 #include <run/state.hpp>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
 using namespace hyperlattice;
 using test::small_sphere;
@@ -37,6 +39,32 @@ TEST(Plan, bytes_are_those_of_the_state) {
       EXPECT_GT(plan->memory_bytes, simulation.bytes() + simulation.scratch_bytes());
       EXPECT_GE(plan->bytes_per_particle, 2 * 8 * plan->model->degrees_of_freedom + 2);
     }
+}
+
+TEST(Plan, cells_cost_little_and_whole_particles_nothing) {
+  auto scene = small_sphere();
+  const auto whole = plan_of(scene);
+  EXPECT_TRUE(leaves_out(*whole, "weights at the surface"));
+  scene["pipeline"][0]["boundary"] = "cells";
+  for (const int threads : {1, 3}) {
+    const auto cells = plan_of(scene, threads);
+    const Model& model = *cells->model;
+    const auto particles = static_cast<double>(model.body.particles);
+    EXPECT_FALSE(leaves_out(*cells, "weights at the surface"));
+    EXPECT_EQ(cells->bytes_per_particle * particles, Simulation(model, threads).bytes());
+
+    double sites = 0, vectors = 0;
+    std::set<std::uint32_t> sets;
+    const Layout layout(model, threads);
+    for (const BlockLayout& block : layout.blocks) {
+      sites += static_cast<double>(block.sites);
+      vectors += static_cast<double>(block.weight_sets.size());
+      sets.insert(block.weight_sets.begin(), block.weight_sets.end());
+    }
+    constexpr double state = 2 * 4 * 8 + 2, set = 10 * 8 * 8;  // bytes of a site; of the shares of particles and nine springs in a vector
+    EXPECT_EQ(cells->bytes_per_particle * particles, state * sites + 4 * vectors + set * static_cast<double>(sets.size()));
+    EXPECT_LT(static_cast<double>(sets.size()), vectors);  // vectors share them, even in a ball that is nearly all surface
+  }
 }
 
 TEST(Plan, carries_only_what_the_scene_needs) {
