@@ -57,7 +57,7 @@ bool has_functions(const ComponentInfo& info) {
 std::string option_fault(const Option& option) {
   if (!is_identifier(option.name)) return "its name must be small letters, digits and underscores, a letter first";
   if (option.name == "type" || option.name == "name") return "a stage has that key already";
-  if (option.kind > OptionKind::region || !option.set) return "it cannot be set";
+  if (option.kind > OptionKind::file || !option.set) return "it cannot be set";
   if (option.kind == OptionKind::choice && option.choices.empty()) return "it has no choices";
   if (!(option.low <= option.high)) return "its range is empty";
   return "";

@@ -17,7 +17,7 @@ struct Builder {
   bool has_grid = false;
 
   void grid(const Grid& grid) {
-    if (has_grid) throw std::invalid_argument("the lattice gave two grids");
+    if (has_grid || body.is_listed()) throw std::invalid_argument("the lattice gave two grids, or a grid and a list");
     if (!(grid.spacing > 0 && grid.site_volume > 0 && grid.membrane_distance > 0) || *std::min_element(grid.sites.begin(), grid.sites.end()) < 1)
       throw std::invalid_argument("the lattice's box has no sites");
     if (grid.neighbours.size() > max_neighbours || grid.spring_classes < 1 || grid.spring_classes > max_spring_classes)
@@ -53,17 +53,49 @@ struct Builder {
     body.particles += static_cast<std::uint64_t>(end - begin);
   }
 
+  void points(const PointList& points) {
+    if (has_grid || body.is_listed()) throw std::invalid_argument("the lattice gave two lists, or a grid and a list");
+    body.listed = sorted(points);
+    body.grid.spacing = points.spacing;
+    body.grid.site_volume = points.site_volume;
+    body.grid.membrane_distance = points.membrane_distance;
+    body.grid.shape = points.shape;
+    body.particles = body.listed.positions.size();
+    body.springs[0] = body.listed.springs.size();
+  }
+
+  void sample(const PeriodicSample& sample) {
+    if (!body.is_listed()) throw std::invalid_argument("the lattice gave a sample before its list");
+    keep_sample(body.listed, sample);
+  }
+
   void finish() {
     if (body.particles == 0) throw std::invalid_argument("the lattice has no particles");
-    end_rows();
-    if (body.grid.boundary == Boundary::cells) take_corners();
-    count_springs();
+    if (!body.is_listed()) {
+      end_rows();
+      if (body.grid.boundary == Boundary::cells) take_corners();
+      count_springs();
+    }
+    find_extent();
   }
 
  private:
   std::size_t row_count() const { return static_cast<std::size_t>(body.grid.sites[1]) * static_cast<std::size_t>(body.grid.sites[2]); }
   std::size_t row_of(std::int32_t j, std::int32_t k) const {
     return static_cast<std::size_t>(k) * static_cast<std::size_t>(body.grid.sites[1]) + static_cast<std::size_t>(j);
+  }
+
+  void find_extent() {
+    body.lowest = body.highest = body.position(Particle{0});
+    const auto widen = [this](Vec3 x) {
+      body.lowest = {std::min(body.lowest.x, x.x), std::min(body.lowest.y, x.y), std::min(body.lowest.z, x.z)};
+      body.highest = {std::max(body.highest.x, x.x), std::max(body.highest.y, x.y), std::max(body.highest.z, x.z)};
+    };
+    for (const Vec3 x : body.listed.positions) widen(x);
+    for (const Run& run : body.runs) {
+      widen(body.position({run.begin, run.j, run.k}));
+      widen(body.position({run.end - 1, run.j, run.k}));
+    }
   }
 
   void end_rows() { body.row_runs.resize(row_count() + 1, body.runs.size()); }
@@ -121,7 +153,9 @@ Body build_body(const LatticeFunctions& functions, const void* lattice) {
   Builder builder;
   const LatticeSink sink{
       &builder, [](void* self, const Grid& grid) { static_cast<Builder*>(self)->grid(grid); },
-      [](void* self, std::int32_t j, std::int32_t k, std::int32_t begin, std::int32_t end) { static_cast<Builder*>(self)->run(j, k, begin, end); }};
+      [](void* self, std::int32_t j, std::int32_t k, std::int32_t begin, std::int32_t end) { static_cast<Builder*>(self)->run(j, k, begin, end); },
+      [](void* self, const PointList& points) { static_cast<Builder*>(self)->points(points); },
+      [](void* self, const PeriodicSample& sample) { static_cast<Builder*>(self)->sample(sample); }};
   std::string sentence;
   const Complaint why{&sentence, [](void* self, std::string_view text) noexcept { *static_cast<std::string*>(self) = text; }};
   if (!functions.build(lattice, sink, why)) throw std::invalid_argument(sentence);

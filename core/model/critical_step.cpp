@@ -65,9 +65,25 @@ std::map<Environment, Particle> environments(const Model& model) {
 
 double step_of(double stiffness, double mass) { return 2 / std::sqrt(stiffness / mass); }
 
+/// Waves say nothing of a list; the springs of each particle do.
+void find_critical_step_of_list(Model& model, Faults& faults) {
+  const ListedBound bound = listed_bound(model);
+  const Stage& stage = *model.materials.front().stage;
+  if (!bound.all_positive)
+    return faults.add(stage.pointer, stage.component->type(),
+                      "springs of positive stiffness; a listed lattice with negative ones is not known to be stable");
+  if (!(bound.square > 0)) return faults.add("/pipeline", "", "a lattice with springs; this one's particles are all alone");
+  const Vec3 at = model.body.position(bound.particle);
+  for (Material& material : model.materials) material.critical_time_step = 2 / std::sqrt(bound.square);
+  model.critical_time_step = 2 / std::sqrt(bound.square);
+  model.critical_because =
+      fmt::format("a safe bound for a listed lattice: the springs of the particle at ({:.4g}, {:.4g}, {:.4g}) m", at.x, at.y, at.z);
+}
+
 }  // namespace
 
 void find_critical_step(Model& model, Faults& faults) {
+  if (model.body.is_listed()) return find_critical_step_of_list(model, faults);
   const std::size_t before = faults.size();
   for (std::size_t n = 0; n < model.materials.size(); ++n) {
     Material& material = model.materials[n];

@@ -22,6 +22,14 @@ class StiffnessBound {
 /// largest of its cells' own: those of a cell that moves alone. Exact for a body of one cell.
 double cell_bound(const Model& model);
 
+/// Bound of omega^2 for a listed body: the largest of its particles' StiffnessBound over their mass.
+struct ListedBound {
+  double square = 0;  ///< omega^2, 1/s2
+  Particle particle = 0;
+  bool all_positive = true;  ///< no spring has a negative stiffness: the body is stable
+};
+ListedBound listed_bound(const Model& model);
+
 /// Sets the model's critical time step and what limits it: exact for one material and whole particles, a safe bound otherwise. A fault for each
 /// unstable material.
 void find_critical_step(Model& model, Faults& faults);

@@ -40,10 +40,7 @@ struct View {
       const Model& model = static_cast<View*>(self)->model;
       return model.materials.empty() ? 0 : model.mass(particle);  // none only if the materials have faults, and then nothing runs
     };
-    seen.particle_share = [](void* self, Particle particle) noexcept {
-      const Body& body = static_cast<View*>(self)->model.body;
-      return body.share(body.site(particle));
-    };
+    seen.particle_share = [](void* self, Particle particle) noexcept { return static_cast<View*>(self)->model.body.share(particle); };
     seen.region_open_areas = [](void* self, RegionId region) noexcept {
       View& view = *static_cast<View*>(self);
       return view.particles(region).empty() ? std::span<const OpenArea>() : view.regions.open_areas(region);

@@ -1,60 +1,26 @@
-// What the regions of a scene mean for a body: particles and faces.
+// What the regions of a scene mean for a body on a cubic grid: particles and faces of cells.
+#include <model/meaning.hpp>
 #include <model/surfaces.hpp>
 
-#include <algorithm>
 #include <map>
 
 namespace hyperlattice {
 
 namespace {
 
-struct Face {
-  Site cell;
-  int direction = 0;  ///< as face_normals
-};
+/// A body's sites and the faces of its cells.
+struct Sites {
+  using Point = Site;
+  struct Face {
+    Site cell;
+    int direction = 0;  ///< as face_normals
+  };
 
-/// Answers for one body what regions mean.
-struct Reader {
   const Body& body;
   const Surfaces& surfaces;
 
-  bool holds(const Region& region, Site particle) const {
-    const auto part_holds = [&](const auto& part) { return holds(*part, particle); };
-    switch (region.kind) {
-      case Region::Kind::all:
-        return true;
-      case Region::Kind::solid:
-        return body.cells.empty() ? region.inside(body.position(particle)) : touches(region, body.position(particle));
-      case Region::Kind::surface:
-      case Region::Kind::inner_surface:
-      case Region::Kind::outer_surface:
-        return has_face(region, particle);
-      case Region::Kind::face:
-        return is_outermost(particle, region.direction);
-      case Region::Kind::set_union:
-        return std::any_of(region.parts.begin(), region.parts.end(), part_holds);
-      case Region::Kind::intersection:
-        return std::all_of(region.parts.begin(), region.parts.end(), part_holds);
-      case Region::Kind::difference:
-        return part_holds(region.parts.front()) && std::none_of(region.parts.begin() + 1, region.parts.end(), part_holds);
-    }
-    return false;
-  }
-
-  /// Whether the region means the open face.
-  bool means(const Region& region, const Face& face) const {
-    const auto part_means = [&](const auto& part) { return means(*part, face); };
-    const auto part_holds = [&](const auto& part) { return holds_all(*part, face); };
-    switch (region.kind) {
-      case Region::Kind::set_union:
-        return std::any_of(region.parts.begin(), region.parts.end(), part_means);
-      case Region::Kind::intersection:
-        return std::all_of(region.parts.begin(), region.parts.end(), part_means);
-      case Region::Kind::difference:
-        return part_means(region.parts.front()) && std::none_of(region.parts.begin() + 1, region.parts.end(), part_holds);
-      default:
-        return is_open(region, face) && holds_all(region, face);
-    }
+  bool in_solid(const Region& region, Site particle) const {
+    return body.cells.empty() ? region.inside(body.position(particle)) : touches(region, body.position(particle));
   }
 
   /// Whether the face is open to the side that the region means.
@@ -72,15 +38,9 @@ struct Reader {
     }
   }
 
-  bool holds_all(const Region& region, const Face& face) const {
-    bool all = true;
-    for_particles(face, [&](Site particle) { all = all && holds(region, particle); });
-    return all;
-  }
-
   /// Calls visit(site) for each particle that the face belongs to: its corners, or the one whose cell it is.
   template <class Visit>
-  void for_particles(const Face& face, const Visit& visit) const {
+  void for_points(const Face& face, const Visit& visit) const {
     const Site cell = face.cell;
     if (body.cells.empty()) return visit(cell);
     const auto corner = [&](int axis, int along, int across) {  // 0 or 1 cells from the low corner, along one axis
@@ -122,44 +82,34 @@ struct Reader {
   }
 
   bool is_outermost(Site site, int direction) const {
-    switch (direction) {
-      case 0:
-        return site.i == body.low.i;
-      case 1:
-        return site.i == body.high.i;
-      case 2:
-        return site.j == body.low.j;
-      case 3:
-        return site.j == body.high.j;
-      case 4:
-        return site.k == body.low.k;
-      default:
-        return site.k == body.high.k;
-    }
+    const Vec3 outward = face_normals[direction], farthest = direction % 2 == 0 ? body.lowest : body.highest;
+    return dot(body.position(site) - farthest, outward) > -1e-6 * body.grid.spacing;
   }
 };
 
 }  // namespace
 
 std::vector<Particle> particles_in(const Body& body, const Surfaces& surfaces, const Region& region) {
-  const Reader reader{body, surfaces};
+  const Sites sites{body, surfaces};
+  const Meaning<Sites> meaning(sites);
   std::vector<Particle> found;
   for (const Run& run : body.runs)
     for (std::int32_t i = run.begin; i < run.end; ++i)
-      if (reader.holds(region, {i, run.j, run.k})) found.push_back(run.first + static_cast<Particle>(i - run.begin));
+      if (meaning.holds(region, {i, run.j, run.k})) found.push_back(run.first + static_cast<Particle>(i - run.begin));
   return found;
 }
 
 std::vector<OpenArea> open_areas(const Body& body, const Surfaces& surfaces, const Region& region) {
-  const Reader reader{body, surfaces};
+  const Sites sites{body, surfaces};
+  const Meaning<Sites> meaning(sites);
   const double face_area = body.grid.spacing * body.grid.spacing, share = body.cells.empty() ? 1 : 0.25;
   std::map<Particle, Vec3> areas;
   for (const Run& run : body.cells.empty() ? std::span(body.runs) : body.cells.runs())
     for (Site cell{run.begin, run.j, run.k}; cell.i < run.end; ++cell.i) {
       const OpenFaces open = surfaces.faces(cell);
       for (int direction = 0; direction < 6; ++direction) {
-        if ((open >> direction & 1U) == 0 || !reader.means(region, {cell, direction})) continue;
-        reader.for_particles({cell, direction}, [&](Site particle) {
+        if ((open >> direction & 1U) == 0 || !meaning.means(region, {cell, direction})) continue;
+        sites.for_points({cell, direction}, [&](Site particle) {
           Vec3& area = areas[body.at(particle)];
           area = area + (share * face_area) * face_normals[direction];
         });

@@ -44,6 +44,16 @@ struct Load {
   double factor(double time) const { return stage->functions<LoadFunctions>().factor(component.get(), time); }
 };
 
+/// One base spring with the cross springs beside it, wherever it stands.
+struct Joint {
+  Vec3 rest;                     ///< from its first end to the other, metres
+  double rest_length = 0;        ///< metres
+  double cross_rest_length = 0;  ///< metres
+  double share = 1;              ///< what counts of it
+  std::uint32_t spring_class = 0;
+  double stiffness = 0, cross_stiffness = 0;  ///< N/m, of the whole
+};
+
 struct Model {
   const Scene* scene = nullptr;
   Body body;
@@ -62,12 +72,18 @@ struct Model {
   std::string critical_because;   ///< what limits it, in a sentence
   Vec3 acceleration;              ///< sum of the loads'
 
+  std::uint8_t material(Particle particle) const { return material_of.empty() ? std::uint8_t{0} : material_of[particle]; }
   double mass(Particle particle) const {  ///< kg
-    return body.share(body.site(particle)) * materials[material_of.empty() ? 0 : material_of[particle]].mass;
+    return body.share(particle) * materials[material(particle)].mass;
   }
   const SpringConstants& spring(std::uint8_t a, std::uint8_t b, std::uint32_t spring_class) const {
     return springs[(a * materials.size() + b) * body.grid.spring_classes + spring_class];
   }
+  /// The spring from a to b. `neighbour`: of a structured body the index in `neighbours`, of a listed one that in its list of springs.
+  Joint joint(Particle a, Particle b, std::uint32_t neighbour) const;
+  SpringFacts facts(const Joint& joint) const { return {joint.rest_length, joint.stiffness, body.grid.spacing, joint.spring_class}; }
+  /// Elongation, metres, below which no criterion of either material breaks such a spring; infinite if nothing does.
+  double alarm(std::uint8_t a, std::uint8_t b, const SpringFacts& facts) const;
 };
 
 /// Rest vectors and lengths of a lattice's forward neighbours.

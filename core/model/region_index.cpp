@@ -44,19 +44,30 @@ const Surfaces& RegionIndex::surfaces() {
   return *surfaces_;
 }
 
+const Skin& RegionIndex::skin() {
+  if (!skin_) skin_ = std::make_unique<Skin>(body_);
+  return *skin_;
+}
+
 const Region* RegionIndex::filled() const {
   return body_.grid.shape == nullptr ? nullptr : static_cast<const Region*>(body_.grid.shape->self);  // see Regions::shape
 }
 
 std::span<const Particle> RegionIndex::particles(RegionId region) {
   const auto [entry, is_new] = particles_.try_emplace(region.index);
-  if (is_new) entry->second = particles_in(body_, surfaces(), regions_[region]);
+  if (is_new)
+    entry->second = body_.is_cubic() ? particles_in(body_, surfaces(), regions_[region])
+                                     : particles_in(
+                                           body_, [this]() -> const Skin& { return skin(); }, regions_[region]);
   return entry->second;
 }
 
 std::span<const OpenArea> RegionIndex::open_areas(RegionId region) {
   const auto [entry, is_new] = open_areas_.try_emplace(region.index);
-  if (is_new) entry->second = hyperlattice::open_areas(body_, surfaces(), regions_[region]);
+  if (is_new)
+    entry->second = body_.is_cubic() ? hyperlattice::open_areas(body_, surfaces(), regions_[region])
+                                     : hyperlattice::open_areas(
+                                           body_, [this]() -> const Skin& { return skin(); }, regions_[region]);
   return entry->second;
 }
 
@@ -90,7 +101,7 @@ std::string RegionIndex::expected_particles(RegionId region) const {
   const std::string& name = regions_.name(region);
   const std::string named = name.starts_with('{') ? "" : fmt::format("\"{}\", ", name);  // one that the scene describes in place has no name
   return fmt::format("a region with particles; {}{}, holds none of the body's, which stand between {} and {} m", named, what(regions_[region]),
-                     text(body_.position(body_.low)), text(body_.position(body_.high)));
+                     text(body_.lowest), text(body_.highest));
 }
 
 }  // namespace hyperlattice

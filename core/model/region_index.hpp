@@ -1,7 +1,7 @@
 // What the regions of a scene mean for a body: each is worked out once, when first asked for.
 #pragma once
 
-#include <model/surfaces.hpp>
+#include <model/skin.hpp>
 
 #include <map>
 #include <memory>
@@ -23,11 +23,13 @@ class RegionIndex {
 
  private:
   const Surfaces& surfaces();
+  const Skin& skin();
   const Region* filled() const;  ///< the shape that the lattice filled, or null
 
   const Body& body_;
   const Regions& regions_;
-  std::unique_ptr<Surfaces> surfaces_;
+  std::unique_ptr<Surfaces> surfaces_;  ///< of a body on a cubic grid
+  std::unique_ptr<Skin> skin_;          ///< of any other
   std::map<std::uint32_t, std::vector<Particle>> particles_;
   std::map<std::uint32_t, std::vector<OpenArea>> open_areas_;
 };

@@ -19,6 +19,7 @@ double between(double a, double b) {
   return (a > 0) == (b > 0) ? 2 * a * b / (a + b) : (a + b) / 2;
 }
 
+/// Of a class; of a listed body, whose springs are of all lengths, nothing.
 double rest_length(const Model& model, std::uint32_t spring_class) {
   const auto of_class = [spring_class](const NeighbourGeometry& n) { return n.site.spring_class == spring_class; };
   const auto found = std::find_if(model.neighbours.begin(), model.neighbours.end(), of_class);
@@ -58,11 +59,39 @@ void hold_heights(Model& model) {
     if (material.constants.has_cross_springs()) continue;
     double ratio = 0;
     for (const NeighbourGeometry& n : model.neighbours) ratio += 2 * n.rest.x * n.rest.x / (n.rest_length * n.rest_length);
+    if (model.body.is_listed())  // as the mean particle has it
+      ratio = 2 * static_cast<double>(model.body.listed.springs.size()) / static_cast<double>(model.body.particles) / 3;
     material.constants.alpha_ratio = std::max(material.constants.alpha_ratio, ratio);
   }
 }
 
 }  // namespace
+
+Joint Model::joint(Particle a, Particle b, std::uint32_t neighbour) const {
+  Joint joint;
+  double stiffness = 1;
+  if (body.is_listed()) {
+    joint.rest = body.listed.positions[b] - body.listed.positions[a];
+    joint.rest_length = norm(joint.rest);
+    joint.cross_rest_length = std::hypot(joint.rest_length, body.grid.membrane_distance);
+    stiffness = body.listed.springs[neighbour].stiffness;
+  } else {
+    const NeighbourGeometry& to = neighbours[neighbour];
+    joint.rest = to.rest;
+    joint.rest_length = to.rest_length;
+    joint.cross_rest_length = to.cross_rest_length;
+    joint.spring_class = to.site.spring_class;
+    if (!body.cells.empty()) joint.share = body.share(body.site(a), to.site);
+  }
+  const SpringConstants& constants = spring(material(a), material(b), joint.spring_class);
+  joint.stiffness = stiffness * constants.stiffness;
+  joint.cross_stiffness = stiffness * constants.cross_stiffness;
+  return joint;
+}
+
+double Model::alarm(std::uint8_t a, std::uint8_t b, const SpringFacts& facts) const {
+  return std::min(alarm_of(materials[a], facts), alarm_of(materials[b], facts));
+}
 
 std::vector<NeighbourGeometry> geometry_of(const Grid& grid) {
   std::vector<NeighbourGeometry> all;
@@ -79,6 +108,7 @@ void set_springs(Model& model, Faults& faults) {
   if (model.choice.membrane == Membrane::free) hold_heights(model);
   model.degrees_of_freedom = model.choice.membrane == Membrane::free ? 4 : 3;
   model.choice.mixed = model.materials.size() > 1;
+  model.choice.listed = model.body.is_listed();
   for (const Material& material : model.materials) model.choice.breakable |= material.failure != nullptr;
   model.kernels = model.materials[0].stage->functions<MaterialFunctions>().kernels(model.choice);
   if (model.kernels.step == nullptr || model.kernels.step_damped == nullptr || model.kernels.measure == nullptr)

@@ -78,18 +78,20 @@ double records_of(const PlannedStage& stage) {
 void estimate_memory(Plan& plan) {
   const Model& model = *plan.model;
   const double particles = static_cast<double>(model.body.particles);
-  const Layout layout(model, plan.threads);
-  plan.bytes_per_particle = layout.state_bytes(model) / particles;
+  const std::unique_ptr<Layout> layout = make_layout(model, plan.threads);
+  plan.bytes_per_particle = layout->state_bytes() / particles;
 
   const std::size_t runs = model.body.runs.size() + model.body.cells.runs().size();
-  double model_bytes = static_cast<double>(runs * sizeof(Run) + model.body.row_runs.size() * sizeof(std::size_t) + model.material_of.size());
+  double model_bytes =
+      static_cast<double>(model.body.listed.springs.size() * sizeof(ListedSpring) + model.body.listed.positions.size() * sizeof(Vec3) +
+                          runs * sizeof(Run) + model.body.row_runs.size() * sizeof(std::size_t) + model.material_of.size());
   for (const Load& load : model.loads) model_bytes += static_cast<double>(load.particles.size() * (sizeof(LoadedParticle) + sizeof(Support)));
-  for (const BlockLayout& block : layout.blocks) model_bytes += static_cast<double>(block.rows.size() * 2 * sizeof(Row));
+  for (const BlockLayout& block : layout->blocks) model_bytes += static_cast<double>(block.rows.size() * 2 * sizeof(Row));
 
   double output_numbers = 0;  // positions, and the fields of the most demanding output
   for (const Family family : {Family::writers, Family::probes})
     for (const Stage* stage : plan.scene->of(family)) output_numbers = std::max(output_numbers, 3 + numbers_per_particle(*plan.scene, *stage));
-  plan.memory_bytes = layout.state_bytes(model) + layout.scratch_bytes(model) + model_bytes + output_numbers * sizeof(double) * particles;
+  plan.memory_bytes = layout->state_bytes() + layout->scratch_bytes() + model_bytes + output_numbers * sizeof(double) * particles;
 }
 
 void estimate_output(Plan& plan) {

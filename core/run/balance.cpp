@@ -15,7 +15,7 @@ RowSums Simulation::Parts::measure(double back) {
   {
 #pragma omp for schedule(static, 1)
     for (std::size_t b = 0; b < blocks.size(); ++b) {
-      exchange(blocks[b]);
+      layout->exchange(blocks, blocks[b]);
       prepare_supports(blocks[b], 2 * back);
     }
 #pragma omp for schedule(static, 1)
@@ -23,8 +23,8 @@ RowSums Simulation::Parts::measure(double back) {
   }
   RowSums total;
   for (const Block& block : blocks)
-    for (std::size_t r = 0; r < block.rows.size(); ++r) {
-      if (block.rows[r].begin == block.rows[r].end || !owns(block, first_site_of_row(block, r).k)) continue;
+    for (std::size_t r = block.layout->first_own; r < block.layout->last_own; ++r) {
+      if (block.rows[r].begin == block.rows[r].end) continue;
       const RowSums& row = block.sums[r];
       total.stored += row.stored;
       total.kinetic += row.kinetic;

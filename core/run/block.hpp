@@ -40,13 +40,22 @@ struct Contribution {
   double work = 0;    ///< of the force since the start, J
 };
 
+/// What a block of a listed body has besides; see ListedSlots.
+struct ListedArrays {
+  AlignedArray<std::uint32_t> first, neighbour;
+  AlignedArray<double> rest, stiffness, alarm, around, shares;
+  AlignedArray<std::uint8_t> alive;
+};
+
 struct Block {
   const BlockLayout* layout = nullptr;
-  std::vector<Row> rows;  ///< the layout's, with their supports
+  std::size_t number = 0;  ///< its place among the blocks
+  std::vector<Row> rows;   ///< the layout's, with their supports
   AlignedArray<double> displacement[4], velocity[4];
   AlignedArray<std::uint16_t> alive;
   AlignedArray<std::uint8_t> material;
   AlignedArray<double> scratch;
+  ListedArrays listed;
   std::vector<double> damped_work;  ///< a row
   std::vector<RowSums> sums;        ///< a row
   std::vector<Support> supports;    ///< in the rows' order

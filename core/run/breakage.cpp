@@ -31,27 +31,25 @@ End end_of(const Block& block, std::uint64_t n, int components, double dt) {
 }  // namespace
 
 const std::uint8_t* Simulation::Parts::review(Block& block, const AlarmRow& alarm) const {
-  const NeighbourGeometry& neighbour = model.neighbours[alarm.neighbour];
   block.answers.assign(alarm.sites.size(), 0);
-  const auto ask = [&](const Material& material, double stiffness, std::size_t first, std::size_t count) {
+  const auto ask = [&](const Material& material, const SpringFacts& facts, std::size_t first, std::size_t count) {
     if (material.failure_stage == nullptr) return;
-    const SpringFacts facts{neighbour.rest_length, stiffness, model.body.grid.spacing, neighbour.site.spring_class};
     std::vector<std::uint8_t> answers(count, 0);
     material.failure_stage->functions<FailureFunctions>().review(material.failure.get(), {time, facts, alarm.elongation.subspan(first, count)},
                                                                  answers.data());
     for (std::size_t n = 0; n < count; ++n) block.answers[first + n] |= answers[n];
   };
-  if (model.material_of.empty()) {
-    ask(model.materials.front(), model.spring(0, 0, neighbour.site.spring_class).stiffness, 0, alarm.sites.size());
-  } else {  // a spring between two materials breaks when either criterion says so
-    Site site = first_site_of_row(block, alarm.row);
+  const auto ends = [&](std::size_t n) { return layout->spring(block.number, alarm.row, alarm.neighbour, alarm.sites[n]); };
+  if (model.material_of.empty() && !model.body.is_listed()) {  // the same springs all
+    const SpringEnds first = ends(0);
+    ask(model.materials.front(), model.facts(model.joint(first.a, first.b, first.neighbour)), 0, alarm.sites.size());
+  } else {
     for (std::size_t n = 0; n < alarm.sites.size(); ++n) {
-      site.i = alarm.sites[n];
-      const Site other{site.i + neighbour.site.dx, site.j + neighbour.site.dy, site.k + neighbour.site.dz};
-      const std::uint8_t here = model.material_of[model.body.at(site)], there = model.material_of[model.body.at(other)];
-      const double stiffness = model.spring(here, there, neighbour.site.spring_class).stiffness;
-      ask(model.materials[here], stiffness, n, 1);
-      if (there != here) ask(model.materials[there], stiffness, n, 1);
+      const SpringEnds spring = ends(n);
+      const SpringFacts facts = model.facts(model.joint(spring.a, spring.b, spring.neighbour));
+      const std::uint8_t here = model.material(spring.a), there = model.material(spring.b);
+      ask(model.materials[here], facts, n, 1);  // a spring between two materials breaks when either criterion says so
+      if (there != here) ask(model.materials[there], facts, n, 1);
     }
   }
   for (std::size_t n = 0; n < alarm.sites.size(); ++n)
@@ -59,18 +57,18 @@ const std::uint8_t* Simulation::Parts::review(Block& block, const AlarmRow& alar
   return block.answers.data();
 }
 
-/// Blocks follow each other along z, and a block's list is in the order of its rows: the log does not depend on the number of threads.
+/// Blocks follow each other as their particles do, and a block's list is in the order of its rows: the log does not depend on the number of threads.
 void Simulation::Parts::collect_breakages(double dt) {
   for (Block& block : blocks) {
     for (const Block::Broken& broken : block.broken) {
-      const Site row = first_site_of_row(block, broken.row);
-      const Neighbour& to = model.neighbours[broken.neighbour].site;
+      const SpringEnds spring = layout->spring(block.number, broken.row, broken.neighbour, broken.site);
+      if (!spring.is_first) continue;
       Breakage breakage;
       breakage.step = steps;
       breakage.time = time;
-      breakage.a = model.body.at({broken.site, row.j, row.k});
-      breakage.b = model.body.at({broken.site + to.dx, row.j + to.dy, row.k + to.dz});
-      breakage.neighbour = broken.neighbour;
+      breakage.a = spring.a;
+      breakage.b = spring.b;
+      breakage.neighbour = spring.neighbour;
       breakage.elongation = broken.elongation;
       const auto [block_a, place_a] = at(breakage.a);
       const auto [block_b, place_b] = at(breakage.b);
@@ -87,33 +85,32 @@ void Simulation::Parts::collect_breakages(double dt) {
 double Simulation::Parts::energy_of(std::size_t index, double dt) const {
   const Breakage& breakage = breakages[index];
   const Ends& where = ends[index];
-  const NeighbourGeometry& neighbour = model.neighbours[breakage.neighbour];
+  const Joint joint = model.joint(breakage.a, breakage.b, breakage.neighbour);
   const End a = end_of(*where.block_a, where.a, model.degrees_of_freedom, dt), b = end_of(*where.block_b, where.b, model.degrees_of_freedom, dt);
-  const auto material = [&](Particle p) { return model.material_of.empty() ? std::uint8_t{0} : model.material_of[p]; };
-  const SpringConstants& constants = model.spring(material(breakage.a), material(breakage.b), neighbour.site.spring_class);
 
   const Vec3 d = b.place - a.place, moved = b.moved - a.moved;
-  const double in_space = dot(d, 2 * neighbour.rest + d), rate_in_space = 2 * dot(neighbour.rest + d, moved);
+  const double in_space = dot(d, 2 * joint.rest + d), rate_in_space = 2 * dot(joint.rest + d, moved);
   const auto lost = [&](double stiffness, double rest_length, double growth, double rate) {  // of the squared length, as in kernels/springs.hpp
     const double length = std::sqrt(rest_length * rest_length + growth), elongation = growth / (length + rest_length);
     return model.kernels.energy(stiffness, elongation) + 0.5 * model.kernels.force(stiffness, elongation) * rate / (2 * length);
   };
   const double difference = b.height - a.height, total = b.height + a.height, delta = model.body.grid.membrane_distance;
   double energy =
-      lost(constants.stiffness, neighbour.rest_length, in_space + difference * difference, rate_in_space + 2 * difference * (b.raised - a.raised));
+      lost(joint.stiffness, joint.rest_length, in_space + difference * difference, rate_in_space + 2 * difference * (b.raised - a.raised));
   if (model.choice.membrane != KernelChoice::Membrane::none)
-    energy += lost(constants.cross_stiffness, neighbour.cross_rest_length, in_space + total * (2 * delta + total),
+    energy += lost(joint.cross_stiffness, joint.cross_rest_length, in_space + total * (2 * delta + total),
                    rate_in_space + 2 * (delta + total) * (b.raised + a.raised));
-  return energy * model.body.share(model.body.site(breakage.a), neighbour.site);
+  return energy * joint.share;
 }
 
 double Simulation::Parts::elongation_now(std::size_t index) const {
-  const NeighbourGeometry& neighbour = model.neighbours[breakages[index].neighbour];
+  const Breakage& breakage = breakages[index];
+  const Joint joint = model.joint(breakage.a, breakage.b, breakage.neighbour);
   const Ends& where = ends[index];
   const End a = end_of(*where.block_a, where.a, model.degrees_of_freedom, 0), b = end_of(*where.block_b, where.b, model.degrees_of_freedom, 0);
   const Vec3 d = b.place - a.place;
-  const double growth = dot(d, 2 * neighbour.rest + d) + (b.height - a.height) * (b.height - a.height);
-  return growth / (std::sqrt(neighbour.rest_length * neighbour.rest_length + growth) + neighbour.rest_length);
+  const double growth = dot(d, 2 * joint.rest + d) + (b.height - a.height) * (b.height - a.height);
+  return growth / (std::sqrt(joint.rest_length * joint.rest_length + growth) + joint.rest_length);
 }
 
 }  // namespace hyperlattice

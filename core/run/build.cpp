@@ -6,7 +6,7 @@
 
 namespace hyperlattice {
 
-Simulation::Parts::Parts(const Model& m, int wanted) : model(m), layout(m, wanted), blocks(layout.blocks.size()) {
+Simulation::Parts::Parts(const Model& m, int wanted) : model(m), layout(make_layout(m, wanted)), blocks(layout->blocks.size()) {
   threads = static_cast<int>(blocks.size());
   for (const Material& material : model.materials) {
     const MaterialConstants& constants = material.constants;
@@ -16,7 +16,7 @@ Simulation::Parts::Parts(const Model& m, int wanted) : model(m), layout(m, wante
   std::exception_ptr thrown;  // most likely for want of memory; none may leave a parallel region
 #pragma omp parallel for num_threads(threads) schedule(static, 1)
   for (std::size_t b = 0; b < blocks.size(); ++b) try {
-      allocate(blocks[b], layout.blocks[b]);
+      allocate(blocks[b], b);
     } catch (...) {
 #pragma omp critical
       thrown = std::current_exception();
@@ -29,38 +29,25 @@ Simulation::Parts::Parts(const Model& m, int wanted) : model(m), layout(m, wante
   }
 }
 
-void Simulation::Parts::allocate(Block& block, const BlockLayout& planned) const {
-  const Body& body = model.body;
-  block.layout = &planned;
-  block.rows = planned.rows;
+void Simulation::Parts::allocate(Block& block, std::size_t number) const {
+  block.layout = &layout->blocks[number];
+  block.number = number;
+  block.rows = block.layout->rows;
   for (int c = 0; c < model.degrees_of_freedom; ++c) {
-    block.displacement[c] = AlignedArray<double>(planned.sites);
-    block.velocity[c] = AlignedArray<double>(planned.sites);
+    block.displacement[c] = AlignedArray<double>(block.layout->sites);
+    block.velocity[c] = AlignedArray<double>(block.layout->sites);
   }
-  block.alive = AlignedArray<std::uint16_t>(planned.sites);
-  block.scratch =
-      AlignedArray<double>(scratch_size(body.grid.sites[1], body.reach, layout.scratch_width, static_cast<std::size_t>(model.degrees_of_freedom)));
+  block.scratch = AlignedArray<double>(layout->scratch_numbers());
   block.damped_work.assign(block.rows.size(), 0);
   block.sums.resize(block.rows.size());
-  if (!model.material_of.empty()) block.material = AlignedArray<std::uint8_t>(planned.sites);
-
-  for (std::size_t r = 0; r < block.rows.size(); ++r) {
-    const Row& row = block.rows[r];
-    if (row.begin == row.end) continue;
-    Site site = first_site_of_row(block, r);
-    fill_alive(body, site.j, site.k, row, block.alive.get() + row.start);
-    if (model.material_of.empty()) continue;
-    for (; site.i < row.end; ++site.i)
-      if (const Particle particle = body.at(site); particle != Body::no_particle)
-        block.material[row.start + static_cast<std::uint64_t>(site.i - row.begin)] = model.material_of[particle];
-  }
+  layout->fill(block);
 }
 
 void Simulation::Parts::add_supports(Block& block) const {
   std::vector<std::pair<Particle, Contribution>> found;
   for (std::size_t l = 0; l < model.loads.size(); ++l)
     for (const LoadedParticle& loaded : model.loads[l].particles)
-      if (owns(block, model.body.site(loaded.particle).k)) {
+      if (layout->place(loaded.particle).block == block.number) {
         Contribution part;
         part.load = static_cast<std::uint32_t>(l);
         part.force = loaded.force;
@@ -75,11 +62,11 @@ void Simulation::Parts::add_supports(Block& block) const {
   Particle last = Body::no_particle;
   for (auto& [particle, part] : found) {
     if (particle != last) {
-      const Site site = model.body.site(particle);
+      const Place place = layout->place(particle);
       Support support;
-      support.row = static_cast<std::int32_t>(row_of(block, site));
-      support.site = site.i;
-      support.index = place_of(block, site);
+      support.row = static_cast<std::int32_t>(place.row);
+      support.site = place.site;
+      support.index = place.index;
       support.mass = model.mass(particle);
       block.supports.push_back(support);
       last = particle;

@@ -1,39 +1,79 @@
-// How the body is stored: blocks of whole planes, one a thread, each with ghost planes; rows padded to whole vectors, nothing between them.
+// How a body is stored: blocks, one a thread, of rows of particles, padded to whole vectors. Structured and listed bodies differ in how rows are cut,
+// in what a block copies from others, and in how a spring is found again; everything else treats them alike.
 #pragma once
 
 #include <model/model.hpp>
-#include <run/weights.hpp>
 
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <vector>
 
 namespace hyperlattice {
 
-/// Planes [first, first + planes) of the body, with `reach` ghost planes before and after.
+struct Block;
+
 struct BlockLayout {
-  std::int32_t first = 0, planes = 0;
-  std::vector<Row> rows;                   ///< [(k - first + reach) * ny + j]; supports not yet filled in
-  std::vector<std::uint32_t> weight_sets;  ///< see KernelRequest
-  std::uint64_t sites = 0;                 ///< places in each array, with the padding
-
-  /// Places of a plane: they are contiguous, and as many in every block that holds the plane.
-  std::uint64_t plane_begin(const Body& body, std::int32_t k) const;
-  std::uint64_t plane_end(const Body& body, std::int32_t k) const;
+  std::vector<Row> rows;                      ///< supports not yet filled in
+  std::uint32_t first_own = 0, last_own = 0;  ///< rows first_own <= r < last_own are the block's; others are ghosts
+  std::vector<std::uint32_t> weight_sets;     ///< see KernelRequest
+  std::uint64_t sites = 0;                    ///< places in each array, with the padding
 };
 
-struct Layout {
+/// Where a particle is stored.
+struct Place {
+  std::size_t block = 0;
+  std::uint32_t row = 0;    ///< in the block's rows
+  std::int32_t site = 0;    ///< in the row's own count
+  std::uint64_t index = 0;  ///< in the block's arrays
+};
+
+/// Particles that follow each other, in memory too.
+struct Stretch {
+  std::size_t block = 0;
+  std::uint64_t index = 0;
+  Particle first = 0;
+  std::uint64_t count = 0;
+};
+
+/// The spring that a kernel means.
+struct SpringEnds {
+  Particle a = 0, b = 0;        ///< a stands first
+  std::uint32_t neighbour = 0;  ///< see Model::joint
+  bool is_first = true;         ///< the kernel came to it from a: a spring that kernels meet twice counts once
+};
+
+class Layout {
+ public:
+  virtual ~Layout() = default;
+  Layout(const Layout&) = delete;
+  Layout& operator=(const Layout&) = delete;
+
   std::vector<BlockLayout> blocks;
-  WeightSets weights;
-  std::int32_t scratch_width = 0;
 
-  Layout(const Model& model, int threads);
+  virtual Place place(Particle particle) const = 0;
+  /// All particles in their order.
+  virtual void for_stretches(const std::function<void(const Stretch&)>& visit) const = 0;
+  virtual SpringEnds spring(std::size_t block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site) const = 0;
+  virtual std::uint64_t alive_bits(const Block& block, std::uint64_t index) const = 0;  ///< which springs of a particle exist, for hashes
 
-  std::size_t block_of_plane(std::int32_t k) const;
-  double state_bytes(const Model& model) const;  ///< displacement, velocity, alive springs, materials, weights: exactly what is allocated
-  double scratch_bytes(const Model& model) const;
+  /// Fills the block's arrays of what exists: springs, materials. Displacements and velocities are there already.
+  virtual void fill(Block& block) const = 0;
+  /// Copies what the block sees of others, and of itself at the step's start.
+  virtual void exchange(const std::vector<Block>& all, Block& block) const = 0;
+  /// What a kernel is told of the arrangement.
+  virtual void describe(const Block& block, KernelRequest& request) const = 0;
+
+  virtual double state_bytes() const = 0;           ///< displacement, velocity, springs, materials, weights: exactly what is allocated
+  virtual std::size_t scratch_numbers() const = 0;  ///< of one block
+  double scratch_bytes() const { return static_cast<double>(scratch_numbers() * sizeof(double) * blocks.size()); }
+
+ protected:
+  explicit Layout(const Model& model) : model_(model) {}
+
+  const Model& model_;
 };
 
-/// Bits of the sites of row (j, k): which springs leave each site, and whether it holds a particle. Element t belongs to site row.begin + t.
-void fill_alive(const Body& body, std::int32_t j, std::int32_t k, const Row& row, std::uint16_t* alive);
+std::unique_ptr<Layout> make_layout(const Model& model, int threads);
 
 }  // namespace hyperlattice

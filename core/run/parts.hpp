@@ -13,7 +13,7 @@ inline double component(Vec3 v, int c) { return c == 0 ? v.x : c == 1 ? v.y : v.
 
 struct Simulation::Parts {
   const Model& model;
-  Layout layout;
+  std::unique_ptr<Layout> layout;
   std::vector<Block> blocks;
   std::vector<double> masses, alphas;  ///< of each material
   int threads = 1;
@@ -34,13 +34,12 @@ struct Simulation::Parts {
   Parts(const Model& model, int threads);
 
   // build.cpp
-  void allocate(Block& block, const BlockLayout& planned) const;
+  void allocate(Block& block, std::size_t number) const;
   void add_supports(Block& block) const;
 
   // step.cpp
   void step(double dt);
   KernelRequest request_for(Block& block, double back, double forward) const;
-  void exchange(Block& block) const;
   void prepare_supports(Block& block, double step) const;
   void start(double step);
 
@@ -57,32 +56,14 @@ struct Simulation::Parts {
   Balance balance();
 
   // Where things are.
-  bool owns(const Block& block, std::int32_t k) const { return k >= block.layout->first && k < block.layout->first + block.layout->planes; }
-  Site first_site_of_row(const Block& block, std::size_t row) const {
-    const auto rows = static_cast<std::size_t>(model.body.grid.sites[1]);
-    return {block.rows[row].begin, static_cast<std::int32_t>(row % rows),
-            block.layout->first - model.body.reach + static_cast<std::int32_t>(row / rows)};
-  }
-  std::size_t row_of(const Block& block, Site site) const {
-    return static_cast<std::size_t>(site.k - block.layout->first + model.body.reach) * static_cast<std::size_t>(model.body.grid.sites[1]) +
-           static_cast<std::size_t>(site.j);
-  }
-  std::uint64_t place_of(const Block& block, Site site) const {
-    const Row& row = block.rows[row_of(block, site)];
-    return row.start + static_cast<std::uint64_t>(site.i - row.begin);
-  }
   std::pair<const Block*, std::uint64_t> at(Particle particle) const {
-    const Site site = model.body.site(particle);
-    const Block& block = blocks[layout.block_of_plane(site.k)];
-    return {&block, place_of(block, site)};
+    const Place place = layout->place(particle);
+    return {&blocks[place.block], place.index};
   }
-  /// Calls visit(block, place, first particle, count) for every run, in the particles' order.
+  /// Calls visit(block, index, first particle, count) for all particles in their order.
   template <class Visit>
   void for_runs(const Visit& visit) const {
-    for (const Run& run : model.body.runs) {
-      const Block& block = blocks[layout.block_of_plane(run.k)];
-      visit(block, place_of(block, {run.begin, run.j, run.k}), run.first, static_cast<std::uint64_t>(run.end - run.begin));
-    }
+    layout->for_stretches([&](const Stretch& stretch) { visit(blocks[stretch.block], stretch.index, stretch.first, stretch.count); });
   }
 };
 

@@ -61,6 +61,8 @@ bool SnapshotSource::compute(std::string_view name, Values& values) {
     values.numbers.assign(model_.body.particles, 0.0);
   else if (name == "material")
     values.numbers.assign(model_.material_of.begin(), model_.material_of.end());
+  else if (name == "source")
+    values.numbers.assign(model_.body.listed.source.begin(), model_.body.listed.source.end());
   else if (name == "broken_open")
     count_broken(values.numbers, true);
   else if (name == "broken_closed")
@@ -86,13 +88,10 @@ void SnapshotSource::compute_damage(std::vector<double>& numbers) {
   const Body& body = model_.body;
   if (springs_of_.empty()) {
     springs_of_.assign(body.particles, 0);
-    for (const Run& run : body.runs)
-      for (const Neighbour& to : body.neighbours)
-        for (const Range& range : body.springs_of(run.j, run.k, to))
-          for (std::int32_t i = std::max(run.begin, range.begin); i < std::min(run.end, range.end); ++i) {
-            ++springs_of_[body.at({i, run.j, run.k})];
-            ++springs_of_[body.at({i + to.dx, run.j + to.dy, run.k + to.dz})];
-          }
+    body.for_springs([this](Particle a, Particle b, std::uint32_t) {
+      ++springs_of_[a];
+      ++springs_of_[b];
+    });
   }
   numbers.assign(body.particles, 0.0);
   for (const Breakage& breakage : simulation_.breakages()) {

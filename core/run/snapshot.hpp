@@ -39,7 +39,7 @@ class SnapshotSource {
   Snapshot snapshot_;
   std::vector<double> positions_;
   std::map<std::string, Values, std::less<>> fields_;
-  std::vector<std::uint8_t> springs_of_;  ///< of each particle at the start; filled when damage is first asked for
+  std::vector<std::uint32_t> springs_of_;  ///< of each particle at the start; filled when damage is first asked for
   std::exception_ptr thrown_;
 };
 

@@ -120,13 +120,13 @@ std::uint64_t Simulation::hash() const {
         std::memcpy(&bits, &block.velocity[c][n], sizeof bits);
         add(bits);
       }
-      add(block.alive[n]);
+      add(parts_->layout->alive_bits(block, n));
     }
   });
   return hash;
 }
 
-double Simulation::bytes() const { return parts_->layout.state_bytes(parts_->model); }
-double Simulation::scratch_bytes() const { return parts_->layout.scratch_bytes(parts_->model); }
+double Simulation::bytes() const { return parts_->layout->state_bytes(); }
+double Simulation::scratch_bytes() const { return parts_->layout->scratch_bytes(); }
 
 }  // namespace hyperlattice

@@ -22,7 +22,7 @@ void Simulation::Parts::step(double dt) {
   {
 #pragma omp for schedule(static, 1)
     for (std::size_t b = 0; b < blocks.size(); ++b) {
-      exchange(blocks[b]);
+      layout->exchange(blocks, blocks[b]);
       prepare_supports(blocks[b], dt);
     }
 #pragma omp for schedule(static, 1)
@@ -49,9 +49,7 @@ void Simulation::Parts::step(double dt) {
 
 KernelRequest Simulation::Parts::request_for(Block& block, double back, double forward) const {
   KernelRequest request;
-  request.rows_per_plane = model.body.grid.sites[1];
-  request.planes = block.layout->planes;
-  request.reach = model.body.reach;
+  layout->describe(block, request);
   request.rows = block.rows.data();
   for (int c = 0; c < model.degrees_of_freedom; ++c) {
     request.displacement[c] = block.displacement[c].get();
@@ -59,8 +57,6 @@ KernelRequest Simulation::Parts::request_for(Block& block, double back, double f
   }
   request.alive = block.alive.get();
   request.material = block.material.get();
-  request.weight_sets = block.layout->weight_sets.data();
-  request.weights = layout.weights.values();
   request.neighbours = model.neighbours;
   request.springs = model.springs.data();
   request.mass = masses.data();
@@ -74,24 +70,9 @@ KernelRequest Simulation::Parts::request_for(Block& block, double back, double f
   request.acceleration = model.acceleration;
   request.supports = block.supports.data();
   request.scratch = block.scratch.get();
-  request.scratch_width = layout.scratch_width;
   request.damped_work = block.damped_work.data();
   request.sums = block.sums.data();
   return request;
-}
-
-/// Fills the ghost planes from the blocks that own them.
-void Simulation::Parts::exchange(Block& block) const {
-  const std::int32_t first = block.layout->first, end = first + block.layout->planes;
-  for (std::int32_t distance = 1; distance <= model.body.reach; ++distance)
-    for (const std::int32_t k : {first - distance, end + distance - 1}) {
-      if (k < 0 || k >= model.body.grid.sites[2]) continue;
-      const Block& owner = blocks[layout.block_of_plane(k)];
-      const std::uint64_t to = block.layout->plane_begin(model.body, k), from = owner.layout->plane_begin(model.body, k);
-      const std::uint64_t count = block.layout->plane_end(model.body, k) - to;
-      for (int c = 0; c < model.degrees_of_freedom; ++c) std::copy_n(owner.displacement[c].get() + from, count, block.displacement[c].get() + to);
-      if (model.choice.breakable && k < first) std::copy_n(owner.alive.get() + from, count, block.alive.get() + to);
-    }
 }
 
 /// External forces at the present time, and the velocities that prescribed particles have during a step of that length.

@@ -52,6 +52,8 @@ Json example_value(const Option& option, std::size_t axis) {
       return true;
     case OptionKind::text:
       return "text";
+    case OptionKind::file:
+      return std::string(option.name) + ".csv";
     case OptionKind::choice:
       return option.choices.front();
     case OptionKind::vector: {

@@ -29,6 +29,8 @@ std::string value_expectation(const Option& option) {
       return "true or false";
     case OptionKind::text:
       return "a text";
+    case OptionKind::file:
+      return "the name of a file, relative to the scene's folder";
     case OptionKind::choice:
       return "one of " + names(option);
     case OptionKind::vector:

@@ -11,7 +11,7 @@ namespace hyperlattice {
 
 namespace {
 
-constexpr std::string_view kind_names[] = {"number", "integer", "boolean", "text", "choice", "vector", "numbers", "texts", "shape", "region"};
+constexpr std::string_view kind_names[] = {"number", "integer", "boolean", "text", "choice", "vector", "numbers", "texts", "shape", "region", "file"};
 
 std::string fallback_text(const Option& option) {
   if (!option.fallback.empty()) return fmt::format("`{}`", option.fallback);

@@ -31,8 +31,8 @@ bool inverted(const Region& region) { return region.low.x > region.high.x || reg
 
 }  // namespace
 
-RegionReader::RegionReader(const Json& named, Regions& regions, Faults& faults, std::deque<std::string>& texts)
-    : named_(named), regions_(regions), faults_(faults), texts_(texts) {}
+RegionReader::RegionReader(const Json& named, Regions& regions, Faults& faults, std::deque<std::string>& texts, std::filesystem::path folder)
+    : named_(named), regions_(regions), faults_(faults), texts_(texts), folder_(std::move(folder)) {}
 
 void RegionReader::read_named(Json& resolved) {
   for (const auto& item : named_.items()) {

@@ -37,6 +37,7 @@ Json value_schema(const Option& option) {
     case OptionKind::boolean:
       return {{"type", "boolean"}};
     case OptionKind::text:
+    case OptionKind::file:
       return {{"type", "string"}};
     case OptionKind::choice:
       return choices(option);

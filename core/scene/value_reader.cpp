@@ -109,6 +109,15 @@ bool read_value(const Option& option, const Json& given, const std::string& poin
       if (!given.is_string()) return wrong();
       plain.text = reading.texts.emplace_back(given.get<std::string>());
       return true;
+    case OptionKind::file: {
+      if (!given.is_string()) return wrong();
+      const std::filesystem::path file = std::filesystem::absolute(reading.regions.folder() / given.get<std::string>()).lexically_normal();
+      std::error_code error;
+      if (!std::filesystem::is_regular_file(file, error)) return wrong("; there is no file " + file.string());
+      plain.text = reading.texts.emplace_back(file.string());
+      resolved = file.string();
+      return true;
+    }
     case OptionKind::choice:
       plain.integer = choice_of(option, given);
       if (plain.integer < 0) return wrong(given.is_string() ? did_you_mean(given.get_ref<const std::string&>(), names_of(option)) : "");

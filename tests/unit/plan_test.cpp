@@ -55,8 +55,8 @@ TEST(Plan, cells_cost_little_and_whole_particles_nothing) {
 
     double sites = 0, vectors = 0;
     std::set<std::uint32_t> sets;
-    const Layout layout(model, threads);
-    for (const BlockLayout& block : layout.blocks) {
+    const auto layout = make_layout(model, threads);
+    for (const BlockLayout& block : layout->blocks) {
       sites += static_cast<double>(block.sites);
       vectors += static_cast<double>(block.weight_sets.size());
       sets.insert(block.weight_sets.begin(), block.weight_sets.end());

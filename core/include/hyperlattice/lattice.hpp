@@ -1,5 +1,5 @@
 // A lattice: where particles sit and which of them springs join. A structured lattice is a box of sites with runs of particles along x,
-// and one short list of neighbours that every site shares; springs are never listed.
+// and one short list of neighbours that every site shares; springs are never listed. A listed lattice names every particle and every spring.
 #pragma once
 
 #include <hyperlattice/component.hpp>
@@ -35,13 +35,49 @@ struct Grid {
   const Shape* shape = nullptr;  ///< the solid that was filled, as it came in the options; null: none
 };
 
-/// Receives a structured lattice: the grid once, then the runs of particles (boundary cells: of cells) in the order z, y, x.
+/// A base spring between two particles of a list.
+struct ListedSpring {
+  std::uint32_t a = 0, b = 0;
+  double stiffness = 1;  ///< over k, of the base spring and of the cross springs beside it
+};
+
+/// A lattice that is a list: particles anywhere, joined by the springs named.
+struct PointList {
+  double spacing = 0;            ///< l: a typical distance of neighbours, metres
+  double site_volume = 0;        ///< volume of one whole particle, m3
+  double membrane_distance = 0;  ///< Delta, metres
+  std::span<const Vec3> positions;
+  std::span<const double> volumes;  ///< m3, one a particle; none: all are whole
+  std::span<const ListedSpring> springs;
+  const Shape* shape = nullptr;  ///< the solid that was filled, as it came in the options; null: none
+};
+
+/// A spring of a periodic sample, from particle a to particle b or to one of b's images.
+struct SampleSpring {
+  std::uint32_t a = 0, b = 0;
+  Vec3 rest;             ///< metres
+  double stiffness = 1;  ///< over k
+};
+
+/// A piece of an endless body of the same make as the list, repeated in all directions: what its elastic constants are found from.
+struct PeriodicSample {
+  std::uint32_t particles = 0;
+  double volume = 0;  ///< m3
+  std::span<const SampleSpring> springs;
+};
+
+/// Receives a lattice. A structured one: the grid once, then the runs of particles (boundary cells: of cells) in the order z, y, x. A listed one:
+/// its points once, and a sample if there is one.
 struct LatticeSink {
   void* self = nullptr;
   void (*receive_grid)(void* self, const Grid& grid) = nullptr;
   void (*receive_run)(void* self, std::int32_t j, std::int32_t k, std::int32_t begin, std::int32_t end) = nullptr;
+  void (*receive_points)(void* self, const PointList& points) = nullptr;
+  void (*receive_sample)(void* self, const PeriodicSample& sample) = nullptr;
 
   void grid(const Grid& g) const { receive_grid(self, g); }
+  void points(const PointList& list) const { receive_points(self, list); }
+  void sample(const PeriodicSample& piece) const { receive_sample(self, piece); }
   /// Particles at sites begin <= i < end of row (j, k); with boundary cells, the cells whose low corners these sites are.
   void run(std::int32_t j, std::int32_t k, std::int32_t begin, std::int32_t end) const { receive_run(self, j, k, begin, end); }
 };

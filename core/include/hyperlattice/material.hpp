@@ -37,12 +37,21 @@ struct MaterialConstants {
   }
 };
 
+/// Elastic constants of one layer, Pa; of a lattice that is not cubic, means over the axes.
+struct ElasticConstants {
+  double C11 = 0, C12 = 0, C44 = 0;
+
+  double young() const { return (C11 - C12) * (C11 + 2 * C12) / (C11 + C12); }  ///< along [100]
+  double poisson() const { return C12 / (C11 + C12); }                          ///< nu', pull along [100]
+};
+
 /// What is special in a kernel; everything not asked for costs no instruction.
 struct KernelChoice {
   enum class Membrane : std::uint32_t { none, clamped, free };
   Membrane membrane = Membrane::none;  ///< none, clamped: 3 degrees of freedom; free: 4
   bool breakable = false;              ///< a failure criterion is present
   bool mixed = false;                  ///< more than one material
+  bool listed = false;                 ///< a list of particles and springs, not a grid
 };
 
 /// Moves a block of particles by one step, or measures it. Null members: this library has no such kernel.

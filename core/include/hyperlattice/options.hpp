@@ -19,7 +19,7 @@
 
 namespace hyperlattice {
 
-enum class OptionKind : std::uint32_t { number, integer, boolean, text, choice, vector, numbers, texts, shape, region };
+enum class OptionKind : std::uint32_t { number, integer, boolean, text, choice, vector, numbers, texts, shape, region, file };
 
 /// A validated value in SI units, handed by the core to an option's setter. Texts and shapes outlive the component.
 struct OptionValue {
@@ -207,6 +207,11 @@ class Schema {
   Schema& choices(const std::string_view (&names)[N]) {
     if (last().kind == OptionKind::text) last().kind = OptionKind::choice;
     last().choices = names;
+    return *this;
+  }
+  /// The text names a file: relative to the scene's folder, it must exist. The component gets its whole path.
+  Schema& file() {
+    last().kind = OptionKind::file;
     return *this;
   }
   /// A check across options, run when each option alone is valid.

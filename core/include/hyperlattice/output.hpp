@@ -22,13 +22,15 @@ struct Snapshot {
   bool (*get_field)(void* self, std::string_view name, Field& field) noexcept = nullptr;
 
   /// "displacement" (3, m), "velocity" (3, m/s), "height" (1, m: displacement in the fourth dimension), "material" (1),
+  /// "source" (1: of a listed lattice, the particle's place in the lattice's own order, from 0),
   /// "broken_open", "broken_closed" (1: broken springs of the particle that are open, closed), "damage" (1: broken share of its springs).
   /// False: no such field in this run.
   bool field(std::string_view name, Field& out) const { return get_field(self, name, out); }
 };
 
 /// Names that Snapshot::field knows, for options that list fields.
-inline constexpr std::string_view field_names[] = {"displacement", "velocity", "height", "material", "broken_open", "broken_closed", "damage"};
+inline constexpr std::string_view field_names[] = {"displacement", "velocity",    "height",        "material",
+                                                   "source",       "broken_open", "broken_closed", "damage"};
 
 /// Where output goes and what body it is about.
 struct OutputContext {

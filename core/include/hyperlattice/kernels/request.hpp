@@ -1,4 +1,4 @@
-// What a kernel is given: one block of planes of a structured lattice, and what to do with it. Plain data only.
+// What a kernel is given: one block of a body, and what to do with it. Plain data only.
 #pragma once
 
 #include <hyperlattice/lattice.hpp>
@@ -53,8 +53,8 @@ struct Support {
 /// A spring above its alarm, reported during a step.
 struct AlarmRow {
   std::uint32_t row = 0;                ///< index in KernelRequest::rows
-  std::uint32_t neighbour = 0;          ///< which spring
-  std::span<const std::int32_t> sites;  ///< i of each
+  std::uint32_t neighbour = 0;          ///< which spring; of a listed lattice: which slot
+  std::span<const std::int32_t> sites;  ///< i of each; of a listed lattice: the place in the row
   std::span<const double> elongation;   ///< metres
 };
 
@@ -66,6 +66,18 @@ struct RowSums {
   Vec3 momentum;            ///< of the mean velocity, N s
   double potential = 0;     ///< work of the body acceleration since the start: sum m a.u, J
   double damped = 0;        ///< energy that damping took in the half step before now, J
+};
+
+/// The springs of a block of a listed lattice. Particles stand in vectors of `lanes`; a vector has slots, each with one spring of each of its
+/// particles. A spring stands twice, once with each of its ends, so that every particle sums the forces on itself.
+struct ListedSlots {
+  const std::uint32_t* first = nullptr;      ///< of each vector: its slots are first[v] .. first[v + 1]
+  const std::uint32_t* neighbour = nullptr;  ///< [slot][lane] place of the other end in `around`
+  const double* rest = nullptr;              ///< [slot][4][lane] rest vector x y z to the other end, and its length, metres
+  const double* stiffness = nullptr;         ///< [slot][2][lane] of base and cross spring, N/m; null: the same for all, KernelRequest::springs
+  const double* alarm = nullptr;             ///< [slot][lane] metres; null: nothing breaks
+  std::uint8_t* alive = nullptr;             ///< [slot] bit a lane: the spring exists
+  const double* around = nullptr;            ///< [place][4] displacements and heights at the step's start: the block's own places, then its ghosts
 };
 
 struct KernelRequest {
@@ -82,6 +94,7 @@ struct KernelRequest {
   /// for each neighbour `lanes` shares of a whole spring (force and energy, cross springs' too). Sites without a particle weigh 1.
   const std::uint32_t* weight_sets = nullptr;
   const double* weights = nullptr;
+  ListedSlots listed;  ///< of a listed lattice: one plane, no ghost planes, a row for each stretch of particles, whose begin is 0
 
   // the body
   std::span<const NeighbourGeometry> neighbours;

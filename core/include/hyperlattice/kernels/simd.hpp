@@ -34,6 +34,11 @@ inline Mask lanes_with(const std::uint16_t* from, std::uint16_t bit) {
   std::memcpy(&bits, from, sizeof bits);
   return __builtin_convertvector(bits & bit, Mask) != 0;
 }
+/// Lanes whose bit in the byte is set.
+inline Mask lanes_of(std::uint8_t byte) {
+  constexpr Mask bit{1, 2, 4, 8, 16, 32, 64, 128};
+  return ((Mask{} + byte) & bit) != 0;
+}
 inline Pack where(Mask mask, Pack pack) { return reinterpret_cast<Pack>(mask & reinterpret_cast<Mask>(pack)); }  // 0 elsewhere
 inline Pack select(Mask mask, Pack yes, Pack no) {
   return reinterpret_cast<Pack>((mask & reinterpret_cast<Mask>(yes)) | (~mask & reinterpret_cast<Mask>(no)));

@@ -23,8 +23,8 @@ struct Response {
 };
 
 /// Force and, if asked, energy of springs whose squared length grew by q from rest_length^2.
-template <class Law, bool Energy>
-inline Response respond(Pack stiffness, double rest_length, Pack q) {
+template <class Law, bool Energy, class Length>  // one length for all, or one a lane
+inline Response respond(Pack stiffness, Length rest_length, Pack q) {
   const Pack length = root(rest_length * rest_length + q);
   const Pack inverse = 1.0 / (length * (length + rest_length));
   Response response{{}, {}, q};

@@ -6,7 +6,7 @@
 // them: sums do not depend on where the body is cut, hence not on the number of threads.
 #pragma once
 
-#include <hyperlattice/kernels/springs.hpp>
+#include <hyperlattice/kernels/listed.hpp>
 
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
@@ -118,9 +118,15 @@ template <class Law>
 KernelSet kernels_of(const KernelChoice& choice, const char* instructions) {
   KernelSet set;
   const auto with = [&]<Membrane membrane, bool Breakable, bool Mixed>() {
-    set.step = &Sweep<Law, membrane, Breakable, Mixed, Task::step>::run;
-    set.step_damped = &Sweep<Law, membrane, Breakable, Mixed, Task::step_damped>::run;
-    set.measure = &Sweep<Law, membrane, false, Mixed, Task::measure>::run;
+    const auto with_topology = [&]<template <class, Membrane, bool, bool, Task> class Topology>() {
+      set.step = &Topology<Law, membrane, Breakable, Mixed, Task::step>::run;
+      set.step_damped = &Topology<Law, membrane, Breakable, Mixed, Task::step_damped>::run;
+      set.measure = &Topology<Law, membrane, false, Mixed, Task::measure>::run;
+    };
+    if (choice.listed)
+      with_topology.template operator()<ListedSweep>();
+    else
+      with_topology.template operator()<Sweep>();
   };
   const auto with_membrane = [&]<Membrane membrane>() {
     if (choice.breakable && choice.mixed)

@@ -1,0 +1,71 @@
+// What a region means in terms of points and faces, whatever these are in a body. `Places` answers for one kind of body:
+//   Point, Face                                         a particle; an open piece of the surface
+//   bool in_solid(region, point), has_face(region, point), is_outermost(point, direction)
+//   bool is_open(region, face)                          whether the face is open to the side that the region means
+//   void for_points(face, visit)                        the particles that the face belongs to
+#pragma once
+
+#include <geometry/region.hpp>
+
+#include <algorithm>
+
+namespace hyperlattice {
+
+template <class Places>
+class Meaning {
+ public:
+  using Point = typename Places::Point;
+  using Face = typename Places::Face;
+
+  explicit Meaning(const Places& places) : places_(places) {}
+
+  bool holds(const Region& region, const Point& point) const {
+    const auto part_holds = [&](const auto& part) { return holds(*part, point); };
+    switch (region.kind) {
+      case Region::Kind::all:
+        return true;
+      case Region::Kind::solid:
+        return places_.in_solid(region, point);
+      case Region::Kind::surface:
+      case Region::Kind::inner_surface:
+      case Region::Kind::outer_surface:
+        return places_.has_face(region, point);
+      case Region::Kind::face:
+        return places_.is_outermost(point, region.direction);
+      case Region::Kind::set_union:
+        return std::any_of(region.parts.begin(), region.parts.end(), part_holds);
+      case Region::Kind::intersection:
+        return std::all_of(region.parts.begin(), region.parts.end(), part_holds);
+      case Region::Kind::difference:
+        return part_holds(region.parts.front()) && std::none_of(region.parts.begin() + 1, region.parts.end(), part_holds);
+    }
+    return false;
+  }
+
+  /// Whether the region means the open face.
+  bool means(const Region& region, const Face& face) const {
+    const auto part_means = [&](const auto& part) { return means(*part, face); };
+    const auto part_holds = [&](const auto& part) { return holds_all(*part, face); };
+    switch (region.kind) {
+      case Region::Kind::set_union:
+        return std::any_of(region.parts.begin(), region.parts.end(), part_means);
+      case Region::Kind::intersection:
+        return std::all_of(region.parts.begin(), region.parts.end(), part_means);
+      case Region::Kind::difference:
+        return part_means(region.parts.front()) && std::none_of(region.parts.begin() + 1, region.parts.end(), part_holds);
+      default:
+        return places_.is_open(region, face) && holds_all(region, face);
+    }
+  }
+
+ private:
+  bool holds_all(const Region& region, const Face& face) const {
+    bool all = true;
+    places_.for_points(face, [&](const Point& point) { all = all && holds(region, point); });
+    return all;
+  }
+
+  const Places& places_;
+};
+
+}  // namespace hyperlattice

@@ -1,0 +1,200 @@
+#include <run/block.hpp>
+#include <run/grid_layout.hpp>
+
+#include <algorithm>
+
+namespace hyperlattice {
+namespace {
+
+std::int32_t material_of_row(const Model& model, std::int32_t j, std::int32_t k) {
+  if (model.material_of.empty()) return 0;
+  std::int32_t found = -2;
+  const auto look = [&](std::span<const Run> runs) {
+    for (const Run& run : runs)
+      for (std::int32_t i = run.begin; i < run.end; ++i) {
+        const std::int32_t material = model.material_of[run.first + static_cast<Particle>(i - run.begin)];
+        if (found != -2 && found != material) return false;
+        found = material;
+      }
+    return true;
+  };
+  if (!look(model.body.row(j, k))) return -1;
+  for (const Neighbour& to : model.body.neighbours)
+    if (!look(model.body.row(j + to.dy, k + to.dz))) return -1;
+  return found;
+}
+
+std::vector<std::uint64_t> particles_per_plane(const Body& body) {
+  std::vector<std::uint64_t> counts(static_cast<std::size_t>(body.grid.sites[2]), 0);
+  for (const Run& run : body.runs) counts[static_cast<std::size_t>(run.k)] += static_cast<std::uint64_t>(run.end - run.begin);
+  return counts;
+}
+
+/// Bits of the sites of row (j, k): which springs leave each site, and whether it holds a particle. Element t belongs to site row.begin + t.
+void fill_alive(const Body& body, std::int32_t j, std::int32_t k, const Row& row, std::uint16_t* alive) {
+  for (const Run& run : body.row(j, k))
+    for (std::int32_t i = run.begin; i < run.end; ++i) alive[i - row.begin] = particle_bit;
+  for (std::uint32_t n = 0; n < body.neighbours.size(); ++n)
+    for (const Range& range : body.springs_of(j, k, body.neighbours[n]))
+      for (std::int32_t i = range.begin; i < range.end; ++i) alive[i - row.begin] = static_cast<std::uint16_t>(alive[i - row.begin] | 1u << n);
+}
+
+std::uint64_t padded(const Row& row) { return static_cast<std::uint64_t>((row.end - row.begin + lanes - 1) / lanes * lanes); }
+
+}  // namespace
+
+GridLayout::GridLayout(const Model& model, int threads) : Layout(model) {
+  const Body& body = model.body;
+  const std::int32_t planes = body.grid.sites[2];
+  const std::uint64_t wanted = static_cast<std::uint64_t>(std::clamp(threads, 1, planes));
+  // A neighbour's row may begin left or right of any row: reading there must stay inside the array.
+  const std::uint64_t padding = static_cast<std::uint64_t>(body.grid.sites[0] + 2 * scratch_margin + lanes - 1) / lanes * lanes;
+  scratch_width_ = (body.grid.sites[0] + 2 * scratch_margin + 2 * lanes - 1) / lanes * lanes;
+
+  const auto counts = particles_per_plane(body);
+  std::uint64_t before = 0;
+  std::int32_t first = 0;
+  for (std::uint64_t block = 0; block < wanted; ++block) {  // equal shares of the particles, at least one plane each
+    const auto rest = static_cast<std::int32_t>(wanted - block - 1);
+    std::int32_t next = first;
+    const std::uint64_t target = body.particles * (block + 1) / wanted;
+    do before += counts[static_cast<std::size_t>(next++)];
+    while (next < planes - rest && (rest == 0 || before + counts[static_cast<std::size_t>(next)] / 2 < target));
+    planes_.push_back({first, next - first});
+    blocks.push_back(make_block(planes_.back(), padding));
+    first = next;
+  }
+}
+
+BlockLayout GridLayout::make_block(Planes planes, std::uint64_t padding) {
+  const Body& body = model_.body;
+  BlockLayout block;
+  block.first_own = static_cast<std::uint32_t>(body.reach * body.grid.sites[1]);
+  block.last_own = block.first_own + static_cast<std::uint32_t>(planes.count * body.grid.sites[1]);
+  std::uint64_t place = padding;
+  for (std::int32_t k = planes.first - body.reach; k < planes.first + planes.count + body.reach; ++k)
+    for (std::int32_t j = 0; j < body.grid.sites[1]; ++j) {
+      Row row;
+      row.start = place;
+      const auto runs = body.row(j, k);
+      if (!runs.empty()) {
+        row.begin = runs.front().begin;
+        row.end = runs.back().end;
+        for (std::uint32_t n = 0; n < body.neighbours.size(); ++n)
+          if (!body.springs_of(j, k, body.neighbours[n]).empty()) row.neighbours |= 1u << n;
+        row.material = material_of_row(model_, j, k);
+        if (!body.cells.empty()) row.weights = block.weight_sets.size();
+        weights_.add_row(body, j, k, row, block.weight_sets);
+        place += padded(row);
+      }
+      block.rows.push_back(row);
+    }
+  block.sites = place + padding;
+  return block;
+}
+
+std::size_t GridLayout::block_of_plane(std::int32_t k) const {
+  std::size_t block = 0;
+  while (k >= planes_[block].first + planes_[block].count) ++block;
+  return block;
+}
+
+GridLayout::PlaneRange GridLayout::plane(std::size_t block, std::int32_t k) const {
+  const std::vector<Row>& rows = blocks[block].rows;
+  const std::uint32_t first = row_of(block, {0, 0, k});
+  const Row& last = rows[first + static_cast<std::uint32_t>(model_.body.grid.sites[1]) - 1];
+  return {rows[first].start, last.start + padded(last)};
+}
+
+std::uint32_t GridLayout::row_of(std::size_t block, Site site) const {
+  return static_cast<std::uint32_t>((site.k - planes_[block].first + model_.body.reach) * model_.body.grid.sites[1] + site.j);
+}
+
+Site GridLayout::first_site_of_row(std::size_t block, std::uint32_t row) const {
+  const auto rows = static_cast<std::uint32_t>(model_.body.grid.sites[1]);
+  return {blocks[block].rows[row].begin, static_cast<std::int32_t>(row % rows),
+          planes_[block].first - model_.body.reach + static_cast<std::int32_t>(row / rows)};
+}
+
+Place GridLayout::place(Particle particle) const {
+  const Site site = model_.body.site(particle);
+  Place found;
+  found.block = block_of_plane(site.k);
+  found.row = row_of(found.block, site);
+  found.site = site.i;
+  const Row& row = blocks[found.block].rows[found.row];
+  found.index = row.start + static_cast<std::uint64_t>(site.i - row.begin);
+  return found;
+}
+
+void GridLayout::for_stretches(const std::function<void(const Stretch&)>& visit) const {
+  for (const Run& run : model_.body.runs) {
+    const std::size_t block = block_of_plane(run.k);
+    const Row& row = blocks[block].rows[row_of(block, {run.begin, run.j, run.k})];
+    visit({block, row.start + static_cast<std::uint64_t>(run.begin - row.begin), run.first, static_cast<std::uint64_t>(run.end - run.begin)});
+  }
+}
+
+SpringEnds GridLayout::spring(std::size_t block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site) const {
+  Site here = first_site_of_row(block, row);
+  here.i = site;
+  const Neighbour& to = model_.body.neighbours[neighbour];
+  return {model_.body.at(here), model_.body.at({here.i + to.dx, here.j + to.dy, here.k + to.dz}), neighbour, true};
+}
+
+std::uint64_t GridLayout::alive_bits(const Block& block, std::uint64_t index) const { return block.alive[index]; }
+
+void GridLayout::fill(Block& block) const {
+  const Body& body = model_.body;
+  block.alive = AlignedArray<std::uint16_t>(block.layout->sites);
+  if (!model_.material_of.empty()) block.material = AlignedArray<std::uint8_t>(block.layout->sites);
+  for (std::uint32_t r = 0; r < block.rows.size(); ++r) {
+    const Row& row = block.rows[r];
+    if (row.begin == row.end) continue;
+    Site site = first_site_of_row(block.number, r);
+    fill_alive(body, site.j, site.k, row, block.alive.get() + row.start);
+    if (model_.material_of.empty()) continue;
+    for (; site.i < row.end; ++site.i)
+      if (const Particle particle = body.at(site); particle != Body::no_particle)
+        block.material[row.start + static_cast<std::uint64_t>(site.i - row.begin)] = model_.material_of[particle];
+  }
+}
+
+/// Fills the ghost planes from the blocks that own them.
+void GridLayout::exchange(const std::vector<Block>& all, Block& block) const {
+  const std::int32_t first = planes_[block.number].first, end = first + planes_[block.number].count;
+  for (std::int32_t distance = 1; distance <= model_.body.reach; ++distance)
+    for (const std::int32_t k : {first - distance, end + distance - 1}) {
+      if (k < 0 || k >= model_.body.grid.sites[2]) continue;
+      const Block& owner = all[block_of_plane(k)];
+      const std::uint64_t from = plane(owner.number, k).begin;
+      const PlaneRange to = plane(block.number, k);
+      const std::uint64_t count = to.end - to.begin;
+      for (int c = 0; c < model_.degrees_of_freedom; ++c)
+        std::copy_n(owner.displacement[c].get() + from, count, block.displacement[c].get() + to.begin);
+      if (model_.choice.breakable && k < first) std::copy_n(owner.alive.get() + from, count, block.alive.get() + to.begin);
+    }
+}
+
+void GridLayout::describe(const Block& block, KernelRequest& request) const {
+  request.rows_per_plane = model_.body.grid.sites[1];
+  request.planes = planes_[block.number].count;
+  request.reach = model_.body.reach;
+  request.weight_sets = block.layout->weight_sets.data();
+  request.weights = weights_.values();
+  request.scratch_width = scratch_width_;
+}
+
+double GridLayout::state_bytes() const {
+  const double a_site = 2.0 * model_.degrees_of_freedom * sizeof(double) + sizeof(std::uint16_t) + (model_.material_of.empty() ? 0.0 : 1.0);
+  double bytes = weights_.bytes();
+  for (const BlockLayout& block : blocks)
+    bytes += static_cast<double>(block.sites) * a_site + static_cast<double>(block.weight_sets.size() * sizeof(std::uint32_t));
+  return bytes;
+}
+
+std::size_t GridLayout::scratch_numbers() const {
+  return scratch_size(model_.body.grid.sites[1], model_.body.reach, scratch_width_, static_cast<std::size_t>(model_.degrees_of_freedom));
+}
+
+}  // namespace hyperlattice

@@ -1,0 +1,62 @@
+// Listed lattices for tests: the cubic block written out as a table of points and one of springs, and random blocks.
+#pragma once
+
+#include <support/scenes.hpp>
+
+namespace hyperlattice::test {
+
+/// Files of one test, removed with the object.
+class ListFiles {
+ public:
+  /// The block of block(), in the order x, y, z, which is not the program's.
+  ListFiles(int nx, int ny, int nz) {
+    static int count = 0;
+    const std::string name = "hyperlattice_list_" + std::to_string(::getpid()) + "_" + std::to_string(count++);
+    points = std::filesystem::temp_directory_path() / (name + "_points.csv");
+    springs = std::filesystem::temp_directory_path() / (name + "_springs.csv");
+    std::ofstream table(points), joints(springs);
+    table.precision(17);
+    table << "x,y,z\n";
+    joints << "a,b\n";
+    const auto number = [&](int i, int j, int k) { return (i * ny + j) * nz + k; };
+    for (int i = 0; i < nx; ++i)
+      for (int j = 0; j < ny; ++j)
+        for (int k = 0; k < nz; ++k) {
+          table << i + 0.5 << "," << j + 0.5 << "," << k + 0.5 << "\n";
+          for (const auto& [x, y, z] :
+               {std::array{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {1, -1, 0}, {1, 0, 1}, {1, 0, -1}, {0, 1, 1}, {0, 1, -1}}) {
+            const int a = i + x, b = j + y, c = k + z;
+            if (a >= 0 && a < nx && b >= 0 && b < ny && c >= 0 && c < nz) joints << number(a, b, c) << "," << number(i, j, k) << "\n";
+          }
+        }
+  }
+  ~ListFiles() {
+    std::filesystem::remove(points);
+    std::filesystem::remove(springs);
+  }
+  ListFiles(const ListFiles&) = delete;
+  ListFiles& operator=(const ListFiles&) = delete;
+
+  /// The stage of its lattice; `more` keys.
+  std::string lattice(const std::string& more = "") const {
+    return R"({ "type": "lattices.points", "points": ")" + points.string() + R"(", "springs": ")" + springs.string() +
+           R"(", "scale": "1 mm", "spacing": "1 mm")" + (more.empty() ? "" : ", " + more) + " }";
+  }
+
+  std::filesystem::path points, springs;
+};
+
+/// A scene of a lattice stage, a material's keys and more stages.
+inline std::string listed_scene(const std::string& lattice, const std::string& material, const std::string& stages = "", double young = 1e10) {
+  return R"({ "format": "hyperlattice/1", "pipeline": [)" + lattice + R"(, { "type": "materials.elastic", "density": 2500, "young": )" +
+         std::to_string(young) + ", " + material + " }" + (stages.empty() ? "" : ",\n" + stages) +
+         R"(, { "type": "solvers.explicit", "end_time": 1e-6 } ] })";
+}
+
+/// A random block of nx * ny * nz mm, spacing 1 mm.
+inline std::string random_lattice(int nx, int ny, int nz, const std::string& more = "") {
+  return R"({ "type": "lattices.random", "spacing": "1 mm", "shape": { "box": { "low": [0, 0, 0], "high": [)" + std::to_string(nx) + "e-3, " +
+         std::to_string(ny) + "e-3, " + std::to_string(nz) + "e-3] } }" + (more.empty() ? "" : ", " + more) + " }";
+}
+
+}  // namespace hyperlattice::test

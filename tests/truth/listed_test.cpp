@@ -1,0 +1,151 @@
+// Listed lattices: the cubic lattice written out as a list does what the structured one does, and what a body must keep is kept.
+#include <support/lists.hpp>
+
+#include <gtest/gtest.h>
+
+namespace {
+using namespace hyperlattice;
+using namespace hyperlattice::test;
+
+class ListedMembrane : public testing::TestWithParam<MembraneCase> {};
+const MembraneCase with_one_ratio[] = {{"none", R"("poisson": 0.25)"},
+                                       {"I", R"("membrane": "I", "lambda": 1.7)"},
+                                       {"III", R"("membrane": "III", "lambda": 2)"},
+                                       {"free", R"("membrane": "free", "k_alpha": 0.5, "k_beta": 1.5, "k_gamma": 1.5)"}};
+INSTANTIATE_TEST_SUITE_P(Membranes, ListedMembrane, testing::ValuesIn(with_one_ratio), [](const auto& info) { return std::string(info.param.name); });
+
+/// Without k_gamma, which a list has none of.
+std::string keys_for_list(const std::string& material) {
+  const auto gamma = material.find(R"(, "k_gamma")"), poisson = material.find(R"("poisson": 0.25)");
+  if (poisson != std::string::npos) return R"("membrane": "none")";
+  return material.substr(0, gamma);
+}
+
+/// The cubic block and the list of it, of the same stiffness.
+struct Twins {
+  std::unique_ptr<Plan> grid, list;
+
+  Twins(int nx, int ny, int nz, const std::string& material, const std::string& failure = "", const std::string& stages = "") {
+    const ListFiles files(nx, ny, nz);
+    grid = plan_of(block(nx, ny, nz, material + failure, stages));
+    const auto scene = [&](double young) { return listed_scene(files.lattice(), keys_for_list(material) + failure, stages, young); };
+    const double k = grid->model->materials[0].constants.base_stiffness;
+    list = plan_of(scene(1e10 * k / plan_of(scene(1e10))->model->materials[0].constants.base_stiffness));
+  }
+};
+
+void expect_same_motion(Simulation& a, Simulation& b, double scale) {
+  EXPECT_LT(distance(displacements(a), displacements(b)), 1e-11 * scale);
+  const Balance left = a.balance(), right = b.balance();
+  EXPECT_NEAR(left.stored, right.stored, 1e-10 * left.stored);
+  EXPECT_NEAR(left.kinetic, right.kinetic, 1e-10 * left.kinetic);
+  EXPECT_NEAR(left.injected, right.injected, 1e-10 * std::abs(left.injected) + 1e-14 * left.stored);
+}
+
+TEST_P(ListedMembrane, TheCubicLatticeAsAListMovesAsTheGrid) {
+  const Twins twins(5, 6, 7, GetParam().material, "", R"({ "type": "loads.gravity", "acceleration": [0, 0, -9.81] },
+    { "type": "loads.fixed", "on": "z_min" }, { "type": "loads.force", "on": { "box": { "low": [0, 0, 6e-3], "high": [1, 1, 1] } }, "total": [10, 0, 20] })");
+  const Model& model = *twins.grid->model;
+  ASSERT_TRUE(twins.list->model->body.is_listed());
+  ASSERT_EQ(twins.list->model->body.particles, model.body.particles);
+  ASSERT_EQ(twins.list->model->body.base_springs(), model.body.base_springs());
+  Simulation grid(model, 1), list(*twins.list->model, 2);
+  const std::size_t particles = model.body.particles;
+  const bool heights = model.degrees_of_freedom == 4;
+  for (Simulation* simulation : {&grid, &list}) {
+    simulation->set_damping(0.1);
+    simulation->set_displacements(noise(3 * particles, 1e-6, 1), heights ? noise(particles, 1e-6, 2) : std::vector<double>{});
+    for (int n = 0; n < 200; ++n) simulation->step(0.5 * model.critical_time_step);
+  }
+  expect_same_motion(grid, list, 1e-6);
+}
+
+TEST_P(ListedMembrane, TheSameSpringsBreakInAListAndInAGrid) {
+  const Twins twins(6, 5, 4, GetParam().material, R"(, "failure": { "type": "failures.elongation", "limit": 1.5e-6 })");
+  const Model& model = *twins.grid->model;
+  Simulation grid(model, 2), list(*twins.list->model, 3);
+  for (Simulation* simulation : {&grid, &list}) {
+    simulation->set_displacements(noise(3 * model.body.particles, 1e-6, 1), {});
+    for (int n = 0; n < 100; ++n) simulation->step(0.5 * model.critical_time_step);
+  }
+  expect_same_motion(grid, list, 1e-6);
+  const auto broken = [](const Simulation& simulation) {
+    std::vector<std::tuple<std::uint64_t, Particle, Particle>> all;
+    for (const Breakage& breakage : simulation.breakages()) all.emplace_back(breakage.step, breakage.a, breakage.b);
+    std::sort(all.begin(), all.end());
+    return all;
+  };
+  EXPECT_GT(broken(grid).size(), 50u);
+  EXPECT_EQ(broken(grid), broken(list));
+  EXPECT_EQ(grid.broken_open(), list.broken_open());
+  EXPECT_NEAR(grid.balance().dissipated_failure, list.balance().dissipated_failure, 1e-10 * grid.balance().dissipated_failure);
+}
+
+const MembraneCase random_cases[] = {
+    {"none", R"("membrane": "none")"}, {"I", R"("membrane": "I", "poisson": 0.2)"}, {"clamped", R"("membrane": "III", "lambda": 1)"}};
+class RandomBlock : public testing::TestWithParam<MembraneCase> {};
+INSTANTIATE_TEST_SUITE_P(Membranes, RandomBlock, testing::ValuesIn(random_cases), [](const auto& info) { return std::string(info.param.name); });
+
+TEST_P(RandomBlock, KeepsMomentumAndTheSchemesEnergy) {
+  const auto plan = plan_of(listed_scene(random_lattice(6, 5, 4), GetParam().material));
+  const Model& model = *plan->model;
+  Simulation simulation(model, 2);
+  simulation.set_displacements(noise(3 * model.body.particles, 1e-11, 1), {});
+  simulation.set_velocities(noise(3 * model.body.particles, 1e-11 / model.critical_time_step, 3), {});
+  const double step = 0.5 * model.critical_time_step;
+  simulation.step(step);
+  const Balance start = simulation.balance();
+  const double scale = std::sqrt(2 * start.kinetic_mean * model.materials[0].mass * static_cast<double>(model.body.particles));
+  for (int n = 0; n < 2000; ++n) simulation.step(step);
+  const Balance end = simulation.balance();
+  EXPECT_LT(norm(end.momentum - start.momentum), 1e-12 * scale);
+  EXPECT_NEAR((end.kinetic + end.stored) / (start.kinetic + start.stored), 1, 1e-6);
+}
+
+TEST_P(RandomBlock, HasTheSameBitsForAnyNumberOfThreads) {
+  const auto plan = plan_of(listed_scene(random_lattice(9, 8, 7),
+                                         std::string(GetParam().material) + R"(, "failure": { "type": "failures.elongation", "limit": 2e-6 })",
+                                         R"({ "type": "loads.gravity", "acceleration": [0, 0, -9.81] }, { "type": "loads.fixed", "on": "z_min" })"));
+  std::vector<std::uint64_t> hashes;
+  std::vector<double> energies;
+  std::vector<std::size_t> broken;
+  for (const int threads : {1, 2, 3, 7}) {
+    Simulation simulation(*plan->model, threads);
+    simulation.set_displacements(noise(3 * plan->model->body.particles, 1e-6, 1), {});
+    for (int n = 0; n < 200; ++n) simulation.step(0.5 * plan->model->critical_time_step);
+    hashes.push_back(simulation.hash());
+    const Balance balance = simulation.balance();
+    energies.push_back(balance.kinetic + balance.stored + balance.dissipated() + balance.injected);
+    broken.push_back(simulation.breakages().size());
+  }
+  EXPECT_GT(broken[0], 20u);
+  for (std::size_t n = 1; n < hashes.size(); ++n) {
+    EXPECT_EQ(hashes[n], hashes[0]);
+    EXPECT_EQ(energies[n], energies[0]);  // to the last bit
+    EXPECT_EQ(broken[n], broken[0]);
+  }
+}
+
+TEST_P(RandomBlock, IsStableUpToItsCriticalStep) {
+  const auto plan = plan_of(listed_scene(random_lattice(6, 6, 6), GetParam().material));
+  Simulation simulation(*plan->model, 1);
+  simulation.set_displacements(noise(3 * plan->model->body.particles, 1e-10, 1), {});
+  for (int n = 0; n < 3000; ++n) simulation.step(0.99 * plan->model->critical_time_step);
+  EXPECT_LT(largest(displacements(simulation)), 1e-8);
+  for (int n = 0; n < 3000; ++n) simulation.step(1.6 * plan->model->critical_time_step);  // the bound is a safe one, not a lax one
+  EXPECT_GT(largest(displacements(simulation)), 1e-3);
+}
+
+TEST_P(RandomBlock, EnergyBalancesWhenSpringsBreak) {
+  const auto plan = plan_of(
+      listed_scene(random_lattice(8, 6, 6), std::string(GetParam().material) + R"(, "failure": { "type": "failures.elongation", "limit": 1e-6 })",
+                   R"({ "type": "loads.velocity", "on": "x_max", "value": [1, 0, 0] }, { "type": "loads.fixed", "on": "x_min" })"));
+  Simulation simulation(*plan->model, 2);
+  const double step = 0.1 * plan->model->critical_time_step;
+  while (simulation.time() < 2e-5) simulation.step(step);
+  const Balance balance = simulation.balance();
+  EXPECT_GT(simulation.breakages().size(), 100u);
+  EXPECT_LT(std::abs(balance.relative_error()), 2e-4);
+}
+
+}  // namespace
