@@ -22,6 +22,12 @@ struct Builder {
       throw std::invalid_argument("the lattice's box has no sites");
     if (grid.neighbours.size() > max_neighbours || grid.spring_classes < 1 || grid.spring_classes > max_spring_classes)
       throw std::invalid_argument("the lattice has more neighbours or spring classes than a kernel can hold");
+    if (!(std::abs(dot(grid.basis[0], cross(grid.basis[1], grid.basis[2]))) > 1e-9))
+      throw std::invalid_argument("the lattice's basis does not span space");
+    if (grid.boundary == Boundary::cells && grid.basis != cubic_basis) throw std::invalid_argument("the lattice has boundary cells and is not cubic");
+    for (std::uint32_t c = 0; c < grid.spring_classes; ++c)
+      if (!(grid.class_stiffness[c] > 0 && std::isfinite(grid.class_stiffness[c])))
+        throw std::invalid_argument("the lattice has a class of springs without stiffness");
     body.grid = grid;
     body.neighbours.assign(grid.neighbours.begin(), grid.neighbours.end());
     body.grid.neighbours = body.neighbours;
@@ -57,6 +63,7 @@ struct Builder {
     if (body.particles == 0) throw std::invalid_argument("the lattice has no particles");
     end_rows();
     if (body.grid.boundary == Boundary::cells) take_corners();
+    find_box();
     count_springs();
   }
 
@@ -76,6 +83,16 @@ struct Builder {
       for (std::int32_t j = 0; j < body.grid.sites[1]; ++j)
         for (const Range& range : body.cells.sites(j, k)) run(j, k, range.begin, range.end);
     end_rows();
+  }
+
+  void find_box() {
+    body.lowest = body.highest = body.position(Particle{0});
+    for (const Run& run : body.runs)
+      for (const std::int32_t i : {run.begin, run.end - 1}) {
+        const Vec3 at = body.position(Site{i, run.j, run.k});
+        body.lowest = {std::min(body.lowest.x, at.x), std::min(body.lowest.y, at.y), std::min(body.lowest.z, at.z)};
+        body.highest = {std::max(body.highest.x, at.x), std::max(body.highest.y, at.y), std::max(body.highest.z, at.z)};
+      }
   }
 
   void count_springs() {

@@ -20,10 +20,11 @@ struct Body {
   std::uint64_t particles = 0;
   std::uint64_t springs[max_spring_classes] = {};
   std::int32_t reach = 1;  ///< planes that the farthest neighbour is away
-  Site low, high;          ///< first and last site of the box that the particles fill
+  Site low, high;          ///< first and last site of the box of sites that the particles fill
+  Vec3 lowest, highest;    ///< corners of the box in space that their places fill, metres
 
   Site site(Particle particle) const;
-  Vec3 position(Site site) const { return grid.origin + grid.spacing * Vec3{double(site.i), double(site.j), double(site.k)}; }  ///< at rest, metres
+  Vec3 position(Site site) const { return grid.origin + grid.spacing * combined(grid.basis, site.i, site.j, site.k); }  ///< at rest, metres
   Vec3 position(Particle particle) const { return position(site(particle)); }
   /// The particle at a site, or no_particle.
   Particle at(Site site) const;

@@ -46,6 +46,7 @@ struct View {
     };
     seen.region_open_areas = [](void* self, RegionId region) noexcept {
       View& view = *static_cast<View*>(self);
+      if (!Surfaces::knows(view.model.body)) view.empty = region;
       return view.particles(region).empty() ? std::span<const OpenArea>() : view.regions.open_areas(region);
     };
     seen.region_true_area = [](void* self, RegionId region) noexcept { return static_cast<View*>(self)->regions.true_area(region); };

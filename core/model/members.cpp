@@ -122,20 +122,8 @@ struct Reader {
   }
 
   bool is_outermost(Site site, int direction) const {
-    switch (direction) {
-      case 0:
-        return site.i == body.low.i;
-      case 1:
-        return site.i == body.high.i;
-      case 2:
-        return site.j == body.low.j;
-      case 3:
-        return site.j == body.high.j;
-      case 4:
-        return site.k == body.low.k;
-      default:
-        return site.k == body.high.k;
-    }
+    const Vec3 outward = face_normals[direction], farthest = direction % 2 == 0 ? body.lowest : body.highest;
+    return dot(body.position(site) - farthest, outward) > -1e-6 * body.grid.spacing;
   }
 };
 

@@ -2,6 +2,8 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+
 namespace hyperlattice {
 
 namespace {
@@ -11,6 +13,10 @@ bool is_surface(const Region& region) {
 }
 
 bool is_set(const Region& region) { return !region.parts.empty(); }
+
+bool needs_surface(const Region& region) {
+  return is_surface(region) || std::any_of(region.parts.begin(), region.parts.end(), [](const auto& part) { return needs_surface(*part); });
+}
 
 std::string text(Vec3 v) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z); }
 
@@ -86,11 +92,13 @@ Vec3 RegionIndex::centre(RegionId region) {
   return count == 0 ? sum : (1 / static_cast<double>(count)) * sum;
 }
 
-std::string RegionIndex::expected_particles(RegionId region) const {
+std::string RegionIndex::expected_particles(RegionId region) {
+  if (!Surfaces::knows(body_) && (needs_surface(regions_[region]) || !particles(region).empty()))
+    return "a region that needs no surface, such as a solid; faces of lattices that are not cubic are not known yet";
   const std::string& name = regions_.name(region);
   const std::string named = name.starts_with('{') ? "" : fmt::format("\"{}\", ", name);  // one that the scene describes in place has no name
   return fmt::format("a region with particles; {}{}, holds none of the body's, which stand between {} and {} m", named, what(regions_[region]),
-                     text(body_.position(body_.low)), text(body_.position(body_.high)));
+                     text(body_.lowest), text(body_.highest));
 }
 
 }  // namespace hyperlattice

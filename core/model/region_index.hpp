@@ -19,7 +19,7 @@ class RegionIndex {
   Vec3 centre(RegionId region);             ///< of the shape behind the region; else of its particles
 
   /// What an empty region is and where the body is, for a fault: "a region with particles; "slab", a box ..., holds none ...".
-  std::string expected_particles(RegionId region) const;
+  std::string expected_particles(RegionId region);
 
  private:
   const Surfaces& surfaces();

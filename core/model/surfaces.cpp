@@ -14,6 +14,7 @@ Site beside(Site site, std::size_t face) { return {site.i + steps[face].i, site.
 
 Surfaces::Surfaces(const Body& body)
     : body_(body), widened_{body.grid.sites[0] + std::int64_t{2}, body.grid.sites[1] + std::int64_t{2}, body.grid.sites[2] + std::int64_t{2}} {
+  if (!knows(body)) return;
   const auto [nx, ny, nz] = widened_;
   const auto size = static_cast<std::size_t>(nx * ny * nz);
   std::vector<bool> blocked(size);  // a cell that is there, or reached by the flood
@@ -48,6 +49,7 @@ bool Surfaces::is_outside(Site site) const {
 
 OpenFaces Surfaces::faces(Site cell) const {
   OpenFaces open = 0;
+  if (!knows(body_)) return open;
   for (std::size_t face = 0; face < 6; ++face) {
     const Site other = beside(cell, face);
     const bool covered = body_.cells.empty() ? body_.at(other) != Body::no_particle : body_.cells.holds(other);
@@ -58,6 +60,7 @@ OpenFaces Surfaces::faces(Site cell) const {
 
 OpenFaces Surfaces::outer_faces(Site cell) const {
   OpenFaces open = 0;
+  if (!knows(body_)) return open;
   for (std::size_t face = 0; face < 6; ++face)
     if (is_outside(beside(cell, face))) open |= 1U << face;
   return open;

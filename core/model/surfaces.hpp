@@ -17,6 +17,9 @@ using OpenFaces = std::uint32_t;
 /// The open faces of cells. A cavity is an empty space that no path through faces joins to the outside.
 class Surfaces {
  public:
+  /// Whether a body's particles have cells with faces: not yet, if its lattice is not cubic. All faces then count as covered.
+  static bool knows(const Body& body) { return body.grid.basis == cubic_basis; }
+
   explicit Surfaces(const Body& body);     ///< floods the box of sites once
   OpenFaces faces(Site cell) const;        ///< all; of a cell that is there
   OpenFaces outer_faces(Site cell) const;  ///< to the outside

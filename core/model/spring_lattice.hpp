@@ -1,4 +1,4 @@
-// An endless lattice to be analysed: any lattice plugin's neighbours, with the springs that a material's constants make of them.
+// An endless structured lattice: any grid's neighbours, with the springs that a material's constants make of them.
 #pragma once
 
 #include <model/waves.hpp>
@@ -11,13 +11,11 @@ struct LatticeGeometry {
   double spacing = 0;            ///< l, metres
   double site_volume = 0;        ///< m3
   double membrane_distance = 0;  ///< Delta, metres
+  Basis basis = cubic_basis;     ///< in units of the spacing
+  std::array<double, max_spring_classes> class_stiffness{1, 1, 1, 1};
 };
 
 LatticeGeometry geometry_from(const Grid& grid);
-
-/// That of a lattice plugin with spacing 1 m, by building a small body. InputError at --lattice if there is no such lattice, or if it is not one
-/// that a spacing and a shape describe; OutsideError if its library is refused.
-LatticeGeometry load_lattice(Host& host, const std::string& type);
 
 class SpringLattice {
  public:
@@ -26,7 +24,7 @@ class SpringLattice {
   const LatticeGeometry& geometry() const { return geometry_; }
   double base_stiffness() const { return base_stiffness_; }  ///< k, N/m
   /// As the wave analysis sees it; points into this object.
-  InfiniteLattice endless() const { return {geometry_.neighbours, springs_, alpha_, geometry_.membrane_distance, membrane_}; }
+  InfiniteLattice endless() const;
 
  private:
   LatticeGeometry geometry_;
@@ -34,5 +32,8 @@ class SpringLattice {
   double base_stiffness_, alpha_;
   KernelChoice::Membrane membrane_;
 };
+
+/// What a material may ask about a geometry, which must outlive the facts; those of the body are left empty.
+LatticeFacts facts_of(const LatticeGeometry& geometry);
 
 }  // namespace hyperlattice
