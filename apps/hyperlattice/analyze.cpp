@@ -4,6 +4,7 @@
 #include <analyze/analysis.hpp>
 #include <analyze/crystal_report.hpp>
 #include <analyze/dispersion.hpp>
+#include <analyze/load_lattice.hpp>
 #include <base/gnuplot.hpp>
 
 #include <hyperlattice/files.hpp>

@@ -2,6 +2,7 @@
 #include "commands.hpp"
 
 #include <analyze/calibration_curve.hpp>
+#include <analyze/load_lattice.hpp>
 #include <base/gnuplot.hpp>
 
 #include <nlohmann/json.hpp>

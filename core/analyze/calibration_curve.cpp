@@ -53,7 +53,7 @@ Curve calibration_curve(const CurveChoice& choice, const CalibrationChoice& latt
   for (int n = 0; n < choice.points; ++n) {
     CurvePoint point;
     point.lambda = choice.from + (choice.to - choice.from) * n / (choice.points - 1);
-    const calibration::Ratios ratios = calibration::ratios(curve.membrane, point.lambda);
+    const calibration::Ratios ratios = ratios_of(geometry, curve.membrane, point.lambda);
     point.infinite = elastic_pair(geometry, ratios);
     if (virtual_test != nullptr) point.measured = virtual_test->measure(ratios);
     lambdas.push_back(point.lambda);

@@ -4,6 +4,8 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+
 namespace hyperlattice {
 
 namespace {
@@ -12,9 +14,19 @@ constexpr int intervals = 100;
 
 struct Direction {
   const char* name;
-  Vec3 to;
+  Vec3 along;
 };
-constexpr Direction directions[] = {{"100", {pi, 0, 0}}, {"110", {pi, pi, 0}}, {"111", {pi, pi, pi}}};
+constexpr Direction directions[] = {{"100", {1, 0, 0}}, {"110", {1, 1, 0}}, {"111", {1, 1, 1}}};
+
+/// Half of the shortest vector in a direction that gives the same waves as 0: from there on the curves run back. If there is none, as far as that of
+/// the cubic lattice.
+Vec3 turning_point(const Basis& basis, Vec3 along) {
+  constexpr int farthest = 12;
+  const auto is_whole = [](double number) { return std::abs(number - std::round(number)) < 1e-6; };
+  for (int times = 1; times <= farthest; ++times)
+    if (std::all_of(basis.begin(), basis.end(), [&](Vec3 a) { return is_whole(times * dot(a, along)); })) return times * pi * along;
+  return pi * along;
+}
 
 double frequency(double stiffness, double base_stiffness) {
   constexpr double rounding = 1e-13;
@@ -30,7 +42,8 @@ std::string dispersion_csv(const InfiniteLattice& lattice, double base_stiffness
   for (const char* sector : {"mirrored", "opposed"})
     for (int mode = 1; mode <= modes; ++mode) text += fmt::format(",{}_{}", sector, mode);
   text += '\n';
-  for (const auto& [name, to] : directions)
+  for (const auto& [name, along] : directions) {
+    const Vec3 to = turning_point(lattice.basis, along);
     for (int n = 0; n <= intervals; ++n) {
       const Vec3 q = (static_cast<double>(n) / intervals) * to;
       std::vector<double> row{q.x, q.y, q.z};
@@ -39,6 +52,7 @@ std::string dispersion_csv(const InfiniteLattice& lattice, double base_stiffness
       text += fmt::format("{},", name);
       append_row(text, row);
     }
+  }
   return text;
 }
 

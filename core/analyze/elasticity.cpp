@@ -36,17 +36,14 @@ LatticeElasticity elasticity(const SpringLattice& lattice) {
   e.C3 = both_layers * energy[ww][ww];
   e.C4 = both_layers * mean(energy[0][ww], energy[1][ww], energy[2][ww]);
 
-  const bool relaxes = endless.membrane == KernelChoice::Membrane::free;
-  const double unit = l / (k * lattice.geometry().site_volume);
-  for (std::size_t i = 0; i < 6; ++i)
-    for (std::size_t j = 0; j < 6; ++j) {
-      const double height = energy[i][ww] * energy[j][ww];  // what the free height takes away
-      e.stiffness[i][j] = unit * (energy[i][j] - (relaxes && height != 0 ? height / energy[ww][ww] : 0));
-    }
-  const auto& s = e.stiffness;
-  e.C11 = mean(s[0][0], s[1][1], s[2][2]);
-  e.C12 = mean(s[1][2], s[0][2], s[0][1]);
-  e.C44 = mean(s[3][3], s[4][4], s[5][5]);
+  const double unit = l / k;
+  e.stiffness = layer_stiffness(endless, lattice.geometry().site_volume);
+  for (auto& row : e.stiffness)
+    for (double& entry : row) entry *= unit;
+  const ElasticConstants constants = mean_constants(e.stiffness);
+  e.C11 = constants.C11;
+  e.C12 = constants.C12;
+  e.C44 = constants.C44;
 
   constexpr double rounding = 1e-9;
   e.cubic = cubic_distance(e) <= rounding * std::abs(e.C11);

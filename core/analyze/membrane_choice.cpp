@@ -83,7 +83,7 @@ ChosenMembrane resolve(const MembraneChoice& choice, const LatticeGeometry& geom
 
   if (with_lambda) {
     chosen.lambda = lambda_of(choice, *membrane, geometry, faults);
-    chosen.ratios = calibration::ratios(*membrane, *chosen.lambda);
+    chosen.ratios = ratios_of(geometry, *membrane, *chosen.lambda);
   } else if (*membrane == Membrane::free) {
     chosen.ratios = free_ratios(choice, geometry, faults);
   }

@@ -11,9 +11,8 @@ namespace hyperlattice {
 namespace {
 
 /// The cube as a scene, in units of its own: spacing 1 m, E 1 Pa.
-std::string scene_of(const VirtualTest::Options& options, const calibration::Ratios& ratios) {
+std::string scene_of(const VirtualTest::Options& options, const calibration::Ratios& ratios, double shortening) {
   const int n = options.particles;
-  const double shortening = options.strain * (n - 1);
   Json material = {{"type", "materials.elastic"}, {"young", 1}, {"density", 1}, {"membrane", "free"}};
   material["k_alpha"] = ratios.clamped ? Json("infinite") : Json(ratios.alpha);
   material["k_beta"] = ratios.beta;
@@ -82,7 +81,14 @@ class Cube {
 
 }  // namespace
 
-VirtualTest::VirtualTest(Host& host, Options options) : host_(host), options_(std::move(options)), base_young_(compress({}).young) {}
+VirtualTest::VirtualTest(Host& host, Options options)
+    : host_(host), options_(std::move(options)), length_(length_at_rest()), base_young_(compress({}).young) {}
+
+double VirtualTest::length_at_rest() const {
+  const auto scene = read_scene_text(scene_of(options_, {}, 0), host_);
+  const auto model = build_model(*scene);
+  return model->body.highest.z - model->body.lowest.z;
+}
 
 Measured VirtualTest::measure(const calibration::Ratios& ratios) {
   Measured measured = compress(ratios);
@@ -92,7 +98,7 @@ Measured VirtualTest::measure(const calibration::Ratios& ratios) {
 
 Measured VirtualTest::compress(const calibration::Ratios& ratios) {
   const auto start = std::chrono::steady_clock::now();
-  const auto scene = read_scene_text(scene_of(options_, ratios), host_);
+  const auto scene = read_scene_text(scene_of(options_, ratios, options_.strain * length_), host_);
   const auto model = build_model(*scene);
   Simulation simulation(*model, options_.threads);
   const Cube cube(model->body);

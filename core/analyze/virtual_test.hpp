@@ -23,14 +23,14 @@ struct Measured : ElasticPair {
   double seconds = 0;             ///< building and running
 };
 
-/// A cube of N^3 particles between frictionless platens: only the axial displacement of the two end layers is prescribed. nu is the mean outward
+/// A cube of N^3 cells between frictionless platens: only the axial displacement of the two end layers is prescribed. nu is the mean outward
 /// displacement of the lateral faces over the mean inward one of the end faces, all over all particles of a face.
 class VirtualTest {
  public:
   struct Options {
     std::string lattice = "lattices.cubic";
-    int particles = 20;      ///< N, along an edge
-    double strain = 1e-3;    ///< by which the platens shorten the length (N - 1) l
+    int particles = 20;      ///< N, along an edge; of lattices with several particles in a cubic cell, cells
+    double strain = 1e-3;    ///< by which the platens shorten the distance of the end layers: (N - 1) l in the cubic lattice
     double residual = 1e-8;  ///< at which the cube counts as at rest
     int threads = 1;
   };
@@ -42,10 +42,12 @@ class VirtualTest {
   Measured measure(const calibration::Ratios& ratios);
 
  private:
+  double length_at_rest() const;
   Measured compress(const calibration::Ratios& ratios);
 
   Host& host_;
   Options options_;
+  double length_;
   double base_young_;
 };
 

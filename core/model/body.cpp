@@ -22,6 +22,12 @@ struct Builder {
       throw std::invalid_argument("the lattice's box has no sites");
     if (grid.neighbours.size() > max_neighbours || grid.spring_classes < 1 || grid.spring_classes > max_spring_classes)
       throw std::invalid_argument("the lattice has more neighbours or spring classes than a kernel can hold");
+    if (!(std::abs(dot(grid.basis[0], cross(grid.basis[1], grid.basis[2]))) > 1e-9))
+      throw std::invalid_argument("the lattice's basis does not span space");
+    if (grid.boundary == Boundary::cells && grid.basis != cubic_basis) throw std::invalid_argument("the lattice has boundary cells and is not cubic");
+    for (std::uint32_t c = 0; c < grid.spring_classes; ++c)
+      if (!(grid.class_stiffness[c] > 0 && std::isfinite(grid.class_stiffness[c])))
+        throw std::invalid_argument("the lattice has a class of springs without stiffness");
     body.grid = grid;
     body.neighbours.assign(grid.neighbours.begin(), grid.neighbours.end());
     body.grid.neighbours = body.neighbours;
@@ -76,7 +82,7 @@ struct Builder {
       if (body.grid.boundary == Boundary::cells) take_corners();
       count_springs();
     }
-    find_extent();
+    find_box();
   }
 
  private:
@@ -85,7 +91,7 @@ struct Builder {
     return static_cast<std::size_t>(k) * static_cast<std::size_t>(body.grid.sites[1]) + static_cast<std::size_t>(j);
   }
 
-  void find_extent() {
+  void find_box() {
     body.lowest = body.highest = body.position(Particle{0});
     const auto widen = [this](Vec3 x) {
       body.lowest = {std::min(body.lowest.x, x.x), std::min(body.lowest.y, x.y), std::min(body.lowest.z, x.z)};

@@ -23,11 +23,11 @@ struct Body {
   std::uint64_t particles = 0;
   std::uint64_t springs[max_spring_classes] = {};
   std::int32_t reach = 1;  ///< planes that the farthest neighbour is away
-  Site low, high;          ///< first and last site of the box that the particles fill
-  Vec3 lowest, highest;    ///< corners of the smallest box around the particles at rest, metres
+  Site low, high;          ///< first and last site of the box of sites that the particles fill
+  Vec3 lowest, highest;    ///< corners of the box in space that their places fill, metres
 
   bool is_listed() const { return !listed.empty(); }
-  bool is_cubic() const { return !is_listed(); }  ///< its particles stand for cubic cells, or are their corners
+  bool is_cubic() const { return !is_listed() && grid.basis == cubic_basis; }  ///< its particles stand for cubic cells, or are their corners
   Vec3 position(Particle particle) const { return is_listed() ? listed.positions[particle] : position(site(particle)); }  ///< at rest, metres
   /// What counts of a particle: 1, or less at the surface of a body of cells, or what a list says.
   double share(Particle particle) const {
@@ -40,7 +40,7 @@ struct Body {
 
   // of a structured body
   Site site(Particle particle) const;
-  Vec3 position(Site site) const { return grid.origin + grid.spacing * Vec3{double(site.i), double(site.j), double(site.k)}; }  ///< at rest, metres
+  Vec3 position(Site site) const { return grid.origin + grid.spacing * combined(grid.basis, site.i, site.j, site.k); }  ///< at rest, metres
   /// The particle at a site, or no_particle.
   Particle at(Site site) const;
   static constexpr Particle no_particle = ~Particle{0};

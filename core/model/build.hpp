@@ -11,6 +11,9 @@ inline InputError refusal(const Stage& stage, const std::string& sentence) {
   return InputError({{stage.pointer, stage.component->type(), "what the component accepts; it says: " + sentence}});
 }
 
+/// The same of an objection to how it was configured: a fault of the option that the sentence's first word names, if it names one.
+InputError objection(const Scene& scene, const Stage& stage, const std::string& sentence);
+
 inline void add_all(Faults& faults, const InputError& error) {
   for (const Fault& fault : error.faults()) faults.add(fault.pointer, fault.value, fault.expected);
 }

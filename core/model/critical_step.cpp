@@ -13,8 +13,13 @@ namespace {
 InfiniteLattice lattice_of(const Model& model, std::size_t material) {
   const std::size_t classes = model.body.grid.spring_classes;
   const MaterialConstants& constants = model.materials[material].constants;
-  return {model.neighbours, std::span(model.springs).subspan((material * model.materials.size() + material) * classes, classes),
-          constants.alpha_ratio * constants.base_stiffness, model.body.grid.membrane_distance, model.choice.membrane};
+  return {model.neighbours,
+          std::span(model.springs).subspan((material * model.materials.size() + material) * classes, classes),
+          constants.alpha_ratio * constants.base_stiffness,
+          model.body.grid.membrane_distance,
+          model.choice.membrane,
+          model.body.grid.spacing,
+          model.body.grid.basis};
 }
 
 /// A particle's material, and those of its neighbours on both sides; absent neighbours count as more of its own, which is on the safe side.
@@ -69,15 +74,33 @@ double step_of(double stiffness, double mass) { return 2 / std::sqrt(stiffness /
 void find_critical_step_of_list(Model& model, Faults& faults) {
   const ListedBound bound = listed_bound(model);
   const Stage& stage = *model.materials.front().stage;
-  if (!bound.all_positive)
+  if (!bound.all_positive && !model.scene->allow_unstable)
     return faults.add(stage.pointer, stage.component->type(),
-                      "springs of positive stiffness; a listed lattice with negative ones is not known to be stable");
+                      "springs of positive stiffness, or allow_unstable in the scene: a listed lattice with negative ones is not known to be stable");
+  if (!bound.all_positive) model.warnings.push_back("a listed lattice with springs of negative stiffness is not known to be stable");
   if (!(bound.square > 0)) return faults.add("/pipeline", "", "a lattice with springs; this one's particles are all alone");
   const Vec3 at = model.body.position(bound.particle);
   for (Material& material : model.materials) material.critical_time_step = 2 / std::sqrt(bound.square);
   model.critical_time_step = 2 / std::sqrt(bound.square);
   model.critical_because =
       fmt::format("a safe bound for a listed lattice: the springs of the particle at ({:.4g}, {:.4g}, {:.4g}) m", at.x, at.y, at.z);
+}
+
+bool has_negative_springs(const InfiniteLattice& lattice) {
+  return std::any_of(lattice.springs.begin(), lattice.springs.end(), [](const SpringConstants& spring) { return spring.cross_stiffness < 0; });
+}
+
+/// For a material by itself. Waves that grow limit no step; if all do, springs of the opposite sign stand for them.
+void limit_step(Model& model, Material& material, const InfiniteLattice& lattice, bool unstable) {
+  const Wave wave = stiffest_wave(lattice);
+  const char* which = unstable ? "the stiffest of all waves of the lattice that do not grow: " : "the stiffest of all waves of the lattice: ";
+  model.critical_because = which + describe(wave);
+  double stiffness = wave.stiffness;
+  if (stiffness <= 0) {
+    stiffness = bound(model, uniform(static_cast<std::uint8_t>(&material - model.materials.data())));
+    model.critical_because = "a safe bound: every wave of the lattice grows";
+  }
+  model.critical_time_step = material.critical_time_step = step_of(stiffness, material.mass);
 }
 
 }  // namespace
@@ -88,15 +111,18 @@ void find_critical_step(Model& model, Faults& faults) {
   for (std::size_t n = 0; n < model.materials.size(); ++n) {
     Material& material = model.materials[n];
     const InfiniteLattice lattice = lattice_of(model, n);
-    if (const auto unstable = find_instability(lattice, Sector::mirrored)) {
+    const auto unstable = find_instability(lattice, Sector::mirrored);
+    if (unstable && !model.scene->allow_unstable) {
       faults.add(material.stage->pointer, material.stage->component->type(),
-                 "springs that make a stable lattice; with these, " + describe(*unstable));
+                 "springs that make a stable lattice, or allow_unstable in the scene; with these, " + describe(*unstable));
       continue;
     }
-    const Wave wave = stiffest_wave(lattice);
-    material.critical_time_step = step_of(wave.stiffness, material.mass);
-    model.critical_time_step = material.critical_time_step;
-    model.critical_because = "the stiffest of all waves of the lattice: " + describe(wave);
+    if (unstable)
+      model.warnings.push_back(
+          fmt::format("the lattice of {} ({}) is unstable: {}", material.stage->name, material.stage->pointer, describe(*unstable)));
+    else if (model.two_layers_grow.empty() && has_negative_springs(lattice))
+      if (const auto opposed = find_instability(lattice, Sector::opposed)) model.two_layers_grow = describe(*opposed);
+    limit_step(model, material, lattice, unstable.has_value());
   }
   if (faults.size() > before) return;
   if (!model.body.cells.empty()) {

@@ -1,4 +1,5 @@
 #include <model/build.hpp>
+#include <model/spring_lattice.hpp>
 
 #include <spdlog/fmt/fmt.h>
 
@@ -10,23 +11,34 @@ namespace {
 
 constexpr std::uint8_t no_material = 255;
 
-LatticeFacts facts_of(const Body& body) {
-  LatticeFacts facts;
-  facts.spacing = body.grid.spacing;
-  facts.site_volume = body.grid.site_volume;
-  facts.membrane_distance = body.grid.membrane_distance;
+/// Base springs of a class, in whole ones.
+double whole_springs(const Body& body, std::uint32_t spring_class) {
+  if (body.cells.empty()) return static_cast<double>(body.springs[spring_class]);
+  const auto of_class = [spring_class](const Neighbour& to) { return to.spring_class == spring_class; };
+  const auto neighbours = std::count_if(body.neighbours.begin(), body.neighbours.end(), of_class);
+  return static_cast<double>(neighbours) * static_cast<double>(body.cells.count());  // a cell's shares sum to one spring to each neighbour
+}
+
+LatticeFacts facts_of(const Body& body, const LatticeGeometry& geometry) {
+  LatticeFacts facts = facts_of(geometry);
   facts.neighbours = body.neighbours;
-  facts.spring_classes = body.grid.spring_classes;
-  facts.particles = body.particles;
-  std::copy(std::begin(body.springs), std::end(body.springs), std::begin(facts.springs));
-  if (body.cells.empty()) return facts;
-  facts.particles = body.cells.count();  // the shares of a cell sum to one particle, and to one spring to each neighbour
-  std::fill(std::begin(facts.springs), std::end(facts.springs), 0);
-  for (const Neighbour& to : body.neighbours) facts.springs[to.spring_class] += body.cells.count();
+  facts.particles = body.cells.empty() ? body.particles : body.cells.count();  // a cell's shares sum to one particle
+  for (std::uint32_t c = 0; c < facts.spring_classes; ++c)
+    for (const NeighbourGeometry& n : geometry.neighbours)
+      if (n.site.spring_class == c) {
+        facts.squared_lengths += facts.class_stiffness[c] * whole_springs(body, c) * n.rest_length * n.rest_length;
+        break;  // all of a class are of one length
+      }
+  if (!body.is_listed()) return facts;
+  facts.particles = static_cast<std::uint64_t>(std::llround(geometry.volume / body.grid.site_volume));
+  for (const ListedSpring& spring : body.listed.springs) {
+    const Vec3 rest = body.listed.positions[spring.b] - body.listed.positions[spring.a];
+    facts.squared_lengths += spring.stiffness * dot(rest, rest);
+  }
   return facts;
 }
 
-Material make_material(const Stage& stage, const Body& body) {
+Material make_material(const Model& model, const Stage& stage, const LatticeFacts& facts) {
   Material material;
   material.stage = &stage;
   material.component = make_component(stage);
@@ -35,12 +47,12 @@ Material make_material(const Stage& stage, const Body& body) {
     material.failure = make_component(*stage.failure);
   }
   Objection refused;
-  if (!stage.functions<MaterialFunctions>().constants(material.component.get(), facts_of(body), material.constants, refused.why))
-    throw refusal(stage, refused.sentence);
+  if (!stage.functions<MaterialFunctions>().constants(material.component.get(), facts, material.constants, refused.why))
+    throw objection(*model.scene, stage, refused.sentence);
   const MaterialConstants& constants = material.constants;
   if (!(constants.density > 0 && constants.base_stiffness > 0 && std::isfinite(constants.density) && std::isfinite(constants.base_stiffness)))
     throw refusal(stage, "its density or its stiffness came out as not positive or not finite");
-  material.mass = constants.density * body.grid.site_volume;
+  material.mass = constants.density * facts.site_volume;
   return material;
 }
 
@@ -87,8 +99,10 @@ void add_materials(Model& model, RegionIndex& regions, Faults& faults) {
   if (stages.empty()) faults.add("/pipeline", "", "a stage that is a material");
   if (stages.size() >= no_material) faults.add(stages.back()->pointer, "", fmt::format("at most {} materials", no_material - 1));
   if (!faults.empty()) return;
+  const LatticeGeometry geometry = geometry_from(model.body);
+  const LatticeFacts facts = facts_of(model.body, geometry);
   for (const Stage* stage : stages) try {
-      model.materials.push_back(make_material(*stage, model.body));
+      model.materials.push_back(make_material(model, *stage, facts));
     } catch (const InputError& error) {
       add_all(faults, error);
     }

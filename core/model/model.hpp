@@ -68,9 +68,11 @@ struct Model {
   KernelChoice choice;
   KernelSet kernels;
   int degrees_of_freedom = 3;
-  double critical_time_step = 0;  ///< s: exact for one material, a rigorous lower bound for several
-  std::string critical_because;   ///< what limits it, in a sentence
-  Vec3 acceleration;              ///< sum of the loads'
+  double critical_time_step = 0;      ///< s: exact for one material, a rigorous lower bound for several
+  std::string critical_because;       ///< what limits it, in a sentence
+  std::vector<std::string> warnings;  ///< sentences: what the scene allows though it is not sound
+  std::string two_layers_grow;        ///< of a mirrored layer that is stable: what would grow if both layers were free; empty: nothing
+  Vec3 acceleration;                  ///< sum of the loads'
 
   std::uint8_t material(Particle particle) const { return material_of.empty() ? std::uint8_t{0} : material_of[particle]; }
   double mass(Particle particle) const {  ///< kg

@@ -67,11 +67,11 @@ struct SkinPlaces {
     return (region.kind != Region::Kind::outer_surface && skin().has_inner(particle)) ||
            (region.kind != Region::Kind::inner_surface && skin().has_outer(particle));
   }
-  /// Of a list, whose particles lie in no planes, all that are within one spacing of the body's end.
+  /// Of a list, whose particles need not lie in planes, all within a spacing of the shape's end, or half a spacing of the last particle.
   bool is_outermost(Particle particle, int direction) const {
     const Shape* shape = body.is_listed() ? body.grid.shape : nullptr;
     const Vec3 low = shape != nullptr ? shape->low : body.lowest, high = shape != nullptr ? shape->high : body.highest;
-    const double depth = (body.is_listed() ? 1 : 1e-6) * body.grid.spacing;
+    const double depth = (shape != nullptr ? 1 : body.is_listed() ? 0.5 : 1e-6) * body.grid.spacing;
     return dot(body.position(particle) - (direction % 2 == 0 ? low : high), face_normals[direction]) > -depth;
   }
   bool is_open(const Region& region, const Face& face) const {

@@ -33,7 +33,7 @@ double alarm_of(const Material& material, const SpringFacts& facts) {
 SpringConstants spring_between(const Model& model, const Material& a, const Material& b, std::uint32_t spring_class) {
   const MaterialConstants &left = a.constants, &right = b.constants;
   SpringConstants spring;
-  spring.stiffness = between(left.base_stiffness, right.base_stiffness);
+  spring.stiffness = model.body.grid.class_stiffness[spring_class] * between(left.base_stiffness, right.base_stiffness);
   spring.cross_stiffness = between(left.cross_ratio[spring_class] * left.base_stiffness, right.cross_ratio[spring_class] * right.base_stiffness);
   const SpringFacts facts{rest_length(model, spring_class), spring.stiffness, model.body.grid.spacing, spring_class};
   spring.alarm = std::min(alarm_of(a, facts), alarm_of(b, facts));
@@ -58,7 +58,8 @@ void hold_heights(Model& model) {
   for (Material& material : model.materials) {
     if (material.constants.has_cross_springs()) continue;
     double ratio = 0;
-    for (const NeighbourGeometry& n : model.neighbours) ratio += 2 * n.rest.x * n.rest.x / (n.rest_length * n.rest_length);
+    for (const NeighbourGeometry& n : model.neighbours)
+      ratio += 2 * model.body.grid.class_stiffness[n.site.spring_class] * n.rest.x * n.rest.x / (n.rest_length * n.rest_length);
     if (model.body.is_listed())  // as the mean particle has it
       ratio = 2 * static_cast<double>(model.body.listed.springs.size()) / static_cast<double>(model.body.particles) / 3;
     material.constants.alpha_ratio = std::max(material.constants.alpha_ratio, ratio);
@@ -96,7 +97,7 @@ double Model::alarm(std::uint8_t a, std::uint8_t b, const SpringFacts& facts) co
 std::vector<NeighbourGeometry> geometry_of(const Grid& grid) {
   std::vector<NeighbourGeometry> all;
   for (const Neighbour& n : grid.neighbours) {
-    const Vec3 rest = grid.spacing * Vec3{double(n.dx), double(n.dy), double(n.dz)};
+    const Vec3 rest = grid.spacing * combined(grid.basis, n.dx, n.dy, n.dz);
     all.push_back({n, rest, norm(rest), std::hypot(norm(rest), grid.membrane_distance)});
   }
   return all;

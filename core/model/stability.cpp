@@ -24,6 +24,13 @@ Eigen::MatrixXd homogeneous(const InfiniteLattice& lattice) {
   return Eigen::Map<const Eigen::Matrix<double, uniform_strains, uniform_strains>>(energy[0].data()).topLeftCorner(size, size);  // symmetric
 }
 
+/// How much neighbours move differently: 0 for an endless wave, its square for long ones; with the lattice's symmetry.
+double waviness(const InfiniteLattice& lattice, Vec3 q) {
+  double sum = 0;
+  for (const NeighbourGeometry& n : lattice.neighbours) sum += std::pow(std::sin(dot(q, n.rest) / lattice.spacing / 2), 2);
+  return sum;
+}
+
 }  // namespace
 
 std::optional<Instability> find_instability(const InfiniteLattice& lattice, Sector sector) {
@@ -42,10 +49,11 @@ std::optional<Instability> find_instability(const InfiniteLattice& lattice, Sect
   const auto softness = [&](Vec3 q) {
     const double softest = stiffness_range(lattice, q, sector).softest;
     if (sector == Sector::opposed) return -softest;
-    const double size = 4 - 4 * std::pow(std::cos(q.x / 2) * std::cos(q.y / 2) * std::cos(q.z / 2), 2);
-    return size < 1e-6 ? -infinity : -softest / size;
+    const double size = waviness(lattice, q);
+    constexpr double too_long = 1e-4;  // to tell its stiffness from rounding; uniform strains stand for such waves
+    return size < too_long ? -infinity : -softest / size;
   };
-  const Wave softest = waves(lattice, zone_peak(lattice.neighbours, softness), sector).front();
+  const Wave softest = waves(lattice, zone_peak(lattice, softness), sector).front();
   if (softest.stiffness >= -round_off * largest) return std::nullopt;
   Instability found;
   found.wave = softest;

@@ -6,6 +6,8 @@ namespace hyperlattice {
 
 namespace {
 
+constexpr std::size_t ww = 6;
+
 void add(StrainEnergy& sum, double factor, const std::array<double, uniform_strains>& stretch) {
   for (std::size_t i = 0; i < uniform_strains; ++i)
     for (std::size_t j = 0; j < uniform_strains; ++j) sum[i][j] += factor * stretch[i] * stretch[j];
@@ -23,8 +25,25 @@ StrainEnergy strain_energy(const InfiniteLattice& lattice) {
     if (lattice.membrane == KernelChoice::Membrane::none) continue;
     add(sum, spring.cross_stiffness / (n.cross_rest_length * n.cross_rest_length), {x * x, y * y, z * z, y * z, x * z, x * y, square});
   }
-  sum[6][6] += lattice.alpha * square / 2;
+  sum[ww][ww] += lattice.alpha * square / 2;
   return sum;
+}
+
+LayerStiffness layer_stiffness(const InfiniteLattice& lattice, double site_volume) {
+  const StrainEnergy energy = strain_energy(lattice);
+  const bool relaxes = lattice.membrane == KernelChoice::Membrane::free;
+  LayerStiffness stiffness;
+  for (std::size_t i = 0; i < ww; ++i)
+    for (std::size_t j = 0; j < ww; ++j) {
+      const double height = energy[i][ww] * energy[j][ww];  // what the free height takes away
+      stiffness[i][j] = (energy[i][j] - (relaxes && height != 0 ? height / energy[ww][ww] : 0)) / site_volume;
+    }
+  return stiffness;
+}
+
+ElasticConstants mean_constants(const LayerStiffness& s) {
+  const auto mean = [](double a, double b, double c) { return (a + b + c) / 3; };
+  return {mean(s[0][0], s[1][1], s[2][2]), mean(s[1][2], s[0][2], s[0][1]), mean(s[3][3], s[4][4], s[5][5])};
 }
 
 }  // namespace hyperlattice

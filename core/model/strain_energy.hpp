@@ -12,4 +12,11 @@ inline constexpr std::size_t uniform_strains = 7;
 using StrainEnergy = std::array<std::array<double, uniform_strains>, uniform_strains>;
 StrainEnergy strain_energy(const InfiniteLattice& lattice);
 
+/// Elastic constants of one layer whose height relaxes, Pa: strains xx, yy, zz, 2 yz, 2 xz, 2 xy (Voigt).
+using LayerStiffness = std::array<std::array<double, 6>, 6>;
+LayerStiffness layer_stiffness(const InfiniteLattice& lattice, double site_volume);
+
+/// Those of a cubic lattice along the axes; of any other, means over the axes.
+ElasticConstants mean_constants(const LayerStiffness& stiffness);
+
 }  // namespace hyperlattice

@@ -1,4 +1,4 @@
-// With q the wave vector and theta = q . (dx, dy, dz) for a neighbour, a base spring contributes
+// With q the wave vector, radians a spacing, and theta = q . r / l for a neighbour at r, a base spring contributes
 //   4 k sin^2(theta/2) n n^T,                                 n = r / |r|,
 // and a cross spring, which joins a layer to the other,
 //   4 k_c w w^T,   mirrored: w = (r sin(theta/2), Delta cos(theta/2)) / sqrt(r^2 + Delta^2)
@@ -19,11 +19,13 @@ using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4>;
 using Modes = Eigen::SelfAdjointEigenSolver<Matrix>;
 using Membrane = KernelChoice::Membrane;
 
+double phase_of(const InfiniteLattice& lattice, Vec3 q, const NeighbourGeometry& n) { return dot(q, n.rest) / lattice.spacing; }
+
 Matrix dynamical_matrix(const InfiniteLattice& lattice, Vec3 q, Sector sector) {
   Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
   for (const NeighbourGeometry& n : lattice.neighbours) {
     const SpringConstants& spring = lattice.springs[n.site.spring_class];
-    const double half = (q.x * n.site.dx + q.y * n.site.dy + q.z * n.site.dz) / 2, sine = std::sin(half), cosine = std::cos(half);
+    const double half = phase_of(lattice, q, n) / 2, sine = std::sin(half), cosine = std::cos(half);
     const Eigen::Vector4d base = Eigen::Vector4d(n.rest.x, n.rest.y, n.rest.z, 0) * (sine / n.rest_length);
     sum += 4 * spring.stiffness * base * base.transpose();
     if (lattice.membrane == Membrane::none) continue;
@@ -61,15 +63,15 @@ StiffnessRange stiffness_range(const InfiniteLattice& lattice, Vec3 q, Sector se
 }
 
 Wave stiffest_wave(const InfiniteLattice& lattice) {
-  const Vec3 q = zone_peak(lattice.neighbours, [&](Vec3 at) { return stiffness_range(lattice, at, Sector::mirrored).stiffest; });
+  const Vec3 q = zone_peak(lattice, [&](Vec3 at) { return stiffness_range(lattice, at, Sector::mirrored).stiffest; });
   return waves(lattice, q, Sector::mirrored).back();
 }
 
 std::string describe(const Wave& wave) {
   const auto angle = [](double radians) {
-    const double turns = std::remainder(radians / pi, 2.0);  // in units of pi, between -1 and 1
-    if (std::abs(turns) < 1e-4) return std::string("0");
-    return std::abs(std::abs(turns) - 1) < 1e-4 ? std::string("pi") : fmt::format("{:.3f} pi", turns);
+    const double turns = radians / pi, whole = std::round(turns);
+    if (std::abs(turns - whole) > 1e-4) return fmt::format("{:.3f} pi", turns);
+    return whole == 0 ? std::string("0") : std::abs(whole) == 1 ? std::string(whole < 0 ? "-pi" : "pi") : fmt::format("{:.0f} pi", whole);
   };
   const auto share = [](double part) { return fmt::format("{:.3g}", std::abs(part) < 1e-4 ? 0 : part); };
   const bool in_space = norm(wave.direction) > 1e-4;
@@ -78,7 +80,8 @@ std::string describe(const Wave& wave) {
   if (std::abs(wave.height) > 1e-4)
     motion += in_space ? fmt::format(" and by {} in the fourth dimension", share(wave.height)) : "in the fourth dimension";
   if (motion.ends_with(',')) motion.pop_back();
-  return fmt::format("the wave with vector ({}, {}, {}) a site, moving {}", angle(wave.vector.x), angle(wave.vector.y), angle(wave.vector.z), motion);
+  return fmt::format("the wave with vector ({}, {}, {}) a spacing, moving {}", angle(wave.vector.x), angle(wave.vector.y), angle(wave.vector.z),
+                     motion);
 }
 
 }  // namespace hyperlattice

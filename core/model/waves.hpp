@@ -13,6 +13,8 @@ struct InfiniteLattice {
   double alpha = 0;                          ///< k_alpha, N/m
   double membrane_distance = 0;              ///< Delta, metres
   KernelChoice::Membrane membrane = KernelChoice::Membrane::none;
+  double spacing = 0;         ///< metres
+  Basis basis = cubic_basis;  ///< in units of the spacing
 };
 
 enum class Sector {
@@ -20,16 +22,16 @@ enum class Sector {
   opposed    ///< the layers move oppositely in space and alike in the fourth dimension; only the two-layer lattice can
 };
 
-/// A lattice wave u = a cos(q . n + phase), n counted in sites.
+/// A lattice wave u = a cos(q . x / l + phase), l the spacing.
 struct Wave {
-  Vec3 vector;           ///< q, radians a site
+  Vec3 vector;           ///< q, radians a spacing
   double stiffness = 0;  ///< m omega^2, N/m; negative: the wave grows
   Vec3 direction;        ///< of the motion in space
   double height = 0;     ///< share of the motion in the fourth dimension; direction and height together have length 1
   Sector sector = Sector::mirrored;
 };
 
-/// All waves of vector q (radians a site), the softest first: three, or four if the membrane moves in the fourth dimension.
+/// All waves of vector q (radians a spacing), the softest first: three, or four if the membrane moves in the fourth dimension.
 std::vector<Wave> waves(const InfiniteLattice& lattice, Vec3 q, Sector sector);
 
 /// m omega^2 of the softest and of the stiffest of them.
@@ -41,7 +43,7 @@ StiffnessRange stiffness_range(const InfiniteLattice& lattice, Vec3 q, Sector se
 /// The stiffest wave of the mirrored layer in the whole Brillouin zone: omega_max^2 = stiffness / m.
 Wave stiffest_wave(const InfiniteLattice& lattice);
 
-/// "the wave with vector (pi, 0, 0) a site, moving along (1, 0, 0)"
+/// "the wave with vector (pi, 0, 0) a spacing, moving along (1, 0, 0)"
 std::string describe(const Wave& wave);
 
 }  // namespace hyperlattice

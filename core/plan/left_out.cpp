@@ -19,14 +19,16 @@ void leave_out_kernel_parts(const Plan& plan, std::vector<LeftOut>& out) {
   if (model.choice.membrane == Membrane::clamped)
     out.push_back({"motion in the fourth dimension", "the membrane is clamped: its cross springs act, but each particle keeps its height"});
   if (model.choice.membrane != Membrane::none)
-    out.push_back({"second layer of the membrane", "it mirrors the first exactly, so one layer is computed"});
+    out.push_back(
+        {"second layer of the membrane", "it mirrors the first exactly, so one layer is computed" +
+                                             (model.two_layers_grow.empty() ? "" : "; two free ones would not stay so: " + model.two_layers_grow)});
   if (!model.choice.breakable) out.push_back({"failure", "no material names a failure law: no spring is tested"});
   if (!model.choice.mixed) out.push_back({"mixed materials", "there is one material: no particle stores which"});
   const auto is_damped = [](const PlannedStage& stage) { return stage.plan.damping > 0; };
   if (std::none_of(plan.stages.begin(), plan.stages.end(), is_damped)) out.push_back({"local damping", "no solver stage asks for it"});
   if (model.acceleration == Vec3{}) out.push_back({"body acceleration", "no load accelerates the whole body"});
-  if (model.body.cells.empty()) out.push_back({"weights at the surface", "the boundary is particles: each particle and spring counts in full"});
-  out.push_back({"list of springs", "every site has the same neighbours, so springs are bits, not records"});
+  if (model.body.cells.empty() && model.body.listed.shares.empty()) out.push_back({"weights at the surface", "the boundary is particles: each particle and spring counts in full"});
+  if (!model.body.is_listed()) out.push_back({"list of springs", "every site has the same neighbours, so springs are bits, not records"});
 }
 
 void leave_out_loads(const Plan& plan, std::vector<LeftOut>& out) {

@@ -1,4 +1,5 @@
 #include <base/errors.hpp>
+#include <model/build.hpp>
 #include <plan/fields.hpp>
 #include <plan/left_out.hpp>
 #include <plan/plan.hpp>
@@ -19,16 +20,6 @@ namespace hyperlattice {
 
 namespace {
 
-/// A solver's objection belongs to the option that its first word names, if it names one.
-void add_objection(Faults& faults, const Scene& scene, const Stage& stage, const std::string& sentence) {
-  const std::string first = sentence.substr(0, sentence.find(' '));
-  const auto& options = stage.component->info.options;
-  const bool names_option = std::any_of(options.begin(), options.end(), [&](const Option& option) { return option.name == first; });
-  if (!names_option) return faults.add(stage.pointer, "", sentence);
-  const auto resolved = nlohmann::json::parse(scene.resolved).at(nlohmann::json::json_pointer(stage.pointer));
-  faults.add(stage.pointer + "/" + first, resolved.contains(first) ? resolved[first].dump() : "", sentence);
-}
-
 /// Each stage starts where the one before ends.
 void plan_stages(Plan& plan, Faults& faults) {
   double start = 0;
@@ -43,7 +34,7 @@ void plan_stages(Plan& plan, Faults& faults) {
     if (stage->functions<SolverFunctions>().plan(planned.component.get(), facts, planned.plan, why))
       start = planned.plan.end_time;
     else
-      add_objection(faults, *plan.scene, *stage, sentence);
+      add_all(faults, objection(*plan.scene, *stage, sentence));
     plan.stages.push_back(std::move(planned));
   }
 }

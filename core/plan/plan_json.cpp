@@ -78,6 +78,7 @@ nlohmann::json plan_json(const Plan& plan) {
           {"output_bytes", plan.output_bytes},
           {"expected_seconds", plan.expected_seconds},
           {"plugins", plugins_json(*plan.scene)},
+          {"warnings", model.warnings},
           {"left_out", left_out}};
 }
 

@@ -84,6 +84,9 @@ std::string plan_text(const Plan& plan) {
   page.line("output", fmt::format("about {}", bytes_text(number("output_bytes"))));
   page.line("run time", fmt::format("{} on a common processor", duration_text(number("expected_seconds"))));
 
+  if (!plan.model->warnings.empty()) page.section("Warnings");
+  for (const std::string& warning : plan.model->warnings) page.line("unstable", warning);
+
   page.section("Left out");
   for (const LeftOut& left : plan.left_out) page.line(left.what, left.why);
   return page.take();

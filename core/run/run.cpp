@@ -207,6 +207,7 @@ int run(Plan& plan, const RunOptions& options) {
     outcome.reason = std::move(reason);
   };
   {
+    for (const std::string& warning : plan.model->warnings) spdlog::warn("warning: {}", warning);
     Running running(plan, options);
     try {
       running.start(outcome);

@@ -16,6 +16,10 @@ struct CommonOptions {
 /// Those of a stage of the family; the options are CommonOptions. Failures have none.
 const OptionSet& common_options(Family family);
 
+/// The top level's key for lattices that are not stable.
+inline constexpr std::string_view allow_unstable_help =
+    "run lattices of which some deformation grows by itself, with a warning that names it, instead of refusing them";
+
 /// What a material's "failure" holds; it is no plain option.
 inline constexpr std::string_view failure_help =
     "criterion by which springs break: an object with the type of a component of the family failures; unbreakable if left out";

@@ -46,6 +46,7 @@ struct Stage {
 struct Scene {
   std::filesystem::path file;
   std::string title;
+  bool allow_unstable = false;  ///< lattices of which some deformation grows by itself run with a warning, instead of being refused
   Regions regions;
   std::vector<Stage> stages;      ///< in the pipeline's order
   std::string resolved;           ///< scene.resolved.json: every default filled, SI; running it gives the same bits

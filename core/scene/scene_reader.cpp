@@ -20,6 +20,7 @@ constexpr std::string_view format = "hyperlattice/1";
 struct Heading {
   std::string format, title;
   std::vector<std::string> plugins;
+  bool allow_unstable = false;
 };
 struct HeadingSchema {
   using Options = Heading;
@@ -31,7 +32,9 @@ struct HeadingSchema {
         .add<&Heading::title>("title", "", "what the scene shows")
         .fallback("\"\"")
         .add<&Heading::plugins>("plugins", "", "folders and libraries of plugins, relative to the scene's folder, searched before all others")
-        .fallback("[]");
+        .fallback("[]")
+        .add<&Heading::allow_unstable>("allow_unstable", "", allow_unstable_help)
+        .fallback("false");
   }
 };
 
@@ -49,7 +52,10 @@ class SceneReader {
     Json resolved;
     OptionReader reader(given_, "", reading(), {"regions", "pipeline"});
     const OptionsPointer heading = reader.fill(option_set<HeadingSchema>(), resolved);
-    if (heading) scene_.title = static_cast<const Heading*>(heading.get())->title;
+    if (heading) {
+      scene_.title = static_cast<const Heading*>(heading.get())->title;
+      scene_.allow_unstable = static_cast<const Heading*>(heading.get())->allow_unstable;
+    }
     read_plugins(resolved);
     resolved["regions"] = Json::object();
     if (given_.contains("regions") && !given_["regions"].is_object())

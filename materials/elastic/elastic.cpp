@@ -1,12 +1,11 @@
 // A linear elastic solid: from Young's modulus E and the Poisson ratio nu to the stiffness k of the base springs and lambda, the stiffness of
-// the springs in the fourth dimension relative to k. Closed forms of the infinite cubic lattice (hyperlattice/calibration.hpp):
+// the springs in the fourth dimension relative to k. For the cubic lattice by closed forms of the infinite lattice (hyperlattice/calibration.hpp):
 //   I-m: lambda = 7 (1 - 4 nu) / (1 + 5 nu),  k = 0.4 E l / eta,  eta = (18/5) (1 + nu) (1 - 2 nu) / (1 + 5 nu)
-// E is the modulus of one layer, and every particle has the mass density * l^3.
-#include <hyperlattice/calibration.hpp>
+// for any other by asking the lattice for its elastic constants (hyperlattice/membranes.hpp). E is the modulus of one layer, and every particle has
+// the mass density * V, V the volume of its site.
 #include <hyperlattice/kernels/choose.hpp>
+#include <hyperlattice/membranes.hpp>
 
-#include <locale>
-#include <sstream>
 #include <stdexcept>
 
 namespace {
@@ -18,15 +17,22 @@ constexpr std::string_view parameter_names[] = {"closed_form", "paper"};
 enum class Stiffness : std::uint32_t { bulk, eq15 };
 constexpr std::string_view stiffness_names[] = {"bulk", "eq15"};
 
-template <class... Parts>
-std::string text(const Parts&... parts) {
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  (out << ... << parts);
-  return out.str();
+using membranes::has_lambda;
+using membranes::name;
+using membranes::text;
+
+/// The lattice of calibration.hpp: 6 orthogonal springs of class 0, 12 diagonal ones of class 1, all as stiff.
+bool is_cubic_of_18(const LatticeFacts& lattice) {
+  const auto fits = [](const Neighbour& n) { return static_cast<std::uint32_t>(n.dx * n.dx + n.dy * n.dy + n.dz * n.dz) == n.spring_class + 1; };
+  return lattice.basis == cubic_basis && lattice.neighbours.size() == 9 && std::all_of(lattice.neighbours.begin(), lattice.neighbours.end(), fits) &&
+         lattice.class_stiffness[0] == 1 && lattice.class_stiffness[1] == 1 && lattice.membrane_distance == lattice.spacing;
 }
 
-std::string_view name(Membrane membrane) { return calibration::membrane_names[static_cast<std::size_t>(membrane)]; }
+/// Springs of k = 1 N/m in the fourth dimension, and what the endless lattice has with them.
+struct Choice {
+  calibration::Ratios ratios;
+  double poisson = 0, modulus_ratio = 0;
+};
 
 class Elastic {
  public:
@@ -44,11 +50,15 @@ class Elastic {
 
   static Schema<Options> schema() {
     return Schema<Options>("materials.elastic", "Linear elastic springs, from Young's modulus and the Poisson ratio")
-        .equation("f = k u; k = 0.4 E l / eta(lambda); I-m: lambda = 7 (1 - 4 nu) / (1 + 5 nu)")
+        .equation(
+            "f = k u; cubic lattice: k = 0.4 E l / eta(lambda); I-m: lambda = 7 (1 - 4 nu) / (1 + 5 nu); other lattices: k and lambda from their "
+            "springs")
         .source("Zhao 2017, equations (1) to (5), (10) to (15), (31); closed forms of the infinite lattice")
         .restrictions(
-            "the cubic lattice; a Poisson ratio within the membrane's reach: I (-0.212, 0.25], II (-0.5, 0.25], I-m (-0.2, 0.25], III (0, 0.267), "
-            "IV (0, 0.333), none 0.25. Only I-m is isotropic; for the others E and nu hold along [100]")
+            "a Poisson ratio within the membrane's reach; in the cubic lattice: I (-0.212, 0.25], II (-0.5, 0.25], I-m (-0.2, 0.25], III (0, 0.267), "
+            "IV (0, 0.333), none 0.25. Only I-m is isotropic; for the others E and nu hold along [100]. Beyond it the lattice is unstable, and runs "
+            "only if "
+            "the scene says allow_unstable")
         .add<&Options::young>("young", "Pa", "Young's modulus of the body")
         .positive()
         .add<&Options::poisson>("poisson", "", "Poisson ratio; may be left out without a membrane, with lambda, and with free ratios")
@@ -63,11 +73,14 @@ class Elastic {
         .add<&Options::k_alpha>("k_alpha", "", "with membrane free: stiffness over k of the spring from a particle to its own mirror copy")
         .word("infinite")
         .fallback("0")
-        .add<&Options::k_beta>("k_beta", "", "with membrane free: stiffness over k of the cross springs beside orthogonal springs")
+        .add<&Options::k_beta>(
+            "k_beta", "", "with membrane free: stiffness over k of the cross springs beside springs of the lattice's first class: orthogonal ones")
         .fallback("0")
-        .add<&Options::k_gamma>("k_gamma", "", "with membrane free: stiffness over k of the cross springs beside diagonal springs")
+        .add<&Options::k_gamma>("k_gamma", "",
+                                "with membrane free: stiffness over k of the cross springs beside springs of the second class: diagonal ones")
         .fallback("0")
-        .add<&Options::parameters>("parameters", "", "closed_form: exact for the infinite lattice; paper: polynomials (11) and (13), for I-m only")
+        .add<&Options::parameters>("parameters", "",
+                                   "closed_form: exact for the infinite lattice; paper: polynomials (11) and (13), for I-m in lattices.cubic only")
         .choices(parameter_names)
         .fallback("\"closed_form\"")
         .add<&Options::stiffness>("stiffness", "", "bulk: k of the infinite lattice; eq15: equation (15) with the springs that the body has")
@@ -79,46 +92,82 @@ class Elastic {
   explicit Elastic(const Options& options) : o_(options) {}
 
   MaterialConstants constants(const LatticeFacts& lattice) const {
-    if (lattice.spring_classes != 2 || lattice.neighbours.size() != 9 || lattice.membrane_distance != lattice.spacing)
-      throw std::invalid_argument("materials.elastic knows the cubic lattice of 18 neighbours only");
-    const calibration::Ratios ratios = this->ratios();
-    const calibration::Elasticity elasticity = calibration::elasticity(ratios);
-    const double eta = o_.parameters == Parameters::paper ? calibration::paper_modulus_ratio(lambda()) : elasticity.modulus_ratio();
-    if (o_.membrane == Membrane::free && !(eta > 0)) throw std::invalid_argument("these ratios give a lattice without stiffness");
-    if (o_.membrane == Membrane::free && o_.poisson && std::abs(*o_.poisson - elasticity.poisson()) > 1e-4)
-      throw std::invalid_argument(
-          text("poisson ", *o_.poisson, " does not fit these ratios: they give ", elasticity.poisson(), " along [100]; leave poisson out"));
+    const bool cubic = is_cubic_of_18(lattice);
+    if (o_.parameters == Parameters::paper && !cubic)
+      throw std::invalid_argument("parameters closed_form: the paper's polynomials are of lattices.cubic");
+    const Choice choice = cubic ? choose_in_closed_form(lattice) : choose(lattice);
+    if (!(choice.modulus_ratio > 0)) throw std::invalid_argument("these ratios give a lattice without stiffness");
+    check_poisson(lattice, choice.poisson);
 
-    MaterialConstants constants;
+    MaterialConstants constants = membranes::constants(lattice, choice.ratios);
     constants.density = o_.density;
-    constants.base_stiffness = stiffness(lattice, eta);
-    constants.cross_ratio[0] = ratios.beta;
-    constants.cross_ratio[1] = ratios.gamma;
-    constants.alpha_ratio = ratios.clamped ? 0 : ratios.alpha;
-    constants.clamped = ratios.clamped && constants.has_cross_springs();
+    constants.base_stiffness = stiffness(lattice, choice, cubic);
+    constants.clamped = choice.ratios.clamped && constants.has_cross_springs();
     return constants;
   }
 
   static KernelSet kernels(const KernelChoice& choice) { return kernels_for_processor(choice); }
 
  private:
-  calibration::Ratios ratios() const {
-    if (o_.membrane == Membrane::free) return {o_.k_alpha.value_or(0), o_.k_beta, o_.k_gamma, !o_.k_alpha.has_value()};
-    return calibration::ratios(o_.membrane, lambda());
+  calibration::Ratios free_ratios() const { return {o_.k_alpha.value_or(0), o_.k_beta, o_.k_gamma, !o_.k_alpha.has_value()}; }
+
+  /// Of the cubic lattice.
+  Choice choose_in_closed_form(const LatticeFacts& lattice) const {
+    if (!has_lambda(o_.membrane)) return of_cubic(free_ratios());
+    const bool paper = o_.parameters == Parameters::paper;
+    const double lambda = o_.lambda ? *o_.lambda : paper ? calibration::paper_lambda(*o_.poisson) : calibration::lambda(o_.membrane, *o_.poisson);
+    check_reach(lattice, lambda);
+    Choice choice = of_cubic(calibration::ratios(o_.membrane, lambda));
+    if (paper) choice.modulus_ratio = calibration::paper_modulus_ratio(lambda);
+    return choice;
   }
 
-  double lambda() const {
-    if (o_.lambda) return *o_.lambda;
-    if (!o_.poisson) return 0;
-    return o_.parameters == Parameters::paper ? calibration::paper_lambda(*o_.poisson) : calibration::lambda(o_.membrane, *o_.poisson);
+  static Choice of_cubic(const calibration::Ratios& ratios) {
+    const calibration::Elasticity elasticity = calibration::elasticity(ratios);
+    return {ratios, elasticity.poisson(), elasticity.modulus_ratio()};
   }
 
-  double stiffness(const LatticeFacts& lattice, double eta) const {
-    const double l = lattice.spacing;
-    if (o_.stiffness == Stiffness::bulk) return calibration::stiffness_bulk(o_.young, l, eta);
-    const double squares = l * l * (static_cast<double>(lattice.springs[0]) + 2 * static_cast<double>(lattice.springs[1]));
-    if (squares == 0) throw std::invalid_argument("stiffness eq15 needs a body that has springs");
-    return calibration::stiffness_eq15(o_.young, static_cast<double>(lattice.particles) * lattice.site_volume, squares, eta);
+  /// Of any lattice.
+  Choice choose(const LatticeFacts& lattice) const {
+    Choice choice{free_ratios(), 0, 0};
+    if (has_lambda(o_.membrane)) {
+      const double lambda = o_.lambda ? *o_.lambda : membranes::lambda(lattice, o_.membrane, *o_.poisson);
+      check_reach(lattice, lambda);
+      choice.ratios = membranes::ratios(lattice, o_.membrane, lambda);
+    } else if (o_.k_gamma != 0 && lattice.spring_classes < 2) {
+      throw std::invalid_argument("k_gamma 0: this lattice has one class of springs, that of k_beta");
+    }
+    const ElasticConstants own = lattice.elastic_constants(membranes::constants(lattice, choice.ratios));
+    choice.poisson = own.poisson();
+    choice.modulus_ratio = own.young() / lattice.elastic_constants(membranes::constants(lattice, {})).young();
+    return choice;
+  }
+
+  /// Of a membrane that has a lambda. Without a stable lattice there is none, unless the scene takes an unstable one.
+  void check_reach(const LatticeFacts& lattice, double lambda) const {
+    if (std::isfinite(lambda) && (lattice.allow_unstable || membranes::is_stable(lattice, o_.membrane, lambda))) return;
+    throw std::invalid_argument(o_.lambda ? "lambda " + membranes::stable_sentence(lattice, o_.membrane, lambda)
+                                          : "poisson " + membranes::reach_sentence(lattice, o_.membrane, *o_.poisson));
+  }
+
+  /// Membranes without a lambda have the Poisson ratio that they have.
+  void check_poisson(const LatticeFacts& lattice, double own) const {
+    constexpr double tolerance = 1e-4;
+    if (!o_.poisson || has_lambda(o_.membrane) || std::abs(*o_.poisson - own) <= tolerance) return;
+    throw std::invalid_argument(o_.membrane == Membrane::none
+                                    ? text("poisson ", own, ", or left out: that is what the lattice without a membrane has; ",
+                                           membranes::reached_by(lattice, o_.membrane, *o_.poisson))
+                                    : text("poisson ", own, " along [100], which these ratios give; or leave poisson out"));
+  }
+
+  double stiffness(const LatticeFacts& lattice, const Choice& choice, bool cubic) const {
+    if (o_.stiffness == Stiffness::eq15) {
+      if (lattice.squared_lengths == 0) throw std::invalid_argument("stiffness eq15 needs a body that has springs");
+      const double volume = static_cast<double>(lattice.particles) * lattice.site_volume;
+      return calibration::stiffness_eq15(o_.young, volume, lattice.squared_lengths, choice.modulus_ratio);
+    }
+    if (cubic) return calibration::stiffness_bulk(o_.young, lattice.spacing, choice.modulus_ratio);
+    return o_.young / (choice.modulus_ratio * lattice.elastic_constants(membranes::constants(lattice, {})).young());  // k = 1 N/m there
   }
 
   static void check(const Options& o, const FaultSink& faults) {
@@ -132,35 +181,10 @@ class Elastic {
       faults.fault("lambda", "one of poisson and lambda: each follows from the other");
     else if (!o.lambda && !o.poisson && o.membrane != Membrane::none && o.membrane != Membrane::free)
       faults.fault("poisson", "a Poisson ratio, or lambda in its place");
-    else if (o.poisson && o.membrane != Membrane::free)
-      check_reach(o, faults);
-    else if (o.lambda && *o.lambda <= least_lambda(o.membrane))
-      faults.fault("lambda", text("above ", least_lambda(o.membrane), ": with less, membrane ", name(o.membrane), " is unstable"));
-  }
-
-  /// Stable for larger lambda only; 0 itself is the 3D lattice.
-  static double least_lambda(Membrane membrane) {
-    return membrane == Membrane::III ? -1.5 : membrane == Membrane::IV ? -2.0 : -std::numeric_limits<double>::min();
-  }
-
-  static void check_reach(const Options& o, const FaultSink& faults) {
-    const double nu = *o.poisson;
-    if (o.parameters == Parameters::paper) {
-      if (nu < calibration::paper_poisson_low || nu > calibration::paper_poisson_high)
-        faults.fault("poisson",
-                     text(calibration::paper_poisson_low, " to ", calibration::paper_poisson_high, ", where the paper's polynomials were fitted"));
-      return;
-    }
-    const calibration::Reach reach = calibration::reach(o.membrane);
-    if (reach.holds(nu)) return;
-    std::string others;
-    for (const Membrane other : {Membrane::I_m, Membrane::I, Membrane::II, Membrane::III, Membrane::IV})
-      if (calibration::reach(other).holds(nu)) others += (others.empty() ? "" : ", ") + std::string(name(other));
-    const std::string within = o.membrane == Membrane::none ? "0.25, or left out: that is what the lattice without a membrane has"
-                                                            : text("within (", reach.low, ", ", reach.high, reach.open ? ")" : "]",
-                                                                   ", the reach of membrane ", name(o.membrane));
-    faults.fault("poisson", within + (others.empty() ? "; no membrane of this lattice reaches it"
-                                                     : text("; ", nu, " is within the reach of membrane ", others)));
+    else if (o.poisson && o.parameters == Parameters::paper &&
+             (*o.poisson < calibration::paper_poisson_low || *o.poisson > calibration::paper_poisson_high))
+      faults.fault("poisson",
+                   text(calibration::paper_poisson_low, " to ", calibration::paper_poisson_high, ", where the paper's polynomials were fitted"));
   }
 
   Options o_;

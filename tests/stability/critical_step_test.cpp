@@ -10,7 +10,9 @@ using namespace hyperlattice;
 using namespace hyperlattice::test;
 
 class CriticalStep : public testing::TestWithParam<MembraneCase> {};
-INSTANTIATE_TEST_SUITE_P(Membranes, CriticalStep, testing::ValuesIn(membranes), [](const auto& info) { return std::string(info.param.name); });
+const auto name_of = [](const testing::TestParamInfo<MembraneCase>& info) { return std::string(info.param.name); };
+INSTANTIATE_TEST_SUITE_P(Membranes, CriticalStep, testing::ValuesIn(membranes), name_of);
+INSTANTIATE_TEST_SUITE_P(CentredLattices, CriticalStep, testing::ValuesIn(centred_lattices), name_of);
 
 /// How much the largest displacement grows over a while, from noise so small that the springs stay linear.
 double growth(const Model& model, double fraction, double damping) {
@@ -24,13 +26,13 @@ double growth(const Model& model, double fraction, double damping) {
 }
 
 TEST_P(CriticalStep, IsStableJustBelowAndUnstableJustAbove) {
-  const auto plan = plan_of(block(18, 18, 18, GetParam().material));
+  const auto plan = plan_of(block(18, 18, 18, GetParam()));
   EXPECT_LT(growth(*plan->model, 0.99, 0), 100);
   EXPECT_GT(growth(*plan->model, 1.02, 0), 1e6);
 }
 
 TEST_P(CriticalStep, HasATighterLimitWithLocalDamping) {
-  const auto plan = plan_of(block(12, 12, 12, GetParam().material));
+  const auto plan = plan_of(block(12, 12, 12, GetParam()));
   const double limit = 1 / std::sqrt(1.8);
   EXPECT_LT(growth(*plan->model, 0.97 * limit, 0.8), 10);
   EXPECT_GT(growth(*plan->model, 1.06 * limit, 0.8), 100);

@@ -19,7 +19,7 @@ class Cubic {
     lattice.neighbours = neighbours_;
     lattice.springs = springs_;
     lattice.alpha = r.clamped ? 0 : r.alpha;
-    lattice.membrane_distance = 1;
+    lattice.membrane_distance = lattice.spacing = 1;
     lattice.membrane = r.clamped ? KernelChoice::Membrane::clamped : KernelChoice::Membrane::free;
   }
   Cubic(const Cubic&) = delete;

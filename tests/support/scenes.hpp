@@ -29,13 +29,15 @@ inline std::unique_ptr<Plan> plan_of(const std::string& scene, int threads = 1) 
   return make_plan(std::move(read), threads);
 }
 
-/// A free block of nx * ny * nz particles, 1 mm apart, corner at the origin, with `material` (the keys of a material after its constants) and
-/// more stages.
-inline std::string block(int nx, int ny, int nz, const std::string& material = R"("poisson": 0.25)", const std::string& stages = "") {
+/// A free block of nx * ny * nz cells of 1 mm, each one particle in the cubic lattice, corner at the origin, with `material` (the keys of a material
+/// after its constants) and more stages.
+inline std::string block(int nx, int ny, int nz, const std::string& material = R"("poisson": 0.25)", const std::string& stages = "",
+                         const std::string& lattice = "lattices.cubic") {
   const auto size = [](int n) { return std::to_string(n) + "e-3"; };
   return R"({ "format": "hyperlattice/1", "pipeline": [
-    { "type": "lattices.cubic", "spacing": 1e-3, "shape": { "box": { "low": [0, 0, 0], "high": [)" +
-         size(nx) + ", " + size(ny) + ", " + size(nz) + R"(] } } },
+    { "type": ")" +
+         lattice + R"(", "spacing": 1e-3, "shape": { "box": { "low": [0, 0, 0], "high": [)" + size(nx) + ", " + size(ny) + ", " + size(nz) +
+         R"(] } } },
     { "type": "materials.elastic", "young": 1e10, "density": 2500, )" +
          material + " }" + (stages.empty() ? "" : ",\n" + stages) + R"(,
     { "type": "solvers.explicit", "end_time": 1e-6 } ] })";
@@ -45,6 +47,7 @@ inline std::string block(int nx, int ny, int nz, const std::string& material = R
 struct MembraneCase {
   const char* name;
   const char* material;
+  const char* lattice = "lattices.cubic";
 };
 inline const MembraneCase membranes[] = {
     {"none", R"("poisson": 0.25)"},
@@ -57,6 +60,21 @@ inline const MembraneCase membranes[] = {
     {"I_m_small_ratio", R"("membrane": "I-m", "poisson": 0.23)"},
     {"free", R"("membrane": "free", "k_alpha": 0.5, "k_beta": 1.5, "k_gamma": 0.4)"},
 };
+
+/// The same of the other structured lattices.
+inline const MembraneCase centred_lattices[] = {
+    {"bcc", R"("poisson": 0.25)", "lattices.bcc"},
+    {"bcc_I_m", R"("membrane": "I-m", "poisson": 0.1)", "lattices.bcc"},
+    {"bcc_IV_negative", R"("membrane": "IV", "lambda": -1)", "lattices.bcc"},
+    {"fcc", R"("poisson": 0.25)", "lattices.fcc"},
+    {"fcc_I_m", R"("membrane": "I-m", "poisson": 0.1)", "lattices.fcc"},
+    {"fcc_III", R"("membrane": "III", "lambda": 2)", "lattices.fcc"},
+};
+
+/// A block of a case's lattice and membrane, with more keys of the material.
+inline std::string block(int nx, int ny, int nz, const MembraneCase& of, const std::string& more = "", const std::string& stages = "") {
+  return block(nx, ny, nz, of.material + more, stages, of.lattice);
+}
 
 /// Displacements drawn evenly from [-amplitude, amplitude], the same in every run.
 inline std::vector<double> noise(std::size_t count, double amplitude, unsigned seed = 1) {

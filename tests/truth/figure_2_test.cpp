@@ -1,6 +1,7 @@
 // Figure 2 of Zhao 2017: the fits (11) and (13) come out of the virtual test of 20^3 particles, and only of that one.
 #include <gtest/gtest.h>
 #include <analyze/calibration_curve.hpp>
+#include <analyze/load_lattice.hpp>
 
 namespace {
 using namespace hyperlattice;

@@ -3,6 +3,7 @@
 #include <rapidcheck.h>
 #include <analyze/calibrate.hpp>
 #include <analyze/calibration_curve.hpp>
+#include <analyze/load_lattice.hpp>
 #include <support/reference_table.hpp>
 
 namespace {

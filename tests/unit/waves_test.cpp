@@ -66,7 +66,7 @@ TEST(Waves, MembraneIVWithNegativeLambda) {
 }
 
 TEST(Waves, NamesTheWave) {
-  EXPECT_EQ(describe(stiffest_wave(Cubic(I_m(5)).lattice)), "the wave with vector (0, 0, 0) a site, moving in the fourth dimension");
+  EXPECT_EQ(describe(stiffest_wave(Cubic(I_m(5)).lattice)), "the wave with vector (0, 0, 0) a spacing, moving in the fourth dimension");
   const std::string longitudinal = describe(stiffest_wave(Cubic(I_m(1)).lattice));
   EXPECT_NE(longitudinal.find("pi"), std::string::npos) << longitudinal;
   EXPECT_EQ(longitudinal.find("fourth"), std::string::npos) << longitudinal;

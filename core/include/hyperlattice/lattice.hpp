@@ -22,17 +22,25 @@ struct Neighbour {
 /// cells that are there.
 enum class Boundary : std::uint32_t { particles, cells };
 
-/// The fixed part of a structured lattice. Site (i, j, k) stands at origin + spacing * (i, j, k).
+/// Three steps from site to site, in units of the spacing; rows of sites run along the first.
+using Basis = std::array<Vec3, 3>;
+inline constexpr Basis cubic_basis{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
+
+constexpr Vec3 combined(const Basis& basis, double i, double j, double k) { return i * basis[0] + j * basis[1] + k * basis[2]; }
+
+/// The fixed part of a structured lattice. Site (i, j, k) stands at origin + spacing * (i a1 + j a2 + k a3).
 struct Grid {
   Vec3 origin;
   double spacing = 0;                     ///< lattice constant l, metres
+  Basis basis = cubic_basis;              ///< a1, a2, a3
   std::array<std::int32_t, 3> sites{};    ///< box of sites
   double site_volume = 0;                 ///< volume of one whole particle, m3
   double membrane_distance = 0;           ///< Delta: distance to the mirror copy in the fourth dimension, metres
   std::span<const Neighbour> neighbours;  ///< forward neighbours
   std::uint32_t spring_classes = 1;
-  Boundary boundary = Boundary::particles;
-  const Shape* shape = nullptr;  ///< the solid that was filled, as it came in the options; null: none
+  std::array<double, max_spring_classes> class_stiffness{1, 1, 1, 1};  ///< of each class's base springs, over k: what makes the lattice isotropic
+  Boundary boundary = Boundary::particles;                             ///< cells need the cubic basis
+  const Shape* shape = nullptr;                                        ///< the solid that was filled, as it came in the options; null: none
 };
 
 /// A base spring between two particles of a list.

@@ -11,21 +11,10 @@ namespace hyperlattice {
 
 struct KernelRequest;  // kernels/request.hpp
 
-/// The lattice as a material sees it when it chooses its springs' stiffness.
-struct LatticeFacts {
-  double spacing = 0;            ///< l, metres
-  double site_volume = 0;        ///< m3 of one particle
-  double membrane_distance = 0;  ///< Delta, metres
-  std::span<const Neighbour> neighbours;
-  std::uint32_t spring_classes = 1;
-  std::uint64_t particles = 0;                     ///< of the body, in whole ones: with boundary cells the sum of their shares
-  std::uint64_t springs[max_spring_classes] = {};  ///< base springs of each class that exist in the body, in whole ones
-};
-
-/// What a material makes of it. Cross springs (beta, gamma) share their base spring's neighbour.
+/// What a material makes of a lattice. Cross springs (beta, gamma) share their base spring's neighbour.
 struct MaterialConstants {
   double density = 0;                           ///< kg/m3
-  double base_stiffness = 0;                    ///< k, N/m
+  double base_stiffness = 0;                    ///< k, N/m; base springs have it times their class's own factor
   double cross_ratio[max_spring_classes] = {};  ///< k_beta / k, k_gamma / k: one for each spring class
   double alpha_ratio = 0;                       ///< k_alpha / k; meaningless if clamped
   bool clamped = false;                         ///< k_alpha infinite: no motion in the fourth dimension (III, IV)
@@ -43,6 +32,29 @@ struct ElasticConstants {
 
   double young() const { return (C11 - C12) * (C11 + 2 * C12) / (C11 + C12); }  ///< along [100]
   double poisson() const { return C12 / (C11 + C12); }                          ///< nu', pull along [100]
+};
+
+/// The lattice as a material sees it when it chooses its springs' stiffness.
+struct LatticeFacts {
+  double spacing = 0;            ///< l, metres
+  Basis basis = cubic_basis;     ///< in units of the spacing
+  double site_volume = 0;        ///< m3 of one particle
+  double membrane_distance = 0;  ///< Delta, metres
+  std::span<const Neighbour> neighbours;
+  std::uint32_t spring_classes = 1;
+  std::array<double, max_spring_classes> class_stiffness{1, 1, 1, 1};  ///< of base springs, over k
+  std::uint64_t particles = 0;                                         ///< of the body, in whole ones: with boundary cells the sum of their shares
+  double squared_lengths = 0;   ///< sum over the body's base springs, in whole ones, of stiffness / k times squared length, m2
+  bool allow_unstable = false;  ///< the scene wants unstable lattices to run: nothing is refused for that
+
+  void* self = nullptr;
+  ElasticConstants (*get_elastic_constants)(void* self, const MaterialConstants& constants) = nullptr;
+  bool (*get_stable)(void* self, const MaterialConstants& constants) = nullptr;  ///< null: not known
+
+  /// Of the endless lattice with these springs.
+  ElasticConstants elastic_constants(const MaterialConstants& constants) const { return get_elastic_constants(self, constants); }
+  /// Whether the endless mirrored layer is stable with these springs.
+  bool is_stable(const MaterialConstants& constants) const { return get_stable == nullptr || get_stable(self, constants); }
 };
 
 /// What is special in a kernel; everything not asked for costs no instruction.
@@ -70,7 +82,8 @@ struct MaterialFunctions {
   std::string_view law;  ///< materials with the same law share kernels and may stand in one body
 };
 
-/// A material class has: MaterialConstants constants(const LatticeFacts&) const, which throws when E, nu and membrane do not fit;
+/// A material class has: MaterialConstants constants(const LatticeFacts&) const, which throws when E, nu and membrane do not fit (a sentence whose
+/// first word is an option's name is an objection to that option);
 /// static KernelSet kernels(const KernelChoice&); static constexpr std::string_view law.
 template <class T>
 concept MaterialComponent = requires(const T& material, const LatticeFacts& lattice, const KernelChoice& choice) {

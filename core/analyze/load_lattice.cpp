@@ -1,4 +1,4 @@
-#include <analyze/spring_lattice.hpp>
+#include <analyze/load_lattice.hpp>
 #include <model/build.hpp>
 #include <scene/option_reader.hpp>
 
@@ -9,8 +9,6 @@
 namespace hyperlattice {
 
 namespace {
-
-using Membrane = KernelChoice::Membrane;
 
 constexpr const char* where = "--lattice";
 
@@ -25,16 +23,7 @@ const Component& find_lattice(Host& host, const std::string& type) {
   throw InputError({{where, type, "a lattice that can be found, such as lattices.cubic" + (near.empty() ? "" : "; did you mean '" + near + "'?")}});
 }
 
-Membrane membrane_of(const MaterialConstants& constants) {
-  if (constants.clamped) return constants.has_cross_springs() ? Membrane::clamped : Membrane::none;
-  return constants.has_cross_springs() || constants.alpha_ratio != 0 ? Membrane::free : Membrane::none;
-}
-
 }  // namespace
-
-LatticeGeometry geometry_from(const Grid& grid) {
-  return {geometry_of(grid), grid.spring_classes, grid.spacing, grid.site_volume, grid.membrane_distance};
-}
 
 LatticeGeometry load_lattice(Host& host, const std::string& type) {
   Stage stage;
@@ -58,13 +47,6 @@ LatticeGeometry load_lattice(Host& host, const std::string& type) {
   } catch (const std::invalid_argument& refused) {
     throw refusal(stage, refused.what());
   }
-}
-
-SpringLattice::SpringLattice(LatticeGeometry geometry, const MaterialConstants& constants)
-    : geometry_(std::move(geometry)), base_stiffness_(constants.base_stiffness), membrane_(membrane_of(constants)) {
-  for (std::uint32_t c = 0; c < geometry_.spring_classes; ++c)
-    springs_.push_back({base_stiffness_, constants.cross_ratio[c] * base_stiffness_, infinity});
-  alpha_ = constants.clamped ? 0 : constants.alpha_ratio * base_stiffness_;
 }
 
 }  // namespace hyperlattice

@@ -1,0 +1,160 @@
+// The paper's membranes on any lattice: k_beta goes with spring class 0, k_gamma with class 1. Which lambda has a Poisson ratio, and which Poisson
+// ratios a stable lattice reaches, found by asking the lattice for its elastic constants. Of the cubic lattice calibration.hpp has closed forms.
+#pragma once
+
+#include <hyperlattice/calibration.hpp>
+#include <hyperlattice/material.hpp>
+
+#include <algorithm>
+#include <locale>
+#include <optional>
+#include <sstream>
+#include <string>
+
+namespace hyperlattice::membranes {
+
+using calibration::Membrane;
+using calibration::Ratios;
+using calibration::Reach;
+
+inline constexpr Membrane with_lambda[] = {Membrane::I_m, Membrane::I, Membrane::II, Membrane::III, Membrane::IV};
+
+/// Whether lambda means something to it: to all but none and free.
+inline bool has_lambda(Membrane membrane) { return std::find(std::begin(with_lambda), std::end(with_lambda), membrane) != std::end(with_lambda); }
+
+inline std::string_view name(Membrane membrane) { return calibration::membrane_names[static_cast<std::size_t>(membrane)]; }
+
+/// Springs of stiffness k = 1 N/m with these in the fourth dimension.
+inline MaterialConstants constants(const LatticeFacts& lattice, const Ratios& ratios) {
+  MaterialConstants constants;
+  constants.density = constants.base_stiffness = 1;
+  constants.cross_ratio[0] = ratios.beta;
+  constants.cross_ratio[1] = lattice.spring_classes > 1 ? ratios.gamma : 0;
+  constants.alpha_ratio = ratios.clamped ? 0 : ratios.alpha;
+  constants.clamped = ratios.clamped;
+  return constants;
+}
+
+/// k_gamma / k_beta that leaves C11 - C12 - 2 C44 as it is without a membrane: an isotropic lattice stays isotropic. 3/4 for the cubic lattice; 0 if
+/// it has one class of springs.
+inline double isotropic_ratio(const LatticeFacts& lattice) {
+  if (lattice.spring_classes < 2) return 0;
+  const auto anisotropy = [&](double beta, double gamma) {
+    const ElasticConstants c = lattice.elastic_constants(constants(lattice, {0, beta, gamma, true}));
+    return c.C11 - c.C12 - 2 * c.C44;
+  };
+  const double without = anisotropy(0, 0);
+  return -(anisotropy(1, 0) - without) / (anisotropy(0, 1) - without);
+}
+
+/// Equations (1) to (5), with the lattice's own ratio in I-m.
+inline Ratios ratios(const LatticeFacts& lattice, Membrane membrane, double lambda) {
+  Ratios ratios = calibration::ratios(membrane, lambda);
+  if (membrane == Membrane::I_m) ratios.gamma = isotropic_ratio(lattice) * ratios.beta;
+  return ratios;
+}
+
+inline ElasticConstants elastic_constants(const LatticeFacts& lattice, Membrane membrane, double lambda) {
+  return lattice.elastic_constants(constants(lattice, ratios(lattice, membrane, lambda)));
+}
+
+/// The lambda that has this Poisson ratio along [100], stable or not, of a membrane that has a lambda; infinite if none has. By secants: exact at
+/// once for structured lattices, whose elastic constants are linear in lambda.
+inline double lambda(const LatticeFacts& lattice, Membrane membrane, double poisson) {
+  const auto miss = [poisson](const ElasticConstants& c) { return c.C12 - poisson * (c.C11 + c.C12); };  // linear in lambda as they are
+  constexpr double rounding = 1e-13, exact = 1e-11, largest = 1e9;
+  constexpr int most = 50;
+  if (const ElasticConstants none = elastic_constants(lattice, membrane, 0); std::abs(miss(none)) < rounding * none.C11) return 0;
+  double before = 1, now = 2, miss_before = miss(elastic_constants(lattice, membrane, before));
+  for (int n = 0; n < most && std::abs(now) < largest; ++n) {
+    const ElasticConstants here = elastic_constants(lattice, membrane, now);
+    const double miss_now = miss(here), slope = (miss_now - miss_before) / (now - before);
+    if (n > 0 && std::abs(miss_now) < exact * std::abs(here.C11)) return now;
+    before = now;
+    miss_before = miss_now;
+    now -= miss_now / slope;
+  }
+  return infinity;
+}
+
+/// The Poisson ratio that the lattice approaches as lambda grows without end.
+inline double limit(const LatticeFacts& lattice, Membrane membrane) {
+  const ElasticConstants one = elastic_constants(lattice, membrane, 1e3), two = elastic_constants(lattice, membrane, 2e3);
+  const double C11 = two.C11 - one.C11, C12 = two.C12 - one.C12;
+  return C12 / (C11 + C12);
+}
+
+/// Where stability begins, going up; nothing if small positive lambda are unstable already.
+inline std::optional<double> least_stable(const LatticeFacts& lattice, Membrane membrane) {
+  constexpr double small = 1e-6;
+  const auto grows = [&](double at) { return !lattice.is_stable(constants(lattice, ratios(lattice, membrane, at))); };
+  double stable = small, unstable = -8;
+  if (grows(stable)) return std::nullopt;
+  while (stable - unstable > small) {
+    const double middle = (stable + unstable) / 2;
+    (grows(middle) ? unstable : stable) = middle;
+  }
+  return std::abs(stable) < 2 * small ? 0 : stable;
+}
+
+/// Whether the mirrored lattice is stable, the edge excluded.
+inline bool is_stable(const LatticeFacts& lattice, Membrane membrane, double lambda) {
+  if (!lattice.is_stable(constants(lattice, ratios(lattice, membrane, lambda)))) return false;
+  if (lambda >= 0) return true;
+  constexpr double edge = 1e-5;
+  const std::optional<double> least = least_stable(lattice, membrane);
+  return least && *least < 0 && lambda > *least + edge;
+}
+
+/// Poisson ratios for which the mirrored lattice is stable, of a membrane that has a lambda.
+inline Reach reach(const LatticeFacts& lattice, Membrane membrane) {
+  const std::optional<double> least = least_stable(lattice, membrane);
+  if (!least) return {};
+  const double start = elastic_constants(lattice, membrane, *least).poisson(), end = limit(lattice, membrane);
+  return {std::min(start, end), std::max(start, end), *least < 0 || end > start};
+}
+
+/// Of all membranes with a lambda but one, those for which something holds, as a list of names.
+template <class Holds>
+std::string others(Membrane but, const Holds& holds) {
+  std::string names;
+  for (const Membrane other : with_lambda)
+    if (other != but && holds(other)) names += (names.empty() ? "" : ", ") + std::string(name(other));
+  return names;
+}
+
+template <class... Parts>
+std::string text(const Parts&... parts) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(4);
+  (out << ... << parts);
+  return out.str();
+}
+
+/// Membranes, other than one, that give the lattice this Poisson ratio and are stable; for a message.
+inline std::string reached_by(const LatticeFacts& lattice, Membrane but, double poisson) {
+  const std::string names = others(but, [&](Membrane other) {
+    const double found = lambda(lattice, other, poisson);
+    return std::isfinite(found) && is_stable(lattice, other, found);
+  });
+  return names.empty() ? "no membrane of this lattice reaches it" : text(poisson, " is within the reach of ", names);
+}
+
+/// For a message about a Poisson ratio out of a membrane's reach: that reach, and who reaches it.
+inline std::string reach_sentence(const LatticeFacts& lattice, Membrane membrane, double poisson) {
+  const Reach own = reach(lattice, membrane);
+  return text("within (", own.low, ", ", own.high, own.open ? ")" : "]", ", the reach of membrane ", name(membrane), "; ",
+              reached_by(lattice, membrane, poisson));
+}
+
+/// For a message about a lambda whose lattice is unstable: those that are stable, and membranes that are stable with this one.
+inline std::string stable_sentence(const LatticeFacts& lattice, Membrane membrane, double lambda) {
+  const std::optional<double> least = least_stable(lattice, membrane);
+  const std::string stable = others(membrane, [&](Membrane other) { return is_stable(lattice, other, lambda); });
+  return (!least ? text("another membrane: ", name(membrane), " is unstable for small lambda")
+                 : text(*least == 0 ? "at least " : "above ", *least, ": with less, membrane ", name(membrane), " is unstable")) +
+         (stable.empty() ? "; no membrane of this lattice is stable with it" : text("; ", lambda, " is stable with ", stable));
+}
+
+}  // namespace hyperlattice::membranes
