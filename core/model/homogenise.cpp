@@ -4,8 +4,7 @@
 // is least where K u = f(e), which conjugate gradients find for each of six strains; there C = (A - f.u) / V.
 #include <model/homogenise.hpp>
 
-#include <Eigen/IterativeLinearSolvers>
-#include <Eigen/Sparse>
+#include <Eigen/Dense>
 
 #include <stdexcept>
 
@@ -16,44 +15,29 @@ namespace {
 constexpr int strains = 6;  // xx, yy, zz, 2 yz, 2 xz, 2 xy
 using Strains = Eigen::Matrix<double, strains, 1>;
 using Stiffness = Eigen::Matrix<double, strains, strains>;
+using Field = Eigen::Matrix<double, Eigen::Dynamic, strains, Eigen::RowMajor>;  ///< a row a degree of freedom, a column a strain
 
-/// A kind of spring of a particle pair: how its length grows.
+/// A spring of a pair of particles: how its length grows.
 struct Growth {
+  std::uint32_t a = 0, b = 0;
   double stiffness = 0;
   Strains by_strain;
-  Vec3 direction;     ///< of b's displacement; a's is opposite
-  double height = 0;  ///< of either height
+  double by_b[4] = {};  ///< by b's displacement x y z and height; a's displacement is opposite, its height counts alike
 };
 
 class Sample {
  public:
-  Sample(std::uint32_t particles, int components)
-      : components_(components), size_(static_cast<Eigen::Index>(particles) * components), load_(size_, strains) {
-    load_.setZero();
-  }
+  Sample(std::uint32_t particles, bool free) : particles_(particles), components_(free ? 4 : 3) {}
 
-  void add(std::uint32_t a, std::uint32_t b, const Growth& growth) {
+  void add(const Growth& growth) {
+    springs_.push_back(growth);
     affine_ += growth.stiffness * growth.by_strain * growth.by_strain.transpose();
-    common_load_ += growth.stiffness * 2 * growth.height * growth.by_strain;
-    common_stiffness_ += growth.stiffness * 4 * growth.height * growth.height;
-    if (components_ == 0) return;
-    const double of_b[4] = {growth.direction.x, growth.direction.y, growth.direction.z, growth.height};
-    for (int c = 0; c < components_; ++c) {
-      const double of_a = c == 3 ? of_b[3] : -of_b[c];
-      load_.row(at(b, c)) -= growth.stiffness * of_b[c] * growth.by_strain.transpose();
-      load_.row(at(a, c)) -= growth.stiffness * of_a * growth.by_strain.transpose();
-      for (int d = 0; d < components_; ++d) {
-        const double of_a_d = d == 3 ? of_b[3] : -of_b[d];
-        entry(b, c, b, d, growth.stiffness * of_b[c] * of_b[d]);
-        entry(a, c, a, d, growth.stiffness * of_a * of_a_d);
-        entry(a, c, b, d, growth.stiffness * of_a * of_b[d]);
-        entry(b, c, a, d, growth.stiffness * of_b[c] * of_a_d);
-      }
-    }
+    common_load_ += growth.stiffness * 2 * growth.by_b[3] * growth.by_strain;
+    common_stiffness_ += growth.stiffness * 4 * growth.by_b[3] * growth.by_b[3];
   }
-  void add_alpha(std::uint32_t particle, double alpha) {
-    common_stiffness_ += 2 * alpha;
-    if (components_ == 4) entry(particle, 3, particle, 3, 2 * alpha);
+  void set_alpha(double alpha) {
+    alpha_ = alpha;
+    common_stiffness_ += 2 * alpha * particles_;
   }
 
   /// Times the volume; all particles strained alike, with one height for all.
@@ -62,46 +46,87 @@ class Sample {
     return affine_ - common_load_ * common_load_.transpose() / common_stiffness_;
   }
 
-  /// Times the volume; each particle at its own rest.
+  /// Times the volume; each particle at its own rest, which conjugate gradients find for all strains at once.
   Stiffness relaxed() const {
-    Eigen::SparseMatrix<double, Eigen::RowMajor> matrix(size_, size_);
-    matrix.setFromTriplets(entries_.begin(), entries_.end());
-    Eigen::ConjugateGradient<Eigen::SparseMatrix<double, Eigen::RowMajor>, Eigen::Lower | Eigen::Upper> solver;
-    solver.setTolerance(1e-9);  // its square is the error of the energy
-    solver.setMaxIterations(20000);
-    solver.compute(matrix);
-    Stiffness found = affine_;
-    for (int e = 0; e < strains; ++e) {
-      const Eigen::VectorXd moved = solver.solve(load_.col(e));
-      if (solver.info() != Eigen::Success)
-        throw std::invalid_argument("the lattice's springs make no solid: its sample finds no rest under a strain");
-      found.row(e) -= moved.transpose() * load_;
+    constexpr double tolerance = 1e-8;  // of the load; its square is about the error of the energy
+    constexpr int most = 20000;
+    const Field load = this->load();
+    const Eigen::VectorXd inverse = diagonal().cwiseInverse();
+    Field moved = Field::Zero(load.rows(), strains), rest = load, direction = inverse.asDiagonal() * rest;
+    Strains product = columns(rest, direction);
+    const Strains enough = tolerance * tolerance * load.colwise().squaredNorm().transpose();
+    for (int n = 0; (rest.colwise().squaredNorm().transpose().array() > enough.array()).any(); ++n) {
+      if (n == most) throw std::invalid_argument("the lattice's springs make no solid: its sample finds no rest under a strain");
+      const Field resisted = resistance(direction);
+      const Strains length = ratio(product, columns(direction, resisted));
+      moved += direction * length.asDiagonal();
+      rest -= resisted * length.asDiagonal();
+      const Field better = inverse.asDiagonal() * rest;
+      const Strains next = columns(rest, better);
+      direction = better + direction * ratio(next, product).asDiagonal();
+      product = next;
     }
+    const Stiffness found = affine_ - load.transpose() * moved;
     return 0.5 * (found + found.transpose());
   }
 
  private:
-  Eigen::Index at(std::uint32_t particle, int c) const { return static_cast<Eigen::Index>(particle) * components_ + c; }
-  void entry(std::uint32_t a, int c, std::uint32_t b, int d, double value) {
-    entries_.emplace_back(static_cast<int>(at(a, c)), static_cast<int>(at(b, d)), value);
+  /// Scalar products, column by column.
+  static Strains columns(const Field& a, const Field& b) { return a.cwiseProduct(b).colwise().sum().transpose(); }
+  /// 0 where there is nothing left to do.
+  static Strains ratio(const Strains& a, const Strains& b) { return (b.array() != 0).select(a.array() / b.array(), 0.0).matrix(); }
+
+  Eigen::Index at(std::uint32_t particle) const { return static_cast<Eigen::Index>(particle) * components_; }
+  /// Adds to the rows of both ends what a row vector pulls along the spring.
+  template <class Pull>
+  void spread(Field& field, const Growth& growth, const Pull& pull) const {
+    for (int c = 0; c < components_; ++c) {
+      const double by_b = growth.by_b[c], by_a = c == 3 ? by_b : -by_b;
+      field.row(at(growth.b) + c) += by_b * pull;
+      field.row(at(growth.a) + c) += by_a * pull;
+    }
+  }
+  Field load() const {
+    Field load = Field::Zero(at(particles_), strains);
+    for (const Growth& growth : springs_) spread(load, growth, -growth.stiffness * growth.by_strain.transpose());
+    return load;
+  }
+  Field resistance(const Field& moved) const {
+    Field forces = Field::Zero(moved.rows(), strains);
+    for (const Growth& growth : springs_) {
+      Eigen::Matrix<double, 1, strains> grown = Eigen::Matrix<double, 1, strains>::Zero();
+      for (int c = 0; c < components_; ++c)
+        grown += growth.by_b[c] * (c == 3 ? moved.row(at(growth.b) + c) + moved.row(at(growth.a) + c)
+                                          : Eigen::Matrix<double, 1, strains>(moved.row(at(growth.b) + c) - moved.row(at(growth.a) + c)));
+      spread(forces, growth, growth.stiffness * grown);
+    }
+    for (std::uint32_t p = 0; components_ == 4 && p < particles_; ++p) forces.row(at(p) + 3) += 2 * alpha_ * moved.row(at(p) + 3);
+    return forces;
+  }
+  Eigen::VectorXd diagonal() const {
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(at(particles_));
+    for (const Growth& growth : springs_)
+      for (int c = 0; c < components_; ++c)
+        for (const std::uint32_t end : {growth.a, growth.b}) sum(at(end) + c) += growth.stiffness * growth.by_b[c] * growth.by_b[c];
+    for (std::uint32_t p = 0; components_ == 4 && p < particles_; ++p) sum(at(p) + 3) += 2 * alpha_;
+    for (double& value : sum)
+      if (value == 0) value = 1;  // a particle that nothing holds
+    return sum;
   }
 
+  std::uint32_t particles_;
   int components_;
-  Eigen::Index size_;
-  Eigen::Matrix<double, Eigen::Dynamic, strains> load_;
-  std::vector<Eigen::Triplet<double>> entries_;
+  std::vector<Growth> springs_;
+  double alpha_ = 0;
   Stiffness affine_ = Stiffness::Zero();
   Strains common_load_ = Strains::Zero();
   double common_stiffness_ = 0;
 };
 
-Growth growth_of(Vec3 rest, double length, double height, double stiffness) {
+Growth growth_of(std::uint32_t a, std::uint32_t b, Vec3 rest, double length, double height, double stiffness) {
   const double n = 1 / length;
-  Growth growth;
-  growth.stiffness = stiffness;
+  Growth growth{a, b, stiffness, {}, {n * rest.x, n * rest.y, n * rest.z, n * height}};
   growth.by_strain << n * rest.x * rest.x, n * rest.y * rest.y, n * rest.z * rest.z, n * rest.y * rest.z, n * rest.x * rest.z, n * rest.x * rest.y;
-  growth.direction = n * rest;
-  growth.height = n * height;
   return growth;
 }
 
@@ -117,18 +142,18 @@ ElasticConstants isotropic(const Stiffness& c) {
 ElasticConstants homogenise(const Listed& listed, double volume, double membrane_distance, const MaterialConstants& constants) {
   const bool has_sample = listed.sample_particles > 0, cross = constants.has_cross_springs(), free = cross && !constants.clamped;
   const std::uint32_t particles = has_sample ? listed.sample_particles : static_cast<std::uint32_t>(listed.positions.size());
-  Sample sample(particles, has_sample ? (free ? 4 : 3) : 0);
+  Sample sample(particles, free);
   const auto add = [&](std::uint32_t a, std::uint32_t b, Vec3 rest, double factor) {
     const double k = factor * constants.base_stiffness, length = norm(rest);
-    sample.add(a, b, growth_of(rest, length, 0, k));
-    if (cross) sample.add(a, b, growth_of(rest, std::hypot(length, membrane_distance), free ? membrane_distance : 0, constants.cross_ratio[0] * k));
+    sample.add(growth_of(a, b, rest, length, 0, k));
+    if (cross)
+      sample.add(growth_of(a, b, rest, std::hypot(length, membrane_distance), free ? membrane_distance : 0, constants.cross_ratio[0] * k));
   };
   for (const SampleSpring& spring : listed.sample) add(spring.a, spring.b, spring.rest, spring.stiffness);
   if (!has_sample)
     for (const ListedSpring& spring : listed.springs)
       add(spring.a, spring.b, listed.positions[spring.b] - listed.positions[spring.a], spring.stiffness);
-  if (free)
-    for (std::uint32_t p = 0; p < particles; ++p) sample.add_alpha(p, constants.alpha_ratio * constants.base_stiffness);
+  if (free) sample.set_alpha(constants.alpha_ratio * constants.base_stiffness);
   return isotropic(has_sample ? Stiffness(sample.relaxed() / listed.sample_volume) : Stiffness(sample.strained_alike() / volume));
 }
 

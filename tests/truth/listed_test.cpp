@@ -53,9 +53,12 @@ TEST_P(ListedMembrane, TheCubicLatticeAsAListMovesAsTheGrid) {
   const std::size_t particles = model.body.particles;
   const bool heights = model.degrees_of_freedom == 4;
   for (Simulation* simulation : {&grid, &list}) {
-    simulation->set_damping(0.1);
+    simulation->set_damping(0.1);  // not for long: it is not continuous where velocities change their sign
     simulation->set_displacements(noise(3 * particles, 1e-6, 1), heights ? noise(particles, 1e-6, 2) : std::vector<double>{});
-    for (int n = 0; n < 200; ++n) simulation->step(0.5 * model.critical_time_step);
+    for (int n = 0; n < 200; ++n) {
+      simulation->step(0.5 * model.critical_time_step);
+      if (n == 5) simulation->set_damping(0);
+    }
   }
   expect_same_motion(grid, list, 1e-6);
 }
@@ -104,7 +107,7 @@ TEST_P(RandomBlock, KeepsMomentumAndTheSchemesEnergy) {
 
 TEST_P(RandomBlock, HasTheSameBitsForAnyNumberOfThreads) {
   const auto plan = plan_of(listed_scene(random_lattice(9, 8, 7),
-                                         std::string(GetParam().material) + R"(, "failure": { "type": "failures.elongation", "limit": 2e-6 })",
+                                         std::string(GetParam().material) + R"(, "failure": { "type": "failures.elongation", "limit": 1.5e-6 })",
                                          R"({ "type": "loads.gravity", "acceleration": [0, 0, -9.81] }, { "type": "loads.fixed", "on": "z_min" })"));
   std::vector<std::uint64_t> hashes;
   std::vector<double> energies;

@@ -62,7 +62,7 @@ inline ElasticConstants elastic_constants(const LatticeFacts& lattice, Membrane 
 /// once for structured lattices, whose elastic constants are linear in lambda.
 inline double lambda(const LatticeFacts& lattice, Membrane membrane, double poisson) {
   const auto miss = [poisson](const ElasticConstants& c) { return c.C12 - poisson * (c.C11 + c.C12); };  // linear in lambda as they are
-  constexpr double rounding = 1e-13, exact = 1e-11, largest = 1e9;
+  constexpr double rounding = 1e-13, exact = 1e-10, largest = 1e9;
   constexpr int most = 50;
   if (const ElasticConstants none = elastic_constants(lattice, membrane, 0); std::abs(miss(none)) < rounding * none.C11) return 0;
   double before = 1, now = 2, miss_before = miss(elastic_constants(lattice, membrane, before));
