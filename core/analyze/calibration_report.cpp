@@ -50,6 +50,7 @@ Json measured_json(const Measured& measured, const VirtualTest::Options& options
   Json json = pair_json(measured);
   json["young_over_k_per_l"] = measured.young;
   json["particles_along_edge"] = options.particles;
+  json["particles"] = measured.particles;
   json["strain"] = options.strain;
   json["residual"] = measured.residual;
   json["force_evaluations"] = measured.evaluations;
@@ -58,7 +59,9 @@ Json measured_json(const Measured& measured, const VirtualTest::Options& options
 }
 
 std::string measured_text(const Measured& measured, const VirtualTest::Options& options, const ElasticPair& infinite) {
-  std::string text = fmt::format("\nMeasured on {0} x {0} x {0} particles, strain {1:g}\n", options.particles, options.strain);
+  const auto edge = static_cast<std::uint64_t>(options.particles), in_a_cell = measured.particles / (edge * edge * edge);
+  std::string text = fmt::format("\nMeasured on {0} x {0} x {0} {1}, strain {2:g}\n", edge,
+                                 in_a_cell > 1 ? fmt::format("cells of {} particles", in_a_cell) : "particles", options.strain);
   line(text, "cube", pair_text(measured));
   line(text, "less the endless lattice",
        fmt::format("nu {:+.2g}, eta {:+.2g}", measured.poisson - infinite.poisson, measured.modulus_ratio - infinite.modulus_ratio));

@@ -112,6 +112,7 @@ Measured VirtualTest::compress(const calibration::Ratios& ratios) {
   Measured measured;
   measured.poisson = -(cube.growth(0, moved) + cube.growth(1, moved)) / 2 / cube.growth(2, moved);
   measured.young = force / area / options_.strain / model->materials.front().constants.base_stiffness;
+  measured.particles = model->body.particles;
   measured.residual = rest.residual;
   measured.evaluations = rest.evaluations;
   measured.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -18,6 +18,7 @@ struct ElasticPair {
 
 struct Measured : ElasticPair {
   double young = 0;               ///< E l / k, with the area of N^2 cells
+  std::uint64_t particles = 0;    ///< of the cube
   double residual = 0;            ///< of the forces, see relax()
   std::uint64_t evaluations = 0;  ///< of all forces
   double seconds = 0;             ///< building and running

@@ -91,13 +91,14 @@ bool has_negative_springs(const InfiniteLattice& lattice) {
 }
 
 /// For a material by itself. Waves that grow limit no step; if all do, springs of the opposite sign stand for them.
-void limit_step(Model& model, Material& material, const InfiniteLattice& lattice, bool unstable) {
+void limit_step(Model& model, std::size_t n, const InfiniteLattice& lattice, bool unstable) {
+  Material& material = model.materials[n];
   const Wave wave = stiffest_wave(lattice);
   const char* which = unstable ? "the stiffest of all waves of the lattice that do not grow: " : "the stiffest of all waves of the lattice: ";
   model.critical_because = which + describe(wave);
   double stiffness = wave.stiffness;
   if (stiffness <= 0) {
-    stiffness = bound(model, uniform(static_cast<std::uint8_t>(&material - model.materials.data())));
+    stiffness = bound(model, uniform(static_cast<std::uint8_t>(n)));
     model.critical_because = "a safe bound: every wave of the lattice grows";
   }
   model.critical_time_step = material.critical_time_step = step_of(stiffness, material.mass);
@@ -109,7 +110,7 @@ void find_critical_step(Model& model, Faults& faults) {
   if (model.body.is_listed()) return find_critical_step_of_list(model, faults);
   const std::size_t before = faults.size();
   for (std::size_t n = 0; n < model.materials.size(); ++n) {
-    Material& material = model.materials[n];
+    const Material& material = model.materials[n];
     const InfiniteLattice lattice = lattice_of(model, n);
     const auto unstable = find_instability(lattice, Sector::mirrored);
     if (unstable && !model.scene->allow_unstable) {
@@ -122,7 +123,7 @@ void find_critical_step(Model& model, Faults& faults) {
           fmt::format("the lattice of {} ({}) is unstable: {}", material.stage->name, material.stage->pointer, describe(*unstable)));
     else if (model.two_layers_grow.empty() && has_negative_springs(lattice))
       if (const auto opposed = find_instability(lattice, Sector::opposed)) model.two_layers_grow = describe(*opposed);
-    limit_step(model, material, lattice, unstable.has_value());
+    limit_step(model, n, lattice, unstable.has_value());
   }
   if (faults.size() > before) return;
   if (!model.body.cells.empty()) {

@@ -47,7 +47,8 @@ std::vector<std::uint64_t> order_of(const PointList& points) {
   keys.reserve(points.positions.size());
   for (std::size_t n = 0; n < points.positions.size(); ++n) {
     const Vec3 x = (1 / points.spacing) * (points.positions[n] - low);
-    keys.push_back({std::floor(x.z), std::floor(x.y), x.x, n});
+    constexpr double rounding = 1e-6;  // particles that lie in planes of the spacing stay together
+    keys.push_back({std::floor(x.z + rounding), std::floor(x.y + rounding), x.x, n});
   }
   std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
     return a.slab != b.slab ? a.slab < b.slab : a.strip != b.strip ? a.strip < b.strip : a.x != b.x ? a.x < b.x : a.source < b.source;

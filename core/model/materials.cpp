@@ -19,9 +19,11 @@ double whole_springs(const Body& body, std::uint32_t spring_class) {
   return static_cast<double>(neighbours) * static_cast<double>(body.cells.count());  // a cell's shares sum to one spring to each neighbour
 }
 
-LatticeFacts facts_of(const Body& body, const LatticeGeometry& geometry) {
+LatticeFacts facts_of(const Model& model, const LatticeGeometry& geometry) {
+  const Body& body = model.body;
   LatticeFacts facts = facts_of(geometry);
   facts.neighbours = body.neighbours;
+  facts.allow_unstable = model.scene->allow_unstable;
   facts.particles = body.cells.empty() ? body.particles : body.cells.count();  // a cell's shares sum to one particle
   for (std::uint32_t c = 0; c < facts.spring_classes; ++c)
     for (const NeighbourGeometry& n : geometry.neighbours)
@@ -100,7 +102,7 @@ void add_materials(Model& model, RegionIndex& regions, Faults& faults) {
   if (stages.size() >= no_material) faults.add(stages.back()->pointer, "", fmt::format("at most {} materials", no_material - 1));
   if (!faults.empty()) return;
   const LatticeGeometry geometry = geometry_from(model.body);
-  const LatticeFacts facts = facts_of(model.body, geometry);
+  const LatticeFacts facts = facts_of(model, geometry);
   for (const Stage* stage : stages) try {
       model.materials.push_back(make_material(model, *stage, facts));
     } catch (const InputError& error) {

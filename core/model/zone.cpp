@@ -49,11 +49,11 @@ bool keeps_springs(const Eigen::Matrix3d& operation, const InfiniteLattice& latt
 std::optional<PhaseMap> on_phases(const Eigen::Matrix3d& operation, const Eigen::Matrix3d& basis) {
   const Eigen::Matrix3d acting = basis.transpose() * operation * basis.inverse().transpose();
   PhaseMap map{};
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column) {
-      const double whole = std::round(acting(row, column));
-      if (std::abs(acting(row, column) - whole) > nearby) return std::nullopt;
-      map[static_cast<std::size_t>(3 * row + column)] = static_cast<int>(whole);
+  for (std::size_t row = 0; row < 3; ++row)
+    for (std::size_t column = 0; column < 3; ++column) {
+      const double exact = acting(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)), whole = std::round(exact);
+      if (std::abs(exact - whole) > nearby) return std::nullopt;
+      map[row][column] = static_cast<int>(whole);
     }
   return map;
 }
@@ -75,13 +75,25 @@ std::vector<PhaseMap> symmetries(const InfiniteLattice& lattice) {
   return found;
 }
 
+const std::array<Vec3, 27>& steps_around() {
+  static const std::array<Vec3, 27> steps = [] {
+    std::array<Vec3, 27> all;
+    std::size_t next = 0;
+    for (const double z : {-1, 0, 1})
+      for (const double y : {-1, 0, 1})
+        for (const double x : {-1, 0, 1}) all[next++] = {x, y, z};
+    return all;
+  }();
+  return steps;
+}
+
 Vec3 in_first_zone(const Basis& basis, Vec3 q) {
   constexpr double clearly = 1 - 1e-3;  // of two equal ones, the one that was given
   const Basis b = reciprocal(basis);
   for (bool shorter = true; shorter;) {
     shorter = false;
-    for (int n = 0; n < 27; ++n) {
-      const Vec3 same = q - 2 * pi * combined(b, n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
+    for (const Vec3 step : steps_around()) {
+      const Vec3 same = q - 2 * pi * combined(b, step.x, step.y, step.z);
       if (norm(same) >= clearly * norm(q)) continue;
       q = same;
       shorter = true;
@@ -92,20 +104,22 @@ Vec3 in_first_zone(const Basis& basis, Vec3 q) {
 
 std::vector<Vec3> zone_grid(const InfiniteLattice& lattice, int half) {
   const int period = 2 * half;
-  const auto place = [period](int i, int j, int k) { return static_cast<std::size_t>((k * period + j) * period + i); };
-  const auto wrapped = [period](int n) { return (n % period + period) % period; };
+  const auto wrapped = [period](int n) { return static_cast<std::size_t>((n % period + period) % period); };
+  const auto place = [&](int i, int j, int k) {
+    const auto side = static_cast<std::size_t>(period);
+    return (wrapped(k) * side + wrapped(j)) * side + wrapped(i);
+  };
   const std::vector<PhaseMap> maps = symmetries(lattice);
   const Basis b = reciprocal(lattice.basis);
-  std::vector<bool> known(place(0, 0, period));
+  std::vector<bool> known(place(-1, -1, -1) + 1);
   std::vector<Vec3> found;
   for (int k = 0; k < period; ++k)
     for (int j = 0; j < period; ++j)
       for (int i = 0; i < period; ++i) {
         if (known[place(i, j, k)]) continue;
         found.push_back(pi / half * combined(b, i, j, k));
-        for (const PhaseMap& m : maps)
-          known[place(wrapped(m[0] * i + m[1] * j + m[2] * k), wrapped(m[3] * i + m[4] * j + m[5] * k), wrapped(m[6] * i + m[7] * j + m[8] * k))] =
-              true;
+        const auto mapped = [&](const std::array<int, 3>& row) { return row[0] * i + row[1] * j + row[2] * k; };
+        for (const PhaseMap& map : maps) known[place(mapped(map[0]), mapped(map[1]), mapped(map[2]))] = true;
       }
   return found;
 }

@@ -15,10 +15,13 @@ inline constexpr double pi = std::numbers::pi;
 Basis reciprocal(const Basis& basis);
 
 /// A turn or reflection that maps the lattice onto itself, as it acts on the phases of a wave along a1, a2, a3: integers, by rows.
-using PhaseMap = std::array<int, 9>;
+using PhaseMap = std::array<std::array<int, 3>, 3>;
 
 /// Those of the 48 of a cube that map springs onto springs of their class. At least there and back, q -> -q.
 std::vector<PhaseMap> symmetries(const InfiniteLattice& lattice);
+
+/// The 27 steps of -1, 0 or 1 along each axis.
+const std::array<Vec3, 27>& steps_around();
 
 /// The shortest of the vectors that give the same wave.
 Vec3 in_first_zone(const Basis& basis, Vec3 q);
@@ -50,8 +53,8 @@ Vec3 zone_peak(const InfiniteLattice& lattice, const Value& value) {
   for (Candidate& candidate : best)
     for (double step = pi / half / 2; step > fine;) {
       Candidate next = candidate;
-      for (int n = 0; n < 27; ++n) {  // along edges and diagonals too: ridges run along the lattice's axes of symmetry
-        const Vec3 q = candidate.q + step * Vec3{double(n % 3 - 1), double(n / 3 % 3 - 1), double(n / 9 - 1)};
+      for (const Vec3 direction : steps_around()) {  // along edges and diagonals too: ridges run along the lattice's axes of symmetry
+        const Vec3 q = candidate.q + step * direction;
         if (const double here = value(q); here > next.value) next = {here, q};
       }
       if (next.value > candidate.value + gain * size)

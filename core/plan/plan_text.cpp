@@ -85,7 +85,7 @@ std::string plan_text(const Plan& plan) {
   page.line("run time", fmt::format("{} on a common processor", duration_text(number("expected_seconds"))));
 
   if (!plan.model->warnings.empty()) page.section("Warnings");
-  for (const std::string& warning : plan.model->warnings) page.line("unstable", warning);
+  for (const std::string& warning : plan.model->warnings) page.line("warning", warning);
 
   page.section("Left out");
   for (const LeftOut& left : plan.left_out) page.line(left.what, left.why);

@@ -18,7 +18,6 @@ enum class Stiffness : std::uint32_t { bulk, eq15 };
 constexpr std::string_view stiffness_names[] = {"bulk", "eq15"};
 
 using membranes::has_lambda;
-using membranes::name;
 using membranes::text;
 
 /// The lattice of calibration.hpp: 6 orthogonal springs of class 0, 12 diagonal ones of class 1, all as stiff.

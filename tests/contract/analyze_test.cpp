@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <support/program.hpp>
 
+#include <array>
 #include <cmath>
 
 namespace {
@@ -124,6 +125,35 @@ TEST(Analyze, RefusesPoissonRatiosOutOfReach) {
   expect_refused({"--membrane", "none", "--poisson", "0.2"}, {"--poisson", "none, or 0.25"});
   expect_refused({"--membrane", "free", "--k_beta", "1", "--k_alpha", "1", "--poisson", "0.2"}, {"--poisson", "that is what these springs have"});
   EXPECT_EQ(analyze({"--membrane", "I-m", "--poisson", "0.25"}).exit_code, 0);
+}
+
+// E l / k of the centred lattices: 5/3 and 5/2 without a membrane, times eta.
+TEST(Analyze, CentredLattices) {
+  for (const auto& [lattice, young] : {std::pair{"lattices.bcc", 5.0 / 3}, {"lattices.fcc", 2.5}}) {
+    EXPECT_NEAR(read({"--lattice", lattice, "--membrane", "none"}).at("young_over_k_per_l"), young, 1e-12);
+    const json found = read({"--lattice", lattice, "--membrane", "I-m", "--poisson", "0.1"});
+    EXPECT_NEAR(found.at("poisson_bulk"), 0.1, 1e-12);
+    EXPECT_EQ(found.at("isotropic"), true);
+    EXPECT_EQ(found.at("stable").at("two_layer"), true);
+  }
+  expect_refused({"--lattice", "lattices.fcc", "--membrane", "IV", "--poisson", "0.45"},
+                 {"within (0, 0.3333), the reach of membrane IV", "0.45 is within the reach of III"});
+  expect_refused({"--lattice", "lattices.bcc", "--membrane", "I-m", "--poisson", "0.3"}, {"within (-0.35, 0.25], the reach of membrane I-m"});
+}
+
+// Curves run to where they turn back: half of the shortest reciprocal vector along the direction.
+TEST(Analyze, DispersionOfCentredLatticesRunsToTheirOwnZone) {
+  const test::Folder folder("dispersion");
+  const std::string file = folder.file("curves.csv");
+  for (const auto& [lattice, ends] : {std::pair{"lattices.bcc", std::array{2, 1, 2}}, {"lattices.fcc", {2, 2, 1}}}) {
+    read({"--lattice", lattice, "--membrane", "none", "--dispersion", file});
+    const std::vector<std::string> rows = test::table_rows(file);
+    ASSERT_EQ(rows.size(), 303u);
+    for (std::size_t n = 0; n < 3; ++n) {
+      const std::string& last = rows[101 * n + 100];
+      EXPECT_NEAR(std::stod(last.substr(last.find(',') + 1)), ends[n] * std::acos(-1.0), 1e-6) << last;
+    }
+  }
 }
 
 TEST(Analyze, RefusesWhatDoesNotFitTogether) {

@@ -81,6 +81,20 @@ TEST(CalibrateCommand, PeopleReadTheSame) {
     EXPECT_NE(page.find(part), std::string::npos) << part << '\n' << page;
 }
 
+TEST(CalibrateCommand, CentredLattices) {
+  for (const auto& [lattice, cell] :
+       {std::pair{"lattices.bcc", "4 x 4 x 4 cells of 2 particles"}, {"lattices.fcc", "4 x 4 x 4 cells of 4 particles"}}) {
+    const json found = read({"--lattice", lattice, "--membrane", "I-m", "--poisson", "0.1", "--young", "1e9", "--measure", "4"});
+    const json back = read({"--lattice", lattice, "--membrane", "I-m", "--lambda", std::to_string(found.at("lambda").get<double>())});
+    EXPECT_NEAR(back.at("poisson"), 0.1, 1e-6);
+    EXPECT_NEAR(found.at("zener"), 1, 1e-12);
+    EXPECT_NEAR(found.at("measured").at("poisson"), 0.1, 0.05);  // a small cube is mostly surface
+    const std::string page = calibrate({"--lattice", lattice, "--membrane", "I-m", "--poisson", "0.1", "--measure", "4"}).out;
+    EXPECT_NE(page.find(cell), std::string::npos) << page;
+  }
+  expect_refused({"--lattice", "lattices.fcc", "--membrane", "I-m", "--poisson", "0.1", "--parameters", "paper"}, {"--parameters", "lattices.cubic"});
+}
+
 TEST(CalibrateCommand, RefusesWhatIsOutOfReach) {
   expect_refused({"--membrane", "I-m", "--poisson", "0.3"},
                  {"--poisson", "0.3", "within (-0.2, 0.25], the reach of membrane I-m", "0.3 is within the reach of IV"});

@@ -38,4 +38,17 @@ TEST_P(CriticalStep, HasATighterLimitWithLocalDamping) {
   EXPECT_GT(growth(*plan->model, 1.06 * limit, 0.8), 100);
 }
 
+TEST(CriticalStepOfSeveralMaterials, HoldsForCentredLattices) {
+  for (const MembraneCase& of : centred_lattices) {
+    const std::string other = R"({ "type": "materials.elastic", "young": 3e10, "density": 700, "region": { "half_space": { "point": [4e-3, 0, 0],
+                                "normal": [-1, 0.2, 0] } }, )" +
+                              std::string(of.material) + " }";
+    const auto plan = plan_of(block(8, 6, 6, of, "", other));
+    ASSERT_TRUE(plan->model->choice.mixed);
+    EXPECT_LT(growth(*plan->model, 0.99, 0), 100) << of.name;
+    const bool negative = std::string(of.name).ends_with("negative");  // their signs are not counted on
+    EXPECT_GT(growth(*plan->model, negative ? 2 : 1.25, 0), 1e6) << of.name;
+  }
+}
+
 }  // namespace

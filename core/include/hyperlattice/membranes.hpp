@@ -110,7 +110,8 @@ inline bool is_stable(const LatticeFacts& lattice, Membrane membrane, double lam
 inline Reach reach(const LatticeFacts& lattice, Membrane membrane) {
   const std::optional<double> least = least_stable(lattice, membrane);
   if (!least) return {};
-  const double start = elastic_constants(lattice, membrane, *least).poisson(), end = limit(lattice, membrane);
+  const auto tidy = [](double nu) { return std::abs(nu) < 1e-5 ? 0 : nu; };  // the edge of stability is known no better
+  const double start = tidy(elastic_constants(lattice, membrane, *least).poisson()), end = tidy(limit(lattice, membrane));
   return {std::min(start, end), std::max(start, end), *least < 0 || end > start};
 }
 
