@@ -36,11 +36,13 @@ class Plot {
     if (curves_.empty()) return "";
     draw_peers();
     draw_front();
-    std::string text = "set encoding utf8\nset logscale xy\nset tics out\nset grid lc rgb '#dddddd'\nset key outside below samplen 2 font ',11'\n";
-    fmt::format_to(std::back_inserter(text),
-                   "set title {} noenhanced\nset xlabel 'run time in s (solve, median of {})'\nset ylabel 'error in % ({})' noenhanced\n",
-                   quoted(study_.title), study_.repeats, norm_names[static_cast<std::size_t>(study_.norm)]);
-    text += "set offsets graph 0.06, graph 0.12, graph 0.08, graph 0.05\n" + data_;
+    std::string text =
+        "set encoding utf8\nset logscale xy\nset tics out\nset key outside top left Left reverse vertical maxcols 2 samplen 2 font ',11'\n";
+    fmt::format_to(std::back_inserter(text), "set title {} noenhanced\nset xlabel 'run time in s'\nset ylabel 'error in %, {}' noenhanced\n",
+                   quoted(study_.title), norm_names[static_cast<std::size_t>(study_.norm)]);
+    fmt::format_to(std::back_inserter(text), "set xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\n", least_.seconds / 2, most_.seconds * 2,
+                   100 * least_.error / 2, 100 * most_.error * 2);
+    text += data_;
     fmt::format_to(std::back_inserter(text), "plot {}\n", fmt::join(curves_, ", "));
     return text;
   }
@@ -75,9 +77,16 @@ class Plot {
     const std::string name = fmt::format("{}{}", kind, number);
     const char* colour = colours[curves_.size() / 2 % std::size(colours)];
     append_block(data_, name, points);
+    for (const auto& [cost, label] : points) include(cost);
     curves_.push_back(
         fmt::format("{} using 1:2 with linespoints lw 2 pt {} ps 0.9 lc rgb '{}' title {} noenhanced", name, mark, colour, quoted(title)));
     curves_.push_back(fmt::format("{} using 1:2:3 with labels offset 0,0.8 font ',10' tc rgb '{}' notitle", name, colour));
+  }
+
+  /// Widens the range of the axes to hold this too.
+  void include(const Cost& cost) {
+    least_ = {std::min(least_.error, cost.error), std::min(least_.seconds, cost.seconds)};
+    most_ = {std::max(most_.error, cost.error), std::max(most_.seconds, cost.seconds)};
   }
 
   void draw_front() {
@@ -87,9 +96,10 @@ class Plot {
     std::sort(front.begin(), front.end(), [](const auto& a, const auto& b) { return a.first.seconds < b.first.seconds; });
     append_block(data_, "$front", front);
     curves_.emplace_back("$front using 1:2 with points pt 6 ps 2.2 lw 1.5 lc rgb '#000000' title 'Pareto front'");
-    if (findings_.target)
-      curves_.push_back(
-          fmt::format("{:.6g} with lines dt 2 lc rgb '#555555' title 'target {:.3g} %'", 100 * *findings_.target, 100 * *findings_.target));
+    if (!findings_.target) return;
+    include({*findings_.target, most_.seconds});
+    curves_.push_back(
+        fmt::format("{:.6g} with lines dt 2 lc rgb '#555555' title 'target {:.3g} %'", 100 * *findings_.target, 100 * *findings_.target));
   }
 
   /// What the refinement was set to; without one nothing: the line's title says it all.
@@ -98,6 +108,7 @@ class Plot {
   const Study& study_;
   const std::vector<Row>& rows_;
   const Findings& findings_;
+  Cost least_{infinity, infinity}, most_;
   std::string data_;
   std::vector<std::string> curves_;
 };

@@ -65,7 +65,7 @@ std::string aligned(const Lines& lines, std::size_t left) {
   for (const auto& line : lines) {
     std::string row;
     for (std::size_t c = 0; c < line.size(); ++c)
-      row += fmt::format("  {1:{0}}", widths[c], "").replace(2 + (c < left ? 0 : widths[c] - line[c].size()), line[c].size(), line[c]);
+      row += c < left ? fmt::format("  {:<{}}", line[c], widths[c]) : fmt::format("  {:>{}}", line[c], widths[c]);
     row.erase(row.find_last_not_of(' ') + 1);
     text += row + '\n';
   }
@@ -119,7 +119,7 @@ std::string promise(const Study& study, const Findings& findings) {
     }
   if (best == nullptr) return "";
   const std::string choice = choice_text(study.axes, best->choice, *study.refinement);
-  return fmt::format(" By its observed order, {}would meet it with \"{}\" at about {:.2g} (SI).", choice.empty() ? "the scene " : choice + " ",
+  return fmt::format(" By its observed order, {} would meet it at a {} of about {:.2g} (SI).", choice.empty() ? "the scene" : choice,
                      study.axes[*study.refinement].name, size);
 }
 

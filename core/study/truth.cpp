@@ -79,15 +79,14 @@ void read_table(Truth& truth, const Json& given, const std::filesystem::path& fo
 void read_numbers(Truth& truth, const Json& given, PlainReader& reader) {
   truth.kind = Truth::Kind::numbers;
   if (given.contains("value")) {
-    if (const auto number = read_plain_number(given["value"], truth.pointer + "/value", reader.faults())) truth.numbers[""] = *number;
+    truth.numbers[""] = read_plain_number(given["value"], truth.pointer + "/value", reader.faults()).value_or(0);
     return;
   }
   const Json& values = given["values"];
   if (!values.is_object() || values.empty())
     return reader.faults().add(truth.pointer + "/values", shown(values), "an object of names with numbers in SI");
   for (const auto& item : values.items())
-    if (const auto number = read_plain_number(item.value(), member(truth.pointer + "/values", item.key()), reader.faults()))
-      truth.numbers[item.key()] = *number;
+    truth.numbers[item.key()] = read_plain_number(item.value(), member(truth.pointer + "/values", item.key()), reader.faults()).value_or(0);
 }
 
 void reject_others(const Json& given, const Truth& truth, const std::string& kind, Faults& faults) {

@@ -5,7 +5,7 @@ import math
 import pathlib
 
 young, poisson, density = 10e9, 0.25, 2500
-pressure, rise, time = 10e6, 30e-6, 80e-6
+pressure, rise, time = 0.1e6, 30e-6, 80e-6
 speed = math.sqrt(young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson) * density))
 
 
