@@ -113,7 +113,7 @@ class Conductor {
         auto scene = read(point);
         row.numbers = numbers(point, *scene);
         if (!options_.fresh && !finished(run_directory(options_.directory, row.run, 1), *scene, threads(point)).is_null()) continue;
-        check_columns(study_, *make_plan(std::move(scene), threads(point)));
+        check_plan(point, std::move(scene));
       } catch (const InputError& error) {
         scene_faults.add(error, point.name);
       }
@@ -141,6 +141,16 @@ class Conductor {
  private:
   int threads(const Point& point) const { return point.threads.value_or(options_.threads); }
   std::unique_ptr<Scene> read(const Point& point) const { return read_scene_text(point.scene.dump(), study_.scene_file, host_); }
+
+  void check_plan(const Point& point, std::unique_ptr<Scene> scene) const {
+    std::unique_ptr<Plan> plan;
+    try {
+      plan = make_plan(std::move(scene), threads(point));
+    } catch (const OutsideError&) {
+      return;  // too large for this machine: its row will say so, and the others go on
+    }
+    check_columns(study_, *plan);
+  }
 
   /// What each axis set, as the resolved scene has it: in SI.
   std::vector<std::optional<double>> numbers(const Point& point, const Scene& scene) const {
