@@ -13,7 +13,7 @@ namespace hyperlattice {
 namespace {
 
 const std::string expected_region =
-    "a region: a name, or an object with one key out of box, sphere, hollow_sphere, cylinder, half_space, union, intersection, difference";
+    "a region: a name, or an object with one key out of box, sphere, hollow_sphere, cylinder, half_space, stl, union, intersection, difference";
 
 std::vector<std::string> expression_keys() {
   std::vector<std::string> keys;
@@ -31,8 +31,8 @@ bool inverted(const Region& region) { return region.low.x > region.high.x || reg
 
 }  // namespace
 
-RegionReader::RegionReader(const Json& named, Regions& regions, Faults& faults, std::deque<std::string>& texts)
-    : named_(named), regions_(regions), faults_(faults), texts_(texts) {}
+RegionReader::RegionReader(const Json& named, Regions& regions, Faults& faults, std::deque<std::string>& texts, std::filesystem::path folder)
+    : named_(named), regions_(regions), faults_(faults), texts_(texts), folder_(std::move(folder)) {}
 
 void RegionReader::read_named(Json& resolved) {
   for (const auto& item : named_.items()) {
@@ -96,10 +96,23 @@ std::shared_ptr<const Region> RegionReader::read_primitive(const std::string& ke
     faults_.add(pointer, shown(parameters), fmt::format("an object with the parameters of {}", key));
     return nullptr;
   }
-  OptionReader reader(parameters, pointer, Reading{faults_, *this, texts_});
+  Json given = parameters;
+  const auto path = given.find(std::string(path_option));
+  if (path != given.end() && path->is_string()) *path = std::filesystem::absolute(folder_ / path->get<std::string>()).lexically_normal().string();
+  OptionReader reader(given, pointer, Reading{faults_, *this, texts_});
   const OptionsPointer options = reader.fill(primitive.options, resolved);
   reader.reject_unknown();
-  return options ? std::make_shared<Region>(primitive.make(options.get())) : nullptr;
+  if (!options) return nullptr;
+  try {
+    return std::make_shared<Region>(primitive.make(options.get()));
+  } catch (const InputError& error) {  // no such file
+    for (const Fault& fault : error.faults()) faults_.add(member(pointer, path_option), shown(*path), fault.expected);
+  } catch (const OutsideError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    faults_.add(member(pointer, path_option), shown(*path), std::string("a file with a closed surface; ") + error.what());
+  }
+  return nullptr;
 }
 
 std::shared_ptr<const Region> RegionReader::read_set(const SetOperation& operation, const Json& parts, const std::string& pointer, Json& resolved) {

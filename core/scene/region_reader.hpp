@@ -5,6 +5,7 @@
 #include <scene/json.hpp>
 
 #include <deque>
+#include <filesystem>
 #include <map>
 #include <optional>
 
@@ -21,7 +22,8 @@ inline constexpr SetOperation set_operations[] = {
 class RegionReader {
  public:
   /// `named` is the scene's "regions": read on demand, since they may refer to each other. Null pointers in results stand for faults, added once.
-  RegionReader(const Json& named, Regions& regions, Faults& faults, std::deque<std::string>& texts);
+  /// Files that regions name are relative to `folder`; empty: to the present one.
+  RegionReader(const Json& named, Regions& regions, Faults& faults, std::deque<std::string>& texts, std::filesystem::path folder = {});
 
   /// Reads every named region; `resolved` becomes the same with SI numbers.
   void read_named(Json& resolved);
@@ -42,6 +44,7 @@ class RegionReader {
   Regions& regions_;
   Faults& faults_;
   std::deque<std::string>& texts_;
+  std::filesystem::path folder_;
   std::map<std::string, std::shared_ptr<const Region>> done_;
   std::map<std::string, std::string> resolved_;  // JSON text of the named regions that are done
   std::vector<std::string> under_way_;

@@ -38,7 +38,11 @@ struct HeadingSchema {
 class SceneReader {
  public:
   SceneReader(const Json& given, Scene& scene, Faults& faults, Catalogue& catalogue)
-      : given_(given), scene_(scene), faults_(faults), catalogue_(catalogue), regions_(named_regions(), scene.regions, faults, scene.texts) {}
+      : given_(given),
+        scene_(scene),
+        faults_(faults),
+        catalogue_(catalogue),
+        regions_(named_regions(), scene.regions, faults, scene.texts, scene.file.parent_path()) {}
 
   void read() {
     if (!given_.is_object()) return faults_.add("", shown(given_), "an object with format and pipeline");

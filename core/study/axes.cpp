@@ -133,6 +133,7 @@ bool Condition::holds(const Choice& choice) const {
 
 std::vector<Axis> read_axes(const Json& vary, Faults& faults) {
   std::vector<Axis> axes;
+  axes.reserve(vary.size());
   if (!vary.is_object() || vary.empty()) {
     faults.add("/vary", shown(vary), "an object of axes such as {\"spacing\": {\"/pipeline/0/spacing\": [\"4 mm\", \"2 mm\"]}}");
     return axes;
@@ -156,6 +157,7 @@ std::size_t find_axis(const std::string& name, const std::string& pointer, const
   const auto found = std::find_if(axes.begin(), axes.end(), [&](const Axis& axis) { return axis.name == name; });
   if (found == axes.end()) {
     std::vector<std::string> names;
+    names.reserve(axes.size());
     for (const Axis& axis : axes) names.push_back(axis.name);
     faults.add(pointer, shown(name), fmt::format("an axis of \"vary\": {}", fmt::join(names, ", ")) + did_you_mean(name, names));
   }

@@ -38,7 +38,7 @@ std::string text_of(const fs::path& file) {
 
 /// The summary of a run that was done, of this scene, with these threads, by this version; null otherwise.
 Json finished(const fs::path& folder, const Scene& scene, int threads) {
-  const Json summary = Json::parse(text_of(folder / "summary.json"), nullptr, false);
+  Json summary = Json::parse(text_of(folder / "summary.json"), nullptr, false);
   if (!summary.is_object() || summary.value("status", "") != "done" || summary.value("threads", 0) != threads ||
       summary.value("version", "") != HYPERLATTICE_VERSION || text_of(folder / "scene.resolved.json") != scene.resolved)
     return nullptr;
@@ -80,6 +80,7 @@ class SceneFaults {
 void check_columns(const Study& study, const Plan& plan) {
   Faults faults;
   std::vector<std::string> probes;
+  probes.reserve(plan.tables.size());
   for (const PlannedTable& table : plan.tables) probes.push_back(table.probe);
   for (const Comparison& comparison : study.comparisons) {
     const auto table = std::find_if(plan.tables.begin(), plan.tables.end(), [&](const PlannedTable& t) { return t.probe == comparison.probe; });

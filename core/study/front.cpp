@@ -7,6 +7,7 @@ namespace hyperlattice::study {
 
 std::vector<bool> pareto_front(const std::vector<Cost>& costs) {
   std::vector<bool> front;
+  front.reserve(costs.size());
   for (const Cost& one : costs)
     front.push_back(std::none_of(costs.begin(), costs.end(), [&](const Cost& other) {
       return other.error <= one.error && other.seconds <= one.seconds && (other.error < one.error || other.seconds < one.seconds);
