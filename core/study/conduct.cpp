@@ -2,13 +2,11 @@
 #include <plan/plan.hpp>
 #include <run/interrupt.hpp>
 #include <run/run.hpp>
-#include <scene/expectation.hpp>
+#include <study/checks.hpp>
 #include <study/conduct.hpp>
-#include <study/observe.hpp>
 
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <new>
@@ -19,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Only warnings and errors are heard while it lives: a study has its own line for each run.
+/// Nothing is logged while it lives: a study has its own line for each run.
 class QuietLog {
  public:
   QuietLog() : before_(spdlog::get_level()) { spdlog::set_level(spdlog::level::off); }
@@ -45,81 +43,32 @@ Json finished(const fs::path& folder, const Scene& scene, int threads) {
   return summary;
 }
 
-/// Faults of the runs' scenes: what all have in common is said once, the rest with the runs that have it.
-class SceneFaults {
- public:
-  void add(const InputError& error, const std::string& run) {
-    for (const Fault& fault : error.faults()) {
-      const auto same = [&](const Found& other) {
-        return other.fault.pointer == fault.pointer && other.fault.value == fault.value && other.fault.expected == fault.expected;
-      };
-      auto found = std::find_if(found_.begin(), found_.end(), same);
-      if (found == found_.end()) found = found_.insert(found_.end(), {fault, {}});
-      found->runs.push_back(run);
-    }
-  }
-
-  void throw_if_any(std::size_t runs) const {
-    Faults faults;
-    for (const auto& [fault, in] : found_) {
-      const std::string more = in.size() > 1 ? fmt::format(" and {} more", in.size() - 1) : "";
-      faults.add("scene " + fault.pointer + (in.size() == runs ? "" : fmt::format(" (run {}{})", in.front(), more)), fault.value, fault.expected);
-    }
-    faults.throw_if_any();
-  }
-
- private:
-  struct Found {
-    Fault fault;
-    std::vector<std::string> runs;
-  };
-  std::vector<Found> found_;
-};
-
-/// Every comparison must find its probe and its column.
-void check_columns(const Study& study, const Plan& plan) {
-  Faults faults;
-  std::vector<std::string> probes;
-  probes.reserve(plan.tables.size());
-  for (const PlannedTable& table : plan.tables) probes.push_back(table.probe);
-  for (const Comparison& comparison : study.comparisons) {
-    const auto table = std::find_if(plan.tables.begin(), plan.tables.end(), [&](const PlannedTable& t) { return t.probe == comparison.probe; });
-    if (table == plan.tables.end()) {
-      faults.add(comparison.pointer + "/probe", shown(comparison.probe),
-                 fmt::format("a probe of the scene by its name: {}", fmt::join(probes, ", ")) + did_you_mean(comparison.probe, probes));
-      continue;
-    }
-    const std::string why = column_fault(comparison, table->columns);
-    if (!why.empty()) faults.add(comparison.pointer + "/column", shown(comparison.column), why);
-    if (comparison.at_column && std::find(table->columns.begin(), table->columns.end(), *comparison.at_column) == table->columns.end())
-      faults.add(comparison.pointer + "/at", shown(*comparison.at_column),
-                 fmt::format("a length, or a column of the probe: {}", fmt::join(table->columns, ", ")) +
-                     did_you_mean(*comparison.at_column, table->columns));
-  }
-  faults.throw_if_any();
-}
-
 class Conductor {
  public:
   Conductor(const Study& study, const std::vector<Point>& points, const ConductOptions& options, Host& host)
       : study_(study), points_(points), options_(options), host_(host) {}
 
   void check() {
-    SceneFaults scene_faults;
+    RunFaults faults;
     for (const Point& point : points_) {
       Row& row = result_.rows.emplace_back();
       row.choice = point.choice;
       row.run = point.name;
+      std::optional<std::vector<PlannedTable>> tables;
       try {
         auto scene = read(point);
         row.numbers = numbers(point, *scene);
-        if (!options_.fresh && !finished(run_directory(options_.directory, row.run, 1), *scene, threads(point)).is_null()) continue;
-        check_plan(point, std::move(scene));
+        tables = tables_of(point, std::move(scene));
       } catch (const InputError& error) {
-        scene_faults.add(error, point.name);
+        faults.add(error, row.run, "scene ");
+      }
+      try {
+        if (tables) check_columns(study_, *tables);
+      } catch (const InputError& error) {
+        faults.add(error, row.run, "");
       }
     }
-    scene_faults.throw_if_any(points_.size());
+    faults.throw_if_any(points_.size());
     check_sizes();
   }
 
@@ -143,14 +92,15 @@ class Conductor {
   int threads(const Point& point) const { return point.threads.value_or(options_.threads); }
   std::unique_ptr<Scene> read(const Point& point) const { return read_scene_text(point.scene.dump(), study_.scene_file, host_); }
 
-  void check_plan(const Point& point, std::unique_ptr<Scene> scene) const {
-    std::unique_ptr<Plan> plan;
+  /// Those that the run left, or will leave; none if it is too large for this machine: its row will say so, and the others go on.
+  std::optional<std::vector<PlannedTable>> tables_of(const Point& point, std::unique_ptr<Scene> scene) const {
+    const fs::path folder = run_directory(options_.directory, point.name, 1);
+    if (!options_.fresh && !finished(folder, *scene, threads(point)).is_null()) return tables_in(folder);
     try {
-      plan = make_plan(std::move(scene), threads(point));
+      return make_plan(std::move(scene), threads(point))->tables;
     } catch (const OutsideError&) {
-      return;  // too large for this machine: its row will say so, and the others go on
+      return std::nullopt;
     }
-    check_columns(study_, *plan);
   }
 
   /// What each axis set, as the resolved scene has it: in SI.

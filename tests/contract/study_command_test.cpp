@@ -210,7 +210,7 @@ TEST_F(StudyCommand, RefusesWhatDoesNotFitTogether) {
   expect_refused(file, {"/vary/step/~1pipeline~19~1time_step"});
   file = swinging_pair();
   file["compare"]["upper"]["probe"] = "uper";
-  expect_refused(file, {"/compare/upper/probe: \"uper\": expected a probe of the scene by its name: upper; did you mean \"upper\"?"});
+  expect_refused(file, {"\n/compare/upper/probe: \"uper\": expected a probe of the scene by its name: upper; did you mean \"upper\"?"});
   file = swinging_pair();
   file["compare"]["upper"]["column"] = "displacement_y";
   expect_refused(file, {"/compare/upper/column: \"displacement_y\": expected a column of probe upper: time, displacement_z"});

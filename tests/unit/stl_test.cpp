@@ -141,7 +141,7 @@ TEST(Stl, ClosedSurfacesAreSolidsWithTheirAreas) {
 TEST(Stl, RefusesWhatIsNoSolid) {
   Facets open = l_bracket();
   open.pop_back();
-  EXPECT_EQ(solid_fault(mesh_of(open)), "the surface is open: no other facet shares the edge from (0, 0, 0) to (0, 2, 0) (metres) of facet 5");
+  EXPECT_EQ(solid_fault(mesh_of(open)), "the surface is open: no other facet shares the edge from (0, 2, 1) to (0, 0, 1) (metres) of facet 6");
   Facets one_turned = l_bracket();
   std::swap(one_turned[7][0], one_turned[7][1]);
   EXPECT_NE(solid_fault(mesh_of(one_turned)).find("in the same direction: one of them faces the wrong way"), std::string::npos);
