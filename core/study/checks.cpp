@@ -16,7 +16,7 @@ void RunFaults::add(const InputError& error, const std::string& run, const std::
       return other.fault.pointer == pointer && other.fault.value == fault.value && other.fault.expected == fault.expected;
     };
     auto found = std::find_if(found_.begin(), found_.end(), same);
-    if (found == found_.end()) found = found_.insert(found_.end(), {{pointer, fault.value, fault.expected}, {}});
+    if (found == found_.end()) found = found_.insert(found_.end(), Found{Fault{pointer, fault.value, fault.expected}, {}});
     found->runs.push_back(run);
   }
 }
