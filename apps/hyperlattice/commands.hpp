@@ -24,6 +24,13 @@ Command plugins_command(CLI::App& program);
 Command schema_command(CLI::App& program);
 Command analyze_command(CLI::App& program);
 Command calibrate_command(CLI::App& program);
+Command study_command(CLI::App& program);
+
+/// The folder of the results: <input>_out here, if none was given. InputError if something else stands there.
+void choose_directory(std::filesystem::path& directory, const std::filesystem::path& input);
+
+/// The first interruption stops the run after its present step; a second one ends the program at once.
+void stop_gently_when_interrupted();
 
 /// --threads.
 struct ThreadArgument {

@@ -3,21 +3,12 @@
 
 #include <run/run.hpp>
 
-#include <csignal>
-
 namespace hyperlattice {
-namespace {
-
-/// The first interruption stops the run after its present step; a second one ends the program at once.
-void stop_gently_when_interrupted() {
-  struct sigaction action {};
-  action.sa_handler = [](int) { request_stop(); };
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+void choose_directory(std::filesystem::path& directory, const std::filesystem::path& input) {
+  if (directory.empty()) directory = input.stem().string() + "_out";
+  if (std::filesystem::exists(directory) && !std::filesystem::is_directory(directory))
+    throw InputError({{"--out", directory.string(), "a folder, or a name that is free"}});
 }
-
-}  // namespace
 
 Command run_command(CLI::App& program) {
   struct Arguments : SceneArguments {
@@ -30,9 +21,7 @@ Command run_command(CLI::App& program) {
   command->add_flag("--quiet", arguments->options.quiet, "no progress lines");
   return {command, [arguments] {
             RunOptions& options = arguments->options;
-            if (options.directory.empty()) options.directory = arguments->scene.stem().string() + "_out";
-            if (std::filesystem::exists(options.directory) && !std::filesystem::is_directory(options.directory))
-              throw InputError({{"--out", options.directory.string(), "a folder, or a name that is free"}});
+            choose_directory(options.directory, arguments->scene);
             Host host;
             const auto plan = arguments->plan(host);
             stop_gently_when_interrupted();

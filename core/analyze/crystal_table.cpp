@@ -1,26 +1,15 @@
 #include <analyze/crystals.hpp>
+#include <base/csv.hpp>
 
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <fstream>
 
 namespace hyperlattice {
 
 namespace {
-
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells(1);
-  for (const char c : line)
-    if (c == ',')
-      cells.emplace_back();
-    else if (c != '\r')
-      cells.back() += c;
-  return cells;
-}
 
 struct Columns {
   static constexpr std::array<const char*, 4> names{"name", "C11_GPa", "C12_GPa", "C44_GPa"};
@@ -57,8 +46,9 @@ std::optional<Crystal> crystal_of(const std::vector<std::string>& cells, const C
   const std::size_t before = faults.size();
   for (std::size_t n = 0; n < constants.size(); ++n) {
     const std::string& cell = cells[columns.at[n + 1]];
-    const auto read = std::from_chars(cell.data(), cell.data() + cell.size(), *constants[n]);
-    if (read.ec != std::errc() || read.ptr != cell.data() + cell.size() || !std::isfinite(*constants[n]))
+    if (const auto number = csv_number(cell))
+      *constants[n] = *number;
+    else
       faults.add(where, cell, fmt::format("a number in column {}", Columns::names[n + 1]));
   }
   if (faults.size() > before) return std::nullopt;
@@ -78,10 +68,10 @@ std::vector<Crystal> read_crystals(const std::filesystem::path& file) {
   std::string line;
   for (int number = 1; std::getline(stream, line); ++number) {
     if (number == 1) {
-      columns = columns_of(cells_of(line), file.string(), faults);
+      columns = columns_of(csv_cells(line), file.string(), faults);
       faults.throw_if_any();
     } else if (!line.empty() && line != "\r") {
-      if (auto crystal = crystal_of(cells_of(line), *columns, fmt::format("{}:{}", file.string(), number), faults)) crystals.push_back(*crystal);
+      if (auto crystal = crystal_of(csv_cells(line), *columns, fmt::format("{}:{}", file.string(), number), faults)) crystals.push_back(*crystal);
     }
   }
   if (crystals.empty() && faults.empty()) faults.add(file.string(), "", "at least one crystal");

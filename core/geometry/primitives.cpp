@@ -1,4 +1,6 @@
+#include <base/input_file.hpp>
 #include <geometry/primitives.hpp>
+#include <geometry/triangle_mesh.hpp>
 
 #include <algorithm>
 #include <array>
@@ -163,6 +165,33 @@ struct HalfSpace {
   }
 };
 
+/// The solid within a closed surface of triangles.
+struct Stl {
+  struct Options {
+    std::string file;
+    double scale = 1;
+  };
+  static Schema<Options> schema() {
+    return Schema<Options>("stl", "Solid bounded by the facets of an STL file, ASCII or binary; its surface must be closed")
+        .add<&Options::file>(path_option, "", "the file, relative to the scene")
+        .file()
+        .add<&Options::scale>("scale", "m", "what a length of 1 in the file is: \"1 mm\" for a file in millimetres")
+        .positive()
+        .fallback("1");
+  }
+  static Region make(const Options& stl) {
+    TriangleMesh mesh = read_stl(read_input_file(stl.file, "", "an STL file"), stl.scale);
+    if (const std::string fault = solid_fault(mesh); !fault.empty()) throw std::runtime_error(fault);
+    const SurfaceAreas areas = surface_areas(mesh);
+    const auto inside = std::make_shared<const InsideTest>(std::move(mesh));
+    const Vec3 low = inside->low(), high = inside->high();
+    Region region = solid(low, high, low, 0.5 * (low + high), [inside](Vec3 p) { return (*inside)(p); });
+    region.outer_area = areas.outer;
+    region.inner_area = areas.inner;
+    return region;
+  }
+};
+
 template <class Solid>
 Primitive describe() {
   static const auto schema = Solid::schema();
@@ -176,7 +205,8 @@ Primitive describe() {
 }  // namespace
 
 std::span<const Primitive> primitives() {
-  static const std::array all{describe<Box>(), describe<Sphere>(), describe<HollowSphere>(), describe<Cylinder>(), describe<HalfSpace>()};
+  static const std::array all{describe<Box>(),      describe<Sphere>(),    describe<HollowSphere>(),
+                              describe<Cylinder>(), describe<HalfSpace>(), describe<Stl>()};
   return all;
 }
 

@@ -9,9 +9,12 @@ namespace hyperlattice {
 struct Primitive {
   std::string_view name, summary;
   OptionSet options;
-  Region (*make)(const void* options) = nullptr;
+  Region (*make)(const void* options) = nullptr;  ///< throws std::runtime_error if a file that the options name is no solid, and says why
 };
 
 std::span<const Primitive> primitives();
+
+/// The option of a primitive that is a path, relative to the scene.
+inline constexpr std::string_view path_option = "file";
 
 }  // namespace hyperlattice

@@ -25,10 +25,17 @@ struct PlannedStage {
   SolverPlan plan;
 };
 
+/// The table that a probe will write.
+struct PlannedTable {
+  std::string probe;  ///< its stage's name
+  std::vector<std::string> columns;
+};
+
 struct Plan {
   std::unique_ptr<Scene> scene;
   std::unique_ptr<Model> model;
   std::vector<PlannedStage> stages;
+  std::vector<PlannedTable> tables;  ///< in the order of the scene's probes
   int threads = 1;
   double bytes_per_particle = 0;  ///< of the state: what the kernel works on
   double memory_bytes = 0;        ///< of the state, the model and the scratch

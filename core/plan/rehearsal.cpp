@@ -53,7 +53,7 @@ class AtRest {
 
 }  // namespace
 
-void rehearse_outputs(const Plan& plan, Faults& faults) {
+void rehearse_outputs(Plan& plan, Faults& faults) {
   const auto probes = plan.scene->of(Family::probes), writers = plan.scene->of(Family::writers);
   if (probes.empty() && writers.empty()) return;
   AtRest rest(*plan.model);
@@ -66,9 +66,10 @@ void rehearse_outputs(const Plan& plan, Faults& faults) {
     if (!stage->functions<WriterFunctions>().begin(writer.get(), context, why))
       faults.add(stage->pointer, stage->component->type(), "an output that fits the body: " + sentence);
   }
-  const ColumnSink columns{nullptr, [](void*, std::string_view) {}};
   for (const Stage* stage : probes) {
     const ComponentPointer probe = make_component(*stage);
+    std::vector<std::string>& names = plan.tables.emplace_back(PlannedTable{stage->name, {"time"}}).columns;
+    const ColumnSink columns{&names, [](void* self, std::string_view name) { static_cast<std::vector<std::string>*>(self)->emplace_back(name); }};
     if (!stage->functions<ProbeFunctions>().begin(probe.get(), context, snapshot, columns, why))
       faults.add(stage->pointer, stage->component->type(), "an output that fits the body: " + sentence);
   }

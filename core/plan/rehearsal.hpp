@@ -5,7 +5,7 @@
 
 namespace hyperlattice {
 
-/// Begins a copy of every writer and probe; a refusal becomes a fault at its stage.
-void rehearse_outputs(const Plan& plan, Faults& faults);
+/// Begins a copy of every writer and probe; a refusal becomes a fault at its stage. Fills the plan's tables.
+void rehearse_outputs(Plan& plan, Faults& faults);
 
 }  // namespace hyperlattice

@@ -13,7 +13,7 @@ namespace hyperlattice {
 namespace {
 
 const std::string expected_region =
-    "a region: a name, or an object with one key out of box, sphere, hollow_sphere, cylinder, half_space, union, intersection, difference";
+    "a region: a name, or an object with one key out of box, sphere, hollow_sphere, cylinder, half_space, stl, union, intersection, difference";
 
 std::vector<std::string> expression_keys() {
   std::vector<std::string> keys;
@@ -99,7 +99,15 @@ std::shared_ptr<const Region> RegionReader::read_primitive(const std::string& ke
   OptionReader reader(parameters, pointer, Reading{faults_, *this, texts_});
   const OptionsPointer options = reader.fill(primitive.options, resolved);
   reader.reject_unknown();
-  return options ? std::make_shared<Region>(primitive.make(options.get())) : nullptr;
+  if (!options) return nullptr;
+  try {
+    return std::make_shared<Region>(primitive.make(options.get()));
+  } catch (const OutsideError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    faults_.add(member(pointer, path_option), shown(parameters[std::string(path_option)]), std::string("a file with a closed surface; ") + error.what());
+  }
+  return nullptr;
 }
 
 std::shared_ptr<const Region> RegionReader::read_set(const SetOperation& operation, const Json& parts, const std::string& pointer, Json& resolved) {

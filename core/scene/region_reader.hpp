@@ -22,7 +22,7 @@ inline constexpr SetOperation set_operations[] = {
 class RegionReader {
  public:
   /// `named` is the scene's "regions": read on demand, since they may refer to each other. Null pointers in results stand for faults, added once.
-  /// Files are looked for in `folder`.
+  /// Files that regions name are relative to `folder`; empty: to the present one.
   RegionReader(const Json& named, Regions& regions, Faults& faults, std::deque<std::string>& texts, std::filesystem::path folder = {});
 
   const std::filesystem::path& folder() const { return folder_; }

@@ -1,11 +1,5 @@
+#include <base/input_file.hpp>
 #include <scene/scene_reader.hpp>
-
-#include <spdlog/fmt/fmt.h>
-
-#include <cerrno>
-#include <fstream>
-#include <iterator>
-#include <system_error>
 
 namespace hyperlattice {
 
@@ -26,18 +20,6 @@ class HostCatalogue final : public Catalogue {
   Host& host_;
 };
 
-std::string read_text(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::exists(file, error) || std::filesystem::is_directory(file, error))
-    throw InputError({{"SCENE", fmt::format("\"{}\"", file.string()), "the path of a scene; there is no such file"}});
-  errno = 0;
-  std::ifstream stream(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream.is_open() || stream.bad())
-    throw OutsideError(fmt::format("{} cannot be read: {}", file.string(), std::generic_category().message(errno)));
-  return text;
-}
-
 }  // namespace
 
 std::vector<const Stage*> Scene::of(Family family) const {
@@ -49,12 +31,16 @@ std::vector<const Stage*> Scene::of(Family family) const {
 
 std::unique_ptr<Scene> read_scene(const std::filesystem::path& file, const std::vector<std::string>& settings, Host& host) {
   HostCatalogue catalogue(host);
-  return read_scene_text(read_text(file), file, settings, catalogue);
+  return read_scene_text(read_input_file(file, "SCENE", "the path of a scene"), file, settings, catalogue);
+}
+
+std::unique_ptr<Scene> read_scene_text(std::string_view text, const std::filesystem::path& file, Host& host) {
+  HostCatalogue catalogue(host);
+  return read_scene_text(text, file, {}, catalogue);
 }
 
 std::unique_ptr<Scene> read_scene_text(std::string_view text, Host& host) {
-  HostCatalogue catalogue(host);
-  return read_scene_text(text, std::filesystem::current_path() / "scene", {}, catalogue);
+  return read_scene_text(text, std::filesystem::current_path() / "scene", host);
 }
 
 }  // namespace hyperlattice

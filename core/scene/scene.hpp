@@ -60,6 +60,9 @@ struct Scene {
 /// refuses a library.
 std::unique_ptr<Scene> read_scene(const std::filesystem::path& file, const std::vector<std::string>& settings, Host& host);
 
+/// The same of a scene's text. `file` says where it stands, which is where the plugins it names are looked for; it is not opened.
+std::unique_ptr<Scene> read_scene_text(std::string_view text, const std::filesystem::path& file, Host& host);
+
 /// The same of a scene that stands in no file; what it names is looked for in the present folder.
 std::unique_ptr<Scene> read_scene_text(std::string_view text, Host& host);
 

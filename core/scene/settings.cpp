@@ -77,11 +77,19 @@ Json* find(Json& scene, const std::vector<std::string>& keys, std::string& expec
 
 }  // namespace
 
+std::string set_value(Json& document, std::string_view pointer, const Json& value) {
+  const auto keys = keys_of(pointer);
+  if (!keys) return "a JSON pointer such as /pipeline/0/spacing";
+  std::string expected;
+  if (Json* place = find(document, *keys, expected)) *place = value;
+  return expected;
+}
+
 void apply_settings(Json& scene, const std::vector<std::string>& settings, Faults& faults) {
   for (const std::string& setting : settings) {
     const auto equals = setting.find('=');
-    const auto keys = keys_of(std::string_view(setting).substr(0, equals));
-    if (equals == std::string::npos || !keys) {
+    const auto pointer = std::string_view(setting).substr(0, equals);
+    if (equals == std::string::npos || !keys_of(pointer)) {
       faults.add("--set", shown(setting), "/pointer=value with a JSON pointer such as /pipeline/0/spacing=0.001");
       continue;
     }
@@ -90,10 +98,7 @@ void apply_settings(Json& scene, const std::vector<std::string>& settings, Fault
       faults.add("--set " + setting.substr(0, equals), shown(value), "text in UTF-8");
       continue;
     }
-    std::string expected;
-    if (Json* place = find(scene, *keys, expected))
-      *place = value;
-    else
+    if (const std::string expected = set_value(scene, pointer, value); !expected.empty())
       faults.add("--set " + setting.substr(0, equals), shown(value), expected);
   }
 }

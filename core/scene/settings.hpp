@@ -7,6 +7,9 @@
 
 namespace hyperlattice {
 
+/// Replaces the value at a JSON pointer, or adds a member to an object or array that is there. Returns what was expected instead; empty: it is done.
+std::string set_value(Json& document, std::string_view pointer, const Json& value);
+
 /// Each setting replaces the value at its pointer, or adds a member to an object or array that is there. What stands behind the first "="
 /// is read as JSON; if it is none, as a text.
 void apply_settings(Json& scene, const std::vector<std::string>& settings, Faults& faults);

@@ -113,7 +113,7 @@ bool read_value(const Option& option, const Json& given, const std::string& poin
       if (!given.is_string()) return wrong();
       const std::filesystem::path file = std::filesystem::absolute(reading.regions.folder() / given.get<std::string>()).lexically_normal();
       std::error_code error;
-      if (!std::filesystem::is_regular_file(file, error)) return wrong("; there is no file " + file.string());
+      if (!std::filesystem::is_regular_file(file, error)) return wrong("; there is no such file as " + file.string());
       plain.text = reading.texts.emplace_back(file.string());
       resolved = file.string();
       return true;

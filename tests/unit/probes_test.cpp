@@ -87,9 +87,11 @@ TEST(RegionProbe, KnowsUniformExpansion) {
   FakeBody body({2, 2, 2});
   Plugin probe("probes.region", {{"component", "radial"}, {"centre", {1e-3, 1e-3, 1e-3}}});
   EXPECT_EQ(probe.begin_probe(body.context("."), body.at(0)),
-            (std::vector<std::string>{"displacement_radial_mean", "displacement_radial_min", "displacement_radial_max"}));
+            (std::vector<std::string>{"displacement_radial_mean", "displacement_radial_min", "displacement_radial_max", "radius"}));
   const double t = 1e-9, radius = std::sqrt(0.75) * 1e-3;
-  for (const double value : probe.sample(body.at(t), 3)) EXPECT_NEAR(value, t * radius, 1e-8 * t * radius);
+  const auto row = probe.sample(body.at(t), 4);
+  for (std::size_t n = 0; n < 3; ++n) EXPECT_NEAR(row[n], t * radius, 1e-8 * t * radius);
+  EXPECT_NEAR(row[3], radius, 1e-15);
   Plugin all("probes.region");
   EXPECT_EQ(all.begin_probe(body.context("."), body.at(0)).size(), 9u);
 }

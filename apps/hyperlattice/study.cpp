@@ -1,0 +1,101 @@
+// hyperlattice study: error against run time. Runs a scene over a grid of settings and compares each with the truth.
+#include "commands.hpp"
+
+#include <base/gnuplot.hpp>
+#include <scene/units.hpp>
+#include <study/conduct.hpp>
+#include <study/report.hpp>
+
+#include <hyperlattice/files.hpp>
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <iostream>
+
+namespace hyperlattice {
+namespace {
+
+using namespace study;
+using study::Row;
+
+struct Arguments {
+  std::filesystem::path study;
+  std::vector<std::string> settings;
+  std::string target_error;
+  std::vector<std::filesystem::path> peers;
+  ConductOptions options;
+  ThreadArgument threads;
+  bool json = false;
+};
+
+/// "1%" or 0.01.
+double read_target(const std::string& text) {
+  const auto plain = csv_number(text);
+  const Quantity share = plain ? Quantity{*plain, ""} : read_quantity(text, "");
+  if (!share.problem.empty() || !(share.value > 0)) throw InputError({{"--target-error", text, "an error above 0 such as 1% or 0.01"}});
+  return share.value;
+}
+
+void write_results(const Study& study, const std::vector<Row>& rows, const Findings& findings, const std::filesystem::path& directory) {
+  write_file((directory / "study.csv").string(), study_csv(study, rows, findings));
+  write_file((directory / "study.json").string(), study_json(study, rows, findings).dump(2) + '\n');
+  const std::string script = study_script(study, rows, findings);
+  if (script.empty()) return;
+  try {
+    draw_svg(directory / "study.svg", script, 860, 620);
+  } catch (const OutsideError& error) {
+    spdlog::warn("{}", error.what());  // the figures are there all the same
+  }
+}
+
+int exit_code(const Conducted& done) {
+  if (done.interrupted) return exit_interrupted;
+  int code = exit_done;
+  for (const Row& row : done.rows) code = std::max(code, row.exit_code);
+  return code;
+}
+
+int run_study(Arguments a) {
+  Study study = read_study(a.study, a.settings);
+  if (!a.target_error.empty()) study.target_error = read_target(a.target_error);
+  Faults faults;
+  for (const auto& file : a.peers) append_peers(study.peers, file, "--peers", faults);
+  faults.throw_if_any();
+  ConductOptions& options = a.options;
+  options.threads = a.threads.count();
+  choose_directory(options.directory, a.study);
+
+  Host host;
+  stop_gently_when_interrupted();
+  Conducted done = conduct(study, grid(study), options, host);
+  find_errors(study, options.directory, done.rows);
+  const Findings findings = find(study, done.rows);
+  write_results(study, done.rows, findings, options.directory);
+  std::cout << (a.json ? study_json(study, done.rows, findings).dump(2) + "\n" : study_text(study, done.rows, findings)) << std::flush;
+  spdlog::info("{}, results in {}", done.interrupted ? "interrupted; the same command goes on from here" : "done", options.directory.string());
+  return exit_code(done);
+}
+
+}  // namespace
+
+Command study_command(CLI::App& program) {
+  const auto a = std::make_shared<Arguments>();
+  CLI::App* command = program.add_subcommand("study", "error against run time: run a scene over a grid of settings and compare it with the truth");
+  command->add_option("STUDY", a->study, "the study file (JSON)")->required();
+  command->add_option("--set", a->settings, "replace a value of the study, e.g. --set /repeats=1; may be repeated")
+      ->type_name("/POINTER=VALUE")
+      ->allow_extra_args(false);
+  command->add_option("--out", a->options.directory, "folder for the results (default: <study>_out here); what it holds is not run again")
+      ->type_name("DIR");
+  command->add_flag("--fresh", a->options.fresh, "run again what is there already");
+  command->add_option("--target-error", a->target_error, "find the cheapest setting with at most this error, e.g. 1%")->type_name("ERROR");
+  command->add_option("--peers", a->peers, "put other programs' errors and times, label,error,seconds, into the plot; may be repeated")
+      ->type_name("CSV")
+      ->allow_extra_args(false);
+  a->threads.declare(*command);
+  command->add_flag("--json", a->json, "print it for machines");
+  return {command, [a] { return run_study(*a); }};
+}
+
+}  // namespace hyperlattice

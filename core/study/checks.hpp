@@ -1,0 +1,29 @@
+// What is checked of a study's runs before the first of them begins.
+#pragma once
+
+#include <plan/plan.hpp>
+#include <study/study_file.hpp>
+
+namespace hyperlattice::study {
+
+/// Faults that runs have: what is common to all is said once, the rest with the runs that have it.
+class RunFaults {
+ public:
+  void add(const InputError& error, const std::string& run, const std::string& prefix);  ///< the prefix says whose pointers they are
+  void throw_if_any(std::size_t runs) const;                                             ///< InputError; `runs`: how many there are
+
+ private:
+  struct Found {
+    Fault fault;
+    std::vector<std::string> runs;
+  };
+  std::vector<Found> found_;
+};
+
+/// Every comparison must find its probe and its column. Throws InputError.
+void check_columns(const Study& study, const std::vector<PlannedTable>& tables);
+
+/// The tables that the probes of a finished run left.
+std::vector<PlannedTable> tables_in(const std::filesystem::path& run_directory);
+
+}  // namespace hyperlattice::study

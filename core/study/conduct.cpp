@@ -1,0 +1,199 @@
+#include <base/errors.hpp>
+#include <plan/plan.hpp>
+#include <run/interrupt.hpp>
+#include <run/run.hpp>
+#include <study/checks.hpp>
+#include <study/conduct.hpp>
+
+#include <spdlog/spdlog.h>
+
+#include <fstream>
+#include <iterator>
+#include <new>
+
+namespace hyperlattice::study {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Nothing is logged while it lives: a study has its own line for each run.
+class QuietLog {
+ public:
+  QuietLog() : before_(spdlog::get_level()) { spdlog::set_level(spdlog::level::off); }
+  ~QuietLog() { spdlog::set_level(before_); }
+  QuietLog(const QuietLog&) = delete;
+  QuietLog& operator=(const QuietLog&) = delete;
+
+ private:
+  spdlog::level::level_enum before_;
+};
+
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// The summary of a run that was done, of this scene, with these threads, by this version; null otherwise.
+Json finished(const fs::path& folder, const Scene& scene, int threads) {
+  Json summary = Json::parse(text_of(folder / "summary.json"), nullptr, false);
+  if (!summary.is_object() || summary.value("status", "") != "done" || summary.value("threads", 0) != threads ||
+      summary.value("version", "") != HYPERLATTICE_VERSION || text_of(folder / "scene.resolved.json") != scene.resolved)
+    return nullptr;
+  return summary;
+}
+
+class Conductor {
+ public:
+  Conductor(const Study& study, const std::vector<Point>& points, const ConductOptions& options, Host& host)
+      : study_(study), points_(points), options_(options), host_(host) {}
+
+  void check() {
+    RunFaults faults;
+    for (const Point& point : points_) {
+      Row& row = result_.rows.emplace_back();
+      row.choice = point.choice;
+      row.run = point.name;
+      std::optional<std::vector<PlannedTable>> tables;
+      try {
+        auto scene = read(point);
+        row.numbers = numbers(point, *scene);
+        tables = tables_of(point, std::move(scene));
+      } catch (const InputError& error) {
+        faults.add(error, row.run, "scene ");
+      }
+      try {
+        if (tables) check_columns(study_, *tables);
+      } catch (const InputError& error) {
+        faults.add(error, row.run, "");
+      }
+    }
+    faults.throw_if_any(points_.size());
+    check_sizes();
+  }
+
+  void run_all() {
+    fs::create_directories(options_.directory / "runs");
+    const std::size_t total = points_.size() * static_cast<std::size_t>(study_.repeats);
+    std::size_t number = 0;
+    for (std::int64_t repeat = 1; repeat <= study_.repeats; ++repeat)
+      for (std::size_t n = 0; n < points_.size(); ++n) {
+        ++number;
+        Row& row = result_.rows[n];
+        if (row.status == "failed") continue;
+        run_one(points_[n], row, repeat, fmt::format("[{}/{}] {}", number, total, row.run));
+        if (result_.interrupted) return;
+      }
+  }
+
+  Conducted result() && { return std::move(result_); }
+
+ private:
+  int threads(const Point& point) const { return point.threads.value_or(options_.threads); }
+  std::unique_ptr<Scene> read(const Point& point) const { return read_scene_text(point.scene.dump(), study_.scene_file, host_); }
+
+  /// Those that the run left, or will leave; none if it is too large for this machine: its row will say so, and the others go on.
+  std::optional<std::vector<PlannedTable>> tables_of(const Point& point, std::unique_ptr<Scene> scene) const {
+    const fs::path folder = run_directory(options_.directory, point.name, 1);
+    if (!options_.fresh && !finished(folder, *scene, threads(point)).is_null()) return tables_in(folder);
+    try {
+      return make_plan(std::move(scene), threads(point))->tables;
+    } catch (const OutsideError&) {
+      return std::nullopt;
+    }
+  }
+
+  /// What each axis set, as the resolved scene has it: in SI.
+  std::vector<std::optional<double>> numbers(const Point& point, const Scene& scene) const {
+    const Json resolved = Json::parse(scene.resolved);
+    std::vector<std::optional<double>> found;
+    for (const Axis& axis : study_.axes) {
+      auto& number = found.emplace_back();
+      if (axis.is_threads()) {
+        number = threads(point);
+        continue;
+      }
+      const Json::json_pointer place(axis.pointers.front());
+      if (resolved.contains(place) && resolved[place].is_number()) number = resolved[place].get<double>();
+    }
+    return found;
+  }
+
+  void check_sizes() const {
+    if (!study_.refinement) return;
+    const Axis& axis = study_.axes[*study_.refinement];
+    Faults faults;
+    for (const Row& row : result_.rows)
+      if (const auto& size = row.numbers[*study_.refinement]; faults.empty() && !(size && *size > 0))
+        faults.add(member("/vary", axis.name), axis.labels[row.choice[*study_.refinement]],
+                   fmt::format("sizes above 0 in the first of its pointers, because \"{}\" is the axis that refines", axis.name));
+    faults.throw_if_any();
+  }
+
+  void run_one(const Point& point, Row& row, std::int64_t repeat, const std::string& title) {
+    RunOptions run_options{run_directory(options_.directory, row.run, repeat), true};
+    auto scene = read(point);
+    Json summary = options_.fresh ? Json() : finished(run_options.directory, *scene, threads(point));
+    const bool there = !summary.is_null();
+    if (!there) {
+      int code = exit_outside;
+      std::string reason;
+      {
+        const QuietLog quiet;
+        try {
+          const auto plan = make_plan(std::move(scene), threads(point));
+          code = run(*plan, run_options);
+        } catch (const std::bad_alloc&) {
+          reason = "not enough memory";
+        } catch (const OutsideError& error) {
+          reason = error.what();
+        }
+      }
+      if (code == exit_interrupted) {
+        result_.interrupted = true;
+        return spdlog::warn("{}: interrupted", title);
+      }
+      summary = Json::parse(text_of(run_options.directory / "summary.json"), nullptr, false);
+      if (code != exit_done || !summary.is_object()) {
+        row.fail(summary.is_object() ? summary.value("reason", reason) : reason.empty() ? "summary.json cannot be read" : reason, code);
+        return spdlog::error("{}: failed: {}", title, row.reason);
+      }
+    }
+    take(row, summary, repeat);
+    if (there)
+      spdlog::info("{}: there already", title);
+    else
+      spdlog::info("{}: {:.3g} s, {} particles, {} steps", title, row.solve_seconds.back(), row.particles, row.steps);
+  }
+
+  static void take(Row& row, const Json& summary, std::int64_t repeat) {
+    row.status = "done";
+    row.particles = summary.value("particles", std::uint64_t{0});
+    row.steps = summary.value("steps", std::uint64_t{0});
+    const Json& wall = summary.at("wall_seconds");
+    row.solve_seconds.push_back(wall.at("solve").get<double>());
+    if (repeat == 1) row.setup_seconds = wall.at("setup").get<double>();
+  }
+
+  const Study& study_;
+  const std::vector<Point>& points_;
+  const ConductOptions& options_;
+  Host& host_;
+  Conducted result_;
+};
+
+}  // namespace
+
+fs::path run_directory(const fs::path& directory, const std::string& run, std::int64_t repeat) {
+  const fs::path folder = directory / "runs" / run;
+  return repeat == 1 ? folder : folder / fmt::format("repeat_{}", repeat);
+}
+
+Conducted conduct(const Study& study, const std::vector<Point>& points, const ConductOptions& options, Host& host) {
+  Conductor conductor(study, points, options, host);
+  conductor.check();
+  conductor.run_all();
+  return std::move(conductor).result();
+}
+
+}  // namespace hyperlattice::study

@@ -1,0 +1,40 @@
+// A quantity over time or place, and how far one is from another.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hyperlattice::study {
+
+/// Values between which it runs straight. A single number is a curve of one point, at 0.
+struct Curve {
+  std::vector<double> over;    ///< time or place, ascending
+  std::vector<double> values;  ///< as many
+};
+
+/// Puts the points in order; of several at one place their mean counts.
+Curve sorted(Curve curve);
+
+/// The value at a time or place within the curve's range (up to rounding); not a number outside.
+double value_at(const Curve& curve, double over);
+
+/// What is compared of a curve in place of all its points.
+enum class Reduction { none, last, largest, least, mean };
+inline constexpr std::string_view reduction_names[] = {"none", "last", "max", "min", "mean"};
+
+/// The mean is over the range of the curve, not over its points.
+Curve reduced(Curve curve, Reduction reduction);
+
+/// How an error is counted, at the points x of the truth t that the observed curve u reaches:
+enum class Norm {
+  relative_l2,   ///< sqrt(sum (u - t)^2 / sum t^2)
+  relative_max,  ///< max |u - t| / max |t|
+  relative_end   ///< |u - t| / |t| at the last of them
+};
+inline constexpr std::string_view norm_names[] = {"relative_l2", "relative_max", "relative_end"};
+
+/// Throws std::runtime_error, with a sentence, where no error is defined: nothing in common, or a truth that is zero.
+double distance(const Curve& observed, const Curve& truth, Norm norm);
+
+}  // namespace hyperlattice::study

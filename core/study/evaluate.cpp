@@ -1,0 +1,132 @@
+#include <base/input_file.hpp>
+#include <study/conduct.hpp>
+#include <study/evaluate.hpp>
+#include <study/expected.hpp>
+#include <study/observe.hpp>
+
+#include <algorithm>
+
+namespace hyperlattice::study {
+
+namespace {
+
+/// Whether two choices differ in the refinement alone.
+bool same_but(std::size_t refinement, Choice a, const Choice& b) {
+  a[refinement] = b[refinement];
+  return a == b;
+}
+
+class Evaluation {
+ public:
+  Evaluation(const Study& study, const std::filesystem::path& directory, std::vector<Row>& rows)
+      : study_(study), directory_(directory), rows_(rows), curves_(rows.size()) {}
+
+  void run() {
+    for (std::size_t r = 0; r < rows_.size(); ++r)
+      if (rows_[r].is_done()) guarded(rows_[r], [&] { observe(r); });
+    for (std::size_t r = 0; r < rows_.size(); ++r)
+      if (rows_[r].is_done()) guarded(rows_[r], [&] { compare(r); });
+  }
+
+ private:
+  struct Observed {
+    Curve curve;
+    std::optional<double> place;
+  };
+
+  /// A run that cannot be compared is a failed one, and the others go on.
+  template <class Code>
+  static void guarded(Row& row, Code&& code) {
+    try {
+      code();
+    } catch (const std::runtime_error& error) {
+      row.errors.clear();
+      row.fail(std::string("it was run but cannot be compared: ") + error.what(), exit_run);
+    }
+  }
+
+  const Truth& truth_of(const Row& row) const {
+    return *std::find_if(study_.truths.begin(), study_.truths.end(), [&](const Truth& truth) { return truth.when.holds(row.choice); });
+  }
+
+  void observe(std::size_t r) {
+    const bool number = truth_of(rows_[r]).kind == Truth::Kind::numbers;
+    for (const Comparison& comparison : study_.comparisons) {
+      const auto file = run_directory(directory_, rows_[r].run, 1) / "probes" / (comparison.probe + ".csv");
+      const CsvTable table = parse_csv(read_input_file(file, file.string(), "the probe's table"));
+      const Reduction reduction = number && comparison.reduction == Reduction::none ? Reduction::last : comparison.reduction;
+      curves_[r].push_back({reduced(observed_curve(comparison, table), reduction), place_of(comparison, table)});
+    }
+  }
+
+  void compare(std::size_t r) {
+    Row& row = rows_[r];
+    for (std::size_t c = 0; c < study_.comparisons.size(); ++c) {
+      const Comparison& comparison = study_.comparisons[c];
+      try {
+        row.errors.push_back(distance(curves_[r][c].curve, truth_curve(r, c), study_.norm));
+      } catch (const std::runtime_error& error) {
+        throw std::runtime_error(comparison.name + ": " + error.what());
+      }
+    }
+    row.error = *std::max_element(row.errors.begin(), row.errors.end());
+  }
+
+  Curve truth_curve(std::size_t r, std::size_t c) const {
+    const Truth& truth = truth_of(rows_[r]);
+    if (truth.kind != Truth::Kind::finest) return true_curve(study_.comparisons[c], truth, curves_[r][c].place, rows_[r].numbers);
+    std::vector<SizedCurve> family;
+    for (std::size_t other = 0; other < rows_.size(); ++other)
+      if (curves_[other].size() > c && same_but(*study_.refinement, rows_[other].choice, rows_[r].choice))
+        family.push_back({*rows_[other].numbers[*study_.refinement], curves_[other][c].curve});
+    std::sort(family.begin(), family.end(), [](const SizedCurve& a, const SizedCurve& b) { return a.size > b.size; });
+    return extrapolated(family, truth.order);
+  }
+
+  const Study& study_;
+  const std::filesystem::path& directory_;
+  std::vector<Row>& rows_;
+  std::vector<std::vector<Observed>> curves_;  // of each row and comparison
+};
+
+std::vector<ChoiceOrder> find_orders(std::size_t refinement, const std::vector<Row>& rows) {
+  std::vector<ChoiceOrder> orders;
+  std::vector<bool> taken(rows.size());
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (taken[r]) continue;
+    std::vector<SizedError> errors;
+    for (std::size_t other = r; other < rows.size(); ++other) {
+      if (!same_but(refinement, rows[other].choice, rows[r].choice)) continue;
+      taken[other] = true;
+      if (rows[other].error) errors.push_back({*rows[other].numbers[refinement], *rows[other].error});
+    }
+    if (auto observed = observed_order(std::move(errors))) orders.push_back({rows[r].choice, std::move(*observed)});
+  }
+  return orders;
+}
+
+}  // namespace
+
+void find_errors(const Study& study, const std::filesystem::path& directory, std::vector<Row>& rows) { Evaluation(study, directory, rows).run(); }
+
+Findings find(const Study& study, const std::vector<Row>& rows) {
+  Findings findings;
+  std::vector<Cost> costs;
+  std::vector<std::size_t> place;  // of each cost, its row
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    if (rows[r].error) {
+      costs.push_back({*rows[r].error, rows[r].seconds()});
+      place.push_back(r);
+    }
+  findings.pareto.assign(rows.size(), false);
+  const std::vector<bool> front = pareto_front(costs);
+  for (std::size_t n = 0; n < costs.size(); ++n) findings.pareto[place[n]] = front[n];
+  if (const auto best = most_accurate(costs)) findings.best = place[*best];
+  findings.target = study.target_error;
+  if (findings.target)
+    if (const auto found = cheapest(costs, *findings.target)) findings.cheapest = place[*found];
+  if (study.refinement) findings.orders = find_orders(*study.refinement, rows);
+  return findings;
+}
+
+}  // namespace hyperlattice::study

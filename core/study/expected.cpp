@@ -1,0 +1,124 @@
+#include <study/expected.hpp>
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace hyperlattice::study {
+
+namespace {
+
+/// A row's number in a column that may be one of several at known places: straight between the two around the place.
+class RowValue {
+ public:
+  RowValue(const Comparison& comparison, const Truth& truth, std::optional<double> place) : table_(*truth.table) {
+    if (!place) {
+      parts_ = {{table_.column(comparison.truth).value(), 1}};
+      return;
+    }
+    const auto columns = placed_columns(table_, comparison.truth);
+    const double first = columns.front().first, last = columns.back().first, slack = 1e-9 * std::max(std::abs(first), std::abs(last));
+    if (!(*place >= first - slack && *place <= last + slack))
+      throw std::runtime_error(fmt::format("the truth is known from {} to {} m, not at {:g} m", first, last, *place));
+    std::size_t right = columns.size() > 1 ? 1 : 0;
+    while (right + 1 < columns.size() && columns[right].first < *place) ++right;
+    if (right == 0) {
+      parts_ = {{columns[0].second, 1}};
+      return;
+    }
+    const double left = columns[right - 1].first, share = std::clamp((*place - left) / (columns[right].first - left), 0.0, 1.0);
+    parts_ = {{columns[right - 1].second, 1 - share}, {columns[right].second, share}};
+  }
+
+  std::optional<double> operator()(std::size_t row) const {
+    double value = 0;
+    for (const auto& [column, share] : parts_) {
+      const auto number = csv_number(table_.rows[row][column]);
+      if (!number) return std::nullopt;
+      value += share * *number;
+    }
+    return value;
+  }
+
+ private:
+  const CsvTable& table_;
+  std::vector<std::pair<std::size_t, double>> parts_;
+};
+
+Curve table_curve(const Comparison& comparison, const Truth& truth, std::optional<double> place, const std::vector<std::optional<double>>& numbers) {
+  const CsvTable& table = *truth.table;
+  const std::size_t over = table.column(over_column(comparison, truth)).value();
+  const double over_scale = comparison.over_scale.value_or(truth.over_scale);
+  const RowValue value(comparison, truth, place);
+  Curve curve;
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    if (!passes(table, row, truth.where, numbers) || !passes(table, row, comparison.where, numbers)) continue;
+    const auto x = csv_number(table.rows[row][over]), y = value(row);
+    if (!x || !y) continue;
+    curve.over.push_back(*x * over_scale);
+    curve.values.push_back(*y * comparison.scale);
+  }
+  if (curve.over.empty()) throw std::runtime_error(fmt::format("no row of {} fits \"where\"", truth.file.filename().string()));
+  return reduced(sorted(std::move(curve)), comparison.reduction);
+}
+
+/// b at those points of a that both have.
+Curve common_part(const Curve& a, const Curve& b) {
+  Curve part;
+  for (const double over : a.over)
+    if (const double value = value_at(b, over); !std::isnan(value)) {
+      part.over.push_back(over);
+      part.values.push_back(value);
+    }
+  return part;
+}
+
+/// The length of the difference of two curves at the points of `where`.
+double apart(const Curve& where, const Curve& a, const Curve& b) {
+  double sum = 0;
+  for (const double over : where.over) {
+    const double difference = value_at(a, over) - value_at(b, over);
+    if (!std::isnan(difference)) sum += difference * difference;
+  }
+  return std::sqrt(sum);
+}
+
+}  // namespace
+
+Curve true_curve(const Comparison& comparison, const Truth& truth, std::optional<double> place, const std::vector<std::optional<double>>& numbers) {
+  if (truth.kind == Truth::Kind::table) return table_curve(comparison, truth, place, numbers);
+  return {{0}, {comparison.scale * truth.numbers.at(comparison.truth)}};
+}
+
+double order_of(const SizedCurve& coarse, const SizedCurve& middle, const SizedCurve& fine) {
+  const Curve where = common_part(common_part(coarse.curve, middle.curve), fine.curve);
+  const double first = apart(where, coarse.curve, middle.curve), second = apart(where, middle.curve, fine.curve);
+  if (second == 0) throw std::runtime_error("the finest two runs are the same, so that they show no order of convergence");
+  // (h1^p - h2^p) / (h2^p - h3^p) grows with p; it is the ratio of the differences.
+  const auto ratio = [&](double p) { return (std::pow(coarse.size / middle.size, p) - 1) / (1 - std::pow(fine.size / middle.size, p)); };
+  double low = 1e-3, high = 20;
+  for (int n = 0; n < 100; ++n) {
+    const double p = (low + high) / 2;
+    (ratio(p) < first / second ? low : high) = p;
+  }
+  constexpr double least = 0.1;
+  if (low < least)
+    throw std::runtime_error(
+        "the finest three runs do not converge, so that nothing can be extrapolated from them: refine further, or state the order");
+  return low;
+}
+
+Curve extrapolated(const std::vector<SizedCurve>& curves, std::optional<double> order) {
+  const std::size_t count = curves.size(), needed = order ? 2 : 3;
+  if (count < needed) throw std::runtime_error(fmt::format("there are {} finished runs to extrapolate from, and {} are needed", count, needed));
+  const SizedCurve &fine = curves[count - 1], &middle = curves[count - 2];
+  const double p = order ? *order : order_of(curves[count - 3], middle, fine);
+  const double gain = 1 / (std::pow(middle.size / fine.size, p) - 1);
+  Curve result = common_part(middle.curve, fine.curve);  // the middle's points: where lattices nest, the fine one has them too
+  for (std::size_t n = 0; n < result.over.size(); ++n) result.values[n] += gain * (result.values[n] - value_at(middle.curve, result.over[n]));
+  return result;
+}
+
+}  // namespace hyperlattice::study

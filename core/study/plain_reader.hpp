@@ -1,0 +1,40 @@
+// Objects of a study file whose options are plain: declared by Schema<Options> and read as those of a scene, without regions or shapes.
+#pragma once
+
+#include <scene/option_reader.hpp>
+
+#include <nlohmann/json.hpp>
+
+namespace hyperlattice::study {
+
+class PlainReader {
+ public:
+  explicit PlainReader(Faults& faults) : faults_(faults), region_reader_(none_, regions_, faults, texts_) {}
+
+  Faults& faults() { return faults_; }
+
+  /// The options of a class that has `struct Options` and `static Schema<Options> schema()`; none after faults. Keys that are neither options nor
+  /// among `others` are faults.
+  template <class Declared>
+  std::optional<typename Declared::Options> read(const Json& object, const std::string& pointer, std::vector<std::string> others = {}) {
+    if (!object.is_object()) {
+      faults_.add(pointer.empty() ? "study" : pointer, shown(object), "an object");
+      return std::nullopt;
+    }
+    Json resolved;
+    OptionReader reader(object, pointer, {faults_, region_reader_, texts_}, std::move(others));
+    const OptionsPointer options = reader.fill(option_set<Declared>(), resolved);
+    reader.reject_unknown();
+    if (!options) return std::nullopt;
+    return *static_cast<const typename Declared::Options*>(options.get());
+  }
+
+ private:
+  Faults& faults_;
+  const Json none_ = Json::object();
+  Regions regions_;
+  std::deque<std::string> texts_;
+  RegionReader region_reader_;
+};
+
+}  // namespace hyperlattice::study

@@ -1,0 +1,200 @@
+#include <study/report.hpp>
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <iterator>
+
+namespace hyperlattice::study {
+
+namespace {
+
+std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
+
+/// What was varied, as keys of an object.
+void append_choice(Json& json, const std::vector<Axis>& axes, const Choice& choice, std::size_t except) {
+  for (std::size_t a = 0; a < axes.size(); ++a) {
+    if (a == except) continue;
+    const Json& value = axes[a].values[choice[a]].front();
+    json[axes[a].name] = value.is_number() ? value : Json(axes[a].labels[choice[a]]);
+  }
+}
+
+std::size_t refinement_of(const Study& study) { return study.refinement.value_or(study.axes.size()); }
+
+Json row_json(const Study& study, const Row& row, bool pareto) {
+  Json json;
+  append_choice(json, study.axes, row.choice, study.axes.size());
+  json["error"] = row.error ? Json(*row.error) : Json(nullptr);
+  json["seconds"] = row.solve_seconds.empty() ? Json(nullptr) : Json(row.seconds());
+  json["particles"] = row.particles;
+  json["steps"] = row.steps;
+  if (study.refinement) json["size"] = row.numbers[*study.refinement].value_or(0);
+  json["pareto"] = pareto;
+  json["errors"] = Json::object();
+  for (std::size_t c = 0; c < row.errors.size(); ++c) json["errors"][study.comparisons[c].name] = row.errors[c];
+  json["setup_seconds"] = row.setup_seconds;
+  json["repeats"] = row.solve_seconds;
+  json["run"] = "runs/" + row.run;
+  json["status"] = row.status;
+  if (!row.reason.empty()) json["reason"] = row.reason;
+  return json;
+}
+
+Json order_json(const Study& study, const ChoiceOrder& order) {
+  Json json = Json::object();
+  append_choice(json, study.axes, order.choice, refinement_of(study));
+  json["order"] = order.observed.order;
+  json["pairs"] = Json::array();
+  const auto& errors = order.observed.errors;
+  for (std::size_t n = 1; n < errors.size(); ++n)
+    json["pairs"].push_back({{"from", errors[n - 1].size}, {"to", errors[n].size}, {"order", order.observed.pairs[n - 1]}});
+  return json;
+}
+
+using Lines = std::vector<std::vector<std::string>>;
+
+/// Columns as wide as their widest cell; the first `left` of them begin at the left, the others end at the right.
+std::string aligned(const Lines& lines, std::size_t left) {
+  std::vector<std::size_t> widths;
+  for (const auto& line : lines) {
+    widths.resize(std::max(widths.size(), line.size()));
+    for (std::size_t c = 0; c < line.size(); ++c) widths[c] = std::max(widths[c], line[c].size());
+  }
+  std::string text;
+  for (const auto& line : lines) {
+    std::string row;
+    for (std::size_t c = 0; c < line.size(); ++c)
+      row += c < left ? fmt::format("  {:<{}}", line[c], widths[c]) : fmt::format("  {:>{}}", line[c], widths[c]);
+    row.erase(row.find_last_not_of(' ') + 1);
+    text += row + '\n';
+  }
+  return text;
+}
+
+std::string table_text(const Study& study, const std::vector<Row>& rows, const Findings& findings) {
+  Lines lines(1);
+  for (const Axis& axis : study.axes) lines[0].push_back(axis.name);
+  for (const char* name : {"particles", "steps", "error", "seconds", ""}) lines[0].emplace_back(name);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const Row& row = rows[r];
+    auto& line = lines.emplace_back();
+    for (std::size_t a = 0; a < study.axes.size(); ++a) line.push_back(study.axes[a].labels[row.choice[a]]);
+    line.push_back(row.is_done() ? fmt::format("{}", row.particles) : "");
+    line.push_back(row.is_done() ? fmt::format("{}", row.steps) : "");
+    line.push_back(row.error ? percent(*row.error) : row.status);
+    line.push_back(row.is_done() ? fmt::format("{:.3g}", row.seconds()) : "");
+    line.emplace_back(findings.pareto[r] ? "*" : "");
+  }
+  return aligned(lines, study.axes.size()) + "  * no other is both quicker and more accurate\n";
+}
+
+std::string orders_text(const Study& study, const Findings& findings) {
+  if (findings.orders.empty()) return "";
+  std::string text = fmt::format("\nObserved order of convergence in \"{}\"\n", study.axes[*study.refinement].name);
+  for (const ChoiceOrder& order : findings.orders) {
+    const std::string choice = choice_text(study.axes, order.choice, *study.refinement);
+    fmt::format_to(std::back_inserter(text), "  {}{:.2f}", choice.empty() ? "" : choice + ": ", order.observed.order);
+    if (order.observed.pairs.size() > 1) fmt::format_to(std::back_inserter(text), " (step by step {:.2f})", fmt::join(order.observed.pairs, ", "));
+    text += '\n';
+  }
+  return text;
+}
+
+std::string peers_text(const Study& study) {
+  if (study.peers.empty()) return "";
+  Lines lines{{"peer", "error", "seconds"}};
+  for (const Peer& peer : study.peers) lines.push_back({peer.label, percent(peer.error), fmt::format("{:.3g}", peer.seconds)});
+  return '\n' + aligned(lines, 1);
+}
+
+/// Where the choices that do not meet the target would meet it, by their observed orders: the coarsest size is the cheapest promise.
+std::string promise(const Study& study, const Findings& findings) {
+  const ChoiceOrder* best = nullptr;
+  double size = 0;
+  for (const ChoiceOrder& order : findings.orders)
+    if (const auto found = size_for(order.observed, *findings.target); found && *found > size) {
+      best = &order;
+      size = *found;
+    }
+  if (best == nullptr) return "";
+  const std::string choice = choice_text(study.axes, best->choice, *study.refinement);
+  return fmt::format(" By its observed order, {} would meet it at a {} of about {:.2g} (SI).", choice.empty() ? "the scene" : choice,
+                     study.axes[*study.refinement].name, size);
+}
+
+}  // namespace
+
+std::vector<std::vector<std::size_t>> families(const Study& study, const std::vector<Row>& rows) {
+  std::vector<std::vector<std::size_t>> found;
+  const std::size_t refinement = refinement_of(study);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const auto family = std::find_if(found.begin(), found.end(), [&](const auto& members) {
+      return study.refinement &&
+             choice_text(study.axes, rows[members.front()].choice, refinement) == choice_text(study.axes, rows[r].choice, refinement);
+    });
+    if (family == found.end())
+      found.push_back({r});
+    else
+      family->push_back(r);
+  }
+  if (study.refinement)
+    for (auto& members : found)
+      std::stable_sort(members.begin(), members.end(),
+                       [&](std::size_t a, std::size_t b) { return rows[a].numbers[refinement] > rows[b].numbers[refinement]; });
+  return found;
+}
+
+std::string cheapest_sentence(const Study& study, const std::vector<Row>& rows, const Findings& findings) {
+  if (!findings.target) return "";
+  const auto setting = [&](std::size_t r) {
+    return fmt::format("{}: error {}, {:.3g} s, {} particles", choice_text(study.axes, rows[r].choice, study.axes.size()), percent(*rows[r].error),
+                       rows[r].seconds(), rows[r].particles);
+  };
+  const std::string target = percent(*findings.target);
+  if (findings.cheapest) return fmt::format("The cheapest setting for an error of {} is {}.", target, setting(*findings.cheapest));
+  if (!findings.best) return fmt::format("No setting was compared, so none is known to have an error of {}.", target);
+  return fmt::format("No setting has an error of {} or less; the most accurate is {}.", target, setting(*findings.best)) + promise(study, findings);
+}
+
+Json study_json(const Study& study, const std::vector<Row>& rows, const Findings& findings) {
+  Json json = {
+      {"title", study.title}, {"norm", norm_names[static_cast<std::size_t>(study.norm)]}, {"rows", Json::array()}, {"orders", Json::array()}};
+  for (std::size_t r = 0; r < rows.size(); ++r) json["rows"].push_back(row_json(study, rows[r], findings.pareto[r]));
+  for (const ChoiceOrder& order : findings.orders) json["orders"].push_back(order_json(study, order));
+  json["target_error"] = findings.target ? Json(*findings.target) : Json(nullptr);
+  json["cheapest"] = findings.cheapest ? row_json(study, rows[*findings.cheapest], findings.pareto[*findings.cheapest]) : Json(nullptr);
+  json["sentence"] = cheapest_sentence(study, rows, findings);
+  json["peers"] = Json::array();
+  for (const Peer& peer : study.peers) json["peers"].push_back({{"label", peer.label}, {"error", peer.error}, {"seconds", peer.seconds}});
+  return json;
+}
+
+std::string study_csv(const Study& study, const std::vector<Row>& rows, const Findings& findings) {
+  std::string text;
+  for (const Axis& axis : study.axes) text += axis.name + ',';
+  text += "particles,steps,error,seconds,setup_seconds,pareto,status";
+  for (const Comparison& comparison : study.comparisons) text += ",error " + comparison.name;
+  text += '\n';
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const Row& row = rows[r];
+    for (std::size_t a = 0; a < study.axes.size(); ++a) text += study.axes[a].labels[row.choice[a]] + ',';
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{}", row.particles, row.steps, row.error ? fmt::format("{}", *row.error) : "",
+                   row.seconds(), row.setup_seconds, findings.pareto[r] ? 1 : 0, row.status);
+    for (std::size_t c = 0; c < study.comparisons.size(); ++c) text += c < row.errors.size() ? fmt::format(",{}", row.errors[c]) : ",";
+    text += '\n';
+  }
+  return text;
+}
+
+std::string study_text(const Study& study, const std::vector<Row>& rows, const Findings& findings) {
+  std::string text = (study.title.empty() ? "" : study.title + "\n\n") + table_text(study, rows, findings) + peers_text(study);
+  for (const Row& row : rows)
+    if (!row.reason.empty())
+      fmt::format_to(std::back_inserter(text), "\n{} failed: {}\n", choice_text(study.axes, row.choice, study.axes.size()), row.reason);
+  text += orders_text(study, findings);
+  const std::string sentence = cheapest_sentence(study, rows, findings);
+  return text + (sentence.empty() ? "" : '\n' + sentence + '\n');
+}
+
+}  // namespace hyperlattice::study

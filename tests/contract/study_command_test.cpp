@@ -1,0 +1,249 @@
+// `hyperlattice study` as a user types it: what machines read, what is run again and what is not, what is refused and how.
+#include <gtest/gtest.h>
+#include <support/program.hpp>
+
+namespace {
+using namespace hyperlattice::test;
+using nlohmann::json;
+using Words = std::vector<std::string>;
+namespace fs = std::filesystem;
+
+/// A particle on a spring: the lower one of two is held, the upper one is started with 1 mm/s and swings. Central differences, so that the error
+/// falls with the square of the step.
+json swinging_pair() {
+  return json::parse(R"({
+    "format": "hyperlattice-study/1", "title": "Swinging pair",
+    "scene": { "format": "hyperlattice/1", "pipeline": [
+      { "type": "lattices.cubic", "spacing": "1 mm", "shape": { "box": { "low": [0, 0, 0], "high": ["1 mm", "1 mm", "2 mm"] } } },
+      { "type": "materials.elastic", "young": "10 GPa", "poisson": 0.25, "density": 2500 },
+      { "type": "loads.fixed", "on": "z_min" },
+      { "type": "loads.start_velocity", "on": "z_max", "linear": [0, 0, "1 mm/s"] },
+      { "type": "solvers.explicit", "end_time": "2 us" },
+      { "type": "probes.point", "name": "upper", "position": [0, 0, "2 mm"], "component": "z", "every": 0 } ] },
+    "vary": {
+      "step": { "/pipeline/4/time_step": ["0.2 us", "0.1 us", "0.05 us"] },
+      "stiffness": { "/pipeline/1/young": ["10 GPa", "5 GPa"], "labels": ["stiff", "soft"] } },
+    "refine": "step",
+    "truth": [ { "when": { "stiffness": "stiff" }, "value": 0 }, { "when": { "stiffness": ["soft"] }, "value": 0 } ],
+    "compare": { "upper": { "probe": "upper", "column": "displacement_z" } },
+    "repeats": 1 })");
+}
+
+/// v / omega sin(omega t); omega^2 = k / m = 0.4 E l / (rho l^3).
+double swing(double young) {
+  const double omega = std::sqrt(0.4 * young / 2500) / 1e-3;
+  return 1e-3 / omega * std::sin(omega * 2e-6);
+}
+
+json true_swinging_pair() {
+  json study = swinging_pair();
+  study["truth"][0]["value"] = swing(10e9);
+  study["truth"][1]["value"] = swing(5e9);
+  return study;
+}
+
+class StudyCommand : public testing::Test {
+ protected:
+  Result study(const json& file, Words words = {}) {
+    std::ofstream(folder_.file("study.json")) << file.dump(1);
+    const Words all{"study", folder_.file("study.json"), "--out", out()};
+    words.insert(words.begin(), all.begin(), all.end());
+    return run_program(words);
+  }
+  std::string out() const { return folder_.file("out"); }
+
+  /// Exit code 2, nothing written, every part of a message in it, and no more faults than that.
+  void expect_refused(const json& file, const Words& parts, const Words& words = {}) {
+    const Result result = study(file, words);
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    for (const std::string& part : parts) EXPECT_NE(result.err.find(part), std::string::npos) << "missing: " << part << '\n' << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1 + static_cast<std::ptrdiff_t>(parts.size())) << result.err;
+    EXPECT_FALSE(fs::exists(out()));
+  }
+
+  Folder folder_{"study"};
+};
+
+TEST_F(StudyCommand, GivesRowsOrdersAndTheCheapestSetting) {
+  const Result result = study(true_swinging_pair(), {"--json", "--target-error", "0.5%"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json found = json::parse(result.out);
+  ASSERT_EQ(found.at("rows").size(), 6u);
+  for (const json& row : found["rows"]) {
+    for (const char* key : {"step", "stiffness", "error", "seconds", "particles", "steps", "size", "pareto", "run", "status"})
+      EXPECT_TRUE(row.contains(key)) << key;
+    EXPECT_EQ(row["particles"], 2);
+    EXPECT_EQ(row["status"], "done");
+    EXPECT_GT(row["seconds"], 0);
+    EXPECT_TRUE(fs::exists(out() + "/" + row["run"].get<std::string>() + "/summary.json"));
+  }
+  EXPECT_EQ(found["rows"][0]["step"], "0.2 us");
+  EXPECT_EQ(found["rows"][0]["stiffness"], "stiff");
+  EXPECT_NEAR(found["rows"][0]["size"], 0.2e-6, 1e-18);
+  ASSERT_EQ(found.at("orders").size(), 2u);
+  EXPECT_EQ(found["orders"][0]["stiffness"], "stiff");
+  EXPECT_EQ(found["orders"][1]["stiffness"], "soft");
+  for (const json& order : found["orders"]) {
+    EXPECT_NEAR(order["order"], 2, 0.05) << "central differences are of second order";
+    EXPECT_EQ(order["pairs"].size(), 2u);
+  }
+  ASSERT_TRUE(found.at("cheapest").is_object());
+  EXPECT_LE(found["cheapest"]["error"], 0.005);
+  for (const json& row : found["rows"])
+    if (row["error"] <= 0.005) {
+      EXPECT_LE(found["cheapest"]["seconds"], row["seconds"]);
+    }
+  EXPECT_EQ(read_json(out() + "/study.json"), found);
+  EXPECT_EQ(table_rows(out() + "/study.csv").size(), 6u);
+  EXPECT_NE(contents(out() + "/study.svg").find("Swinging pair"), std::string::npos);
+}
+
+TEST_F(StudyCommand, RunsAgainOnlyWhatIsMissing) {
+  json file = true_swinging_pair();
+  file["repeats"] = 2;
+  ASSERT_EQ(study(file).exit_code, 0);
+  const auto written = [&](const std::string& run) { return fs::last_write_time(out() + "/runs/" + run + "/summary.json"); };
+  const std::string gone = "step-0.1us_stiffness-soft", kept = "step-0.1us_stiffness-stiff";
+  const auto before = written(kept), before_repeat = written(gone + "/repeat_2");
+  fs::remove(out() + "/runs/" + gone + "/summary.json");
+  const Result again = study(file);
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_TRUE(fs::exists(out() + "/runs/" + gone + "/summary.json"));
+  EXPECT_EQ(written(kept), before);
+  EXPECT_EQ(written(gone + "/repeat_2"), before_repeat);
+  const auto count = [](const std::string& text, const std::string& part) {
+    std::size_t n = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+    return n;
+  };
+  EXPECT_EQ(count(again.err, "there already"), 11u) << again.err;
+  EXPECT_EQ(count(again.err, gone + ": there already"), 1u);
+
+  file["scene"]["pipeline"][1]["density"] = 2600;  // another scene: nothing of it is there
+  EXPECT_EQ(count(study(file).err, "there already"), 0u);
+  EXPECT_EQ(count(study(file, {"--fresh"}).err, "there already"), 0u);
+}
+
+TEST_F(StudyCommand, GoesOnAfterAnInterruption) {
+  json file = true_swinging_pair();
+  file["scene"]["pipeline"][4]["end_time"] = "5 ms";  // 25,000 steps and more
+  Launch launch;
+  launch.meanwhile = [&](pid_t child) {
+    EXPECT_TRUE(wait_until([&] { return fs::exists(out() + "/runs/step-0.2us_stiffness-soft/history.csv"); }));
+    kill(child, SIGINT);
+  };
+  std::ofstream(folder_.file("study.json")) << file.dump();
+  const Result cut = run_program({"study", folder_.file("study.json"), "--out", out(), "--json"}, launch);
+  EXPECT_EQ(cut.exit_code, 130) << cut.err;
+  const json found = json::parse(cut.out);
+  EXPECT_EQ(found["rows"][0]["status"], "done");
+  EXPECT_EQ(found["rows"][5]["status"], "waiting");
+  const auto first = fs::last_write_time(out() + "/runs/step-0.2us_stiffness-stiff/summary.json");
+  file["exclude"] = {{{"step", {"0.1 us", "0.05 us"}}}};
+  EXPECT_EQ(study(file).exit_code, 0);
+  EXPECT_EQ(fs::last_write_time(out() + "/runs/step-0.2us_stiffness-stiff/summary.json"), first);
+}
+
+TEST_F(StudyCommand, TakesThreadsAndTheFinestRun) {
+  json file = swinging_pair();
+  file["vary"] = {{"step", file["vary"]["step"]}, {"threads", {1, 2}}};
+  file["truth"] = "finest";
+  const Result result = study(file, {"--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json found = json::parse(result.out);
+  ASSERT_EQ(found["rows"].size(), 6u);
+  EXPECT_EQ(found["rows"][0]["threads"], 1);
+  EXPECT_EQ(found["rows"][1]["threads"], 2);
+  EXPECT_EQ(found["rows"][0]["error"], found["rows"][1]["error"]) << "the threads change no bit";
+  EXPECT_EQ(read_json(out() + "/" + found["rows"][1]["run"].get<std::string>() + "/summary.json")["threads"], 2);
+  // Extrapolated from the runs alone, the limit is the closed form's, to an order more than the runs have.
+  const double finest = std::abs(found["rows"][4]["error"].get<double>());
+  file["truth"] = {{"value", swing(10e9)}};
+  const json against_truth = json::parse(study(file, {"--json"}).out);
+  EXPECT_NEAR(against_truth["rows"][4]["error"], finest, 0.05 * finest);
+}
+
+TEST_F(StudyCommand, ARunThatFailsIsARow) {
+  json file = true_swinging_pair();
+  file["scene"]["pipeline"][4]["energy_tolerance"] = 0;
+  file["vary"]["stiffness"]["/pipeline/3/linear"] = {{0, 0, "1 mm/s"}, {0, 0, 1e200}};  // the second overflows
+  const Result result = study(file, {"--json"});
+  EXPECT_EQ(result.exit_code, 3) << result.err;
+  const json found = json::parse(result.out);
+  EXPECT_EQ(found["rows"][0]["status"], "done");
+  EXPECT_EQ(found["rows"][1]["status"], "failed");
+  EXPECT_TRUE(found["rows"][1]["error"].is_null());
+  EXPECT_NE(found["rows"][1]["reason"], "");
+  EXPECT_EQ(found["orders"].size(), 1u);
+}
+
+TEST_F(StudyCommand, PutsPeersIntoTheTableAndThePlot) {
+  std::ofstream(folder_.file("peers.csv")) << "label,nodes,error,seconds\nAnother program,100,0.02,0.5\nAnother program,200,0.01,2\n";
+  json file = true_swinging_pair();
+  const Result result = study(file, {"--peers", folder_.file("peers.csv")});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("Another program    2 %      0.5"), std::string::npos) << result.out;
+  EXPECT_NE(contents(out() + "/study.svg").find("Another program"), std::string::npos);
+  file["peers"] = {"peers.csv"};
+  EXPECT_EQ(json::parse(study(file, {"--json"}).out)["peers"].size(), 2u);
+}
+
+TEST_F(StudyCommand, ListsAllFaultsOfAStudy) {
+  json file = swinging_pair();
+  file["repeats"] = 0;
+  file["eror"] = "relative_l2";
+  file["error"] = "l2";
+  file["vary"]["stiffness"]["labels"] = {"stiff"};
+  file["compare"]["upper"]["prob"] = "upper";
+  file["exclude"] = {{{"step", "0.3 us"}}};
+  file["truth"] = {{"value", "much"}};
+  expect_refused(file, {"/repeats: 0: expected an integer from 1 to 99", "/eror: \"relative_l2\": expected a known key; did you mean \"error\"?",
+                        "/error: \"l2\": expected one of \"relative_l2\"", "/vary/stiffness/labels: 1 values: expected 2",
+                        "/compare/upper/prob: \"upper\": expected a known key; did you mean \"probe\"?",
+                        "/exclude/0/step: \"0.3 us\": expected a value of \"step\": 0.2 us, 0.1 us, 0.05 us; did you mean \"0.2 us\"?",
+                        "/truth/value: \"much\": expected a number in SI"});
+}
+
+TEST_F(StudyCommand, RefusesWhatDoesNotFitTogether) {
+  json file = swinging_pair();
+  file["vary"]["step"] = {{"/pipeline/9/time_step", {1e-7, 2e-7}}};
+  expect_refused(file, {"/vary/step/~1pipeline~19~1time_step"});
+  file = swinging_pair();
+  file["compare"]["upper"]["probe"] = "uper";
+  expect_refused(file, {"\n/compare/upper/probe: \"uper\": expected a probe of the scene by its name: upper; did you mean \"upper\"?"});
+  file = swinging_pair();
+  file["compare"]["upper"]["column"] = "displacement_y";
+  expect_refused(file, {"/compare/upper/column: \"displacement_y\": expected a column of probe upper: time, displacement_z"});
+  file = swinging_pair();
+  file["truth"].erase(1);
+  expect_refused(file, {"expected a truth for every run", "expected a truth for every run", "expected a truth for every run"});
+  file = swinging_pair();
+  file["truth"] = "finest";
+  file["vary"].erase("step");
+  file["refine"] = "stiffness";
+  expect_refused(file, {"/truth: \"finest\": expected at least 3 values of \"stiffness\""});
+  file = swinging_pair();
+  file["refine"] = "stif";
+  expect_refused(file, {"/refine: \"stif\": expected an axis of \"vary\": step, stiffness"});
+  file = swinging_pair();
+  file["truth"] = {{"csv", "nowhere.csv"}};
+  file["compare"]["upper"]["truth"] = "u";
+  expect_refused(file, {"/truth/csv"});
+  std::ofstream(folder_.file("truth.csv")) << "t,uz,place\n0,0,1\n";
+  file["truth"] = {{"csv", "truth.csv"}, {"where", {{"palce", 1}}}};
+  expect_refused(file, {"/compare/upper/truth: \"u\": expected a column of truth.csv: t, uz, place; did you mean \"uz\"?",
+                        "/truth/where/palce: \"palce\": expected a column of truth.csv: t, uz, place; did you mean \"place\"?"});
+  expect_refused(swinging_pair(), {"--target-error: much: expected an error above 0 such as 1% or 0.01"}, {"--target-error", "much"});
+  expect_refused(json::array(), {"study: []: expected an object"});
+  EXPECT_EQ(run_program({"study", folder_.file("none.json")}).exit_code, 2);
+}
+
+TEST_F(StudyCommand, TellsFaultsOfItsScenesOnceEach) {
+  json file = swinging_pair();
+  file["scene"]["pipeline"][0]["spacin"] = 1;
+  file["vary"]["stiffness"]["/pipeline/1/young"] = {"10 GPa", "-5 GPa"};
+  expect_refused(file, {"scene /pipeline/0/spacin: 1: expected a known key; did you mean \"spacing\"?",
+                        "scene /pipeline/1/young (run step-0.2us_stiffness-soft and 2 more): \"-5 GPa\": expected a pressure above 0 Pa"});
+}
+
+}  // namespace

@@ -1,0 +1,85 @@
+// Studies with one value replaced by something else: each is read, or refused with a pointer to what is wrong; nothing else ever happens.
+#include <study/grid.hpp>
+
+#include <gtest/gtest.h>
+#include <support/output.hpp>
+
+namespace {
+using namespace hyperlattice;
+using namespace hyperlattice::study;
+
+const char* const good = R"({
+  "format": "hyperlattice-study/1", "title": "a study",
+  "scene": { "format": "hyperlattice/1", "pipeline": [{ "type": "lattices.cubic", "spacing": 1 }, { "type": "materials.elastic" }] },
+  "set": { "/title": "set" },
+  "vary": { "spacing": { "/pipeline/0/spacing": [4, 2, 1] }, "law": { "/pipeline/1": [{ "young": 1 }, { "young": 2 }], "labels": ["soft", "stiff"] },
+            "threads": [1, 2] },
+  "exclude": [{ "law": "soft", "threads": [2] }],
+  "refine": "spacing",
+  "truth": [{ "when": { "law": "soft" }, "csv": "truth.csv", "over": "t", "over_scale": 2, "where": { "line": "a", "h": { "axis": "spacing", "scale": 0.5 } } },
+            { "when": { "law": "stiff" }, "values": { "u": 1 } }],
+  "compare": { "one": { "probe": "p", "column": "c", "truth": "u", "at": "1 mm", "reduce": "max", "scale": 2 } },
+  "error": "relative_max", "repeats": 2, "target_error": "1 %", "peers": ["peers.csv"] })";
+
+/// Every pointer into a document.
+void collect(const Json& json, const Json::json_pointer& here, std::vector<Json::json_pointer>& all) {
+  all.push_back(here);
+  if (json.is_object())
+    for (const auto& item : json.items()) collect(item.value(), here / item.key(), all);
+  if (json.is_array())
+    for (std::size_t n = 0; n < json.size(); ++n) collect(json[n], here / n, all);
+}
+
+class MutatedStudies : public testing::Test {
+ protected:
+  MutatedStudies() {
+    std::ofstream(folder_.file("truth.csv")) << "t,line,h,u@0.0005,u@0.002\n0,a,2,0,0\n1,a,2,1,2\n";
+    std::ofstream(folder_.file("peers.csv")) << "label,error,seconds\nother,0.1,1\n";
+  }
+
+  /// Whether it was accepted; a refusal must say where and what was expected.
+  bool accepted(const Json& study) {
+    std::ofstream(folder_.file("study.json")) << study.dump();
+    try {
+      grid(read_study(folder_.file("study.json"), {}));
+      return true;
+    } catch (const InputError& error) {
+      EXPECT_FALSE(error.faults().empty());
+      for (const Fault& fault : error.faults()) {
+        EXPECT_FALSE(fault.pointer.empty()) << study;
+        EXPECT_FALSE(fault.expected.empty()) << study;
+      }
+      return false;
+    }
+  }
+
+  test::Folder folder_{"mutated_studies"};
+};
+
+TEST_F(MutatedStudies, AreReadOrRefused) {
+  const Json study = Json::parse(good);
+  ASSERT_TRUE(accepted(study));
+  std::vector<Json::json_pointer> places;
+  collect(study, Json::json_pointer(), places);
+  const Json others[] = {
+      nullptr, true, -1, 1e300, "", "x", "/a~2", Json::array(), Json::object(), Json::array({1, "1 mm"}), Json::object({{"/a", 1}})};
+  std::size_t refused = 0;
+  for (const Json::json_pointer& place : places) {
+    for (const Json& other : others) {
+      Json mutated = study;
+      mutated[place] = other;
+      if (!accepted(mutated)) ++refused;
+    }
+    if (place.empty()) continue;
+    Json less = study;
+    Json& parent = less[place.parent_pointer()];
+    if (parent.is_array())
+      parent.erase(std::stoul(place.back()));
+    else
+      parent.erase(place.back());
+    accepted(less);
+  }
+  EXPECT_GT(refused, 5 * places.size());
+}
+
+}  // namespace

@@ -1,0 +1,226 @@
+// The numbers of a study by hand: interpolation, norms, orders, the Pareto front, extrapolation, and what is taken out of tables.
+#include <study/evaluate.hpp>
+#include <study/expected.hpp>
+#include <study/observe.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+using namespace hyperlattice::study;
+using hyperlattice::CsvTable;
+using hyperlattice::parse_csv;
+using Numbers = std::vector<double>;
+
+TEST(StudyCurve, RunsStraightBetweenItsPointsAndNowhereElse) {
+  const Curve curve{{1, 2, 4}, {10, 20, 0}};
+  EXPECT_DOUBLE_EQ(value_at(curve, 1), 10);
+  EXPECT_DOUBLE_EQ(value_at(curve, 1.25), 12.5);
+  EXPECT_DOUBLE_EQ(value_at(curve, 3), 10);
+  EXPECT_DOUBLE_EQ(value_at(curve, 4), 0);
+  EXPECT_DOUBLE_EQ(value_at(curve, 4 * (1 + 1e-15)), 0);  // an end is met up to rounding
+  EXPECT_TRUE(std::isnan(value_at(curve, 0.99)));
+  EXPECT_TRUE(std::isnan(value_at(curve, 4.01)));
+  EXPECT_TRUE(std::isnan(value_at({}, 0)));
+}
+
+TEST(StudyCurve, IsPutInOrderAndTakesTheMeanAtOnePlace) {
+  const Curve curve = sorted({{3, 1, 3, 2, 3}, {30, 10, 60, 20, 90}});
+  EXPECT_EQ(curve.over, (Numbers{1, 2, 3}));
+  EXPECT_EQ(curve.values, (Numbers{10, 20, 60}));
+}
+
+TEST(StudyCurve, IsReducedToOneNumber) {
+  const Curve curve{{0, 1, 4}, {2, 6, -2}};
+  EXPECT_EQ(reduced(curve, Reduction::none).values, curve.values);
+  EXPECT_EQ(reduced(curve, Reduction::last).values, Numbers{-2});
+  EXPECT_EQ(reduced(curve, Reduction::largest).values, Numbers{6});
+  EXPECT_EQ(reduced(curve, Reduction::least).values, Numbers{-2});
+  EXPECT_DOUBLE_EQ(reduced(curve, Reduction::mean).values[0], (4.0 + 6.0) / 4);  // of the range: trapezoids of 4 and 6
+}
+
+TEST(StudyNorm, CountsWhatItSays) {
+  const Curve truth{{0, 1, 2}, {3, 4, 5}}, observed{{0, 2}, {3, 6}};  // 3, 4.5, 6
+  EXPECT_DOUBLE_EQ(distance(observed, truth, Norm::relative_l2), std::sqrt(1.25 / 50));
+  EXPECT_DOUBLE_EQ(distance(observed, truth, Norm::relative_max), 1.0 / 5);
+  EXPECT_DOUBLE_EQ(distance(observed, truth, Norm::relative_end), 1.0 / 5);
+  const Curve shorter{{0, 1}, {3, 4.5}};  // the truth's points that it reaches
+  EXPECT_DOUBLE_EQ(distance(shorter, truth, Norm::relative_l2), std::sqrt(0.25 / 25));
+  EXPECT_DOUBLE_EQ(distance(shorter, truth, Norm::relative_end), 0.5 / 4);
+}
+
+TEST(StudyNorm, SaysWhyThereIsNone) {
+  const auto why = [](const Curve& observed, const Curve& truth) {
+    try {
+      distance(observed, truth, Norm::relative_l2);
+    } catch (const std::runtime_error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(why({{0, 1}, {1, 1}}, {{5, 6}, {1, 1}}),
+            "the run and the truth have nothing in common: the run is known from 0 to 1, the truth from 5 to 6");
+  EXPECT_EQ(why({{0, 1}, {1, 1}}, {{0, 1}, {0, 0}}), "the truth is zero, so that there is no relative error");
+}
+
+TEST(StudyOrder, IsTheSlopeOfTheLogarithms) {
+  const auto second = observed_order({{1, 0.04}, {4, 0.64}, {2, 0.16}});
+  ASSERT_TRUE(second);
+  EXPECT_NEAR(second->order, 2, 1e-12);
+  ASSERT_EQ(second->pairs.size(), 2u);
+  for (const double pair : second->pairs) EXPECT_NEAR(pair, 2, 1e-12);
+  const auto mixed = observed_order({{4, 1}, {2, 0.5}, {1, 0.125}});  // 1, then 2: the slope of three evenly spaced points is the mean
+  EXPECT_NEAR(mixed->pairs[0], 1, 1e-12);
+  EXPECT_NEAR(mixed->pairs[1], 2, 1e-12);
+  EXPECT_NEAR(mixed->order, 1.5, 1e-12);
+  EXPECT_NEAR(*size_for(*second, 0.01), 0.5, 1e-12);
+}
+
+TEST(StudyOrder, NeedsTwoErrorsThatAreNotZero) {
+  EXPECT_FALSE(observed_order({}));
+  EXPECT_FALSE(observed_order({{1, 0.1}}));
+  EXPECT_FALSE(observed_order({{1, 0.1}, {2, 0}}));
+  EXPECT_FALSE(observed_order({{1, 0.1}, {1, 0.2}}));
+  EXPECT_FALSE(size_for(*observed_order({{1, 0.2}, {2, 0.1}}), 0.01)) << "an error that grows never meets a target";
+}
+
+TEST(StudyFront, HoldsWhatNoOtherBeats) {
+  const std::vector<Cost> costs{{0.10, 1}, {0.05, 2}, {0.06, 3}, {0.01, 9}, {0.10, 1}, {0.10, 2}};
+  EXPECT_EQ(pareto_front(costs), (std::vector<bool>{true, true, false, true, true, false}));
+  EXPECT_EQ(cheapest(costs, 0.06), 1u);
+  EXPECT_EQ(cheapest(costs, 0.2), 0u);
+  EXPECT_EQ(cheapest(costs, 0.01), 3u);
+  EXPECT_FALSE(cheapest(costs, 0.001));
+  EXPECT_EQ(most_accurate(costs), 3u);
+  EXPECT_FALSE(most_accurate({}));
+}
+
+/// 1 + x + c h^p over x, at the lattice's own places.
+SizedCurve converging(double h, double p) {
+  SizedCurve curve{h, {}};
+  for (double x = 0; x <= 1; x += h) {
+    curve.curve.over.push_back(x);
+    curve.curve.values.push_back(1 + x + 3 * std::pow(h, p));
+  }
+  return curve;
+}
+
+TEST(StudyExtrapolation, FindsTheLimitAndTheOrder) {
+  for (const double p : {1.0, 1.7, 2.0}) {
+    const std::vector<SizedCurve> even{converging(0.25, p), converging(0.125, p), converging(0.0625, p)};
+    EXPECT_NEAR(order_of(even[0], even[1], even[2]), p, 1e-9);
+    const Curve limit = extrapolated(even, std::nullopt);
+    EXPECT_EQ(limit.over, even[1].curve.over);
+    for (std::size_t n = 0; n < limit.over.size(); ++n) EXPECT_NEAR(limit.values[n], 1 + limit.over[n], 1e-9);
+    const std::vector<SizedCurve> uneven{converging(0.5, p), converging(0.25, p), converging(0.0625, p)};
+    EXPECT_NEAR(order_of(uneven[0], uneven[1], uneven[2]), p, 1e-9);
+    const Curve stated = extrapolated({even[1], even[2]}, p);
+    for (std::size_t n = 0; n < stated.over.size(); ++n) EXPECT_NEAR(stated.values[n], 1 + stated.over[n], 1e-12);
+  }
+}
+
+TEST(StudyExtrapolation, RefusesWhatDoesNotConverge) {
+  EXPECT_THROW(extrapolated({converging(0.25, 2)}, 2.0), std::runtime_error);
+  EXPECT_THROW(extrapolated({converging(0.25, 2), converging(0.125, 2)}, std::nullopt), std::runtime_error);
+  SizedCurve away = converging(0.0625, 2);
+  for (double& value : away.curve.values) value += 5;
+  EXPECT_THROW(extrapolated({converging(0.25, 2), converging(0.125, 2), away}, std::nullopt), std::runtime_error);
+}
+
+const CsvTable line = parse_csv(
+    "time,displacement_x@(0.03 0 0),displacement_x@(0.01 0 0),displacement_x@(0.02 -1e-05 0),displacement_y@(0.01 0 0)\n0,0,0,0,0\n1,3,1,2,7\n");
+
+TEST(StudyObservation, TakesALineAtTheLastTime) {
+  Comparison comparison;
+  comparison.probe = "line";
+  comparison.column = "displacement_x";
+  comparison.along = Coordinate::x;
+  const Curve curve = observed_curve(comparison, line);
+  EXPECT_EQ(curve.over, (Numbers{0.01, 0.02, 0.03}));
+  EXPECT_EQ(curve.values, (Numbers{1, 2, 3}));
+  comparison.along = Coordinate::y;
+  EXPECT_EQ(observed_curve(comparison, line).over, (Numbers{-1e-5, 0}));
+}
+
+TEST(StudyObservation, TakesOneColumnOverTime) {
+  Comparison comparison;
+  comparison.probe = "line";
+  comparison.column = "displacement_y";
+  EXPECT_EQ(observed_curve(comparison, line).over, (Numbers{0, 1}));
+  EXPECT_EQ(observed_curve(comparison, line).values, (Numbers{0, 7}));
+  comparison.column = "displacement_x";
+  EXPECT_NE(column_fault(comparison, line.columns).find("one column; 3 are called so"), std::string::npos);
+  comparison.column = "displacement_x@(0.01 0 0)";
+  EXPECT_EQ(observed_curve(comparison, line).values, (Numbers{0, 1}));
+  comparison.column = "displacement_w";
+  EXPECT_EQ(column_fault(comparison, line.columns), "a column of probe line: time, displacement_x, displacement_y; did you mean \"displacement_x\"?");
+}
+
+Truth table_truth(const std::string& text) {
+  Truth truth;
+  truth.kind = Truth::Kind::table;
+  truth.file = "truth.csv";
+  truth.table = std::make_shared<CsvTable>(parse_csv(text));
+  return truth;
+}
+
+TEST(StudyTruth, IsTakenBetweenPlaces) {
+  const Truth truth = table_truth("t,u@0.02,u@0.05,u@0.03\n0,0,0,0\n1,2,5,4\n");
+  Comparison comparison;
+  comparison.truth = "u";
+  comparison.at = 0.025;
+  EXPECT_NEAR(true_curve(comparison, truth, 0.025, {}).values[1], 3, 1e-12);
+  EXPECT_NEAR(true_curve(comparison, truth, 0.04, {}).values[1], 4.5, 1e-12);
+  EXPECT_NEAR(true_curve(comparison, truth, 0.05, {}).values[1], 5, 1e-12);
+  EXPECT_THROW(true_curve(comparison, truth, 0.051, {}), std::runtime_error);
+}
+
+TEST(StudyTruth, IsTakenFromTheRowsThatFit) {
+  Truth truth = table_truth("line,nu,depth,x,ux\na,0.1,0,0.2,2\na,0.1,0,0.1,1\nb,0.1,0,0.1,9\na,0.2,0,0.1,8\na,0.1,0.0025,0.1,7\n");
+  Comparison comparison;
+  comparison.truth = "ux";
+  comparison.along = Coordinate::x;
+  comparison.scale = 10;
+  truth.where = {{"line", "a", std::nullopt, std::nullopt, 1}, {"nu", "", std::nullopt, 0, 1}, {"depth", "", std::nullopt, 1, 0.5}};
+  const Curve top = true_curve(comparison, truth, std::nullopt, {0.1, 0.0});
+  EXPECT_EQ(top.over, (Numbers{0.1, 0.2}));
+  EXPECT_EQ(top.values, (Numbers{10, 20}));
+  EXPECT_EQ(true_curve(comparison, truth, std::nullopt, {0.1, 0.005}).values, Numbers{70});
+  EXPECT_THROW(true_curve(comparison, truth, std::nullopt, {0.3, 0.0}), std::runtime_error);
+}
+
+TEST(StudyTruth, ALoadCanStandForTheTime) {  // a curve over the load, in a run whose time is the share of the full load
+  Truth truth = table_truth("load_N,method,uy\n40,linear,-1\n80,linear,-2\n40,nonlinear,-0.9\n80,nonlinear,-1.5\n");
+  Comparison comparison;
+  comparison.truth = "uy";
+  comparison.over = "load_N";
+  comparison.over_scale = 1.0 / 80;
+  comparison.where = {{"method", "nonlinear", std::nullopt, std::nullopt, 1}};
+  const Curve curve = true_curve(comparison, truth, std::nullopt, {});
+  EXPECT_EQ(curve.over, (Numbers{0.5, 1}));
+  EXPECT_EQ(curve.values, (Numbers{-0.9, -1.5}));
+}
+
+TEST(StudyRow, CountsTheMedian) {
+  Row row;
+  EXPECT_EQ(row.seconds(), 0);
+  row.solve_seconds = {9, 1, 2};
+  EXPECT_EQ(row.seconds(), 2);
+  row.solve_seconds = {9, 1, 2, 3};
+  EXPECT_EQ(row.seconds(), 2.5);
+}
+
+TEST(StudyCsv, ReadsLines) {
+  const CsvTable table = parse_csv("a,b\r\n1,2\r\n\n3\n4,5,6");
+  EXPECT_EQ(table.columns, (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(table.rows, (std::vector<std::vector<std::string>>{{"1", "2"}, {"3", ""}, {"4", "5"}}));
+  EXPECT_EQ(table.column("b"), 1u);
+  EXPECT_FALSE(table.column("c"));
+  EXPECT_TRUE(parse_csv("").columns.empty());
+  EXPECT_FALSE(hyperlattice::csv_number("1 "));
+  EXPECT_FALSE(hyperlattice::csv_number("inf"));
+  EXPECT_EQ(hyperlattice::csv_number("-1e-3"), -1e-3);
+}
+
+}  // namespace
