@@ -10,6 +10,7 @@
 namespace hyperlattice {
 
 struct KernelRequest;  // kernels/request.hpp
+struct SpringRow;
 
 /// The lattice as a material sees it when it chooses its springs' stiffness.
 struct LatticeFacts {
@@ -50,6 +51,7 @@ struct KernelSet {
   void (*step)(const KernelRequest& request) noexcept = nullptr;
   void (*step_damped)(const KernelRequest& request) noexcept = nullptr;
   void (*measure)(const KernelRequest& request) noexcept = nullptr;
+  double (*linearise)(const SpringRow& row) noexcept = nullptr;              ///< forces and tangents of a row of springs; returns their energy, J
   double (*force)(double stiffness, double elongation) noexcept = nullptr;   ///< of one spring, N
   double (*energy)(double stiffness, double elongation) noexcept = nullptr;  ///< stored in one spring, J
   const char* instructions = "";                                             ///< "avx512", "avx2", "baseline": what this processor was given

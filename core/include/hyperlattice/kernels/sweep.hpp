@@ -6,7 +6,7 @@
 // them: sums do not depend on where the body is cut, hence not on the number of threads.
 #pragma once
 
-#include <hyperlattice/kernels/springs.hpp>
+#include <hyperlattice/kernels/tangent.hpp>
 
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
@@ -121,6 +121,7 @@ KernelSet kernels_of(const KernelChoice& choice, const char* instructions) {
     set.step = &Sweep<Law, membrane, Breakable, Mixed, Task::step>::run;
     set.step_damped = &Sweep<Law, membrane, Breakable, Mixed, Task::step_damped>::run;
     set.measure = &Sweep<Law, membrane, false, Mixed, Task::measure>::run;
+    set.linearise = &Tangent<Law, membrane>::run;
   };
   const auto with_membrane = [&]<Membrane membrane>() {
     if (choice.breakable && choice.mixed)
