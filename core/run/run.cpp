@@ -124,7 +124,9 @@ void Running::stepped(double time_step) {
 
 void Running::observe() {
   if (stage_->plan.at_rest ? simulation_->steps() % record_steps(*stage_) == 0 : record_schedule_.due(simulation_->time(), time_step_)) record();
-  timed([&] { outputs_->show(time_step_); });
+  // A share of a stage's time is rarely a round number: an instant is also met nearly.
+  const double near_enough = 1e-6 * (stage_->plan.end_time - stage_->start_time);
+  timed([&] { outputs_->show(stage_->plan.at_rest ? near_enough : time_step_); });
   progress_->update(simulation_->steps(), simulation_->time(), time_step_, simulation_->breakages().size(), rest_ ? rest_->residual : -1);
 }
 

@@ -7,10 +7,11 @@ namespace hyperlattice {
 
 Statics::Statics(const Model& model, Simulation& simulation, double start, double end, int threads)
     : model_(model), simulation_(simulation), start_(start), end_(end) {
-  problem_.grid.threads = threads;
   for (const Material& material : model.materials)
     stiffness_of_alpha_.push_back(material.constants.clamped ? 0 : material.constants.alpha_ratio * material.constants.base_stiffness);
   make_grid();
+  constexpr std::int64_t few = 16384;  // places; with fewer, threads would wait for each other longer than they work
+  problem_.grid.threads = problem_.grid.places < few ? 1 : threads;
   make_weights();
   state_.assign(problem_.grid.numbers(), 0);
   force_.assign(problem_.grid.numbers(), 0);

@@ -23,12 +23,12 @@ Coarsest::Coarsest(const StencilLevel& level) : factor_(std::make_unique<Factor>
     for (std::size_t n = 0; n < level.stride(); ++n) {
       const std::int64_t other = n == 0 ? p : p + level.steps()[n - 1];
       if (other >= layout.places) continue;
-      const float* block = level.block(p, n);
+      const double* block = level.block(p, n);
       for (std::size_t a = 0; a < 4; ++a)
         for (std::size_t b = 0; b < 4; ++b) {
           const int row = row_of[4 * static_cast<std::size_t>(p) + a], column = row_of[4 * static_cast<std::size_t>(other) + b];
           if (row < 0 || column < 0 || block[4 * a + b] == 0 || (n == 0 && row < column)) continue;
-          double value = static_cast<double>(block[4 * a + b]);
+          double value = block[4 * a + b];
           constexpr double shift = 1e-6;  // where interpolation has more freedom than the body
           if (n == 0 && a == b) value *= 1 + shift;
           entries.emplace_back(std::max(row, column), std::min(row, column), value);
@@ -42,11 +42,11 @@ Coarsest::Coarsest(const StencilLevel& level) : factor_(std::make_unique<Factor>
 
 Coarsest::~Coarsest() = default;
 
-void Coarsest::solve(const float* b, float* x) const {
+void Coarsest::solve(const double* b, double* x) const {
   Eigen::VectorXd right(static_cast<Eigen::Index>(factor_->numbers.size()));
-  for (std::size_t n = 0; n < factor_->numbers.size(); ++n) right[static_cast<Eigen::Index>(n)] = static_cast<double>(b[factor_->numbers[n]]);
+  for (std::size_t n = 0; n < factor_->numbers.size(); ++n) right[static_cast<Eigen::Index>(n)] = b[factor_->numbers[n]];
   const Eigen::VectorXd left = factor_->of.solve(right);
-  for (std::size_t n = 0; n < factor_->numbers.size(); ++n) x[factor_->numbers[n]] = static_cast<float>(left[static_cast<Eigen::Index>(n)]);
+  for (std::size_t n = 0; n < factor_->numbers.size(); ++n) x[factor_->numbers[n]] = left[static_cast<Eigen::Index>(n)];
 }
 
 }  // namespace hyperlattice::statics

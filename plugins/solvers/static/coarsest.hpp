@@ -14,7 +14,7 @@ class Coarsest {
   Coarsest(const Coarsest&) = delete;
   Coarsest& operator=(const Coarsest&) = delete;
 
-  void solve(const float* b, float* x) const;
+  void solve(const double* b, double* x) const;
 
  private:
   struct Factor;

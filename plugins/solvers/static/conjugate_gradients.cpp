@@ -11,7 +11,7 @@ void ConjugateGradients::start(const Field& b) {
 bool ConjugateGradients::advance() {
   const int threads = matrix_.threads();
   preconditioner_.apply(r_, z_);
-  // The change of r in place of r: round-off in the preconditioner, which is in single precision, then does not spoil the directions.
+  // The change of r in place of r: round-off in the preconditioner then does not spoil the directions.
   const double rz = product(r_.data(), z_.data(), size_, threads);
   const double changed = first_ ? 0 : -last_step_ * product(q_.data(), z_.data(), size_, threads);
   const double beta = first_ ? 0 : std::max(0.0, changed / rz_);

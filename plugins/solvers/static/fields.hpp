@@ -16,7 +16,7 @@ template <class Work>
 void in_pieces(std::size_t size, int threads, const Work& work) {
   constexpr std::size_t piece = 8192;
   const auto pieces = static_cast<std::int64_t>((size + piece - 1) / piece);
-#pragma omp parallel for num_threads(threads) schedule(static) if (pieces > 1)
+#pragma omp parallel for num_threads(threads) schedule(static) if (threads > 1)
   for (std::int64_t n = 0; n < pieces; ++n) {
     const std::size_t first = static_cast<std::size_t>(n) * piece;
     work(first, std::min(size, first + piece));

@@ -27,11 +27,11 @@ class Level {
   Level& operator=(const Level&) = delete;
 
   /// y = K x
-  virtual void multiply(const float* x, float* y) const = 0;
+  virtual void multiply(const double* x, double* y) const = 0;
   /// z = D^-1 r, D the diagonal blocks of K; 0 where nothing can move.
-  virtual void divide(const float* r, float* z) const = 0;
+  virtual void divide(const double* r, double* z) const = 0;
   /// Sets to zero what cannot move.
-  virtual void mask(float* x) const = 0;
+  virtual void mask(double* x) const = 0;
   virtual double largest_eigenvalue() const = 0;  ///< of D^-1 K, a bound or a good estimate
 
   const Layout& layout() const { return layout_; }

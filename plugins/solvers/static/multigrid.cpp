@@ -27,17 +27,9 @@ void Multigrid::build() {
 }
 
 void Multigrid::apply(const Field& r, Field& z) {
-  Work& work = work_.front();
-  const double scale = largest(r);  // single precision has a narrow range
-  if (scale == 0) return std::fill(z.begin(), z.end(), 0.0);
-  const int threads = finest_.threads();
-  in_pieces(r.size(), threads, [&](std::size_t first, std::size_t last) {
-    for (std::size_t n = first; n < last; ++n) work.b[n] = static_cast<float>(r[n] / scale);
-  });
+  work_.front().b = r;
   cycle(0);
-  in_pieces(r.size(), threads, [&](std::size_t first, std::size_t last) {
-    for (std::size_t n = first; n < last; ++n) z[n] = scale * static_cast<double>(work.x[n]);
-  });
+  z = work_.front().x;
 }
 
 /// Solves K x = b of a level, about.
@@ -71,22 +63,22 @@ void Multigrid::smooth(const Level& level, Work& w, bool from_zero) {
     });
   }
   for (int step = 0; step < degree; ++step) {
-    float keep = 0, take = static_cast<float>(1 / middle);
+    double keep = 0, take = 1 / middle;
     if (step > 0) {
       level.multiply(w.d.data(), w.t.data());
       in_pieces(w.r.size(), level.threads(), [&](std::size_t first, std::size_t last) {
         for (std::size_t n = first; n < last; ++n) w.r[n] -= w.t[n];
       });
       const double next = 1 / (2 * sigma - rho);
-      keep = static_cast<float>(next * rho);
-      take = static_cast<float>(2 * next / half);
+      keep = next * rho;
+      take = 2 * next / half;
       rho = next;
     }
     level.divide(w.r.data(), w.t.data());
     const bool first_of_all = from_zero && step == 0;
     in_pieces(w.r.size(), level.threads(), [&](std::size_t first, std::size_t last) {
       for (std::size_t n = first; n < last; ++n) {
-        w.d[n] = (step > 0 ? keep * w.d[n] : 0.0f) + take * w.t[n];
+        w.d[n] = (step > 0 ? keep * w.d[n] : 0.0) + take * w.t[n];
         w.x[n] = first_of_all ? w.d[n] : w.x[n] + w.d[n];
       }
     });

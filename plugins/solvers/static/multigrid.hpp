@@ -1,4 +1,4 @@
-// The preconditioner: one V-cycle of geometric multigrid, in single precision. Chebyshev polynomials of the block diagonal smooth every level, before
+// The preconditioner: one V-cycle of geometric multigrid. Chebyshev polynomials of the block diagonal smooth every level, before
 // and after the coarser one, so that the whole is symmetric.
 #pragma once
 
@@ -18,7 +18,7 @@ class Multigrid {
 
  private:
   struct Work {
-    std::vector<float> b, x, r, d, t;
+    Field b, x, r, d, t;
     explicit Work(std::size_t size) : b(size, 0), x(size, 0), r(size, 0), d(size, 0), t(size, 0) {}
   };
   void cycle(std::size_t level);

@@ -17,6 +17,7 @@ Found Newton::find(double share, Field& displacement) {
   for (std::size_t n = 0; n < change.size(); ++n) change[n] -= u[n];
 
   for (int n = 0; n < limits_.newton; ++n) {
+    if (getenv("ST_DEBUG")) fprintf(stderr, "newton %d share %g its %lu\n", n, share, report_.iterations);
     switch (step(change, u)) {
       case Step::at_rest:
         displacement = u;
@@ -87,6 +88,7 @@ Newton::Step Newton::step(const Field& change, Field& u) {
       report_.displacement_error = size > 0 ? largest(error) / size : 0;
       return host_.report(report_) ? Step::at_rest : Step::stopped;
     }
+    if (getenv("ST_DEBUG")) fprintf(stderr, "  cg %d left %g start %g residual %g\n", n, left, start, report_.residual);
     double bent = 0;  // what the tangent does not know
     for (std::size_t m = 0; m < rest_.size(); ++m) bent = std::max(bent, std::abs(rest_[m] - gradients_.residual()[m]));
     if (bent > agreement * left) {

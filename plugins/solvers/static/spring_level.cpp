@@ -1,7 +1,5 @@
 #include "spring_level.hpp"
 
-#include <type_traits>
-
 namespace hyperlattice::statics {
 
 namespace {
@@ -47,8 +45,7 @@ double SpringLevel::linearise(const Field& displacement, Field& force) {
   return energy;
 }
 
-template <class Real>
-void SpringLevel::multiply_as(const Real* x, Real* y) const {
+void SpringLevel::multiply(const double* x, double* y) const {
   const std::int64_t places = grid_.places;
   const int components = grid_.components, planes = grid_.sites[2];
   int reach = 1;
@@ -58,7 +55,7 @@ void SpringLevel::multiply_as(const Real* x, Real* y) const {
     for (int j = 0; j < grid_.sites[1]; ++j) {
       const StaticRow& row = grid_.rows[static_cast<std::size_t>(k) * static_cast<std::size_t>(grid_.sites[1]) + static_cast<std::size_t>(j)];
       const std::int64_t first = grid_.place(row.begin, j, k);
-      SpringProduct<Real> product;
+      SpringProduct product;
       product.count = row.end - row.begin;
       product.membrane_distance = static_cast<float>(grid_.membrane_distance) / spacing;
       for (int c = 0; c < components; ++c) {
@@ -79,33 +76,25 @@ void SpringLevel::multiply_as(const Real* x, Real* y) const {
         product.rest[0] = static_cast<float>(neighbour.rest.x) / spacing;
         product.rest[1] = static_cast<float>(neighbour.rest.y) / spacing;
         product.rest[2] = static_cast<float>(neighbour.rest.z) / spacing;
-        if constexpr (std::is_same_v<Real, float>)
-          row_kernels_->springs_float(product, components);
-        else
-          row_kernels_->springs_double(product, components);
+        row_kernels_->springs(product, components);
       }
     }
   };
   in_pieces(grid_.numbers(), threads_, [&](std::size_t first, std::size_t last) {
     const auto heights = static_cast<std::size_t>(3 * places);
-    std::fill(y + first, y + last, Real(0));
-    for (std::size_t n = std::max(first, heights); n < last; ++n) y[n] = static_cast<Real>(alpha_[n - heights]) * x[n];
+    std::fill(y + first, y + last, 0.0);
+    for (std::size_t n = std::max(first, heights); n < last; ++n) y[n] = static_cast<double>(alpha_[n - heights]) * x[n];
   });
   for (int colour = 0; colour <= reach; ++colour) {  // planes that share no other plane
 #pragma omp parallel for num_threads(threads_) schedule(static)
     for (int k = colour; k < planes; k += reach + 1) one_plane(k);
   }
-  mask_as(y);
+  mask(y);
 }
-template void SpringLevel::multiply_as<float>(const float*, float*) const;
-template void SpringLevel::multiply_as<double>(const double*, double*) const;
 
-template <class Real>
-void SpringLevel::mask_as(Real* x) const {
+void SpringLevel::mask(double* x) const {
   for (const std::int64_t n : held_) x[n] = 0;
 }
-template void SpringLevel::mask_as<float>(float*) const;
-template void SpringLevel::mask_as<double>(double*) const;
 
 bool SpringLevel::tangent(std::size_t neighbour, std::int64_t place, Tangent& t) const {
   const auto at = neighbour * static_cast<std::size_t>(grid_.places) + static_cast<std::size_t>(place);
@@ -128,8 +117,8 @@ bool SpringLevel::tangent(std::size_t neighbour, std::int64_t place, Tangent& t)
   for (int a = 0; a < 4; ++a)
     for (int b = 0; b < 4; ++b) {
       const float unit = a == b && (a < 3 || heights) ? 1.0f : 0.0f;
-      t.base[4 * a + b] = axial * r[a] * r[b] + pull * unit;
-      t.cross[4 * a + b] = cross_axial * q[a] * q[b] + cross_pull * unit;
+      t.base[4 * a + b] = double(axial) * double(r[a]) * double(r[b]) + double(pull * unit);
+      t.cross[4 * a + b] = double(cross_axial) * double(q[a]) * double(q[b]) + double(cross_pull * unit);
     }
   return true;
 }
@@ -179,8 +168,8 @@ void SpringLevel::invert_diagonal() {
             for (int b = 0; b < size; ++b) {
               // a spring sees one end move: the other end's sign matters only between space and height of a cross spring
               const bool turned = at != place && (a == 3) != (b == 3);
-              const double cross = static_cast<double>(t.cross[4 * a + b]) * (((a == 3) != (b == 3)) ? (turned ? 1.0 : -1.0) : 1.0);
-              block[a * size + b] += static_cast<double>(t.base[4 * a + b]) + cross;
+              const double cross = t.cross[4 * a + b] * (((a == 3) != (b == 3)) ? (turned ? 1.0 : -1.0) : 1.0);
+              block[a * size + b] += t.base[4 * a + b] + cross;
             }
         };
         for (std::size_t n = 0; n < grid_.neighbours.size(); ++n) {
@@ -200,25 +189,25 @@ void SpringLevel::invert_diagonal() {
     }
 }
 
-void SpringLevel::divide(const float* r, float* z) const {
+void SpringLevel::divide(const double* r, double* z) const {
   const auto places = static_cast<std::size_t>(grid_.places);
   const auto d = [&](std::size_t number) { return diagonal_.data() + number * places; };
   in_pieces(places, threads_, [&](std::size_t first, std::size_t last) {
-    const float *x = r, *y = r + places, *w = r + 2 * places, *h = r + 3 * places;
+    const double *x = r, *y = r + places, *w = r + 2 * places, *h = r + 3 * places;
     if (grid_.components == 4) {
       const float *xx = d(0), *xy = d(1), *xw = d(2), *xh = d(3), *yy = d(4), *yw = d(5), *yh = d(6), *ww = d(7), *wh = d(8), *hh = d(9);
       for (std::size_t n = first; n < last; ++n) {
-        z[n] = xx[n] * x[n] + xy[n] * y[n] + xw[n] * w[n] + xh[n] * h[n];
-        z[places + n] = xy[n] * x[n] + yy[n] * y[n] + yw[n] * w[n] + yh[n] * h[n];
-        z[2 * places + n] = xw[n] * x[n] + yw[n] * y[n] + ww[n] * w[n] + wh[n] * h[n];
-        z[3 * places + n] = xh[n] * x[n] + yh[n] * y[n] + wh[n] * w[n] + hh[n] * h[n];
+        z[n] = double(xx[n]) * x[n] + double(xy[n]) * y[n] + double(xw[n]) * w[n] + double(xh[n]) * h[n];
+        z[places + n] = double(xy[n]) * x[n] + double(yy[n]) * y[n] + double(yw[n]) * w[n] + double(yh[n]) * h[n];
+        z[2 * places + n] = double(xw[n]) * x[n] + double(yw[n]) * y[n] + double(ww[n]) * w[n] + double(wh[n]) * h[n];
+        z[3 * places + n] = double(xh[n]) * x[n] + double(yh[n]) * y[n] + double(wh[n]) * w[n] + double(hh[n]) * h[n];
       }
     } else {
       const float *xx = d(0), *xy = d(1), *xw = d(2), *yy = d(3), *yw = d(4), *ww = d(5);
       for (std::size_t n = first; n < last; ++n) {
-        z[n] = xx[n] * x[n] + xy[n] * y[n] + xw[n] * w[n];
-        z[places + n] = xy[n] * x[n] + yy[n] * y[n] + yw[n] * w[n];
-        z[2 * places + n] = xw[n] * x[n] + yw[n] * y[n] + ww[n] * w[n];
+        z[n] = double(xx[n]) * x[n] + double(xy[n]) * y[n] + double(xw[n]) * w[n];
+        z[places + n] = double(xy[n]) * x[n] + double(yy[n]) * y[n] + double(yw[n]) * w[n];
+        z[2 * places + n] = double(xw[n]) * x[n] + double(yw[n]) * y[n] + double(ww[n]) * w[n];
       }
     }
   });

@@ -15,16 +15,14 @@ class SpringLevel : public Level {
   /// Takes the tangents at a displacement; returns the energy stored there, J, and the forces of the springs.
   double linearise(const Field& displacement, Field& force);
 
-  void multiply(const float* x, float* y) const override { multiply_as(x, y); }
-  void multiply(const double* x, double* y) const { multiply_as(x, y); }
-  void divide(const float* r, float* z) const override;
-  void mask(float* x) const override { mask_as(x); }
-  void mask(double* x) const { mask_as(x); }
+  void multiply(const double* x, double* y) const override;
+  void divide(const double* r, double* z) const override;
+  void mask(double* x) const override;
   double largest_eigenvalue() const override { return 2.05; }  ///< 2 bounds any sum of springs, see StiffnessBound; compressed ones pass it a little
 
   /// A spring's tangent: K_base on differences of ends, K_cross where heights add up, both row by row in 4 x 4.
   struct Tangent {
-    float base[16], cross[16];
+    double base[16], cross[16];
   };
   /// False if there is no spring.
   bool tangent(std::size_t neighbour, std::int64_t place, Tangent& tangent) const;
@@ -32,10 +30,6 @@ class SpringLevel : public Level {
   const StaticGrid& grid() const { return grid_; }
 
  private:
-  template <class Real>
-  void multiply_as(const Real* x, Real* y) const;
-  template <class Real>
-  void mask_as(Real* x) const;
   void invert_diagonal();
 
   const RowKernels* row_kernels_ = &row_kernels();

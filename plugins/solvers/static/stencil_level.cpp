@@ -19,6 +19,8 @@ Layout layout_of(const std::array<std::int64_t, 3>& sites, std::int64_t reach) {
 }  // namespace
 
 StencilLevel::StencilLevel(const std::array<std::int64_t, 3>& sites, int reach, int threads) : Level(layout_of(sites, reach), threads), reach_(reach) {
+  constexpr std::int64_t few = 4096;  // places; with fewer, threads would wait for each other longer than they work
+  if (layout_.places < few) threads_ = 1;
   // Forward neighbours in the order of neighbour(): every one with a number above 0.
   for (std::int64_t dk = 0; dk <= reach; ++dk)
     for (std::int64_t dj = -reach; dj <= reach; ++dj)
@@ -31,25 +33,21 @@ void StencilLevel::finish() {
   inverse_.assign(16 * static_cast<std::size_t>(layout_.places), 0);
   in_pieces(static_cast<std::size_t>(layout_.places), threads_, [&](std::size_t first, std::size_t last) {
     for (std::size_t p = first; p < last; ++p) {
-      double own[16], inverse[16];
-      const float* from = block(static_cast<std::int64_t>(p), 0);
-      for (int n = 0; n < 16; ++n) own[n] = static_cast<double>(from[n]);
-      invert_block(own, 4, inverse);
-      for (int n = 0; n < 16; ++n) inverse_[16 * p + static_cast<std::size_t>(n)] = static_cast<float>(inverse[n]);
+      invert_block(block(static_cast<std::int64_t>(p), 0), 4, inverse_.data() + 16 * p);
     }
   });
   // The largest eigenvalue, by power iterations from a rough vector.
   const std::size_t size = layout_.numbers();
-  std::vector<float> x(size, 0), y(size), z(size);
+  Field x(size, 0), y(size), z(size);
   std::uint32_t random = 12345;
   for (std::int64_t k = 0; k < layout_.sites[2]; ++k)
     for (std::int64_t j = 0; j < layout_.sites[1]; ++j)
       for (std::int64_t i = 0; i < layout_.sites[0]; ++i)
         for (std::int64_t c = 0; c < 4; ++c) {
           random = random * 1664525u + 1013904223u;
-          x[static_cast<std::size_t>(4 * layout_.place(i, j, k) + c)] = static_cast<float>(random >> 8) / 16777216.0f - 0.5f;
+          x[static_cast<std::size_t>(4 * layout_.place(i, j, k) + c)] = static_cast<double>(random >> 8) / 16777216.0 - 0.5;
         }
-  constexpr int iterations = 12;
+  constexpr int iterations = 6;
   double growth = 1;
   for (int n = 0; n < iterations; ++n) {
     multiply(x.data(), y.data());
@@ -57,27 +55,27 @@ void StencilLevel::finish() {
     const double norm = std::sqrt(product(z.data(), z.data(), size, threads_));
     if (!(norm > 0)) break;
     growth = norm / std::sqrt(product(x.data(), x.data(), size, threads_));
-    for (std::size_t m = 0; m < size; ++m) x[m] = static_cast<float>(static_cast<double>(z[m]) / norm);
+    for (std::size_t m = 0; m < size; ++m) x[m] = z[m] / norm;
   }
-  constexpr double safety = 1.15;  // the iterations approach it from below
+  constexpr double safety = 1.25;  // the iterations approach it from below
   largest_eigenvalue_ = safety * growth;
 }
 
-void StencilLevel::multiply(const float* x, float* y) const {
+void StencilLevel::multiply(const double* x, double* y) const {
   const RowKernels& kernels = row_kernels();
   const auto rows = layout_.sites[1] * layout_.sites[2];
-#pragma omp parallel for num_threads(threads_) schedule(static) if (rows > 64)
+#pragma omp parallel for num_threads(threads_) schedule(static)
   for (std::int64_t r = 0; r < rows; ++r) {
     const std::int64_t first = layout_.place(0, r % layout_.sites[1], r / layout_.sites[1]);
     kernels.stencil({layout_.sites[0], static_cast<int>(steps_.size()), steps_.data(), block(first, 0), x + 4 * first, y + 4 * first});
   }
 }
 
-void StencilLevel::divide(const float* r, float* z) const {
+void StencilLevel::divide(const double* r, double* z) const {
   in_pieces(static_cast<std::size_t>(layout_.places), threads_, [&](std::size_t first, std::size_t last) {
     for (std::size_t p = first; p < last; ++p) {
-      const float *inverse = inverse_.data() + 16 * p, *in = r + 4 * p;
-      float* out = z + 4 * p;
+      const double *inverse = inverse_.data() + 16 * p, *in = r + 4 * p;
+      double* out = z + 4 * p;
       for (int a = 0; a < 4; ++a) out[a] = inverse[a] * in[0] + inverse[4 + a] * in[1] + inverse[8 + a] * in[2] + inverse[12 + a] * in[3];
     }
   });

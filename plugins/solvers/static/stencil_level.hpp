@@ -13,8 +13,8 @@ class StencilLevel : public Level {
   StencilLevel(const std::array<std::int64_t, 3>& sites, int reach, int threads);
 
   /// The block of a site and itself (0), or one of its forward neighbours.
-  float* block(std::int64_t place, std::size_t neighbour) { return blocks_.data() + 16 * (static_cast<std::size_t>(place) * stride() + neighbour); }
-  const float* block(std::int64_t place, std::size_t neighbour) const {
+  double* block(std::int64_t place, std::size_t neighbour) { return blocks_.data() + 16 * (static_cast<std::size_t>(place) * stride() + neighbour); }
+  const double* block(std::int64_t place, std::size_t neighbour) const {
     return blocks_.data() + 16 * (static_cast<std::size_t>(place) * stride() + neighbour);
   }
   /// Which forward neighbour is (di, dj, dk) away; 0: the site itself; below 0: it is a backward one, whose opposite is neighbour -n.
@@ -27,15 +27,15 @@ class StencilLevel : public Level {
   int reach() const { return reach_; }
 
   void finish();  ///< once all blocks are added
-  void multiply(const float* x, float* y) const override;
-  void divide(const float* r, float* z) const override;
-  void mask(float*) const override {}
+  void multiply(const double* x, double* y) const override;
+  void divide(const double* r, double* z) const override;
+  void mask(double*) const override {}
   double largest_eigenvalue() const override { return largest_eigenvalue_; }
 
  private:
   int reach_;
   std::vector<std::int64_t> steps_;
-  std::vector<float> blocks_, inverse_;
+  std::vector<double> blocks_, inverse_;
   double largest_eigenvalue_ = 2;
 };
 

@@ -10,7 +10,7 @@ namespace hyperlattice::statics {
 struct Parents {
   int count = 1;
   std::int64_t at[2] = {};
-  float weight[2] = {1, 0};
+  double weight[2] = {1, 0};
 };
 
 class Transfer {
@@ -22,11 +22,11 @@ class Transfer {
   bool halved(int axis) const { return halved_[static_cast<std::size_t>(axis)]; }
   Parents parents(int axis, std::int64_t i) const {
     if (!halved(axis)) return {1, {i, i}, {1, 0}};
-    return i % 2 == 0 ? Parents{1, {i / 2, i / 2}, {1, 0}} : Parents{2, {i / 2, i / 2 + 1}, {0.5f, 0.5f}};
+    return i % 2 == 0 ? Parents{1, {i / 2, i / 2}, {1, 0}} : Parents{2, {i / 2, i / 2 + 1}, {0.5, 0.5}};
   }
 
-  void restrict_to(const Level& coarse, float* to, const Level& fine, const float* from) const;
-  void prolong_from(const Level& coarse, const float* from, const Level& fine, float* to) const;  ///< adds
+  void restrict_to(const Level& coarse, double* to, const Level& fine, const double* from) const;
+  void prolong_from(const Level& coarse, const double* from, const Level& fine, double* to) const;  ///< adds
 
  private:
   std::array<std::int64_t, 3> fine_, coarse_{};
