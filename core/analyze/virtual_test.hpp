@@ -18,8 +18,8 @@ struct ElasticPair {
 
 struct Measured : ElasticPair {
   double young = 0;               ///< E l / k, with the area of N^2 cells
-  double residual = 0;            ///< of the forces, see relax()
-  std::uint64_t evaluations = 0;  ///< of all forces
+  double residual = 0;           ///< see RestReport
+  std::uint64_t iterations = 0;  ///< of the static solver
   double seconds = 0;             ///< building and running
 };
 

@@ -10,7 +10,7 @@ Statics::Statics(const Model& model, Simulation& simulation, double start, doubl
   for (const Material& material : model.materials)
     stiffness_of_alpha_.push_back(material.constants.clamped ? 0 : material.constants.alpha_ratio * material.constants.base_stiffness);
   make_grid();
-  constexpr std::int64_t few = 16384;  // places; with fewer, threads would wait for each other longer than they work
+  constexpr std::int64_t few = 65536;  // places; with fewer, threads would wait for each other longer than they work
   problem_.grid.threads = problem_.grid.places < few ? 1 : threads;
   make_weights();
   state_.assign(problem_.grid.numbers(), 0);
