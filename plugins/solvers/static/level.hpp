@@ -38,8 +38,13 @@ class Level {
   int threads() const { return threads_; }
 
  protected:
+  double power_iteration() const;  ///< the largest eigenvalue of D^-1 K, from a rough field
+
   Layout layout_;
   int threads_;
+
+ private:
+  void clear_margin(Field& x) const;
 };
 
 /// The inverse of a symmetric block of `size` rows. Rows without stiffness get zeros.

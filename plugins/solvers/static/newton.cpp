@@ -17,24 +17,25 @@ Found Newton::find(double share, Field& displacement) {
   for (std::size_t n = 0; n < change.size(); ++n) change[n] -= u[n];
 
   for (int n = 0; n < limits_.newton; ++n) {
-    if (getenv("ST_DEBUG")) fprintf(stderr, "newton %d share %g its %lu\n", n, share, report_.iterations);
     switch (step(change, u)) {
       case Step::at_rest:
         displacement = u;
-        return {true, {}, {}};
+        return {true, false, {}, {}};
       case Step::better:
         break;
       case Step::stopped:
         stopped_ = true;
         return {};
       case Step::lost:
-        return {false, "it has no stiffness against a motion that the loads drive", gradients_.direction()};
-      case Step::useless:
-        return {false, "conjugate gradients do not converge", {}};
+        return {false, n == 0, "it has no stiffness against a motion", gradients_.direction()};
+      case Step::useless:  // what they found by then is for the most part the motion that they cannot resist
+        return {false, n == 0, "it has next to no stiffness against a motion that the loads drive", gradients_.x()};
+      case Step::wild:
+        return {false, false, "the forces are no longer finite", {}};
     }
     std::fill(change.begin(), change.end(), 0.0);
   }
-  return {false, "Newton's method does not converge", {}};
+  return {false, false, "Newton's method does not converge", {}};
 }
 
 /// The out-of-balance forces at u + moved, and what they are compared with. False: they are not finite.
@@ -79,7 +80,7 @@ Newton::Step Newton::step(const Field& change, Field& u) {
     if (!std::isfinite(left)) return Step::lost;
     if (left > next_look) continue;
     for (std::size_t m = 0; m < moved.size(); ++m) moved[m] = gradients_.x()[m] + change[m];
-    if (!look(u, moved)) return Step::useless;
+    if (!look(u, moved)) return Step::wild;
     if (report_.residual <= limits_.tolerance) {
       u = trial_;
       Field error(u.size());
@@ -88,7 +89,6 @@ Newton::Step Newton::step(const Field& change, Field& u) {
       report_.displacement_error = size > 0 ? largest(error) / size : 0;
       return host_.report(report_) ? Step::at_rest : Step::stopped;
     }
-    if (getenv("ST_DEBUG")) fprintf(stderr, "  cg %d left %g start %g residual %g\n", n, left, start, report_.residual);
     double bent = 0;  // what the tangent does not know
     for (std::size_t m = 0; m < rest_.size(); ++m) bent = std::max(bent, std::abs(rest_[m] - gradients_.residual()[m]));
     if (bent > agreement * left) {

@@ -18,6 +18,7 @@ struct Limits {
 /// What became of a search.
 struct Found {
   bool at_rest = false;
+  bool hopeless = false;  ///< if not, whether a smaller step of the load could not do better: the state before has no stiffness
   std::string why;   ///< if not, a sentence
   Field direction;   ///< if not, how the body moves where it has no stiffness; may be empty
 };
@@ -32,7 +33,7 @@ class Newton {
   bool stopped() const { return stopped_; }  ///< the host asked to
 
  private:
-  enum class Step { at_rest, better, stopped, lost, useless };
+  enum class Step { at_rest, better, stopped, lost, useless, wild };
   Step step(const Field& change_of_held, Field& u);
   bool look(const Field& u, const Field& moved);
 

@@ -42,6 +42,8 @@ double SpringLevel::linearise(const Field& displacement, Field& force) {
   deformed_ = largest(displacement) > 0;
   for (std::size_t n = 0; n < displacement.size(); ++n) moved_[n] = static_cast<float>(displacement[n] / grid_.spacing);
   invert_diagonal();
+  constexpr double bound = 2.02;  // 2 holds for any sum of springs that are not compressed, see StiffnessBound
+  largest_eigenvalue_ = deformed_ ? std::max(bound, power_iteration()) : bound;
   return energy;
 }
 

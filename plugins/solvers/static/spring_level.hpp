@@ -18,7 +18,7 @@ class SpringLevel : public Level {
   void multiply(const double* x, double* y) const override;
   void divide(const double* r, double* z) const override;
   void mask(double* x) const override;
-  double largest_eigenvalue() const override { return 2.05; }  ///< 2 bounds any sum of springs, see StiffnessBound; compressed ones pass it a little
+  double largest_eigenvalue() const override { return largest_eigenvalue_; }
 
   /// A spring's tangent: K_base on differences of ends, K_cross where heights add up, both row by row in 4 x 4.
   struct Tangent {
@@ -38,6 +38,7 @@ class SpringLevel : public Level {
   std::vector<float> axial_, pull_, cross_axial_, cross_pull_, alpha_;
   std::vector<float> moved_;     ///< displacements in lattice constants, by component and place
   bool deformed_ = false;
+  double largest_eigenvalue_ = 2;
   std::vector<float> diagonal_;  ///< inverse of the diagonal blocks: 10 (6) numbers of each place, by number and place
   std::vector<std::int64_t> held_;  ///< numbers of a field that belong to particles and cannot move
 };

@@ -68,7 +68,7 @@ class Static {
         if (!host.accept(share, u.data()) || !host.report(newton.report()) || !host.observe()) return;
       } else {
         length /= 2;
-        if (length < 0.99 * shortest) throw std::runtime_error(failure(*problem, share, found));
+        if (found.hopeless || length < 0.99 * shortest) throw std::runtime_error(failure(*problem, share, found));
       }
     }
   }

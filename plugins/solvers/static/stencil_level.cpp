@@ -36,29 +36,7 @@ void StencilLevel::finish() {
       invert_block(block(static_cast<std::int64_t>(p), 0), 4, inverse_.data() + 16 * p);
     }
   });
-  // The largest eigenvalue, by power iterations from a rough vector.
-  const std::size_t size = layout_.numbers();
-  Field x(size, 0), y(size), z(size);
-  std::uint32_t random = 12345;
-  for (std::int64_t k = 0; k < layout_.sites[2]; ++k)
-    for (std::int64_t j = 0; j < layout_.sites[1]; ++j)
-      for (std::int64_t i = 0; i < layout_.sites[0]; ++i)
-        for (std::int64_t c = 0; c < 4; ++c) {
-          random = random * 1664525u + 1013904223u;
-          x[static_cast<std::size_t>(4 * layout_.place(i, j, k) + c)] = static_cast<double>(random >> 8) / 16777216.0 - 0.5;
-        }
-  constexpr int iterations = 6;
-  double growth = 1;
-  for (int n = 0; n < iterations; ++n) {
-    multiply(x.data(), y.data());
-    divide(y.data(), z.data());
-    const double norm = std::sqrt(product(z.data(), z.data(), size, threads_));
-    if (!(norm > 0)) break;
-    growth = norm / std::sqrt(product(x.data(), x.data(), size, threads_));
-    for (std::size_t m = 0; m < size; ++m) x[m] = z[m] / norm;
-  }
-  constexpr double safety = 1.25;  // the iterations approach it from below
-  largest_eigenvalue_ = safety * growth;
+  largest_eigenvalue_ = power_iteration();
 }
 
 void StencilLevel::multiply(const double* x, double* y) const {
