@@ -17,10 +17,10 @@ struct ElasticPair {
 };
 
 struct Measured : ElasticPair {
-  double young = 0;               ///< E l / k, with the area of N^2 cells
+  double young = 0;              ///< E l / k, with the area of N^2 cells
   double residual = 0;           ///< see RestReport
   std::uint64_t iterations = 0;  ///< of the static solver
-  double seconds = 0;             ///< building and running
+  double seconds = 0;            ///< building and running
 };
 
 /// A cube of N^3 particles between frictionless platens: only the axial displacement of the two end layers is prescribed. nu is the mean outward

@@ -116,7 +116,8 @@ void estimate_time(Plan& plan) {
   if (model.degrees_of_freedom == 4) spring *= fourth_dimension;
   const double step = 1e-9 * spring * static_cast<double>(model.body.base_springs()) / (1 + second_thread * (plan.threads - 1));
   for (const PlannedStage& stage : plan.stages)
-    plan.expected_seconds += step * (static_cast<double>(stage.plan.steps) * stage.plan.sweeps_per_step * (stage.plan.damping > 0 ? damped : 1) + records_of(stage));
+    plan.expected_seconds +=
+        step * (static_cast<double>(stage.plan.steps) * stage.plan.sweeps_per_step * (stage.plan.damping > 0 ? damped : 1) + records_of(stage));
 }
 
 }  // namespace

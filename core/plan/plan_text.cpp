@@ -39,10 +39,10 @@ std::string stage_text(const PlannedStage& stage) {
   const SolverPlan& plan = stage.plan;
   const std::string damped = plan.damping > 0 ? fmt::format(", local damping {:g}", plan.damping) : "";
   if (plan.at_rest && plan.time_step == 0)
-    return fmt::format("to rest under the loads of {:.6g} s, in {} step{} of load", plan.end_time, count_text(plan.steps), plan.steps == 1 ? "" : "s");
-  const std::string steps =
-      fmt::format("steps of at most {:.6g} s, {:.3g} of the stable {:.6g} s{}", plan.time_step, plan.time_step / plan.stable_time_step,
-                  plan.stable_time_step, damped);
+    return fmt::format("to rest under the loads of {:.6g} s, in {} step{} of load", plan.end_time, count_text(plan.steps),
+                       plan.steps == 1 ? "" : "s");
+  const std::string steps = fmt::format("steps of at most {:.6g} s, {:.3g} of the stable {:.6g} s{}", plan.time_step,
+                                        plan.time_step / plan.stable_time_step, plan.stable_time_step, damped);
   if (plan.at_rest) return fmt::format("to rest under the loads of {:.6g} s, in about {} {}", plan.end_time, count_text(plan.steps), steps);
   return fmt::format("{:.6g} s to {:.6g} s in {} {}", stage.start_time, plan.end_time, count_text(plan.steps), steps);
 }

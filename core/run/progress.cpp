@@ -44,8 +44,8 @@ void Progress::update(std::uint64_t step, double time, double time_step, std::ui
   std::string line;
   if (form_ == Form::json) {
     const std::string rest = residual >= 0 ? fmt::format(",\"residual\":{}", residual) : "";
-    line = fmt::format("{{\"step\":{},\"steps\":{},\"time\":{},\"time_step\":{},\"eta_seconds\":{:.3f},\"broken_springs\":{}{}}}\n", step, steps_, time,
-                       time_step, left, broken, rest);
+    line = fmt::format("{{\"step\":{},\"steps\":{},\"time\":{},\"time_step\":{},\"eta_seconds\":{:.3f},\"broken_springs\":{}{}}}\n", step, steps_,
+                       time, time_step, left, broken, rest);
   } else {
     line = fmt::format("step {}/{} ({:.1f}%)  t {:.4g} s  dt {:.3g} s  ETA {}", step, steps_, 100 * share, time, time_step, clock_time(left));
     if (residual >= 0) line += fmt::format("  residual {:.2g}", residual);

@@ -27,8 +27,7 @@ double Simulation::kinetic() const {
     for (const Run& run : body.runs)
       for (std::int32_t i = run.begin; i < run.end; ++i) {
         const Particle particle = run.first + static_cast<Particle>(i - run.begin);
-        masses.push_back(parts_->masses[parts_->model.material_of.empty() ? 0 : parts_->model.material_of[particle]] *
-                         body.share({i, run.j, run.k}));
+        masses.push_back(parts_->masses[parts_->model.material_of.empty() ? 0 : parts_->model.material_of[particle]] * body.share({i, run.j, run.k}));
       }
   double twice = 0;
   parts_->for_runs([&](const Block& block, std::uint64_t place, Particle first, std::uint64_t count) {
@@ -44,8 +43,7 @@ double Simulation::kinetic() const {
 void Simulation::halt() {
   const double error = parts_->balance().error;
   for (const Block& block : parts_->blocks)
-    for (int c = 0; c < parts_->model.degrees_of_freedom; ++c)
-      std::fill_n(block.velocity[c].get(), block.velocity[c].size(), 0.0);
+    for (int c = 0; c < parts_->model.degrees_of_freedom; ++c) std::fill_n(block.velocity[c].get(), block.velocity[c].size(), 0.0);
   parts_->last_step = 0;  // the next step starts from rest
   parts_->halted_energy += error - parts_->balance().error;
 }

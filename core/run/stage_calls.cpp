@@ -82,8 +82,7 @@ void StageCalls::run() {
   const Stage& stage = *stage_.stage;
   simulation_.set_damping(stage_.plan.damping);
   if (stage_.plan.at_rest && stage_.plan.time_step > 0) simulation_.hold_time(stage_.plan.end_time);  // else the solver says what time it is
-  const bool done =
-      stage.functions<SolverFunctions>().run(stage_.component.get(), solver_facts(model_, stage_.start_time), host_, why);
+  const bool done = stage.functions<SolverFunctions>().run(stage_.component.get(), solver_facts(model_, stage_.start_time), host_, why);
   simulation_.release_time();
   if (thrown_) std::rethrow_exception(thrown_);
   if (!done) throw RunError(fmt::format("{} ({}) failed: {}", stage.component->type(), stage.pointer, sentence));

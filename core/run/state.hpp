@@ -29,9 +29,9 @@ struct Balance {
 
 /// A change from one state of rest to the next that no time step made. Fields are of particles, x y z each, and heights where there are any.
 struct Settling {
-  double time = 0;                          ///< afterwards, s
-  std::vector<double> xyz, heights;         ///< displacements afterwards, m
-  std::vector<double> force, force_before;  ///< of the springs on the particles, afterwards and before, N
+  double time = 0;                            ///< afterwards, s
+  std::vector<double> xyz, heights;           ///< displacements afterwards, m
+  std::vector<double> force, force_before;    ///< of the springs on the particles, afterwards and before, N
   std::vector<double> factor, factor_before;  ///< of each load
   double gravity = 1, gravity_before = 1;     ///< shares of the body accelerations
   double dissipated = 0;                      ///< J, by what held the state before in place

@@ -38,8 +38,8 @@ void Statics::make_grid() {
   rows_.assign(static_cast<std::size_t>(grid.sites[1]) * static_cast<std::size_t>(grid.sites[2]), {});
   free_.assign(static_cast<std::size_t>(grid.places), 0);
   for (const Run& run : body.runs) {
-    StaticRow& row = rows_[static_cast<std::size_t>(run.k - body.low.k) * static_cast<std::size_t>(grid.sites[1]) +
-                           static_cast<std::size_t>(run.j - body.low.j)];
+    StaticRow& row =
+        rows_[static_cast<std::size_t>(run.k - body.low.k) * static_cast<std::size_t>(grid.sites[1]) + static_cast<std::size_t>(run.j - body.low.j)];
     if (row.begin == row.end) row.begin = run.begin - body.low.i;
     row.end = run.end - body.low.i;
   }

@@ -131,8 +131,7 @@ double Statics::hold_heights(const double* u, double* force) const {
   for_runs([&](std::int64_t first, Particle, std::uint64_t count) {
     for (std::int64_t p = first; p < first + static_cast<std::int64_t>(count); ++p) {
       const auto place = static_cast<std::size_t>(p);
-      const double alpha =
-          stiffness_of_alpha_[material_.empty() ? 0 : material_[place]] * static_cast<double>(particle_weight_[place]);
+      const double alpha = stiffness_of_alpha_[material_.empty() ? 0 : material_[place]] * static_cast<double>(particle_weight_[place]);
       force[heights + p] -= 2 * alpha * u[heights + p];
       energy += alpha * u[heights + p] * u[heights + p];
     }

@@ -53,8 +53,7 @@ void Statics::accept(double share, const double* displacement) {
   to.factor_before = factors(share_);
   to.gravity = (1 - share) * gravity_start_ + share;
   to.gravity_before = (1 - share_) * gravity_start_ + share_;
-  for (std::size_t n = 0; n < holding_.size(); ++n)
-    to.dissipated -= (1 - 0.5 * (share_ + share)) * holding_[n] * (displacement[n] - state_[n]);
+  for (std::size_t n = 0; n < holding_.size(); ++n) to.dissipated -= (1 - 0.5 * (share_ + share)) * holding_[n] * (displacement[n] - state_[n]);
   simulation_.settle(to);
   std::copy_n(displacement, state_.size(), state_.begin());
   force_ = std::move(force);

@@ -59,14 +59,14 @@ class Statics {
   StaticProblem problem_;
   std::vector<StaticRow> rows_;
   std::vector<std::uint8_t> free_, material_;
-  std::vector<float> weight_;        ///< of each spring, [n * places + place]; 0: none
-  std::vector<float> particle_weight_;  ///< of each place, shares of a whole particle
+  std::vector<float> weight_;               ///< of each spring, [n * places + place]; 0: none
+  std::vector<float> particle_weight_;      ///< of each place, shares of a whole particle
   std::vector<double> stiffness_of_alpha_;  ///< of each material, N/m
 
-  Values state_;      ///< displacements
-  double share_ = 0;  ///< of the state
-  Values force_;      ///< of the springs at the state
-  Values holding_;    ///< what else must act for the state at share 0 to be at rest
+  Values state_;                                   ///< displacements
+  double share_ = 0;                               ///< of the state
+  Values force_;                                   ///< of the springs at the state
+  Values holding_;                                 ///< what else must act for the state at share 0 to be at rest
   std::vector<double> factor_start_, factor_end_;  ///< of each load
   double gravity_start_ = 1;
   std::vector<double> mass_;  ///< of each place, kg; empty without body acceleration

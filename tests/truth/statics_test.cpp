@@ -62,17 +62,18 @@ std::string elastic(double young, const std::string& more) {
 
 const char* const to_rest = R"({ "type": "solvers.static", "tolerance": 1e-8 })";
 
-// In uniaxial strain every layer of a bar has the same stress: u = sigma (L1 / M1 + L2 / M2), M the confined modulus. A spring between two materials is
-// half of each, so that the border stands half a spacing from the last soft layer.
+// In uniaxial strain every layer of a bar has the same stress: u = sigma (L1 / M1 + L2 / M2), M the confined modulus. A spring between two materials
+// is half of each, so that the border stands half a spacing from the last soft layer.
 TEST(Statics, ABarOfTwoMaterialsIsASeriesOfSprings) {
   constexpr double l = 0.005, sigma = 1e4, young = 1e9, nu = 0.2, confined = (1 - nu) / ((1 + nu) * (1 - 2 * nu));
   for (const double contrast : {1.0, 1e4, 1e6}) {
-    const AtRest bar(scene(R"("spacing": 0.005, "boundary": "cells", "shape": )" + box({}, {2 * l, 2 * l, 40 * l}),
-                           elastic(young, R"("poisson": 0.2, "membrane": "I-m")") +
-                               elastic(young * contrast, R"("poisson": 0.2, "membrane": "I-m", "region": )" + box({-1, -1, 19.5 * l}, {1, 1, 1})) +
-                               R"({ "type": "loads.fixed", "on": "all", "axes": "xy" }, { "type": "loads.fixed", "on": "z_min", "axes": "z", "name": "end" },
+    const AtRest bar(
+        scene(R"("spacing": 0.005, "boundary": "cells", "shape": )" + box({}, {2 * l, 2 * l, 40 * l}),
+              elastic(young, R"("poisson": 0.2, "membrane": "I-m")") +
+                  elastic(young * contrast, R"("poisson": 0.2, "membrane": "I-m", "region": )" + box({-1, -1, 19.5 * l}, {1, 1, 1})) +
+                  R"({ "type": "loads.fixed", "on": "all", "axes": "xy" }, { "type": "loads.fixed", "on": "z_min", "axes": "z", "name": "end" },
                                { "type": "loads.pressure", "on": "z_max", "facing": "z_max", "pressure": -1e4 },)" +
-                               to_rest));
+                  to_rest));
     const double expected = sigma / (young * confined) * (19.5 * l + 20.5 * l / contrast);
     EXPECT_NEAR(bar.mean(2, [](Site s) { return s.k == 40; }) / expected, 1, 0.01) << contrast;
     EXPECT_LT(bar.report.iterations, 200u) << contrast;
@@ -94,7 +95,8 @@ TEST(Statics, AnInclusionUpToAMillionTimesAsStiff) {
                                    "pressure": -1e6, "name": "other" },)" +  // nothing is held: rigid motions cost nothing and are not asked for
                                 to_rest));
     const double grown = (cube.mean(0, [](Site s) { return s.i == 19; }) - cube.mean(0, [](Site s) { return s.i == 0; })) / 2;
-    std::printf("contrast %g: %llu iterations, error %.3f\n", contrast, static_cast<unsigned long long>(cube.report.iterations), grown / expected - 1);
+    std::printf("contrast %g: %llu iterations, error %.3f\n", contrast, static_cast<unsigned long long>(cube.report.iterations),
+                grown / expected - 1);
     EXPECT_NEAR(grown / expected, 1, 0.08) << contrast;
     EXPECT_LT(grown, before);
     if (contrast == 1e6) {
@@ -123,7 +125,8 @@ TEST(Statics, StretchedLikeTheEndlessLattice) {
     const char *file, *material;
     double stretch, tolerance;
   };
-  for (const Case& c : {Case{"stretch_nu0.25.csv", R"("membrane": "none")", 3, 1e-8}, {"stretch_nu0.25.csv", R"("membrane": "none")", 0.8, 1e-8},
+  for (const Case& c : {Case{"stretch_nu0.25.csv", R"("membrane": "none")", 3, 1e-8},
+                        {"stretch_nu0.25.csv", R"("membrane": "none")", 0.8, 1e-8},
                         {"stretch_nu0.1.csv", R"("membrane": "I-m", "poisson": 0.1)", 2, 1e-8},
                         {"stretch_nu0.1.csv", R"("membrane": "I-m", "poisson": 0.1)", 0.8, 1e-8}}) {
     const auto rows = table(c.file);
@@ -146,8 +149,8 @@ TEST(Statics, StretchedLikeTheEndlessLattice) {
 
 // Two by two particles, far from the ends: 2 b - 1 = sqrt(2) b / s, F = k l [4 (a - 1) + 8 (1 - sqrt(2) / s) a], s^2 = a^2 + b^2.
 TEST(Statics, ABarOfTwoByTwoParticlesAtThreeTimesItsLength) {
-  const AtRest bar(scene(R"("spacing": 1, "shape": )" + box({}, {2, 2, 60}),
-                         elastic(1e9, R"("membrane": "none")") + R"({ "type": "loads.fixed", "on": "z_min" },
+  const AtRest bar(
+      scene(R"("spacing": 1, "shape": )" + box({}, {2, 2, 60}), elastic(1e9, R"("membrane": "none")") + R"({ "type": "loads.fixed", "on": "z_min" },
                            { "type": "loads.displacement", "on": "z_max", "value": [0, 0, 118], "rise": 1 },
                            { "type": "solvers.static", "tolerance": 1e-10, "load_steps": 20 })"));
   const auto level = [&](int k) { return bar.mean(2, [k](Site s) { return s.k == k; }); };
@@ -163,8 +166,8 @@ TEST(Statics, ABarOfTwoByTwoParticlesAtThreeTimesItsLength) {
 std::vector<double> response(double force, double young, double from = 0) {
   const double l = 1e-3;
   const auto at = [&](double x, double y, double z) { return Vec3{from + x * l, y * l, z * l}; };
-  const AtRest body(scene(R"("spacing": 1e-3, "anchor": [)" + number(from) + R"(, 0, 0], "shape": { "union": [)" + box(at(0, 0, 0), at(10, 3, 3)) + ", " +
-                              box(at(0, 0, 0), at(3, 10, 3)) + "] }",
+  const AtRest body(scene(R"("spacing": 1e-3, "anchor": [)" + number(from) + R"(, 0, 0], "shape": { "union": [)" + box(at(0, 0, 0), at(10, 3, 3)) +
+                              ", " + box(at(0, 0, 0), at(3, 10, 3)) + "] }",
                           elastic(young, R"("poisson": 0.1, "membrane": "I-m")") + R"({ "type": "loads.fixed", "on": "x_max" },
                             { "type": "loads.force", "on": "y_max", "total": [)" +
                               number(force) + ", 0, " + number(force) + "] }," + to_rest));
@@ -182,15 +185,16 @@ TEST(Statics, TinyLoadsStiffBodiesAndFarOnesRespondAlike) {
 }
 
 TEST(Statics, NoLoadIsNoMotion) {
-  const AtRest body(scene(R"("spacing": 1, "shape": )" + box({}, {4, 4, 4}), elastic(1e9, R"("poisson": 0.1, "membrane": "I-m")") +
-                                                                             R"({ "type": "loads.fixed", "on": "x_max" },)" + to_rest));
+  const AtRest body(scene(R"("spacing": 1, "shape": )" + box({}, {4, 4, 4}),
+                          elastic(1e9, R"("poisson": 0.1, "membrane": "I-m")") + R"({ "type": "loads.fixed", "on": "x_max" },)" + to_rest));
   EXPECT_EQ(largest(body.u), 0);
 }
 
 std::string pulled_block(const std::string& solver, int n = 8) {
-  return block(n, n, 2 * n, R"("membrane": "I-m", "poisson": 0.1)", R"({ "type": "loads.fixed", "on": "z_min" },
+  return block(n, n, 2 * n, R"("membrane": "I-m", "poisson": 0.1)",
+               R"({ "type": "loads.fixed", "on": "z_min" },
     { "type": "loads.force", "on": "z_max", "total": [100, 0, 300] },)" +
-                                                                     solver);
+                   solver);
 }
 
 TEST(Statics, RelaxationAgrees) {

@@ -1,4 +1,5 @@
-// A solver: the order of steps in time, or a way to a state of rest. What a step does to every particle is a kernel's work (kernels/); when outputs are due is the core's.
+// A solver: the order of steps in time, or a way to a state of rest. What a step does to every particle is a kernel's work (kernels/); when outputs
+// are due is the core's.
 #pragma once
 
 #include <hyperlattice/statics.hpp>
@@ -51,7 +52,7 @@ struct SolverHost {
   /// The residual of the present state (see RestReport), and its kinetic energy, J; one evaluation of all springs. Either may be null. Kinetic energy
   /// alone costs little. False: the run must stop.
   bool measure(double* residual, double* kinetic) const { return measure_rest(self, residual, kinetic); }
-  bool halt() const { return stop_motion(self); }                            ///< all velocities to zero
+  bool halt() const { return stop_motion(self); }                                  ///< all velocities to zero
   bool report(const RestReport& report) const { return show_rest(self, report); }  ///< for the progress line and the summary
 };
 

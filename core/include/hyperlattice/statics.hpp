@@ -18,8 +18,8 @@ struct StaticRow {
 struct StaticGrid {
   std::array<std::int32_t, 3> sites{};  ///< box of sites
   std::int64_t row = 0, plane = 0, origin = 0, places = 0;
-  int components = 3;           ///< 4 where a membrane can move
-  double spacing = 0;           ///< l, metres
+  int components = 3;            ///< 4 where a membrane can move
+  double spacing = 0;            ///< l, metres
   double membrane_distance = 0;  ///< Delta, metres
   std::span<const NeighbourGeometry> neighbours;
   std::span<const StaticRow> rows;     ///< [k * ny + j]
@@ -63,9 +63,9 @@ struct StaticProblem {
 
 /// How near to rest a body is.
 struct RestReport {
-  double residual = 0;               ///< largest component of an out-of-balance force over the mean force on held or loaded particles
-  double displacement_error = -1;    ///< estimated, of the largest displacement; below 0: not known
-  std::uint64_t iterations = 0;      ///< of the solver, so far in this stage
+  double residual = 0;             ///< largest component of an out-of-balance force over the mean force on held or loaded particles
+  double displacement_error = -1;  ///< estimated, of the largest displacement; below 0: not known
+  std::uint64_t iterations = 0;    ///< of the solver, so far in this stage
 };
 
 }  // namespace hyperlattice

@@ -31,7 +31,8 @@ class Relaxation {
         .equation("local_damping: m a = F - damping |F| sign(v), dt < dt_c / sqrt(1 + damping); kinetic: v = 0 at each peak of the kinetic energy")
         .source("Zhao 2017, section 2.2 (local damping); Cundall's kinetic damping; limit: 2 / omega_max of the lattice by Bloch analysis")
         .restrictions(
-            "Time stands still at end_time, and so do the loads. Springs may break on the way, as in any motion. The residual is not the error of the "
+            "Time stands still at end_time, and so do the loads. Springs may break on the way, as in any motion. The residual is not the error of "
+            "the "
             "displacements, which is larger for slender bodies; solvers.static says both.")
         .add<&Options::method>("method", "", "how motion is damped; kinetic takes fewer steps, local_damping is the paper's")
         .choices(damping_names)
@@ -43,7 +44,8 @@ class Relaxation {
         .add<&Options::tolerance>("tolerance", "", "residual at which the body is at rest")
         .positive()
         .fallback("1e-5")
-        .add<&Options::end_time>("end_time", "s", "instant whose loads act, from the start of the run; left out: when the last load has stopped changing")
+        .add<&Options::end_time>("end_time", "s",
+                                 "instant whose loads act, from the start of the run; left out: when the last load has stopped changing")
         .at_least(0)
         .add<&Options::time_step>("time_step", "s", "auto: the fraction `safety` of the stable one; a number above the stable step is refused")
         .word("auto")

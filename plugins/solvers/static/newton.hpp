@@ -1,4 +1,5 @@
-// A state of rest at given loads, by Newton's method with the exact tangent; each step of it by conjugate gradients, only as far as the tangent is true.
+// A state of rest at given loads, by Newton's method with the exact tangent; each step of it by conjugate gradients, only as far as the tangent is
+// true.
 #pragma once
 
 #include "conjugate_gradients.hpp"
@@ -19,8 +20,8 @@ struct Limits {
 struct Found {
   bool at_rest = false;
   bool hopeless = false;  ///< if not, whether a smaller step of the load could not do better: the state before has no stiffness
-  std::string why;   ///< if not, a sentence
-  Field direction;   ///< if not, how the body moves where it has no stiffness; may be empty
+  std::string why;        ///< if not, a sentence
+  Field direction;        ///< if not, how the body moves where it has no stiffness; may be empty
 };
 
 class Newton {

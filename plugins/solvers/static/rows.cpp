@@ -41,7 +41,8 @@ void springs_of(const SpringProduct& s) {
           difference = static_cast<double>(uh[t + step] - uh[t]);
           total += static_cast<double>(uh[t + step] + uh[t]);
         }
-        const double base = static_cast<double>(axial[t]) * (along + difference * dh), cross = static_cast<double>(cross_axial[t]) * (along + total * sh);
+        const double base = static_cast<double>(axial[t]) * (along + difference * dh),
+                     cross = static_cast<double>(cross_axial[t]) * (along + total * sh);
         double straight = 0;
         force[3][t] = base * difference;
         both[t] = cross * total;
@@ -107,8 +108,8 @@ void stencil(const StencilProduct& s) {
       columns += load<Block>(blocks - step * stride + 16 * (n + 1)) * repeated(load<Four>(x - 4 * step));
     }
     for (int a = 0; a < 4; ++a)
-      s.out[4 * t + a] =
-          ((rows[4 * a] + rows[4 * a + 1]) + (rows[4 * a + 2] + rows[4 * a + 3])) + ((columns[a] + columns[4 + a]) + (columns[8 + a] + columns[12 + a]));
+      s.out[4 * t + a] = ((rows[4 * a] + rows[4 * a + 1]) + (rows[4 * a + 2] + rows[4 * a + 3])) +
+                         ((columns[a] + columns[4 + a]) + (columns[8 + a] + columns[12 + a]));
   }
 }
 

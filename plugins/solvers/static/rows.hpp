@@ -6,12 +6,12 @@
 namespace hyperlattice::statics {
 
 /// The springs of one row to one neighbour, and the product of their tangents with a field. Tangents are in single precision, which changes each
-/// spring a little and none of what they do together; the field is not: of a slender body it is smooth to more digits than that. Pointers are at the row's first place; the other ends are
-/// `step` places on. Lengths are in lattice constants.
+/// spring a little and none of what they do together; the field is not: of a slender body it is smooth to more digits than that. Pointers are at the
+/// row's first place; the other ends are `step` places on. Lengths are in lattice constants.
 struct SpringProduct {
   std::int64_t count = 0, step = 0;
   const float *axial = nullptr, *pull = nullptr, *cross_axial = nullptr, *cross_pull = nullptr;  ///< pulls null: the body is undeformed
-  const float* moved[4] = {};                                                                     ///< displacements
+  const float* moved[4] = {};                                                                    ///< displacements
   float rest[3] = {}, membrane_distance = 0;
   const double* in[4] = {};
   double* out[4] = {};  ///< K times in is added
@@ -19,8 +19,8 @@ struct SpringProduct {
 
 /// Blocks of 4 x 4 numbers, [a][b].
 struct StencilProduct {
-  std::int64_t count = 0;       ///< sites of the row
-  int neighbours = 0;           ///< forward ones
+  std::int64_t count = 0;               ///< sites of the row
+  int neighbours = 0;                   ///< forward ones
   const std::int64_t* steps = nullptr;  ///< to each, in places
   const double* blocks = nullptr;       ///< of the row's first place: its own, then those to its forward neighbours
   const double* in = nullptr;           ///< 4 numbers a place, of the row's first

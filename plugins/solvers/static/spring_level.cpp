@@ -19,7 +19,8 @@ Layout layout_of(const StaticGrid& grid) {
 
 }  // namespace
 
-SpringLevel::SpringLevel(const StaticProblem& problem) : Level(layout_of(problem.grid), problem.grid.threads), problem_(problem), grid_(problem.grid) {
+SpringLevel::SpringLevel(const StaticProblem& problem)
+    : Level(layout_of(problem.grid), problem.grid.threads), problem_(problem), grid_(problem.grid) {
   const auto places = static_cast<std::size_t>(grid_.places), springs = grid_.neighbours.size() * places;
   axial_.resize(springs);
   pull_.resize(springs);

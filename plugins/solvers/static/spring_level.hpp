@@ -36,10 +36,10 @@ class SpringLevel : public Level {
   const StaticProblem& problem_;
   const StaticGrid& grid_;
   std::vector<float> axial_, pull_, cross_axial_, cross_pull_, alpha_;
-  std::vector<float> moved_;     ///< displacements in lattice constants, by component and place
+  std::vector<float> moved_;  ///< displacements in lattice constants, by component and place
   bool deformed_ = false;
   double largest_eigenvalue_ = 2;
-  std::vector<float> diagonal_;  ///< inverse of the diagonal blocks: 10 (6) numbers of each place, by number and place
+  std::vector<float> diagonal_;     ///< inverse of the diagonal blocks: 10 (6) numbers of each place, by number and place
   std::vector<std::int64_t> held_;  ///< numbers of a field that belong to particles and cannot move
 };
 

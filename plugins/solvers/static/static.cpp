@@ -23,16 +23,19 @@ class Static {
             "Structured lattices. Springs do not break during the stage; those beyond their limit at its end break in the first step in time that "
             "follows. A body that is a mechanism under its loads, or buckles, is an error that says where it moves. Energy is booked along the load "
             "steps by the trapezoidal rule: with large deformations in few steps the balance of this stage is as rough as that rule.")
-        .add<&Options::tolerance>("tolerance", "", "residual at which the body is at rest: largest out-of-balance force over the mean force on held or loaded particles")
+        .add<&Options::tolerance>(
+            "tolerance", "", "residual at which the body is at rest: largest out-of-balance force over the mean force on held or loaded particles")
         .positive()
         .fallback("1e-6")
-        .add<&Options::load_steps>("load_steps", "", "equal steps from the loads of the stage's start to those of its end; a step that fails is cut in halves")
+        .add<&Options::load_steps>("load_steps", "",
+                                   "equal steps from the loads of the stage's start to those of its end; a step that fails is cut in halves")
         .at_least(1)
         .fallback("1")
         .add<&Options::most_cutbacks>("most_cutbacks", "", "times that a load step may be halved before the run fails")
         .at_least(0)
         .fallback("10")
-        .add<&Options::end_time>("end_time", "s", "instant whose loads act at the end, from the start of the run; left out: when the last load has stopped changing")
+        .add<&Options::end_time>("end_time", "s",
+                                 "instant whose loads act at the end, from the start of the run; left out: when the last load has stopped changing")
         .at_least(0);
   }
 

@@ -18,7 +18,8 @@ Layout layout_of(const std::array<std::int64_t, 3>& sites, std::int64_t reach) {
 
 }  // namespace
 
-StencilLevel::StencilLevel(const std::array<std::int64_t, 3>& sites, int reach, int threads) : Level(layout_of(sites, reach), threads), reach_(reach) {
+StencilLevel::StencilLevel(const std::array<std::int64_t, 3>& sites, int reach, int threads)
+    : Level(layout_of(sites, reach), threads), reach_(reach) {
   constexpr std::int64_t few = 16384;  // places; with fewer, threads would wait for each other longer than they work
   if (layout_.places < few) threads_ = 1;
   // Forward neighbours in the order of neighbour(): every one with a number above 0.

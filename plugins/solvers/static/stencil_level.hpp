@@ -22,7 +22,7 @@ class StencilLevel : public Level {
     const std::int64_t width = 2 * reach_ + 1;
     return static_cast<int>((dk * width + dj) * width + di);
   }
-  std::size_t stride() const { return steps_.size() + 1; }  ///< blocks of a place
+  std::size_t stride() const { return steps_.size() + 1; }           ///< blocks of a place
   const std::vector<std::int64_t>& steps() const { return steps_; }  ///< places to the forward neighbours 1, 2, ...
   int reach() const { return reach_; }
 

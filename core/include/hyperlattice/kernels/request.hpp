@@ -111,7 +111,7 @@ struct KernelRequest {
 /// The springs of one row to one neighbour, for KernelSet::linearise. Arrays hold one number a spring, padded to whole vectors.
 struct SpringRow {
   int count = 0;
-  const double *here[4] = {}, *there[4] = {};  ///< displacements of both ends, metres; last is null without a membrane that moves
+  const double *here[4] = {}, *there[4] = {};                     ///< displacements of both ends, metres; last is null without a membrane that moves
   const double *stiffness = nullptr, *cross_stiffness = nullptr;  ///< N/m
   const double* weight = nullptr;                                 ///< share of a whole spring; 0: there is none
   Vec3 rest;
