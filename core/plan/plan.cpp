@@ -91,7 +91,12 @@ void estimate_memory(Plan& plan) {
   double output_numbers = 0;  // positions, and the fields of the most demanding output
   for (const Family family : {Family::writers, Family::probes})
     for (const Stage* stage : plan.scene->of(family)) output_numbers = std::max(output_numbers, 3 + numbers_per_particle(*plan.scene, *stage));
-  plan.memory_bytes = layout.state_bytes(model) + layout.scratch_bytes(model) + model_bytes + output_numbers * sizeof(double) * particles;
+  double solver_bytes = 0;
+  for (const PlannedStage& stage : plan.stages) solver_bytes = std::max(solver_bytes, stage.plan.bytes_per_site);
+  const Site low = model.body.low, high = model.body.high;
+  solver_bytes *= (high.i - low.i + 1.0) * (high.j - low.j + 1.0) * (high.k - low.k + 1.0);
+  plan.memory_bytes =
+      solver_bytes + layout.state_bytes(model) + layout.scratch_bytes(model) + model_bytes + output_numbers * sizeof(double) * particles;
 }
 
 void estimate_output(Plan& plan) {

@@ -40,7 +40,7 @@ void Progress::update(std::uint64_t step, double time, double time_step, std::ui
   shown_ = now;
   const double spent = std::chrono::duration<double>(now - start_).count();
   const double share = steps_ > 0 ? static_cast<double>(step) / static_cast<double>(steps_) : 1;
-  const double left = step > 0 ? spent * (1 / share - 1) : 0;
+  const double left = step > 0 && share < 1 ? spent * (1 / share - 1) : 0;  // a search for rest may take more steps than planned
   std::string line;
   if (form_ == Form::json) {
     const std::string rest = residual >= 0 ? fmt::format(",\"residual\":{}", residual) : "";

@@ -12,6 +12,7 @@
 #include <spdlog/spdlog.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <new>
 
@@ -127,7 +128,8 @@ void Running::observe() {
   // A share of a stage's time is rarely a round number: an instant is also met nearly.
   const double near_enough = 1e-6 * (stage_->plan.end_time - stage_->start_time);
   timed([&] { outputs_->show(stage_->plan.at_rest ? near_enough : time_step_); });
-  progress_->update(simulation_->steps(), simulation_->time(), time_step_, simulation_->breakages().size(), rest_ ? rest_->residual : -1);
+  progress_->update(simulation_->steps(), simulation_->time(), time_step_, simulation_->breakages().size(),
+                    stage_->plan.at_rest && rest_ ? rest_->residual : -1);
 }
 
 void Running::record() {
@@ -184,7 +186,10 @@ int run(Plan& plan, const RunOptions& options) {
       running.start(outcome);
       running.solve();
       running.finish();
-      if (stop_requested() && running.steps() < plan.steps()) end("interrupted", exit_interrupted, "asked to stop by a signal");
+      // how many steps a search for rest takes is not known before
+      const bool short_of = running.steps() < plan.steps() ||
+                            std::any_of(plan.stages.begin(), plan.stages.end(), [](const PlannedStage& stage) { return stage.plan.at_rest; });
+      if (stop_requested() && short_of) end("interrupted", exit_interrupted, "asked to stop by a signal");
     } catch (const RunError& error) {
       end("failed", exit_run, error.what());
     } catch (const std::bad_alloc&) {

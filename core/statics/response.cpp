@@ -8,14 +8,69 @@ namespace hyperlattice {
 
 namespace {
 
-/// Numbers of one row of springs.
+/// Numbers of one row of springs to one neighbour.
 struct RowBuffers {
   std::vector<double> stiffness, cross_stiffness, weight, pull, axial, cross_pull, cross_axial;
+  SpringRow springs;
 
-  explicit RowBuffers(std::size_t width) {
+  explicit RowBuffers(const StaticGrid& grid) {
+    const auto width = static_cast<std::size_t>((grid.sites[0] + lanes - 1) / lanes * lanes);
     for (auto* buffer : {&stiffness, &cross_stiffness, &weight, &pull, &axial, &cross_pull, &cross_axial}) buffer->assign(width, 0);
+    springs.membrane_distance = grid.membrane_distance;
+    springs.spacing = grid.spacing;
+    springs.stiffness = stiffness.data();
+    springs.cross_stiffness = cross_stiffness.data();
+    springs.weight = weight.data();
+    springs.pull = pull.data();
+    springs.axial = axial.data();
+    springs.cross_pull = cross_pull.data();
+    springs.cross_axial = cross_axial.data();
   }
 };
+
+/// Adds what a row of springs pulls at both of its ends; `force` is at the row's first place, the other ends `step` places on.
+void add_forces(const RowBuffers& row, const StaticGrid& grid, std::int64_t step, double* force) {
+  const SpringRow& springs = row.springs;
+  const double rest[3] = {springs.rest.x, springs.rest.y, springs.rest.z};
+  for (int c = 0; c < 3; ++c) {
+    double *own = force + c * grid.places, *other = own + step;
+    for (std::int64_t t = 0; t < springs.count; ++t) {
+      const auto s = static_cast<std::size_t>(t);
+      const double f = (row.pull[s] + row.cross_pull[s]) * (rest[c] + (springs.there[c][t] - springs.here[c][t]));
+      own[t] += f;
+      other[t] -= f;
+    }
+  }
+  if (grid.components < 4) return;
+  double *own = force + 3 * grid.places, *other = own + step;
+  for (std::int64_t t = 0; t < springs.count; ++t) {
+    const auto s = static_cast<std::size_t>(t);
+    const double along = row.pull[s] * (springs.there[3][t] - springs.here[3][t]);
+    const double both = row.cross_pull[s] * (grid.membrane_distance + springs.there[3][t] + springs.here[3][t]);
+    own[t] += along - both;
+    other[t] -= along + both;
+  }
+}
+
+/// Writes a row's tangents from place `at` on.
+void keep_tangents(const RowBuffers& row, bool has_heights, std::size_t at, const SpringTangents& tangents) {
+  for (std::size_t t = 0; t < static_cast<std::size_t>(row.springs.count); ++t) {
+    if (has_heights) {
+      tangents.axial[at + t] = static_cast<float>(row.axial[t]);
+      tangents.pull[at + t] = static_cast<float>(row.pull[t]);
+      tangents.cross_axial[at + t] = static_cast<float>(row.cross_axial[t]);
+      tangents.cross_pull[at + t] = static_cast<float>(row.cross_pull[t]);
+    } else {
+      tangents.axial[at + t] = static_cast<float>(row.axial[t] + row.cross_axial[t]);
+      tangents.pull[at + t] = static_cast<float>(row.pull[t] + row.cross_pull[t]);
+    }
+  }
+}
+
+void no_tangents(std::size_t at, std::size_t count, const SpringTangents& tangents) {
+  for (float* values : {tangents.axial, tangents.pull, tangents.cross_axial, tangents.cross_pull})
+    if (values != nullptr) std::fill_n(values + at, count, 0.0f);
+}
 
 }  // namespace
 
@@ -36,21 +91,8 @@ double Statics::respond(const double* u, double* force, const SpringTangents* ta
 
 double Statics::respond_plane(std::int32_t k, const double* u, double* force, const SpringTangents* tangents) const {
   const StaticGrid& grid = problem_.grid;
-  const auto places = grid.places;
-  const int components = grid.components;
-  const bool has_cross = model_.choice.membrane != KernelChoice::Membrane::none, has_heights = components == 4;
-  RowBuffers buffer(static_cast<std::size_t>((grid.sites[0] + lanes - 1) / lanes * lanes));
-  SpringRow springs;
-  springs.membrane_distance = grid.membrane_distance;
-  springs.spacing = grid.spacing;
-  springs.stiffness = buffer.stiffness.data();
-  springs.cross_stiffness = buffer.cross_stiffness.data();
-  springs.weight = buffer.weight.data();
-  springs.pull = buffer.pull.data();
-  springs.axial = buffer.axial.data();
-  springs.cross_pull = buffer.cross_pull.data();
-  springs.cross_axial = buffer.cross_axial.data();
-
+  RowBuffers buffer(grid);
+  SpringRow& springs = buffer.springs;
   double energy = 0;
   for (std::int32_t j = 0; j < grid.sites[1]; ++j) {
     const StaticRow& row = rows_[static_cast<std::size_t>(k) * static_cast<std::size_t>(grid.sites[1]) + static_cast<std::size_t>(j)];
@@ -58,21 +100,19 @@ double Statics::respond_plane(std::int32_t k, const double* u, double* force, co
     const auto count = static_cast<std::size_t>(row.end - row.begin), padded = (count + lanes - 1) / lanes * lanes;
     for (std::size_t n = 0; n < grid.neighbours.size(); ++n) {
       const NeighbourGeometry& neighbour = grid.neighbours[n];
-      const std::int64_t step = grid.step_to(neighbour.site), at = static_cast<std::int64_t>(n) * places + first;
+      const std::int64_t step = grid.step_to(neighbour.site);
+      const std::size_t at = n * static_cast<std::size_t>(grid.places) + static_cast<std::size_t>(first);
       const float* weight = weight_.data() + at;
       if (std::all_of(weight, weight + count, [](float w) { return w == 0; })) {
-        if (tangents != nullptr)
-          for (float* values : {tangents->axial, tangents->pull, tangents->cross_axial, tangents->cross_pull})
-            if (values != nullptr) std::fill_n(values + at, count, 0.0f);
+        if (tangents != nullptr) no_tangents(at, count, *tangents);
         continue;
       }
       for (std::size_t t = 0; t < padded; ++t) {
         buffer.weight[t] = t < count ? static_cast<double>(weight[t]) : 0.0;
-        const bool exists = buffer.weight[t] != 0;
-        const std::uint8_t a = !exists || material_.empty() ? std::uint8_t{0} : material_[static_cast<std::size_t>(first) + t];
-        const std::uint8_t b =
-            !exists || material_.empty() ? std::uint8_t{0} : material_[static_cast<std::size_t>(first + step + static_cast<std::int64_t>(t))];
-        const SpringConstants& constants = model_.spring(a, b, neighbour.site.spring_class);
+        const auto material = [&](std::int64_t place) {
+          return buffer.weight[t] == 0 || material_.empty() ? std::uint8_t{0} : material_[static_cast<std::size_t>(place) + t];
+        };
+        const SpringConstants& constants = model_.spring(material(first), material(first + step), neighbour.site.spring_class);
         buffer.stiffness[t] = constants.stiffness;
         buffer.cross_stiffness[t] = constants.cross_stiffness;
       }
@@ -80,44 +120,13 @@ double Statics::respond_plane(std::int32_t k, const double* u, double* force, co
       springs.rest = neighbour.rest;
       springs.rest_length = neighbour.rest_length;
       springs.cross_rest_length = neighbour.cross_rest_length;
-      for (int c = 0; c < components; ++c) {
-        springs.here[c] = u + c * places + first;
+      for (int c = 0; c < grid.components; ++c) {
+        springs.here[c] = u + c * grid.places + first;
         springs.there[c] = springs.here[c] + step;
       }
       energy += model_.kernels.linearise(springs);
-
-      const auto number = static_cast<std::int64_t>(count);
-      const double rest[3] = {neighbour.rest.x, neighbour.rest.y, neighbour.rest.z};
-      for (int c = 0; c < 3; ++c) {
-        double *own = force + c * places + first, *other = own + step;
-        for (std::int64_t t = 0; t < number; ++t) {
-          const auto s = static_cast<std::size_t>(t);
-          const double pull = buffer.pull[s] + (has_cross ? buffer.cross_pull[s] : 0.0);
-          const double f = pull * (rest[c] + (springs.there[c][t] - springs.here[c][t]));
-          own[t] += f;
-          other[t] -= f;
-        }
-      }
-      if (has_heights) {
-        double *own = force + 3 * places + first, *other = own + step;
-        for (std::int64_t t = 0; t < number; ++t) {
-          const auto s = static_cast<std::size_t>(t);
-          const double along = buffer.pull[s] * (springs.there[3][t] - springs.here[3][t]);
-          const double both = buffer.cross_pull[s] * (grid.membrane_distance + springs.there[3][t] + springs.here[3][t]);
-          own[t] += along - both;
-          other[t] -= along + both;
-        }
-      }
-      if (tangents == nullptr) continue;
-      for (std::size_t t = 0; t < count; ++t) {
-        const std::size_t to = static_cast<std::size_t>(at) + t;
-        const bool joined = has_cross && !has_heights;
-        tangents->axial[to] = static_cast<float>(buffer.axial[t] + (joined ? buffer.cross_axial[t] : 0.0));
-        tangents->pull[to] = static_cast<float>(buffer.pull[t] + (joined ? buffer.cross_pull[t] : 0.0));
-        if (!has_heights) continue;
-        tangents->cross_axial[to] = static_cast<float>(buffer.cross_axial[t]);
-        tangents->cross_pull[to] = static_cast<float>(buffer.cross_pull[t]);
-      }
+      add_forces(buffer, grid, step, force + first);
+      if (tangents != nullptr) keep_tangents(buffer, grid.components == 4, at, *tangents);
     }
   }
   return energy;

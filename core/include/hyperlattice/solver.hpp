@@ -23,6 +23,7 @@ struct SolverPlan {
   std::uint64_t steps = 0;
   /// The stage looks for a state of rest: its steps are not steps in time, time_step may be 0. Loads act as they do at end_time.
   bool at_rest = false;
+  double bytes_per_site = 0;   ///< that the solver needs besides the state, for each site of the box around the body
   double sweeps_per_step = 1;  ///< evaluations of all springs that a step takes, about
 };
 

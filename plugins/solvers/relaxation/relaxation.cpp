@@ -65,6 +65,7 @@ class Relaxation {
   SolverPlan plan(const SolverFacts& facts) const {
     SolverPlan plan;
     plan.at_rest = true;
+    plan.bytes_per_site = 250;  // of the measurement of the residual
     plan.end_time = o_.end_time.value_or(facts.corners.empty() ? facts.start_time : std::max(facts.start_time, facts.corners.back()));
     if (plan.end_time < facts.start_time)
       throw std::runtime_error("end_time of at least " + short_number(facts.start_time) + " s, where the stage starts");

@@ -24,7 +24,6 @@ void springs_of(const SpringProduct& s) {
       uz = s.moved[2] + first;
       if constexpr (Heights) uh = s.moved[3] + first;
     }
-#pragma GCC ivdep
     for (std::int64_t t = 0; t < count; ++t) {
       double rx = static_cast<double>(s.rest[0]), ry = static_cast<double>(s.rest[1]), rz = static_cast<double>(s.rest[2]);
       if constexpr (Deformed) {

@@ -49,6 +49,7 @@ class Static {
       throw std::runtime_error("end_time of at least " + short_number(facts.start_time) + " s, where the stage starts");
     plan.steps = static_cast<std::uint64_t>(o_.load_steps);
     plan.sweeps_per_step = 150;
+    plan.bytes_per_site = 1300;
     return plan;
   }
 
