@@ -53,7 +53,7 @@ Json measured_json(const Measured& measured, const VirtualTest::Options& options
   json["particles"] = measured.particles;
   json["strain"] = options.strain;
   json["residual"] = measured.residual;
-  json["force_evaluations"] = measured.evaluations;
+  json["iterations"] = measured.iterations;
   json["seconds"] = measured.seconds;
   return json;
 }
@@ -66,7 +66,7 @@ std::string measured_text(const Measured& measured, const VirtualTest::Options& 
   line(text, "less the endless lattice",
        fmt::format("nu {:+.2g}, eta {:+.2g}", measured.poisson - infinite.poisson, measured.modulus_ratio - infinite.modulus_ratio));
   line(text, "forces left",
-       fmt::format("{:.1e} of the mean force on a platen's particle, after {} evaluations", measured.residual, measured.evaluations));
+       fmt::format("{:.1e} of the mean force on a platen's particle, after {} iterations", measured.residual, measured.iterations));
   line(text, "time", fmt::format("{:.2g} s", measured.seconds));
   return text;
 }

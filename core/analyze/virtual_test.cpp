@@ -1,5 +1,5 @@
 #include <analyze/virtual_test.hpp>
-#include <run/relax.hpp>
+#include <run/stage_calls.hpp>
 #include <scene/json.hpp>
 
 #include <nlohmann/json.hpp>
@@ -27,7 +27,7 @@ std::string scene_of(const VirtualTest::Options& options, const calibration::Rat
                        material,
                        platen("z_min", shortening / 2),
                        platen("z_max", -shortening / 2),
-                       {{"type", "solvers.explicit"}, {"end_time", 1}}};
+                       {{"type", "solvers.static"}, {"tolerance", options.residual}, {"most_cutbacks", 0}}};
   return scene.dump();
 }
 
@@ -98,12 +98,12 @@ Measured VirtualTest::measure(const calibration::Ratios& ratios) {
 
 Measured VirtualTest::compress(const calibration::Ratios& ratios) {
   const auto start = std::chrono::steady_clock::now();
-  const auto scene = read_scene_text(scene_of(options_, ratios, options_.strain * length_), host_);
-  const auto model = build_model(*scene);
-  Simulation simulation(*model, options_.threads);
-  const Cube cube(model->body);
+  const auto plan = make_plan(read_scene_text(scene_of(options_, ratios, options_.strain * length_), host_), options_.threads);
+  const Model& model = *plan->model;
+  Simulation simulation(model, options_.threads);
+  const Cube cube(model.body);
   simulation.set_displacements(cube.shortened(options_.strain), {});
-  const Rest rest = relax(simulation, *model, options_.residual);
+  const RestReport rest = bring_to_rest(*plan, simulation);
 
   std::vector<double> moved;
   simulation.displacements(moved);
@@ -111,10 +111,10 @@ Measured VirtualTest::compress(const calibration::Ratios& ratios) {
   const double area = options_.particles * options_.particles, force = (pushed.at(1).z - pushed.at(0).z) / 2;
   Measured measured;
   measured.poisson = -(cube.growth(0, moved) + cube.growth(1, moved)) / 2 / cube.growth(2, moved);
-  measured.young = force / area / options_.strain / model->materials.front().constants.base_stiffness;
-  measured.particles = model->body.particles;
+  measured.young = force / area / options_.strain / model.materials.front().constants.base_stiffness;
+  measured.particles = model.body.particles;
   measured.residual = rest.residual;
-  measured.evaluations = rest.evaluations;
+  measured.iterations = rest.iterations;
   measured.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return measured;
 }

@@ -17,11 +17,11 @@ struct ElasticPair {
 };
 
 struct Measured : ElasticPair {
-  double young = 0;               ///< E l / k, with the area of N^2 cells
-  std::uint64_t particles = 0;    ///< of the cube
-  double residual = 0;            ///< of the forces, see relax()
-  std::uint64_t evaluations = 0;  ///< of all forces
-  double seconds = 0;             ///< building and running
+  double young = 0;              ///< E l / k, with the area of N^2 cells
+  std::uint64_t particles = 0;   ///< of the cube
+  double residual = 0;           ///< see RestReport
+  std::uint64_t iterations = 0;  ///< of the static solver
+  double seconds = 0;            ///< building and running
 };
 
 /// A cube of N^3 cells between frictionless platens: only the axial displacement of the two end layers is prescribed. nu is the mean outward

@@ -23,6 +23,9 @@ void leave_out_kernel_parts(const Plan& plan, std::vector<LeftOut>& out) {
         {"second layer of the membrane", "it mirrors the first exactly, so one layer is computed" +
                                              (model.two_layers_grow.empty() ? "" : "; two free ones would not stay so: " + model.two_layers_grow)});
   if (!model.choice.breakable) out.push_back({"failure", "no material names a failure law: no spring is tested"});
+  const auto is_static = [](const PlannedStage& stage) { return stage.plan.at_rest && stage.plan.time_step == 0; };
+  if (model.choice.breakable && std::any_of(plan.stages.begin(), plan.stages.end(), is_static))
+    out.push_back({"failure during static stages", "springs beyond their limit break in the first step in time that follows"});
   if (!model.choice.mixed) out.push_back({"mixed materials", "there is one material: no particle stores which"});
   const auto is_damped = [](const PlannedStage& stage) { return stage.plan.damping > 0; };
   if (std::none_of(plan.stages.begin(), plan.stages.end(), is_damped)) out.push_back({"local damping", "no solver stage asks for it"});

@@ -5,6 +5,7 @@
 #include <plan/plan.hpp>
 #include <plan/rehearsal.hpp>
 #include <run/layout.hpp>
+#include <run/stage_calls.hpp>
 
 #include <hyperlattice/output.hpp>
 
@@ -30,7 +31,7 @@ void plan_stages(Plan& plan, Faults& faults) {
     planned.start_time = start;
     std::string sentence;
     const Complaint why{&sentence, [](void* self, std::string_view text) noexcept { static_cast<std::string*>(self)->assign(text); }};
-    const SolverFacts facts{start, plan.model->critical_time_step, plan.model->corners};
+    const SolverFacts facts = solver_facts(*plan.model, start);
     if (stage->functions<SolverFunctions>().plan(planned.component.get(), facts, planned.plan, why))
       start = planned.plan.end_time;
     else
@@ -63,6 +64,7 @@ double frames_of(const Stage& output, double end_time) {
 }
 
 double records_of(const PlannedStage& stage) {
+  if (stage.plan.at_rest) return static_cast<double>(stage.plan.steps / record_steps(stage)) + 1;
   return std::min((stage.plan.end_time - stage.start_time) / record_interval(stage), static_cast<double>(stage.plan.steps)) + 1;
 }
 
@@ -82,7 +84,11 @@ void estimate_memory(Plan& plan) {
   double output_numbers = 0;  // positions, and the fields of the most demanding output
   for (const Family family : {Family::writers, Family::probes})
     for (const Stage* stage : plan.scene->of(family)) output_numbers = std::max(output_numbers, 3 + numbers_per_particle(*plan.scene, *stage));
-  plan.memory_bytes = layout->state_bytes() + layout->scratch_bytes() + model_bytes + output_numbers * sizeof(double) * particles;
+  double solver_bytes = 0;
+  for (const PlannedStage& stage : plan.stages) solver_bytes = std::max(solver_bytes, stage.plan.bytes_per_site);
+  const Site low = model.body.low, high = model.body.high;
+  solver_bytes *= (high.i - low.i + 1.0) * (high.j - low.j + 1.0) * (high.k - low.k + 1.0);
+  plan.memory_bytes = solver_bytes + layout->state_bytes() + layout->scratch_bytes() + model_bytes + output_numbers * sizeof(double) * particles;
 }
 
 void estimate_output(Plan& plan) {
@@ -107,7 +113,8 @@ void estimate_time(Plan& plan) {
   if (model.degrees_of_freedom == 4) spring *= fourth_dimension;
   const double step = 1e-9 * spring * static_cast<double>(model.body.base_springs()) / (1 + second_thread * (plan.threads - 1));
   for (const PlannedStage& stage : plan.stages)
-    plan.expected_seconds += step * (static_cast<double>(stage.plan.steps) * (stage.plan.damping > 0 ? damped : 1) + records_of(stage));
+    plan.expected_seconds +=
+        step * (static_cast<double>(stage.plan.steps) * stage.plan.sweeps_per_step * (stage.plan.damping > 0 ? damped : 1) + records_of(stage));
 }
 
 }  // namespace
@@ -130,6 +137,8 @@ double record_interval(const PlannedStage& stage) {
   if (stage.stage->record_every > 0) return stage.stage->record_every;
   return std::max((stage.plan.end_time - stage.start_time) / records, steps * stage.plan.time_step);
 }
+
+std::uint64_t record_steps(const PlannedStage& stage) { return std::max<std::uint64_t>(1, stage.plan.time_step > 0 ? stage.plan.steps / 200 : 1); }
 
 std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, int threads) {
   const auto start = std::chrono::steady_clock::now();

@@ -56,6 +56,8 @@ double output_interval(const Stage& output, double end_time);
 
 /// Seconds between the records of a stage's history; a scene that does not say gets 200.
 double record_interval(const PlannedStage& stage);
+/// The same in steps, of a stage that looks for rest.
+std::uint64_t record_steps(const PlannedStage& stage);
 
 std::string plan_text(const Plan& plan);     ///< for people
 nlohmann::json plan_json(const Plan& plan);  ///< the keys of summary.json that are known before a run, and left_out

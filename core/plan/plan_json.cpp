@@ -48,7 +48,8 @@ nlohmann::json plan_json(const Plan& plan) {
                       {"steps", stage.plan.steps},
                       {"time_step", stage.plan.time_step},
                       {"stable_time_step", stage.plan.stable_time_step},
-                      {"damping", stage.plan.damping}});
+                      {"damping", stage.plan.damping},
+                      {"at_rest", stage.plan.at_rest}});
   }
   auto left_out = nlohmann::json::array();
   for (const LeftOut& left : plan.left_out) left_out.push_back({{"what", left.what}, {"why", left.why}});

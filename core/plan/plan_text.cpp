@@ -35,6 +35,18 @@ std::string count_text(std::uint64_t number) {
   return fmt::format("{} {:03}", count_text(number / 1000), number % 1000);
 }
 
+std::string stage_text(const PlannedStage& stage) {
+  const SolverPlan& plan = stage.plan;
+  const std::string damped = plan.damping > 0 ? fmt::format(", local damping {:g}", plan.damping) : "";
+  if (plan.at_rest && plan.time_step == 0)
+    return fmt::format("to rest under the loads of {:.6g} s, in {} step{} of load", plan.end_time, count_text(plan.steps),
+                       plan.steps == 1 ? "" : "s");
+  const std::string steps = fmt::format("steps of at most {:.6g} s, {:.3g} of the stable {:.6g} s{}", plan.time_step,
+                                        plan.time_step / plan.stable_time_step, plan.stable_time_step, damped);
+  if (plan.at_rest) return fmt::format("to rest under the loads of {:.6g} s, in about {} {}", plan.end_time, count_text(plan.steps), steps);
+  return fmt::format("{:.6g} s to {:.6g} s in {} {}", stage.start_time, plan.end_time, count_text(plan.steps), steps);
+}
+
 class Page {
  public:
   void section(std::string_view title) { fmt::format_to(std::back_inserter(text_), "\n{}\n", title); }
@@ -75,11 +87,7 @@ std::string plan_text(const Plan& plan) {
                         facts.at("degrees_of_freedom").get<int>(), word("membrane"), facts.at("breakable").get<bool>() ? "breakable" : "unbreakable",
                         word("precision"), word("instructions"), plan.threads, plan.threads == 1 ? "" : "s"));
   page.line("critical time step", fmt::format("{:.6g} s: {}", number("critical_time_step"), word("critical_because")));
-  for (const PlannedStage& stage : plan.stages)
-    page.line(stage.stage->component->type(),
-              fmt::format("{:.6g} s to {:.6g} s in {} steps of at most {:.6g} s, {:.3g} of the stable {:.6g} s{}", stage.start_time,
-                          stage.plan.end_time, count_text(stage.plan.steps), stage.plan.time_step, stage.plan.time_step / stage.plan.stable_time_step,
-                          stage.plan.stable_time_step, stage.plan.damping > 0 ? fmt::format(", local damping {:g}", stage.plan.damping) : ""));
+  for (const PlannedStage& stage : plan.stages) page.line(stage.stage->component->type(), stage_text(stage));
   page.line("steps", count("steps"));
   page.line("output", fmt::format("about {}", bytes_text(number("output_bytes"))));
   page.line("run time", fmt::format("{} on a common processor", duration_text(number("expected_seconds"))));

@@ -33,6 +33,8 @@ RowSums Simulation::Parts::measure(double back) {
       total.potential += row.potential;
       total.damped += row.damped + block.damped_work[r];
     }
+  total.damped += halted_energy;
+  total.potential -= gravity_unused;
   return total;
 }
 

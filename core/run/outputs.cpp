@@ -63,6 +63,11 @@ void Outputs::show(double time_step) {
     if (output.schedule.due(simulation_.time(), time_step)) show_to(output);
 }
 
+void Outputs::show_now() {
+  for (Output& output : outputs_)
+    if (output.seen != simulation_.steps()) show_to(output);
+}
+
 void Outputs::show_last() {
   for (Output& output : outputs_)
     if (output.stage->cadence.last && output.seen != simulation_.steps()) show_to(output);

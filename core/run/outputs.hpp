@@ -19,6 +19,7 @@ class Outputs {
   Outputs(const Model& model, const Simulation& simulation, const std::filesystem::path& directory, double end_time);
 
   void show(double time_step);  ///< to those that are due, at the present state
+  void show_now();              ///< to all that have not seen the present state
   void show_last();             ///< to those that want the last state and have not seen it
   void end();                   ///< closes the writers
 

@@ -1,4 +1,4 @@
-// The inside of a Simulation: its blocks and its books. Split by concern: build.cpp, step.cpp, breakage.cpp, balance.cpp.
+// The inside of a Simulation: its blocks and its books. Split by concern: build.cpp, step.cpp, settle.cpp, breakage.cpp, balance.cpp.
 #pragma once
 
 #include <run/block.hpp>
@@ -15,11 +15,13 @@ struct Simulation::Parts {
   const Model& model;
   std::unique_ptr<Layout> layout;
   std::vector<Block> blocks;
-  std::vector<double> masses, alphas;  ///< of each material
+  std::vector<double> masses, alphas;   ///< of each material
+  std::vector<double> particle_masses;  ///< kg; filled when first asked for
   int threads = 1;
 
   double damping = 0, last_step = 0;
   double time = 0, time_rest = 0;  ///< compensated sum
+  bool time_held = false;
   std::uint64_t steps = 0;
   std::vector<Breakage> breakages;
   struct Ends {
@@ -28,6 +30,8 @@ struct Simulation::Parts {
   };
   std::vector<Ends> ends;     ///< where the particles of each breakage are stored
   double failure_energy = 0;  ///< J, dissipated since the start
+  double halted_energy = 0;   ///< J, dissipated where motion was stopped
+  double gravity_unused = 0;  ///< J, work of body accelerations that did not act in full while the body settled
   bool start_known = false;
   double start_energy = 0, start_potential = 0, largest_energy = 0;  ///< J
 

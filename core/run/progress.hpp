@@ -13,8 +13,8 @@ class Progress {
   Progress(std::uint64_t steps, bool quiet);
   ~Progress();  ///< leaves a terminal's line
 
-  /// Shows the state if the last time is long enough ago.
-  void update(std::uint64_t step, double time, double time_step, std::uint64_t broken);
+  /// Shows the state if the last time is long enough ago. `residual`: of a search for rest; below 0: there is none.
+  void update(std::uint64_t step, double time, double time_step, std::uint64_t broken, double residual = -1);
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -4,6 +4,7 @@
 #include <run/outputs.hpp>
 #include <run/progress.hpp>
 #include <run/run.hpp>
+#include <run/stage_calls.hpp>
 #include <run/summary.hpp>
 
 #include <hyperlattice/files.hpp>
@@ -11,6 +12,7 @@
 #include <spdlog/spdlog.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <new>
 
@@ -34,9 +36,8 @@ class Running {
  private:
   static constexpr std::uint64_t guard_every = 50;  ///< steps; a guard reads the velocities once, a fraction of a step's work
 
-  struct Calls;
   void solve_stage(const PlannedStage& stage);
-  void step(double time_step);
+  void stepped(double time_step);
   void observe();
   void record();
   template <class Output>
@@ -51,46 +52,14 @@ class Running {
   std::unique_ptr<Outputs> outputs_;
   std::unique_ptr<Progress> progress_;
 
+  const PlannedStage* stage_ = nullptr;
+  std::optional<RestReport> rest_;  ///< the latest that a solver gave
   Schedule record_schedule_;
   double time_step_ = 0;
   Record last_;
   bool recorded_ = false;
   double largest_relative_error_ = 0;
   double solve_seconds_ = 0, output_seconds_ = 0;
-};
-
-/// What a solver calls. The solver is a plugin's: an exception thrown below it waits here until its call has returned.
-struct Running::Calls {
-  Running& running;
-  SolverHost host;
-  std::exception_ptr thrown;
-
-  explicit Calls(Running& r) : running(r) {
-    host.self = this;
-    host.time = running.simulation_->time();
-    host.take_step = [](void* self, double time_step) {
-      auto& calls = *static_cast<Calls*>(self);
-      return calls.guarded([&] {
-        calls.running.step(time_step);
-        calls.host.time = calls.running.simulation_->time();
-      });
-    };
-    host.show = [](void* self) {
-      auto& calls = *static_cast<Calls*>(self);
-      return calls.guarded([&] { calls.running.observe(); });
-    };
-  }
-
-  template <class Code>
-  bool guarded(Code&& code) noexcept {
-    try {
-      code();
-      return !stop_requested();
-    } catch (...) {
-      thrown = std::current_exception();
-      return false;
-    }
-  }
 };
 
 template <class Output>
@@ -132,31 +101,35 @@ void Running::solve() {
 }
 
 void Running::solve_stage(const PlannedStage& stage) {
+  stage_ = &stage;
   guard_->start(stage);
-  simulation_->set_damping(stage.plan.damping);
   record_schedule_ = Schedule(stage.start_time, record_interval(stage), true);
   time_step_ = stage.plan.time_step;
-
-  Calls calls(*this);
-  std::string sentence;
-  const Complaint why{&sentence, [](void* self, std::string_view text) noexcept { static_cast<std::string*>(self)->assign(text); }};
-  const bool done = stage.stage->functions<SolverFunctions>().run(
-      stage.component.get(), {stage.start_time, plan_.model->critical_time_step, plan_.model->corners}, calls.host, why);
-  if (calls.thrown) std::rethrow_exception(calls.thrown);
-  if (!done) throw RunError(fmt::format("{} ({}) failed: {}", stage.stage->component->type(), stage.stage->pointer, sentence));
+  StageCalls::Hooks hooks;
+  hooks.stepped = [this](double time_step) { stepped(time_step); };
+  hooks.observe = [this] { observe(); };
+  hooks.report = [this](const RestReport& report) { rest_ = report; };
+  hooks.must_stop = [] { return stop_requested(); };
+  StageCalls(*plan_.model, *simulation_, stage, plan_.threads, std::move(hooks)).run();
   record();
+  if (stage.plan.at_rest) {
+    timed([&] { outputs_->show_now(); });  // at rest all instants are one
+    simulation_->close_books();
+  }
 }
 
-void Running::step(double time_step) {
-  simulation_->step(time_step);
+void Running::stepped(double time_step) {
   time_step_ = time_step;
   if (simulation_->steps() % guard_every == 0) guard_->check_motion(time_step);
 }
 
 void Running::observe() {
-  if (record_schedule_.due(simulation_->time(), time_step_)) record();
-  timed([&] { outputs_->show(time_step_); });
-  progress_->update(simulation_->steps(), simulation_->time(), time_step_, simulation_->breakages().size());
+  if (stage_->plan.at_rest ? simulation_->steps() % record_steps(*stage_) == 0 : record_schedule_.due(simulation_->time(), time_step_)) record();
+  // A share of a stage's time is rarely a round number: an instant is also met nearly.
+  const double near_enough = 1e-6 * (stage_->plan.end_time - stage_->start_time);
+  timed([&] { outputs_->show(stage_->plan.at_rest ? near_enough : time_step_); });
+  progress_->update(simulation_->steps(), simulation_->time(), time_step_, simulation_->breakages().size(),
+                    stage_->plan.at_rest && rest_ ? rest_->residual : -1);
 }
 
 void Running::record() {
@@ -172,7 +145,7 @@ void Running::record() {
     history_->write(record);
     if (failures_) failures_->write_new(simulation_->breakages());
   });
-  guard_->check_balance(record.balance, time_step_);
+  if (!stage_->plan.at_rest) guard_->check_balance(record.balance, time_step_);
 }
 
 void Running::finish() {
@@ -189,6 +162,7 @@ void Running::note(Outcome& outcome) {
   outcome.last = last_;
   outcome.largest_relative_error = largest_relative_error_;
   if (!simulation_) return;
+  outcome.rest = rest_;
   outcome.steps = simulation_->steps();
   outcome.time = simulation_->time();
   outcome.injected_by_load = simulation_->injected_by_load();
@@ -213,7 +187,10 @@ int run(Plan& plan, const RunOptions& options) {
       running.start(outcome);
       running.solve();
       running.finish();
-      if (stop_requested() && running.steps() < plan.steps()) end("interrupted", exit_interrupted, "asked to stop by a signal");
+      // how many steps a search for rest takes is not known before
+      const bool short_of = running.steps() < plan.steps() ||
+                            std::any_of(plan.stages.begin(), plan.stages.end(), [](const PlannedStage& stage) { return stage.plan.at_rest; });
+      if (stop_requested() && short_of) end("interrupted", exit_interrupted, "asked to stop by a signal");
     } catch (const RunError& error) {
       end("failed", exit_run, error.what());
     } catch (const std::bad_alloc&) {

@@ -27,6 +27,16 @@ struct Balance {
   double relative_error() const { return scale > 0 ? error / scale : 0; }
 };
 
+/// A change from one state of rest to the next that no time step made. Fields are of particles, x y z each, and heights where there are any.
+struct Settling {
+  double time = 0;                            ///< afterwards, s
+  std::vector<double> xyz, heights;           ///< displacements afterwards, m
+  std::vector<double> force, force_before;    ///< of the springs on the particles, afterwards and before, N
+  std::vector<double> factor, factor_before;  ///< of each load
+  double gravity = 1, gravity_before = 1;     ///< shares of the body accelerations
+  double dissipated = 0;                      ///< J, by what held the state before in place
+};
+
 /// The moving body. The same bits come out for any number of threads.
 class Simulation {
  public:
@@ -38,8 +48,15 @@ class Simulation {
   void set_damping(double alpha);  ///< of the steps that follow
   void step(double time_step);     ///< advances time; RunError if a law or criterion fails
   double time() const;
+  /// While held, steps do not advance time and loads act as they do at that time.
+  void hold_time(double time);
+  void release_time();
+  void halt();                            ///< stops all motion; its kinetic energy counts as dissipated
+  void settle(const Settling& settling);  ///< halts, and counts as a step
+  void close_books();                     ///< what is missing in the balance up to now is forgotten
   std::uint64_t steps() const;
 
+  double kinetic() const;                  ///< J, of the velocities v(n-1/2) as they are; costs little
   Balance balance();                       ///< of the present state; one extra sweep that changes nothing
   std::vector<double> injected_by_load();  ///< J, one a load; up to the present state
   /// N, one a load: what acts on the particles that the load moves, along the axes that it prescribes, in the present state. At rest, the force
@@ -54,6 +71,7 @@ class Simulation {
   void displacements(std::vector<double>& xyz) const;
   void velocities(std::vector<double>& xyz) const;  ///< v(n-1/2)
   void heights(std::vector<double>& values) const;
+  void alive(std::vector<std::uint16_t>& bits) const;  ///< springs that each particle's site begins, see KernelRequest::alive
   void height_rates(std::vector<double>& values) const;
   /// Sets the state of every particle; for tests and for stages that start from another state.
   void set_displacements(const std::vector<double>& xyz, const std::vector<double>& heights);

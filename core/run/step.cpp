@@ -40,9 +40,11 @@ void Simulation::Parts::step(double dt) {
     }
   }
   collect_breakages(dt);
-  const double added = dt - time_rest, sum = time + added;
-  time_rest = (sum - time) - added;
-  time = sum;
+  if (!time_held) {
+    const double added = dt - time_rest, sum = time + added;
+    time_rest = (sum - time) - added;
+    time = sum;
+  }
   last_step = dt;
   ++steps;
 }
@@ -84,7 +86,7 @@ void Simulation::Parts::prepare_supports(Block& block, double step) const {
     part.factor = load.factor(time);
     support.force = support.force + part.factor * part.force;
     if ((part.displaced | part.driven) == 0 || step <= 0) continue;
-    const double next = load.factor(time + step);
+    const double next = load.factor(time_held ? time : time + step);
     for (int c = 0; c < 3; ++c) {
       const double here = block.displacement[c][support.index];
       if ((part.displaced >> c & 1u) != 0) set_component(support.velocity, c, (next * component(part.displacement, c) - here) / step);

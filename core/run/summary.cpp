@@ -53,6 +53,10 @@ nlohmann::json summary_json(const Plan& plan, const Outcome& outcome) {
   summary["peak_memory_bytes"] = peak_memory_bytes();
   summary["energy"] = energy_json(plan, outcome);
   summary["broken_springs"] = {{"open", outcome.last.broken_open}, {"closed", outcome.last.broken_closed}};
+  if (outcome.rest) {
+    auto& rest = summary["rest"] = {{"residual", outcome.rest->residual}, {"iterations", outcome.rest->iterations}};
+    if (outcome.rest->displacement_error >= 0) rest["displacement_error"] = outcome.rest->displacement_error;
+  }
   summary["state_hash"] = fmt::format("{:016x}", outcome.state_hash);
   return summary;
 }

@@ -17,6 +17,7 @@ struct Outcome {
   Record last;                           ///< the latest record with finite numbers
   double largest_relative_error = 0;     ///< of the energy balance, over all records
   std::vector<double> injected_by_load;  ///< J
+  std::optional<RestReport> rest;        ///< of the last stage that looked for rest
   std::uint64_t steps = 0;               ///< taken
   double time = 0;                       ///< reached, s
   std::uint64_t state_hash = 0;

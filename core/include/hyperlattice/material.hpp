@@ -10,6 +10,7 @@
 namespace hyperlattice {
 
 struct KernelRequest;  // kernels/request.hpp
+struct SpringRow;
 
 /// What a material makes of a lattice. Cross springs (beta, gamma) share their base spring's neighbour.
 struct MaterialConstants {
@@ -71,6 +72,7 @@ struct KernelSet {
   void (*step)(const KernelRequest& request) noexcept = nullptr;
   void (*step_damped)(const KernelRequest& request) noexcept = nullptr;
   void (*measure)(const KernelRequest& request) noexcept = nullptr;
+  double (*linearise)(const SpringRow& row) noexcept = nullptr;              ///< forces and tangents of a row of springs; returns their energy, J
   double (*force)(double stiffness, double elongation) noexcept = nullptr;   ///< of one spring, N
   double (*energy)(double stiffness, double elongation) noexcept = nullptr;  ///< stored in one spring, J
   const char* instructions = "";                                             ///< "avx512", "avx2", "baseline": what this processor was given

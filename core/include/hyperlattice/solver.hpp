@@ -1,7 +1,8 @@
-// A solver: the order of steps in time. What a step does to every particle is a kernel's work (kernels/); when outputs are due is the core's.
+// A solver: the order of steps in time, or a way to a state of rest. What a step does to every particle is a kernel's work (kernels/); when outputs
+// are due is the core's.
 #pragma once
 
-#include <hyperlattice/component.hpp>
+#include <hyperlattice/statics.hpp>
 
 namespace hyperlattice {
 
@@ -10,6 +11,7 @@ struct SolverFacts {
   double start_time = 0;            ///< seconds; where the stage before ended
   double critical_time_step = 0;    ///< seconds, undamped: 2 / omega_max
   std::span<const double> corners;  ///< times where a load has a kink, ascending
+  std::int32_t sites_across = 1;    ///< of the longest side of the box that the body fills
 };
 
 /// What the solver will do, for `plan`, `summary.json` and the progress line.
@@ -19,6 +21,10 @@ struct SolverPlan {
   double stable_time_step = 0;  ///< the limit that holds for this scheme, seconds
   double damping = 0;           ///< local damping, alpha; 0: none
   std::uint64_t steps = 0;
+  /// The stage looks for a state of rest: its steps are not steps in time, time_step may be 0. Loads act as they do at end_time.
+  bool at_rest = false;
+  double bytes_per_site = 0;   ///< that the solver needs besides the state, for each site of the box around the body
+  double sweeps_per_step = 1;  ///< evaluations of all springs that a step takes, about
 };
 
 /// The running simulation as a solver sees it.
@@ -32,6 +38,23 @@ struct SolverHost {
   bool step(double time_step) const { return take_step(self, time_step); }
   /// Lets history, probes and writers see the present state if they are due. Called once before the first step, then after each. False: stop.
   bool observe() const { return show(self); }
+
+  // For stages that look for a state of rest.
+  const StaticProblem* (*open)(void* self) = nullptr;
+  bool (*take)(void* self, double share, const double* displacement) = nullptr;
+  bool (*measure_rest)(void* self, double* residual, double* kinetic) = nullptr;
+  bool (*stop_motion)(void* self) = nullptr;
+  bool (*show_rest)(void* self, const RestReport& report) = nullptr;
+
+  /// The body for a static solver, built when first asked for; valid during the stage. Null: the run must stop.
+  const StaticProblem* statics() const { return open(self); }
+  /// Makes displacements the state, at rest, with that share of the stage's load. False: the run must stop.
+  bool accept(double share, const double* displacement) const { return take(self, share, displacement); }
+  /// The residual of the present state (see RestReport), and its kinetic energy, J; one evaluation of all springs. Either may be null. Kinetic energy
+  /// alone costs little. False: the run must stop.
+  bool measure(double* residual, double* kinetic) const { return measure_rest(self, residual, kinetic); }
+  bool halt() const { return stop_motion(self); }                                  ///< all velocities to zero
+  bool report(const RestReport& report) const { return show_rest(self, report); }  ///< for the progress line and the summary
 };
 
 struct SolverFunctions {

@@ -1,18 +1,23 @@
 // A pressure on the open faces of a region:
 //   F_i = - p(t) A_i,  A_i the sum of the outward normals of the particle's faces, each by its area:
-// l^2, or a quarter of that for each corner of a face in a body of cells.
+// l^2, or a quarter of that for each corner of a face in a body of cells. With `facing`, only the faces that look one way count.
 #include <hyperlattice/load.hpp>
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace {
 using namespace hyperlattice;
+
+enum class Facing : std::uint32_t { any, x_min, x_max, y_min, y_max, z_min, z_max };
+constexpr std::string_view facing_names[] = {"any", "x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
 
 class Pressure {
  public:
   struct Options {
     RegionId on;
     double pressure = 0, rise = 0;
+    Facing facing = Facing::any;
   };
 
   static Schema<Options> schema() {
@@ -21,6 +26,9 @@ class Pressure {
         .restrictions("a surface that is not parallel to the axes is loaded as the staircase that its particles make of it")
         .add<&Options::on>("on", "", "the loaded surface; x_min and its like load only the faces of that side")
         .add<&Options::pressure>("pressure", "Pa", "positive pushes on the body, negative pulls")
+        .add<&Options::facing>("facing", "", "which faces of the region are loaded: those that look towards that side of the body")
+        .choices(facing_names)
+        .fallback("\"any\"")
         .add<&Options::rise>("rise", "s", "time from nothing to the full pressure; 0: at once")
         .at_least(0)
         .fallback("0");
@@ -30,15 +38,27 @@ class Pressure {
 
   void declare(const LoadBody& body, const LoadSink& sink) const {
     const std::span<const OpenArea> surface = body.open_areas(o_.on);
+    bool any = false;
     for (const OpenArea& open : surface)
-      if (open.area != Vec3{}) sink.force(open.particle, -o_.pressure * open.area);
+      if (const Vec3 area = loaded(open.area); area != Vec3{}) {
+        sink.force(open.particle, -o_.pressure * area);
+        any = true;
+      }
     if (surface.empty()) throw std::invalid_argument("the region has no open face: expected a surface, such as x_max");
+    if (!any && o_.facing != Facing::any) throw std::invalid_argument("facing names a side to which no open face of the region looks");
     if (o_.rise > 0) sink.corner(o_.rise);
   }
 
   double factor(double time) const { return ramp(time, o_.rise); }
 
  private:
+  /// The part of a particle's open faces that looks where it should.
+  Vec3 loaded(Vec3 area) const {
+    if (o_.facing == Facing::any) return area;
+    const Vec3 normal = face_normals[static_cast<std::size_t>(o_.facing) - 1];
+    return std::max(0.0, dot(area, normal)) * normal;
+  }
+
   Options o_;
 };
 }  // namespace

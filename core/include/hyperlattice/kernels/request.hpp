@@ -121,6 +121,17 @@ struct KernelRequest {
   RowSums* sums = nullptr;         ///< one a row of the block, ghosts too; for measure()
 };
 
+/// The springs of one row to one neighbour, for KernelSet::linearise. Arrays hold one number a spring, padded to whole vectors.
+struct SpringRow {
+  int count = 0;
+  const double *here[4] = {}, *there[4] = {};                     ///< displacements of both ends, metres; last is null without a membrane that moves
+  const double *stiffness = nullptr, *cross_stiffness = nullptr;  ///< N/m
+  const double* weight = nullptr;                                 ///< share of a whole spring; 0: there is none
+  Vec3 rest;
+  double rest_length = 0, cross_rest_length = 0, membrane_distance = 0, spacing = 0;
+  double *pull = nullptr, *axial = nullptr, *cross_pull = nullptr, *cross_axial = nullptr;  ///< results, N/m; see kernels/tangent.hpp
+};
+
 /// Sites left and right of a row that its neighbours may reach; scratch rows are that much wider on each side.
 inline constexpr int scratch_margin = 8;
 

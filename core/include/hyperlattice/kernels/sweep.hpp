@@ -7,6 +7,7 @@
 #pragma once
 
 #include <hyperlattice/kernels/listed.hpp>
+#include <hyperlattice/kernels/tangent.hpp>
 
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
@@ -127,6 +128,7 @@ KernelSet kernels_of(const KernelChoice& choice, const char* instructions) {
       with_topology.template operator()<ListedSweep>();
     else
       with_topology.template operator()<Sweep>();
+    if (!choice.listed) set.linearise = &Tangent<Law, membrane>::run;
   };
   const auto with_membrane = [&]<Membrane membrane>() {
     if (choice.breakable && choice.mixed)

@@ -1,0 +1,95 @@
+// From rest to rest: what a static solver finds becomes the state, and its books continue those of the steps in time. A path of states of rest is
+// known at its ends only; the work along it is the mean of the forces at both ends over the way between them.
+#include <run/parts.hpp>
+
+#include <algorithm>
+
+namespace hyperlattice {
+
+void Simulation::hold_time(double time) {
+  parts_->time_held = true;
+  parts_->time = time;
+  parts_->time_rest = 0;
+}
+void Simulation::release_time() { parts_->time_held = false; }
+
+void Simulation::alive(std::vector<std::uint16_t>& bits) const {
+  bits.resize(parts_->model.body.particles);
+  parts_->for_runs([&](const Block& block, std::uint64_t place, Particle first, std::uint64_t count) {
+    std::copy_n(block.alive.get() + place, count, bits.begin() + static_cast<std::ptrdiff_t>(first));
+  });
+}
+
+double Simulation::kinetic() const {
+  std::vector<double>& masses = parts_->particle_masses;
+  const Body& body = parts_->model.body;
+  if (masses.empty())
+    for (const Run& run : body.runs)
+      for (std::int32_t i = run.begin; i < run.end; ++i) {
+        const Particle particle = run.first + static_cast<Particle>(i - run.begin);
+        masses.push_back(parts_->masses[parts_->model.material_of.empty() ? 0 : parts_->model.material_of[particle]] * body.share({i, run.j, run.k}));
+      }
+  double twice = 0;
+  parts_->for_runs([&](const Block& block, std::uint64_t place, Particle first, std::uint64_t count) {
+    for (std::uint64_t n = 0; n < count; ++n) {
+      double square = 0;
+      for (int c = 0; c < parts_->model.degrees_of_freedom; ++c) square += block.velocity[c][place + n] * block.velocity[c][place + n];
+      twice += masses[first + n] * square;
+    }
+  });
+  return twice / 2;
+}
+
+void Simulation::halt() {
+  const double error = parts_->balance().error;
+  for (const Block& block : parts_->blocks)
+    for (int c = 0; c < parts_->model.degrees_of_freedom; ++c) std::fill_n(block.velocity[c].get(), block.velocity[c].size(), 0.0);
+  parts_->last_step = 0;  // the next step starts from rest
+  parts_->halted_energy += error - parts_->balance().error;
+}
+
+void Simulation::close_books() { parts_->start_known = false; }
+
+void Simulation::settle(const Settling& to) {
+  halt();
+  const Model& model = parts_->model;
+  const auto moved_of = [&](const Block& block, const Support& support, Particle particle) {
+    const auto along = [&](std::size_t c) { return to.xyz[3 * particle + c] - block.displacement[c][support.index]; };
+    return Vec3{along(0), along(1), along(2)};
+  };
+  for (std::size_t l = 0; l < model.loads.size(); ++l) {
+    const double mean = 0.5 * (to.factor_before[l] + to.factor[l]);
+    for (Block& block : parts_->blocks)
+      for (Contribution& part : block.contributions) {
+        if (part.load != l) continue;
+        Support& support = block.supports[part.support];
+        const Site row = parts_->first_site_of_row(block, static_cast<std::size_t>(support.row));
+        const Particle particle = model.body.at({support.site, row.j, row.k});
+        const Vec3 moved = moved_of(block, support, particle);
+        part.work += mean * dot(part.force, moved);
+        for (int c = 0; c < 3; ++c) {
+          const std::size_t n = 3 * particle + static_cast<std::size_t>(c);
+          if (((part.displaced | part.driven) >> c & 1u) != 0)
+            support.reaction_work -= (0.5 * (to.force[n] + to.force_before[n]) + mean * component(part.force, c)) * component(moved, c);
+        }
+      }
+  }
+  if (!(model.acceleration == Vec3{})) {
+    const double unused = 1 - 0.5 * (to.gravity_before + to.gravity);
+    std::vector<double> before;
+    displacements(before);
+    for (Particle p = 0; p < model.body.particles; ++p) {
+      const Vec3 moved{to.xyz[3 * p] - before[3 * p], to.xyz[3 * p + 1] - before[3 * p + 1], to.xyz[3 * p + 2] - before[3 * p + 2]};
+      parts_->gravity_unused += unused * model.mass(p) * dot(model.acceleration, moved);
+    }
+  }
+  parts_->halted_energy += to.dissipated;
+  set({false, 0, 3}, to.xyz);
+  if (!to.heights.empty()) set({false, 3, 1}, to.heights);
+  parts_->start_known = true;  // known since halt(), and the way from there is in the books
+  parts_->time = to.time;
+  parts_->time_rest = 0;
+  ++parts_->steps;
+}
+
+}  // namespace hyperlattice

@@ -1,0 +1,99 @@
+#include <base/errors.hpp>
+#include <run/stage_calls.hpp>
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+
+namespace hyperlattice {
+
+SolverFacts solver_facts(const Model& model, double start_time) {
+  const Site low = model.body.low, high = model.body.high;
+  return {start_time, model.critical_time_step, model.corners, 1 + std::max({high.i - low.i, high.j - low.j, high.k - low.k})};
+}
+
+template <class Code>
+bool StageCalls::guarded(Code&& code) noexcept {
+  try {
+    code();
+    return !hooks_.must_stop || !hooks_.must_stop();
+  } catch (...) {
+    thrown_ = std::current_exception();
+    return false;
+  }
+}
+
+Statics& StageCalls::statics() {
+  if (!statics_) statics_ = std::make_unique<Statics>(model_, simulation_, stage_.start_time, stage_.plan.end_time, threads_);
+  return *statics_;
+}
+
+StageCalls::StageCalls(const Model& model, Simulation& simulation, const PlannedStage& stage, int threads, Hooks hooks)
+    : model_(model), simulation_(simulation), stage_(stage), threads_(threads), hooks_(std::move(hooks)) {
+  host_.self = this;
+  host_.time = simulation.time();
+  host_.take_step = [](void* self, double time_step) {
+    auto& calls = *static_cast<StageCalls*>(self);
+    return calls.guarded([&] {
+      calls.simulation_.step(time_step);
+      calls.host_.time = calls.simulation_.time();
+      if (calls.hooks_.stepped) calls.hooks_.stepped(time_step);
+    });
+  };
+  host_.show = [](void* self) {
+    auto& calls = *static_cast<StageCalls*>(self);
+    return calls.guarded([&] {
+      if (calls.hooks_.observe) calls.hooks_.observe();
+    });
+  };
+  host_.open = [](void* self) -> const StaticProblem* {
+    auto& calls = *static_cast<StageCalls*>(self);
+    return calls.guarded([&] { calls.statics(); }) ? &calls.statics_->problem() : nullptr;
+  };
+  host_.take = [](void* self, double share, const double* displacement) {
+    auto& calls = *static_cast<StageCalls*>(self);
+    return calls.guarded([&] {
+      calls.statics().accept(share, displacement);
+      calls.host_.time = calls.simulation_.time();
+    });
+  };
+  host_.measure_rest = [](void* self, double* residual, double* kinetic) {
+    auto& calls = *static_cast<StageCalls*>(self);
+    return calls.guarded([&] {
+      if (residual != nullptr) *residual = calls.statics().residual();
+      if (kinetic != nullptr) *kinetic = calls.simulation_.kinetic();
+    });
+  };
+  host_.stop_motion = [](void* self) {
+    auto& calls = *static_cast<StageCalls*>(self);
+    return calls.guarded([&] { calls.simulation_.halt(); });
+  };
+  host_.show_rest = [](void* self, const RestReport& report) {
+    auto& calls = *static_cast<StageCalls*>(self);
+    return calls.guarded([&] {
+      if (calls.hooks_.report) calls.hooks_.report(report);
+    });
+  };
+}
+
+void StageCalls::run() {
+  std::string sentence;
+  const Complaint why{&sentence, [](void* self, std::string_view text) noexcept { static_cast<std::string*>(self)->assign(text); }};
+  const Stage& stage = *stage_.stage;
+  simulation_.set_damping(stage_.plan.damping);
+  if (stage_.plan.at_rest && stage_.plan.time_step > 0) simulation_.hold_time(stage_.plan.end_time);  // else the solver says what time it is
+  const bool done = stage.functions<SolverFunctions>().run(stage_.component.get(), solver_facts(model_, stage_.start_time), host_, why);
+  simulation_.release_time();
+  if (thrown_) std::rethrow_exception(thrown_);
+  if (!done) throw RunError(fmt::format("{} ({}) failed: {}", stage.component->type(), stage.pointer, sentence));
+}
+
+RestReport bring_to_rest(const Plan& plan, Simulation& simulation) {
+  RestReport last;
+  StageCalls::Hooks hooks;
+  hooks.report = [&](const RestReport& report) { last = report; };
+  StageCalls(*plan.model, simulation, plan.stages.front(), plan.threads, std::move(hooks)).run();
+  return last;
+}
+
+}  // namespace hyperlattice

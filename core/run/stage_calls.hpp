@@ -1,0 +1,51 @@
+// What a solver calls while its stage runs. The solver is a plugin's: an exception thrown below it waits here until its call has returned.
+#pragma once
+
+#include <plan/plan.hpp>
+#include <run/state.hpp>
+#include <statics/statics.hpp>
+
+#include <exception>
+#include <functional>
+#include <memory>
+
+namespace hyperlattice {
+
+class StageCalls {
+ public:
+  /// What else is to be done when a solver calls; each may be empty.
+  struct Hooks {
+    std::function<void(double time_step)> stepped;
+    std::function<void()> observe;
+    std::function<void(const RestReport&)> report;
+    std::function<bool()> must_stop;
+  };
+  StageCalls(const Model& model, Simulation& simulation, const PlannedStage& stage, int threads, Hooks hooks);
+  StageCalls(const StageCalls&) = delete;
+  StageCalls& operator=(const StageCalls&) = delete;
+
+  /// Runs the stage. RunError if the solver fails; what was thrown inside its calls, if anything was.
+  void run();
+
+ private:
+  template <class Code>
+  bool guarded(Code&& code) noexcept;
+  Statics& statics();  ///< built when first asked for
+
+  const Model& model_;
+  Simulation& simulation_;
+  const PlannedStage& stage_;
+  int threads_;
+  Hooks hooks_;
+  SolverHost host_;
+  std::unique_ptr<Statics> statics_;
+  std::exception_ptr thrown_;
+};
+
+/// What a solver may know before its stage.
+SolverFacts solver_facts(const Model& model, double start_time);
+
+/// Runs a stage that looks for rest, outside of a run: no history, no outputs. RunError if it fails.
+RestReport bring_to_rest(const Plan& plan, Simulation& simulation);
+
+}  // namespace hyperlattice

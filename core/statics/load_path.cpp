@@ -1,0 +1,119 @@
+// From the loads of a stage's start to those of its end, along a straight line: forces and prescribed displacements change in proportion to a share
+// from 0 to 1. Whatever else the state at the start needs to be at rest is a holding force, which goes away in the same proportion.
+#include <statics/statics.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace hyperlattice {
+
+namespace {
+
+double component(Vec3 v, int c) { return c == 0 ? v.x : c == 1 ? v.y : v.z; }
+
+/// Of a load's factor over time, which is straight between corners.
+double integral(const Load& load, const std::vector<double>& corners, double start, double end) {
+  double sum = 0, from = start;
+  const auto reach = [&](double to) {
+    sum += 0.5 * (load.factor(from) + load.factor(to)) * (to - from);
+    from = to;
+  };
+  for (const double corner : corners)
+    if (corner > from && corner < end) reach(corner);
+  if (end > from) reach(end);
+  return sum;
+}
+
+}  // namespace
+
+void Statics::make_loads() {
+  const bool fresh = simulation_.steps() == 0;  // before the run nothing acted
+  gravity_start_ = fresh ? 0 : 1;
+  const std::int64_t places = problem_.grid.places;
+  std::map<std::int64_t, Held> held;
+  for (std::size_t l = 0; l < model_.loads.size(); ++l) {
+    const Load& load = model_.loads[l];
+    factor_start_.push_back(fresh ? 0 : load.factor(start_));
+    factor_end_.push_back(load.factor(end_));
+    const double way = integral(load, model_.corners, start_, end_);
+    for (const LoadedParticle& loaded : load.particles) {
+      const std::int64_t place = place_of(loaded.particle);
+      if (!(loaded.force == Vec3{})) loaded_.push_back({place, l, loaded.force});
+      if ((loaded.displaced | loaded.driven) == 0) continue;
+      Held& hold = held.try_emplace(place, Held{place, 0, {}, {}}).first->second;
+      for (int c = 0; c < 3; ++c) {
+        if (((loaded.displaced | loaded.driven) >> c & 1u) == 0) continue;
+        hold.axes |= 1u << c;
+        hold.from[c] = state_[static_cast<std::size_t>(c * places + place)];
+        hold.to[c] = (loaded.displaced >> c & 1u) != 0 ? factor_end_[l] * component(loaded.displacement, c)
+                                                       : hold.from[c] + way * component(loaded.velocity, c);
+        free_[static_cast<std::size_t>(place)] = static_cast<std::uint8_t>(free_[static_cast<std::size_t>(place)] & ~(1u << c));
+      }
+    }
+  }
+  for (const auto& [place, hold] : held) held_.push_back(hold);
+  if (!(model_.acceleration == Vec3{})) {
+    mass_.assign(static_cast<std::size_t>(places), 0);
+    for_runs([&](std::int64_t place, Particle particle, std::uint64_t count) {
+      for (std::uint64_t n = 0; n < count; ++n) mass_[static_cast<std::size_t>(place) + n] = model_.mass(particle + n);
+    });
+  }
+
+  holding_.assign(problem_.grid.numbers(), 0);
+  Values external(holding_.size());
+  add_loads(0, external.data());
+  for_runs([&](std::int64_t first, Particle, std::uint64_t count) {
+    for (std::int64_t p = first; p < first + static_cast<std::int64_t>(count); ++p)
+      for (int c = 0; c < problem_.grid.components; ++c) {
+        const auto n = static_cast<std::size_t>(c * places + p);
+        if ((free_[static_cast<std::size_t>(p)] >> c & 1u) != 0) holding_[n] = -force_[n] - external[n];
+      }
+  });
+}
+
+std::vector<double> Statics::factors(double share) const {
+  std::vector<double> all;
+  for (std::size_t l = 0; l < factor_end_.size(); ++l) all.push_back((1 - share) * factor_start_[l] + share * factor_end_[l]);
+  return all;
+}
+
+void Statics::add_loads(double share, double* force) const {
+  const std::int64_t places = problem_.grid.places;
+  for (std::size_t n = 0; n < holding_.size(); ++n) force[n] = (1 - share) * holding_[n];
+  const std::vector<double> factor = factors(share);
+  for (const Loaded& loaded : loaded_)
+    for (int c = 0; c < 3; ++c) force[c * places + loaded.place] += factor[loaded.load] * component(loaded.force, c);
+  const double gravity = (1 - share) * gravity_start_ + share;
+  for (int c = 0; c < 3 && !mass_.empty(); ++c)
+    for (std::size_t p = 0; p < mass_.size(); ++p)
+      force[static_cast<std::size_t>(c * places) + p] += gravity * mass_[p] * component(model_.acceleration, c);
+}
+
+void Statics::prescribe(double share, double* u) const {
+  for (const Held& held : held_)
+    for (int c = 0; c < 3; ++c)
+      if ((held.axes >> c & 1u) != 0) u[c * problem_.grid.places + held.place] = (1 - share) * held.from[c] + share * held.to[c];
+}
+
+double Statics::force_scale(const double* internal, const double* external) const {
+  const std::int64_t places = problem_.grid.places;
+  double held = 0, loaded = 0;
+  std::uint64_t number = 0;
+  for (const Held& hold : held_) {
+    double square = 0;
+    for (int c = 0; c < 3; ++c)
+      if ((hold.axes >> c & 1u) != 0) square += std::pow(internal[c * places + hold.place] + external[c * places + hold.place], 2);
+    held += std::sqrt(square);
+  }
+  for_runs([&](std::int64_t first, Particle, std::uint64_t count) {
+    for (std::int64_t p = first; p < first + static_cast<std::int64_t>(count); ++p) {
+      const double size = norm({external[p], external[places + p], external[2 * places + p]});
+      loaded += size;
+      if (size > 0) ++number;
+    }
+  });
+  return std::max(held_.empty() ? 0 : held / static_cast<double>(held_.size()), number == 0 ? 0 : loaded / static_cast<double>(number));
+}
+
+}  // namespace hyperlattice

@@ -1,0 +1,81 @@
+#include <statics/statics.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyperlattice {
+
+Statics::Statics(const Model& model, Simulation& simulation, double start, double end, int threads)
+    : model_(model), simulation_(simulation), start_(start), end_(end) {
+  for (const Material& material : model.materials)
+    stiffness_of_alpha_.push_back(material.constants.clamped ? 0 : material.constants.alpha_ratio * material.constants.base_stiffness);
+  make_grid();
+  constexpr std::int64_t few = 65536;  // places; with fewer, threads would wait for each other longer than they work
+  problem_.grid.threads = problem_.grid.places < few ? 1 : threads;
+  make_weights();
+  state_.assign(problem_.grid.numbers(), 0);
+  force_.assign(problem_.grid.numbers(), 0);
+  read_state(state_.data());
+  respond(state_.data(), force_.data(), nullptr);
+  make_loads();
+
+  problem_.self = this;
+  problem_.state = state_.data();
+  problem_.respond_to = [](void* self, const double* u, double* force, const SpringTangents* tangents) noexcept {
+    return static_cast<const Statics*>(self)->respond(u, force, tangents);
+  };
+  problem_.load_at = [](void* self, double share, double* force) noexcept { static_cast<const Statics*>(self)->add_loads(share, force); };
+  problem_.prescribe_at = [](void* self, double share, double* u) noexcept { static_cast<const Statics*>(self)->prescribe(share, u); };
+  problem_.scale_of = [](void* self, const double* internal, const double* external) noexcept {
+    return static_cast<const Statics*>(self)->force_scale(internal, external);
+  };
+  problem_.position_of = [](void* self, std::int64_t place) noexcept {
+    const auto& statics = *static_cast<const Statics*>(self);
+    const StaticGrid& grid = statics.problem_.grid;
+    const Site low = statics.model_.body.low;
+    const std::int64_t from = place - grid.origin;
+    return statics.model_.body.position(Site{static_cast<std::int32_t>(from % grid.plane % grid.row) + low.i,
+                                             static_cast<std::int32_t>(from % grid.plane / grid.row) + low.j,
+                                             static_cast<std::int32_t>(from / grid.plane) + low.k});
+  };
+}
+
+void Statics::accept(double share, const double* displacement) {
+  Values force(force_.size());
+  respond(displacement, force.data(), nullptr);
+  Settling to;
+  to.time = share == 1 ? end_ : start_ + share * (end_ - start_);
+  to.xyz = of_particles(displacement, 0, 3);
+  if (problem_.grid.components == 4) to.heights = of_particles(displacement, 3, 1);
+  to.force = of_particles(force.data(), 0, 3);
+  to.force_before = of_particles(force_.data(), 0, 3);
+  to.factor = factors(share);
+  to.factor_before = factors(share_);
+  to.gravity = (1 - share) * gravity_start_ + share;
+  to.gravity_before = (1 - share_) * gravity_start_ + share_;
+  for (std::size_t n = 0; n < holding_.size(); ++n) to.dissipated -= (1 - 0.5 * (share_ + share)) * holding_[n] * (displacement[n] - state_[n]);
+  simulation_.settle(to);
+  std::copy_n(displacement, state_.size(), state_.begin());
+  force_ = std::move(force);
+  share_ = share;
+}
+
+double Statics::residual() {
+  const StaticGrid& grid = problem_.grid;
+  read_state(state_.data());
+  respond(state_.data(), force_.data(), nullptr);
+  Values external(force_.size());
+  add_loads(1, external.data());
+  double largest = 0;
+  for (std::size_t p = 0; p < free_.size(); ++p)
+    for (int c = 0; c < grid.components; ++c)
+      if ((free_[p] >> c & 1u) != 0) {
+        const std::size_t n = static_cast<std::size_t>(c) * free_.size() + p;
+        const double rest = std::abs(force_[n] + external[n]);
+        if (!(rest <= largest)) largest = rest;  // also what is not a number
+      }
+  const double scale = force_scale(force_.data(), external.data());
+  return largest == 0 ? 0 : largest / scale;
+}
+
+}  // namespace hyperlattice

@@ -1,0 +1,87 @@
+// The body in search of rest: makes the StaticProblem of a model and a state, and brings what a solver found back into the simulation.
+// Split by concern: grid.cpp, response.cpp, load_path.cpp, statics.cpp.
+#pragma once
+
+#include <run/state.hpp>
+
+#include <hyperlattice/statics.hpp>
+
+#include <functional>
+
+namespace hyperlattice {
+
+class Statics {
+ public:
+  /// For a stage from `start` to `end`, s, that begins with the present state.
+  Statics(const Model& model, Simulation& simulation, double start, double end, int threads);
+  Statics(const Statics&) = delete;
+  Statics& operator=(const Statics&) = delete;
+
+  const StaticProblem& problem() const { return problem_; }
+  /// Displacements become the simulation's state, with that share of the stage's load.
+  void accept(double share, const double* displacement);
+  /// Of the simulation's present state, under the loads of the stage's end.
+  double residual();
+
+ private:
+  using Values = std::vector<double>;
+
+  // grid.cpp
+  void make_grid();
+  void make_weights();
+  /// Calls visit(first place, first particle, count) for every run.
+  template <class Visit>
+  void for_runs(const Visit& visit) const {
+    const Site low = model_.body.low;
+    for (const Run& run : model_.body.runs)
+      visit(problem_.grid.place(run.begin - low.i, run.j - low.j, run.k - low.k), run.first, static_cast<std::uint64_t>(run.end - run.begin));
+  }
+  std::int64_t place_of(Particle particle) const;
+  void read_state(double* field) const;
+  Values of_particles(const double* field, int first, int components) const;
+
+  // response.cpp
+  double respond(const double* u, double* force, const SpringTangents* tangents) const;
+  double respond_plane(std::int32_t k, const double* u, double* force, const SpringTangents* tangents) const;
+  void fill_alpha(const SpringTangents& tangents) const;
+  double hold_heights(const double* u, double* force) const;
+
+  // load_path.cpp
+  void make_loads();
+  void add_loads(double share, double* force) const;
+  void prescribe(double share, double* u) const;
+  double force_scale(const double* internal, const double* external) const;
+  std::vector<double> factors(double share) const;
+
+  const Model& model_;
+  Simulation& simulation_;
+  double start_, end_;
+  StaticProblem problem_;
+  std::vector<StaticRow> rows_;
+  std::vector<std::uint8_t> free_, material_;
+  std::vector<float> weight_;               ///< of each spring, [n * places + place]; 0: none
+  std::vector<float> particle_weight_;      ///< of each place, shares of a whole particle
+  std::vector<double> stiffness_of_alpha_;  ///< of each material, N/m
+
+  Values state_;                                   ///< displacements
+  double share_ = 0;                               ///< of the state
+  Values force_;                                   ///< of the springs at the state
+  Values holding_;                                 ///< what else must act for the state at share 0 to be at rest
+  std::vector<double> factor_start_, factor_end_;  ///< of each load
+  double gravity_start_ = 1;
+  std::vector<double> mass_;  ///< of each place, kg; empty without body acceleration
+  struct Loaded {
+    std::int64_t place;
+    std::size_t load;
+    Vec3 force;  ///< amplitude
+  };
+  struct Held {
+    std::int64_t place;
+    unsigned axes;
+    double from[3], to[3];  ///< m, at the start and the end
+  };
+  std::vector<Loaded> loaded_;
+  std::vector<Held> held_;  ///< each particle once
+};
+
+}  // namespace hyperlattice

@@ -1,0 +1,41 @@
+#include "level.hpp"
+
+namespace hyperlattice::statics {
+
+double Level::power_iteration() const {
+  const std::size_t size = layout_.numbers();
+  Field x(size, 0), y(size, 0), z(size, 0);
+  std::uint32_t random = 12345;
+  for (double& value : x) {
+    random = random * 1664525u + 1013904223u;
+    value = static_cast<double>(random >> 8) / 16777216.0 - 0.5;
+  }
+  clear_margin(x);
+  constexpr int iterations = 8;
+  double growth = 1;
+  for (int n = 0; n < iterations; ++n) {
+    multiply(x.data(), y.data());
+    divide(y.data(), z.data());
+    const double norm = std::sqrt(product(z.data(), z.data(), size, threads_));
+    if (!(norm > 0)) break;
+    growth = norm / std::sqrt(product(x.data(), x.data(), size, threads_));
+    for (std::size_t m = 0; m < size; ++m) x[m] = z[m] / norm;
+  }
+  constexpr double safety = 1.2;  // the iterations approach it from below
+  return safety * growth;
+}
+
+/// Zeros everywhere but at the sites of the box, and where something can move.
+void Level::clear_margin(Field& x) const {
+  std::vector<bool> inside(static_cast<std::size_t>(layout_.places), false);
+  for (std::int64_t k = 0; k < layout_.sites[2]; ++k)
+    for (std::int64_t j = 0; j < layout_.sites[1]; ++j)
+      for (std::int64_t i = 0; i < layout_.sites[0]; ++i) inside[static_cast<std::size_t>(layout_.place(i, j, k))] = true;
+  const auto components = static_cast<std::int64_t>(layout_.numbers()) / layout_.places;
+  for (std::int64_t p = 0; p < layout_.places; ++p)
+    for (std::int64_t c = 0; c < components && !inside[static_cast<std::size_t>(p)]; ++c)
+      x[static_cast<std::size_t>(p * layout_.of_place + c * layout_.of_component)] = 0;
+  mask(x.data());
+}
+
+}  // namespace hyperlattice::statics

@@ -1,0 +1,53 @@
+// One level of the multigrid hierarchy: a box of sites, a stiffness on it, and how its numbers are stored. The finest level is the lattice itself.
+#pragma once
+
+#include "fields.hpp"
+
+#include <array>
+
+namespace hyperlattice::statics {
+
+/// Where the numbers of a box of sites are: component c of site (i, j, k) at place(i, j, k) * of_place + c * of_component. Around the box is a
+/// margin of zeros.
+struct Layout {
+  std::array<std::int64_t, 3> sites{};
+  std::int64_t row = 0, plane = 0, origin = 0, places = 0;
+  std::int64_t of_place = 1, of_component = 1;
+  int components = 4;
+
+  std::int64_t place(std::int64_t i, std::int64_t j, std::int64_t k) const { return origin + i + j * row + k * plane; }
+  std::size_t numbers() const { return static_cast<std::size_t>(places) * static_cast<std::size_t>(of_place == 1 ? components : of_place); }
+};
+
+class Level {
+ public:
+  explicit Level(const Layout& layout, int threads) : layout_(layout), threads_(threads) {}
+  virtual ~Level() = default;
+  Level(const Level&) = delete;
+  Level& operator=(const Level&) = delete;
+
+  /// y = K x
+  virtual void multiply(const double* x, double* y) const = 0;
+  /// z = D^-1 r, D the diagonal blocks of K; 0 where nothing can move.
+  virtual void divide(const double* r, double* z) const = 0;
+  /// Sets to zero what cannot move.
+  virtual void mask(double* x) const = 0;
+  virtual double largest_eigenvalue() const = 0;  ///< of D^-1 K, a bound or a good estimate
+
+  const Layout& layout() const { return layout_; }
+  int threads() const { return threads_; }
+
+ protected:
+  double power_iteration() const;  ///< the largest eigenvalue of D^-1 K, from a rough field
+
+  Layout layout_;
+  int threads_;
+
+ private:
+  void clear_margin(Field& x) const;
+};
+
+/// The inverse of a symmetric block of `size` rows. Rows without stiffness get zeros.
+void invert_block(const double* block, int size, double* inverse);
+
+}  // namespace hyperlattice::statics

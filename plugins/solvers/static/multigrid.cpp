@@ -1,0 +1,88 @@
+#include "multigrid.hpp"
+
+namespace hyperlattice::statics {
+
+namespace {
+
+constexpr std::int64_t few_sites = 300;  // for the factorisation
+constexpr int degree = 2;                // of a smoothing polynomial
+constexpr double share = 8;              // it smooths eigenvalues from the largest down to this part of it
+
+}  // namespace
+
+void Multigrid::build() {
+  coarse_.clear();
+  transfers_.clear();
+  const auto sites = [](const Level& level) { return level.layout().sites[0] * level.layout().sites[1] * level.layout().sites[2]; };
+  do {
+    Transfer transfer(at(coarse_.size()).layout().sites);
+    if (!coarse_.empty() && !transfer.coarsens()) break;
+    auto next = coarse_.empty() ? coarsen(finest_, transfer) : coarsen(*coarse_.back(), transfer);
+    transfers_.push_back(transfer);
+    coarse_.push_back(std::move(next));
+  } while (sites(*coarse_.back()) > few_sites);
+  coarsest_ = std::make_unique<Coarsest>(*coarse_.back());
+  work_.clear();
+  for (std::size_t level = 0; level < levels(); ++level) work_.emplace_back(at(level).layout().numbers());
+}
+
+void Multigrid::apply(const Field& r, Field& z) {
+  work_.front().b = r;
+  cycle(0);
+  z = work_.front().x;
+}
+
+/// Solves K x = b of a level, about.
+void Multigrid::cycle(std::size_t level) {
+  Work& work = work_[level];
+  if (level + 1 == levels()) return coarsest_->solve(work.b.data(), work.x.data());
+  const Level& here = at(level);
+  Work& below = work_[level + 1];
+  smooth(here, work, true);
+  here.multiply(work.d.data(), work.t.data());  // the last step of the smoother is not yet in its residual
+  in_pieces(work.r.size(), here.threads(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t n = first; n < last; ++n) work.r[n] -= work.t[n];
+  });
+  transfers_[level].restrict_to(*coarse_[level], below.b.data(), here, work.r.data());
+  cycle(level + 1);
+  transfers_[level].prolong_from(*coarse_[level], below.x.data(), here, work.x.data());
+  smooth(here, work, false);
+}
+
+/// Chebyshev iteration on D^-1 K x = D^-1 b; leaves in r what was left before the last step d.
+void Multigrid::smooth(const Level& level, Work& w, bool from_zero) {
+  const double high = level.largest_eigenvalue(), low = high / share;
+  const double middle = (high + low) / 2, half = (high - low) / 2, sigma = middle / half;
+  double rho = 1 / sigma;
+  if (from_zero) {
+    w.r = w.b;
+  } else {
+    level.multiply(w.x.data(), w.t.data());
+    in_pieces(w.r.size(), level.threads(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t n = first; n < last; ++n) w.r[n] = w.b[n] - w.t[n];
+    });
+  }
+  for (int step = 0; step < degree; ++step) {
+    double keep = 0, take = 1 / middle;
+    if (step > 0) {
+      level.multiply(w.d.data(), w.t.data());
+      in_pieces(w.r.size(), level.threads(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t n = first; n < last; ++n) w.r[n] -= w.t[n];
+      });
+      const double next = 1 / (2 * sigma - rho);
+      keep = next * rho;
+      take = 2 * next / half;
+      rho = next;
+    }
+    level.divide(w.r.data(), w.t.data());
+    const bool first_of_all = from_zero && step == 0;
+    in_pieces(w.r.size(), level.threads(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t n = first; n < last; ++n) {
+        w.d[n] = (step > 0 ? keep * w.d[n] : 0.0) + take * w.t[n];
+        w.x[n] = first_of_all ? w.d[n] : w.x[n] + w.d[n];
+      }
+    });
+  }
+}
+
+}  // namespace hyperlattice::statics

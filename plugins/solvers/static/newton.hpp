@@ -1,0 +1,53 @@
+// A state of rest at given loads, by Newton's method with the exact tangent; each step of it by conjugate gradients, only as far as the tangent is
+// true.
+#pragma once
+
+#include "conjugate_gradients.hpp"
+
+#include <hyperlattice/solver.hpp>
+
+#include <string>
+
+namespace hyperlattice::statics {
+
+struct Limits {
+  double tolerance = 1e-6;  ///< residual
+  int newton = 30;          ///< steps, before the load step is given up
+  int iterations = 1000;    ///< of conjugate gradients in one of them
+};
+
+/// What became of a search.
+struct Found {
+  bool at_rest = false;
+  bool hopeless = false;  ///< if not, whether a smaller step of the load could not do better: the state before has no stiffness
+  std::string why;        ///< if not, a sentence
+  Field direction;        ///< if not, how the body moves where it has no stiffness; may be empty
+};
+
+class Newton {
+ public:
+  Newton(const StaticProblem& problem, const SolverHost& host, const Limits& limits);
+
+  /// From the displacements of a state of rest to those at a share of the load.
+  Found find(double share, Field& displacement);
+  const RestReport& report() const { return report_; }
+  bool stopped() const { return stopped_; }  ///< the host asked to
+
+ private:
+  enum class Step { at_rest, better, stopped, lost, useless, wild };
+  Step step(const Field& change_of_held, Field& u);
+  bool look(const Field& u, const Field& moved);
+
+  const StaticProblem& problem_;
+  const SolverHost& host_;
+  Limits limits_;
+  SpringLevel matrix_;
+  Multigrid multigrid_;
+  ConjugateGradients gradients_;
+  Field external_, force_, trial_, rest_, right_, held_part_;
+  double scale_ = 0;
+  bool stopped_ = false;
+  RestReport report_;
+};
+
+}  // namespace hyperlattice::statics

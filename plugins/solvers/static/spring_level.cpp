@@ -1,0 +1,219 @@
+#include "spring_level.hpp"
+
+namespace hyperlattice::statics {
+
+namespace {
+
+Layout layout_of(const StaticGrid& grid) {
+  Layout layout;
+  layout.sites = {grid.sites[0], grid.sites[1], grid.sites[2]};
+  layout.row = grid.row;
+  layout.plane = grid.plane;
+  layout.origin = grid.origin;
+  layout.places = grid.places;
+  layout.of_place = 1;
+  layout.of_component = grid.places;
+  layout.components = grid.components;
+  return layout;
+}
+
+}  // namespace
+
+SpringLevel::SpringLevel(const StaticProblem& problem)
+    : Level(layout_of(problem.grid), problem.grid.threads), problem_(problem), grid_(problem.grid) {
+  const auto places = static_cast<std::size_t>(grid_.places), springs = grid_.neighbours.size() * places;
+  axial_.resize(springs);
+  pull_.resize(springs);
+  if (grid_.components == 4) {
+    cross_axial_.resize(springs);
+    cross_pull_.resize(springs);
+    alpha_.resize(places);
+  }
+  moved_.resize(grid_.numbers());
+  diagonal_.resize(static_cast<std::size_t>(grid_.components == 4 ? 10 : 6) * places);
+  for (std::int64_t p = 0; p < grid_.places; ++p)
+    for (int c = 0; c < grid_.components; ++c)
+      if ((grid_.free[p] >> c & 1u) == 0) held_.push_back(c * grid_.places + p);
+}
+
+double SpringLevel::linearise(const Field& displacement, Field& force) {
+  SpringTangents tangents{axial_.data(), pull_.data(), nullptr, nullptr, nullptr};
+  if (grid_.components == 4) tangents = {axial_.data(), pull_.data(), cross_axial_.data(), cross_pull_.data(), alpha_.data()};
+  const double energy = problem_.respond(displacement.data(), force.data(), &tangents);
+  deformed_ = largest(displacement) > 0;
+  for (std::size_t n = 0; n < displacement.size(); ++n) moved_[n] = static_cast<float>(displacement[n] / grid_.spacing);
+  invert_diagonal();
+  constexpr double bound = 2.02;  // 2 holds for any sum of springs that are not compressed, see StiffnessBound
+  largest_eigenvalue_ = deformed_ ? std::max(bound, power_iteration()) : bound;
+  return energy;
+}
+
+void SpringLevel::multiply(const double* x, double* y) const {
+  const std::int64_t places = grid_.places;
+  const int components = grid_.components, planes = grid_.sites[2];
+  int reach = 1;
+  for (const NeighbourGeometry& n : grid_.neighbours) reach = std::max(reach, n.site.dz);
+  const auto spacing = static_cast<float>(grid_.spacing);
+  const auto one_plane = [&](int k) {
+    for (int j = 0; j < grid_.sites[1]; ++j) {
+      const StaticRow& row = grid_.rows[static_cast<std::size_t>(k) * static_cast<std::size_t>(grid_.sites[1]) + static_cast<std::size_t>(j)];
+      const std::int64_t first = grid_.place(row.begin, j, k);
+      SpringProduct product;
+      product.count = row.end - row.begin;
+      product.membrane_distance = static_cast<float>(grid_.membrane_distance) / spacing;
+      for (int c = 0; c < components; ++c) {
+        product.in[c] = x + c * places + first;
+        product.out[c] = y + c * places + first;
+        product.moved[c] = moved_.data() + c * places + first;
+      }
+      for (std::size_t n = 0; n < grid_.neighbours.size(); ++n) {
+        const NeighbourGeometry& neighbour = grid_.neighbours[n];
+        const std::int64_t at = static_cast<std::int64_t>(n) * places + first;
+        product.step = grid_.step_to(neighbour.site);
+        product.axial = axial_.data() + at;
+        product.pull = deformed_ ? pull_.data() + at : nullptr;
+        if (components == 4) {
+          product.cross_axial = cross_axial_.data() + at;
+          product.cross_pull = deformed_ ? cross_pull_.data() + at : nullptr;
+        }
+        product.rest[0] = static_cast<float>(neighbour.rest.x) / spacing;
+        product.rest[1] = static_cast<float>(neighbour.rest.y) / spacing;
+        product.rest[2] = static_cast<float>(neighbour.rest.z) / spacing;
+        row_kernels_->springs(product, components);
+      }
+    }
+  };
+  in_pieces(grid_.numbers(), threads_, [&](std::size_t first, std::size_t last) {
+    const auto heights = static_cast<std::size_t>(3 * places);
+    std::fill(y + first, y + last, 0.0);
+    for (std::size_t n = std::max(first, heights); n < last; ++n) y[n] = static_cast<double>(alpha_[n - heights]) * x[n];
+  });
+  for (int colour = 0; colour <= reach; ++colour) {  // planes that share no other plane
+#pragma omp parallel for num_threads(threads_) schedule(static)
+    for (int k = colour; k < planes; k += reach + 1) one_plane(k);
+  }
+  mask(y);
+}
+
+void SpringLevel::mask(double* x) const {
+  for (const std::int64_t n : held_) x[n] = 0;
+}
+
+bool SpringLevel::tangent(std::size_t neighbour, std::int64_t place, Tangent& t) const {
+  const auto at = neighbour * static_cast<std::size_t>(grid_.places) + static_cast<std::size_t>(place);
+  const bool heights = grid_.components == 4;
+  const float axial = axial_[at], pull = pull_[at], cross_axial = heights ? cross_axial_[at] : 0, cross_pull = heights ? cross_pull_[at] : 0;
+  if (axial == 0 && pull == 0 && cross_axial == 0 && cross_pull == 0) return false;
+  const NeighbourGeometry& geometry = grid_.neighbours[neighbour];
+  const std::int64_t step = grid_.step_to(geometry.site);
+  const auto moved = [&](int c, std::int64_t p) { return moved_[static_cast<std::size_t>(c * grid_.places + p)]; };
+  const auto spacing = static_cast<float>(grid_.spacing);
+  float r[4] = {static_cast<float>(geometry.rest.x) / spacing, static_cast<float>(geometry.rest.y) / spacing,
+                static_cast<float>(geometry.rest.z) / spacing, 0},
+        total = static_cast<float>(grid_.membrane_distance) / spacing;
+  for (int c = 0; c < 3; ++c) r[c] += moved(c, place + step) - moved(c, place);
+  if (heights) {
+    r[3] = moved(3, place + step) - moved(3, place);
+    total += moved(3, place + step) + moved(3, place);
+  }
+  const float q[4] = {r[0], r[1], r[2], total};
+  for (int a = 0; a < 4; ++a)
+    for (int b = 0; b < 4; ++b) {
+      const float unit = a == b && (a < 3 || heights) ? 1.0f : 0.0f;
+      t.base[4 * a + b] = double(axial) * double(r[a]) * double(r[b]) + double(pull * unit);
+      t.cross[4 * a + b] = double(cross_axial) * double(q[a]) * double(q[b]) + double(cross_pull * unit);
+    }
+  return true;
+}
+
+void invert_block(const double* block, int size, double* inverse) {
+  // Gauss-Jordan of a symmetric positive block; a pivot that vanishes beside the largest belongs to nothing that has stiffness
+  double a[4][8] = {};
+  double scale = 0;
+  for (int i = 0; i < size; ++i) {
+    scale = std::max(scale, block[i * size + i]);
+    for (int j = 0; j < size; ++j) a[i][j] = block[i * size + j];
+    a[i][4 + i] = 1;
+  }
+  bool empty[4] = {};
+  for (int p = 0; p < size; ++p) {
+    if (!(a[p][p] > 1e-7 * scale) || scale == 0) {
+      empty[p] = true;
+      continue;
+    }
+    const double pivot = 1 / a[p][p];
+    for (double& value : a[p]) value *= pivot;
+    for (int i = 0; i < size; ++i) {
+      if (i == p || a[i][p] == 0) continue;
+      const double factor = a[i][p];
+      for (int j = 0; j < 8; ++j) a[i][j] -= factor * a[p][j];
+    }
+  }
+  for (int i = 0; i < size; ++i)
+    for (int j = 0; j < size; ++j) inverse[i * size + j] = empty[i] || empty[j] ? 0 : a[i][4 + j];
+}
+
+void SpringLevel::invert_diagonal() {
+  const int components = grid_.components, size = components;
+  const std::int64_t places = grid_.places;
+#pragma omp parallel for num_threads(threads_) schedule(static)
+  for (int k = 0; k < grid_.sites[2]; ++k)
+    for (int j = 0; j < grid_.sites[1]; ++j) {
+      const StaticRow& row = grid_.rows[static_cast<std::size_t>(k) * static_cast<std::size_t>(grid_.sites[1]) + static_cast<std::size_t>(j)];
+      for (std::int32_t i = row.begin; i < row.end; ++i) {
+        const std::int64_t place = grid_.place(i, j, k);
+        const std::uint8_t free = grid_.free[place];
+        double block[16] = {}, inverse[16] = {};
+        Tangent t;
+        const auto add = [&](std::size_t n, std::int64_t at) {
+          if (!tangent(n, at, t)) return;
+          for (int a = 0; a < size; ++a)
+            for (int b = 0; b < size; ++b) {
+              // a spring sees one end move: the other end's sign matters only between space and height of a cross spring
+              const bool turned = at != place && (a == 3) != (b == 3);
+              const double cross = t.cross[4 * a + b] * (((a == 3) != (b == 3)) ? (turned ? 1.0 : -1.0) : 1.0);
+              block[a * size + b] += t.base[4 * a + b] + cross;
+            }
+        };
+        for (std::size_t n = 0; n < grid_.neighbours.size(); ++n) {
+          add(n, place);
+          add(n, place - grid_.step_to(grid_.neighbours[n].site));
+        }
+        if (components == 4) block[15] += static_cast<double>(alpha(place));
+        for (int a = 0; a < size; ++a)
+          if ((free >> a & 1u) == 0)
+            for (int b = 0; b < size; ++b) block[a * size + b] = block[b * size + a] = 0;
+        invert_block(block, size, inverse);
+        std::size_t number = 0;
+        for (int a = 0; a < size; ++a)
+          for (int b = a; b < size; ++b, ++number)
+            diagonal_[number * static_cast<std::size_t>(places) + static_cast<std::size_t>(place)] = static_cast<float>(inverse[a * size + b]);
+      }
+    }
+}
+
+void SpringLevel::divide(const double* r, double* z) const {
+  const auto places = static_cast<std::size_t>(grid_.places);
+  const auto d = [&](std::size_t number) { return diagonal_.data() + number * places; };
+  in_pieces(places, threads_, [&](std::size_t first, std::size_t last) {
+    const double *x = r, *y = r + places, *w = r + 2 * places, *h = r + 3 * places;
+    if (grid_.components == 4) {
+      const float *xx = d(0), *xy = d(1), *xw = d(2), *xh = d(3), *yy = d(4), *yw = d(5), *yh = d(6), *ww = d(7), *wh = d(8), *hh = d(9);
+      for (std::size_t n = first; n < last; ++n) {
+        z[n] = double(xx[n]) * x[n] + double(xy[n]) * y[n] + double(xw[n]) * w[n] + double(xh[n]) * h[n];
+        z[places + n] = double(xy[n]) * x[n] + double(yy[n]) * y[n] + double(yw[n]) * w[n] + double(yh[n]) * h[n];
+        z[2 * places + n] = double(xw[n]) * x[n] + double(yw[n]) * y[n] + double(ww[n]) * w[n] + double(wh[n]) * h[n];
+        z[3 * places + n] = double(xh[n]) * x[n] + double(yh[n]) * y[n] + double(wh[n]) * w[n] + double(hh[n]) * h[n];
+      }
+    } else {
+      const float *xx = d(0), *xy = d(1), *xw = d(2), *yy = d(3), *yw = d(4), *ww = d(5);
+      for (std::size_t n = first; n < last; ++n) {
+        z[n] = double(xx[n]) * x[n] + double(xy[n]) * y[n] + double(xw[n]) * w[n];
+        z[places + n] = double(xy[n]) * x[n] + double(yy[n]) * y[n] + double(yw[n]) * w[n];
+        z[2 * places + n] = double(xw[n]) * x[n] + double(yw[n]) * y[n] + double(ww[n]) * w[n];
+      }
+    }
+  });
+}
+
+}  // namespace hyperlattice::statics

@@ -1,0 +1,46 @@
+// The finest level: the tangents of the lattice's own springs, never assembled.
+#pragma once
+
+#include "level.hpp"
+#include "rows.hpp"
+
+#include <hyperlattice/statics.hpp>
+
+namespace hyperlattice::statics {
+
+class SpringLevel : public Level {
+ public:
+  explicit SpringLevel(const StaticProblem& problem);
+
+  /// Takes the tangents at a displacement; returns the energy stored there, J, and the forces of the springs.
+  double linearise(const Field& displacement, Field& force);
+
+  void multiply(const double* x, double* y) const override;
+  void divide(const double* r, double* z) const override;
+  void mask(double* x) const override;
+  double largest_eigenvalue() const override { return largest_eigenvalue_; }
+
+  /// A spring's tangent: K_base on differences of ends, K_cross where heights add up, both row by row in 4 x 4.
+  struct Tangent {
+    double base[16], cross[16];
+  };
+  /// False if there is no spring.
+  bool tangent(std::size_t neighbour, std::int64_t place, Tangent& tangent) const;
+  float alpha(std::int64_t place) const { return alpha_.empty() ? 0 : alpha_[static_cast<std::size_t>(place)]; }
+  const StaticGrid& grid() const { return grid_; }
+
+ private:
+  void invert_diagonal();
+
+  const RowKernels* row_kernels_ = &row_kernels();
+  const StaticProblem& problem_;
+  const StaticGrid& grid_;
+  std::vector<float> axial_, pull_, cross_axial_, cross_pull_, alpha_;
+  std::vector<float> moved_;  ///< displacements in lattice constants, by component and place
+  bool deformed_ = false;
+  double largest_eigenvalue_ = 2;
+  std::vector<float> diagonal_;     ///< inverse of the diagonal blocks: 10 (6) numbers of each place, by number and place
+  std::vector<std::int64_t> held_;  ///< numbers of a field that belong to particles and cannot move
+};
+
+}  // namespace hyperlattice::statics

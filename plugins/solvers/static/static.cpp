@@ -1,0 +1,110 @@
+// A state of rest, found as such: Newton's method on the balance of forces, with steps of the load that become shorter where it does not converge.
+#include "newton.hpp"
+
+#include <hyperlattice/files.hpp>
+
+#include <optional>
+#include <stdexcept>
+
+namespace hyperlattice {
+
+class Static {
+ public:
+  struct Options {
+    double tolerance = 1e-6, load_steps = 1, most_cutbacks = 10;
+    std::optional<double> end_time;
+  };
+
+  static Schema<Options> schema() {
+    return Schema<Options>("solvers.static", "A state of rest by Newton's method and multigrid, geometrically nonlinear")
+        .equation("F_springs(u) + F_loads = 0;  K(u) du = F, K the exact tangent, by conjugate gradients with a multigrid V-cycle as preconditioner")
+        .source("docs/theory/statics.md")
+        .restrictions(
+            "Structured lattices. Springs do not break during the stage; those beyond their limit at its end break in the first step in time that "
+            "follows. A body that is a mechanism under its loads, or buckles, is an error that says where it moves. Energy is booked along the load "
+            "steps by the trapezoidal rule: with large deformations in few steps the balance of this stage is as rough as that rule.")
+        .add<&Options::tolerance>(
+            "tolerance", "", "residual at which the body is at rest: largest out-of-balance force over the mean force on held or loaded particles")
+        .positive()
+        .fallback("1e-6")
+        .add<&Options::load_steps>("load_steps", "",
+                                   "equal steps from the loads of the stage's start to those of its end; a step that fails is cut in halves")
+        .at_least(1)
+        .fallback("1")
+        .add<&Options::most_cutbacks>("most_cutbacks", "", "times that a load step may be halved before the run fails")
+        .at_least(0)
+        .fallback("10")
+        .add<&Options::end_time>("end_time", "s",
+                                 "instant whose loads act at the end, from the start of the run; left out: when the last load has stopped changing")
+        .at_least(0);
+  }
+
+  explicit Static(const Options& options) : o_(options) {}
+
+  SolverPlan plan(const SolverFacts& facts) const {
+    SolverPlan plan;
+    plan.at_rest = true;
+    plan.end_time = o_.end_time.value_or(facts.corners.empty() ? facts.start_time : std::max(facts.start_time, facts.corners.back()));
+    if (plan.end_time < facts.start_time)
+      throw std::runtime_error("end_time of at least " + short_number(facts.start_time) + " s, where the stage starts");
+    plan.steps = static_cast<std::uint64_t>(o_.load_steps);
+    plan.sweeps_per_step = 150;
+    plan.bytes_per_site = 1300;
+    return plan;
+  }
+
+  void run(const SolverFacts&, SolverHost& host) const {
+    if (!host.observe()) return;
+    const StaticProblem* problem = host.statics();
+    if (problem == nullptr) return;
+    statics::Newton newton(*problem, host, {o_.tolerance});
+    statics::Field u(problem->state, problem->state + problem->grid.numbers());
+    const double whole = 1 / std::floor(o_.load_steps), shortest = whole * std::exp2(-o_.most_cutbacks);
+    double share = 0, length = whole;
+    while (share < 1) {
+      constexpr double nearly = 1e-9;
+      const double next = share + length > 1 - nearly ? 1 : share + length;
+      const statics::Found found = newton.find(next, u);
+      if (newton.stopped()) return;
+      if (found.at_rest) {
+        share = next;
+        length = std::min(whole, 2 * length);
+        if (!host.accept(share, u.data()) || !host.report(newton.report()) || !host.observe()) return;
+      } else {
+        length /= 2;
+        if (found.hopeless || length < 0.99 * shortest) throw std::runtime_error(failure(*problem, share, found));
+      }
+    }
+  }
+
+ private:
+  static std::string failure(const StaticProblem& problem, double share, const statics::Found& found) {
+    std::string text = share == 0 ? "the body finds no state of rest under its loads: "
+                                  : "the body finds no state of rest beyond " + short_number(100 * share) + "% of the load: ";
+    text += found.why;
+    if (found.direction.empty()) return text;
+    const StaticGrid& grid = problem.grid;
+    double largest = 0;
+    std::int64_t place = grid.origin;
+    const auto motion = [&](std::int64_t p) {
+      const auto along = [&](std::int64_t c) { return found.direction[static_cast<std::size_t>(c * grid.places + p)]; };
+      return Vec3{along(0), along(1), along(2)};
+    };
+    for (std::int64_t p = 0; p < grid.places; ++p)
+      if (norm(motion(p)) > largest) {
+        largest = norm(motion(p));
+        place = p;
+      }
+    const auto numbers = [](Vec3 v) { return "(" + short_number(v.x) + ", " + short_number(v.y) + ", " + short_number(v.z) + ")"; };
+    const Vec3 way = motion(place);
+    return text + "; that motion is largest at " + numbers(problem.position(place)) + " m, along " +
+           numbers({std::round(100 * way.x / largest) / 100, std::round(100 * way.y / largest) / 100, std::round(100 * way.z / largest) / 100}) +
+           (share == 0 ? ". Supports may be missing, or parts not joined." : ". The body may buckle there.");
+  }
+
+  Options o_;
+};
+
+}  // namespace hyperlattice
+
+HYPERLATTICE_PLUGIN("1.0") { plugin.add<hyperlattice::Static>(); }

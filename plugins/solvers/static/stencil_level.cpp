@@ -1,0 +1,63 @@
+#include "stencil_level.hpp"
+
+namespace hyperlattice::statics {
+
+namespace {
+
+Layout layout_of(const std::array<std::int64_t, 3>& sites, std::int64_t reach) {
+  Layout layout;
+  layout.sites = sites;
+  layout.row = sites[0] + reach;
+  layout.plane = layout.row * (sites[1] + reach);
+  layout.origin = reach * (1 + layout.row + layout.plane);
+  layout.places = layout.place(sites[0] - 1, sites[1] - 1, sites[2] - 1) + layout.origin + 1;
+  layout.of_place = 4;
+  layout.of_component = 1;
+  return layout;
+}
+
+}  // namespace
+
+StencilLevel::StencilLevel(const std::array<std::int64_t, 3>& sites, int reach, int threads)
+    : Level(layout_of(sites, reach), threads), reach_(reach) {
+  constexpr std::int64_t few = 16384;  // places; with fewer, threads would wait for each other longer than they work
+  if (layout_.places < few) threads_ = 1;
+  // Forward neighbours in the order of neighbour(): every one with a number above 0.
+  for (std::int64_t dk = 0; dk <= reach; ++dk)
+    for (std::int64_t dj = -reach; dj <= reach; ++dj)
+      for (std::int64_t di = -reach; di <= reach; ++di)
+        if (neighbour(di, dj, dk) > 0) steps_.push_back(di + dj * layout_.row + dk * layout_.plane);
+  blocks_.assign(16 * static_cast<std::size_t>(layout_.places) * stride(), 0);
+}
+
+void StencilLevel::finish() {
+  inverse_.assign(16 * static_cast<std::size_t>(layout_.places), 0);
+  in_pieces(static_cast<std::size_t>(layout_.places), threads_, [&](std::size_t first, std::size_t last) {
+    for (std::size_t p = first; p < last; ++p) {
+      invert_block(block(static_cast<std::int64_t>(p), 0), 4, inverse_.data() + 16 * p);
+    }
+  });
+  largest_eigenvalue_ = power_iteration();
+}
+
+void StencilLevel::multiply(const double* x, double* y) const {
+  const RowKernels& kernels = row_kernels();
+  const auto rows = layout_.sites[1] * layout_.sites[2];
+#pragma omp parallel for num_threads(threads_) schedule(static)
+  for (std::int64_t r = 0; r < rows; ++r) {
+    const std::int64_t first = layout_.place(0, r % layout_.sites[1], r / layout_.sites[1]);
+    kernels.stencil({layout_.sites[0], static_cast<int>(steps_.size()), steps_.data(), block(first, 0), x + 4 * first, y + 4 * first});
+  }
+}
+
+void StencilLevel::divide(const double* r, double* z) const {
+  in_pieces(static_cast<std::size_t>(layout_.places), threads_, [&](std::size_t first, std::size_t last) {
+    for (std::size_t p = first; p < last; ++p) {
+      const double *inverse = inverse_.data() + 16 * p, *in = r + 4 * p;
+      double* out = z + 4 * p;
+      for (int a = 0; a < 4; ++a) out[a] = inverse[a] * in[0] + inverse[4 + a] * in[1] + inverse[8 + a] * in[2] + inverse[12 + a] * in[3];
+    }
+  });
+}
+
+}  // namespace hyperlattice::statics

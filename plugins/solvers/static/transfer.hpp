@@ -1,0 +1,36 @@
+// Between a level and the next coarser one: trilinear interpolation in the sites' indices, and its transpose. Along an axis that is too short to be
+// halved, both levels have the same sites.
+#pragma once
+
+#include "level.hpp"
+
+namespace hyperlattice::statics {
+
+/// Sites of the coarser level from which a site is interpolated along one axis.
+struct Parents {
+  int count = 1;
+  std::int64_t at[2] = {};
+  double weight[2] = {1, 0};
+};
+
+class Transfer {
+ public:
+  explicit Transfer(const std::array<std::int64_t, 3>& fine);
+
+  const std::array<std::int64_t, 3>& coarse_sites() const { return coarse_; }
+  bool coarsens() const { return halved_[0] || halved_[1] || halved_[2]; }
+  bool halved(int axis) const { return halved_[static_cast<std::size_t>(axis)]; }
+  Parents parents(int axis, std::int64_t i) const {
+    if (!halved(axis)) return {1, {i, i}, {1, 0}};
+    return i % 2 == 0 ? Parents{1, {i / 2, i / 2}, {1, 0}} : Parents{2, {i / 2, i / 2 + 1}, {0.5, 0.5}};
+  }
+
+  void restrict_to(const Level& coarse, double* to, const Level& fine, const double* from) const;
+  void prolong_from(const Level& coarse, const double* from, const Level& fine, double* to) const;  ///< adds
+
+ private:
+  std::array<std::int64_t, 3> fine_, coarse_{};
+  std::array<bool, 3> halved_{};
+};
+
+}  // namespace hyperlattice::statics

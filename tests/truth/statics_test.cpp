@@ -1,0 +1,259 @@
+// States of rest against closed forms: contrasts of stiffness, stretches to three times the length, loads so small that round-off would swallow them,
+// bodies far from the origin; and that relaxation, steps in time and the static solver agree on what rest is.
+#include <run/stage_calls.hpp>
+
+#include <support/scenes.hpp>
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+namespace {
+using namespace hyperlattice;
+using namespace hyperlattice::test;
+
+/// A scene brought to rest by its first solver.
+struct AtRest {
+  std::unique_ptr<Plan> plan;
+  std::unique_ptr<Simulation> simulation;
+  RestReport report;
+  std::vector<double> u, heights;
+
+  explicit AtRest(const std::string& scene, int threads = 1) : plan(plan_of(scene, threads)) {
+    simulation = std::make_unique<Simulation>(*plan->model, threads);
+    report = bring_to_rest(*plan, *simulation);
+    u = displacements(*simulation);
+    simulation->heights(heights);
+  }
+  const Model& model() const { return *plan->model; }
+  /// Mean displacement along an axis of the particles for which chosen(site) holds.
+  template <class Chosen>
+  double mean(std::size_t axis, const Chosen& chosen) const {
+    double sum = 0, count = 0;
+    for (Particle p = 0; p < model().body.particles; ++p)
+      if (chosen(model().body.site(p))) {
+        sum += u[3 * p + axis];
+        ++count;
+      }
+    return sum / count;
+  }
+};
+
+std::string number(double value) {
+  std::ostringstream text;
+  text.precision(17);
+  text << value;
+  return text.str();
+}
+
+std::string box(Vec3 low, Vec3 high) {
+  const auto corner = [](Vec3 v) { return "[" + number(v.x) + ", " + number(v.y) + ", " + number(v.z) + "]"; };
+  return R"({ "box": { "low": )" + corner(low) + R"(, "high": )" + corner(high) + " } }";
+}
+
+std::string scene(const std::string& lattice, const std::string& stages) {
+  return R"({ "format": "hyperlattice/1", "pipeline": [ { "type": "lattices.cubic", )" + lattice + " },\n" + stages + " ] }";
+}
+
+std::string elastic(double young, const std::string& more) {
+  return R"({ "type": "materials.elastic", "density": 2000, "young": )" + number(young) + ", " + more + " },\n";
+}
+
+const char* const to_rest = R"({ "type": "solvers.static", "tolerance": 1e-8 })";
+
+// In uniaxial strain every layer of a bar has the same stress: u = sigma (L1 / M1 + L2 / M2), M the confined modulus. A spring between two materials
+// is half of each, so that the border stands half a spacing from the last soft layer.
+TEST(Statics, ABarOfTwoMaterialsIsASeriesOfSprings) {
+  constexpr double l = 0.005, sigma = 1e4, young = 1e9, nu = 0.2, confined = (1 - nu) / ((1 + nu) * (1 - 2 * nu));
+  for (const double contrast : {1.0, 1e4, 1e6}) {
+    const AtRest bar(
+        scene(R"("spacing": 0.005, "boundary": "cells", "shape": )" + box({}, {2 * l, 2 * l, 40 * l}),
+              elastic(young, R"("poisson": 0.2, "membrane": "I-m")") +
+                  elastic(young * contrast, R"("poisson": 0.2, "membrane": "I-m", "region": )" + box({-1, -1, 19.5 * l}, {1, 1, 1})) +
+                  R"({ "type": "loads.fixed", "on": "all", "axes": "xy" }, { "type": "loads.fixed", "on": "z_min", "axes": "z", "name": "end" },
+                               { "type": "loads.pressure", "on": "z_max", "facing": "z_max", "pressure": -1e4 },)" +
+                  to_rest));
+    const double expected = sigma / (young * confined) * (19.5 * l + 20.5 * l / contrast);
+    EXPECT_NEAR(bar.mean(2, [](Site s) { return s.k == 40; }) / expected, 1, 0.01) << contrast;
+    EXPECT_LT(bar.report.iterations, 200u) << contrast;
+    std::printf("contrast %g: %llu iterations, error %.2e\n", contrast, static_cast<unsigned long long>(bar.report.iterations),
+                bar.mean(2, [](Site s) { return s.k == 40; }) / expected - 1);
+  }
+}
+
+// Truth: finite elements, two meshes that agree to 0.3 %; mean over the outer layer of particles.
+TEST(Statics, AnInclusionUpToAMillionTimesAsStiff) {
+  const std::pair<double, double> truth[] = {{1, 4.75e-5}, {1e2, 4.0854589512414604e-5}, {1e4, 4.05379244617805e-5}, {1e6, 4.05379244617805e-5}};
+  double before = HUGE_VAL, last_but_one = 0;
+  for (const auto& [contrast, expected] : truth) {
+    const AtRest cube(scene(R"("spacing": 0.005, "shape": )" + box({}, {0.1, 0.1, 0.1}),
+                            elastic(1e9, R"("poisson": 0.2, "membrane": "I-m", "stiffness": "eq15")") +
+                                elastic(1e9 * contrast, R"("poisson": 0.2, "membrane": "I-m", "stiffness": "eq15", "region": )" +
+                                                            box({0.03, 0.03, 0.03}, {0.07, 0.07, 0.07})) +
+                                R"({ "type": "loads.pressure", "on": "x_min", "pressure": -1e6 }, { "type": "loads.pressure", "on": "x_max",
+                                   "pressure": -1e6, "name": "other" },)" +  // nothing is held: rigid motions cost nothing and are not asked for
+                                to_rest));
+    const double grown = (cube.mean(0, [](Site s) { return s.i == 19; }) - cube.mean(0, [](Site s) { return s.i == 0; })) / 2;
+    std::printf("contrast %g: %llu iterations, error %.3f\n", contrast, static_cast<unsigned long long>(cube.report.iterations),
+                grown / expected - 1);
+    EXPECT_NEAR(grown / expected, 1, 0.08) << contrast;
+    EXPECT_LT(grown, before);
+    if (contrast == 1e6) {
+      EXPECT_NEAR(grown / last_but_one, 1, 1e-3);
+    }
+    last_but_one = before = grown;
+  }
+}
+
+/// Rows of a table of numbers.
+std::vector<std::vector<double>> table(const std::string& name) {
+  std::ifstream file(std::string(HYPERLATTICE_SOURCE) + "/tests/data/" + name);
+  std::vector<std::vector<double>> rows;
+  std::string line, cell;
+  for (std::getline(file, line); std::getline(file, line);) {
+    std::istringstream cells(line);
+    rows.emplace_back();
+    while (std::getline(cells, cell, ',')) rows.back().push_back(std::stod(cell));
+  }
+  return rows;
+}
+
+// A body of cells stretched between frictionless platens is homogeneous: it has the response of the endless lattice, geometry exact (closed form).
+TEST(Statics, StretchedLikeTheEndlessLattice) {
+  struct Case {
+    const char *file, *material;
+    double stretch, tolerance;
+  };
+  for (const Case& c : {Case{"stretch_nu0.25.csv", R"("membrane": "none")", 3, 1e-8},
+                        {"stretch_nu0.25.csv", R"("membrane": "none")", 0.8, 1e-8},
+                        {"stretch_nu0.1.csv", R"("membrane": "I-m", "poisson": 0.1)", 2, 1e-8},
+                        {"stretch_nu0.1.csv", R"("membrane": "I-m", "poisson": 0.1)", 0.8, 1e-8}}) {
+    const auto rows = table(c.file);
+    const auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return std::abs(r[0] - c.stretch) < 1e-9; });
+    ASSERT_NE(row, rows.end()) << c.stretch;
+    const bool has_height = row->size() > 4 && std::string(c.material).find("I-m") != std::string::npos;
+    const AtRest cube(scene(R"("spacing": 1, "boundary": "cells", "shape": )" + box({}, {4, 4, 4}),
+                            elastic(1e9, c.material) + R"({ "type": "loads.fixed", "on": "x_min", "axes": "x" },
+                              { "type": "loads.displacement", "on": "x_max", "axes": "x", "rise": 1, "value": [)" +
+                                number(4 * (c.stretch - 1)) + R"(, 0, 0] }, { "type": "solvers.static", "tolerance": 1e-11, "load_steps": 10 })"));
+    const double lateral = 1 + (cube.mean(1, [](Site s) { return s.j == 4; }) - cube.mean(1, [](Site s) { return s.j == 0; })) / 4;
+    const double pulled = -cube.simulation->force_on_load().at(1).x / 16 / cube.model().materials[0].constants.base_stiffness;
+    EXPECT_NEAR(lateral, (*row)[1], 1e-8) << c.file << " " << c.stretch;
+    EXPECT_NEAR(pulled, (*row)[3], 1e-8 * std::abs((*row)[3]) + 1e-9) << c.file << " " << c.stretch;
+    if (has_height) {
+      EXPECT_NEAR(1 + 2 * cube.heights.at(0), (*row)[2], 1e-8) << c.stretch;
+    }
+  }
+}
+
+// Two by two particles, far from the ends: 2 b - 1 = sqrt(2) b / s, F = k l [4 (a - 1) + 8 (1 - sqrt(2) / s) a], s^2 = a^2 + b^2.
+TEST(Statics, ABarOfTwoByTwoParticlesAtThreeTimesItsLength) {
+  const AtRest bar(
+      scene(R"("spacing": 1, "shape": )" + box({}, {2, 2, 60}), elastic(1e9, R"("membrane": "none")") + R"({ "type": "loads.fixed", "on": "z_min" },
+                           { "type": "loads.displacement", "on": "z_max", "value": [0, 0, 118], "rise": 1 },
+                           { "type": "solvers.static", "tolerance": 1e-10, "load_steps": 20 })"));
+  const auto level = [&](int k) { return bar.mean(2, [k](Site s) { return s.k == k; }); };
+  const double a = 1 + (level(35) - level(25)) / 10;
+  const double b = 1 + bar.mean(0, [](Site s) { return s.k == 30 && s.i == 1; }) - bar.mean(0, [](Site s) { return s.k == 30 && s.i == 0; });
+  const double s = std::hypot(a, b), force = 4 * (a - 1) + 8 * (1 - std::sqrt(2.0) / s) * a;
+  EXPECT_NEAR(2 * b - 1, std::sqrt(2.0) * b / s, 1e-6);
+  EXPECT_NEAR(-bar.simulation->force_on_load().at(1).z / bar.model().materials[0].constants.base_stiffness / force, 1, 1e-6);
+  EXPECT_GT(a, 2.9);
+}
+
+/// A small L of 1 mm particles, held at one end and pulled at the other by a force (N); its displacements over force / young.
+std::vector<double> response(double force, double young, double from = 0) {
+  const double l = 1e-3;
+  const auto at = [&](double x, double y, double z) { return Vec3{from + x * l, y * l, z * l}; };
+  const AtRest body(scene(R"("spacing": 1e-3, "anchor": [)" + number(from) + R"(, 0, 0], "shape": { "union": [)" + box(at(0, 0, 0), at(10, 3, 3)) +
+                              ", " + box(at(0, 0, 0), at(3, 10, 3)) + "] }",
+                          elastic(young, R"("poisson": 0.1, "membrane": "I-m")") + R"({ "type": "loads.fixed", "on": "x_max" },
+                            { "type": "loads.force", "on": "y_max", "total": [)" +
+                              number(force) + ", 0, " + number(force) + "] }," + to_rest));
+  std::vector<double> scaled = body.u;
+  for (double& value : scaled) value *= young / force;
+  return scaled;
+}
+
+TEST(Statics, TinyLoadsStiffBodiesAndFarOnesRespondAlike) {
+  const auto nominal = response(1e-4, 1e10);
+  const double size = largest(nominal);
+  EXPECT_LT(distance(nominal, response(1e-16, 1e10)), 1e-6 * size);
+  EXPECT_LT(distance(nominal, response(1e1, 1e15)), 1e-6 * size);
+  EXPECT_LT(distance(nominal, response(1e-4, 1e10, 1024)), 1e-9 * size);
+}
+
+TEST(Statics, NoLoadIsNoMotion) {
+  const AtRest body(scene(R"("spacing": 1, "shape": )" + box({}, {4, 4, 4}),
+                          elastic(1e9, R"("poisson": 0.1, "membrane": "I-m")") + R"({ "type": "loads.fixed", "on": "x_max" },)" + to_rest));
+  EXPECT_EQ(largest(body.u), 0);
+}
+
+std::string pulled_block(const std::string& solver, int n = 8) {
+  return block(n, n, 2 * n, R"("membrane": "I-m", "poisson": 0.1)",
+               R"({ "type": "loads.fixed", "on": "z_min" },
+    { "type": "loads.force", "on": "z_max", "total": [100, 0, 300] },)" +
+                   solver);
+}
+
+TEST(Statics, RelaxationAgrees) {
+  const AtRest found(pulled_block(to_rest));
+  for (const char* method : {"local_damping", "kinetic"}) {
+    AtRest relaxed(pulled_block(R"({ "type": "solvers.relaxation", "tolerance": 1e-7, "method": ")" + std::string(method) + R"(" })"));
+    EXPECT_LT(distance(found.u, relaxed.u), 1e-4 * largest(found.u)) << method;
+    std::printf("%s: %llu steps, largest error %.1e\n", method, static_cast<unsigned long long>(relaxed.report.iterations),
+                distance(found.u, relaxed.u) / largest(found.u));
+    EXPECT_LT(std::abs(relaxed.simulation->balance().relative_error()), 1e-3) << method;
+  }
+}
+
+TEST(Statics, StepsInTimeFindTheBodyAtRest) {
+  AtRest body(pulled_block(to_rest));
+  const double stored = body.simulation->balance().stored;
+  body.simulation->set_damping(0);
+  for (int n = 0; n < 200; ++n) body.simulation->step(0.9 * body.model().critical_time_step);
+  const Balance end = body.simulation->balance();
+  EXPECT_LT(end.kinetic_mean, 1e-12 * stored);
+  EXPECT_NEAR(end.stored / stored, 1, 1e-7);
+  EXPECT_LT(distance(body.u, displacements(*body.simulation)), 1e-6 * largest(body.u));
+}
+
+TEST(Statics, WorkOfTheLoadsIsWhatIsStored) {
+  AtRest body(pulled_block(R"({ "type": "solvers.static", "tolerance": 1e-8, "load_steps": 8 })"));
+  const Balance balance = body.simulation->balance();
+  EXPECT_NEAR(balance.injected / balance.stored, 1, 1e-4);  // 4e-3 in one step, and the trapezoidal rule is of second order
+  EXPECT_EQ(body.simulation->steps(), 8u);
+}
+
+TEST(Statics, ResultsDoNotDependOnThreads) {
+  const std::string scene = pulled_block(R"({ "type": "solvers.static", "tolerance": 1e-5 })", 34);
+  const AtRest one(scene, 1), three(scene, 3);
+  EXPECT_EQ(one.simulation->hash(), three.simulation->hash());
+  EXPECT_EQ(one.report.iterations, three.report.iterations);
+}
+
+TEST(Statics, IterationsDoNotGrowWithTheBody) {
+  const auto iterations = [](int n) { return AtRest(pulled_block(R"({ "type": "solvers.static", "tolerance": 1e-6 })", n)).report.iterations; };
+  const auto coarse = iterations(6);
+  EXPECT_LE(iterations(24), coarse + 6);
+}
+
+TEST(Statics, AMechanismIsAnErrorThatSaysWhereItMoves) {
+  const std::string apart = scene(R"("spacing": 1e-3, "anchor": [0, 0, 0], "shape": { "union": [)" + box({}, {4e-3, 4e-3, 4e-3}) + ", " +
+                                      box({8e-3, 0, 0}, {12e-3, 4e-3, 4e-3}) + "] }",
+                                  elastic(1e9, R"("membrane": "none")") + R"({ "type": "loads.fixed", "on": "x_min" },
+                                    { "type": "loads.force", "on": "x_max", "total": [0, 1, 0] }, )" +
+                                      R"({ "type": "solvers.static", "most_cutbacks": 2 })");
+  try {
+    AtRest body(apart);
+    FAIL() << "it came to rest";
+  } catch (const RunError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("no state of rest"), std::string::npos) << text;
+    EXPECT_NE(text.find("motion is largest at"), std::string::npos) << text;
+    std::printf("%s\n", text.c_str());
+  }
+}
+
+}  // namespace

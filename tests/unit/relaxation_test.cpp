@@ -1,0 +1,84 @@
+// The relaxation solver keeps to the stable step, ends at the loads' last corner, stops when the residual is small, and says so when it never is.
+#include "../../plugins/solvers/relaxation/relaxation.cpp"
+
+#include <gtest/gtest.h>
+
+using namespace hyperlattice;
+
+namespace {
+
+/// A host whose residual falls by a tenth with each measurement, and whose kinetic energy has a peak every fourth step.
+struct Host {
+  std::uint64_t steps = 0, halts = 0, measurements = 0;
+  double reduction = 0.1, residual = 1;
+  RestReport last;
+  SolverHost host;
+
+  Host() {
+    host.self = this;
+    host.take_step = [](void* self, double) { return ++static_cast<Host*>(self)->steps > 0; };
+    host.show = [](void*) { return true; };
+    host.stop_motion = [](void* self) { return ++static_cast<Host*>(self)->halts > 0; };
+    host.measure_rest = [](void* self, double* residual, double* kinetic) {
+      Host& h = *static_cast<Host*>(self);
+      if (kinetic != nullptr) *kinetic = h.steps % 4 == 0 ? 0.5 : 1 + static_cast<double>(h.steps % 4);
+      if (residual == nullptr) return true;
+      ++h.measurements;
+      *residual = h.residual *= h.reduction;
+      return true;
+    };
+    host.show_rest = [](void* self, const RestReport& report) {
+      static_cast<Host*>(self)->last = report;
+      return true;
+    };
+  }
+};
+
+Relaxation::Options options() { return {}; }
+
+TEST(Relaxation, StopsWhenTheResidualIsSmall) {
+  Host host;
+  Relaxation::Options o = options();
+  o.tolerance = 1e-4;
+  Relaxation(o).run({0, 1, {}, 10}, host.host);
+  EXPECT_EQ(host.measurements, 4u);
+  EXPECT_EQ(host.last.iterations, host.steps);
+  EXPECT_LE(host.last.residual, 1.001e-4);
+  EXPECT_EQ(host.halts, 1u);  // at the end
+}
+
+TEST(Relaxation, KineticDampingHaltsAtPeaks) {
+  Host host;
+  Relaxation::Options o = options();
+  o.method = Damping::kinetic;
+  Relaxation(o).run({0, 1, {}, 10}, host.host);
+  EXPECT_EQ(host.halts, host.steps / 4 + 1);
+}
+
+TEST(Relaxation, ABodyThatNeverRestsIsAFailure) {
+  Host host;
+  host.reduction = 1;
+  Relaxation::Options o = options();
+  o.most_steps = 100;
+  EXPECT_THROW(Relaxation(o).run({0, 1, {}, 10}, host.host), std::runtime_error);
+  EXPECT_EQ(host.steps, 100u);
+}
+
+TEST(Relaxation, StepsAreStableAndTheEndIsTheLastCorner) {
+  const double corners[] = {0.5, 2};
+  const SolverFacts facts{1, 1e-3, corners, 10};
+  const SolverPlan plan = Relaxation(options()).plan(facts);
+  EXPECT_DOUBLE_EQ(plan.stable_time_step, 1e-3 / std::sqrt(1.8));
+  EXPECT_DOUBLE_EQ(plan.time_step, 0.9 * plan.stable_time_step);
+  EXPECT_EQ(plan.end_time, 2);
+  EXPECT_TRUE(plan.at_rest);
+
+  Relaxation::Options o = options();
+  o.time_step = 0.8e-3;  // stable without damping
+  EXPECT_THROW((void)Relaxation(o).plan(facts), std::runtime_error);
+  o = options();
+  o.end_time = 0.5;
+  EXPECT_THROW((void)Relaxation(o).plan(facts), std::runtime_error);
+}
+
+}  // namespace
