@@ -41,9 +41,11 @@ int analyze(const Arguments& arguments) {
   std::optional<MapPoint> point;
   if (!arguments.membrane.membrane.empty()) {
     Host host;
-    const LatticeGeometry geometry = load_lattice(host, arguments.lattice);
+    const LatticeGeometry geometry = load_lattice(host, arguments.lattice, arguments.options);
     const ChosenMembrane chosen = resolve(arguments.membrane, geometry);
     const SpringLattice lattice = with_ratios(geometry, chosen.ratios);
+    if (geometry.listed && !arguments.dispersion.empty())
+      throw InputError({{"--dispersion", arguments.dispersion, "none: waves of a listed lattice have no wave vector"}});
     const Analysis analysis = analyse(lattice);
     point = MapPoint{analysis.elasticity.poisson_bulk(), analysis.elasticity.poisson_shear()};
     json.update(chosen_json(chosen));

@@ -1,13 +1,14 @@
 // hyperlattice calibrate: from E and nu to springs and back, in closed form, by the paper's polynomials, or measured on a cube; figure 2.
 #include "commands.hpp"
 
-#include <analyze/calibration_curve.hpp>
+#include <analyze/curve_family.hpp>
 #include <analyze/load_lattice.hpp>
 #include <base/gnuplot.hpp>
 
 #include <nlohmann/json.hpp>
 
 #include <iostream>
+#include <sstream>
 #include <tuple>
 
 namespace hyperlattice {
@@ -19,7 +20,7 @@ struct Arguments {
   std::optional<int> measure;
   std::optional<double> strain;
   std::optional<std::tuple<double, double, int>> curve;
-  std::string plot;
+  std::string each, plot;
   ThreadArgument threads;
   bool json = false;
 
@@ -42,6 +43,10 @@ void check(const Arguments& a) {
   if (a.strain && !a.measure) faults.add("--strain", "", "--measure with it: that is the strain of the test");
   if (a.strain && !(std::abs(*a.strain) <= 0.1 && std::abs(*a.strain) >= 1e-9))
     faults.add("--strain", CLI::detail::to_string(*a.strain), "1e-9 to 0.1, positive in compression, negative in tension");
+  if (!a.each.empty() && !a.curve) faults.add("--each", a.each, "--curve with it: one for each value");
+  if (!a.each.empty() && a.measure) faults.add("--each", a.each, "none together with --measure");
+  if (const auto equals = a.each.find('='); !a.each.empty() && (equals == std::string::npos || equals == 0 || equals + 1 == a.each.size()))
+    faults.add("--each", a.each, "an option of the lattice with several values, such as coordination=8.4,13.2");
   if (!a.plot.empty() && !a.curve) faults.add("--plot", a.plot, "--curve with it: that is what is drawn");
   faults.throw_if_any();
 }
@@ -61,12 +66,35 @@ int calibrate_curve(const Arguments& a, Host& host, const LatticeGeometry& geome
   return exit_done;
 }
 
+/// A curve for each value of one of the lattice's options.
+int calibrate_family(const Arguments& a, Host& host) {
+  const auto& [from, to, points] = *a.curve;
+  const CurveChoice choice{from, to, points};
+  const auto equals = a.each.find('=');
+  CurveFamily family{a.each.substr(0, equals), {}};
+  std::stringstream values(a.each.substr(equals + 1));
+  for (std::string value; std::getline(values, value, ',');) {
+    std::vector<std::string> options = a.lattice.options;
+    options.push_back(family.option + "=" + value);
+    family.members.push_back({value, calibration_curve(choice, a.choice, load_lattice(host, a.lattice.lattice, options), nullptr)});
+  }
+  if (!a.plot.empty()) draw_svg(a.plot, family_script(family), 640, 460);
+  Json json = {{"lattice", a.lattice.lattice}};
+  json.update(family_json(family, a.virtual_test()));
+  std::cout << (a.json ? json.dump(2) + "\n" : family_text(family)) << std::flush;
+  return exit_done;
+}
+
 int calibrate(Arguments a) {
   check(a);
   a.choice.lattice = a.lattice.lattice;
   a.choice.membrane = a.lattice.membrane;
   Host host;
-  const LatticeGeometry geometry = load_lattice(host, a.lattice.lattice);
+  if (!a.each.empty()) return calibrate_family(a, host);
+  const LatticeGeometry geometry = load_lattice(host, a.lattice.lattice, a.lattice.options);
+  if (geometry.listed && a.measure)
+    throw InputError(
+        {{"--measure", std::to_string(*a.measure), "none: a listed lattice is calibrated on its periodic sample, and has no other test yet"}});
   if (a.curve) return calibrate_curve(a, host, geometry);
 
   const Calibration found = calibrate(a.choice, geometry);
@@ -97,7 +125,8 @@ Command calibrate_command(CLI::App& program) {
   command
       ->add_option("--curve", a->curve, "many lambda in place of one, and the polynomials that fit them: figure 2 is --curve 0 4.5 10 --measure 20")
       ->type_name("FROM TO POINTS");
-  command->add_option("--plot", a->plot, "draw the curve (figure 2) to this SVG file; needs gnuplot");
+  command->add_option("--each", a->each, "a curve for each value of an option of the lattice: figure 3 is --each coordination=8.4,13.2");
+  command->add_option("--plot", a->plot, "draw the curve (figures 2 and 3) to this SVG file; needs gnuplot");
   a->threads.declare(*command);
   command->add_flag("--json", a->json, "print it for machines");
   return {command, [a] { return calibrate(*a); }};

@@ -53,6 +53,7 @@ struct SceneArguments {
 /// What `analyze` and `calibrate` are both told.
 struct LatticeArguments {
   std::string lattice = "lattices.cubic";
+  std::vector<std::string> options;
   MembraneChoice membrane;
 
   void declare(CLI::App& command);

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include <iterator>
+#include <limits>
 
 namespace hyperlattice {
 
@@ -27,6 +28,12 @@ Json instability_json(const char* lattice, const Instability& found) {
 Analysis analyse(const SpringLattice& lattice) {
   Analysis analysis;
   analysis.elasticity = elasticity(lattice);
+  analysis.listed = lattice.geometry().listed != nullptr;
+  if (analysis.listed) {
+    analysis.all_positive = facts_of(lattice.geometry()).is_stable(lattice.constants());
+    analysis.critical_time_step = std::numeric_limits<double>::quiet_NaN();
+    return analysis;
+  }
   analysis.mirrored = find_instability(lattice.endless(), Sector::mirrored);
   analysis.opposed = find_instability(lattice.endless(), Sector::opposed);
   analysis.stiffest = stiffest_wave(lattice.endless());
@@ -55,7 +62,7 @@ Json analysis_json(const Analysis& analysis) {
   if (analysis.mirrored) json["unstable"].push_back(instability_json("mirrored", *analysis.mirrored));
   if (analysis.opposed) json["unstable"].push_back(instability_json("two_layer", *analysis.opposed));
   json["critical_time_step"] = analysis.critical_time_step;
-  json["stiffest_wave"] = wave_json(analysis.stiffest);
+  if (!analysis.listed) json["stiffest_wave"] = wave_json(analysis.stiffest);
   return json;
 }
 
@@ -67,13 +74,18 @@ std::string analysis_text(const Analysis& analysis) {
   };
   const LatticeElasticity& e = analysis.elasticity;
   text += "Elasticity\n";
-  line("C1, C2, C3, C4", fmt::format("{:.6g}, {:.6g}, {:.6g}, {:.6g}  (k l^2 / V Delta)", e.C1, e.C2, e.C3, e.C4));
+  if (!analysis.listed) line("C1, C2, C3, C4", fmt::format("{:.6g}, {:.6g}, {:.6g}, {:.6g}  (k l^2 / V Delta)", e.C1, e.C2, e.C3, e.C4));
   line("C11, C12, C44", fmt::format("{:.6g}, {:.6g}, {:.6g}  (k / l)", e.C11, e.C12, e.C44));
   line("E along [100]", fmt::format("{:.6g}  (k / l)", e.young()));
   line("nu'", fmt::format("{:.6g}", e.poisson_bulk()));
   line("nu''", fmt::format("{:.6g}", e.poisson_shear()));
   line("Zener ratio A", fmt::format("{:.6g}", e.zener()));
   line("symmetry", e.isotropic ? "isotropic" : e.cubic ? "cubic, not isotropic" : "not cubic: constants are means over the axes");
+  if (analysis.listed) {
+    text += analysis.all_positive ? "\nStable: no spring is negative. The critical time step depends on the body: `hyperlattice plan` says it.\n"
+                                  : "\nNot known to be stable: some springs are negative.\n";
+    return text;
+  }
   text += "\nStability over the Brillouin zone\n";
   line("mirrored lattice", stability(analysis.mirrored_stable(), analysis.mirrored));
   line("two-layer lattice", stability(analysis.two_layer_stable(), analysis.opposed ? analysis.opposed : analysis.mirrored));

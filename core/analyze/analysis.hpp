@@ -11,12 +11,14 @@ struct Analysis {
   LatticeElasticity elasticity;
   std::optional<Instability> mirrored;  ///< what grows in the mirrored layer
   std::optional<Instability> opposed;   ///< what grows besides in the two-layer lattice
+  bool listed = false;                  ///< no waves, and stable if no spring is negative: its critical step depends on the body
+  bool all_positive = true;             ///< of a listed lattice
   Wave stiffest;
   double critical_time_step = 0;  ///< 2 / omega_max of the mirrored layer in sqrt(m / k), m the mass of a particle; of an unstable lattice:
                                   ///< of the waves that do not grow
 
-  bool mirrored_stable() const { return !mirrored; }
-  bool two_layer_stable() const { return !mirrored && !opposed; }
+  bool mirrored_stable() const { return !mirrored && all_positive; }
+  bool two_layer_stable() const { return !mirrored && !opposed && all_positive; }
 };
 
 Analysis analyse(const SpringLattice& lattice);

@@ -2,6 +2,7 @@
 #include <analyze/elasticity.hpp>
 #include <analyze/paper_fit.hpp>
 #include <model/build.hpp>
+#include <model/homogenise.hpp>
 #include <model/stability.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -47,7 +48,10 @@ bool by_paper(const CalibrationChoice& choice, const LatticeGeometry& geometry, 
 void check_stable(const CalibrationChoice& choice, const ChosenMembrane& chosen, const LatticeGeometry& geometry, Faults& faults) {
   if (choice.membrane.lambda && !is_stable(geometry, chosen.membrane, *chosen.lambda))
     faults.add("--lambda", fmt::format("{}", *chosen.lambda), stable_sentence(geometry, chosen.membrane, *chosen.lambda));
-  if (chosen.membrane == calibration::Membrane::free)
+  if (chosen.membrane == calibration::Membrane::free && geometry.listed) {
+    if (!facts_of(geometry).is_stable(with_ratios(geometry, chosen.ratios).constants()))
+      faults.add("--membrane", choice.membrane.membrane, "springs of positive stiffness: no more is known of a listed lattice");
+  } else if (chosen.membrane == calibration::Membrane::free)
     if (const auto unstable = find_instability(with_ratios(geometry, chosen.ratios).endless(), Sector::mirrored))
       faults.add("--membrane", choice.membrane.membrane, "springs that make a stable lattice; with these, " + describe(*unstable));
 }
@@ -57,6 +61,14 @@ void check_stable(const CalibrationChoice& choice, const ChosenMembrane& chosen,
 ElasticPair elastic_pair(const LatticeGeometry& geometry, const calibration::Ratios& ratios) {
   const LatticeElasticity own = elasticity(with_ratios(geometry, ratios));
   return {own.poisson_bulk(), own.young() / elasticity(with_ratios(geometry, {})).young()};
+}
+
+std::optional<ElasticPair> affine_pair(const LatticeGeometry& geometry, const calibration::Ratios& ratios) {
+  if (!geometry.listed) return std::nullopt;
+  const auto constants = [&](const calibration::Ratios& r) {
+    return strained_alike(*geometry.listed, geometry.volume, geometry.membrane_distance, with_ratios(geometry, r).constants());
+  };
+  return ElasticPair{constants(ratios).poisson(), constants(ratios).young() / constants({}).young()};
 }
 
 Calibration calibrate(const CalibrationChoice& choice, const LatticeGeometry& geometry) {

@@ -31,6 +31,9 @@ Calibration calibrate(const CalibrationChoice& choice, const LatticeGeometry& ge
 /// What the endless lattice with these springs has.
 ElasticPair elastic_pair(const LatticeGeometry& geometry, const calibration::Ratios& ratios);
 
+/// The same of a listed lattice if all particles were strained alike; nothing for others, whose particles are.
+std::optional<ElasticPair> affine_pair(const LatticeGeometry& geometry, const calibration::Ratios& ratios);
+
 // For machines, and as a page.
 Json calibration_json(const Calibration& calibration);
 std::string calibration_text(const Calibration& calibration);

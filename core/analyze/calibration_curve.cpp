@@ -55,6 +55,7 @@ Curve calibration_curve(const CurveChoice& choice, const CalibrationChoice& latt
     point.lambda = choice.from + (choice.to - choice.from) * n / (choice.points - 1);
     const calibration::Ratios ratios = ratios_of(geometry, curve.membrane, point.lambda);
     point.infinite = elastic_pair(geometry, ratios);
+    point.affine = affine_pair(geometry, ratios);
     if (virtual_test != nullptr) point.measured = virtual_test->measure(ratios);
     lambdas.push_back(point.lambda);
     poissons.push_back(point.pair().poisson);

@@ -15,6 +15,7 @@ struct CurvePoint {
   double lambda = 0;
   ElasticPair infinite;
   std::optional<Measured> measured;
+  std::optional<ElasticPair> affine;  ///< of a listed lattice, if all its particles were strained alike
 
   const ElasticPair& pair() const { return measured ? *measured : infinite; }  ///< what is fitted
 };

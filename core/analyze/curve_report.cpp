@@ -49,6 +49,7 @@ Json curve_json(const Curve& curve, const VirtualTest::Options& options) {
   for (const CurvePoint& point : curve.points) {
     Json row = {{"lambda", point.lambda}, {"infinite", {{"poisson", point.infinite.poisson}, {"modulus_ratio", point.infinite.modulus_ratio}}}};
     if (point.measured) row["measured"] = measured_json(*point.measured, options);
+    if (point.affine) row["affine"] = {{"poisson", point.affine->poisson}, {"modulus_ratio", point.affine->modulus_ratio}};
     json["points"].push_back(row);
   }
   json["fit"] = {{"of", is_measured(curve) ? "measured" : "infinite"},

@@ -1,6 +1,7 @@
 #include <analyze/load_lattice.hpp>
 #include <model/build.hpp>
 #include <scene/option_reader.hpp>
+#include <scene/settings.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -25,13 +26,21 @@ const Component& find_lattice(Host& host, const std::string& type) {
 
 }  // namespace
 
-LatticeGeometry load_lattice(Host& host, const std::string& type) {
+LatticeGeometry load_lattice(Host& host, const std::string& type, const std::vector<std::string>& more) {
   Stage stage;
   stage.component = &find_lattice(host, type);
   stage.pointer = where;
 
-  const Json options = Json::parse(R"({"spacing": 1, "shape": {"box": {"low": [0, 0, 0], "high": [4, 4, 4]}}})"), named = Json::object();
+  Json options = Json::parse(R"({"spacing": 1, "shape": {"box": {"low": [0, 0, 0], "high": [4, 4, 4]}}})");
+  const Json named = Json::object();
   Faults faults;
+  for (const std::string& option : more) {
+    const auto equals = option.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw InputError({{"--option", option, "name=value, with the name of one of the lattice's options"}});
+    if (const std::string wrong = set_value(options, "/" + option.substr(0, equals), value_of(option.substr(equals + 1))); !wrong.empty())
+      throw InputError({{"--option", option, wrong}});
+  }
   Regions regions;
   std::deque<std::string> texts;
   RegionReader region_reader(named, regions, faults, texts);
@@ -39,11 +48,15 @@ LatticeGeometry load_lattice(Host& host, const std::string& type) {
   OptionReader reader(options, where, {faults, region_reader, texts});
   stage.options = reader.fill(option_set(stage.component->info), resolved);
   reader.reject_unknown();
-  if (!faults.empty()) throw InputError({{where, type, "a lattice that is described by a spacing and a shape alone"}});
+  if (!faults.empty() && !more.empty()) faults.throw_if_any();
+  if (!faults.empty()) throw InputError({{where, type, "a lattice that is described by a spacing and a shape, and by --option"}});
 
   const ComponentPointer lattice = make_component(stage);
   try {
-    return geometry_from(build_body(stage.functions<LatticeFunctions>(), lattice.get()).grid);
+    const auto body = std::make_shared<const Body>(build_body(stage.functions<LatticeFunctions>(), lattice.get(), true));
+    LatticeGeometry geometry = geometry_from(*body);
+    if (geometry.listed) geometry.listed = {body, &body->listed};  // which it now owns
+    return geometry;
   } catch (const std::invalid_argument& refused) {
     throw refusal(stage, refused.what());
   }

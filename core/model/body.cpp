@@ -155,10 +155,12 @@ std::vector<Range> Body::springs_of(std::int32_t j, std::int32_t k, const Neighb
   return found;
 }
 
-Body build_body(const LatticeFunctions& functions, const void* lattice) {
+Body build_body(const LatticeFunctions& functions, const void* lattice, bool for_analysis) {
   Builder builder;
   const LatticeSink sink{
-      &builder, [](void* self, const Grid& grid) { static_cast<Builder*>(self)->grid(grid); },
+      &builder,
+      for_analysis,
+      [](void* self, const Grid& grid) { static_cast<Builder*>(self)->grid(grid); },
       [](void* self, std::int32_t j, std::int32_t k, std::int32_t begin, std::int32_t end) { static_cast<Builder*>(self)->run(j, k, begin, end); },
       [](void* self, const PointList& points) { static_cast<Builder*>(self)->points(points); },
       [](void* self, const PeriodicSample& sample) { static_cast<Builder*>(self)->sample(sample); }};

@@ -67,7 +67,8 @@ void Body::for_springs(const Visit& visit) const {
           visit(run.first + static_cast<Particle>(i - run.begin), at({i + to.dx, run.j + to.dy, run.k + to.dz}), to.spring_class);
 }
 
-/// Builds the body that a lattice component describes. Throws std::invalid_argument with the component's sentence if it refuses.
-Body build_body(const LatticeFunctions& functions, const void* lattice);
+/// Builds the body that a lattice component describes. Throws std::invalid_argument with the component's sentence if it refuses. `for_analysis`: only
+/// what stands behind it is wanted, see LatticeSink.
+Body build_body(const LatticeFunctions& functions, const void* lattice, bool for_analysis = false);
 
 }  // namespace hyperlattice

@@ -137,24 +137,31 @@ ElasticConstants isotropic(const Stiffness& c) {
   return {bulk + 4 * shear / 3, bulk - 2 * shear / 3, shear};
 }
 
-}  // namespace
-
-ElasticConstants homogenise(const Listed& listed, double volume, double membrane_distance, const MaterialConstants& constants) {
-  const bool has_sample = listed.sample_particles > 0, cross = constants.has_cross_springs(), free = cross && !constants.clamped;
-  const std::uint32_t particles = has_sample ? listed.sample_particles : static_cast<std::uint32_t>(listed.positions.size());
-  Sample sample(particles, free);
+Sample sample_of(const Listed& listed, double membrane_distance, const MaterialConstants& constants) {
+  const bool cross = constants.has_cross_springs(), free = cross && !constants.clamped;
+  Sample sample(listed.sample_particles > 0 ? listed.sample_particles : static_cast<std::uint32_t>(listed.positions.size()), free);
   const auto add = [&](std::uint32_t a, std::uint32_t b, Vec3 rest, double factor) {
     const double k = factor * constants.base_stiffness, length = norm(rest);
     sample.add(growth_of(a, b, rest, length, 0, k));
-    if (cross)
-      sample.add(growth_of(a, b, rest, std::hypot(length, membrane_distance), free ? membrane_distance : 0, constants.cross_ratio[0] * k));
+    if (cross) sample.add(growth_of(a, b, rest, std::hypot(length, membrane_distance), free ? membrane_distance : 0, constants.cross_ratio[0] * k));
   };
   for (const SampleSpring& spring : listed.sample) add(spring.a, spring.b, spring.rest, spring.stiffness);
-  if (!has_sample)
+  if (listed.sample_particles == 0)
     for (const ListedSpring& spring : listed.springs)
       add(spring.a, spring.b, listed.positions[spring.b] - listed.positions[spring.a], spring.stiffness);
   if (free) sample.set_alpha(constants.alpha_ratio * constants.base_stiffness);
-  return isotropic(has_sample ? Stiffness(sample.relaxed() / listed.sample_volume) : Stiffness(sample.strained_alike() / volume));
+  return sample;
+}
+
+}  // namespace
+
+ElasticConstants homogenise(const Listed& listed, double volume, double membrane_distance, const MaterialConstants& constants) {
+  if (listed.sample_particles == 0) return strained_alike(listed, volume, membrane_distance, constants);
+  return isotropic(sample_of(listed, membrane_distance, constants).relaxed() / listed.sample_volume);
+}
+
+ElasticConstants strained_alike(const Listed& listed, double volume, double membrane_distance, const MaterialConstants& constants) {
+  return isotropic(sample_of(listed, membrane_distance, constants).strained_alike() / (listed.sample_particles > 0 ? listed.sample_volume : volume));
 }
 
 }  // namespace hyperlattice

@@ -11,4 +11,7 @@ namespace hyperlattice {
 /// body's own springs are strained alike, which makes it too stiff. Throws std::invalid_argument if the springs make no solid.
 ElasticConstants homogenise(const Listed& listed, double volume, double membrane_distance, const MaterialConstants& constants);
 
+/// As if all particles of the sample, or of the body, were strained alike: equations (33) to (36) of Zhao 2017, summed over the springs.
+ElasticConstants strained_alike(const Listed& listed, double volume, double membrane_distance, const MaterialConstants& constants);
+
 }  // namespace hyperlattice

@@ -39,10 +39,10 @@ LatticeGeometry geometry_from(const Body& body) {
 }
 
 SpringLattice::SpringLattice(LatticeGeometry geometry, const MaterialConstants& constants)
-    : geometry_(std::move(geometry)), base_stiffness_(constants.base_stiffness), membrane_(membrane_of(constants)) {
+    : geometry_(std::move(geometry)), constants_(constants), membrane_(membrane_of(constants)) {
   for (std::uint32_t c = 0; c < geometry_.spring_classes; ++c)
-    springs_.push_back({geometry_.class_stiffness[c] * base_stiffness_, constants.cross_ratio[c] * base_stiffness_, infinity});
-  alpha_ = constants.clamped ? 0 : constants.alpha_ratio * base_stiffness_;
+    springs_.push_back({geometry_.class_stiffness[c] * constants.base_stiffness, constants.cross_ratio[c] * constants.base_stiffness, infinity});
+  alpha_ = constants.clamped ? 0 : constants.alpha_ratio * constants.base_stiffness;
 }
 
 InfiniteLattice SpringLattice::endless() const {

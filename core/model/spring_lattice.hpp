@@ -28,14 +28,16 @@ class SpringLattice {
   SpringLattice(LatticeGeometry geometry, const MaterialConstants& constants);
 
   const LatticeGeometry& geometry() const { return geometry_; }
-  double base_stiffness() const { return base_stiffness_; }  ///< k, N/m
+  const MaterialConstants& constants() const { return constants_; }
+  double base_stiffness() const { return constants_.base_stiffness; }  ///< k, N/m
   /// As the wave analysis sees it, which only structured lattices have; points into this object.
   InfiniteLattice endless() const;
 
  private:
   LatticeGeometry geometry_;
   std::vector<SpringConstants> springs_;
-  double base_stiffness_, alpha_;
+  MaterialConstants constants_;
+  double alpha_;
   KernelChoice::Membrane membrane_;
 };
 

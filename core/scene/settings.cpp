@@ -10,13 +10,6 @@ namespace hyperlattice {
 
 namespace {
 
-Json value_of(const std::string& text) {
-  Json value;
-  Faults ignored;
-  if (parse_json(text, value, ignored) && ignored.empty()) return value;
-  return text;
-}
-
 /// The keys of a pointer, "~1" and "~0" put back; nothing if it is none.
 std::optional<std::vector<std::string>> keys_of(std::string_view pointer) {
   if (pointer.empty() || pointer.front() != '/') return std::nullopt;
@@ -76,6 +69,13 @@ Json* find(Json& scene, const std::vector<std::string>& keys, std::string& expec
 }
 
 }  // namespace
+
+Json value_of(const std::string& text) {
+  Json value;
+  Faults ignored;
+  if (parse_json(text, value, ignored) && ignored.empty()) return value;
+  return text;
+}
 
 std::string set_value(Json& document, std::string_view pointer, const Json& value) {
   const auto keys = keys_of(pointer);

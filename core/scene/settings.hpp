@@ -7,6 +7,9 @@
 
 namespace hyperlattice {
 
+/// Text as a value: JSON if it is some, else the text itself.
+Json value_of(const std::string& text);
+
 /// Replaces the value at a JSON pointer, or adds a member to an object or array that is there. Returns what was expected instead; empty: it is done.
 std::string set_value(Json& document, std::string_view pointer, const Json& value);
 

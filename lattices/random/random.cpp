@@ -93,10 +93,10 @@ class Random {
     const std::vector<NearPair> pairs = pairs_with_coordination(points, shape.low, shape.high, o_.spacing, o_.coordination);
 
     std::vector<ListedSpring> springs;
-    double longest = 0;
+    double longest = 0;  // 0: the sample counts for itself
     for (const NearPair& pair : pairs) {
       springs.push_back({pair.a, pair.b, 1});
-      longest = std::max(longest, norm(pair.rest));
+      if (!sink.for_analysis) longest = std::max(longest, norm(pair.rest));
     }
     PointList list;
     list.spacing = list.membrane_distance = o_.spacing;
@@ -134,8 +134,10 @@ class Random {
     const Vec3 high{edge, edge, edge};
     const auto count = static_cast<std::size_t>(o_.sample * o_.sample * o_.sample);
     const std::vector<Vec3> points = throw_points(count, {}, high, o_.min_distance * o_.spacing, true, Dice(o_.seed, 1), [](Vec3) { return true; });
+    std::vector<NearPair> pairs = near_pairs(points, {}, high, longest > 0 ? longest : 2 * o_.spacing * std::cbrt(o_.coordination / 8), true);
+    if (longest == 0) pairs = shortest(std::move(pairs), static_cast<std::size_t>(std::llround(o_.coordination * static_cast<double>(count) / 2)));
     std::vector<SampleSpring> springs;
-    for (const NearPair& pair : near_pairs(points, {}, high, longest, true)) springs.push_back({pair.a, pair.b, pair.rest, 1});
+    for (const NearPair& pair : pairs) springs.push_back({pair.a, pair.b, pair.rest, 1});
     sink.sample({static_cast<std::uint32_t>(count), edge * edge * edge, springs});
   }
 

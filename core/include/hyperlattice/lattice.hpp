@@ -78,6 +78,7 @@ struct PeriodicSample {
 /// its points once, and a sample if there is one.
 struct LatticeSink {
   void* self = nullptr;
+  bool for_analysis = false;  ///< no body is wanted: neighbours, or the sample by itself, and a body as small as may be
   void (*receive_grid)(void* self, const Grid& grid) = nullptr;
   void (*receive_run)(void* self, std::int32_t j, std::int32_t k, std::int32_t begin, std::int32_t end) = nullptr;
   void (*receive_points)(void* self, const PointList& points) = nullptr;

@@ -63,6 +63,7 @@ class Relaxation {
   explicit Relaxation(const Options& options) : o_(options) {}
 
   SolverPlan plan(const SolverFacts& facts) const {
+    if (facts.listed) throw std::runtime_error("a structured lattice; a listed one comes to rest by solvers.explicit with damping");
     SolverPlan plan;
     plan.at_rest = true;
     plan.bytes_per_site = 250;  // of the measurement of the residual

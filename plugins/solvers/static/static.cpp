@@ -42,6 +42,7 @@ class Static {
   explicit Static(const Options& options) : o_(options) {}
 
   SolverPlan plan(const SolverFacts& facts) const {
+    if (facts.listed) throw std::runtime_error("a structured lattice; a listed one comes to rest by solvers.explicit with damping");
     SolverPlan plan;
     plan.at_rest = true;
     plan.end_time = o_.end_time.value_or(facts.corners.empty() ? facts.start_time : std::max(facts.start_time, facts.corners.back()));
