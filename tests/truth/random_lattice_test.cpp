@@ -1,0 +1,156 @@
+// Random lattices: what they are made of, the elastic constants of their samples against an independent computation (tests/data/random_lattice.json),
+// and that a scene's E and nu are those of the body it gets.
+#include <analyze/calibrate.hpp>
+#include <analyze/load_lattice.hpp>
+#include <model/homogenise.hpp>
+#include <support/lists.hpp>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <map>
+
+namespace {
+using namespace hyperlattice;
+using namespace hyperlattice::test;
+
+LatticeGeometry sample(const std::string& coordination) {
+  Host host({std::string(HYPERLATTICE_BUILD) + "/lib/hyperlattice"});
+  return load_lattice(host, "lattices.random", {"coordination=" + coordination});
+}
+
+nlohmann::json reference() {
+  std::ifstream file(HYPERLATTICE_SOURCE "/tests/data/random_lattice.json");
+  return nlohmann::json::parse(file);
+}
+
+/// E over what equation (14) gives for springs of stiffness k = 1 N/m.
+double young_over_eq14(const LatticeGeometry& geometry, double young) {
+  double squares = 0;
+  for (const SampleSpring& spring : geometry.listed->sample) squares += dot(spring.rest, spring.rest);
+  return young / (squares / (6 * geometry.listed->sample_volume));
+}
+
+TEST(RandomLattice, HasTheElasticConstantsThatOthersFound) {
+  const std::map<std::string, LatticeGeometry> samples{{"8.4", sample("8.4")}, {"13.2", sample("13.2")}};
+  int compared = 0;
+  for (const auto& row : reference()) {
+    if (row["lattice"] != "RSA d=0.82") continue;
+    const double lambda = row["lam"];
+    if (lambda != 0 && lambda != 1 && lambda != 7) continue;
+    const LatticeGeometry& geometry = samples.at(row["LN"] < 10 ? "8.4" : "13.2");
+    const calibration::Ratios ratios = calibration::ratios(calibration::Membrane::I, lambda);
+    const ElasticConstants found = facts_of(geometry).elastic_constants(membranes::constants(facts_of(geometry), ratios));
+    EXPECT_NEAR(found.poisson(), row["nu_num"], 0.012) << row["LN"] << " " << lambda;  // samples differ
+    EXPECT_NEAR(young_over_eq14(geometry, found.young()), row["E_over_eq14"], 0.04 * row["E_over_eq14"].get<double>()) << row["LN"] << " " << lambda;
+    EXPECT_NEAR(affine_pair(geometry, ratios)->poisson, row["nu_affine"], 0.006) << row["LN"] << " " << lambda;
+    ++compared;
+  }
+  EXPECT_EQ(compared, 6);
+}
+
+TEST(RandomLattice, FewNeighboursGiveMoreThanAQuarter) {  // the paper's observation, section 2.4
+  const ElasticPair few = elastic_pair(sample("8.4"), {}), many = elastic_pair(sample("13.2"), {});
+  EXPECT_GT(few.poisson, 0.29);
+  EXPECT_LT(few.poisson, 0.32);
+  EXPECT_NEAR(many.poisson, 0.25, 0.02);
+}
+
+TEST(RandomLattice, HasWhatItsOptionsSay) {
+  const auto plan = plan_of(listed_scene(random_lattice(8, 7, 9, R"("coordination": 10, "min_distance": 0.7)"), R"("membrane": "none")"));
+  const Body& body = plan->model->body;
+  EXPECT_EQ(body.particles, 8u * 7 * 9);
+  EXPECT_EQ(body.listed.springs.size(), 5 * body.particles);
+  double volume = 0;
+  for (Particle p = 0; p < body.particles; ++p) {
+    volume += body.share(p) * body.grid.site_volume;
+    for (Particle q = 0; q < p; ++q) ASSERT_GE(norm(body.position(p) - body.position(q)), 0.7e-3);
+  }
+  EXPECT_NEAR(volume, 8e-3 * 7e-3 * 9e-3, 1e-12);
+}
+
+TEST(RandomLattice, FillsAnyShapeAndOnlyIt) {
+  const std::string ball =
+      R"({ "type": "lattices.random", "spacing": "1 mm", "shape": { "hollow_sphere": { "inner_radius": "3 mm", "outer_radius": "7 mm" } } })";
+  const auto plan = plan_of(listed_scene(ball, R"("membrane": "none")", R"({ "type": "loads.pressure", "on": "inner_surface", "pressure": 1e6 })"));
+  const Body& body = plan->model->body;
+  const double volume = 4.0 / 3 * 3.14159265358979 * (343 - 27);
+  EXPECT_NEAR(static_cast<double>(body.particles), volume, 0.01 * volume);
+  for (Particle p = 0; p < body.particles; ++p) {
+    const double r = norm(body.position(p));
+    ASSERT_GE(r, 3e-3);
+    ASSERT_LE(r, 7e-3);
+  }
+  EXPECT_GT(plan->model->loads[0].particles.size(), 50u);
+  for (const LoadedParticle& loaded : plan->model->loads[0].particles) EXPECT_LT(norm(body.position(loaded.particle)), 5e-3);
+}
+
+TEST(RandomLattice, IsTheSameForTheSameSeedAndAnotherForAnother) {
+  const auto positions = [](int seed) {
+    return plan_of(listed_scene(random_lattice(5, 5, 5, R"("seed": )" + std::to_string(seed)), R"("membrane": "none")"))
+        ->model->body.listed.positions;
+  };
+  EXPECT_EQ(positions(3), positions(3));
+  EXPECT_NE(positions(3), positions(4));
+}
+
+TEST(RandomLattice, GetsTheYoungsModulusAndThePoissonRatioOfItsScene) {
+  const auto plan = plan_of(listed_scene(random_lattice(6, 6, 6), R"("membrane": "I", "poisson": 0.2)"));
+  const Model& model = *plan->model;
+  const ElasticConstants own = homogenise(model.body.listed, 0, model.body.grid.membrane_distance, model.materials[0].constants);
+  EXPECT_NEAR(own.poisson(), 0.2, 1e-7);
+  EXPECT_NEAR(own.young(), 1e10, 1e4);
+}
+
+TEST(RandomLattice, PressureOnAFlatFaceHasTheRightTotal) {
+  const auto plan =
+      plan_of(listed_scene(random_lattice(6, 5, 7), R"("membrane": "none")", R"({ "type": "loads.pressure", "on": "z_max", "pressure": 2e6 })"));
+  Vec3 total;
+  for (const LoadedParticle& loaded : plan->model->loads[0].particles) total = total + loaded.force;
+  EXPECT_NEAR(total.z, -2e6 * 30e-6, 1e-6 * 60);
+  EXPECT_NEAR(total.x, 0, 1e-9);
+  EXPECT_NEAR(total.y, 0, 1e-9);
+}
+
+TEST(RandomLattice, WavesTravelAsFastAsItsModuliSay) {
+  // A long bar of laterally free faces pushed at one end: the front runs with sqrt(E / rho), a little less for the soft surface.
+  const auto plan = plan_of(listed_scene(random_lattice(6, 6, 60), R"("membrane": "I", "poisson": 0.2)",
+                                         R"({ "type": "loads.velocity", "on": "z_min", "value": [0, 0, 1e-3] })"));
+  Simulation simulation(*plan->model, 2);
+  const double speed = std::sqrt(1e10 / 2500), time = 40e-3 / speed;
+  while (simulation.time() < time) simulation.step(0.9 * plan->model->critical_time_step);
+  const std::vector<double> moved = displacements(simulation);
+  const auto mean_at = [&](double low, double high) {
+    double sum = 0, count = 0;
+    for (Particle p = 0; p < plan->model->body.particles; ++p)
+      if (const double z = plan->model->body.position(p).z; z > low && z < high) {
+        sum += moved[3 * p + 2];
+        ++count;
+      }
+    return sum / count;
+  };
+  const double all = 1e-3 * time;                       // what the pushed end has gone
+  EXPECT_NEAR(mean_at(9e-3, 11e-3) / all, 0.75, 0.06);  // behind the front: (1 - z / 40 mm)
+  EXPECT_NEAR(mean_at(19e-3, 21e-3) / all, 0.5, 0.06);
+  EXPECT_LT(mean_at(50e-3, 60e-3) / all, 0.01);
+}
+
+TEST(Points, RefusesWhatIsNoLattice) {
+  const ListFiles files(3, 3, 3);
+  const auto refusal = [&](const std::string& springs) {
+    std::ofstream(files.springs) << "a,b\n" << springs;
+    try {
+      plan_of(listed_scene(files.lattice(), R"("membrane": "none")"));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(refusal("0,1\n1,0\n").find("is given twice"), std::string::npos);
+  EXPECT_NE(refusal("0,0\n").find("joins a particle to itself"), std::string::npos);
+  EXPECT_NE(refusal("0,27\n").find("none of the 27 particles"), std::string::npos);
+  EXPECT_NE(refusal("0,x\n").find("line 2: expected a number in column \"b\", not \"x\""), std::string::npos);
+  EXPECT_NE(refusal("").find("has no spring"), std::string::npos);
+}
+
+}  // namespace
