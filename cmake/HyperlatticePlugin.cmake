@@ -43,7 +43,7 @@ HYPERLATTICE_KERNELS(@law@)
 ")
     target_sources(${type} PRIVATE ${file})
     set_source_files_properties(${file} PROPERTIES COMPILE_OPTIONS
-      "${flags_${variant}};-O3;-fno-math-errno;-fno-trapping-math;-ffp-contract=fast")
+      "${flags_${variant}};-O3;-fno-math-errno;-fno-trapping-math;-ffp-contract=fast;-fno-signed-zeros")
   endforeach()
   if("avx2" IN_LIST variants)
     target_compile_definitions(${type} PRIVATE HYPERLATTICE_X86_KERNELS)

@@ -29,14 +29,16 @@ class ListedSweep {
   void all_rows() const {
     for (std::uint32_t index = 0; index < static_cast<std::uint32_t>(request_.rows_per_plane); ++index) {
       const Row& row = request_.rows[index];
+      Motion<membrane, Mixed, task> motion(request_, row);
       double* forces[components];
       for (int c = 0; c < components; ++c) {
         forces[c] = request_.scratch + c * request_.scratch_width;
-        set_body_force<Mixed>(request_, row, c, forces[c]);
+        for (int t = 0; t < row.end; t += lanes) store(forces[c] + t, motion.accelerated() ? motion.body_force(c, t) : Pack{});
       }
       Pack stored{};
       for (int t = 0; t < row.end; t += lanes) one_vector<Several>(row, index, t, forces, stored);
-      Motion<membrane, Mixed, task>(request_, row, forces).run(index, 0.5 * stored);  // half of every spring's energy to each of its ends
+      motion.vectors(forces);
+      motion.finish(index, 0.5 * stored);  // half of every spring's energy to each of its ends
     }
   }
 

@@ -6,6 +6,8 @@
 #include <hyperlattice/kernels/simd.hpp>
 #include <hyperlattice/material.hpp>
 
+#include <array>
+
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
 using Membrane = KernelChoice::Membrane;
@@ -30,6 +32,8 @@ class RowValues {
       for (int lane = 0; lane < lanes; ++lane) pack[lane] = values[material_[t + lane]];
     return weight_sets_ == nullptr ? pack : pack * load(weights_ + weight_sets_[t / lanes]);
   }
+  /// Whether the values are the same along the row.
+  bool constant() const { return material_ == nullptr && weight_sets_ == nullptr; }
 
  private:
   const std::uint8_t* material_;
@@ -38,93 +42,101 @@ class RowValues {
   const double* weights_;
 };
 
-/// Forces on a row start with the body acceleration's.
-template <bool Mixed>
-inline void set_body_force(const KernelRequest& request, const Row& row, int component, double* force) {
-  const double acceleration[4] = {request.acceleration.x, request.acceleration.y, request.acceleration.z, 0};
-  const RowValues<Mixed> values(request, row);
-  for (int t = 0; t < row.end - row.begin; t += lanes) {
-    Pack start{};
-    if (acceleration[component] != 0)
-      start = where(lanes_with(request.alive + row.start + t, particle_bit), acceleration[component] * values.at(request.mass, t));
-    store(force + t, start);
-  }
-}
+/// Forces on eight particles.
+template <int Components>
+using Forces = std::array<Pack, static_cast<std::size_t>(Components)>;
 
+/// Moves or measures a row: vectors() with the forces on its particles, or a vector() at a time, then finish().
 template <Membrane membrane, bool Mixed, Task task>
 class Motion {
   static constexpr int components = components_of(membrane);
   static constexpr bool measuring = task == Task::measure;
 
  public:
-  /// `force`: on the row's particles, from springs and body acceleration; one array a component, whole vectors.
-  Motion(const KernelRequest& request, const Row& row, double* const (&force)[components]) : request_(request), row_(row), force_(force) {}
+  Motion(const KernelRequest& request, const Row& row)
+      : request_(request), row_(row), values_(request, row), mass_(values_.at(request.mass, 0)), inverse_mass_(1.0 / mass_) {}
 
-  /// `stored`: energy of the row's springs; `index`: the row's.
-  void run(std::uint32_t index, Pack stored) {
-    const double kick = request_.back + request_.forward, drift = 2 * request_.forward;
+  /// The body acceleration's force on eight particles.
+  bool accelerated() const { return request_.acceleration.x != 0 || request_.acceleration.y != 0 || request_.acceleration.z != 0; }
+  Pack body_force(int c, int t) const {
     const double acceleration[4] = {request_.acceleration.x, request_.acceleration.y, request_.acceleration.z, 0};
-    const RowValues<Mixed> values(request_, row_);
-    Pack damped{}, kinetic{}, kinetic_mean{};
-    Pack momentum[4] = {}, potential{};
-    supports_before();
+    return where(lanes_with(load_bits(request_.alive + row_.start + t), particle_bit), acceleration[c] * values_.at(request_.mass, t));
+  }
+
+  /// `force`: one array a component, whole vectors. Visits the row's supports too.
+  void vectors(double* const (&force)[components]) {
+    supports_before(force);
     for (int t = 0; t < row_.end - row_.begin; t += lanes) {
-      const Pack mass = values.at(request_.mass, t), inverse_mass = 1.0 / mass;
-      Pack alpha{};
-      if constexpr (membrane == Membrane::free) alpha = values.at(request_.alpha, t);
-      for (int c = 0; c < components; ++c) {
-        double* u = request_.displacement[c] + row_.start + t;
-        double* v = request_.velocity[c] + row_.start + t;
-        const Pack displacement = load(u), velocity = load(v);
-        Pack force = load(force_[c] + t);
-        if (membrane == Membrane::free && c == 3) {  // the alpha spring joins the particle to its own mirror copy
-          force -= 2.0 * alpha * displacement;
-          if constexpr (measuring) stored += alpha * displacement * displacement;
-        }
-        Pack drag{};
-        if (task == Task::step_damped || (measuring && request_.damping != 0)) {
-          drag = with_sign(request_.damping * absolute(force), velocity);
-          force -= drag;
-        }
-        if constexpr (measuring) {
-          const Pack kicked = velocity + 2 * request_.back * inverse_mass * force, mean = velocity + request_.back * inverse_mass * force;
-          kinetic += 0.5 * mass * velocity * kicked;
-          kinetic_mean += 0.5 * mass * mean * mean;
-          momentum[c] += mass * mean;
-          potential += mass * acceleration[c] * displacement;
-          damped += request_.back * drag * velocity;
-        } else {
-          const Pack faster = velocity + kick * inverse_mass * force;
-          store(v, faster);
-          store(u, displacement + drift * faster);
-          if constexpr (task == Task::step_damped) damped += drag * (request_.back * velocity + request_.forward * faster);
-        }
+      Forces<components> forces;
+      for (std::size_t c = 0; c < components; ++c) forces[c] = load(force[c] + t);
+      vector(t, forces);
+    }
+    if constexpr (!measuring) supports_after();
+  }
+
+  void vector(int t, Forces<components>& forces) {
+    const double kick = request_.back + request_.forward, drift = 2 * request_.forward;
+    if (!values_.constant()) {
+      mass_ = values_.at(request_.mass, t);
+      inverse_mass_ = 1.0 / mass_;
+    }
+    Pack alpha{};
+    if constexpr (membrane == Membrane::free) alpha = values_.at(request_.alpha, t);
+    for (std::size_t c = 0; c < components; ++c) {
+      double* u = request_.displacement[c] + row_.start + t;
+      double* v = request_.velocity[c] + row_.start + t;
+      const Pack displacement = load(u), velocity = load(v);
+      Pack force = forces[c];
+      if (membrane == Membrane::free && c == 3) {  // the alpha spring joins the particle to its own mirror copy
+        force -= 2.0 * alpha * displacement;
+        if constexpr (measuring) stored_ += alpha * displacement * displacement;
+      }
+      Pack drag{};
+      if (task == Task::step_damped || (measuring && request_.damping != 0)) {
+        drag = with_sign(request_.damping * absolute(force), velocity);
+        force -= drag;
+      }
+      if constexpr (measuring) {
+        const double acceleration[4] = {request_.acceleration.x, request_.acceleration.y, request_.acceleration.z, 0};
+        const Pack kicked = velocity + 2 * request_.back * inverse_mass_ * force, mean = velocity + request_.back * inverse_mass_ * force;
+        kinetic_ += 0.5 * mass_ * velocity * kicked;
+        kinetic_mean_ += 0.5 * mass_ * mean * mean;
+        momentum_[c] += mass_ * mean;
+        potential_ += mass_ * acceleration[c] * displacement;
+        damped_ += request_.back * drag * velocity;
+      } else {
+        const Pack faster = velocity + kick * inverse_mass_ * force;
+        store(v, faster);
+        store(u, displacement + drift * faster);
+        if constexpr (task == Task::step_damped) damped_ += drag * (request_.back * velocity + request_.forward * faster);
       }
     }
-    if constexpr (task == Task::step_damped) request_.damped_work[index] += sum(damped);
+  }
+
+  /// `stored`: energy of the row's springs; `index`: the row's.
+  void finish(std::uint32_t index, Pack stored) {
+    if constexpr (task == Task::step_damped) request_.damped_work[index] += sum(damped_);
     if constexpr (measuring) {
       RowSums measured;
-      measured.stored = sum(stored);
-      measured.kinetic = sum(kinetic);
-      measured.kinetic_mean = sum(kinetic_mean);
-      measured.momentum = {sum(momentum[0]), sum(momentum[1]), sum(momentum[2])};
-      measured.potential = sum(potential);
-      measured.damped = sum(damped);
+      measured.stored = sum(stored + stored_);
+      measured.kinetic = sum(kinetic_);
+      measured.kinetic_mean = sum(kinetic_mean_);
+      measured.momentum = {sum(momentum_[0]), sum(momentum_[1]), sum(momentum_[2])};
+      measured.potential = sum(potential_);
+      measured.damped = sum(damped_);
       supports_measured(measured);
       request_.sums[index] = measured;
-    } else {
-      supports_after();
     }
   }
 
  private:
   // The few particles with external forces or prescribed motion. Their state before the row is moved waits in the support itself.
-  void supports_before() {
+  void supports_before(double* const (&forces)[components]) {
     for (std::uint32_t n = row_.first_support; n < row_.last_support; ++n) {
       Support& support = request_.supports[n];
       const double force[3] = {support.force.x, support.force.y, support.force.z};
       for (int c = 0; c < 3; ++c) {
-        double& sum_of_forces = force_[c][support.site - row_.begin];
+        double& sum_of_forces = forces[c][support.site - row_.begin];
         sum_of_forces += force[c];
         support.sum[c] = sum_of_forces;
         support.speed_before[c] = request_.velocity[c][support.index];
@@ -182,7 +194,9 @@ class Motion {
 
   const KernelRequest& request_;
   const Row& row_;
-  double* const (&force_)[components];
+  RowValues<Mixed> values_;
+  Pack mass_, inverse_mass_;
+  Pack stored_{}, damped_{}, kinetic_{}, kinetic_mean_{}, momentum_[4] = {}, potential_{};
 };
 
 }  // namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS

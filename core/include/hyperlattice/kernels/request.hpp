@@ -24,6 +24,7 @@ struct NeighbourGeometry {
 };
 
 inline constexpr std::uint64_t no_weights = ~std::uint64_t{0};
+inline constexpr std::uint32_t whole_set = 0;  ///< place of the set of weights of a vector whose particles and springs all count in full
 
 /// One row of particles: sites begin <= i < end of a line along x, stored from `start` on, padded to whole vectors.
 struct Row {

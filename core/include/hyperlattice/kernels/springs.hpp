@@ -8,36 +8,9 @@
 #pragma once
 
 #include <hyperlattice/kernels/motion.hpp>
+#include <hyperlattice/kernels/response.hpp>
 
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
-
-/// A law may say `static constexpr bool linear = true`: its force is proportional to the elongation, which saves arithmetic.
-template <class Law>
-constexpr bool is_linear = requires {
-  requires Law::linear;
-};
-
-/// A spring after its law was asked: force along it divided by its length, and what it stores.
-struct Response {
-  Pack force_over_length, energy, q;
-};
-
-/// Force and, if asked, energy of springs whose squared length grew by q from rest_length^2.
-template <class Law, bool Energy, class Length>  // one length for all, or one a lane
-inline Response respond(Pack stiffness, Length rest_length, Pack q) {
-  const Pack length = root(rest_length * rest_length + q);
-  const Pack inverse = 1.0 / (length * (length + rest_length));
-  Response response{{}, {}, q};
-  if constexpr (is_linear<Law>) {
-    response.force_over_length = Law::force(stiffness, q * inverse);
-    if constexpr (Energy) response.energy = Law::energy(stiffness, q * length * inverse);
-  } else {
-    const Pack elongation = q * length * inverse;
-    response.force_over_length = Law::force(stiffness, elongation) * ((length + rest_length) * inverse);
-    if constexpr (Energy) response.energy = Law::energy(stiffness, elongation);
-  }
-  return response;
-}
 
 /// Where the particles of a row, and their neighbours, stand in the arrays. Element t belongs to site begin + t.
 template <int Components>
@@ -65,7 +38,7 @@ struct Springs {
     Pack alarm = fill(squared_growth(neighbour.rest_length, constants.alarm));
     Mask rung{};
     for (int t = 0; t < count; t += lanes) {
-      const Mask alive = lanes_with(pair.alive + t, bit);
+      const Mask alive = lanes_with(load_bits(pair.alive + t), bit);
       const auto counted = [&](Pack whole) {
         if constexpr (Weighted) whole *= load(pair.weights + pair.weight_sets[t / lanes]);
         return where(alive, whole);
@@ -77,16 +50,15 @@ struct Springs {
       const Pack q = dx * (2 * rest.x + dx) + dy * (2 * rest.y + dy) + dz * (2 * rest.z + dz);
 
       Pack difference{}, total{};  // of the heights
-      Response base;
+      Pack base_q = q;
       if constexpr (membrane == Membrane::free) {
         const Pack here = load(pair.here[3] + t), there = load(pair.there[3] + t);
         difference = there - here;
         total = there + here;
-        base = respond<Law, Energy>(base_stiffness, neighbour.rest_length, q + difference * difference);
-      } else {
-        base = respond<Law, Energy>(base_stiffness, neighbour.rest_length, q);
+        base_q += difference * difference;
       }
-      if constexpr (Breakable) rung |= alive & (base.q > alarm);
+      const Response base = respond<Law, Energy>(base_stiffness, neighbour.rest_length, base_q);
+      if constexpr (Breakable) rung |= alive & (base_q > alarm);
       const Pack base_pull = counted(base.force_over_length);
       Pack pull = base_pull;
       if constexpr (Energy) stored += counted(base.energy);
@@ -146,9 +118,6 @@ struct Springs {
 
  private:
   static void add_to(double* target, Pack value) { store(target, load(target) + value); }
-
-  /// (L0 + elongation)^2 - L0^2, lowered by rounding's worth so that the alarm rings rather too early than too late.
-  static double squared_growth(double rest_length, double elongation) { return elongation * (2 * rest_length + elongation) * (1 - 1e-12); }
 
   static const SpringConstants& between(const KernelRequest& request, const RowPair<components>& pair, const NeighbourGeometry& neighbour, int t) {
     const std::uint32_t a = pair.material_here[t], b = pair.material_there[t];

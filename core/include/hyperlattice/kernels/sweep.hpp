@@ -7,7 +7,11 @@
 #pragma once
 
 #include <hyperlattice/kernels/listed.hpp>
+#include <hyperlattice/kernels/stencil.hpp>
 #include <hyperlattice/kernels/tangent.hpp>
+
+#include <cstdlib>
+#include <string_view>
 
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
@@ -20,7 +24,17 @@ class Sweep {
   static void run(const KernelRequest& request) noexcept { Sweep(request).all_rows(); }
 
  private:
-  explicit Sweep(const KernelRequest& request) : request_(request) {}
+  using Fused = Stencil<Law, membrane, Breakable, CubicList>;
+
+  explicit Sweep(const KernelRequest& request) : request_(request), fused_(!measuring && !exact() && CubicList::is(request.neighbours)) {
+    for (int c = 0; c < components; ++c) own_[c] = own_row(c);
+  }
+
+  /// HYPERLATTICE_SPRINGS=exact in the environment asks for the plainest kernel: one neighbour at a time, root and division.
+  static bool exact() {
+    const char* wish = std::getenv("HYPERLATTICE_SPRINGS");
+    return wish != nullptr && std::string_view(wish) == "exact";
+  }
 
   void all_rows() {
     for (int k = -request_.reach; k < request_.planes; ++k)
@@ -37,19 +51,70 @@ class Sweep {
   }
 
   void one_row(const Row& row, std::uint32_t index, int j, int k) {
-    const bool owned = k >= 0;
     const int count = (row.end - row.begin + lanes - 1) / lanes * lanes;
-    for (int c = 0; c < components; ++c) set_body_force<Mixed>(request_, row, c, own_row(c));
+    Motion<membrane, Mixed, task> motion(request_, row);
+    const bool fused = fused_ && (!Mixed || row.material >= 0);
+    if constexpr (!Breakable && !Mixed && !measuring)
+      if (fused && k >= 0 && row.first_support == row.last_support) {  // nothing stands between the forces and the motion
+        const bool accelerated = motion.accelerated();
+        all_neighbours(
+            row, j, k, count, [&](int t, Forces<components>& forces) __attribute__((always_inline)) {
+              if (accelerated)
+                for (std::size_t c = 0; c < components; ++c) forces[c] += motion.body_force(static_cast<int>(c), t);
+              motion.vector(t, forces);
+            });
+        motion.finish(index, Pack{});
+        return;
+      }
+    for (int c = 0; c < components; ++c)
+      for (int t = 0; t < count; t += lanes) store(own_[c] + t, motion.accelerated() ? motion.body_force(c, t) : Pack{});
     Pack stored{};
+    if (fused)
+      review_all(row, index, j, k, all_neighbours(row, j, k, count, Keep<components>{own_}));
+    else
+      one_by_one(row, index, j, k, count, stored);
+    if (k < 0) return;
+    motion.vectors(own_);
+    motion.finish(index, stored);
+  }
+
+  template <class Take>
+  std::uint32_t all_neighbours(const Row& row, int j, int k, int count, const Take& take) {
+    if (const std::int32_t material = Mixed ? row.material : 0; material != kinds_of_) set_kinds(material);
+    typename Fused::Rows rows;
+    for (std::size_t line = 0; line < CubicList::lines.size(); ++line) {
+      const auto [dy, dz] = CubicList::lines[line];
+      const bool there = (row.neighbours & CubicList::in_line({dy, dz})) != 0;  // if not, the row itself stands in, without springs
+      const int to_j = there ? j + dy : j, to_k = there ? k + dz : k;
+      const Row& other = request_.rows[row_index(to_j, to_k)];
+      rows.displacement[line] = static_cast<std::ptrdiff_t>(other.start) + (row.begin - other.begin);
+      rows.received[line] = received_row(0, to_j, to_k) + row.begin;
+    }
+    rows.alive = request_.alive + row.start;
+    rows.weight_sets = row.weights == no_weights ? nullptr : request_.weight_sets + row.weights;
+    rows.kinds = kinds_;
+    rows.neighbours = row.neighbours;
+    rows.count = count;
+    return Fused(request_, rows).run(take);
+  }
+
+  void review_all(const Row& row, std::uint32_t index, int j, int k, std::uint32_t rung) {
+    if (!Breakable || rung == 0 || k < 0) return;
+    for (std::uint32_t n = 0; n < request_.neighbours.size(); ++n)
+      if ((rung >> n & 1u) != 0)
+        Springs<Law, membrane, Breakable, Mixed, false, measuring>::review(request_, pair_of(row, request_.neighbours[n].site, j, k), row, index, n,
+                                                                           constants_of(row, request_.neighbours[n].site.spring_class));
+  }
+
+  void one_by_one(const Row& row, std::uint32_t index, int j, int k, int count, Pack& stored) {
+    const bool owned = k >= 0;
     for (std::uint32_t n = 0; n < request_.neighbours.size(); ++n) {
       const NeighbourGeometry& neighbour = request_.neighbours[n];
       if ((row.neighbours >> n & 1u) == 0 || (!owned && k + neighbour.site.dz < 0)) continue;
       RowPair<components> pair = pair_of(row, neighbour.site, j, k);
       const auto bit = static_cast<std::uint16_t>(1u << n);
       const bool uniform = !Mixed || row.material >= 0;
-      const SpringConstants* constants = request_.springs + neighbour.site.spring_class;
-      if constexpr (Mixed)
-        if (uniform) constants += static_cast<std::uint32_t>(row.material) * (request_.materials + 1) * request_.spring_classes;
+      const SpringConstants* constants = constants_of(row, neighbour.site.spring_class);
       const auto add = [&]<bool Several, bool Weighted>() {
         return Springs<Law, membrane, Breakable, Several, Weighted, measuring>::add(request_, pair, neighbour, bit, *constants, count, stored);
       };
@@ -64,22 +129,35 @@ class Sweep {
       if (Breakable && rung && owned && !measuring)
         Springs<Law, membrane, Breakable, Mixed, false, measuring>::review(request_, pair, row, index, n, uniform ? constants : nullptr);
     }
-    if (!owned) return;
-    end_row(row, index, j, k, count, stored);
+    join_received(row, j, k, count);
   }
 
-  /// Joins what the row received to its own forces, then moves or measures it.
-  void end_row(const Row& row, std::uint32_t index, int j, int k, int count, Pack stored) {
-    double* forces[components];
+  /// What the row received from earlier rows goes to its own forces.
+  void join_received(const Row& row, int j, int k, int count) {
     for (int c = 0; c < components; ++c) {
-      forces[c] = own_row(c);
       double* received = received_row(c, j, k) + row.begin;
       for (int t = 0; t < count; t += lanes) {
-        store(forces[c] + t, load(forces[c] + t) + load(received + t));
+        store(own_[c] + t, load(own_[c] + t) + load(received + t));
         store(received + t, Pack{});
       }
     }
-    Motion<membrane, Mixed, task>(request_, row, forces).run(index, stored);
+  }
+
+  // Constants of springs.
+  const SpringConstants* constants_of(const Row& row, std::uint32_t spring_class) const {
+    const SpringConstants* constants = request_.springs + spring_class;
+    if (Mixed && row.material >= 0) constants += static_cast<std::uint32_t>(row.material) * (request_.materials + 1) * request_.spring_classes;
+    return constants;
+  }
+  void set_kinds(std::int32_t material) {
+    kinds_of_ = material;
+    const SpringConstants* of_material = request_.springs + static_cast<std::uint32_t>(material) * (request_.materials + 1) * request_.spring_classes;
+    for (const NeighbourGeometry& neighbour : request_.neighbours) {
+      const SpringConstants& constants = of_material[neighbour.site.spring_class];
+      auto& kinds = kinds_[neighbour.site.spring_class];
+      kinds.base = {constants.stiffness, neighbour.rest_length, Breakable ? constants.alarm : infinity};
+      kinds.cross = {constants.cross_stiffness, neighbour.cross_rest_length, infinity};
+    }
   }
 
   // Where things are.
@@ -112,6 +190,10 @@ class Sweep {
   }
 
   const KernelRequest& request_;
+  const bool fused_;
+  typename Fused::Kinds kinds_[max_spring_classes];
+  std::int32_t kinds_of_ = -1;
+  double* own_[components];
 };
 
 /// The kernels of a law for a choice, all compiled for one instruction set.

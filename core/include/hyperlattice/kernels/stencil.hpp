@@ -1,0 +1,338 @@
+// The springs from a row of particles to all its forward neighbours in one pass, eight sites at a time, for a list of neighbours that is known when
+// the kernel is compiled: what a spring does stays in registers until all springs of the eight sites are summed.
+//
+// A spring that leans forward (dx = 1) pulls at sites one further than its own eight; one that leans backward (dx = -1) is taken from its far
+// end, so that its own sites are one further. What falls one further waits for the next eight sites: nothing goes back.
+#pragma once
+
+#include <hyperlattice/kernels/response.hpp>
+#include <hyperlattice/kernels/springs.hpp>
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <utility>
+
+namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
+
+/// The cubic lattice's list: edges and face diagonals of a cube.
+struct CubicList {
+  static constexpr std::array<Neighbour, 9> neighbours{
+      {{1, 0, 0, 0}, {-1, 1, 0, 1}, {0, 1, 0, 0}, {1, 1, 0, 1}, {0, -1, 1, 1}, {-1, 0, 1, 1}, {0, 0, 1, 0}, {1, 0, 1, 1}, {0, 1, 1, 1}}};
+  struct Line {
+    int dy, dz;
+  };
+  static constexpr std::array<Line, 5> lines{{{0, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}};  ///< the rows that they stand in
+
+  /// Springs that are worked on side by side, so that the processor need not wait for any.
+  template <bool heights>
+  static constexpr auto batches() {  // as many as there are registers for
+    if constexpr (heights)
+      return std::array<std::uint16_t, 5>{0b000010001, 0b000000110, 0b000001000, 0b001100000, 0b110000000};
+    else
+      return std::array<std::uint16_t, 3>{0b000001110, 0b011100000, 0b100010001};
+  }
+
+  static constexpr std::uint16_t all() { return (1u << neighbours.size()) - 1; }
+  static constexpr std::uint16_t in_line(Line line) {
+    return bits([line](const Neighbour& n) { return n.dy == line.dy && n.dz == line.dz; });
+  }
+  static constexpr std::uint16_t leaning(int dx) {
+    return bits([dx](const Neighbour& n) { return n.dx == dx; });
+  }
+  template <std::size_t number>
+  static constexpr std::array<std::size_t, number> indices(std::uint16_t chosen) {
+    std::array<std::size_t, number> found{};
+    for (std::size_t n = 0, next = 0; n < neighbours.size(); ++n)
+      if ((chosen >> n & 1u) != 0) found[next++] = n;
+    return found;
+  }
+  static constexpr std::size_t line_of(const Neighbour& n) {
+    for (std::size_t line = 0; line < lines.size(); ++line)
+      if (lines[line].dy == n.dy && lines[line].dz == n.dz) return line;
+    return 0;
+  }
+  static double spacing(std::span<const NeighbourGeometry> list) { return list[0].rest.x; }
+  static bool is(std::span<const NeighbourGeometry> list) {
+    if (list.size() != neighbours.size()) return false;
+    for (std::size_t n = 0; n < list.size(); ++n) {
+      const Neighbour &a = list[n].site, &b = neighbours[n];
+      const Vec3 rest = spacing(list) * Vec3{double(b.dx), double(b.dy), double(b.dz)};
+      if (a.dx != b.dx || a.dy != b.dy || a.dz != b.dz || a.spring_class != b.spring_class) return false;
+      if (list[n].rest.x != rest.x || list[n].rest.y != rest.y || list[n].rest.z != rest.z) return false;
+    }
+    return true;
+  }
+
+ private:
+  template <class Chosen>
+  static constexpr std::uint16_t bits(const Chosen& chosen) {
+    std::uint16_t found = 0;
+    for (std::size_t n = 0; n < neighbours.size(); ++n)
+      if (chosen(neighbours[n])) found = static_cast<std::uint16_t>(found | 1u << n);
+    return found;
+  }
+};
+
+template <class Law, Membrane membrane, bool Breakable, class List>
+class Stencil {
+  static constexpr int components = components_of(membrane);
+  static constexpr std::size_t lines = List::lines.size();
+
+  using Vector = Forces<components>;
+
+ public:
+  struct Kinds {
+    SpringKind<Law> base, cross;
+  };
+  /// Where a row and those of its neighbours are stored. Element t belongs to site begin + t.
+  struct Rows {
+    std::ptrdiff_t displacement[lines];  ///< places of the row's sites in each line; the first line is the row itself
+    double* received[lines];             ///< forces on them, x; the next component is `scratch_width` further
+    const std::uint16_t* alive;
+    const std::uint32_t* weight_sets;  ///< null: all count in full
+    const Kinds* kinds;                ///< of each class
+    std::uint32_t neighbours;          ///< bits: what the row has of the list
+    int count;                         ///< sites, padded to whole vectors
+  };
+
+  Stencil(const KernelRequest& request, const Rows& rows) : request_(request), rows_(rows), spacing_(fill(List::spacing(request.neighbours))) {}
+
+  /// Adds to what later rows receive; gives the whole force on each eight sites of the row to take(t, forces), and clears what they received.
+  /// Returns the bits of neighbours with an alarm.
+  template <class Take>
+  std::uint32_t run(const Take& take) {
+    Carried carried;
+    if ((rows_.alive[0] & List::leaning(-1)) != 0) first(carried);
+    for (int t = 0; t < rows_.count; t += lanes) {
+      Vector forces;
+      if (all_there(t)) [[likely]] {
+        add<true, List::all()>(t, carried, forces);
+      } else {
+        Carried in_memory = carried;
+        some(t, in_memory, forces);
+        carried = in_memory;
+      }
+      take(t, forces);
+    }
+    last(carried);
+    return rung_;
+  }
+
+ private:
+  struct Carried {
+    Forces<components> own{}, to_line[lines];
+    Carried() {
+      for (std::size_t line = 0; line < lines; ++line)
+        if (leans_forward(line)) to_line[line] = {};
+    }
+  };
+  static constexpr auto batches = List::template batches<membrane == Membrane::free>();
+  static constexpr std::size_t last_batch(std::size_t line) {
+    std::size_t last = 0;
+    for (std::size_t b = 0; b < batches.size(); ++b)
+      if ((batches[b] & List::in_line(List::lines[line])) != 0) last = b;
+    return last;
+  }
+  static constexpr bool leans_forward(std::size_t line) { return line != 0 && (List::in_line(List::lines[line]) & List::leaning(1)) != 0; }
+
+  const double* displacement(std::size_t line, std::size_t c) const { return request_.displacement[c] + rows_.displacement[line]; }
+  double* received(std::size_t line, std::size_t c) const { return rows_.received[line] + static_cast<std::ptrdiff_t>(c) * request_.scratch_width; }
+
+  /// Of the springs of a vector that begins at t, each taken from its own lanes.
+  Bits alive(int t) const {
+    Bits there = t < 0 ? Bits{} : load_bits(rows_.alive + t), ahead = load_bits(rows_.alive + t + 1);
+    if (t < 0)
+      for (int lane = 0; lane < lanes - 1; ++lane) ahead[lane] = 0;
+    if (t + lanes >= rows_.count) ahead[lanes - 1] = 0;
+    return of_lanes(there, ahead);
+  }
+  static Bits of_lanes(Bits there, Bits ahead) {
+    constexpr std::uint16_t back = List::leaning(-1), rest = List::all() & ~back;
+    return (there & rest) | (ahead & back);
+  }
+  bool all_there(int t) const {
+    return t + lanes < rows_.count && same(of_lanes(load_bits(rows_.alive + t), load_bits(rows_.alive + t + 1)), Bits{} + List::all()) &&
+           (rows_.weight_sets == nullptr || (rows_.weight_sets[t / lanes] == whole_set && rows_.weight_sets[t / lanes + 1] == whole_set));
+  }
+
+  /// What acts on the sites of a vector, or on those one further.
+  struct Sums {
+    Vector own, own_further, line[lines], line_further[lines];
+    [[gnu::always_inline]] Sums() {
+      each<components>([&]<std::size_t c>() __attribute__((always_inline)) {
+        own[c] = own_further[c] = Pack{};
+        each<lines>([&]<std::size_t l>() __attribute__((always_inline)) { line[l][c] = line_further[l][c] = Pack{}; });
+      });
+    }
+  };
+
+  // Kept out of the loop of whole vectors.
+  [[gnu::noinline]] void first(Carried& carried) {
+    Vector none;
+    add<false, List::leaning(-1)>(-lanes, carried, none);
+  }
+  [[gnu::noinline]] void some(int t, Carried& carried, Vector& forces) { add<false, List::all()>(t, carried, forces); }
+
+  /// All springs of eight sites, or those of `only`. AllThere: none is missing and all count in full.
+  template <bool AllThere, std::uint16_t only>
+  [[gnu::always_inline]] void add(int t, Carried& carried, Vector& forces) {
+    const Bits bits = AllThere ? Bits{} : alive(t);
+    Vector here, further;
+    each<components>([&]<std::size_t c>() __attribute__((always_inline)) {
+      here[c] = load(displacement(0, c) + t);
+      further[c] = load(displacement(0, c) + t + 1);
+    });
+    Sums sums;
+    each<batches.size()>([&]<std::size_t b>() __attribute__((always_inline)) {
+      if constexpr ((batches[b] & only) != 0) add_batch<AllThere, batches[b] & only>(t, bits, here, further, sums);
+      each<lines>([&]<std::size_t line>() __attribute__((always_inline)) {
+        if constexpr (line != 0 && (List::in_line(List::lines[line]) & only) != 0 && last_batch(line) == b)
+          end_line<AllThere, line>(t, sums, carried);
+      });
+    });
+    if constexpr (only == List::all())
+      each<components>([&]<std::size_t c>() __attribute__((always_inline)) {
+        double* const so_far = received(0, c) + t;
+        forces[c] = sums.own[c] + load(so_far) + one_further(carried.own[c], sums.own_further[c]);
+        store(so_far, Pack{});
+      });
+    carried.own = sums.own_further;
+  }
+
+  /// Gives what the springs pull at in another row to that row.
+  template <bool AllThere, std::size_t line>
+  [[gnu::always_inline]] void end_line(int t, Sums& sums, Carried& carried) const {
+    if (!AllThere && (rows_.neighbours & List::in_line(List::lines[line])) == 0) return;
+    each<components>([&]<std::size_t c>() __attribute__((always_inline)) {
+      double* const so_far = received(line, c) + t;
+      Pack sum = load(so_far) + sums.line[line][c];
+      if constexpr (leans_forward(line)) sum += one_further(carried.to_line[line][c], sums.line_further[line][c]);
+      store(so_far, sum);
+    });
+    if constexpr (leans_forward(line)) carried.to_line[line] = sums.line_further[line];
+  }
+
+  /// Springs of one batch to one neighbour each, between the sites in the lanes of `here` and of `there`.
+  template <bool AllThere, std::uint16_t batch>
+  [[gnu::always_inline]] void add_batch(int t, Bits bits, const Vector& here, const Vector& further, Sums& sums) {
+    constexpr std::size_t number = std::popcount(batch);
+    constexpr auto at = List::template indices<number>(batch);
+    constexpr bool cross = membrane != Membrane::none, heights = membrane == Membrane::free;
+    Pack r[number][3], base_q[number], cross_q[number], difference[number], total[number];
+    Mask mask[number];
+    each<number>([&]<std::size_t s>() __attribute__((always_inline)) {
+      geometry<AllThere, at[s]>(t, bits, List::neighbours[at[s]].dx < 0 ? further : here, r[s], base_q[s], cross_q[s], difference[s], total[s],
+                                mask[s]);
+    });
+    constexpr std::size_t answers = cross ? 2 * number : number;  // of the base springs, then of their cross springs
+    Pack q[answers], pulls[answers];
+    const SpringKind<Law>* kinds[answers];
+    each<number>([&]<std::size_t s>() __attribute__((always_inline)) {
+      const Kinds& both = rows_.kinds[List::neighbours[at[s]].spring_class];
+      q[s] = base_q[s];
+      kinds[s] = &both.base;
+      if constexpr (cross) {
+        q[number + s] = cross_q[s];
+        kinds[number + s] = &both.cross;
+      }
+    });
+    const std::uint32_t rung = SpringKind<Law>::template pull<answers>(kinds, q, pulls);
+    if (Breakable && rung != 0) [[unlikely]]
+      for (std::size_t s = 0; s < number; ++s)
+        if ((rung >> s & 1u) != 0) rung_ |= 1u << at[s];
+    each<number>([&]<std::size_t s>() __attribute__((always_inline)) {
+      push<AllThere, at[s], cross, heights>(t, r[s], pulls[s], pulls[answers - number + s], difference[s], total[s], mask[s], sums);
+    });
+  }
+
+  template <bool AllThere, std::size_t n>
+  [[gnu::always_inline]] void geometry(int t, Bits bits, const Vector& here, Pack (&r)[3], Pack& base_q, Pack& cross_q, Pack& difference, Pack& total,
+                                       Mask& mask) const {
+    constexpr Neighbour to = List::neighbours[n];
+    constexpr int offset[3] = {to.dx, to.dy, to.dz};
+    constexpr std::size_t line = List::line_of(to);
+    const auto there = [&](std::size_t c) { return load(displacement(line, c) + t + (to.dx > 0 ? 1 : 0)); };
+    Pack growth[3];
+    each<3>([&]<std::size_t c>() __attribute__((always_inline)) {
+      const Pack d = here[c] - there(c);
+      r[c] = offset[c] == 0 ? d : offset[c] > 0 ? d - spacing_ : d + spacing_;
+      growth[c] = d * (offset[c] == 0 ? d : offset[c] > 0 ? r[c] - spacing_ : r[c] + spacing_);
+    });
+    cross_q = base_q = growth[0] + growth[1] + growth[2];
+    if constexpr (membrane == Membrane::free) {
+      const Pack height = there(3);
+      difference = height - here[3];
+      total = height + here[3];
+      base_q += difference * difference;
+      cross_q += total * (2 * request_.membrane_distance + total);
+    }
+    if constexpr (!AllThere) {
+      mask = lanes_with(bits, 1u << n);
+      base_q = where(mask, base_q);
+      cross_q = where(mask, cross_q);
+    }
+  }
+
+  template <bool AllThere, std::size_t n, bool cross, bool heights>
+  [[gnu::always_inline]] void push(int t, const Pack (&r)[3], Pack base, Pack crossed, Pack difference, Pack total, Mask mask, Sums& sums) const {
+    constexpr Neighbour to = List::neighbours[n];
+    constexpr std::size_t line = List::line_of(to);
+    Vector& own = to.dx < 0 ? sums.own_further : sums.own;
+    Vector& other = line == 0 ? sums.own_further : to.dx > 0 ? sums.line_further[line] : sums.line[line];
+    if constexpr (!AllThere) {
+      if (rows_.weight_sets != nullptr) {
+        const Pack weight = weights<n>(t);
+        base *= weight;
+        if (cross) crossed *= weight;
+      }
+      base = where(mask, base);
+      if (cross) crossed = where(mask, crossed);
+    }
+    Pack pull = base;
+    if constexpr (cross) pull += crossed;
+    if constexpr (heights) {  // the cross spring pushes both heights the same way: no action and reaction
+      const Pack along = base * difference, both = crossed * (request_.membrane_distance + total);
+      own[3] += along - both;
+      other[3] -= along + both;
+    }
+    each<3>([&]<std::size_t c>() __attribute__((always_inline)) {
+      const Pack force = product(pull, r[c]);
+      own[c] -= force;
+      other[c] += force;
+    });
+  }
+
+  template <std::size_t n>
+  Pack weights(int t) const {
+    const auto of = [&](int site) { return load(request_.weights + rows_.weight_sets[site / lanes] + lanes * (n + 1)); };
+    if constexpr (List::neighbours[n].dx >= 0) return of(t);
+    return one_back(of(t < 0 ? 0 : t), of(t + lanes < rows_.count ? t + lanes : t));
+  }
+
+  /// What the last sites pull at beyond the row's end.
+  void last(const Carried& carried) {
+    for (std::size_t line = 1; line < lines; ++line)
+      if (leans_forward(line) && (rows_.neighbours & List::in_line(List::lines[line])) != 0)
+        for (std::size_t c = 0; c < components; ++c) {
+          double* const so_far = received(line, c) + rows_.count;
+          store(so_far, load(so_far) + one_further(carried.to_line[line][c], Pack{}));
+        }
+  }
+
+  const KernelRequest& request_;
+  const Rows& rows_;
+  const Pack spacing_;
+  std::uint32_t rung_ = 0;
+};
+
+/// Adds the forces to rows of them, one a component, for what is to be done later.
+template <int Components>
+struct Keep {
+  double* const (&rows)[Components];
+  void operator()(int t, const Forces<Components>& forces) const {
+    for (std::size_t c = 0; c < Components; ++c) store(rows[c] + t, load(rows[c] + t) + forces[c]);
+  }
+};
+
+}  // namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS

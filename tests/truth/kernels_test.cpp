@@ -1,0 +1,112 @@
+// The fast kernel against the plain one (HYPERLATTICE_SPRINGS=exact: one neighbour at a time, root and division), and against itself on other
+// numbers of threads: for strains of every size, bodies with holes and with rows of every length, cells, several materials, breaking springs.
+#include <support/scenes.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace {
+using namespace hyperlattice;
+using namespace hyperlattice::test;
+
+/// The kernel that a simulation uses while this lives.
+struct ExactKernel {
+  ExactKernel() { setenv("HYPERLATTICE_SPRINGS", "exact", 1); }
+  ~ExactKernel() { unsetenv("HYPERLATTICE_SPRINGS"); }
+};
+
+struct ShapeCase {
+  const char* name;
+  const char* shape;  ///< mm are metres here
+};
+const ShapeCase shapes[] = {
+    {"box", R"({ "box": { "low": [0, 0, 0], "high": [35, 5, 6] } })"},
+    {"whole_vectors", R"({ "box": { "low": [0, 0, 0], "high": [16, 4, 4] } })"},
+    {"column", R"({ "box": { "low": [0, 0, 0], "high": [1, 3, 9] } })"},
+    {"sheet", R"({ "box": { "low": [0, 0, 0], "high": [25, 1, 7] } })"},
+    {"hollow_sphere", R"({ "difference": [{ "sphere": { "radius": 9.2 } }, { "sphere": { "radius": 4.1 } }] })"},
+    {"leaning", R"({ "cylinder": { "start": [0, 0, 0], "end": [20, 6, 9], "radius": 3.3 } })"},
+};
+
+struct Variant {
+  const char* name;
+  const char* material;
+  const char* more;  ///< stages
+};
+const Variant variants[] = {
+    {"three", R"("membrane": "none", "poisson": 0.25)", ""},
+    {"clamped", R"("membrane": "III", "lambda": 2)", ""},
+    {"free", R"("membrane": "I-m", "poisson": 0.1)", ""},
+    {"breakable", R"("membrane": "I-m", "poisson": 0.1, "failure": { "type": "failures.elongation", "limit": 1e-3 })", ""},
+    {"two_materials", R"("membrane": "I-m", "poisson": 0.1)",
+     R"(, { "type": "materials.elastic", "young": 3e9, "density": 900, "membrane": "I-m", "poisson": 0.2,
+          "region": { "half_space": { "point": [0, 2.2, 2.2], "normal": [0.1, 0.5, 1] } } })"},
+    {"falling", R"("membrane": "none", "poisson": 0.25)", R"(, { "type": "loads.gravity", "acceleration": [3, 0, -9.81] })"},
+};
+
+class Kernels : public testing::TestWithParam<std::tuple<ShapeCase, Variant, const char*>> {
+ protected:
+  /// Spacing 1 m.
+  std::unique_ptr<Plan> plan() const {
+    const auto& [shape, variant, boundary] = GetParam();
+    return plan_of(R"({ "format": "hyperlattice/1", "pipeline": [
+      { "type": "lattices.cubic", "boundary": ")" +
+                   std::string(boundary) + R"(", "spacing": 1, "anchor": [0, 0, 0], "shape": )" + shape.shape + R"( },
+      { "type": "materials.elastic", "young": 1e10, "density": 2500, )" +
+                   variant.material + " }" + variant.more + R"(, { "type": "solvers.explicit", "end_time": 1 } ] })");
+  }
+};
+INSTANTIATE_TEST_SUITE_P(All, Kernels,
+                         testing::Combine(testing::ValuesIn(shapes), testing::ValuesIn(variants), testing::Values("particles", "cells")),
+                         [](const auto& info) {
+                           return std::string(std::get<0>(info.param).name) + "_" + std::get<1>(info.param).name + "_" + std::get<2>(info.param);
+                         });
+
+/// Displacements at random, one height a particle where there are heights.
+void disturb(Simulation& simulation, const Model& model, double size) {
+  const std::size_t particles = model.body.particles;
+  simulation.set_displacements(noise(3 * particles, size, 1), model.degrees_of_freedom == 4 ? noise(particles, size, 2) : std::vector<double>{});
+}
+
+struct Moved {
+  std::vector<double> velocity, rate;
+  std::uint64_t hash = 0;
+  std::size_t broken = 0;
+};
+Moved moved(const Model& model, double size, int steps, int threads) {
+  Simulation simulation(model, threads);
+  disturb(simulation, model, size);
+  for (int n = 0; n < steps; ++n) simulation.step(0.3 * model.critical_time_step);
+  Moved moved;
+  simulation.velocities(moved.velocity);
+  simulation.height_rates(moved.rate);
+  moved.hash = simulation.hash();
+  moved.broken = simulation.breakages().size();
+  return moved;
+}
+
+TEST_P(Kernels, GiveTheForcesOfThePlainOne) {
+  const auto scene = plan();
+  for (const double size : {1e-12, 1e-6, 2e-3, 0.02, 0.3}) {
+    const Moved fast = moved(*scene->model, size, 1, 1);
+    const ExactKernel exact;
+    const Moved plain = moved(*scene->model, size, 1, 1);
+    const double scale = std::max(largest(plain.velocity), largest(plain.rate));
+    ASSERT_GT(scale, 0);
+    EXPECT_LT(distance(fast.velocity, plain.velocity), 4e-15 * scale) << size;
+    EXPECT_LT(distance(fast.rate, plain.rate), 4e-15 * scale) << size;
+    EXPECT_EQ(fast.broken, plain.broken) << size;
+  }
+}
+
+TEST_P(Kernels, GiveTheSameBitsForAnyNumberOfThreads) {
+  const auto scene = plan();
+  for (const double size : {1e-6, 0.02}) {
+    const Moved one = moved(*scene->model, size, 8, 1);
+    for (const int threads : {2, 3, 5}) EXPECT_EQ(moved(*scene->model, size, 8, threads).hash, one.hash) << size << ", " << threads << " threads";
+  }
+}
+
+}  // namespace
