@@ -34,6 +34,7 @@ class AlignedArray {
 /// A load's part in a support.
 struct Contribution {
   std::uint32_t support = 0, load = 0;
+  Particle particle = 0;
   Vec3 force, displacement, velocity;  ///< amplitudes
   Axes displaced = 0, driven = 0;
   double factor = 0;  ///< of the present step

@@ -50,6 +50,7 @@ void Simulation::Parts::add_supports(Block& block) const {
       if (layout->place(loaded.particle).block == block.number) {
         Contribution part;
         part.load = static_cast<std::uint32_t>(l);
+        part.particle = loaded.particle;
         part.force = loaded.force;
         part.displacement = loaded.displacement;
         part.velocity = loaded.velocity;

@@ -63,8 +63,7 @@ void Simulation::settle(const Settling& to) {
       for (Contribution& part : block.contributions) {
         if (part.load != l) continue;
         Support& support = block.supports[part.support];
-        const Site row = parts_->first_site_of_row(block, static_cast<std::size_t>(support.row));
-        const Particle particle = model.body.at({support.site, row.j, row.k});
+        const Particle particle = part.particle;
         const Vec3 moved = moved_of(block, support, particle);
         part.work += mean * dot(part.force, moved);
         for (int c = 0; c < 3; ++c) {
