@@ -48,7 +48,7 @@ void Simulation::halt() {
   parts_->halted_energy += error - parts_->balance().error;
 }
 
-void Simulation::close_books() { parts_->start_known = false; }
+void Simulation::close_books() { parts_->start_energy += parts_->balance().error; }
 
 void Simulation::settle(const Settling& to) {
   halt();
