@@ -1,5 +1,5 @@
-// Particle-steps per second of the explicit step on a cube of 50^3 particles in slow torsion, for each kind of membrane, breakable or not,
-// with boundary particles and cells, on one thread and on two. Arguments: those of Google Benchmark.
+// Speed of the explicit step: nanoseconds per particle-step, springs per second, and the share of the processor's arithmetic that they make,
+// for each kind of kernel, size and shape. Arguments: those of Google Benchmark, for instance --benchmark_filter=free/.*/50.
 #include <plan/plan.hpp>
 #include <run/state.hpp>
 
@@ -7,59 +7,107 @@
 #include <unistd.h>
 #include <nlohmann/json.hpp>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 
 namespace {
 using namespace hyperlattice;
+using Json = nlohmann::json;
 
-constexpr const char* membranes[] = {"none", "III", "I-m"};  // none, clamped, free
+struct Variant {
+  const char* name;
+  const char* membrane;
+  bool breakable, damped, cells;
+  int flops_of_spring, flops_of_particle;  ///< as kernels/stencil.hpp and kernels/motion.hpp write them; a root counts with its series
+};
+const Variant variants[] = {
+    {"three", "none", false, false, false, 33, 18},       {"three_breakable", "none", true, false, false, 33, 18},
+    {"three_damped", "none", false, true, false, 33, 39}, {"three_cells", "none", false, false, true, 33, 18},
+    {"clamped", "III", false, false, false, 47, 18},      {"clamped_breakable", "III", true, false, false, 47, 18},
+    {"free", "I-m", false, false, false, 61, 27},         {"free_breakable", "I-m", true, false, false, 61, 27},
+    {"free_damped", "I-m", false, true, false, 61, 55},   {"free_cells", "I-m", false, false, true, 61, 27},
+};
 
-nlohmann::json scene_of(const std::string& membrane, bool breakable, bool cells) {
-  nlohmann::json material = {{"type", "materials.elastic"}, {"young", 1e10}, {"density", 2500}, {"membrane", membrane}};
-  if (membrane != "none") material["lambda"] = 0.5;
-  if (breakable) material["failure"] = {{"type", "failures.elongation"}, {"limit", 1e-4}};  // is never reached
-  const auto spin = [](const char* low, const char* high, double rate) {
-    return nlohmann::json{{"type", "loads.start_velocity"},
-                          {"on", {{"box", {{"low", {0, 0, low}}, {"high", {"50 mm", "50 mm", high}}}}}},
-                          {"angular", {0, 0, rate}},
-                          {"centre", {"25 mm", "25 mm", 0}}};
+/// A cube of so many particles along an edge, or the hollow sphere of 490,432 (size 0), in slow torsion.
+Json scene_of(const Variant& variant, int size) {
+  Json material = {{"type", "materials.elastic"}, {"young", 1e10}, {"density", 2500}, {"membrane", variant.membrane}};
+  if (std::string(variant.membrane) != "none") material["lambda"] = 0.5;
+  if (variant.breakable) material["failure"] = {{"type", "failures.elongation"}, {"limit", 1e-4}};  // is never reached
+  const double edge = (variant.cells ? size - 1 : size) * 1e-3, far = 1;
+  const Json ball = {{"sphere", {{"radius", 0.05}}}}, cavity = {{"sphere", {{"radius", 0.02}}}};
+  const Json shape = size > 0 ? Json{{"box", {{"low", {0, 0, 0}}, {"high", {edge, edge, edge}}}}} : Json{{"difference", {ball, cavity}}};
+  const auto spin = [&](double low, double high, double rate) {
+    return Json{{"type", "loads.start_velocity"},
+                {"on", {{"box", {{"low", {-far, -far, low}}, {"high", {far, far, high}}}}}},
+                {"angular", {0, 0, rate}},
+                {"centre", {edge / 2, edge / 2, 0}}};
   };
-  const char* size = cells ? "49 mm" : "50 mm";
+  const double middle = size > 0 ? edge / 2 : 0;
   return {{"format", "hyperlattice/1"},
           {"pipeline",
-           {{{"type", "lattices.cubic"},
-             {"spacing", "1 mm"},
-             {"boundary", cells ? "cells" : "particles"},
-             {"shape", {{"box", {{"low", {0, 0, 0}}, {"high", {size, size, size}}}}}}},
+           {{{"type", "lattices.cubic"}, {"spacing", 1e-3}, {"boundary", variant.cells ? "cells" : "particles"}, {"shape", shape}},
             material,
-            spin("0 mm", "25 mm", 1),
-            spin("25 mm", "50 mm", -1),
+            spin(-far, middle, 1),
+            spin(middle, far, -1),
             {{"type", "solvers.explicit"}, {"end_time", "1 s"}}}}};
 }
 
-void explicit_step(benchmark::State& state) {
+/// Flops a second of multiply-adds in registers on one thread, measured now.
+#if defined(__x86_64__)
+__attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#endif
+double
+peak_of_multiply_adds() {
+  constexpr int chains = 96, rounds = 200000;
+  double x[chains];
+  for (int n = 0; n < chains; ++n) x[n] = n;
+  const auto start = std::chrono::steady_clock::now();
+  for (int round = 0; round < rounds; ++round)
+    for (double& value : x) value = value * 0.999 + 1e-3;
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+  benchmark::DoNotOptimize(x);
+  return 2.0 * chains * rounds / time.count();
+}
+
+void explicit_step(benchmark::State& state, const Variant& variant, int size, int threads) {
   const auto file = std::filesystem::temp_directory_path() / ("kernels_benchmark." + std::to_string(getpid()) + ".json");
-  std::ofstream(file) << scene_of(membranes[state.range(0)], state.range(1) != 0, state.range(2) != 0);
+  std::ofstream(file) << scene_of(variant, size);
   Host host({std::filesystem::path(HYPERLATTICE_BUILD) / "lib" / "hyperlattice"});
-  const int threads = static_cast<int>(state.range(3));
   const auto plan = make_plan(read_scene(file, {}, host), threads);
   std::filesystem::remove(file);
 
   Simulation simulation(*plan->model, threads);
-  for (auto _ : state) simulation.step(plan->stages.front().plan.time_step);
-  const auto particles = static_cast<double>(plan->model->body.particles);
-  state.counters["particle_steps/s"] = benchmark::Counter(particles, benchmark::Counter::kIsIterationInvariantRate);
-  state.counters["s/particle_step"] = benchmark::Counter(particles, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
-  state.SetLabel(std::string(membranes[state.range(0)]) + (state.range(1) != 0 ? ", breakable, " : ", ") + (state.range(2) != 0 ? "cells, " : "") +
-                 plan->model->kernels.instructions);
+  if (variant.damped) simulation.set_damping(0.8);
+  const double time_step = 0.5 * plan->stages.front().plan.time_step;
+  simulation.step(time_step);  // the first one finds the books' start
+  for (auto _ : state) simulation.step(time_step);
+  const auto particles = static_cast<double>(plan->model->body.particles), springs = static_cast<double>(plan->model->body.base_springs());
+  const double flops = springs * variant.flops_of_spring + particles * variant.flops_of_particle;
+  using benchmark::Counter;
+  state.counters["s/particle_step"] = Counter(particles, Counter::kIsIterationInvariantRate | Counter::kInvert);
+  state.counters["springs/s"] = Counter(springs, Counter::kIsIterationInvariantRate);
+  state.counters["of_peak"] = Counter(flops / (peak_of_multiply_adds() * threads), Counter::kIsIterationInvariantRate);
+  state.SetLabel(plan->model->kernels.instructions);
 }
-BENCHMARK(explicit_step)
-    ->ArgNames({"membrane", "breakable", "cells", "threads"})
-    ->ArgsProduct({{0, 1, 2}, {0, 1}, {0, 1}, {1, 2}})
-    ->UseRealTime()
-    ->Unit(benchmark::kMillisecond);
+
+void add(const Variant& variant, int size, int threads) {
+  const std::string shape = size > 0 ? std::to_string(size) : "hollow_sphere";
+  const std::string name = std::string(variant.name) + "/" + shape + "/" + std::to_string(threads);
+  benchmark::RegisterBenchmark(name.c_str(), [&variant, size, threads](benchmark::State& state) { explicit_step(state, variant, size, threads); })
+      ->UseRealTime()
+      ->Unit(benchmark::kMillisecond);
+}
 
 }  // namespace
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  for (const Variant& variant : variants)
+    for (const int size : {25, 50, 100, 0})
+      if (size > 0 || !variant.cells)
+        for (const int threads : {1, 2}) add(variant, size, threads);
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}

@@ -56,8 +56,8 @@ class Motion {
   Motion(const KernelRequest& request, const Row& row)
       : request_(request), row_(row), values_(request, row), mass_(values_.at(request.mass, 0)), inverse_mass_(1.0 / mass_) {}
 
-  /// The body acceleration's force on eight particles.
   bool accelerated() const { return request_.acceleration.x != 0 || request_.acceleration.y != 0 || request_.acceleration.z != 0; }
+  /// The body acceleration's force on eight particles.
   Pack body_force(int c, int t) const {
     const double acceleration[4] = {request_.acceleration.x, request_.acceleration.y, request_.acceleration.z, 0};
     return where(lanes_with(load_bits(request_.alive + row_.start + t), particle_bit), acceleration[c] * values_.at(request_.mass, t));

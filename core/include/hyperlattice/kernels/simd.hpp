@@ -62,8 +62,17 @@ inline Pack product(Pack a, Pack b) {
   return a * b;
 #endif
 }
-/// Lanes whose 16 bits have `bit` set.
-inline Mask lanes_with(Bits bits, std::uint16_t bit) { return __builtin_convertvector(bits & bit, Mask) != 0; }
+/// A choice of lanes.
+#if defined(__AVX512F__)
+typedef __mmask8 Lanes;
+inline Lanes lanes_with(Bits bits, std::uint16_t bit) {  // whose 16 bits have `bit` set
+  return _mm_test_epi16_mask(reinterpret_cast<__m128i>(bits), _mm_set1_epi16(static_cast<short>(bit)));
+}
+inline Pack where(Lanes lanes, Pack pack) { return reinterpret_cast<Pack>(_mm512_maskz_mov_pd(lanes, reinterpret_cast<__m512d>(pack))); }
+#else
+typedef Mask Lanes;
+inline Lanes lanes_with(Bits bits, std::uint16_t bit) { return __builtin_convertvector(bits & bit, Mask) != 0; }
+#endif
 inline Pack where(Mask mask, Pack pack) { return reinterpret_cast<Pack>(mask & reinterpret_cast<Mask>(pack)); }  // 0 elsewhere
 inline Pack select(Mask mask, Pack yes, Pack no) {
   return reinterpret_cast<Pack>((mask & reinterpret_cast<Mask>(yes)) | (~mask & reinterpret_cast<Mask>(no)));

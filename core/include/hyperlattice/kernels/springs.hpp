@@ -38,7 +38,7 @@ struct Springs {
     Pack alarm = fill(squared_growth(neighbour.rest_length, constants.alarm));
     Mask rung{};
     for (int t = 0; t < count; t += lanes) {
-      const Mask alive = lanes_with(load_bits(pair.alive + t), bit);
+      const Lanes alive = lanes_with(load_bits(pair.alive + t), bit);
       const auto counted = [&](Pack whole) {
         if constexpr (Weighted) whole *= load(pair.weights + pair.weight_sets[t / lanes]);
         return where(alive, whole);
@@ -58,7 +58,7 @@ struct Springs {
         base_q += difference * difference;
       }
       const Response base = respond<Law, Energy>(base_stiffness, neighbour.rest_length, base_q);
-      if constexpr (Breakable) rung |= alive & (base_q > alarm);
+      if constexpr (Breakable) rung |= where(alive, base_q) > alarm;
       const Pack base_pull = counted(base.force_over_length);
       Pack pull = base_pull;
       if constexpr (Energy) stored += counted(base.energy);

@@ -5,79 +5,20 @@
 // end, so that its own sites are one further. What falls one further waits for the next eight sites: nothing goes back.
 #pragma once
 
+#include <hyperlattice/kernels/cubic_list.hpp>
+#include <hyperlattice/kernels/motion.hpp>
 #include <hyperlattice/kernels/response.hpp>
-#include <hyperlattice/kernels/springs.hpp>
 
 #include <array>
 #include <bit>
-#include <cstddef>
-#include <utility>
 
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
-
-/// The cubic lattice's list: edges and face diagonals of a cube.
-struct CubicList {
-  static constexpr std::array<Neighbour, 9> neighbours{
-      {{1, 0, 0, 0}, {-1, 1, 0, 1}, {0, 1, 0, 0}, {1, 1, 0, 1}, {0, -1, 1, 1}, {-1, 0, 1, 1}, {0, 0, 1, 0}, {1, 0, 1, 1}, {0, 1, 1, 1}}};
-  struct Line {
-    int dy, dz;
-  };
-  static constexpr std::array<Line, 5> lines{{{0, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}};  ///< the rows that they stand in
-
-  /// Springs that are worked on side by side, so that the processor need not wait for any.
-  template <bool heights>
-  static constexpr auto batches() {  // as many as there are registers for
-    if constexpr (heights)
-      return std::array<std::uint16_t, 5>{0b000010001, 0b000000110, 0b000001000, 0b001100000, 0b110000000};
-    else
-      return std::array<std::uint16_t, 3>{0b000001110, 0b011100000, 0b100010001};
-  }
-
-  static constexpr std::uint16_t all() { return (1u << neighbours.size()) - 1; }
-  static constexpr std::uint16_t in_line(Line line) {
-    return bits([line](const Neighbour& n) { return n.dy == line.dy && n.dz == line.dz; });
-  }
-  static constexpr std::uint16_t leaning(int dx) {
-    return bits([dx](const Neighbour& n) { return n.dx == dx; });
-  }
-  template <std::size_t number>
-  static constexpr std::array<std::size_t, number> indices(std::uint16_t chosen) {
-    std::array<std::size_t, number> found{};
-    for (std::size_t n = 0, next = 0; n < neighbours.size(); ++n)
-      if ((chosen >> n & 1u) != 0) found[next++] = n;
-    return found;
-  }
-  static constexpr std::size_t line_of(const Neighbour& n) {
-    for (std::size_t line = 0; line < lines.size(); ++line)
-      if (lines[line].dy == n.dy && lines[line].dz == n.dz) return line;
-    return 0;
-  }
-  static double spacing(std::span<const NeighbourGeometry> list) { return list[0].rest.x; }
-  static bool is(std::span<const NeighbourGeometry> list) {
-    if (list.size() != neighbours.size()) return false;
-    for (std::size_t n = 0; n < list.size(); ++n) {
-      const Neighbour &a = list[n].site, &b = neighbours[n];
-      const Vec3 rest = spacing(list) * Vec3{double(b.dx), double(b.dy), double(b.dz)};
-      if (a.dx != b.dx || a.dy != b.dy || a.dz != b.dz || a.spring_class != b.spring_class) return false;
-      if (list[n].rest.x != rest.x || list[n].rest.y != rest.y || list[n].rest.z != rest.z) return false;
-    }
-    return true;
-  }
-
- private:
-  template <class Chosen>
-  static constexpr std::uint16_t bits(const Chosen& chosen) {
-    std::uint16_t found = 0;
-    for (std::size_t n = 0; n < neighbours.size(); ++n)
-      if (chosen(neighbours[n])) found = static_cast<std::uint16_t>(found | 1u << n);
-    return found;
-  }
-};
 
 template <class Law, Membrane membrane, bool Breakable, class List>
 class Stencil {
   static constexpr int components = components_of(membrane);
   static constexpr std::size_t lines = List::lines.size();
+  static constexpr bool has_cross = membrane != Membrane::none;
 
   using Vector = Forces<components>;
 
@@ -120,8 +61,9 @@ class Stencil {
   }
 
  private:
+  /// What falls one site further than a vector, on the row itself and on each line: its last lane belongs to the next vector.
   struct Carried {
-    Forces<components> own{}, to_line[lines];
+    Vector own{}, to_line[lines];
     Carried() {
       for (std::size_t line = 0; line < lines; ++line)
         if (leans_forward(line)) to_line[line] = {};
@@ -213,69 +155,71 @@ class Stencil {
     if constexpr (leans_forward(line)) carried.to_line[line] = sums.line_further[line];
   }
 
-  /// Springs of one batch to one neighbour each, between the sites in the lanes of `here` and of `there`.
+  /// Eight springs to one neighbour, as vectors from there to here.
+  struct Eight {
+    Pack r[3];                           ///< between the ends in space
+    Pack base_q, cross_q;                ///< growth of the squared lengths
+    Pack height_difference, height_sum;  ///< there less here; both together
+    Lanes alive;
+  };
+
+  /// The springs of one batch: where they stand, how they answer, what they push.
   template <bool AllThere, std::uint16_t batch>
   [[gnu::always_inline]] void add_batch(int t, Bits bits, const Vector& here, const Vector& further, Sums& sums) {
-    constexpr std::size_t number = std::popcount(batch);
-    constexpr auto at = List::template indices<number>(batch);
-    constexpr bool cross = membrane != Membrane::none, heights = membrane == Membrane::free;
-    Pack r[number][3], base_q[number], cross_q[number], difference[number], total[number];
-    Mask mask[number];
-    each<number>([&]<std::size_t s>() __attribute__((always_inline)) {
-      geometry<AllThere, at[s]>(t, bits, List::neighbours[at[s]].dx < 0 ? further : here, r[s], base_q[s], cross_q[s], difference[s], total[s],
-                                mask[s]);
-    });
-    constexpr std::size_t answers = cross ? 2 * number : number;  // of the base springs, then of their cross springs
-    Pack q[answers], pulls[answers];
+    constexpr std::size_t number = std::popcount(batch), answers = has_cross ? 2 * number : number;  // base springs, then their cross springs
+    constexpr auto neighbour = List::template indices<number>(batch);
+    Eight springs[number];
     const SpringKind<Law>* kinds[answers];
+    Pack q[answers], pulls[answers];
     each<number>([&]<std::size_t s>() __attribute__((always_inline)) {
-      const Kinds& both = rows_.kinds[List::neighbours[at[s]].spring_class];
-      q[s] = base_q[s];
-      kinds[s] = &both.base;
-      if constexpr (cross) {
-        q[number + s] = cross_q[s];
-        kinds[number + s] = &both.cross;
+      constexpr Neighbour to = List::neighbours[neighbour[s]];
+      springs[s] = between<AllThere, neighbour[s]>(t, bits, to.dx < 0 ? further : here);
+      q[s] = springs[s].base_q;
+      kinds[s] = &rows_.kinds[to.spring_class].base;
+      if constexpr (has_cross) {
+        q[number + s] = springs[s].cross_q;
+        kinds[number + s] = &rows_.kinds[to.spring_class].cross;
       }
     });
     const std::uint32_t rung = SpringKind<Law>::template pull<answers>(kinds, q, pulls);
     if (Breakable && rung != 0) [[unlikely]]
       for (std::size_t s = 0; s < number; ++s)
-        if ((rung >> s & 1u) != 0) rung_ |= 1u << at[s];
-    each<number>([&]<std::size_t s>() __attribute__((always_inline)) {
-      push<AllThere, at[s], cross, heights>(t, r[s], pulls[s], pulls[answers - number + s], difference[s], total[s], mask[s], sums);
-    });
+        if ((rung >> s & 1u) != 0) rung_ |= 1u << neighbour[s];
+    each<number>([&]<std::size_t s>()
+                     __attribute__((always_inline)) { push<AllThere, neighbour[s]>(t, springs[s], pulls[s], pulls[answers - number + s], sums); });
   }
 
   template <bool AllThere, std::size_t n>
-  [[gnu::always_inline]] void geometry(int t, Bits bits, const Vector& here, Pack (&r)[3], Pack& base_q, Pack& cross_q, Pack& difference, Pack& total,
-                                       Mask& mask) const {
+  [[gnu::always_inline]] Eight between(int t, Bits bits, const Vector& here) const {
     constexpr Neighbour to = List::neighbours[n];
     constexpr int offset[3] = {to.dx, to.dy, to.dz};
-    constexpr std::size_t line = List::line_of(to);
-    const auto there = [&](std::size_t c) { return load(displacement(line, c) + t + (to.dx > 0 ? 1 : 0)); };
+    const auto there = [&](std::size_t c) { return load(displacement(List::line_of(to), c) + t + (to.dx > 0 ? 1 : 0)); };
+    Eight springs{};
     Pack growth[3];
-    each<3>([&]<std::size_t c>() __attribute__((always_inline)) {
+    each<3>([&]<std::size_t c>() __attribute__((always_inline)) {  // d (2 rest + d) along each axis
       const Pack d = here[c] - there(c);
-      r[c] = offset[c] == 0 ? d : offset[c] > 0 ? d - spacing_ : d + spacing_;
-      growth[c] = d * (offset[c] == 0 ? d : offset[c] > 0 ? r[c] - spacing_ : r[c] + spacing_);
+      springs.r[c] = offset[c] == 0 ? d : offset[c] > 0 ? d - spacing_ : d + spacing_;
+      growth[c] = d * (offset[c] == 0 ? d : offset[c] > 0 ? springs.r[c] - spacing_ : springs.r[c] + spacing_);
     });
-    cross_q = base_q = growth[0] + growth[1] + growth[2];
+    springs.cross_q = springs.base_q = growth[0] + growth[1] + growth[2];
     if constexpr (membrane == Membrane::free) {
       const Pack height = there(3);
-      difference = height - here[3];
-      total = height + here[3];
-      base_q += difference * difference;
-      cross_q += total * (2 * request_.membrane_distance + total);
+      springs.height_difference = height - here[3];
+      springs.height_sum = height + here[3];
+      springs.base_q += springs.height_difference * springs.height_difference;
+      springs.cross_q += springs.height_sum * (2 * request_.membrane_distance + springs.height_sum);
     }
     if constexpr (!AllThere) {
-      mask = lanes_with(bits, 1u << n);
-      base_q = where(mask, base_q);
-      cross_q = where(mask, cross_q);
+      springs.alive = lanes_with(bits, 1u << n);
+      springs.base_q = where(springs.alive, springs.base_q);
+      springs.cross_q = where(springs.alive, springs.cross_q);
     }
+    return springs;
   }
 
-  template <bool AllThere, std::size_t n, bool cross, bool heights>
-  [[gnu::always_inline]] void push(int t, const Pack (&r)[3], Pack base, Pack crossed, Pack difference, Pack total, Mask mask, Sums& sums) const {
+  /// `base`, `cross`: force over length of the springs.
+  template <bool AllThere, std::size_t n>
+  [[gnu::always_inline]] void push(int t, const Eight& springs, Pack base, Pack cross, Sums& sums) const {
     constexpr Neighbour to = List::neighbours[n];
     constexpr std::size_t line = List::line_of(to);
     Vector& own = to.dx < 0 ? sums.own_further : sums.own;
@@ -284,20 +228,20 @@ class Stencil {
       if (rows_.weight_sets != nullptr) {
         const Pack weight = weights<n>(t);
         base *= weight;
-        if (cross) crossed *= weight;
+        cross *= weight;
       }
-      base = where(mask, base);
-      if (cross) crossed = where(mask, crossed);
+      base = where(springs.alive, base);
+      cross = where(springs.alive, cross);
     }
     Pack pull = base;
-    if constexpr (cross) pull += crossed;
-    if constexpr (heights) {  // the cross spring pushes both heights the same way: no action and reaction
-      const Pack along = base * difference, both = crossed * (request_.membrane_distance + total);
+    if constexpr (has_cross) pull += cross;
+    if constexpr (membrane == Membrane::free) {  // the cross spring pushes both heights the same way: no action and reaction
+      const Pack along = base * springs.height_difference, both = cross * (request_.membrane_distance + springs.height_sum);
       own[3] += along - both;
       other[3] -= along + both;
     }
     each<3>([&]<std::size_t c>() __attribute__((always_inline)) {
-      const Pack force = product(pull, r[c]);
+      const Pack force = product(pull, springs.r[c]);
       own[c] -= force;
       other[c] += force;
     });

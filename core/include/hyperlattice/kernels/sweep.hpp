@@ -51,30 +51,35 @@ class Sweep {
   }
 
   void one_row(const Row& row, std::uint32_t index, int j, int k) {
+    const bool owned = k >= 0, fused = fused_ && (!Mixed || row.material >= 0);
     const int count = (row.end - row.begin + lanes - 1) / lanes * lanes;
     Motion<membrane, Mixed, task> motion(request_, row);
-    const bool fused = fused_ && (!Mixed || row.material >= 0);
-    if constexpr (!Breakable && !Mixed && !measuring)
-      if (fused && k >= 0 && row.first_support == row.last_support) {  // nothing stands between the forces and the motion
-        const bool accelerated = motion.accelerated();
-        all_neighbours(
-            row, j, k, count, [&](int t, Forces<components>& forces) __attribute__((always_inline)) {
-              if (accelerated)
-                for (std::size_t c = 0; c < components; ++c) forces[c] += motion.body_force(static_cast<int>(c), t);
-              motion.vector(t, forces);
-            });
-        motion.finish(index, Pack{});
-        return;
-      }
-    for (int c = 0; c < components; ++c)
-      for (int t = 0; t < count; t += lanes) store(own_[c] + t, motion.accelerated() ? motion.body_force(c, t) : Pack{});
+    const bool accelerated = motion.accelerated();
+    // Particles can move as soon as the forces on them are known if no criterion and no support must see them first.
+    constexpr bool may_move_at_once = !Breakable && !Mixed && !measuring;
+    const bool at_once = may_move_at_once && fused && owned && row.first_support == row.last_support;
+    const Keep<components> keep{own_};
+    if (!at_once)
+      for (int c = 0; c < components; ++c)
+        for (int t = 0; t < count; t += lanes) store(own_[c] + t, accelerated ? motion.body_force(c, t) : Pack{});
+
     Pack stored{};
-    if (fused)
-      review_all(row, index, j, k, all_neighbours(row, j, k, count, Keep<components>{own_}));
-    else
+    if (!fused) {
       one_by_one(row, index, j, k, count, stored);
-    if (k < 0) return;
-    motion.vectors(own_);
+    } else if constexpr (may_move_at_once) {
+      all_neighbours(
+          row, j, k, count, [&](int t, Forces<components>& forces) __attribute__((always_inline)) {
+            if (!at_once) return keep(t, forces);
+            if (accelerated)
+              for (std::size_t c = 0; c < components; ++c) forces[c] += motion.body_force(static_cast<int>(c), t);
+            motion.vector(t, forces);
+          });
+    } else {
+      const std::uint32_t rung = all_neighbours(row, j, k, count, keep);
+      if (Breakable && owned) review_all(row, index, j, k, rung);
+    }
+    if (!owned) return;
+    if (!at_once) motion.vectors(own_);
     motion.finish(index, stored);
   }
 
@@ -99,7 +104,6 @@ class Sweep {
   }
 
   void review_all(const Row& row, std::uint32_t index, int j, int k, std::uint32_t rung) {
-    if (!Breakable || rung == 0 || k < 0) return;
     for (std::uint32_t n = 0; n < request_.neighbours.size(); ++n)
       if ((rung >> n & 1u) != 0)
         Springs<Law, membrane, Breakable, Mixed, false, measuring>::review(request_, pair_of(row, request_.neighbours[n].site, j, k), row, index, n,
