@@ -28,8 +28,11 @@ class RowValues {
   /// `values`: of a whole particle of each material.
   Pack at(const double* values, int t) const {
     Pack pack = fill(values[uniform_]);
-    if (material_ != nullptr)
-      for (int lane = 0; lane < lanes; ++lane) pack[lane] = values[material_[t + lane]];
+    if (material_ != nullptr) {
+      double of_lane[lanes];
+      for (int lane = 0; lane < lanes; ++lane) of_lane[lane] = values[material_[t + lane]];
+      pack = load(of_lane);
+    }
     return weight_sets_ == nullptr ? pack : pack * load(weights_ + weight_sets_[t / lanes]);
   }
   /// Whether the values are the same along the row.
@@ -74,13 +77,13 @@ class Motion {
     if constexpr (!measuring) supports_after();
   }
 
-  void vector(int t, Forces<components>& forces) {
+  HYPERLATTICE_INLINE void vector(int t, Forces<components>& forces) {
     const double kick = request_.back + request_.forward, drift = 2 * request_.forward;
     if (!values_.constant()) {
       mass_ = values_.at(request_.mass, t);
       inverse_mass_ = 1.0 / mass_;
     }
-    Pack alpha{};
+    Pack alpha = 0;
     if constexpr (membrane == Membrane::free) alpha = values_.at(request_.alpha, t);
     for (std::size_t c = 0; c < components; ++c) {
       double* u = request_.displacement[c] + row_.start + t;
@@ -91,7 +94,7 @@ class Motion {
         force -= 2.0 * alpha * displacement;
         if constexpr (measuring) stored_ += alpha * displacement * displacement;
       }
-      Pack drag{};
+      Pack drag = 0;
       if (task == Task::step_damped || (measuring && request_.damping != 0)) {
         drag = with_sign(request_.damping * absolute(force), velocity);
         force -= drag;
@@ -196,7 +199,7 @@ class Motion {
   const Row& row_;
   RowValues<Mixed> values_;
   Pack mass_, inverse_mass_;
-  Pack stored_{}, damped_{}, kinetic_{}, kinetic_mean_{}, momentum_[4] = {}, potential_{};
+  Pack stored_ = 0, damped_ = 0, kinetic_ = 0, kinetic_mean_ = 0, momentum_[4] = {0, 0, 0, 0}, potential_ = 0;
 };
 
 }  // namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS

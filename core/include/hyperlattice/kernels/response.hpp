@@ -29,7 +29,7 @@ template <class Law, bool Energy, class Length>  // one length for all, or one a
 inline Response respond(Pack stiffness, Length rest_length, Pack q) {
   const Pack length = root(rest_length * rest_length + q);
   const Pack inverse = 1.0 / (length * (length + rest_length));
-  Response response{};
+  Response response;
   if constexpr (is_linear<Law>) {
     response.force_over_length = Law::force(stiffness, q * inverse);
     if constexpr (Energy) response.energy = Law::energy(stiffness, q * length * inverse);
@@ -107,7 +107,7 @@ class SpringKind {
 
   /// Force over length of several springs at a time. Returns a bit for each that has one above its alarm.
   template <std::size_t number>
-  [[gnu::always_inline]] static std::uint32_t pull(const SpringKind* const (&kinds)[number], const Pack (&q)[number], Pack (&pull)[number]) {
+  HYPERLATTICE_INLINE static std::uint32_t pull(const SpringKind* const (&kinds)[number], const Pack (&q)[number], Pack (&pull)[number]) {
     Outside outside;
     each<number>([&]<std::size_t s>() __attribute__((always_inline)) { outside.look(q[s], kinds[s]->lowest_, kinds[s]->highest_); });
     if (outside) [[unlikely]] {
@@ -128,7 +128,7 @@ class SpringKind {
 
   /// q times the series in q, side by side.
   template <std::size_t terms, std::size_t number, class SeriesOf>
-  [[gnu::always_inline]] static void sum(const SeriesOf& series, const Pack (&q)[number], Pack (&pull)[number]) {
+  HYPERLATTICE_INLINE static void sum(const SeriesOf& series, const Pack (&q)[number], Pack (&pull)[number]) {
     each<number>([&]<std::size_t s>() __attribute__((always_inline)) { pull[s] = fill(series(s)[terms - 1]); });
     each<terms - 1>([&]<std::size_t n>() __attribute__((always_inline)) {
       each<number>([&]<std::size_t s>() __attribute__((always_inline)) { pull[s] = pull[s] * q[s] + series(s)[terms - 2 - n]; });

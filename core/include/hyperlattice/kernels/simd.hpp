@@ -1,5 +1,6 @@
-// Eight numbers at a time, in the vector extension that gcc and clang share: one notation for every instruction set.
-// Included only by kernels, which are compiled once for each; the namespace keeps their functions apart.
+// Eight numbers at a time: one notation for every instruction set. A pack is made of as many vectors as the processor needs for eight numbers, in
+// the vector extension that gcc and clang share. (A single vector wider than the processor's is taken apart by gcc, but through memory.)
+// Included only by kernels, which are compiled once for each instruction set; the namespace keeps their functions apart.
 #pragma once
 
 #include <cstddef>
@@ -7,34 +8,97 @@
 #include <cstring>
 #include <utility>
 
-#if defined(__AVX__)
+#if defined(__SSE2__)
 #include <immintrin.h>
 #endif
 
 #ifndef HYPERLATTICE_INSTRUCTIONS
 #define HYPERLATTICE_INSTRUCTIONS baseline
 #endif
+#define HYPERLATTICE_INLINE [[gnu::always_inline]] inline
 
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
 /// Calls body<0>(), ..., body<number - 1>(): a loop that is unrolled from the start, so that small arrays stay in registers.
 template <std::size_t number, class Body>
-[[gnu::always_inline]] inline void each(const Body& body) {
+HYPERLATTICE_INLINE void each(const Body& body) {
   [&]<std::size_t... n>(std::index_sequence<n...>) __attribute__((always_inline)) { (body.template operator()<n>(), ...); }
   (std::make_index_sequence<number>());
 }
 
-typedef double Pack __attribute__((vector_size(64)));
-typedef std::int64_t Mask __attribute__((vector_size(64)));  // all bits of a lane set: true
-typedef std::uint16_t Bits __attribute__((vector_size(16)));
-typedef double Half __attribute__((vector_size(32)));
+#if defined(__AVX512F__)
+inline constexpr int vector_bytes = 64;
+#elif defined(__AVX__)
+inline constexpr int vector_bytes = 32;
+#else
+inline constexpr int vector_bytes = 16;
+#endif
+inline constexpr std::size_t vectors = 64 / vector_bytes;  ///< of a pack
 
-typedef double Unaligned __attribute__((vector_size(64), aligned(8)));
+typedef double Vector __attribute__((vector_size(vector_bytes)));
+typedef double VectorAnywhere __attribute__((vector_size(vector_bytes), aligned(8)));
+typedef std::int64_t Choice __attribute__((vector_size(vector_bytes)));             // all bits of a lane set: chosen
+typedef std::uint16_t Bits __attribute__((vector_size(16)));                        // of eight sites
+typedef std::uint16_t BitsOfVector __attribute__((vector_size(vector_bytes / 4)));  // of those in a vector
 
-inline Pack load(const double* from) { return *reinterpret_cast<const Unaligned*>(from); }
-inline void store(double* to, Pack pack) { *reinterpret_cast<Unaligned*>(to) = pack; }
-inline Pack fill(double value) { return Pack{} + value; }
+struct Mask {
+  Choice part[vectors];
+};
 
+struct Pack {
+  Vector part[vectors];
+
+  Pack() = default;
+  HYPERLATTICE_INLINE Pack(double value) {  // in each lane
+    each<vectors>([&]<std::size_t p>() __attribute__((always_inline)) { part[p] = Vector{} + value; });
+  }
+
+  template <class Operation>
+  HYPERLATTICE_INLINE static Pack of(const Operation& operation) {
+    Pack pack;
+    each<vectors>([&]<std::size_t p>() __attribute__((always_inline)) { pack.part[p] = operation(p); });
+    return pack;
+  }
+  HYPERLATTICE_INLINE friend Pack operator+(const Pack& a, const Pack& b) {
+    return of([&](std::size_t p) __attribute__((always_inline)) { return a.part[p] + b.part[p]; });
+  }
+  HYPERLATTICE_INLINE friend Pack operator-(const Pack& a, const Pack& b) {
+    return of([&](std::size_t p) __attribute__((always_inline)) { return a.part[p] - b.part[p]; });
+  }
+  HYPERLATTICE_INLINE friend Pack operator*(const Pack& a, const Pack& b) {
+    return of([&](std::size_t p) __attribute__((always_inline)) { return a.part[p] * b.part[p]; });
+  }
+  HYPERLATTICE_INLINE friend Pack operator/(const Pack& a, const Pack& b) {
+    return of([&](std::size_t p) __attribute__((always_inline)) { return a.part[p] / b.part[p]; });
+  }
+  HYPERLATTICE_INLINE friend Pack operator-(const Pack& a) {
+    return of([&](std::size_t p) __attribute__((always_inline)) { return -a.part[p]; });
+  }
+  HYPERLATTICE_INLINE friend Mask operator>(const Pack& a, const Pack& b) {
+    Mask mask;
+    each<vectors>([&]<std::size_t p>() __attribute__((always_inline)) { mask.part[p] = a.part[p] > b.part[p]; });
+    return mask;
+  }
+  HYPERLATTICE_INLINE Pack& operator+=(const Pack& other) { return *this = *this + other; }
+  HYPERLATTICE_INLINE Pack& operator-=(const Pack& other) { return *this = *this - other; }
+  HYPERLATTICE_INLINE Pack& operator*=(const Pack& other) { return *this = *this * other; }
+};
+
+HYPERLATTICE_INLINE Pack fill(double value) { return value; }
+HYPERLATTICE_INLINE Pack load(const double* from) {
+  return Pack::of([&](std::size_t p) __attribute__((always_inline)) { return reinterpret_cast<const VectorAnywhere*>(from)[p]; });
+}
+HYPERLATTICE_INLINE void store(double* to, const Pack& pack) {
+  each<vectors>([&]<std::size_t p>() __attribute__((always_inline)) { reinterpret_cast<VectorAnywhere*>(to)[p] = pack.part[p]; });
+}
+/// Sum of the lanes, always in the same order.
+inline double sum(const Pack& pack) {
+  double p[8];
+  store(p, pack);
+  return ((p[0] + p[1]) + (p[2] + p[3])) + ((p[4] + p[5]) + (p[6] + p[7]));
+}
+
+// Sites' bits.
 inline Bits load_bits(const std::uint16_t* from) {
   Bits bits;
   std::memcpy(&bits, from, sizeof bits);
@@ -54,89 +118,126 @@ inline std::uint16_t joined(Bits bits) {
   all |= all >> 32;
   return static_cast<std::uint16_t>(all | all >> 16);
 }
-/// a b, rounded: where it is added to two sums, a product and two additions share the processor's units better than two fused ones.
-inline Pack product(Pack a, Pack b) {
-#if defined(__GNUC__) && !defined(__clang__)
-  return __builtin_assoc_barrier(a * b);
-#else
-  return a * b;
-#endif
-}
-/// A choice of lanes.
+
+/// Some of the lanes.
 #if defined(__AVX512F__)
 typedef __mmask8 Lanes;
-inline Lanes lanes_with(Bits bits, std::uint16_t bit) {  // whose 16 bits have `bit` set
+HYPERLATTICE_INLINE Lanes lanes_with(Bits bits, std::uint16_t bit) {  // whose bits have `bit` set
   return _mm_test_epi16_mask(reinterpret_cast<__m128i>(bits), _mm_set1_epi16(static_cast<short>(bit)));
 }
-inline Pack where(Lanes lanes, Pack pack) { return reinterpret_cast<Pack>(_mm512_maskz_mov_pd(lanes, reinterpret_cast<__m512d>(pack))); }
+HYPERLATTICE_INLINE Pack where(Lanes lanes, Pack pack) {
+  pack.part[0] = _mm512_maskz_mov_pd(lanes, pack.part[0]);
+  return pack;
+}
 #else
 typedef Mask Lanes;
-inline Lanes lanes_with(Bits bits, std::uint16_t bit) { return __builtin_convertvector(bits & bit, Mask) != 0; }
-#endif
-inline Pack where(Mask mask, Pack pack) { return reinterpret_cast<Pack>(mask & reinterpret_cast<Mask>(pack)); }  // 0 elsewhere
-inline Pack select(Mask mask, Pack yes, Pack no) {
-  return reinterpret_cast<Pack>((mask & reinterpret_cast<Mask>(yes)) | (~mask & reinterpret_cast<Mask>(no)));
-}
-inline bool any(Mask mask) {
-#if defined(__AVX512F__)
-  return _mm512_test_epi64_mask(reinterpret_cast<__m512i>(mask), reinterpret_cast<__m512i>(mask)) != 0;
-#elif defined(__AVX__)
-  __m256d halves[2];
-  std::memcpy(halves, &mask, sizeof mask);
-  return _mm256_movemask_pd(_mm256_or_pd(halves[0], halves[1])) != 0;
+HYPERLATTICE_INLINE Lanes lanes_with(Bits bits, std::uint16_t bit) {
+  BitsOfVector of_vector[vectors];
+  std::memcpy(of_vector, &bits, sizeof bits);
+  Lanes lanes;
+  each<vectors>([&]<std::size_t p>() __attribute__((always_inline)) {
+#if defined(__AVX2__)
+    std::int64_t four;
+    std::memcpy(&four, &of_vector[p], sizeof four);
+    const __m256i wide = _mm256_cvtepu16_epi64(_mm_cvtsi64_si128(four));
+    lanes.part[p] = reinterpret_cast<Choice>(wide) << __builtin_clzll(bit) >> 63;
 #else
-  std::int64_t joined = 0;
-  for (int lane = 0; lane < 8; ++lane) joined |= mask[lane];
-  return joined != 0;
+    lanes.part[p] = __builtin_convertvector(of_vector[p], Choice) << __builtin_clzll(bit) >> 63;
 #endif
+  });
+  return lanes;
 }
-/// Gathers whether a lane of any vector is not between its bounds, or not a number; asked once for several vectors.
+HYPERLATTICE_INLINE Pack where(const Mask& mask, const Pack& pack) {  // 0 elsewhere
+  return Pack::of([&](std::size_t p)
+                      __attribute__((always_inline)) { return reinterpret_cast<Vector>(mask.part[p] & reinterpret_cast<Choice>(pack.part[p])); });
+}
+#endif
+
+inline bool any(const Mask& mask) {
+  std::int64_t lanes[8], joined = 0;
+  std::memcpy(lanes, &mask, sizeof lanes);
+  for (const std::int64_t lane : lanes) joined |= lane;
+  return joined != 0;
+}
+
+/// Gathers whether a lane of any pack is not between its bounds, or not a number; asked once for several packs.
 class Outside {
  public:
 #if defined(__AVX512F__)
-  void look(Pack x, double low, double high) {
-    const __m512d value = reinterpret_cast<__m512d>(x);
-    found_ |= _mm512_cmp_pd_mask(value, _mm512_set1_pd(low), _CMP_NGE_UQ) | _mm512_cmp_pd_mask(value, _mm512_set1_pd(high), _CMP_NLE_UQ);
+  HYPERLATTICE_INLINE void look(const Pack& x, double low, double high) {
+    found_ |= _mm512_cmp_pd_mask(x.part[0], _mm512_set1_pd(low), _CMP_NGE_UQ) | _mm512_cmp_pd_mask(x.part[0], _mm512_set1_pd(high), _CMP_NLE_UQ);
   }
   explicit operator bool() const { return found_ != 0; }
 
  private:
   unsigned found_ = 0;
 #else
-  void look(Pack x, double low, double high) { found_ |= ~((x >= low) & (x <= high)); }
-  explicit operator bool() const { return any(found_); }
+  HYPERLATTICE_INLINE void look(const Pack& x, double low, double high) {
+    each<vectors>([&]<std::size_t p>() __attribute__((always_inline)) { found_ |= ~((x.part[p] >= low) & (x.part[p] <= high)); });
+  }
+#if defined(__AVX__)
+  explicit operator bool() const { return _mm256_movemask_pd(reinterpret_cast<__m256d>(found_)) != 0; }
+#else
+  explicit operator bool() const { return (found_[0] | found_[1]) != 0; }
+#endif
 
  private:
-  Mask found_{};
+  Choice found_{};
 #endif
 };
-/// The lanes one further: the last of `before`, then all but the last of `now`.
-inline Pack one_further(Pack before, Pack now) { return __builtin_shufflevector(before, now, 7, 8, 9, 10, 11, 12, 13, 14); }
-/// The lanes one back: all but the first of `now`, then the first of `next`.
-inline Pack one_back(Pack now, Pack next) { return __builtin_shufflevector(now, next, 1, 2, 3, 4, 5, 6, 7, 8); }
-/// Sum of the lanes, always in the same order.
-inline double sum(Pack p) { return ((p[0] + p[1]) + (p[2] + p[3])) + ((p[4] + p[5]) + (p[6] + p[7])); }
 
-inline Pack root(Pack x) {
+/// The lanes one further: the last of `before`, then all but the last of `now`.
+HYPERLATTICE_INLINE Pack one_further(const Pack& before, const Pack& now) {
+  return Pack::of([&](std::size_t p) __attribute__((always_inline)) {
+    const Vector left = p == 0 ? before.part[vectors - 1] : now.part[p - 1], right = now.part[p];
 #if defined(__AVX512F__)
-  return reinterpret_cast<Pack>(_mm512_maskz_sqrt_pd(0xff, reinterpret_cast<__m512d>(x)));
+    return __builtin_shufflevector(left, right, 7, 8, 9, 10, 11, 12, 13, 14);
 #elif defined(__AVX__)
-  __m256d halves[2];
-  std::memcpy(halves, &x, sizeof x);
-  halves[0] = _mm256_sqrt_pd(halves[0]);
-  halves[1] = _mm256_sqrt_pd(halves[1]);
-  std::memcpy(&x, halves, sizeof x);
-  return x;
+    return __builtin_shufflevector(left, right, 3, 4, 5, 6);
 #else
-  for (int lane = 0; lane < 8; ++lane) x[lane] = __builtin_sqrt(x[lane]);
-  return x;
+    return __builtin_shufflevector(left, right, 1, 2);
+#endif
+  });
+}
+/// The lanes one back: all but the first of `now`, then the first of `next`.
+inline Pack one_back(const Pack& now, const Pack& next) {
+  double both[16];
+  store(both, now);
+  store(both + 8, next);
+  return load(both + 1);
+}
+
+/// a b, rounded: where it is added to two sums, a product and two additions share the processor's units better than two fused ones.
+HYPERLATTICE_INLINE Pack product(const Pack& a, const Pack& b) {
+#if defined(__GNUC__) && !defined(__clang__)
+  return Pack::of([&](std::size_t p) __attribute__((always_inline)) { return __builtin_assoc_barrier(a.part[p] * b.part[p]); });
+#else
+  return a * b;
 #endif
 }
-inline Pack absolute(Pack x) { return reinterpret_cast<Pack>(reinterpret_cast<Mask>(x) & INT64_MAX); }
+HYPERLATTICE_INLINE Pack root(const Pack& x) {
+  return Pack::of([&](std::size_t p) __attribute__((always_inline)) {
+#if defined(__AVX512F__)
+    return _mm512_maskz_sqrt_pd(0xff, x.part[p]);
+#elif defined(__AVX__)
+    return _mm256_sqrt_pd(x.part[p]);
+#else
+    Vector result = x.part[p];
+    for (std::size_t lane = 0; lane < 8 / vectors; ++lane) result[lane] = __builtin_sqrt(result[lane]);
+    return result;
+#endif
+  });
+}
+HYPERLATTICE_INLINE Pack absolute(const Pack& x) {
+  return Pack::of([&](std::size_t p)
+                      __attribute__((always_inline)) { return reinterpret_cast<Vector>(reinterpret_cast<Choice>(x.part[p]) & INT64_MAX); });
+}
 /// |magnitude| with the sign of `sign`; 0 where `sign` is 0.
-inline Pack with_sign(Pack magnitude, Pack sign) {
-  const Mask bits = (reinterpret_cast<Mask>(magnitude) & INT64_MAX) | (reinterpret_cast<Mask>(sign) & INT64_MIN);
-  return where(sign != 0.0, reinterpret_cast<Pack>(bits));
+HYPERLATTICE_INLINE Pack with_sign(const Pack& magnitude, const Pack& sign) {
+  return Pack::of([&](std::size_t p) __attribute__((always_inline)) {
+    const Choice bits = (reinterpret_cast<Choice>(magnitude.part[p]) & INT64_MAX) | (reinterpret_cast<Choice>(sign.part[p]) & INT64_MIN);
+    return reinterpret_cast<Vector>((sign.part[p] != 0.0) & bits);
+  });
 }
 
 }  // namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS

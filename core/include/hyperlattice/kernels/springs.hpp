@@ -36,7 +36,7 @@ struct Springs {
     const double twice_delta = 2 * request.membrane_distance;
     Pack base_stiffness = fill(constants.stiffness), cross_stiffness = fill(constants.cross_stiffness);
     Pack alarm = fill(squared_growth(neighbour.rest_length, constants.alarm));
-    Mask rung{};
+    bool rung = false;
     for (int t = 0; t < count; t += lanes) {
       const Lanes alive = lanes_with(load_bits(pair.alive + t), bit);
       const auto counted = [&](Pack whole) {
@@ -49,7 +49,7 @@ struct Springs {
       const Pack dz = load(pair.there[2] + t) - load(pair.here[2] + t);
       const Pack q = dx * (2 * rest.x + dx) + dy * (2 * rest.y + dy) + dz * (2 * rest.z + dz);
 
-      Pack difference{}, total{};  // of the heights
+      Pack difference = 0, total = 0;  // of the heights
       Pack base_q = q;
       if constexpr (membrane == Membrane::free) {
         const Pack here = load(pair.here[3] + t), there = load(pair.there[3] + t);
@@ -58,7 +58,7 @@ struct Springs {
         base_q += difference * difference;
       }
       const Response base = respond<Law, Energy>(base_stiffness, neighbour.rest_length, base_q);
-      if constexpr (Breakable) rung |= where(alive, base_q) > alarm;
+      if constexpr (Breakable) rung |= any(where(alive, base_q) > alarm);
       const Pack base_pull = counted(base.force_over_length);
       Pack pull = base_pull;
       if constexpr (Energy) stored += counted(base.energy);
@@ -82,7 +82,7 @@ struct Springs {
       add_to(pair.received[1] + t, -fy);
       add_to(pair.received[2] + t, -fz);
     }
-    return Breakable && any(rung);
+    return rung;
   }
 
   /// Asks the failure criterion about the row's springs above their alarm, and removes those that broke.

@@ -20,7 +20,7 @@ class Stencil {
   static constexpr std::size_t lines = List::lines.size();
   static constexpr bool has_cross = membrane != Membrane::none;
 
-  using Vector = Forces<components>;
+  using Packs = Forces<components>;
 
  public:
   struct Kinds {
@@ -46,7 +46,7 @@ class Stencil {
     Carried carried;
     if ((rows_.alive[0] & List::leaning(-1)) != 0) first(carried);
     for (int t = 0; t < rows_.count; t += lanes) {
-      Vector forces;
+      Packs forces;
       if (all_there(t)) [[likely]] {
         add<true, List::all()>(t, carried, forces);
       } else {
@@ -63,10 +63,12 @@ class Stencil {
  private:
   /// What falls one site further than a vector, on the row itself and on each line: its last lane belongs to the next vector.
   struct Carried {
-    Vector own{}, to_line[lines];
-    Carried() {
-      for (std::size_t line = 0; line < lines; ++line)
-        if (leans_forward(line)) to_line[line] = {};
+    Packs own, to_line[lines];
+    HYPERLATTICE_INLINE Carried() {
+      each<components>([&]<std::size_t c>() __attribute__((always_inline)) {
+        own[c] = 0;
+        each<lines>([&]<std::size_t l>() __attribute__((always_inline)) { to_line[l][c] = 0; });
+      });
     }
   };
   static constexpr auto batches = List::template batches<membrane == Membrane::free>();
@@ -100,27 +102,27 @@ class Stencil {
 
   /// What acts on the sites of a vector, or on those one further.
   struct Sums {
-    Vector own, own_further, line[lines], line_further[lines];
-    [[gnu::always_inline]] Sums() {
+    Packs own, own_further, line[lines], line_further[lines];
+    HYPERLATTICE_INLINE Sums() {
       each<components>([&]<std::size_t c>() __attribute__((always_inline)) {
-        own[c] = own_further[c] = Pack{};
-        each<lines>([&]<std::size_t l>() __attribute__((always_inline)) { line[l][c] = line_further[l][c] = Pack{}; });
+        own[c] = own_further[c] = 0;
+        each<lines>([&]<std::size_t l>() __attribute__((always_inline)) { line[l][c] = line_further[l][c] = 0; });
       });
     }
   };
 
   // Kept out of the loop of whole vectors.
   [[gnu::noinline]] void first(Carried& carried) {
-    Vector none;
+    Packs none;
     add<false, List::leaning(-1)>(-lanes, carried, none);
   }
-  [[gnu::noinline]] void some(int t, Carried& carried, Vector& forces) { add<false, List::all()>(t, carried, forces); }
+  [[gnu::noinline]] void some(int t, Carried& carried, Packs& forces) { add<false, List::all()>(t, carried, forces); }
 
   /// All springs of eight sites, or those of `only`. AllThere: none is missing and all count in full.
   template <bool AllThere, std::uint16_t only>
-  [[gnu::always_inline]] void add(int t, Carried& carried, Vector& forces) {
+  HYPERLATTICE_INLINE void add(int t, Carried& carried, Packs& forces) {
     const Bits bits = AllThere ? Bits{} : alive(t);
-    Vector here, further;
+    Packs here, further;
     each<components>([&]<std::size_t c>() __attribute__((always_inline)) {
       here[c] = load(displacement(0, c) + t);
       further[c] = load(displacement(0, c) + t + 1);
@@ -137,14 +139,14 @@ class Stencil {
       each<components>([&]<std::size_t c>() __attribute__((always_inline)) {
         double* const so_far = received(0, c) + t;
         forces[c] = sums.own[c] + load(so_far) + one_further(carried.own[c], sums.own_further[c]);
-        store(so_far, Pack{});
+        store(so_far, Pack(0));
       });
     carried.own = sums.own_further;
   }
 
   /// Gives what the springs pull at in another row to that row.
   template <bool AllThere, std::size_t line>
-  [[gnu::always_inline]] void end_line(int t, Sums& sums, Carried& carried) const {
+  HYPERLATTICE_INLINE void end_line(int t, Sums& sums, Carried& carried) const {
     if (!AllThere && (rows_.neighbours & List::in_line(List::lines[line])) == 0) return;
     each<components>([&]<std::size_t c>() __attribute__((always_inline)) {
       double* const so_far = received(line, c) + t;
@@ -165,7 +167,7 @@ class Stencil {
 
   /// The springs of one batch: where they stand, how they answer, what they push.
   template <bool AllThere, std::uint16_t batch>
-  [[gnu::always_inline]] void add_batch(int t, Bits bits, const Vector& here, const Vector& further, Sums& sums) {
+  HYPERLATTICE_INLINE void add_batch(int t, Bits bits, const Packs& here, const Packs& further, Sums& sums) {
     constexpr std::size_t number = std::popcount(batch), answers = has_cross ? 2 * number : number;  // base springs, then their cross springs
     constexpr auto neighbour = List::template indices<number>(batch);
     Eight springs[number];
@@ -190,11 +192,11 @@ class Stencil {
   }
 
   template <bool AllThere, std::size_t n>
-  [[gnu::always_inline]] Eight between(int t, Bits bits, const Vector& here) const {
+  HYPERLATTICE_INLINE Eight between(int t, Bits bits, const Packs& here) const {
     constexpr Neighbour to = List::neighbours[n];
     constexpr int offset[3] = {to.dx, to.dy, to.dz};
     const auto there = [&](std::size_t c) { return load(displacement(List::line_of(to), c) + t + (to.dx > 0 ? 1 : 0)); };
-    Eight springs{};
+    Eight springs;
     Pack growth[3];
     each<3>([&]<std::size_t c>() __attribute__((always_inline)) {  // d (2 rest + d) along each axis
       const Pack d = here[c] - there(c);
@@ -219,11 +221,11 @@ class Stencil {
 
   /// `base`, `cross`: force over length of the springs.
   template <bool AllThere, std::size_t n>
-  [[gnu::always_inline]] void push(int t, const Eight& springs, Pack base, Pack cross, Sums& sums) const {
+  HYPERLATTICE_INLINE void push(int t, const Eight& springs, Pack base, Pack cross, Sums& sums) const {
     constexpr Neighbour to = List::neighbours[n];
     constexpr std::size_t line = List::line_of(to);
-    Vector& own = to.dx < 0 ? sums.own_further : sums.own;
-    Vector& other = line == 0 ? sums.own_further : to.dx > 0 ? sums.line_further[line] : sums.line[line];
+    Packs& own = to.dx < 0 ? sums.own_further : sums.own;
+    Packs& other = line == 0 ? sums.own_further : to.dx > 0 ? sums.line_further[line] : sums.line[line];
     if constexpr (!AllThere) {
       if (rows_.weight_sets != nullptr) {
         const Pack weight = weights<n>(t);
@@ -260,7 +262,7 @@ class Stencil {
       if (leans_forward(line) && (rows_.neighbours & List::in_line(List::lines[line])) != 0)
         for (std::size_t c = 0; c < components; ++c) {
           double* const so_far = received(line, c) + rows_.count;
-          store(so_far, load(so_far) + one_further(carried.to_line[line][c], Pack{}));
+          store(so_far, load(so_far) + one_further(carried.to_line[line][c], Pack(0)));
         }
   }
 

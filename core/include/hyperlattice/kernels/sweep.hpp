@@ -25,8 +25,10 @@ class Sweep {
 
  private:
   using Fused = Stencil<Law, membrane, Breakable, CubicList>;
+  static constexpr bool enough_registers = vectors <= 2;  // for all springs of a row at once
 
-  explicit Sweep(const KernelRequest& request) : request_(request), fused_(!measuring && !exact() && CubicList::is(request.neighbours)) {
+  explicit Sweep(const KernelRequest& request)
+      : request_(request), fused_(!measuring && enough_registers && !exact() && CubicList::is(request.neighbours)) {
     for (int c = 0; c < components; ++c) own_[c] = own_row(c);
   }
 
@@ -61,9 +63,9 @@ class Sweep {
     const Keep<components> keep{own_};
     if (!at_once)
       for (int c = 0; c < components; ++c)
-        for (int t = 0; t < count; t += lanes) store(own_[c] + t, accelerated ? motion.body_force(c, t) : Pack{});
+        for (int t = 0; t < count; t += lanes) store(own_[c] + t, accelerated ? motion.body_force(c, t) : Pack(0));
 
-    Pack stored{};
+    Pack stored = 0;
     if (!fused) {
       one_by_one(row, index, j, k, count, stored);
     } else if constexpr (may_move_at_once) {
@@ -142,7 +144,7 @@ class Sweep {
       double* received = received_row(c, j, k) + row.begin;
       for (int t = 0; t < count; t += lanes) {
         store(own_[c] + t, load(own_[c] + t) + load(received + t));
-        store(received + t, Pack{});
+        store(received + t, Pack(0));
       }
     }
   }
