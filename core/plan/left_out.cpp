@@ -30,7 +30,8 @@ void leave_out_kernel_parts(const Plan& plan, std::vector<LeftOut>& out) {
   const auto is_damped = [](const PlannedStage& stage) { return stage.plan.damping > 0; };
   if (std::none_of(plan.stages.begin(), plan.stages.end(), is_damped)) out.push_back({"local damping", "no solver stage asks for it"});
   if (model.acceleration == Vec3{}) out.push_back({"body acceleration", "no load accelerates the whole body"});
-  if (model.body.cells.empty() && model.body.listed.shares.empty()) out.push_back({"weights at the surface", "the boundary is particles: each particle and spring counts in full"});
+  if (model.body.cells.empty() && model.body.listed.shares.empty())
+    out.push_back({"weights at the surface", "the boundary is particles: each particle and spring counts in full"});
   if (!model.body.is_listed()) out.push_back({"list of springs", "every site has the same neighbours, so springs are bits, not records"});
 }
 

@@ -31,8 +31,13 @@ std::vector<std::string> missing(const ComponentInfo& info, const Json& stage) {
   std::deque<std::string> texts;
   const Json none = Json::object();
   RegionReader region_reader(none, regions, faults, texts);
+  std::vector<Option> options(info.options.begin(), info.options.end());
+  for (Option& option : options)
+    if (option.kind == OptionKind::file) option.kind = OptionKind::text;  // the file need not be there
+  OptionSet set = option_set(info);
+  set.options = options;
   Json resolved;
-  OptionReader(stage, "", {faults, region_reader, texts}).fill(option_set(info), resolved);
+  OptionReader(stage, "", {faults, region_reader, texts}).fill(set, resolved);
   std::vector<std::string> names;
   for (const Fault& fault : faults.all())
     if (fault.value.empty() && !fault.pointer.empty()) names.push_back(fault.pointer.substr(1));

@@ -105,7 +105,8 @@ std::shared_ptr<const Region> RegionReader::read_primitive(const std::string& ke
   } catch (const OutsideError&) {
     throw;
   } catch (const std::runtime_error& error) {
-    faults_.add(member(pointer, path_option), shown(parameters[std::string(path_option)]), std::string("a file with a closed surface; ") + error.what());
+    faults_.add(member(pointer, path_option), shown(parameters[std::string(path_option)]),
+                std::string("a file with a closed surface; ") + error.what());
   }
   return nullptr;
 }

@@ -163,6 +163,8 @@ TEST(MalformedScenesTable, TheBaseIsGoodAndResolvedReadsBackAsItself) {
 TEST(MalformedScenesTable, ExamplesOfAllPagesAreGood) {
   Host host;
   for (const Component* component : host.load_all()) {
+    const auto names_a_file = [](const Option& option) { return option.kind == OptionKind::file; };
+    if (std::any_of(component->info.options.begin(), component->info.options.end(), names_a_file)) continue;  // there is none
     Json scene = table()["base"], example = Json::parse(component_json(*component))["example"];
     if (component->info.family == Family::failures)
       scene["pipeline"][1]["failure"] = example;

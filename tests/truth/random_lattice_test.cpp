@@ -114,7 +114,7 @@ TEST(RandomLattice, PressureOnAFlatFaceHasTheRightTotal) {
 
 TEST(RandomLattice, WavesTravelAsFastAsItsModuliSay) {
   // A long bar of laterally free faces pushed at one end: the front runs with sqrt(E / rho), a little less for the soft surface.
-  const auto plan = plan_of(listed_scene(random_lattice(6, 6, 60), R"("membrane": "I", "poisson": 0.2)",
+  const auto plan = plan_of(listed_scene(random_lattice(14, 14, 60), R"("membrane": "I", "poisson": 0.2)",
                                          R"({ "type": "loads.velocity", "on": "z_min", "value": [0, 0, 1e-3] })"));
   Simulation simulation(*plan->model, 2);
   const double speed = std::sqrt(1e10 / 2500), time = 40e-3 / speed;
@@ -130,8 +130,8 @@ TEST(RandomLattice, WavesTravelAsFastAsItsModuliSay) {
     return sum / count;
   };
   const double all = 1e-3 * time;                       // what the pushed end has gone
-  EXPECT_NEAR(mean_at(9e-3, 11e-3) / all, 0.75, 0.06);  // behind the front: (1 - z / 40 mm)
-  EXPECT_NEAR(mean_at(19e-3, 21e-3) / all, 0.5, 0.06);
+  EXPECT_NEAR(mean_at(9e-3, 11e-3) / all, 0.75, 0.08);  // behind the front: (1 - z / 40 mm)
+  EXPECT_NEAR(mean_at(19e-3, 21e-3) / all, 0.5, 0.08);
   EXPECT_LT(mean_at(50e-3, 60e-3) / all, 0.01);
 }
 

@@ -105,16 +105,26 @@ TEST_P(Centred, FacesAreTheOutermostPlanes) {
   for (const LoadedParticle& loaded : built->loads[0].particles) EXPECT_NEAR(built->body.position(loaded.particle).y, 3.75, 1e-12);
 }
 
-TEST_P(Centred, SaysWhatItCannotDoYet) {
+TEST_P(Centred, PressureOnAFaceHasTheRightTotal) {
+  const BuiltScene built = build(box(GetParam(), {3, 4, 5}) + "," + elastic() + R"(, { "type": "loads.pressure", "on": "x_max", "pressure": 2 },
+    { "type": "loads.fixed", "on": "surface" })");
+  Vec3 total;
+  for (const LoadedParticle& loaded : built->loads[0].particles) total = total + loaded.force;
+  EXPECT_NEAR(total.x, -2 * 4 * 5, 1e-9);
+  EXPECT_NEAR(norm(total), 2 * 4 * 5, 1e-9);
+  for (const LoadedParticle& loaded : built->loads[1].particles) {  // within a spacing of some face
+    const Vec3 x = built->body.position(loaded.particle);
+    EXPECT_LT(std::min({x.x, x.y, x.z, 3 - x.x, 4 - x.y, 5 - x.z}), 1);
+  }
+}
+
+TEST_P(Centred, SaysWhatItCannotDo) {
   const std::string material = "," + elastic();
   const auto expect = [](const std::string& faults, const char* pointer, const char* part) {
     EXPECT_NE(faults.find(pointer), std::string::npos) << faults;
     EXPECT_NE(faults.find(part), std::string::npos) << faults;
   };
   expect(faults_of(box(GetParam(), {3, 3, 3}, R"(, "boundary": "cells")") + material), "/pipeline/0/boundary", "particles");
-  expect(faults_of(box(GetParam(), {3, 3, 3}) + material + R"(, { "type": "loads.fixed", "on": "surface" })"), "/pipeline/2", "not known yet");
-  expect(faults_of(box(GetParam(), {3, 3, 3}) + material + R"(, { "type": "loads.pressure", "on": "x_max", "pressure": 1 })"), "/pipeline/2",
-         "not known yet");
   expect(faults_of(box(GetParam(), {0.1, 3, 3}) + material), "/pipeline/0", "is inside the shape");
 }
 
@@ -254,7 +264,7 @@ TEST_P(Centred, AMeasuredCubeApproachesTheEndlessLattice) {
     VirtualTest::Options options;
     options.lattice = GetParam().name;
     options.particles = cells;
-    options.strain = 1e-6;
+    options.strain = -1e-6;  // pulled: at the edges of fcc some particles have nothing that would keep them from buckling
     const Measured measured = VirtualTest(host, options).measure(r);
     poisson.push_back(measured.poisson - 0.1);
     modulus.push_back(measured.young / young - 1);
