@@ -104,7 +104,8 @@ Skin::Skin(const Body& body) : width_(body.grid.spacing / 2), sides_(body.partic
       const OpenFaces open = surfaces.faces(cube), inner = open == 0 ? 0 : surfaces.inner_faces(cube);
       for (std::uint8_t direction = 0; direction < 6; ++direction) {
         if ((open >> direction & 1U) == 0) continue;
-        const Particle particle = nearby.nearest(cubes.position(cube) + 0.5 * width_ * face_normals[direction]).particle;
+        // nearest to a point a little outside, so that particles of the outermost plane come before those behind them
+        const Particle particle = nearby.nearest(cubes.position(cube) + width_ * face_normals[direction]).particle;
         const bool is_inner = (inner >> direction & 1U) != 0;
         faces_.push_back({particle, direction, is_inner});
         sides_[particle] = static_cast<std::uint8_t>(sides_[particle] | (is_inner ? 1U : 2U));

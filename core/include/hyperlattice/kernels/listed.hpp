@@ -51,7 +51,7 @@ class ListedSweep {
     }
     const std::uint64_t vector = (row.start + static_cast<std::uint64_t>(t)) / lanes;
     for (std::uint32_t slot = slots_.first[vector]; slot < slots_.first[vector + 1]; ++slot) {
-      const Mask alive = lanes_of(slots_.alive[slot]);
+      const Lanes alive = lanes_of(slots_.alive[slot]);
       Pack there[4] = {};
       gather(slot, there);
       const double* rest = slots_.rest + 4 * lanes * std::size_t{slot};
@@ -84,7 +84,7 @@ class ListedSweep {
       force[0] += pull * (rest_x + dx);
       force[1] += pull * (rest_y + dy);
       force[2] += pull * (rest_z + dz);
-      if constexpr (Breakable && !measuring) review(index, t, slot, alive, rest_length, growth);
+      if constexpr (Breakable && !measuring) review(index, t, slot, rest_length, growth);
     }
     for (int c = 0; c < components; ++c) store(forces[c] + t, force[c]);
   }
@@ -102,15 +102,14 @@ class ListedSweep {
 
   /// Asks the failure criterion about the slot's springs above their alarm, and removes those that broke. Each end of a spring asks and finds the
   /// same, because it sees the same numbers but for their signs.
-  void review(std::uint32_t row, int t, std::uint32_t slot, Mask alive, Pack rest_length, Pack growth) const {
-    const Pack elongation = growth / (root(rest_length * rest_length + growth) + rest_length);
-    const Mask rung = alive & (elongation > load(slots_.alarm + lanes * std::size_t{slot}));
-    if (!any(rung)) return;
+  void review(std::uint32_t row, int t, std::uint32_t slot, const Pack& rest_length, const Pack& growth) const {
+    const double* alarm = slots_.alarm + lanes * std::size_t{slot};
+    double elongation[lanes];
+    store(elongation, growth / (root(rest_length * rest_length + growth) + rest_length));
     for (int lane = 0; lane < lanes; ++lane) {
-      if (rung[lane] == 0) continue;
+      if (!(elongation[lane] > alarm[lane]) || (slots_.alive[slot] >> lane & 1) == 0) continue;
       const std::int32_t site = t + lane;
-      const double length_gained = elongation[lane];
-      const std::uint8_t* broken = request_.review(request_.self, {row, slot, {&site, 1}, {&length_gained, 1}});
+      const std::uint8_t* broken = request_.review(request_.self, {row, slot, {&site, 1}, {&elongation[lane], 1}});
       if (*broken != 0) slots_.alive[slot] = static_cast<std::uint8_t>(slots_.alive[slot] & ~(1U << lane));
     }
   }

@@ -104,11 +104,6 @@ inline Bits load_bits(const std::uint16_t* from) {
   std::memcpy(&bits, from, sizeof bits);
   return bits;
 }
-/// Lanes whose bit in the byte is set.
-inline Mask lanes_of(std::uint8_t byte) {
-  constexpr Mask bit{1, 2, 4, 8, 16, 32, 64, 128};
-  return ((Mask{} + byte) & bit) != 0;
-}
 inline bool same(Bits a, Bits b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 /// All that is set in some lane.
 inline std::uint16_t joined(Bits bits) {
@@ -125,6 +120,8 @@ typedef __mmask8 Lanes;
 HYPERLATTICE_INLINE Lanes lanes_with(Bits bits, std::uint16_t bit) {  // whose bits have `bit` set
   return _mm_test_epi16_mask(reinterpret_cast<__m128i>(bits), _mm_set1_epi16(static_cast<short>(bit)));
 }
+HYPERLATTICE_INLINE Lanes lanes_of(std::uint8_t byte) { return byte; }  // whose bit is set
+HYPERLATTICE_INLINE Lanes not_zero(const Pack& pack) { return _mm512_cmp_pd_mask(pack.part[0], _mm512_setzero_pd(), _CMP_NEQ_UQ); }
 HYPERLATTICE_INLINE Pack where(Lanes lanes, Pack pack) {
   pack.part[0] = _mm512_maskz_mov_pd(lanes, pack.part[0]);
   return pack;
@@ -145,6 +142,18 @@ HYPERLATTICE_INLINE Lanes lanes_with(Bits bits, std::uint16_t bit) {
     lanes.part[p] = __builtin_convertvector(of_vector[p], Choice) << __builtin_clzll(bit) >> 63;
 #endif
   });
+  return lanes;
+}
+inline Lanes lanes_of(std::uint8_t byte) {
+  std::int64_t all[8];
+  for (unsigned lane = 0; lane < 8; ++lane) all[lane] = -(byte >> lane & 1);
+  Lanes lanes;
+  std::memcpy(&lanes, all, sizeof all);
+  return lanes;
+}
+HYPERLATTICE_INLINE Lanes not_zero(const Pack& pack) {
+  Lanes lanes;
+  each<vectors>([&]<std::size_t p>() __attribute__((always_inline)) { lanes.part[p] = pack.part[p] != 0.0; });
   return lanes;
 }
 HYPERLATTICE_INLINE Pack where(const Mask& mask, const Pack& pack) {  // 0 elsewhere
