@@ -137,9 +137,10 @@ TEST(Options, ExamplesAreAcceptedByTheirOwnOptions) {
     for (const Option& option : component->info.options)
       EXPECT_NE(read(option, example_value(option).dump())[0], '/') << component->type() << ' ' << option.name;
   for (const Primitive& primitive : primitives())
-    for (const Option& option : primitive.options.options)
-      if (option.kind != OptionKind::file)  // there is no file that an example could name
-        EXPECT_NE(read(option, example_value(option).dump())[0], '/') << primitive.name;
+    for (const Option& option : primitive.options.options) {
+      if (option.kind == OptionKind::file) continue;  // there is no file that an example could name
+      EXPECT_NE(read(option, example_value(option).dump())[0], '/') << primitive.name;
+    }
 }
 
 TEST(Pages, SayWhatIsDeclared) {
