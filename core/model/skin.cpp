@@ -132,6 +132,7 @@ std::vector<OpenArea> open_areas(const Body& body, const std::function<const Ski
       area = area + skin().face_area() * face_normals[face.direction];
     }
   std::vector<OpenArea> found;
+  found.reserve(areas.size());
   for (const auto& [particle, area] : areas) found.push_back({particle, area});
   return found;
 }

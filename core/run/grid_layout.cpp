@@ -39,7 +39,7 @@ void fill_alive(const Body& body, std::int32_t j, std::int32_t k, const Row& row
       for (std::int32_t i = range.begin; i < range.end; ++i) alive[i - row.begin] = static_cast<std::uint16_t>(alive[i - row.begin] | 1u << n);
 }
 
-std::uint64_t padded(const Row& row) { return static_cast<std::uint64_t>((row.end - row.begin + lanes - 1) / lanes * lanes); }
+std::uint64_t padded(const Row& row) { return static_cast<std::uint64_t>(row.end - row.begin + lanes - 1) / lanes * lanes; }
 
 }  // namespace
 
