@@ -59,6 +59,7 @@ class Motion {
   Motion(const KernelRequest& request, const Row& row)
       : request_(request), row_(row), values_(request, row), mass_(values_.at(request.mass, 0)), inverse_mass_(1.0 / mass_) {}
 
+  /// Whether the whole body is accelerated.
   bool accelerated() const { return request_.acceleration.x != 0 || request_.acceleration.y != 0 || request_.acceleration.z != 0; }
   /// The body acceleration's force on eight particles.
   Pack body_force(int c, int t) const {
@@ -77,6 +78,7 @@ class Motion {
     if constexpr (!measuring) supports_after();
   }
 
+  /// Eight particles with the whole force on them; element t of the row is the first.
   HYPERLATTICE_INLINE void vector(int t, Forces<components>& forces) {
     const double kick = request_.back + request_.forward, drift = 2 * request_.forward;
     if (!values_.constant()) {

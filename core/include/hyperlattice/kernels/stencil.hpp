@@ -14,6 +14,7 @@
 
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
+/// One row's pass. `List`: see CubicList.
 template <class Law, Membrane membrane, bool Breakable, class List>
 class Stencil {
   static constexpr int components = components_of(membrane);
