@@ -54,7 +54,7 @@ TEST(Plan, cells_cost_little_and_whole_particles_nothing) {
     EXPECT_EQ(cells->bytes_per_particle * particles, Simulation(model, threads).bytes());
 
     double sites = 0, vectors = 0;
-    std::set<std::uint32_t> sets{0};  // the set of whole particles is there whether a vector has it or not
+    std::set<std::uint32_t> sets{whole_set};  // is there even if no vector is whole
     const auto layout = make_layout(model, threads);
     for (const BlockLayout& block : layout->blocks) {
       sites += static_cast<double>(block.sites);
