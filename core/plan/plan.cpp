@@ -64,7 +64,10 @@ double frames_of(const Stage& output, double end_time) {
 }
 
 double records_of(const PlannedStage& stage) {
-  if (stage.plan.at_rest) return static_cast<double>(stage.plan.steps / record_steps(stage)) + 1;
+  if (stage.plan.at_rest) {
+    const std::uint64_t whole = stage.plan.steps / record_steps(stage);
+    return static_cast<double>(whole) + 1;
+  }
   return std::min((stage.plan.end_time - stage.start_time) / record_interval(stage), static_cast<double>(stage.plan.steps)) + 1;
 }
 

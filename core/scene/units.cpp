@@ -4,6 +4,8 @@
 #include <spdlog/fmt/fmt.h>
 #include <udunits2.h>
 
+#include <locale.h>
+
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -42,6 +44,21 @@ constexpr Known known[] = {{"", "a number", "0.5"},
 using Unit = std::unique_ptr<ut_unit, void (*)(ut_unit*)>;
 using Converter = std::unique_ptr<cv_converter, void (*)(cv_converter*)>;
 
+/// While it lives, numbers that this thread reads have a decimal point: UDUNITS reads its database and units as the program's locale says.
+class PlainNumbers {
+ public:
+  PlainNumbers() : plain_(::newlocale(LC_ALL_MASK, "C", nullptr)), before_(::uselocale(plain_)) {}
+  ~PlainNumbers() {
+    ::uselocale(before_);
+    ::freelocale(plain_);
+  }
+  PlainNumbers(const PlainNumbers&) = delete;
+  PlainNumbers& operator=(const PlainNumbers&) = delete;
+
+ private:
+  locale_t plain_, before_;
+};
+
 /// The units database; UDUNITS keeps its state in globals, so every use holds the lock.
 class Database {
  public:
@@ -54,12 +71,14 @@ class Database {
   Unit parse(std::string_view text) const {
     bool sane = text.size() <= 100 && text.find('\0') == std::string_view::npos;
     for (const std::string_view origin : {"@", "since", "after", "from", "ref"}) sane = sane && text.find(origin) == std::string_view::npos;
+    const PlainNumbers plain;
     return {sane ? ut_parse(system_, std::string(text).c_str(), UT_UTF8) : nullptr, ut_free};
   }
 
  private:
   Database() {
     ut_set_error_message_handler(ut_ignore);
+    const PlainNumbers plain;
     system_ = ut_read_xml(nullptr);
     if (system_ == nullptr) throw OutsideError("the units database of UDUNITS-2 cannot be read; UDUNITS2_XML_PATH may name its udunits2.xml");
   }

@@ -56,6 +56,7 @@ class Points {
     static constexpr std::string_view coordinates[] = {"x", "y", "z"}, volume[] = {"volume"};
     const NumberTable table(o_.points, coordinates, volume);
     std::vector<Vec3> positions;
+    positions.reserve(table["x"].size());
     Vec3 low{infinity, infinity, infinity}, high = -1.0 * low;
     for (std::size_t n = 0; n < table["x"].size(); ++n) {
       const Vec3 x = o_.scale * Vec3{table["x"][n], table["y"][n], table["z"][n]};
@@ -89,6 +90,7 @@ class Points {
       return static_cast<std::uint32_t>(value);
     };
     std::vector<ListedSpring> springs;
+    springs.reserve(table["a"].size());
     for (std::size_t n = 0; n < table["a"].size(); ++n)
       springs.push_back({number(table["a"][n], n), number(table["b"][n], n), table["stiffness"].empty() ? 1 : table["stiffness"][n]});
     if (springs.empty()) throw std::invalid_argument("springs has no spring");
@@ -100,8 +102,10 @@ class Points {
     const Vec3 size = high - low;
     const double box = std::max({size.x * size.y * size.z, 1e-9 * std::pow(norm(size), 3)});
     const double about = o_.spacing.value_or(std::cbrt(o_.particle_volume.value_or(box / count)));
+    const std::vector<NearPair> pairs = pairs_with_coordination(positions, low, high, about, *o_.coordination);
     std::vector<ListedSpring> springs;
-    for (const NearPair& pair : pairs_with_coordination(positions, low, high, about, *o_.coordination)) springs.push_back({pair.a, pair.b, 1});
+    springs.reserve(pairs.size());
+    for (const NearPair& pair : pairs) springs.push_back({pair.a, pair.b, 1});
     return springs;
   }
 

@@ -93,6 +93,7 @@ class Random {
     const std::vector<NearPair> pairs = pairs_with_coordination(points, shape.low, shape.high, o_.spacing, o_.coordination);
 
     std::vector<ListedSpring> springs;
+    springs.reserve(pairs.size());
     double longest = 0;  // 0: the sample counts for itself
     for (const NearPair& pair : pairs) {
       springs.push_back({pair.a, pair.b, 1});
@@ -137,6 +138,7 @@ class Random {
     std::vector<NearPair> pairs = near_pairs(points, {}, high, longest > 0 ? longest : 2 * o_.spacing * std::cbrt(o_.coordination / 8), true);
     if (longest == 0) pairs = shortest(std::move(pairs), static_cast<std::size_t>(std::llround(o_.coordination * static_cast<double>(count) / 2)));
     std::vector<SampleSpring> springs;
+    springs.reserve(pairs.size());
     for (const NearPair& pair : pairs) springs.push_back({pair.a, pair.b, pair.rest, 1});
     sink.sample({static_cast<std::uint32_t>(count), edge * edge * edge, springs});
   }
