@@ -213,15 +213,16 @@ void ListedLayout::describe(const Block& block, KernelRequest& request) const {
 }
 
 double ListedLayout::state_bytes() const {
-  const double state = 2.0 * model_.degrees_of_freedom * sizeof(double) + 4 * sizeof(double) + sizeof(std::uint16_t) +
-                       (model_.material_of.empty() ? 0.0 : 1.0) + (model_.body.listed.shares.empty() ? 0.0 : sizeof(double));
-  const double slot_lane = sizeof(std::uint32_t) + 4 * sizeof(double) + 1.0 / lanes + (has_own_stiffness() ? 2 * sizeof(double) : 0) +
-                           (model_.choice.breakable ? sizeof(double) : 0);
+  constexpr double number = sizeof(double);
+  const double state = (2.0 * model_.degrees_of_freedom + 4 + (model_.body.listed.shares.empty() ? 0 : 1)) * number + double{sizeof(std::uint16_t)} +
+                       (model_.material_of.empty() ? 0 : 1);
+  const double slot_lane =
+      double{sizeof(std::uint32_t)} + 1.0 / lanes + (4 + (has_own_stiffness() ? 2 : 0) + (model_.choice.breakable ? 1 : 0)) * number;
   double bytes = 0;
   for (std::size_t n = 0; n < blocks.size(); ++n)
-    bytes += static_cast<double>(blocks[n].sites) * state + static_cast<double>(parts_[n].ghosts.size() * 4 * sizeof(double)) +
-             static_cast<double>(parts_[n].springs.size()) * slot_lane + static_cast<double>(parts_[n].first_slot.size() * sizeof(std::uint32_t)) +
-             static_cast<double>(blocks[n].weight_sets.size() * sizeof(std::uint32_t));
+    bytes += static_cast<double>(blocks[n].sites) * state + static_cast<double>(parts_[n].ghosts.size()) * 4 * number +
+             static_cast<double>(parts_[n].springs.size()) * slot_lane +
+             static_cast<double>((parts_[n].first_slot.size() + blocks[n].weight_sets.size()) * sizeof(std::uint32_t));
   return bytes;
 }
 
