@@ -14,7 +14,7 @@ struct RowBuffers {
   SpringRow springs;
 
   explicit RowBuffers(const StaticGrid& grid) {
-    const auto width = static_cast<std::size_t>((grid.sites[0] + lanes - 1) / lanes * lanes);
+    const std::size_t width = static_cast<std::size_t>(grid.sites[0] + lanes - 1) / lanes * lanes;
     for (auto* buffer : {&stiffness, &cross_stiffness, &weight, &pull, &axial, &cross_pull, &cross_axial}) buffer->assign(width, 0);
     springs.membrane_distance = grid.membrane_distance;
     springs.spacing = grid.spacing;
