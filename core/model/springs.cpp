@@ -110,10 +110,16 @@ void set_springs(Model& model, Faults& faults) {
   model.degrees_of_freedom = model.choice.membrane == Membrane::free ? 4 : 3;
   model.choice.mixed = model.materials.size() > 1;
   model.choice.listed = model.body.is_listed();
+  model.choice.precision = model.scene->precision;
   for (const Material& material : model.materials) model.choice.breakable |= material.failure != nullptr;
   model.kernels = model.materials[0].stage->functions<MaterialFunctions>().kernels(model.choice);
-  if (model.kernels.step == nullptr || model.kernels.step_damped == nullptr || model.kernels.measure == nullptr)
+  if (model.kernels.step == nullptr || model.kernels.step_damped == nullptr || model.kernels.measure == nullptr) {
+    if (model.choice.precision == Precision::floats)
+      throw InputError({{"/precision", "float",
+                         fmt::format("double; {} has no kernel in floats for {}", model.materials[0].stage->component->type(),
+                                     model.choice.listed ? "lists of springs" : "this lattice")}});
     throw refusal(*model.materials[0].stage, "its library has no kernel for this membrane");
+  }
 
   for (const Material& a : model.materials)
     for (const Material& b : model.materials)

@@ -3,6 +3,7 @@
 #include <plan/fields.hpp>
 #include <plan/left_out.hpp>
 #include <plan/plan.hpp>
+#include <plan/precision.hpp>
 #include <plan/rehearsal.hpp>
 #include <run/layout.hpp>
 #include <run/stage_calls.hpp>
@@ -109,12 +110,13 @@ void estimate_output(Plan& plan) {
 /// From what the kernels take on one core of a common server processor (docs: performance); another machine may differ by a factor of two.
 void estimate_time(Plan& plan) {
   constexpr double baseline = 4, avx2 = 1.4, avx512 = 0.9;  // ns a base spring and step
-  constexpr double fourth_dimension = 1.8, damped = 1.1, listed = 8, second_thread = 0.6;
+  constexpr double fourth_dimension = 1.8, damped = 1.1, floats = 0.5, listed = 8, second_thread = 0.6;
   const Model& model = *plan.model;
   const std::string_view instructions = model.kernels.instructions;
   double spring = instructions == "avx512" ? avx512 : instructions == "avx2" ? avx2 : baseline;
   if (model.degrees_of_freedom == 4) spring *= fourth_dimension;
   if (model.body.is_listed()) spring *= listed;
+  if (model.choice.precision == Precision::floats) spring *= floats;
   const double step = 1e-9 * spring * static_cast<double>(model.body.base_springs()) / (1 + second_thread * (plan.threads - 1));
   for (const PlannedStage& stage : plan.stages)
     plan.expected_seconds +=
@@ -157,6 +159,7 @@ std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, int threads) {
   Faults faults;
   plan_stages(*plan, faults);
   check_fields(*plan, faults);
+  if (faults.empty()) check_precision(*plan, faults);
   if (faults.empty()) rehearse_outputs(*plan, faults);
   faults.throw_if_any();
   estimate_memory(*plan);

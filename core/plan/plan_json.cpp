@@ -1,4 +1,5 @@
 #include <plan/plan.hpp>
+#include <scene/common_options.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -65,7 +66,7 @@ nlohmann::json plan_json(const Plan& plan) {
           {"breakable", model.choice.breakable},
           {"materials", model.materials.size()},
           {"loads", model.loads.size()},
-          {"precision", "double"},
+          {"precision", precision_names[static_cast<std::size_t>(model.choice.precision)]},
           {"instructions", model.kernels.instructions},
           {"threads", plan.threads},
           {"steps", plan.steps()},

@@ -2,34 +2,12 @@
 #pragma once
 
 #include <run/layout.hpp>
+#include <run/numbers.hpp>
 
 #include <cstdint>
-#include <cstdlib>
-#include <memory>
-#include <new>
 #include <vector>
 
 namespace hyperlattice {
-
-/// Zeros in memory aligned to cache lines, written first by the thread that makes the array: that thread's memory holds it.
-template <class T>
-class AlignedArray {
- public:
-  AlignedArray() = default;
-  explicit AlignedArray(std::size_t size) : data_(static_cast<T*>(::operator new[](size * sizeof(T), std::align_val_t{64}))), size_(size) {
-    std::uninitialized_fill_n(data_.get(), size, T{});
-  }
-  T* get() const { return data_.get(); }
-  std::size_t size() const { return size_; }
-  T& operator[](std::size_t n) const { return data_.get()[n]; }
-
- private:
-  struct Free {
-    void operator()(T* data) const { ::operator delete[](data, std::align_val_t{64}); }
-  };
-  std::unique_ptr<T, Free> data_;
-  std::size_t size_ = 0;
-};
 
 /// A load's part in a support.
 struct Contribution {
@@ -52,7 +30,7 @@ struct Block {
   const BlockLayout* layout = nullptr;
   std::size_t number = 0;  ///< its place among the blocks
   std::vector<Row> rows;   ///< the layout's, with their supports
-  AlignedArray<double> displacement[4], velocity[4];
+  Numbers displacement[4], velocity[4];
   AlignedArray<std::uint16_t> alive;
   AlignedArray<std::uint8_t> material;
   AlignedArray<double> scratch;

@@ -25,7 +25,7 @@ Simulation::Parts::Parts(const Model& m, int wanted) : model(m), layout(make_lay
   for (Block& block : blocks) add_supports(block);
   for (const auto& [particle, velocity] : model.start_velocities) {
     const auto [block, place] = at(particle);
-    for (int c = 0; c < 3; ++c) block->velocity[c][place] = component(velocity, c);
+    for (int c = 0; c < 3; ++c) block->velocity[c].set(place, component(velocity, c));
   }
 }
 
@@ -34,8 +34,8 @@ void Simulation::Parts::allocate(Block& block, std::size_t number) const {
   block.number = number;
   block.rows = block.layout->rows;
   for (int c = 0; c < model.degrees_of_freedom; ++c) {
-    block.displacement[c] = AlignedArray<double>(block.layout->sites);
-    block.velocity[c] = AlignedArray<double>(block.layout->sites);
+    block.displacement[c] = Numbers(model.choice.precision, block.layout->sites);
+    block.velocity[c] = Numbers(model.choice.precision, block.layout->sites);
   }
   block.scratch = AlignedArray<double>(layout->scratch_numbers());
   block.damped_work.assign(block.rows.size(), 0);

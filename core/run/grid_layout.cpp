@@ -39,8 +39,6 @@ void fill_alive(const Body& body, std::int32_t j, std::int32_t k, const Row& row
       for (std::int32_t i = range.begin; i < range.end; ++i) alive[i - row.begin] = static_cast<std::uint16_t>(alive[i - row.begin] | 1u << n);
 }
 
-std::uint64_t padded(const Row& row) { return static_cast<std::uint64_t>(row.end - row.begin + lanes - 1) / lanes * lanes; }
-
 }  // namespace
 
 GridLayout::GridLayout(const Model& model, int threads) : Layout(model) {
@@ -48,8 +46,8 @@ GridLayout::GridLayout(const Model& model, int threads) : Layout(model) {
   const std::int32_t planes = body.grid.sites[2];
   const std::uint64_t wanted = static_cast<std::uint64_t>(std::clamp(threads, 1, planes));
   // A neighbour's row may begin left or right of any row: reading there must stay inside the array.
-  const std::uint64_t padding = static_cast<std::uint64_t>(body.grid.sites[0] + 2 * scratch_margin + lanes - 1) / lanes * lanes;
-  scratch_width_ = (body.grid.sites[0] + 2 * scratch_margin + 2 * lanes - 1) / lanes * lanes;
+  const std::uint64_t padding = whole_vectors(body.grid.sites[0] + 2 * scratch_margin);
+  scratch_width_ = static_cast<std::int32_t>(whole_vectors(body.grid.sites[0] + 2 * scratch_margin + 1));
 
   const auto counts = particles_per_plane(body);
   std::uint64_t before = 0;
@@ -84,13 +82,18 @@ BlockLayout GridLayout::make_block(Planes planes, std::uint64_t padding) {
           if (!body.springs_of(j, k, body.neighbours[n]).empty()) row.neighbours |= 1u << n;
         row.material = material_of_row(model_, j, k);
         if (!body.cells.empty()) row.weights = block.weight_sets.size();
-        weights_.add_row(body, j, k, row, block.weight_sets);
-        place += padded(row);
+        weights_.add_row(body, j, k, row, whole_vectors(row.end - row.begin) / lanes, block.weight_sets);
+        place += whole_vectors(row.end - row.begin);
       }
       block.rows.push_back(row);
     }
   block.sites = place + padding;
   return block;
+}
+
+std::uint64_t GridLayout::whole_vectors(std::int32_t sites) const {
+  const std::uint64_t vector = 64 / bytes_of(model_.choice.precision);
+  return (static_cast<std::uint64_t>(sites) + vector - 1) / vector * vector;
 }
 
 std::size_t GridLayout::block_of_plane(std::int32_t k) const {
@@ -103,7 +106,7 @@ GridLayout::PlaneRange GridLayout::plane(std::size_t block, std::int32_t k) cons
   const std::vector<Row>& rows = blocks[block].rows;
   const std::uint32_t first = row_of(block, {0, 0, k});
   const Row& last = rows[first + static_cast<std::uint32_t>(model_.body.grid.sites[1]) - 1];
-  return {rows[first].start, last.start + padded(last)};
+  return {rows[first].start, last.start + whole_vectors(last.end - last.begin)};
 }
 
 std::uint32_t GridLayout::row_of(std::size_t block, Site site) const {
@@ -170,8 +173,7 @@ void GridLayout::exchange(const std::vector<Block>& all, Block& block) const {
       const std::uint64_t from = plane(owner.number, k).begin;
       const PlaneRange to = plane(block.number, k);
       const std::uint64_t count = to.end - to.begin;
-      for (int c = 0; c < model_.degrees_of_freedom; ++c)
-        std::copy_n(owner.displacement[c].get() + from, count, block.displacement[c].get() + to.begin);
+      for (int c = 0; c < model_.degrees_of_freedom; ++c) block.displacement[c].copy(owner.displacement[c], from, count, to.begin);
       if (model_.choice.breakable && k < first) std::copy_n(owner.alive.get() + from, count, block.alive.get() + to.begin);
     }
 }
@@ -186,7 +188,8 @@ void GridLayout::describe(const Block& block, KernelRequest& request) const {
 }
 
 double GridLayout::state_bytes() const {
-  const double a_site = 2.0 * model_.degrees_of_freedom * sizeof(double) + sizeof(std::uint16_t) + (model_.material_of.empty() ? 0.0 : 1.0);
+  const double a_site = 2.0 * model_.degrees_of_freedom * static_cast<double>(bytes_of(model_.choice.precision)) + sizeof(std::uint16_t) +
+                        (model_.material_of.empty() ? 0.0 : 1.0);
   double bytes = weights_.bytes();
   for (const BlockLayout& block : blocks)
     bytes += static_cast<double>(block.sites) * a_site + static_cast<double>(block.weight_sets.size() * sizeof(std::uint32_t));

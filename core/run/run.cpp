@@ -1,4 +1,5 @@
 // The run: planned solver stages one after the other. Each step belongs to the solver; records, outputs, guards and the end are here.
+#include <plan/precision.hpp>
 #include <run/guard.hpp>
 #include <run/interrupt.hpp>
 #include <run/outputs.hpp>
@@ -167,6 +168,8 @@ void Running::note(Outcome& outcome) {
   outcome.time = simulation_->time();
   outcome.injected_by_load = simulation_->injected_by_load();
   outcome.state_hash = simulation_->hash();
+  if (std::string warning = precision_warning(*plan_.model, simulation_->farthest()); !warning.empty())
+    outcome.warnings.push_back(std::move(warning));
 }
 
 }  // namespace

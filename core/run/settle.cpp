@@ -43,7 +43,7 @@ double Simulation::kinetic() const {
 void Simulation::halt() {
   const double error = parts_->balance().error;
   for (const Block& block : parts_->blocks)
-    for (int c = 0; c < parts_->model.degrees_of_freedom; ++c) std::fill_n(block.velocity[c].get(), block.velocity[c].size(), 0.0);
+    for (int c = 0; c < parts_->model.degrees_of_freedom; ++c) block.velocity[c].clear();
   parts_->last_step = 0;  // the next step starts from rest
   parts_->halted_energy += error - parts_->balance().error;
 }

@@ -1,8 +1,9 @@
 // What the rest of the runtime sees of the state.
 #include <run/parts.hpp>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstring>
 
 namespace hyperlattice {
 
@@ -47,8 +48,8 @@ void Simulation::copy(const Quantity& quantity, std::vector<double>& values) con
   values.resize(parts_->model.body.particles * components);
   parts_->for_runs([&](const Block& block, std::uint64_t place, Particle first, std::uint64_t count) {
     for (std::size_t c = 0; c < components; ++c) {
-      const double* from = (quantity.velocity ? block.velocity : block.displacement)[quantity.first + static_cast<int>(c)].get() + place;
-      for (std::uint64_t n = 0; n < count; ++n) values[(first + n) * components + c] = from[n];
+      const Numbers& from = (quantity.velocity ? block.velocity : block.displacement)[quantity.first + static_cast<int>(c)];
+      for (std::uint64_t n = 0; n < count; ++n) values[(first + n) * components + c] = from[place + n];
     }
   });
 }
@@ -57,8 +58,8 @@ void Simulation::set(const Quantity& quantity, const std::vector<double>& values
   const auto components = static_cast<std::size_t>(quantity.components);
   parts_->for_runs([&](const Block& block, std::uint64_t place, Particle first, std::uint64_t count) {
     for (std::size_t c = 0; c < components; ++c) {
-      double* to = (quantity.velocity ? block.velocity : block.displacement)[quantity.first + static_cast<int>(c)].get() + place;
-      for (std::uint64_t n = 0; n < count; ++n) to[n] = values[(first + n) * components + c];
+      const Numbers& to = (quantity.velocity ? block.velocity : block.displacement)[quantity.first + static_cast<int>(c)];
+      for (std::uint64_t n = 0; n < count; ++n) to.set(place + n, values[(first + n) * components + c]);
     }
   });
   parts_->start_known = false;
@@ -108,17 +109,23 @@ Particle Simulation::fastest(double& speed, bool& finite) const {
   return found;
 }
 
+double Simulation::farthest() const {
+  double largest = 0;
+  parts_->for_runs([&](const Block& block, std::uint64_t place, Particle, std::uint64_t count) {
+    for (std::uint64_t n = place; n < place + count; ++n)
+      largest = std::max(largest, norm({block.displacement[0][n], block.displacement[1][n], block.displacement[2][n]}));
+  });
+  return largest;
+}
+
 std::uint64_t Simulation::hash() const {
   std::uint64_t hash = 14695981039346656037u;
   const auto add = [&](std::uint64_t bits) { hash = (hash ^ bits) * 1099511628211u; };  // FNV-1a, a word at a time
   parts_->for_runs([&](const Block& block, std::uint64_t place, Particle, std::uint64_t count) {
     for (std::uint64_t n = place; n < place + count; ++n) {
       for (int c = 0; c < parts_->model.degrees_of_freedom; ++c) {
-        std::uint64_t bits = 0;
-        std::memcpy(&bits, &block.displacement[c][n], sizeof bits);
-        add(bits);
-        std::memcpy(&bits, &block.velocity[c][n], sizeof bits);
-        add(bits);
+        add(std::bit_cast<std::uint64_t>(block.displacement[c][n]));
+        add(std::bit_cast<std::uint64_t>(block.velocity[c][n]));
       }
       add(parts_->layout->alive_bits(block, n));
     }

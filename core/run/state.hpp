@@ -79,6 +79,7 @@ class Simulation {
 
   /// The particle that moves fastest, and whether every number is finite; for messages of a run that went bad.
   Particle fastest(double& speed, bool& finite) const;
+  double farthest() const;     ///< m, of a particle from where it started
   std::uint64_t hash() const;  ///< FNV-1a over displacements, velocities and alive springs, in the particles' order
   double bytes() const;        ///< of the state, without scratch
   double scratch_bytes() const;

@@ -104,7 +104,7 @@ void Simulation::Parts::start(double step) {
     for (const Support& support : block.supports)
       for (int c = 0; c < 3; ++c)
         if ((support.axes >> c & 1u) != 0) {
-          block.velocity[c][support.index] = component(support.velocity, c);
+          block.velocity[c].set(support.index, component(support.velocity, c));
           driven = true;
         }
   }

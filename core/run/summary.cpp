@@ -57,6 +57,7 @@ nlohmann::json summary_json(const Plan& plan, const Outcome& outcome) {
     auto& rest = summary["rest"] = {{"residual", outcome.rest->residual}, {"iterations", outcome.rest->iterations}};
     if (outcome.rest->displacement_error >= 0) rest["displacement_error"] = outcome.rest->displacement_error;
   }
+  for (const std::string& warning : outcome.warnings) summary["warnings"].push_back(warning);
   summary["state_hash"] = fmt::format("{:016x}", outcome.state_hash);
   return summary;
 }

@@ -20,6 +20,7 @@ struct Outcome {
   std::optional<RestReport> rest;        ///< of the last stage that looked for rest
   std::uint64_t steps = 0;               ///< taken
   double time = 0;                       ///< reached, s
+  std::vector<std::string> warnings;     ///< beside the model's
   std::uint64_t state_hash = 0;
 };
 

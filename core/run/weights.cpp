@@ -12,10 +12,11 @@ int row_of(int dj, int dk) { return 2 * (dk + 1) + dj + 1; }
 
 }  // namespace
 
-void WeightSets::add_row(const Body& body, std::int32_t j, std::int32_t k, const Row& row, std::vector<std::uint32_t>& places) {
+void WeightSets::add_row(const Body& body, std::int32_t j, std::int32_t k, const Row& row, std::uint64_t vectors,
+                         std::vector<std::uint32_t>& places) {
   if (body.cells.empty()) return;
   if (vectors_.empty()) place(body, (std::uint64_t{1} << 4 * cells_of_row) - 1);  // all cells: whole_set
-  std::vector<std::uint64_t> around(static_cast<std::size_t>((row.end - row.begin + lanes - 1) / lanes), 0);
+  std::vector<std::uint64_t> around(vectors, 0);
   for_cells_of({}, [&](int di, int dj, int dk) {
     if (di != 0) return;  // the same row of cells
     for (const Run& run : body.cells.row(j + dj, k + dk))

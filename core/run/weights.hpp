@@ -13,8 +13,9 @@ namespace hyperlattice {
 
 class WeightSets {
  public:
-  /// Appends, for each vector of the row's sites, the place of its set in values(). Does nothing if the body has no cells.
-  void add_row(const Body& body, std::int32_t j, std::int32_t k, const Row& row, std::vector<std::uint32_t>& places);
+  /// Appends, for each of `vectors` of `lanes` sites from the row's first on, the place of its set in values(). Does nothing if the body has no
+  /// cells.
+  void add_row(const Body& body, std::int32_t j, std::int32_t k, const Row& row, std::uint64_t vectors, std::vector<std::uint32_t>& places);
 
   const double* values() const { return vectors_.empty() ? nullptr : vectors_.front().values; }
   double bytes() const { return static_cast<double>(vectors_.size() * sizeof(Vector)); }

@@ -5,6 +5,8 @@
 #include <geometry/region.hpp>
 #include <host/host.hpp>
 
+#include <hyperlattice/material.hpp>
+
 #include <deque>
 #include <filesystem>
 #include <memory>
@@ -46,7 +48,8 @@ struct Stage {
 struct Scene {
   std::filesystem::path file;
   std::string title;
-  bool allow_unstable = false;  ///< lattices of which some deformation grows by itself run with a warning, instead of being refused
+  bool allow_unstable = false;               ///< lattices of which some deformation grows by itself run with a warning, instead of being refused
+  Precision precision = Precision::doubles;  ///< of the state and of the steps
   Regions regions;
   std::vector<Stage> stages;      ///< in the pipeline's order
   std::string resolved;           ///< scene.resolved.json: every default filled, SI; running it gives the same bits

@@ -21,6 +21,7 @@ struct Heading {
   std::string format, title;
   std::vector<std::string> plugins;
   bool allow_unstable = false;
+  Precision precision = Precision::doubles;
 };
 struct HeadingSchema {
   using Options = Heading;
@@ -34,7 +35,10 @@ struct HeadingSchema {
         .add<&Heading::plugins>("plugins", "", "folders and libraries of plugins, relative to the scene's folder, searched before all others")
         .fallback("[]")
         .add<&Heading::allow_unstable>("allow_unstable", "", allow_unstable_help)
-        .fallback("false");
+        .fallback("false")
+        .add<&Heading::precision>("precision", "", precision_help)
+        .choices(precision_names)
+        .fallback("\"double\"");
   }
 };
 
@@ -53,8 +57,10 @@ class SceneReader {
     OptionReader reader(given_, "", reading(), {"regions", "pipeline"});
     const OptionsPointer heading = reader.fill(option_set<HeadingSchema>(), resolved);
     if (heading) {
-      scene_.title = static_cast<const Heading*>(heading.get())->title;
-      scene_.allow_unstable = static_cast<const Heading*>(heading.get())->allow_unstable;
+      const auto& given = *static_cast<const Heading*>(heading.get());
+      scene_.title = given.title;
+      scene_.allow_unstable = given.allow_unstable;
+      scene_.precision = given.precision;
     }
     read_plugins(resolved);
     resolved["regions"] = Json::object();

@@ -150,6 +150,7 @@ std::string scene_schema(const std::vector<const Component*>& components) {
                     {{"format", {{"const", "hyperlattice/1"}}},
                      {"title", {{"type", "string"}}},
                      {"plugins", {{"type", "array"}, {"items", {{"type", "string"}}}}},
+                     {"precision", {{"enum", precision_names}, {"description", precision_help}, {"default", precision_names[0]}}},
                      {"allow_unstable", {{"type", "boolean"}, {"description", allow_unstable_help}, {"default", false}}},
                      {"regions", std::move(named)},
                      {"pipeline", pipeline}}},

@@ -1,54 +1,19 @@
-// A linear elastic solid: from Young's modulus E and the Poisson ratio nu to the stiffness k of the base springs and lambda, the stiffness of
-// the springs in the fourth dimension relative to k. For the cubic lattice by closed forms of the infinite lattice (hyperlattice/calibration.hpp):
-//   I-m: lambda = 7 (1 - 4 nu) / (1 + 5 nu),  k = 0.4 E l / eta,  eta = (18/5) (1 + nu) (1 - 2 nu) / (1 + 5 nu)
-// for any other by asking the lattice for its elastic constants (hyperlattice/membranes.hpp). E is the modulus of one layer, and every particle has
-// the mass density * V, V the volume of its site.
+// A linear elastic solid: springs with f = k u, calibrated by Young's modulus and the Poisson ratio (hyperlattice/elastic_solid.hpp).
+#include <hyperlattice/elastic_solid.hpp>
 #include <hyperlattice/kernels/choose.hpp>
-#include <hyperlattice/membranes.hpp>
-
-#include <stdexcept>
 
 namespace {
 using namespace hyperlattice;
-using calibration::Membrane;
-
-enum class Parameters : std::uint32_t { closed_form, paper };
-constexpr std::string_view parameter_names[] = {"closed_form", "paper"};
-enum class Stiffness : std::uint32_t { bulk, eq15 };
-constexpr std::string_view stiffness_names[] = {"bulk", "eq15"};
-
-using membranes::has_lambda;
-using membranes::text;
-
-/// The lattice of calibration.hpp: 6 orthogonal springs of class 0, 12 diagonal ones of class 1, all as stiff.
-bool is_cubic_of_18(const LatticeFacts& lattice) {
-  const auto fits = [](const Neighbour& n) { return static_cast<std::uint32_t>(n.dx * n.dx + n.dy * n.dy + n.dz * n.dz) == n.spring_class + 1; };
-  return lattice.basis == cubic_basis && lattice.neighbours.size() == 9 && std::all_of(lattice.neighbours.begin(), lattice.neighbours.end(), fits) &&
-         lattice.class_stiffness[0] == 1 && lattice.class_stiffness[1] == 1 && lattice.membrane_distance == lattice.spacing;
-}
-
-/// Springs of k = 1 N/m in the fourth dimension, and what the endless lattice has with them.
-struct Choice {
-  calibration::Ratios ratios;
-  double poisson = 0, modulus_ratio = 0;
-};
 
 class Elastic {
  public:
-  struct Options {
-    double young = 0, density = 0;
-    std::optional<double> poisson, lambda;
-    Membrane membrane = Membrane::none;
-    std::optional<double> k_alpha;  // absent: infinite
-    double k_beta = 0, k_gamma = 0;
-    Parameters parameters = Parameters::closed_form;
-    Stiffness stiffness = Stiffness::bulk;
-  };
+  using Options = elastic_solid::Options;
 
   static constexpr std::string_view law = "elastic";
 
   static Schema<Options> schema() {
-    return Schema<Options>("materials.elastic", "Linear elastic springs, from Young's modulus and the Poisson ratio")
+    Schema<Options> schema("materials.elastic", "Linear elastic springs, from Young's modulus and the Poisson ratio");
+    schema
         .equation(
             "f = k u; cubic lattice: k = 0.4 E l / eta(lambda); I-m: lambda = 7 (1 - 4 nu) / (1 + 5 nu); other lattices: k and lambda from their "
             "springs")
@@ -56,137 +21,17 @@ class Elastic {
         .restrictions(
             "a Poisson ratio within the membrane's reach; in the cubic lattice: I (-0.212, 0.25], II (-0.5, 0.25], I-m (-0.2, 0.25], III (0, 0.267), "
             "IV (0, 0.333), none 0.25. Only I-m is isotropic; for the others E and nu hold along [100]. Beyond it the lattice is unstable, and runs "
-            "only if "
-            "the scene says allow_unstable")
-        .add<&Options::young>("young", "Pa", "Young's modulus of the body")
-        .positive()
-        .add<&Options::poisson>("poisson", "", "Poisson ratio; may be left out without a membrane, with lambda, and with free ratios")
-        .above(-1)
-        .below(0.5)
-        .add<&Options::density>("density", "kg/m3", "mass density")
-        .positive()
-        .add<&Options::membrane>("membrane", "", "which springs there are in the fourth dimension; free: k_alpha, k_beta, k_gamma")
-        .choices(calibration::membrane_names)
-        .fallback("\"none\"")
-        .add<&Options::lambda>("lambda", "", "4D stiffness ratio, in place of poisson")
-        .add<&Options::k_alpha>("k_alpha", "", "with membrane free: stiffness over k of the spring from a particle to its own mirror copy")
-        .word("infinite")
-        .fallback("0")
-        .add<&Options::k_beta>(
-            "k_beta", "", "with membrane free: stiffness over k of the cross springs beside springs of the lattice's first class: orthogonal ones")
-        .fallback("0")
-        .add<&Options::k_gamma>("k_gamma", "",
-                                "with membrane free: stiffness over k of the cross springs beside springs of the second class: diagonal ones")
-        .fallback("0")
-        .add<&Options::parameters>("parameters", "",
-                                   "closed_form: exact for the infinite lattice; paper: polynomials (11) and (13), for I-m in lattices.cubic only")
-        .choices(parameter_names)
-        .fallback("\"closed_form\"")
-        .add<&Options::stiffness>("stiffness", "", "bulk: k of the infinite lattice; eq15: equation (15) with the springs that the body has")
-        .choices(stiffness_names)
-        .fallback("\"bulk\"")
-        .check(check);
+            "only if the scene says allow_unstable");
+    return Options::declare(schema);
   }
 
-  explicit Elastic(const Options& options) : o_(options) {}
+  explicit Elastic(const Options& options) : options_(options) {}
 
-  MaterialConstants constants(const LatticeFacts& lattice) const {
-    const bool cubic = is_cubic_of_18(lattice);
-    if (o_.parameters == Parameters::paper && !cubic)
-      throw std::invalid_argument("parameters closed_form: the paper's polynomials are of lattices.cubic");
-    const Choice choice = cubic ? choose_in_closed_form(lattice) : choose(lattice);
-    if (!(choice.modulus_ratio > 0)) throw std::invalid_argument("these ratios give a lattice without stiffness");
-    check_poisson(lattice, choice.poisson);
-
-    MaterialConstants constants = membranes::constants(lattice, choice.ratios);
-    constants.density = o_.density;
-    constants.base_stiffness = stiffness(lattice, choice, cubic);
-    constants.clamped = choice.ratios.clamped && constants.has_cross_springs();
-    return constants;
-  }
-
+  MaterialConstants constants(const LatticeFacts& lattice) const { return options_.constants(lattice); }
   static KernelSet kernels(const KernelChoice& choice) { return kernels_for_processor(choice); }
 
  private:
-  calibration::Ratios free_ratios() const { return {o_.k_alpha.value_or(0), o_.k_beta, o_.k_gamma, !o_.k_alpha.has_value()}; }
-
-  /// Of the cubic lattice.
-  Choice choose_in_closed_form(const LatticeFacts& lattice) const {
-    if (!has_lambda(o_.membrane)) return of_cubic(free_ratios());
-    const bool paper = o_.parameters == Parameters::paper;
-    const double lambda = o_.lambda ? *o_.lambda : paper ? calibration::paper_lambda(*o_.poisson) : calibration::lambda(o_.membrane, *o_.poisson);
-    check_reach(lattice, lambda);
-    Choice choice = of_cubic(calibration::ratios(o_.membrane, lambda));
-    if (paper) choice.modulus_ratio = calibration::paper_modulus_ratio(lambda);
-    return choice;
-  }
-
-  static Choice of_cubic(const calibration::Ratios& ratios) {
-    const calibration::Elasticity elasticity = calibration::elasticity(ratios);
-    return {ratios, elasticity.poisson(), elasticity.modulus_ratio()};
-  }
-
-  /// Of any lattice.
-  Choice choose(const LatticeFacts& lattice) const {
-    Choice choice{free_ratios(), 0, 0};
-    if (has_lambda(o_.membrane)) {
-      const double lambda = o_.lambda ? *o_.lambda : membranes::lambda(lattice, o_.membrane, *o_.poisson);
-      check_reach(lattice, lambda);
-      choice.ratios = membranes::ratios(lattice, o_.membrane, lambda);
-    } else if (o_.k_gamma != 0 && lattice.spring_classes < 2) {
-      throw std::invalid_argument("k_gamma 0: this lattice has one class of springs, that of k_beta");
-    }
-    const ElasticConstants own = lattice.elastic_constants(membranes::constants(lattice, choice.ratios));
-    choice.poisson = own.poisson();
-    choice.modulus_ratio = own.young() / lattice.elastic_constants(membranes::constants(lattice, {})).young();
-    return choice;
-  }
-
-  /// Of a membrane that has a lambda. Without a stable lattice there is none, unless the scene takes an unstable one.
-  void check_reach(const LatticeFacts& lattice, double lambda) const {
-    if (std::isfinite(lambda) && (lattice.allow_unstable || membranes::is_stable(lattice, o_.membrane, lambda))) return;
-    throw std::invalid_argument(o_.lambda ? "lambda " + membranes::stable_sentence(lattice, o_.membrane, lambda)
-                                          : "poisson " + membranes::reach_sentence(lattice, o_.membrane, *o_.poisson));
-  }
-
-  /// Membranes without a lambda have the Poisson ratio that they have.
-  void check_poisson(const LatticeFacts& lattice, double own) const {
-    constexpr double tolerance = 1e-4;
-    if (!o_.poisson || has_lambda(o_.membrane) || std::abs(*o_.poisson - own) <= tolerance) return;
-    throw std::invalid_argument(o_.membrane == Membrane::none
-                                    ? text("poisson ", own, ", or left out: that is what the lattice without a membrane has; ",
-                                           membranes::reached_by(lattice, o_.membrane, *o_.poisson))
-                                    : text("poisson ", own, " along [100], which these ratios give; or leave poisson out"));
-  }
-
-  double stiffness(const LatticeFacts& lattice, const Choice& choice, bool cubic) const {
-    if (o_.stiffness == Stiffness::eq15) {
-      if (lattice.squared_lengths == 0) throw std::invalid_argument("stiffness eq15 needs a body that has springs");
-      const double volume = static_cast<double>(lattice.particles) * lattice.site_volume;
-      return calibration::stiffness_eq15(o_.young, volume, lattice.squared_lengths, choice.modulus_ratio);
-    }
-    if (cubic) return calibration::stiffness_bulk(o_.young, lattice.spacing, choice.modulus_ratio);
-    return o_.young / (choice.modulus_ratio * lattice.elastic_constants(membranes::constants(lattice, {})).young());  // k = 1 N/m there
-  }
-
-  static void check(const Options& o, const FaultSink& faults) {
-    const bool has_ratios = o.k_beta != 0 || o.k_gamma != 0 || o.k_alpha != 0.0;
-    if (o.membrane != Membrane::free && has_ratios) faults.fault("membrane", "free, because k_alpha, k_beta or k_gamma is given");
-    if (o.parameters == Parameters::paper && o.membrane != Membrane::I_m)
-      faults.fault("parameters", "closed_form: the paper's polynomials are of membrane I-m");
-    if (o.lambda && (o.membrane == Membrane::none || o.membrane == Membrane::free))
-      faults.fault("lambda", "no lambda: only membranes I, II, III, IV and I-m have one");
-    else if (o.lambda && o.poisson)
-      faults.fault("lambda", "one of poisson and lambda: each follows from the other");
-    else if (!o.lambda && !o.poisson && o.membrane != Membrane::none && o.membrane != Membrane::free)
-      faults.fault("poisson", "a Poisson ratio, or lambda in its place");
-    else if (o.poisson && o.parameters == Parameters::paper &&
-             (*o.poisson < calibration::paper_poisson_low || *o.poisson > calibration::paper_poisson_high))
-      faults.fault("poisson",
-                   text(calibration::paper_poisson_low, " to ", calibration::paper_poisson_high, ", where the paper's polynomials were fitted"));
-  }
-
-  Options o_;
+  Options options_;
 };
 }  // namespace
 

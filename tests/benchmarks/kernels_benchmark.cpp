@@ -1,5 +1,5 @@
 // Speed of the explicit step: nanoseconds per particle-step, springs per second, and the share of the processor's arithmetic that they make,
-// for each kind of kernel, size and shape. Arguments: those of Google Benchmark, for instance --benchmark_filter=free/.*/50.
+// for each kind of kernel, precision, size and shape. Arguments: those of Google Benchmark, for instance --benchmark_filter=free/float/50.
 #include <plan/plan.hpp>
 #include <run/state.hpp>
 
@@ -30,7 +30,7 @@ const Variant variants[] = {
 };
 
 /// A cube of so many particles along an edge, or the hollow sphere of 490,432 (size 0), in slow torsion.
-Json scene_of(const Variant& variant, int size) {
+Json scene_of(const Variant& variant, int size, const char* precision) {
   Json material = {{"type", "materials.elastic"}, {"young", 1e10}, {"density", 2500}, {"membrane", variant.membrane}};
   if (std::string(variant.membrane) != "none") material["lambda"] = 0.5;
   if (variant.breakable) material["failure"] = {{"type", "failures.elongation"}, {"limit", 1e-4}};  // is never reached
@@ -45,6 +45,7 @@ Json scene_of(const Variant& variant, int size) {
   };
   const double middle = size > 0 ? edge / 2 : 0;
   return {{"format", "hyperlattice/1"},
+          {"precision", precision},
           {"pipeline",
            {{{"type", "lattices.cubic"}, {"spacing", 1e-3}, {"boundary", variant.cells ? "cells" : "particles"}, {"shape", shape}},
             material,
@@ -54,25 +55,29 @@ Json scene_of(const Variant& variant, int size) {
 }
 
 /// Flops a second of multiply-adds in registers on one thread, measured now.
-#if defined(__x86_64__)
-__attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#endif
-double
-peak_of_multiply_adds() {
-  constexpr int chains = 96, rounds = 200000;
-  double x[chains];
-  for (int n = 0; n < chains; ++n) x[n] = n;
+template <class Real>
+[[gnu::always_inline]] inline double peak_of_multiply_adds() {
+  constexpr int chains = 12 * 64 / sizeof(Real), rounds = 200000;
+  Real x[chains];
+  for (int n = 0; n < chains; ++n) x[n] = static_cast<Real>(n);
   const auto start = std::chrono::steady_clock::now();
   for (int round = 0; round < rounds; ++round)
-    for (double& value : x) value = value * 0.999 + 1e-3;
+    for (Real& value : x) value = value * static_cast<Real>(0.999) + static_cast<Real>(1e-3);
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
   benchmark::DoNotOptimize(x);
   return 2.0 * chains * rounds / time.count();
 }
+#if defined(__x86_64__)
+#define FOR_THIS_PROCESSOR __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define FOR_THIS_PROCESSOR
+#endif
+FOR_THIS_PROCESSOR double peak_of_doubles() { return peak_of_multiply_adds<double>(); }
+FOR_THIS_PROCESSOR double peak_of_floats() { return peak_of_multiply_adds<float>(); }
 
-void explicit_step(benchmark::State& state, const Variant& variant, int size, int threads) {
+void explicit_step(benchmark::State& state, const Variant& variant, int size, const char* precision, int threads) {
   const auto file = std::filesystem::temp_directory_path() / ("kernels_benchmark." + std::to_string(getpid()) + ".json");
-  std::ofstream(file) << scene_of(variant, size);
+  std::ofstream(file) << scene_of(variant, size, precision);
   Host host({std::filesystem::path(HYPERLATTICE_BUILD) / "lib" / "hyperlattice"});
   const auto plan = make_plan(read_scene(file, {}, host), threads);
   std::filesystem::remove(file);
@@ -84,18 +89,19 @@ void explicit_step(benchmark::State& state, const Variant& variant, int size, in
   for (auto _ : state) simulation.step(time_step);
   const auto particles = static_cast<double>(plan->model->body.particles), springs = static_cast<double>(plan->model->body.base_springs());
   const double flops = springs * variant.flops_of_spring + particles * variant.flops_of_particle;
+  const double peak = plan->model->choice.precision == Precision::floats ? peak_of_floats() : peak_of_doubles();
   using benchmark::Counter;
   state.counters["s/particle_step"] = Counter(particles, Counter::kIsIterationInvariantRate | Counter::kInvert);
   state.counters["springs/s"] = Counter(springs, Counter::kIsIterationInvariantRate);
-  state.counters["of_peak"] = Counter(flops / (peak_of_multiply_adds() * threads), Counter::kIsIterationInvariantRate);
+  state.counters["of_peak"] = Counter(flops / (peak * threads), Counter::kIsIterationInvariantRate);
   state.SetLabel(plan->model->kernels.instructions);
 }
 
-void add(const Variant& variant, int size, int threads) {
+void add(const Variant& variant, int size, const char* precision, int threads) {
   const std::string shape = size > 0 ? std::to_string(size) : "hollow_sphere";
-  const std::string name = std::string(variant.name) + "/" + shape + "/" + std::to_string(threads);
-  auto* added = benchmark::RegisterBenchmark(name.c_str(),
-                                             [&variant, size, threads](benchmark::State& state) { explicit_step(state, variant, size, threads); });
+  const std::string name = std::string(variant.name) + "/" + precision + "/" + shape + "/" + std::to_string(threads);
+  auto* added = benchmark::RegisterBenchmark(
+      name.c_str(), [&variant, size, precision, threads](benchmark::State& state) { explicit_step(state, variant, size, precision, threads); });
   added->Unit(benchmark::kMillisecond);
   if (threads > 1) added->UseRealTime();  // else the thread's own: others may be at work on the machine
 }
@@ -106,7 +112,8 @@ int main(int argc, char** argv) {
   for (const Variant& variant : variants)
     for (const int size : {25, 50, 100, 0})
       if (size > 0 || !variant.cells)
-        for (const int threads : {1, 2}) add(variant, size, threads);
+        for (const char* precision : {"double", "float"})
+          for (const int threads : {1, 2}) add(variant, size, precision, threads);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   benchmark::RunSpecifiedBenchmarks();

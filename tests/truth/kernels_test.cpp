@@ -1,5 +1,6 @@
 // The fast kernel against the plain one (HYPERLATTICE_SPRINGS=exact: one neighbour at a time, root and division), and against itself on other
-// numbers of threads: for strains of every size, bodies with holes and with rows of every length, cells, several materials, breaking springs.
+// numbers of threads, and floats against doubles: for strains of every size, bodies with holes and with rows of every length, cells, several
+// materials, breaking springs.
 #include <support/scenes.hpp>
 
 #include <gtest/gtest.h>
@@ -49,9 +50,9 @@ const Variant variants[] = {
 class Kernels : public testing::TestWithParam<std::tuple<ShapeCase, Variant, const char*>> {
  protected:
   /// Spacing 1 m.
-  std::unique_ptr<Plan> plan() const {
+  std::unique_ptr<Plan> plan(const char* precision = "double") const {
     const auto& [shape, variant, boundary] = GetParam();
-    return plan_of(R"({ "format": "hyperlattice/1", "pipeline": [
+    return plan_of(R"({ "format": "hyperlattice/1", "precision": ")" + std::string(precision) + R"(", "pipeline": [
       { "type": "lattices.cubic", "boundary": ")" +
                    std::string(boundary) + R"(", "spacing": 1, "anchor": [0, 0, 0], "shape": )" + shape.shape + R"( },
       { "type": "materials.elastic", "young": 1e10, "density": 2500, )" +
@@ -101,11 +102,28 @@ TEST_P(Kernels, GiveTheForcesOfThePlainOne) {
   }
 }
 
+TEST_P(Kernels, InFloatsGiveTheForcesOfDoubles) {
+  const auto doubles = plan(), floats = plan("float");
+  for (const double size : {1e-12, 1e-6, 2e-3, 0.02, 0.3}) {
+    const Moved fast = moved(*floats->model, size, 1, 1);
+    const ExactKernel exact;
+    const Moved plain = moved(*doubles->model, size, 1, 1), plain_floats = moved(*floats->model, size, 1, 1);
+    const double scale = std::max(largest(plain.velocity), largest(plain.rate));
+    for (const Moved* other : {&fast, &plain_floats}) {
+      EXPECT_LT(distance(other->velocity, plain.velocity), 1.5e-6 * scale) << size;
+      EXPECT_LT(distance(other->rate, plain.rate), 1.5e-6 * scale) << size;
+      EXPECT_EQ(other->broken, plain.broken) << size;
+    }
+  }
+}
+
 TEST_P(Kernels, GiveTheSameBitsForAnyNumberOfThreads) {
-  const auto scene = plan();
-  for (const double size : {1e-6, 0.02}) {
-    const Moved one = moved(*scene->model, size, 8, 1);
-    for (const int threads : {2, 3, 5}) EXPECT_EQ(moved(*scene->model, size, 8, threads).hash, one.hash) << size << ", " << threads << " threads";
+  for (const char* precision : {"double", "float"}) {
+    const auto scene = plan(precision);
+    for (const double size : {1e-6, 0.02}) {
+      const Moved one = moved(*scene->model, size, 8, 1);
+      for (const int threads : {2, 3, 5}) EXPECT_EQ(moved(*scene->model, size, 8, threads).hash, one.hash) << size << ", " << threads << " threads";
+    }
   }
 }
 

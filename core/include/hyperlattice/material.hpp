@@ -58,6 +58,10 @@ struct LatticeFacts {
   bool is_stable(const MaterialConstants& constants) const { return get_stable == nullptr || get_stable(self, constants); }
 };
 
+/// How displacements and velocities are stored, and steps computed. Measurements are computed in doubles.
+enum class Precision : std::uint32_t { doubles, floats };
+constexpr std::size_t bytes_of(Precision precision) { return precision == Precision::floats ? sizeof(float) : sizeof(double); }
+
 /// What is special in a kernel; everything not asked for costs no instruction.
 struct KernelChoice {
   enum class Membrane : std::uint32_t { none, clamped, free };
@@ -65,6 +69,7 @@ struct KernelChoice {
   bool breakable = false;              ///< a failure criterion is present
   bool mixed = false;                  ///< more than one material
   bool listed = false;                 ///< a list of particles and springs, not a grid
+  Precision precision = Precision::doubles;
 };
 
 /// Moves a block of particles by one step, or measures it. Null members: this library has no such kernel.

@@ -29,10 +29,10 @@ class ListedSweep {
   void all_rows() const {
     for (std::uint32_t index = 0; index < static_cast<std::uint32_t>(request_.rows_per_plane); ++index) {
       const Row& row = request_.rows[index];
-      Motion<membrane, Mixed, task> motion(request_, row);
+      Motion<membrane, Mixed, task, double> motion(request_, row);
       double* forces[components];
       for (int c = 0; c < components; ++c) {
-        forces[c] = request_.scratch + c * request_.scratch_width;
+        forces[c] = static_cast<double*>(request_.scratch) + c * request_.scratch_width;
         for (int t = 0; t < row.end; t += lanes) store(forces[c] + t, motion.accelerated() ? motion.body_force(c, t) : Pack{});
       }
       Pack stored{};
@@ -46,12 +46,12 @@ class ListedSweep {
   void one_vector(const Row& row, std::uint32_t index, int t, double* const (&forces)[components], Pack& stored) const {
     Pack here[4] = {}, force[components];
     for (int c = 0; c < components; ++c) {
-      here[c] = load(request_.displacement[c] + row.start + t);
+      here[c] = load(static_cast<const double*>(request_.displacement[c]) + row.start + t);
       force[c] = load(forces[c] + t);
     }
     const std::uint64_t vector = (row.start + static_cast<std::uint64_t>(t)) / lanes;
     for (std::uint32_t slot = slots_.first[vector]; slot < slots_.first[vector + 1]; ++slot) {
-      const Lanes alive = lanes_of(slots_.alive[slot]);
+      const LanesOf<double> alive = lanes_of_byte(slots_.alive[slot]);
       Pack there[4] = {};
       gather(slot, there);
       const double* rest = slots_.rest + 4 * lanes * std::size_t{slot};

@@ -7,6 +7,7 @@
 #include <hyperlattice/material.hpp>
 
 #include <array>
+#include <type_traits>
 
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
@@ -15,9 +16,28 @@ constexpr int components_of(Membrane membrane) { return membrane == Membrane::fr
 
 enum class Task { step, step_damped, measure };
 
+/// What is measured is computed in doubles, whatever the state is stored in.
+template <Task task, class Stored>
+using RealOf = std::conditional_t<task == Task::measure, double, Stored>;
+
+/// A pack of weights: `places` of the sets of the vectors of `lanes` sites that it covers; `offset` into the sets.
+template <class Real>
+inline PackOf<Real> load_weights(const double* weights, const std::uint32_t* places, int offset) {
+  if constexpr (lanes_of<Real> == lanes) {
+    return load(weights + places[0] + offset);
+  } else {
+    Real values[lanes_of<Real>];
+    for (int lane = 0; lane < lanes_of<Real>; ++lane)
+      values[lane] = static_cast<Real>(weights[places[lane / lanes] + static_cast<std::uint32_t>(offset + lane % lanes)]);
+    return load(values);
+  }
+}
+
 /// Numbers of a row's particles that follow from their materials and their shares of a whole particle.
-template <bool Mixed>
+template <bool Mixed, class Real>
 class RowValues {
+  using Pack = PackOf<Real>;
+
  public:
   RowValues(const KernelRequest& request, const Row& row)
       : material_(Mixed && row.material < 0 ? request.material + row.start : nullptr),
@@ -27,13 +47,13 @@ class RowValues {
 
   /// `values`: of a whole particle of each material.
   Pack at(const double* values, int t) const {
-    Pack pack = fill(values[uniform_]);
+    Pack pack = values[uniform_];
     if (material_ != nullptr) {
-      double of_lane[lanes];
-      for (int lane = 0; lane < lanes; ++lane) of_lane[lane] = values[material_[t + lane]];
+      Real of_lane[lanes_of<Real>];
+      for (int lane = 0; lane < lanes_of<Real>; ++lane) of_lane[lane] = static_cast<Real>(values[material_[t + lane]]);
       pack = load(of_lane);
     }
-    return weight_sets_ == nullptr ? pack : pack * load(weights_ + weight_sets_[t / lanes]);
+    return weight_sets_ == nullptr ? pack : pack * load_weights<Real>(weights_, weight_sets_ + t / lanes, 0);
   }
   /// Whether the values are the same along the row.
   bool constant() const { return material_ == nullptr && weight_sets_ == nullptr; }
@@ -45,14 +65,16 @@ class RowValues {
   const double* weights_;
 };
 
-/// Forces on eight particles.
-template <int Components>
-using Forces = std::array<Pack, static_cast<std::size_t>(Components)>;
+/// Forces on a vector of particles.
+template <int Components, class Real>
+using Forces = std::array<PackOf<Real>, static_cast<std::size_t>(Components)>;
 
 /// Moves or measures a row: vectors() with the forces on its particles, or a vector() at a time, then finish().
-template <Membrane membrane, bool Mixed, Task task>
+template <Membrane membrane, bool Mixed, Task task, class Stored>
 class Motion {
-  static constexpr int components = components_of(membrane);
+  using Real = RealOf<task, Stored>;
+  using Pack = PackOf<Real>;
+  static constexpr int components = components_of(membrane), width = lanes_of<Real>;
   static constexpr bool measuring = task == Task::measure;
 
  public:
@@ -61,25 +83,25 @@ class Motion {
 
   /// Whether the whole body is accelerated.
   bool accelerated() const { return request_.acceleration.x != 0 || request_.acceleration.y != 0 || request_.acceleration.z != 0; }
-  /// The body acceleration's force on eight particles.
+  /// The body acceleration's force on a vector of particles.
   Pack body_force(int c, int t) const {
     const double acceleration[4] = {request_.acceleration.x, request_.acceleration.y, request_.acceleration.z, 0};
-    return where(lanes_with(load_bits(request_.alive + row_.start + t), particle_bit), acceleration[c] * values_.at(request_.mass, t));
+    return where(lanes_with<Real>(load_bits<Real>(request_.alive + row_.start + t), particle_bit), acceleration[c] * values_.at(request_.mass, t));
   }
 
   /// `force`: one array a component, whole vectors. Visits the row's supports too.
-  void vectors(double* const (&force)[components]) {
+  void vectors(Real* const (&force)[components]) {
     supports_before(force);
-    for (int t = 0; t < row_.end - row_.begin; t += lanes) {
-      Forces<components> forces;
+    for (int t = 0; t < row_.end - row_.begin; t += width) {
+      Forces<components, Real> forces;
       for (std::size_t c = 0; c < components; ++c) forces[c] = load(force[c] + t);
       vector(t, forces);
     }
     if constexpr (!measuring) supports_after();
   }
 
-  /// Eight particles with the whole force on them; element t of the row is the first.
-  HYPERLATTICE_INLINE void vector(int t, Forces<components>& forces) {
+  /// A vector of particles with the whole force on them; element t of the row is the first.
+  HYPERLATTICE_INLINE void vector(int t, Forces<components, Real>& forces) {
     const double kick = request_.back + request_.forward, drift = 2 * request_.forward;
     if (!values_.constant()) {
       mass_ = values_.at(request_.mass, t);
@@ -88,9 +110,9 @@ class Motion {
     Pack alpha = 0;
     if constexpr (membrane == Membrane::free) alpha = values_.at(request_.alpha, t);
     for (std::size_t c = 0; c < components; ++c) {
-      double* u = request_.displacement[c] + row_.start + t;
-      double* v = request_.velocity[c] + row_.start + t;
-      const Pack displacement = load(u), velocity = load(v);
+      Stored* u = displacement(c) + row_.start + t;
+      Stored* v = velocity(c) + row_.start + t;
+      const Pack displacement = load_as<Real>(u), velocity = load_as<Real>(v);
       Pack force = forces[c];
       if (membrane == Membrane::free && c == 3) {  // the alpha spring joins the particle to its own mirror copy
         force -= 2.0 * alpha * displacement;
@@ -98,7 +120,7 @@ class Motion {
       }
       Pack drag = 0;
       if (task == Task::step_damped || (measuring && request_.damping != 0)) {
-        drag = with_sign(request_.damping * absolute(force), velocity);
+        drag = with_sign(request_.damping * force, velocity);
         force -= drag;
       }
       if constexpr (measuring) {
@@ -135,17 +157,20 @@ class Motion {
   }
 
  private:
+  Stored* displacement(std::size_t c) const { return static_cast<Stored*>(request_.displacement[c]); }
+  Stored* velocity(std::size_t c) const { return static_cast<Stored*>(request_.velocity[c]); }
+
   // The few particles with external forces or prescribed motion. Their state before the row is moved waits in the support itself.
-  void supports_before(double* const (&forces)[components]) {
+  void supports_before(Real* const (&forces)[components]) {
     for (std::uint32_t n = row_.first_support; n < row_.last_support; ++n) {
       Support& support = request_.supports[n];
       const double force[3] = {support.force.x, support.force.y, support.force.z};
-      for (int c = 0; c < 3; ++c) {
-        double& sum_of_forces = forces[c][support.site - row_.begin];
-        sum_of_forces += force[c];
+      for (std::size_t c = 0; c < 3; ++c) {
+        Real& sum_of_forces = forces[c][support.site - row_.begin];
+        sum_of_forces += static_cast<Real>(force[c]);
         support.sum[c] = sum_of_forces;
-        support.speed_before[c] = request_.velocity[c][support.index];
-        support.place_before[c] = request_.displacement[c][support.index];
+        support.speed_before[c] = velocity(c)[support.index];
+        support.place_before[c] = displacement(c)[support.index];
       }
     }
   }
@@ -156,12 +181,12 @@ class Motion {
       Support& support = request_.supports[n];
       const double prescribed[3] = {support.velocity.x, support.velocity.y, support.velocity.z};
       double path[3];
-      for (int c = 0; c < 3; ++c) {
-        double& v = request_.velocity[c][support.index];
+      for (std::size_t c = 0; c < 3; ++c) {
+        Stored& v = velocity(c)[support.index];
         const bool held = (support.axes >> c & 1u) != 0;
         if (held) {
-          v = prescribed[c];
-          request_.displacement[c][support.index] = support.place_before[c] + drift * v;
+          v = static_cast<Stored>(prescribed[c]);
+          displacement(c)[support.index] = static_cast<Stored>(support.place_before[c] + drift * prescribed[c]);
         }
         path[c] = request_.back * support.speed_before[c] + request_.forward * v;
         if (held) support.reaction_work += (support.mass * (v - support.speed_before[c]) / kick - support.sum[c]) * path[c];
@@ -199,7 +224,7 @@ class Motion {
 
   const KernelRequest& request_;
   const Row& row_;
-  RowValues<Mixed> values_;
+  RowValues<Mixed, Real> values_;
   Pack mass_, inverse_mass_;
   Pack stored_ = 0, damped_ = 0, kinetic_ = 0, kinetic_mean_ = 0, momentum_[4] = {0, 0, 0, 0}, potential_ = 0;
 };

@@ -6,7 +6,9 @@
 namespace hyperlattice {
 
 inline constexpr std::uint16_t particle_bit = 1u << 15;
-inline constexpr int lanes = 8;  ///< rows are padded to this many sites, so that a vector never straddles two rows
+template <class Real>
+inline constexpr int lanes_of = 64 / static_cast<int>(sizeof(Real));  ///< numbers in a vector
+inline constexpr int lanes = lanes_of<double>;                        ///< of sets of weights and of slots, whatever the precision
 
 /// One class of springs between two materials. Cross springs (beta, gamma) go from a particle to the mirror copy of its neighbour.
 struct SpringConstants {
@@ -26,7 +28,7 @@ struct NeighbourGeometry {
 inline constexpr std::uint64_t no_weights = ~std::uint64_t{0};
 inline constexpr std::uint32_t whole_set = 0;  ///< place of the set of weights of a vector whose particles and springs all count in full
 
-/// One row of particles: sites begin <= i < end of a line along x, stored from `start` on, padded to whole vectors.
+/// One row of particles: sites begin <= i < end of a line along x, stored from `start` on, padded to whole vectors, so that none straddles two rows.
 struct Row {
   std::int32_t begin = 0, end = 0;
   std::uint64_t start = 0;                            ///< place of site `begin` in the block's arrays
@@ -87,8 +89,8 @@ struct KernelRequest {
   std::int32_t planes = 0;
   std::int32_t reach = 1;
   const Row* rows = nullptr;               ///< (reach + planes + reach) * rows_per_plane rows
-  double* displacement[4] = {};            ///< x y z and height over the mirror plane's rest, metres; last is null without a membrane
-  double* velocity[4] = {};                ///< m/s
+  void* displacement[4] = {};              ///< x y z and height over the mirror plane's rest, metres; last is null without a membrane. In the
+  void* velocity[4] = {};                  ///< kernel's precision, as are velocities, m/s
   std::uint16_t* alive = nullptr;          ///< bit n: the spring to neighbour n exists; bit 15: the site holds a particle
   const std::uint8_t* material = nullptr;  ///< of each site; null: one material
   /// Of rows that have weights, for each vector of sites the place in `weights` of its set: `lanes` shares of a whole particle (mass, alpha), then
@@ -116,7 +118,7 @@ struct KernelRequest {
   const std::uint8_t* (*review)(void* self, const AlarmRow& springs) noexcept = nullptr;
 
   // scratch and results
-  double* scratch = nullptr;       ///< scratch_size(...) numbers, 64-byte aligned
+  void* scratch = nullptr;         ///< scratch_size(...) doubles, 64-byte aligned, zero at first; a kernel leaves what others find zero
   std::int32_t scratch_width = 0;  ///< numbers in a scratch row
   double* damped_work = nullptr;   ///< one number a row, ghosts too: energy that damping took, summed over the run, J
   RowSums* sums = nullptr;         ///< one a row of the block, ghosts too; for measure()
@@ -134,7 +136,7 @@ struct SpringRow {
 };
 
 /// Sites left and right of a row that its neighbours may reach; scratch rows are that much wider on each side.
-inline constexpr int scratch_margin = 8;
+inline constexpr int scratch_margin = 16;
 
 /// Numbers of scratch that a kernel needs: received forces of (reach + 1) planes, and the row's own.
 constexpr std::size_t scratch_size(std::int32_t rows_per_plane, std::int32_t reach, std::int32_t width, std::size_t components) {

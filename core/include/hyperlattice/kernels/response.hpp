@@ -10,6 +10,7 @@
 #include <hyperlattice/kernels/simd.hpp>
 
 #include <array>
+#include <limits>
 
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
@@ -20,16 +21,18 @@ constexpr bool is_linear = requires {
 };
 
 /// A spring after its law was asked: force along it divided by its length, and what it stores.
-struct Response {
+template <class Pack>
+struct ResponseOf {
   Pack force_over_length, energy;
 };
+using Response = ResponseOf<Pack>;
 
 /// Force and, if asked, energy of springs whose squared length grew by q from rest_length^2.
-template <class Law, bool Energy, class Length>  // one length for all, or one a lane
-inline Response respond(Pack stiffness, Length rest_length, Pack q) {
+template <class Law, bool Energy, class Pack, class Length>  // one length for all, or one a lane
+inline ResponseOf<Pack> respond(Pack stiffness, Length rest_length, Pack q) {
   const Pack length = root(rest_length * rest_length + q);
   const Pack inverse = 1.0 / (length * (length + rest_length));
-  Response response;
+  ResponseOf<Pack> response;
   if constexpr (is_linear<Law>) {
     response.force_over_length = Law::force(stiffness, q * inverse);
     if constexpr (Energy) response.energy = Law::energy(stiffness, q * length * inverse);
@@ -42,7 +45,12 @@ inline Response respond(Pack stiffness, Length rest_length, Pack q) {
 }
 
 /// (L0 + elongation)^2 - L0^2, lowered by rounding's worth so that an alarm rings rather too early than too late.
-inline double squared_growth(double rest_length, double elongation) { return elongation * (2 * rest_length + elongation) * (1 - 1e-12); }
+template <class Real = double>
+inline double squared_growth(double rest_length, double elongation) {
+  constexpr double rounding = std::is_same_v<Real, double> ? 1e-12 : 1e-4;
+  const double growth = elongation * (2 * rest_length + elongation);
+  return growth * (growth > 0 ? 1 - rounding : 1 + rounding);
+}
 
 /// (1 - 1 / sqrt(1 + p)) / p in powers of p, exact to rounding for |p| <= range.
 template <std::size_t terms>
@@ -67,91 +75,102 @@ struct Series {
     for (std::size_t n = 0; n < terms; ++n) coefficients[n] = taylor[n];
   }
 };
-inline constexpr Series<7> series_for_small(1.0 / 128);
-inline constexpr Series<11> series_for_large(1.0 / 16);
 
-/// A series in q for springs of a stiffness and a length: the force over length is q times its sum.
-template <std::size_t terms>
-class ScaledSeries {
- public:
-  template <class Law>
-  void set(const Series<terms>& series, double stiffness, double rest_length, Law) {
-    const double square = rest_length * rest_length;
-    double power = 1 / square;
-    for (std::size_t n = 0; n < terms; ++n, power /= square) coefficients_[n] = Law::force(stiffness, series.coefficients[n] * power);
-    if (power > 1e-300 && power < 1e300) range_ = series.range * square;  // else numbers fail: lattices of 1e-15 m
-  }
-  double range() const { return range_; }
-  double operator[](std::size_t n) const { return coefficients_[n]; }
-
- private:
-  double coefficients_[terms] = {};
-  double range_ = -1;  ///< of q; -1: none
+/// What is summed: the few terms that small strains need, and for the others as many as still cost less than a root.
+template <class Real>
+struct Terms;
+template <>
+struct Terms<double> {
+  static constexpr Series<7> few{1.0 / 128};
+  static constexpr Series<11> many{1.0 / 16};
+};
+template <>
+struct Terms<float> {
+  static constexpr Series<4> few{1.0 / 32};
+  static constexpr Series<8> many{1.0 / 4};
 };
 
 /// Springs of one class between two materials, base or cross: constants made ready for the loop.
-template <class Law>
+///
+/// The short series is one in q, whose coefficients hold the rest length: the force over length is q times its sum. The long one is in p.
+template <class Law, class Real>
 class SpringKind {
+  using Pack = PackOf<Real>;
+  using Few = decltype(Terms<Real>::few);
+  using Many = decltype(Terms<Real>::many);
+  static constexpr std::size_t few_terms = Terms<Real>::few.coefficients.size(), many_terms = Terms<Real>::many.coefficients.size();
+
  public:
   SpringKind() = default;
   /// `alarm`: elongation; infinity if nothing asks.
   SpringKind(double stiffness, double rest_length, double alarm) : stiffness_(stiffness), rest_length_(rest_length) {
-    if (alarm < infinity) alarm_ = squared_growth(rest_length, alarm);
+    if (alarm < infinity) alarm_ = static_cast<Real>(squared_growth<Real>(rest_length, alarm));
     if constexpr (is_linear<Law>) {
-      small_.set(series_for_small, stiffness, rest_length, Law{});
-      large_.set(series_for_large, stiffness, rest_length, Law{});
+      const double square = rest_length * rest_length;
+      const bool fits = set(few_, Terms<Real>::few.coefficients, stiffness, square);
+      set(many_, Terms<Real>::many.coefficients, stiffness, 1);
+      if (fits) highest_ = static_cast<Real>(Terms<Real>::few.range * square);
     }
-    lowest_ = -small_.range();
-    highest_ = alarm_ < small_.range() ? alarm_ : small_.range();
+    lowest_ = -highest_;
+    if (alarm_ < highest_) highest_ = alarm_;
   }
 
   /// Force over length of several springs at a time. Returns a bit for each that has one above its alarm.
   template <std::size_t number>
   HYPERLATTICE_INLINE static std::uint32_t pull(const SpringKind* const (&kinds)[number], const Pack (&q)[number], Pack (&pull)[number]) {
-    Outside outside;
+    Outside<Real> outside;
     each<number>([&]<std::size_t s>() __attribute__((always_inline)) { outside.look(q[s], kinds[s]->lowest_, kinds[s]->highest_); });
     if (outside) [[unlikely]] {
       std::uint32_t rung = 0;
       for (std::size_t s = 0; s < number; ++s) {
         pull[s] = kinds[s]->far(q[s]);
-        if (any(q[s] > kinds[s]->alarm_)) rung |= 1u << s;
+        if (any(q[s] > Pack(kinds[s]->alarm_))) rung |= 1u << s;
       }
       return rung;
     }
-    sum<small_terms>(
-        [&](std::size_t s) -> const auto& { return kinds[s]->small_; }, q, pull);
+    each<number>([&]<std::size_t s>() __attribute__((always_inline)) { pull[s] = kinds[s]->few_[few_terms - 1]; });
+    each<few_terms - 1>([&]<std::size_t n>() __attribute__((always_inline)) {  // side by side, so that no sum waits for itself
+      each<number>([&]<std::size_t s>() __attribute__((always_inline)) { pull[s] = pull[s] * q[s] + Pack(kinds[s]->few_[few_terms - 2 - n]); });
+    });
+    each<number>([&]<std::size_t s>() __attribute__((always_inline)) { pull[s] *= q[s]; });
     return 0;
   }
 
  private:
-  static constexpr std::size_t small_terms = series_for_small.coefficients.size(), large_terms = series_for_large.coefficients.size();
-
-  /// q times the series in q, side by side.
-  template <std::size_t terms, std::size_t number, class SeriesOf>
-  HYPERLATTICE_INLINE static void sum(const SeriesOf& series, const Pack (&q)[number], Pack (&pull)[number]) {
-    each<number>([&]<std::size_t s>() __attribute__((always_inline)) { pull[s] = fill(series(s)[terms - 1]); });
-    each<terms - 1>([&]<std::size_t n>() __attribute__((always_inline)) {
-      each<number>([&]<std::size_t s>() __attribute__((always_inline)) { pull[s] = pull[s] * q[s] + series(s)[terms - 2 - n]; });
-    });
-    each<number>([&]<std::size_t s>() __attribute__((always_inline)) { pull[s] *= q[s]; });
+  /// Coefficients of the n-th power, over square^(n + 1), as the law answers to them. False if they are not numbers of this precision.
+  template <std::size_t terms>
+  static bool set(Real (&to)[terms], const std::array<double, terms>& series, double stiffness, double square) {
+    constexpr double most = std::numeric_limits<Real>::max() / 1e3, least = std::numeric_limits<Real>::min() * 1e3;
+    double power = 1 / square;
+    bool fits = true;
+    for (std::size_t n = 0; n < terms; ++n, power /= square) {
+      const double coefficient = Law::force(stiffness, series[n] * power), size = coefficient < 0 ? -coefficient : coefficient;
+      fits = fits && (size == 0 || (size > least && size < most));
+      to[n] = fits ? static_cast<Real>(coefficient) : Real{};
+    }
+    return fits;
   }
 
   /// Springs that are not all near their rest length.
   [[gnu::noinline]] Pack far(Pack q) const {
-    Outside outside;
-    outside.look(q, -large_.range(), large_.range());
-    if (outside) return respond<Law, false>(fill(stiffness_), rest_length_, q).force_over_length;
-    const Pack growth[1] = {q};
-    Pack result[1];
-    sum<large_terms>(
-        [&](std::size_t) -> const auto& { return large_; }, growth, result);
-    return result[0];
+    if constexpr (is_linear<Law>) {
+      const double square = rest_length_ * rest_length_;
+      const Pack p = q * Pack(1 / square);
+      Outside<Real> outside;
+      constexpr Real range = static_cast<Real>(Terms<Real>::many.range);
+      outside.look(p, -range, range);
+      if (!outside) {
+        Pack pull = many_[many_terms - 1];
+        each<many_terms - 1>([&]<std::size_t n>() __attribute__((always_inline)) { pull = pull * p + Pack(many_[many_terms - 2 - n]); });
+        return pull * p;
+      }
+    }
+    return respond<Law, false>(Pack(stiffness_), rest_length_, q).force_over_length;
   }
 
-  ScaledSeries<small_terms> small_;
-  double lowest_ = 1, highest_ = -1;  ///< growth within which the short series holds and nothing rings
-  ScaledSeries<large_terms> large_;
-  double alarm_ = infinity;  ///< growth
+  Real few_[few_terms] = {}, many_[many_terms] = {};
+  Real lowest_ = 1, highest_ = -1;                      ///< growth within which the short series holds and nothing rings
+  Real alarm_ = std::numeric_limits<Real>::infinity();  ///< growth
   double stiffness_ = 0, rest_length_ = 0;
 };
 

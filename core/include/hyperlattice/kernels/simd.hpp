@@ -1,11 +1,15 @@
-// Eight numbers at a time: one notation for every instruction set. A pack is made of as many vectors as the processor needs for eight numbers, in
-// the vector extension that gcc and clang share. (A single vector wider than the processor's is taken apart by gcc, but through memory.)
-// Included only by kernels, which are compiled once for each instruction set; the namespace keeps their functions apart.
+// Several numbers at a time: one notation for both precisions and every instruction set. A pack is 64 bytes, eight doubles or sixteen floats, made of
+// as many vectors as the processor needs for them, in the vector extension that gcc and clang share. (A single vector wider than the processor's is
+// taken apart by gcc, but through memory.) Included only by kernels, which are compiled once for each instruction set; the namespace keeps their
+// functions apart.
 #pragma once
+
+#include <hyperlattice/kernels/request.hpp>
 
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 #include <utility>
 
 #if defined(__SSE2__)
@@ -35,217 +39,311 @@ inline constexpr int vector_bytes = 16;
 #endif
 inline constexpr std::size_t vectors = 64 / vector_bytes;  ///< of a pack
 
-typedef double Vector __attribute__((vector_size(vector_bytes)));
-typedef double VectorAnywhere __attribute__((vector_size(vector_bytes), aligned(8)));
-typedef std::int64_t Choice __attribute__((vector_size(vector_bytes)));             // all bits of a lane set: chosen
-typedef std::uint16_t Bits __attribute__((vector_size(16)));                        // of eight sites
-typedef std::uint16_t BitsOfVector __attribute__((vector_size(vector_bytes / 4)));  // of those in a vector
+/// The vectors of a precision. An integer is as wide as a number; all its bits set in a lane of a Choice: chosen. Bits are of the sites in a pack.
+template <class Real>
+struct VectorsOf;
+template <>
+struct VectorsOf<double> {
+  typedef std::int64_t Integer;
+  typedef double Vector __attribute__((vector_size(vector_bytes)));
+  typedef double VectorAnywhere __attribute__((vector_size(vector_bytes), aligned(8)));
+  typedef float NarrowAnywhere __attribute__((vector_size(vector_bytes / 2), aligned(4)));
+  typedef std::int64_t Choice __attribute__((vector_size(vector_bytes)));
+  typedef std::uint16_t Bits __attribute__((vector_size(16)));
+  typedef std::uint16_t BitsOfVector __attribute__((vector_size(vector_bytes / 4)));
+};
+template <>
+struct VectorsOf<float> {
+  typedef std::int32_t Integer;
+  typedef float Vector __attribute__((vector_size(vector_bytes)));
+  typedef float VectorAnywhere __attribute__((vector_size(vector_bytes), aligned(4)));
+  typedef std::int32_t Choice __attribute__((vector_size(vector_bytes)));
+  typedef std::uint16_t Bits __attribute__((vector_size(32)));
+  typedef std::uint16_t BitsOfVector __attribute__((vector_size(vector_bytes / 2)));
+};
+template <class Real>
+using BitsOf = typename VectorsOf<Real>::Bits;
 
-struct Mask {
-  Choice part[vectors];
+template <class Real>
+struct MaskOf {
+  typename VectorsOf<Real>::Choice part[vectors];
 };
 
-struct Pack {
+template <class Real>
+struct PackOf {
+  using Vector = typename VectorsOf<Real>::Vector;
+  using Choice = typename VectorsOf<Real>::Choice;
+  using Mask = MaskOf<Real>;
+
   Vector part[vectors];
 
-  Pack() = default;
-  HYPERLATTICE_INLINE Pack(double value) {  // in each lane
-    each<vectors>([&]<std::size_t p>() __attribute__((always_inline)) { part[p] = Vector{} + value; });
+  PackOf() = default;
+  HYPERLATTICE_INLINE PackOf(double value) {  // in each lane
+    each<vectors>([&]<std::size_t p>() __attribute__((always_inline)) { part[p] = Vector{} + static_cast<Real>(value); });
   }
 
   template <class Operation>
-  HYPERLATTICE_INLINE static Pack of(const Operation& operation) {
-    Pack pack;
+  HYPERLATTICE_INLINE static PackOf of(const Operation& operation) {
+    PackOf pack;
     each<vectors>([&]<std::size_t p>() __attribute__((always_inline)) { pack.part[p] = operation(p); });
     return pack;
   }
-  HYPERLATTICE_INLINE friend Pack operator+(const Pack& a, const Pack& b) {
+  HYPERLATTICE_INLINE friend PackOf operator+(const PackOf& a, const PackOf& b) {
     return of([&](std::size_t p) __attribute__((always_inline)) { return a.part[p] + b.part[p]; });
   }
-  HYPERLATTICE_INLINE friend Pack operator-(const Pack& a, const Pack& b) {
+  HYPERLATTICE_INLINE friend PackOf operator-(const PackOf& a, const PackOf& b) {
     return of([&](std::size_t p) __attribute__((always_inline)) { return a.part[p] - b.part[p]; });
   }
-  HYPERLATTICE_INLINE friend Pack operator*(const Pack& a, const Pack& b) {
+  HYPERLATTICE_INLINE friend PackOf operator*(const PackOf& a, const PackOf& b) {
     return of([&](std::size_t p) __attribute__((always_inline)) { return a.part[p] * b.part[p]; });
   }
-  HYPERLATTICE_INLINE friend Pack operator/(const Pack& a, const Pack& b) {
+  HYPERLATTICE_INLINE friend PackOf operator/(const PackOf& a, const PackOf& b) {
     return of([&](std::size_t p) __attribute__((always_inline)) { return a.part[p] / b.part[p]; });
   }
-  HYPERLATTICE_INLINE friend Pack operator-(const Pack& a) {
+  HYPERLATTICE_INLINE friend PackOf operator-(const PackOf& a) {
     return of([&](std::size_t p) __attribute__((always_inline)) { return -a.part[p]; });
   }
-  HYPERLATTICE_INLINE friend Mask operator>(const Pack& a, const Pack& b) {
+  HYPERLATTICE_INLINE friend Mask operator>(const PackOf& a, const PackOf& b) {
     Mask mask;
     each<vectors>([&]<std::size_t p>() __attribute__((always_inline)) { mask.part[p] = a.part[p] > b.part[p]; });
     return mask;
   }
-  HYPERLATTICE_INLINE Pack& operator+=(const Pack& other) { return *this = *this + other; }
-  HYPERLATTICE_INLINE Pack& operator-=(const Pack& other) { return *this = *this - other; }
-  HYPERLATTICE_INLINE Pack& operator*=(const Pack& other) { return *this = *this * other; }
+  HYPERLATTICE_INLINE PackOf& operator+=(const PackOf& other) { return *this = *this + other; }
+  HYPERLATTICE_INLINE PackOf& operator-=(const PackOf& other) { return *this = *this - other; }
+  HYPERLATTICE_INLINE PackOf& operator*=(const PackOf& other) { return *this = *this * other; }
 };
+using Pack = PackOf<double>;
 
-HYPERLATTICE_INLINE Pack fill(double value) { return value; }
-HYPERLATTICE_INLINE Pack load(const double* from) {
-  return Pack::of([&](std::size_t p) __attribute__((always_inline)) { return reinterpret_cast<const VectorAnywhere*>(from)[p]; });
+template <class Real = double>
+HYPERLATTICE_INLINE PackOf<Real> fill(double value) {
+  return value;
 }
-HYPERLATTICE_INLINE void store(double* to, const Pack& pack) {
-  each<vectors>([&]<std::size_t p>() __attribute__((always_inline)) { reinterpret_cast<VectorAnywhere*>(to)[p] = pack.part[p]; });
+template <class Real>
+HYPERLATTICE_INLINE PackOf<Real> load(const Real* from) {
+  using Anywhere = typename VectorsOf<Real>::VectorAnywhere;
+  return PackOf<Real>::of([&](std::size_t p) __attribute__((always_inline)) { return reinterpret_cast<const Anywhere*>(from)[p]; });
+}
+/// The same of numbers that are stored in another precision.
+template <class Real, class Stored>
+HYPERLATTICE_INLINE PackOf<Real> load_as(const Stored* from) {
+  using Vectors = VectorsOf<Real>;
+  if constexpr (std::is_same_v<Real, Stored>) {
+    return load(from);
+  } else if constexpr (std::is_same_v<Real, double>) {
+    return Pack::of([&](std::size_t p) __attribute__((always_inline)) {
+      return __builtin_convertvector(reinterpret_cast<const typename Vectors::NarrowAnywhere*>(from)[p], typename Vectors::Vector);
+    });
+  } else {
+    Real values[lanes_of<Real>];
+    for (int lane = 0; lane < lanes_of<Real>; ++lane) values[lane] = static_cast<Real>(from[lane]);
+    return load(values);
+  }
+}
+template <class Real>
+HYPERLATTICE_INLINE void store(Real* to, const PackOf<Real>& pack) {
+  each<vectors>([&]<std::size_t p>()
+                    __attribute__((always_inline)) { reinterpret_cast<typename VectorsOf<Real>::VectorAnywhere*>(to)[p] = pack.part[p]; });
 }
 /// Sum of the lanes, always in the same order.
-inline double sum(const Pack& pack) {
-  double p[8];
-  store(p, pack);
-  return ((p[0] + p[1]) + (p[2] + p[3])) + ((p[4] + p[5]) + (p[6] + p[7]));
+template <class Real>
+inline double sum(const PackOf<Real>& pack) {
+  constexpr int number = lanes_of<Real>;
+  Real lane[number];
+  store(lane, pack);
+  double partial[number];
+  for (int n = 0; n < number; ++n) partial[n] = static_cast<double>(lane[n]);
+  for (int left = number / 2; left > 0; left /= 2)
+    for (int n = 0; n < left; ++n) partial[n] = partial[2 * n] + partial[2 * n + 1];
+  return partial[0];
 }
 
 // Sites' bits.
-inline Bits load_bits(const std::uint16_t* from) {
-  Bits bits;
+template <class Real = double>
+inline BitsOf<Real> load_bits(const std::uint16_t* from) {
+  BitsOf<Real> bits;
   std::memcpy(&bits, from, sizeof bits);
   return bits;
 }
-inline bool same(Bits a, Bits b) { return std::memcmp(&a, &b, sizeof a) == 0; }
-/// All that is set in some lane.
-inline std::uint16_t joined(Bits bits) {
-  std::uint64_t halves[2];
-  std::memcpy(halves, &bits, sizeof bits);
-  std::uint64_t all = halves[0] | halves[1];
-  all |= all >> 32;
-  return static_cast<std::uint16_t>(all | all >> 16);
+template <class Bits>
+inline bool same(Bits a, Bits b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
 /// Some of the lanes.
 #if defined(__AVX512F__)
-typedef __mmask8 Lanes;
-HYPERLATTICE_INLINE Lanes lanes_with(Bits bits, std::uint16_t bit) {  // whose bits have `bit` set
-  return _mm_test_epi16_mask(reinterpret_cast<__m128i>(bits), _mm_set1_epi16(static_cast<short>(bit)));
+template <class Real>
+using LanesOf = std::conditional_t<std::is_same_v<Real, double>, __mmask8, __mmask16>;
+template <class Real = double>
+HYPERLATTICE_INLINE LanesOf<Real> lanes_with(BitsOf<Real> bits, std::uint16_t bit) {  // whose bits have `bit` set
+  if constexpr (std::is_same_v<Real, double>)
+    return _mm_test_epi16_mask(reinterpret_cast<__m128i>(bits), _mm_set1_epi16(static_cast<short>(bit)));
+  else
+    return _mm256_test_epi16_mask(reinterpret_cast<__m256i>(bits), _mm256_set1_epi16(static_cast<short>(bit)));
 }
-HYPERLATTICE_INLINE Lanes lanes_of(std::uint8_t byte) { return byte; }  // whose bit is set
-HYPERLATTICE_INLINE Lanes not_zero(const Pack& pack) { return _mm512_cmp_pd_mask(pack.part[0], _mm512_setzero_pd(), _CMP_NEQ_UQ); }
-HYPERLATTICE_INLINE Pack where(Lanes lanes, Pack pack) {
+HYPERLATTICE_INLINE LanesOf<double> lanes_of_byte(std::uint8_t byte) { return byte; }  // whose bit is set
+HYPERLATTICE_INLINE LanesOf<double> not_zero(const Pack& pack) { return _mm512_cmp_pd_mask(pack.part[0], _mm512_setzero_pd(), _CMP_NEQ_UQ); }
+HYPERLATTICE_INLINE Pack where(LanesOf<double> lanes, Pack pack) {  // 0 elsewhere
   pack.part[0] = _mm512_maskz_mov_pd(lanes, pack.part[0]);
   return pack;
 }
+HYPERLATTICE_INLINE PackOf<float> where(LanesOf<float> lanes, PackOf<float> pack) {
+  pack.part[0] = _mm512_maskz_mov_ps(lanes, pack.part[0]);
+  return pack;
+}
 #else
-typedef Mask Lanes;
-HYPERLATTICE_INLINE Lanes lanes_with(Bits bits, std::uint16_t bit) {
-  BitsOfVector of_vector[vectors];
+template <class Real>
+using LanesOf = MaskOf<Real>;
+template <class Real = double>
+HYPERLATTICE_INLINE LanesOf<Real> lanes_with(BitsOf<Real> bits, std::uint16_t bit) {
+  using Vectors = VectorsOf<Real>;
+  constexpr int top = 8 * sizeof(Real) - 1;
+  typename Vectors::BitsOfVector of_vector[vectors];
   std::memcpy(of_vector, &bits, sizeof bits);
-  Lanes lanes;
+  const int shift = top - (31 - __builtin_clz(bit));
+  LanesOf<Real> lanes;
   each<vectors>([&]<std::size_t p>() __attribute__((always_inline)) {
 #if defined(__AVX2__)
-    std::int64_t four;
-    std::memcpy(&four, &of_vector[p], sizeof four);
-    const __m256i wide = _mm256_cvtepu16_epi64(_mm_cvtsi64_si128(four));
-    lanes.part[p] = reinterpret_cast<Choice>(wide) << __builtin_clzll(bit) >> 63;
+    if constexpr (std::is_same_v<Real, double>) {
+      std::int64_t four;
+      std::memcpy(&four, &of_vector[p], sizeof four);
+      lanes.part[p] = reinterpret_cast<typename Vectors::Choice>(_mm256_cvtepu16_epi64(_mm_cvtsi64_si128(four))) << shift >> top;
+    } else {
+      lanes.part[p] = reinterpret_cast<typename Vectors::Choice>(_mm256_cvtepu16_epi32(reinterpret_cast<__m128i>(of_vector[p]))) << shift >> top;
+    }
 #else
-    lanes.part[p] = __builtin_convertvector(of_vector[p], Choice) << __builtin_clzll(bit) >> 63;
+    lanes.part[p] = __builtin_convertvector(of_vector[p], typename Vectors::Choice) << shift >> top;
 #endif
   });
   return lanes;
 }
-inline Lanes lanes_of(std::uint8_t byte) {
+inline LanesOf<double> lanes_of_byte(std::uint8_t byte) {
   std::int64_t all[8];
   for (unsigned lane = 0; lane < 8; ++lane) all[lane] = -(byte >> lane & 1);
-  Lanes lanes;
+  LanesOf<double> lanes;
   std::memcpy(&lanes, all, sizeof all);
   return lanes;
 }
-HYPERLATTICE_INLINE Lanes not_zero(const Pack& pack) {
-  Lanes lanes;
+HYPERLATTICE_INLINE LanesOf<double> not_zero(const Pack& pack) {
+  LanesOf<double> lanes;
   each<vectors>([&]<std::size_t p>() __attribute__((always_inline)) { lanes.part[p] = pack.part[p] != 0.0; });
   return lanes;
 }
-HYPERLATTICE_INLINE Pack where(const Mask& mask, const Pack& pack) {  // 0 elsewhere
-  return Pack::of([&](std::size_t p)
-                      __attribute__((always_inline)) { return reinterpret_cast<Vector>(mask.part[p] & reinterpret_cast<Choice>(pack.part[p])); });
+template <class Real>
+HYPERLATTICE_INLINE PackOf<Real> where(const MaskOf<Real>& mask, const PackOf<Real>& pack) {  // 0 elsewhere
+  using Vectors = VectorsOf<Real>;
+  return PackOf<Real>::of([&](std::size_t p) __attribute__((always_inline)) {
+    return reinterpret_cast<typename Vectors::Vector>(mask.part[p] & reinterpret_cast<typename Vectors::Choice>(pack.part[p]));
+  });
 }
 #endif
 
-inline bool any(const Mask& mask) {
-  std::int64_t lanes[8], joined = 0;
-  std::memcpy(lanes, &mask, sizeof lanes);
-  for (const std::int64_t lane : lanes) joined |= lane;
+template <class Real>
+inline bool any(const MaskOf<Real>& mask) {
+  std::int64_t words[8], joined = 0;
+  std::memcpy(words, &mask, sizeof words);
+  for (const std::int64_t word : words) joined |= word;
   return joined != 0;
 }
 
 /// Gathers whether a lane of any pack is not between its bounds, or not a number; asked once for several packs.
+template <class Real>
 class Outside {
  public:
 #if defined(__AVX512F__)
-  HYPERLATTICE_INLINE void look(const Pack& x, double low, double high) {
-    found_ |= _mm512_cmp_pd_mask(x.part[0], _mm512_set1_pd(low), _CMP_NGE_UQ) | _mm512_cmp_pd_mask(x.part[0], _mm512_set1_pd(high), _CMP_NLE_UQ);
+  HYPERLATTICE_INLINE void look(const PackOf<Real>& x, Real low, Real high) {
+    if constexpr (std::is_same_v<Real, double>)
+      found_ |= _mm512_cmp_pd_mask(x.part[0], _mm512_set1_pd(low), _CMP_NGE_UQ) | _mm512_cmp_pd_mask(x.part[0], _mm512_set1_pd(high), _CMP_NLE_UQ);
+    else
+      found_ |= _mm512_cmp_ps_mask(x.part[0], _mm512_set1_ps(low), _CMP_NGE_UQ) | _mm512_cmp_ps_mask(x.part[0], _mm512_set1_ps(high), _CMP_NLE_UQ);
   }
   explicit operator bool() const { return found_ != 0; }
 
  private:
   unsigned found_ = 0;
 #else
-  HYPERLATTICE_INLINE void look(const Pack& x, double low, double high) {
+  HYPERLATTICE_INLINE void look(const PackOf<Real>& x, Real low, Real high) {
     each<vectors>([&]<std::size_t p>() __attribute__((always_inline)) { found_ |= ~((x.part[p] >= low) & (x.part[p] <= high)); });
   }
 #if defined(__AVX__)
-  explicit operator bool() const { return _mm256_movemask_pd(reinterpret_cast<__m256d>(found_)) != 0; }
+  explicit operator bool() const { return _mm256_movemask_ps(reinterpret_cast<__m256>(found_)) != 0; }
 #else
-  explicit operator bool() const { return (found_[0] | found_[1]) != 0; }
+  explicit operator bool() const {
+    std::int64_t words[2];
+    std::memcpy(words, &found_, sizeof words);
+    return (words[0] | words[1]) != 0;
+  }
 #endif
 
  private:
-  Choice found_{};
+  typename VectorsOf<Real>::Choice found_{};
 #endif
 };
 
 /// The lanes one further: the last of `before`, then all but the last of `now`.
-HYPERLATTICE_INLINE Pack one_further(const Pack& before, const Pack& now) {
-  return Pack::of([&](std::size_t p) __attribute__((always_inline)) {
+template <class Real>
+HYPERLATTICE_INLINE PackOf<Real> one_further(const PackOf<Real>& before, const PackOf<Real>& now) {
+  using Vector = typename PackOf<Real>::Vector;
+  return PackOf<Real>::of([&](std::size_t p) __attribute__((always_inline)) {
     const Vector left = p == 0 ? before.part[vectors - 1] : now.part[p - 1], right = now.part[p];
-#if defined(__AVX512F__)
-    return __builtin_shufflevector(left, right, 7, 8, 9, 10, 11, 12, 13, 14);
-#elif defined(__AVX__)
-    return __builtin_shufflevector(left, right, 3, 4, 5, 6);
-#else
-    return __builtin_shufflevector(left, right, 1, 2);
-#endif
+    return [&]<std::size_t... n>(std::index_sequence<n...>) __attribute__((always_inline)) {
+      return __builtin_shufflevector(left, right, (sizeof...(n) - 1 + n)...);
+    }
+    (std::make_index_sequence<vector_bytes / sizeof(Real)>());
   });
 }
 /// The lanes one back: all but the first of `now`, then the first of `next`.
-inline Pack one_back(const Pack& now, const Pack& next) {
-  double both[16];
+template <class Real>
+inline PackOf<Real> one_back(const PackOf<Real>& now, const PackOf<Real>& next) {
+  Real both[2 * lanes_of<Real>];
   store(both, now);
-  store(both + 8, next);
+  store(both + lanes_of<Real>, next);
   return load(both + 1);
 }
 
 /// a b, rounded: where it is added to two sums, a product and two additions share the processor's units better than two fused ones.
-HYPERLATTICE_INLINE Pack product(const Pack& a, const Pack& b) {
+template <class Real>
+HYPERLATTICE_INLINE PackOf<Real> product(const PackOf<Real>& a, const PackOf<Real>& b) {
 #if defined(__GNUC__) && !defined(__clang__)
-  return Pack::of([&](std::size_t p) __attribute__((always_inline)) { return __builtin_assoc_barrier(a.part[p] * b.part[p]); });
+  return PackOf<Real>::of([&](std::size_t p) __attribute__((always_inline)) { return __builtin_assoc_barrier(a.part[p] * b.part[p]); });
 #else
   return a * b;
 #endif
 }
-HYPERLATTICE_INLINE Pack root(const Pack& x) {
-  return Pack::of([&](std::size_t p) __attribute__((always_inline)) {
+template <class Real>
+HYPERLATTICE_INLINE PackOf<Real> root(const PackOf<Real>& x) {
+  return PackOf<Real>::of([&](std::size_t p) __attribute__((always_inline)) {
+    constexpr bool wide = std::is_same_v<Real, double>;
 #if defined(__AVX512F__)
-    return _mm512_maskz_sqrt_pd(0xff, x.part[p]);
+    if constexpr (wide)
+      return _mm512_maskz_sqrt_pd(0xff, x.part[p]);
+    else
+      return _mm512_maskz_sqrt_ps(0xffff, x.part[p]);
 #elif defined(__AVX__)
-    return _mm256_sqrt_pd(x.part[p]);
+    if constexpr (wide)
+      return _mm256_sqrt_pd(x.part[p]);
+    else
+      return _mm256_sqrt_ps(x.part[p]);
 #else
-    Vector result = x.part[p];
-    for (std::size_t lane = 0; lane < 8 / vectors; ++lane) result[lane] = __builtin_sqrt(result[lane]);
+    typename PackOf<Real>::Vector result = x.part[p];
+    for (std::size_t lane = 0; lane < vector_bytes / sizeof(Real); ++lane) {
+      if constexpr (wide)
+        result[lane] = __builtin_sqrt(result[lane]);
+      else
+        result[lane] = __builtin_sqrtf(result[lane]);
+    }
     return result;
 #endif
   });
 }
-HYPERLATTICE_INLINE Pack absolute(const Pack& x) {
-  return Pack::of([&](std::size_t p)
-                      __attribute__((always_inline)) { return reinterpret_cast<Vector>(reinterpret_cast<Choice>(x.part[p]) & INT64_MAX); });
-}
 /// |magnitude| with the sign of `sign`; 0 where `sign` is 0.
-HYPERLATTICE_INLINE Pack with_sign(const Pack& magnitude, const Pack& sign) {
-  return Pack::of([&](std::size_t p) __attribute__((always_inline)) {
-    const Choice bits = (reinterpret_cast<Choice>(magnitude.part[p]) & INT64_MAX) | (reinterpret_cast<Choice>(sign.part[p]) & INT64_MIN);
-    return reinterpret_cast<Vector>((sign.part[p] != 0.0) & bits);
+template <class Real>
+HYPERLATTICE_INLINE PackOf<Real> with_sign(const PackOf<Real>& magnitude, const PackOf<Real>& sign) {
+  using Choice = typename PackOf<Real>::Choice;
+  using Integer = typename VectorsOf<Real>::Integer;
+  constexpr Integer lowest = std::is_same_v<Real, double> ? static_cast<Integer>(INT64_MIN) : static_cast<Integer>(INT32_MIN);
+  return PackOf<Real>::of([&](std::size_t p) __attribute__((always_inline)) {
+    const Choice bits = (reinterpret_cast<Choice>(magnitude.part[p]) & ~lowest) | (reinterpret_cast<Choice>(sign.part[p]) & lowest);
+    return reinterpret_cast<typename PackOf<Real>::Vector>((sign.part[p] != Real{0}) & bits);
   });
 }
 

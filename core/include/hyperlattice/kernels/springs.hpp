@@ -13,58 +13,59 @@
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
 /// Where the particles of a row, and their neighbours, stand in the arrays. Element t belongs to site begin + t.
-template <int Components>
+template <int Components, class Stored, class Real>
 struct RowPair {
-  const double* here[Components];
-  const double* there[Components];
-  double* own[Components];       ///< forces on the row itself
-  double* received[Components];  ///< forces on the neighbours' row
+  const Stored* here[Components];
+  const Stored* there[Components];
+  Real* own[Components];       ///< forces on the row itself
+  Real* received[Components];  ///< forces on the neighbours' row
   const std::uint16_t* alive;
   const std::uint8_t *material_here, *material_there;
   const std::uint32_t* weight_sets;  ///< of a row that has weights, for each vector
   const double* weights;             ///< what these places count from: the neighbour's in the sets
 };
 
-template <class Law, Membrane membrane, bool Breakable, bool Mixed, bool Weighted, bool Energy>
+template <class Law, Membrane membrane, bool Breakable, bool Mixed, bool Weighted, bool Energy, class Stored, class Real>
 struct Springs {
-  static constexpr int components = components_of(membrane);
+  using Pack = PackOf<Real>;
+  static constexpr int components = components_of(membrane), width = lanes_of<Real>;
+  using Pair = RowPair<components, Stored, Real>;
 
   /// Adds the forces of `count` springs (padded to whole vectors). Returns whether any is above its alarm; adds energies to `stored`.
-  [[gnu::noinline]] static bool add(const KernelRequest& request, const RowPair<components>& pair, const NeighbourGeometry& neighbour,
-                                    std::uint16_t bit, const SpringConstants& constants, int count, Pack& stored) {
+  [[gnu::noinline]] static bool add(const KernelRequest& request, const Pair& pair, const NeighbourGeometry& neighbour, std::uint16_t bit,
+                                    const SpringConstants& constants, int count, Pack& stored) {
     const Vec3 rest = neighbour.rest;
     const double twice_delta = 2 * request.membrane_distance;
-    Pack base_stiffness = fill(constants.stiffness), cross_stiffness = fill(constants.cross_stiffness);
-    Pack alarm = fill(squared_growth(neighbour.rest_length, constants.alarm));
+    Pack base_stiffness = constants.stiffness, cross_stiffness = constants.cross_stiffness;
+    Pack alarm = squared_growth<Real>(neighbour.rest_length, constants.alarm);
     bool rung = false;
-    for (int t = 0; t < count; t += lanes) {
-      const Lanes alive = lanes_with(load_bits(pair.alive + t), bit);
+    const auto difference_of = [&](std::size_t c, int t) { return load_as<Real>(pair.there[c] + t) - load_as<Real>(pair.here[c] + t); };
+    for (int t = 0; t < count; t += width) {
+      const LanesOf<Real> alive = lanes_with<Real>(load_bits<Real>(pair.alive + t), bit);
       const auto counted = [&](Pack whole) {
-        if constexpr (Weighted) whole *= load(pair.weights + pair.weight_sets[t / lanes]);
+        if constexpr (Weighted) whole *= load_weights<Real>(pair.weights, pair.weight_sets + t / lanes, 0);
         return where(alive, whole);
       };
       if constexpr (Mixed) constants_of_lanes(request, pair, neighbour, t, base_stiffness, cross_stiffness, alarm);
-      const Pack dx = load(pair.there[0] + t) - load(pair.here[0] + t);
-      const Pack dy = load(pair.there[1] + t) - load(pair.here[1] + t);
-      const Pack dz = load(pair.there[2] + t) - load(pair.here[2] + t);
+      const Pack dx = difference_of(0, t), dy = difference_of(1, t), dz = difference_of(2, t);
       const Pack q = dx * (2 * rest.x + dx) + dy * (2 * rest.y + dy) + dz * (2 * rest.z + dz);
 
       Pack difference = 0, total = 0;  // of the heights
       Pack base_q = q;
       if constexpr (membrane == Membrane::free) {
-        const Pack here = load(pair.here[3] + t), there = load(pair.there[3] + t);
+        const Pack here = load_as<Real>(pair.here[3] + t), there = load_as<Real>(pair.there[3] + t);
         difference = there - here;
         total = there + here;
         base_q += difference * difference;
       }
-      const Response base = respond<Law, Energy>(base_stiffness, neighbour.rest_length, base_q);
+      const ResponseOf<Pack> base = respond<Law, Energy>(base_stiffness, neighbour.rest_length, base_q);
       if constexpr (Breakable) rung |= any(where(alive, base_q) > alarm);
       const Pack base_pull = counted(base.force_over_length);
       Pack pull = base_pull;
       if constexpr (Energy) stored += counted(base.energy);
 
       if constexpr (membrane != Membrane::none) {
-        const Response cross = respond<Law, Energy>(cross_stiffness, neighbour.cross_rest_length, q + total * (twice_delta + total));
+        const ResponseOf<Pack> cross = respond<Law, Energy>(cross_stiffness, neighbour.cross_rest_length, q + total * (twice_delta + total));
         const Pack cross_pull = counted(cross.force_over_length);
         pull += cross_pull;
         if constexpr (Energy) stored += counted(cross.energy);
@@ -86,7 +87,7 @@ struct Springs {
   }
 
   /// Asks the failure criterion about the row's springs above their alarm, and removes those that broke.
-  [[gnu::noinline]] static void review(const KernelRequest& request, const RowPair<components>& pair, const Row& row, std::uint32_t row_index,
+  [[gnu::noinline]] static void review(const KernelRequest& request, const Pair& pair, const Row& row, std::uint32_t row_index,
                                        std::uint32_t neighbour_index, const SpringConstants* uniform) {
     constexpr int batch = 64;
     const NeighbourGeometry& neighbour = request.neighbours[neighbour_index];
@@ -103,9 +104,10 @@ struct Springs {
     };
     for (int t = 0; t < row.end - row.begin; ++t) {
       if ((pair.alive[t] & bit) == 0) continue;
-      const Vec3 d{pair.there[0][t] - pair.here[0][t], pair.there[1][t] - pair.here[1][t], pair.there[2][t] - pair.here[2][t]};
+      const auto moved = [&](int c) { return double{pair.there[c][t]} - double{pair.here[c][t]}; };
+      const Vec3 d{moved(0), moved(1), moved(2)};
       double q = dot(d, 2 * neighbour.rest + d);
-      if constexpr (membrane == Membrane::free) q += (pair.there[3][t] - pair.here[3][t]) * (pair.there[3][t] - pair.here[3][t]);
+      if constexpr (membrane == Membrane::free) q += moved(3) * moved(3);
       const SpringConstants& constants = uniform != nullptr ? *uniform : between(request, pair, neighbour, t);
       const double elongation = q / (__builtin_sqrt(neighbour.rest_length * neighbour.rest_length + q) + neighbour.rest_length);
       if (!(elongation > constants.alarm)) continue;
@@ -117,21 +119,21 @@ struct Springs {
   }
 
  private:
-  static void add_to(double* target, Pack value) { store(target, load(target) + value); }
+  static void add_to(Real* target, Pack value) { store(target, load(target) + value); }
 
-  static const SpringConstants& between(const KernelRequest& request, const RowPair<components>& pair, const NeighbourGeometry& neighbour, int t) {
+  static const SpringConstants& between(const KernelRequest& request, const Pair& pair, const NeighbourGeometry& neighbour, int t) {
     const std::uint32_t a = pair.material_here[t], b = pair.material_there[t];
     return request.springs[(a * request.materials + b) * request.spring_classes + neighbour.site.spring_class];
   }
 
-  static void constants_of_lanes(const KernelRequest& request, const RowPair<components>& pair, const NeighbourGeometry& neighbour, int t,
-                                 Pack& base_stiffness, Pack& cross_stiffness, Pack& alarm) {
-    double base[lanes], cross[lanes], alarms[lanes];
-    for (int lane = 0; lane < lanes; ++lane) {
+  static void constants_of_lanes(const KernelRequest& request, const Pair& pair, const NeighbourGeometry& neighbour, int t, Pack& base_stiffness,
+                                 Pack& cross_stiffness, Pack& alarm) {
+    Real base[width], cross[width], alarms[width];
+    for (int lane = 0; lane < width; ++lane) {
       const SpringConstants& constants = between(request, pair, neighbour, t + lane);
-      base[lane] = constants.stiffness;
-      cross[lane] = constants.cross_stiffness;
-      alarms[lane] = squared_growth(neighbour.rest_length, constants.alarm);
+      base[lane] = static_cast<Real>(constants.stiffness);
+      cross[lane] = static_cast<Real>(constants.cross_stiffness);
+      alarms[lane] = static_cast<Real>(squared_growth<Real>(neighbour.rest_length, constants.alarm));
     }
     base_stiffness = load(base);
     cross_stiffness = load(cross);

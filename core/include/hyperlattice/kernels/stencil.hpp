@@ -1,8 +1,8 @@
-// The springs from a row of particles to all its forward neighbours in one pass, eight sites at a time, for a list of neighbours that is known when
-// the kernel is compiled: what a spring does stays in registers until all springs of the eight sites are summed.
+// The springs from a row of particles to all its forward neighbours in one pass, a vector of sites at a time, for a list of neighbours that is known
+// when the kernel is compiled: what a spring does stays in registers until all springs of these sites are summed.
 //
-// A spring that leans forward (dx = 1) pulls at sites one further than its own eight; one that leans backward (dx = -1) is taken from its far
-// end, so that its own sites are one further. What falls one further waits for the next eight sites: nothing goes back.
+// A spring that leans forward (dx = 1) pulls at sites one further than its own; one that leans backward (dx = -1) is taken from its far end, so that
+// its own sites are one further. What falls one further waits for the next vector: nothing goes back.
 #pragma once
 
 #include <hyperlattice/kernels/cubic_list.hpp>
@@ -15,22 +15,25 @@
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
 /// One row's pass. `List`: see CubicList.
-template <class Law, Membrane membrane, bool Breakable, class List>
+template <class Law, Membrane membrane, bool Breakable, class List, class Real>
 class Stencil {
-  static constexpr int components = components_of(membrane);
+  using Pack = PackOf<Real>;
+  using Bits = BitsOf<Real>;
+  using Kind = SpringKind<Law, Real>;
+  static constexpr int components = components_of(membrane), width = lanes_of<Real>;
   static constexpr std::size_t lines = List::lines.size();
   static constexpr bool has_cross = membrane != Membrane::none;
 
-  using Packs = Forces<components>;
+  using Packs = Forces<components, Real>;
 
  public:
   struct Kinds {
-    SpringKind<Law> base, cross;
+    Kind base, cross;
   };
   /// Where a row and those of its neighbours are stored. Element t belongs to site begin + t.
   struct Rows {
     std::ptrdiff_t displacement[lines];  ///< places of the row's sites in each line; the first line is the row itself
-    double* received[lines];             ///< forces on them, x; the next component is `scratch_width` further
+    Real* received[lines];               ///< forces on them, x; the next component is `scratch_width` further
     const std::uint16_t* alive;
     const std::uint32_t* weight_sets;  ///< null: all count in full
     const Kinds* kinds;                ///< of each class
@@ -38,15 +41,15 @@ class Stencil {
     int count;                         ///< sites, padded to whole vectors
   };
 
-  Stencil(const KernelRequest& request, const Rows& rows) : request_(request), rows_(rows), spacing_(fill(List::spacing(request.neighbours))) {}
+  Stencil(const KernelRequest& request, const Rows& rows) : request_(request), rows_(rows), spacing_(List::spacing(request.neighbours)) {}
 
-  /// Adds to what later rows receive; gives the whole force on each eight sites of the row to take(t, forces), and clears what they received.
+  /// Adds to what later rows receive; gives the whole force on each vector of sites to take(t, forces), and clears what they received.
   /// Returns the bits of neighbours with an alarm.
   template <class Take>
   std::uint32_t run(const Take& take) {
     Carried carried;
     if ((rows_.alive[0] & List::leaning(-1)) != 0) first(carried);
-    for (int t = 0; t < rows_.count; t += lanes) {
+    for (int t = 0; t < rows_.count; t += width) {
       Packs forces;
       if (all_there(t)) [[likely]] {
         add<true, List::all()>(t, carried, forces);
@@ -81,15 +84,17 @@ class Stencil {
   }
   static constexpr bool leans_forward(std::size_t line) { return line != 0 && (List::in_line(List::lines[line]) & List::leaning(1)) != 0; }
 
-  const double* displacement(std::size_t line, std::size_t c) const { return request_.displacement[c] + rows_.displacement[line]; }
-  double* received(std::size_t line, std::size_t c) const { return rows_.received[line] + static_cast<std::ptrdiff_t>(c) * request_.scratch_width; }
+  const Real* displacement(std::size_t line, std::size_t c) const {
+    return static_cast<const Real*>(request_.displacement[c]) + rows_.displacement[line];
+  }
+  Real* received(std::size_t line, std::size_t c) const { return rows_.received[line] + static_cast<std::ptrdiff_t>(c) * request_.scratch_width; }
 
   /// Of the springs of a vector that begins at t, each taken from its own lanes.
   Bits alive(int t) const {
-    Bits there = t < 0 ? Bits{} : load_bits(rows_.alive + t), ahead = load_bits(rows_.alive + t + 1);
+    Bits there = t < 0 ? Bits{} : load_bits<Real>(rows_.alive + t), ahead = load_bits<Real>(rows_.alive + t + 1);
     if (t < 0)
-      for (int lane = 0; lane < lanes - 1; ++lane) ahead[lane] = 0;
-    if (t + lanes >= rows_.count) ahead[lanes - 1] = 0;
+      for (int lane = 0; lane < width - 1; ++lane) ahead[lane] = 0;
+    if (t + width >= rows_.count) ahead[width - 1] = 0;
     return of_lanes(there, ahead);
   }
   static Bits of_lanes(Bits there, Bits ahead) {
@@ -97,8 +102,13 @@ class Stencil {
     return (there & rest) | (ahead & back);
   }
   bool all_there(int t) const {
-    return t + lanes < rows_.count && same(of_lanes(load_bits(rows_.alive + t), load_bits(rows_.alive + t + 1)), Bits{} + List::all()) &&
-           (rows_.weight_sets == nullptr || (rows_.weight_sets[t / lanes] == whole_set && rows_.weight_sets[t / lanes + 1] == whole_set));
+    return t + width < rows_.count && same(of_lanes(load_bits<Real>(rows_.alive + t), load_bits<Real>(rows_.alive + t + 1)), Bits{} + List::all()) &&
+           (rows_.weight_sets == nullptr || whole(rows_.weight_sets + t / lanes));
+  }
+  static bool whole(const std::uint32_t* sets) {  // of the vector and the site after it
+    std::uint32_t others = 0;
+    for (int n = 0; n <= width / lanes; ++n) others |= sets[n] ^ whole_set;
+    return others == 0;
   }
 
   /// What acts on the sites of a vector, or on those one further.
@@ -115,11 +125,11 @@ class Stencil {
   // Kept out of the loop of whole vectors.
   [[gnu::noinline]] void first(Carried& carried) {
     Packs none;
-    add<false, List::leaning(-1)>(-lanes, carried, none);
+    add<false, List::leaning(-1)>(-width, carried, none);
   }
   [[gnu::noinline]] void some(int t, Carried& carried, Packs& forces) { add<false, List::all()>(t, carried, forces); }
 
-  /// All springs of eight sites, or those of `only`. AllThere: none is missing and all count in full.
+  /// All springs of a vector of sites, or those of `only`. AllThere: none is missing and all count in full.
   template <bool AllThere, std::uint16_t only>
   HYPERLATTICE_INLINE void add(int t, Carried& carried, Packs& forces) {
     const Bits bits = AllThere ? Bits{} : alive(t);
@@ -138,7 +148,7 @@ class Stencil {
     });
     if constexpr (only == List::all())
       each<components>([&]<std::size_t c>() __attribute__((always_inline)) {
-        double* const so_far = received(0, c) + t;
+        Real* const so_far = received(0, c) + t;
         forces[c] = sums.own[c] + load(so_far) + one_further(carried.own[c], sums.own_further[c]);
         store(so_far, Pack(0));
       });
@@ -150,7 +160,7 @@ class Stencil {
   HYPERLATTICE_INLINE void end_line(int t, Sums& sums, Carried& carried) const {
     if (!AllThere && (rows_.neighbours & List::in_line(List::lines[line])) == 0) return;
     each<components>([&]<std::size_t c>() __attribute__((always_inline)) {
-      double* const so_far = received(line, c) + t;
+      Real* const so_far = received(line, c) + t;
       Pack sum = load(so_far) + sums.line[line][c];
       if constexpr (leans_forward(line)) sum += one_further(carried.to_line[line][c], sums.line_further[line][c]);
       store(so_far, sum);
@@ -158,12 +168,12 @@ class Stencil {
     if constexpr (leans_forward(line)) carried.to_line[line] = sums.line_further[line];
   }
 
-  /// Eight springs to one neighbour, as vectors from there to here.
-  struct Eight {
+  /// A vector of springs to one neighbour, from there to here.
+  struct Alike {
     Pack r[3];                           ///< between the ends in space
     Pack base_q, cross_q;                ///< growth of the squared lengths
     Pack height_difference, height_sum;  ///< there less here; both together
-    Lanes alive;
+    LanesOf<Real> alive;
   };
 
   /// The springs of one batch: where they stand, how they answer, what they push.
@@ -171,8 +181,8 @@ class Stencil {
   HYPERLATTICE_INLINE void add_batch(int t, Bits bits, const Packs& here, const Packs& further, Sums& sums) {
     constexpr std::size_t number = std::popcount(batch), answers = has_cross ? 2 * number : number;  // base springs, then their cross springs
     constexpr auto neighbour = List::template indices<number>(batch);
-    Eight springs[number];
-    const SpringKind<Law>* kinds[answers];
+    Alike springs[number];
+    const Kind* kinds[answers];
     Pack q[answers], pulls[answers];
     each<number>([&]<std::size_t s>() __attribute__((always_inline)) {
       constexpr Neighbour to = List::neighbours[neighbour[s]];
@@ -184,7 +194,7 @@ class Stencil {
         kinds[number + s] = &rows_.kinds[to.spring_class].cross;
       }
     });
-    const std::uint32_t rung = SpringKind<Law>::template pull<answers>(kinds, q, pulls);
+    const std::uint32_t rung = Kind::template pull<answers>(kinds, q, pulls);
     if (Breakable && rung != 0) [[unlikely]]
       for (std::size_t s = 0; s < number; ++s)
         if ((rung >> s & 1u) != 0) rung_ |= 1u << neighbour[s];
@@ -193,11 +203,11 @@ class Stencil {
   }
 
   template <bool AllThere, std::size_t n>
-  HYPERLATTICE_INLINE Eight between(int t, Bits bits, const Packs& here) const {
+  HYPERLATTICE_INLINE Alike between(int t, Bits bits, const Packs& here) const {
     constexpr Neighbour to = List::neighbours[n];
     constexpr int offset[3] = {to.dx, to.dy, to.dz};
     const auto there = [&](std::size_t c) { return load(displacement(List::line_of(to), c) + t + (to.dx > 0 ? 1 : 0)); };
-    Eight springs;
+    Alike springs;
     Pack growth[3];
     each<3>([&]<std::size_t c>() __attribute__((always_inline)) {  // d (2 rest + d) along each axis
       const Pack d = here[c] - there(c);
@@ -213,7 +223,7 @@ class Stencil {
       springs.cross_q += springs.height_sum * (2 * request_.membrane_distance + springs.height_sum);
     }
     if constexpr (!AllThere) {
-      springs.alive = lanes_with(bits, 1u << n);
+      springs.alive = lanes_with<Real>(bits, 1u << n);
       springs.base_q = where(springs.alive, springs.base_q);
       springs.cross_q = where(springs.alive, springs.cross_q);
     }
@@ -222,7 +232,7 @@ class Stencil {
 
   /// `base`, `cross`: force over length of the springs.
   template <bool AllThere, std::size_t n>
-  HYPERLATTICE_INLINE void push(int t, const Eight& springs, Pack base, Pack cross, Sums& sums) const {
+  HYPERLATTICE_INLINE void push(int t, const Alike& springs, Pack base, Pack cross, Sums& sums) const {
     constexpr Neighbour to = List::neighbours[n];
     constexpr std::size_t line = List::line_of(to);
     Packs& own = to.dx < 0 ? sums.own_further : sums.own;
@@ -252,9 +262,11 @@ class Stencil {
 
   template <std::size_t n>
   Pack weights(int t) const {
-    const auto of = [&](int site) { return load(request_.weights + rows_.weight_sets[site / lanes] + lanes * (n + 1)); };
+    const auto of = [&](int site) {
+      return load_weights<Real>(request_.weights, rows_.weight_sets + site / lanes, lanes * (static_cast<int>(n) + 1));
+    };
     if constexpr (List::neighbours[n].dx >= 0) return of(t);
-    return one_back(of(t < 0 ? 0 : t), of(t + lanes < rows_.count ? t + lanes : t));
+    return one_back(of(t < 0 ? 0 : t), of(t + width < rows_.count ? t + width : t));
   }
 
   /// What the last sites pull at beyond the row's end.
@@ -262,7 +274,7 @@ class Stencil {
     for (std::size_t line = 1; line < lines; ++line)
       if (leans_forward(line) && (rows_.neighbours & List::in_line(List::lines[line])) != 0)
         for (std::size_t c = 0; c < components; ++c) {
-          double* const so_far = received(line, c) + rows_.count;
+          Real* const so_far = received(line, c) + rows_.count;
           store(so_far, load(so_far) + one_further(carried.to_line[line][c], Pack(0)));
         }
   }
@@ -274,10 +286,10 @@ class Stencil {
 };
 
 /// Adds the forces to rows of them, one a component, for what is to be done later.
-template <int Components>
+template <int Components, class Real>
 struct Keep {
-  double* const (&rows)[Components];
-  void operator()(int t, const Forces<Components>& forces) const {
+  Real* const (&rows)[Components];
+  void operator()(int t, const Forces<Components, Real>& forces) const {
     for (std::size_t c = 0; c < Components; ++c) store(rows[c] + t, load(rows[c] + t) + forces[c]);
   }
 };

@@ -15,20 +15,24 @@
 
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
-template <class Law, Membrane membrane, bool Breakable, bool Mixed, Task task>
+template <class Law, Membrane membrane, bool Breakable, bool Mixed, Task task, class Stored>
 class Sweep {
-  static constexpr int components = components_of(membrane);
+  using Real = RealOf<task, Stored>;
+  using Pack = PackOf<Real>;
+  using Pair = RowPair<components_of(membrane), Stored, Real>;
+  static constexpr int components = components_of(membrane), width = lanes_of<Real>;
   static constexpr bool measuring = task == Task::measure;
 
  public:
   static void run(const KernelRequest& request) noexcept { Sweep(request).all_rows(); }
 
  private:
-  using Fused = Stencil<Law, membrane, Breakable, CubicList>;
-  static constexpr bool enough_registers = vectors <= 2;  // for all springs of a row at once
+  template <bool Several, bool Weighted>
+  using OneByOne = Springs<Law, membrane, Breakable, Several, Weighted, measuring, Stored, Real>;
+  using Fused = Stencil<Law, membrane, Breakable, CubicList, Real>;
+  static constexpr bool can_fuse = !measuring && vectors <= 2;  // processors with shorter vectors have too few registers
 
-  explicit Sweep(const KernelRequest& request)
-      : request_(request), fused_(!measuring && enough_registers && !exact() && CubicList::is(request.neighbours)) {
+  explicit Sweep(const KernelRequest& request) : request_(request), fused_(can_fuse && !exact() && CubicList::is(request.neighbours)) {
     for (int c = 0; c < components; ++c) own_[c] = own_row(c);
   }
 
@@ -46,7 +50,7 @@ class Sweep {
         if (row.begin < row.end) one_row(row, index, j, k);
       }
     for (int k = request_.planes; k < request_.planes + request_.reach; ++k) {  // forces on the next block's planes: it finds them itself
-      double* plane = received_plane(k);
+      Real* plane = received_plane(k);
       const std::size_t size = static_cast<std::size_t>(request_.rows_per_plane) * row_size();
       for (std::size_t n = 0; n < size; ++n) plane[n] = 0;
     }
@@ -54,29 +58,29 @@ class Sweep {
 
   void one_row(const Row& row, std::uint32_t index, int j, int k) {
     const bool owned = k >= 0, fused = fused_ && (!Mixed || row.material >= 0);
-    const int count = (row.end - row.begin + lanes - 1) / lanes * lanes;
-    Motion<membrane, Mixed, task> motion(request_, row);
+    const int count = (row.end - row.begin + width - 1) / width * width;
+    Motion<membrane, Mixed, task, Stored> motion(request_, row);
     const bool accelerated = motion.accelerated();
     // Particles can move as soon as the forces on them are known if no criterion and no support must see them first.
     constexpr bool may_move_at_once = !Breakable && !Mixed && !measuring;
     const bool at_once = may_move_at_once && fused && owned && row.first_support == row.last_support;
-    const Keep<components> keep{own_};
+    const Keep<components, Real> keep{own_};
     if (!at_once)
       for (int c = 0; c < components; ++c)
-        for (int t = 0; t < count; t += lanes) store(own_[c] + t, accelerated ? motion.body_force(c, t) : Pack(0));
+        for (int t = 0; t < count; t += width) store(own_[c] + t, accelerated ? motion.body_force(c, t) : Pack(0));
 
     Pack stored = 0;
     if (!fused) {
       one_by_one(row, index, j, k, count, stored);
-    } else if constexpr (may_move_at_once) {
+    } else if constexpr (can_fuse && may_move_at_once) {
       all_neighbours(
-          row, j, k, count, [&](int t, Forces<components>& forces) __attribute__((always_inline)) {
+          row, j, k, count, [&](int t, Forces<components, Real>& forces) __attribute__((always_inline)) {
             if (!at_once) return keep(t, forces);
             if (accelerated)
               for (std::size_t c = 0; c < components; ++c) forces[c] += motion.body_force(static_cast<int>(c), t);
             motion.vector(t, forces);
           });
-    } else {
+    } else if constexpr (can_fuse) {
       const std::uint32_t rung = all_neighbours(row, j, k, count, keep);
       if (Breakable && owned) review_all(row, index, j, k, rung);
     }
@@ -108,8 +112,8 @@ class Sweep {
   void review_all(const Row& row, std::uint32_t index, int j, int k, std::uint32_t rung) {
     for (std::uint32_t n = 0; n < request_.neighbours.size(); ++n)
       if ((rung >> n & 1u) != 0)
-        Springs<Law, membrane, Breakable, Mixed, false, measuring>::review(request_, pair_of(row, request_.neighbours[n].site, j, k), row, index, n,
-                                                                           constants_of(row, request_.neighbours[n].site.spring_class));
+        OneByOne<Mixed, false>::review(request_, pair_of(row, request_.neighbours[n].site, j, k), row, index, n,
+                                       constants_of(row, request_.neighbours[n].site.spring_class));
   }
 
   void one_by_one(const Row& row, std::uint32_t index, int j, int k, int count, Pack& stored) {
@@ -117,12 +121,12 @@ class Sweep {
     for (std::uint32_t n = 0; n < request_.neighbours.size(); ++n) {
       const NeighbourGeometry& neighbour = request_.neighbours[n];
       if ((row.neighbours >> n & 1u) == 0 || (!owned && k + neighbour.site.dz < 0)) continue;
-      RowPair<components> pair = pair_of(row, neighbour.site, j, k);
+      Pair pair = pair_of(row, neighbour.site, j, k);
       const auto bit = static_cast<std::uint16_t>(1u << n);
       const bool uniform = !Mixed || row.material >= 0;
       const SpringConstants* constants = constants_of(row, neighbour.site.spring_class);
       const auto add = [&]<bool Several, bool Weighted>() {
-        return Springs<Law, membrane, Breakable, Several, Weighted, measuring>::add(request_, pair, neighbour, bit, *constants, count, stored);
+        return OneByOne<Several, Weighted>::add(request_, pair, neighbour, bit, *constants, count, stored);
       };
       bool rung;
       if (row.weights == no_weights) {
@@ -132,8 +136,7 @@ class Sweep {
         pair.weights = request_.weights + lanes * (n + 1);
         rung = uniform ? add.template operator()<false, true>() : add.template operator()<Mixed, true>();
       }
-      if (Breakable && rung && owned && !measuring)
-        Springs<Law, membrane, Breakable, Mixed, false, measuring>::review(request_, pair, row, index, n, uniform ? constants : nullptr);
+      if (Breakable && rung && owned && !measuring) OneByOne<Mixed, false>::review(request_, pair, row, index, n, uniform ? constants : nullptr);
     }
     join_received(row, j, k, count);
   }
@@ -141,8 +144,8 @@ class Sweep {
   /// What the row received from earlier rows goes to its own forces.
   void join_received(const Row& row, int j, int k, int count) {
     for (int c = 0; c < components; ++c) {
-      double* received = received_row(c, j, k) + row.begin;
-      for (int t = 0; t < count; t += lanes) {
+      Real* received = received_row(c, j, k) + row.begin;
+      for (int t = 0; t < count; t += width) {
         store(own_[c] + t, load(own_[c] + t) + load(received + t));
         store(received + t, Pack(0));
       }
@@ -169,23 +172,25 @@ class Sweep {
   // Where things are.
   std::uint32_t row_index(int j, int k) const { return static_cast<std::uint32_t>((k + request_.reach) * request_.rows_per_plane + j); }
   std::size_t row_size() const { return static_cast<std::size_t>(components) * static_cast<std::size_t>(request_.scratch_width); }
-  double* received_plane(int k) const {
+  Real* received_plane(int k) const {  // at the same address in every precision: steps and measurements find zeros there
     const auto slot = static_cast<std::size_t>((k + request_.reach) % (request_.reach + 1));
-    return request_.scratch + row_size() * (1 + slot * static_cast<std::size_t>(request_.rows_per_plane));
+    void* first = static_cast<double*>(request_.scratch) + row_size();
+    return static_cast<Real*>(first) + row_size() * slot * static_cast<std::size_t>(request_.rows_per_plane);
   }
-  double* received_row(int c, int j, int k) const {  // element i belongs to site i
+  Real* received_row(int c, int j, int k) const {  // element i belongs to site i
     return received_plane(k) + row_size() * static_cast<std::size_t>(j) + c * request_.scratch_width + scratch_margin;
   }
-  double* own_row(int c) const { return request_.scratch + c * request_.scratch_width; }  // element t belongs to site begin + t
+  Real* own_row(int c) const { return static_cast<Real*>(request_.scratch) + c * request_.scratch_width; }  // element t belongs to site begin + t
 
-  RowPair<components> pair_of(const Row& row, const Neighbour& to, int j, int k) const {
+  Pair pair_of(const Row& row, const Neighbour& to, int j, int k) const {
     const Row& other = request_.rows[row_index(j + to.dy, k + to.dz)];
     const auto here = static_cast<std::ptrdiff_t>(row.start);
     const auto there = static_cast<std::ptrdiff_t>(other.start) + (row.begin + to.dx - other.begin);
-    RowPair<components> pair{};
+    Pair pair{};
     for (int c = 0; c < components; ++c) {
-      pair.here[c] = request_.displacement[c] + here;
-      pair.there[c] = request_.displacement[c] + there;
+      const auto* displacement = static_cast<const Stored*>(request_.displacement[c]);
+      pair.here[c] = displacement + here;
+      pair.there[c] = displacement + there;
       pair.own[c] = own_row(c);
       pair.received[c] = received_row(c, j + to.dy, k + to.dz) + row.begin + to.dx;
     }
@@ -199,51 +204,64 @@ class Sweep {
   const bool fused_;
   typename Fused::Kinds kinds_[max_spring_classes];
   std::int32_t kinds_of_ = -1;
-  double* own_[components];
+  Real* own_[components];
 };
 
 /// The kernels of a law for a choice, all compiled for one instruction set.
 template <class Law>
-KernelSet kernels_of(const KernelChoice& choice, const char* instructions) {
-  KernelSet set;
-  const auto with = [&]<Membrane membrane, bool Breakable, bool Mixed>() {
-    const auto with_topology = [&]<template <class, Membrane, bool, bool, Task> class Topology>() {
-      set.step = &Topology<Law, membrane, Breakable, Mixed, Task::step>::run;
-      set.step_damped = &Topology<Law, membrane, Breakable, Mixed, Task::step_damped>::run;
-      set.measure = &Topology<Law, membrane, false, Mixed, Task::measure>::run;
-    };
-    if (choice.listed)
-      with_topology.template operator()<ListedSweep>();
-    else
-      with_topology.template operator()<Sweep>();
-    if (!choice.listed) set.linearise = &Tangent<Law, membrane>::run;
-  };
-  const auto with_membrane = [&]<Membrane membrane>() {
-    if (choice.breakable && choice.mixed)
-      with.template operator()<membrane, true, true>();
-    else if (choice.breakable)
-      with.template operator()<membrane, true, false>();
-    else if (choice.mixed)
-      with.template operator()<membrane, false, true>();
-    else
-      with.template operator()<membrane, false, false>();
-  };
-  switch (choice.membrane) {
-    case Membrane::none:
-      with_membrane.template operator()<Membrane::none>();
-      break;
-    case Membrane::clamped:
-      with_membrane.template operator()<Membrane::clamped>();
-      break;
-    case Membrane::free:
-      with_membrane.template operator()<Membrane::free>();
-      break;
+class Kernels {
+ public:
+  static KernelSet of(const KernelChoice& choice, const char* instructions) {
+    KernelSet set = of_membrane(choice);
+    set.force = [](double stiffness, double elongation) noexcept { return Law::force(stiffness, elongation); };
+    set.energy = [](double stiffness, double elongation) noexcept { return Law::energy(stiffness, elongation); };
+    set.instructions = instructions;
+    return set;
   }
-  set.force = [](double stiffness, double elongation) noexcept { return Law::force(stiffness, elongation); };
-  set.energy = [](double stiffness, double elongation) noexcept { return Law::energy(stiffness, elongation); };
-  set.instructions = instructions;
-  return set;
-}
+
+ private:
+  static KernelSet of_membrane(const KernelChoice& choice) {
+    switch (choice.membrane) {
+      case Membrane::none:
+        return of_failure<Membrane::none>(choice);
+      case Membrane::clamped:
+        return of_failure<Membrane::clamped>(choice);
+      default:
+        return of_failure<Membrane::free>(choice);
+    }
+  }
+  template <Membrane membrane>
+  static KernelSet of_failure(const KernelChoice& choice) {
+    return choice.breakable ? of_mixture<membrane, true>(choice) : of_mixture<membrane, false>(choice);
+  }
+  template <Membrane membrane, bool Breakable>
+  static KernelSet of_mixture(const KernelChoice& choice) {
+    return choice.mixed ? of_topology<membrane, Breakable, true>(choice) : of_topology<membrane, Breakable, false>(choice);
+  }
+  template <Membrane membrane, bool Breakable, bool Mixed>
+  static KernelSet of_topology(const KernelChoice& choice) {
+    KernelSet set;
+    const bool floats = choice.precision == Precision::floats;
+    if (choice.listed) {
+      if (floats) return set;
+      set.step = &ListedSweep<Law, membrane, Breakable, Mixed, Task::step>::run;
+      set.step_damped = &ListedSweep<Law, membrane, Breakable, Mixed, Task::step_damped>::run;
+      set.measure = &ListedSweep<Law, membrane, false, Mixed, Task::measure>::run;
+    } else {
+      set = floats ? of_grid<membrane, Breakable, Mixed, float>() : of_grid<membrane, Breakable, Mixed, double>();
+      set.linearise = &Tangent<Law, membrane>::run;
+    }
+    return set;
+  }
+  template <Membrane membrane, bool Breakable, bool Mixed, class Stored>
+  static KernelSet of_grid() {
+    KernelSet set;
+    set.step = &Sweep<Law, membrane, Breakable, Mixed, Task::step, Stored>::run;
+    set.step_damped = &Sweep<Law, membrane, Breakable, Mixed, Task::step_damped, Stored>::run;
+    set.measure = &Sweep<Law, membrane, false, Mixed, Task::measure, Stored>::run;
+    return set;
+  }
+};
 
 }  // namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS
 
@@ -255,5 +273,5 @@ KernelSet kernels_of(const KernelChoice& choice, const char* instructions) {
 /// Written once in each generated file: hyperlattice_kernels_avx2(choice), and so on.
 #define HYPERLATTICE_KERNELS(Law)                                                                                                         \
   hyperlattice::KernelSet HYPERLATTICE_JOIN(hyperlattice_kernels_, HYPERLATTICE_INSTRUCTIONS)(const hyperlattice::KernelChoice& choice) { \
-    return hyperlattice::HYPERLATTICE_INSTRUCTIONS::kernels_of<Law>(choice, HYPERLATTICE_TEXT(HYPERLATTICE_INSTRUCTIONS));                \
+    return hyperlattice::HYPERLATTICE_INSTRUCTIONS::Kernels<Law>::of(choice, HYPERLATTICE_TEXT(HYPERLATTICE_INSTRUCTIONS));               \
   }

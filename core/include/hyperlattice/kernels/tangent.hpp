@@ -56,7 +56,7 @@ struct Tangent {
     const Pack square = rest_length * rest_length + q, length = root(square), elongation = q / (length + rest_length);
     const Pack force_over_length = Law::force(stiffness, elongation) / length;
     const Pack along = (tangent_of<Law>(stiffness, elongation, rest_length) - force_over_length) * (row.spacing * row.spacing) / square;
-    const Lanes there_is = not_zero(weight);  // where there is no spring, what stands in its place need not be finite
+    const LanesOf<double> there_is = not_zero(weight);  // where there is no spring, what stands in its place need not be finite
     store(pull, where(there_is, weight * force_over_length));
     store(axial, where(there_is, weight * along));
     return where(there_is, weight * Law::energy(stiffness, elongation));

@@ -1,0 +1,96 @@
+// A law: what one spring does. Two kinds, both plain scalar physics; the kernels that run it over a lattice come from kernels/.
+//
+// 1. Without memory. Two templates, so that they work on a number as on a vector of them:
+//
+//      struct Linear {
+//        static constexpr bool linear = true;  // only if the force is proportional to the elongation
+//        template <class Real> static Real force(Real stiffness, Real elongation) { return stiffness * elongation; }
+//        template <class Real> static Real energy(Real stiffness, Real elongation) { return stiffness * elongation * elongation / 2; }
+//      };
+//
+// 2. With constants of its own and, if it has any, a memory: numbers that each spring keeps from step to step. Ordinary code, if and else included:
+//
+//      struct Slider {
+//        struct Constants { double limit; };         // doubles only; what MaterialConstants::law holds
+//        struct Memory { double slipped = 0; };      // doubles only; all zero at first
+//        static void update(const SpringState& s, const Constants& c, Memory& m);         // once a step, before the force is asked for
+//        static double force(const SpringState& s, const Constants& c, const Memory& m);  // N, positive if the spring pulls
+//        static double energy(const SpringState& s, const Constants& c, const Memory& m); // J that it would give back
+//      };
+//
+//    What the spring dissipates need not be said: it is the work of its force less the change of its energy.
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+
+namespace hyperlattice {
+
+/// A spring at one instant.
+struct SpringState {
+  double stiffness = 0;    ///< N/m
+  double rest_length = 0;  ///< m
+  double elongation = 0;   ///< m
+  double rate = 0;         ///< of the elongation over the step before now, m/s; 0 at the start
+  double time_step = 0;    ///< the step before now, s; 0 at the start
+};
+
+inline constexpr std::size_t max_law_constants = 8, max_law_memory = 6;
+
+/// Whether a law is of the second kind.
+template <class Law>
+concept LawWithConstants = requires { typename Law::Constants; };
+template <class Law>
+concept LawWithMemory = LawWithConstants<Law> && requires { typename Law::Memory; };
+
+/// Numbers that each spring keeps: the law's own, and its last elongation and force, of which rate and work follow.
+template <class Law>
+constexpr std::size_t memory_of() {
+  if constexpr (LawWithMemory<Law>) {
+    static_assert(sizeof(typename Law::Memory) % sizeof(double) == 0 && sizeof(typename Law::Memory) <= max_law_memory * sizeof(double));
+    return sizeof(typename Law::Memory) / sizeof(double) + 2;
+  } else {
+    return 0;
+  }
+}
+
+/// One spring of a law of the second kind from the step before to now.
+template <LawWithConstants Law>
+struct SpringStep {
+  static constexpr std::size_t own = memory_of<Law>() > 0 ? memory_of<Law>() - 2 : 0;
+
+  double force = 0;       ///< N
+  double energy = 0;      ///< J
+  double dissipated = 0;  ///< J since the step before
+
+  /// `constants`: those of the law; `memory`: memory_of<Law>() numbers, as they were and then as they are.
+  static SpringStep take(SpringState state, const double* constants, double* memory) {
+    typename Law::Constants own_constants;
+    static_assert(sizeof own_constants <= max_law_constants * sizeof(double));
+    std::memcpy(&own_constants, constants, sizeof own_constants);
+    SpringStep step;
+    if constexpr (LawWithMemory<Law>) {
+      typename Law::Memory own_memory;
+      std::memcpy(&own_memory, memory, sizeof own_memory);
+      double& last_elongation = memory[own];
+      double& last_force = memory[own + 1];
+      SpringState before = state;
+      before.elongation = last_elongation;
+      const double energy_before = Law::energy(before, own_constants, own_memory), stretched = state.elongation - last_elongation;
+      state.rate = state.time_step > 0 ? stretched / state.time_step : 0;
+      Law::update(state, own_constants, own_memory);
+      step.force = Law::force(state, own_constants, own_memory);
+      step.energy = Law::energy(state, own_constants, own_memory);
+      step.dissipated = 0.5 * (last_force + step.force) * stretched - (step.energy - energy_before);
+      std::memcpy(memory, &own_memory, sizeof own_memory);
+      last_elongation = state.elongation;
+      last_force = step.force;
+    } else {
+      step.force = Law::force(state, own_constants);
+      step.energy = Law::energy(state, own_constants);
+    }
+    return step;
+  }
+};
+
+}  // namespace hyperlattice

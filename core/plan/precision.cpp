@@ -1,0 +1,59 @@
+#include <plan/precision.hpp>
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyperlattice {
+namespace {
+
+/// How far, at most, a load moves a particle that it prescribes or starts; forces are not followed.
+double farthest(const Plan& plan) {
+  const Model& model = *plan.model;
+  const double end = plan.end_time();
+  double travel = 0;
+  for (const Load& load : model.loads) {
+    double factor = std::max(std::abs(load.factor(0)), std::abs(load.factor(end)));
+    for (const double corner : model.corners) factor = std::max(factor, std::abs(load.factor(corner)));
+    for (const LoadedParticle& loaded : load.particles)
+      travel = std::max(travel, factor * std::max(norm(loaded.displacement), norm(loaded.velocity) * end));
+  }
+  for (const auto& [particle, velocity] : model.start_velocities) travel = std::max(travel, norm(velocity) * end);
+  return travel;
+}
+
+double least_breaking_strain(const Model& model) {
+  double strain = infinity;
+  for (const NeighbourGeometry& to : model.neighbours) {
+    const SpringFacts facts{to.rest_length, model.springs.front().stiffness, model.body.grid.spacing, to.site.spring_class};
+    for (std::uint8_t m = 0; m < model.materials.size(); ++m) strain = std::min(strain, model.alarm(m, m, facts) / to.rest_length);
+  }
+  return strain;
+}
+
+double most_rounding(const Model& model) { return std::min(1e-6, std::max(least_breaking_strain(model), 0.0) / 100); }
+
+double rounding_strain(const Model& model, double travel) { return std::ldexp(travel, -24) / model.body.grid.spacing; }
+
+}  // namespace
+
+std::string precision_warning(const Model& model, double travel) {
+  const double lost = rounding_strain(model, travel);
+  if (model.choice.precision != Precision::floats || !(lost > most_rounding(model))) return "";
+  return fmt::format(
+      "floats are coarse here: a particle moved by {:.3g} m, {:.3g} spacings, where they know strains to {:.2g}; compare with precision double",
+      travel, travel / model.body.grid.spacing, lost);
+}
+
+void check_precision(const Plan& plan, Faults& faults) {
+  if (plan.model->choice.precision != Precision::floats) return;
+  const double travel = farthest(plan), lost = rounding_strain(*plan.model, travel), breaking = least_breaking_strain(*plan.model);
+  if (lost <= most_rounding(*plan.model)) return;
+  faults.add("/precision", "float",
+             fmt::format("double: the loads move particles by up to {:.3g} m, {:.3g} spacings, where floats know strains to {:.2g} only{}", travel,
+                         travel / plan.model->body.grid.spacing, lost,
+                         breaking < 1e-4 ? fmt::format(", and springs break at {:.2g}", breaking) : std::string()));
+}
+
+}  // namespace hyperlattice

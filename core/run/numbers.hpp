@@ -1,0 +1,68 @@
+// Arrays of the state: memory aligned to cache lines, and numbers in the precision of the run.
+#pragma once
+
+#include <hyperlattice/material.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <new>
+
+namespace hyperlattice {
+
+/// Zeros in memory aligned to cache lines, written first by the thread that makes the array: that thread's memory holds it.
+template <class T>
+class AlignedArray {
+ public:
+  AlignedArray() = default;
+  explicit AlignedArray(std::size_t size) : data_(static_cast<T*>(::operator new[](size * sizeof(T), std::align_val_t{64}))), size_(size) {
+    std::uninitialized_fill_n(data_.get(), size, T{});
+  }
+  T* get() const { return data_.get(); }
+  std::size_t size() const { return size_; }
+  T& operator[](std::size_t n) const { return data_.get()[n]; }
+
+ private:
+  struct Free {
+    void operator()(T* data) const { ::operator delete[](data, std::align_val_t{64}); }
+  };
+  std::unique_ptr<T, Free> data_;
+  std::size_t size_ = 0;
+};
+
+/// Numbers stored as doubles or floats, read and written as doubles. What works on all of them is a kernel, which knows the precision.
+class Numbers {
+ public:
+  Numbers() = default;
+  Numbers(Precision precision, std::size_t size) {
+    if (precision == Precision::floats)
+      floats_ = AlignedArray<float>(size);
+    else
+      doubles_ = AlignedArray<double>(size);
+  }
+  void* get() const { return floats_.get() != nullptr ? static_cast<void*>(floats_.get()) : doubles_.get(); }
+  double operator[](std::size_t n) const { return floats_.get() != nullptr ? double{floats_[n]} : doubles_[n]; }
+  void set(std::size_t n, double value) const {
+    if (floats_.get() != nullptr)
+      floats_[n] = static_cast<float>(value);
+    else
+      doubles_[n] = value;
+  }
+  /// Copies `count` numbers of another array of this precision.
+  void copy(const Numbers& from, std::size_t first, std::size_t count, std::size_t to) const {
+    if (floats_.get() != nullptr)
+      std::copy_n(from.floats_.get() + first, count, floats_.get() + to);
+    else
+      std::copy_n(from.doubles_.get() + first, count, doubles_.get() + to);
+  }
+  void clear() const {
+    std::fill_n(floats_.get(), floats_.size(), 0.0F);
+    std::fill_n(doubles_.get(), doubles_.size(), 0.0);
+  }
+
+ private:
+  AlignedArray<double> doubles_;  // one of the two is empty
+  AlignedArray<float> floats_;
+};
+
+}  // namespace hyperlattice
