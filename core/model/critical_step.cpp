@@ -104,9 +104,21 @@ void limit_step(Model& model, std::size_t n, const InfiniteLattice& lattice, boo
   model.critical_time_step = material.critical_time_step = step_of(stiffness, material.mass);
 }
 
-}  // namespace
+/// What laws that do more than elastic springs leave of it.
+void limit_by_laws(Model& model) {
+  const double elastic = model.critical_time_step;
+  for (const Material& material : model.materials) {
+    const auto stable_step = material.stage->functions<MaterialFunctions>().stable_step;
+    if (stable_step == nullptr) continue;
+    const double step = stable_step(material.component.get(), elastic);
+    if (!(step < model.critical_time_step)) continue;
+    model.critical_time_step = step;
+    model.critical_because +=
+        fmt::format("; of its {:.4g} s the law of {} ({}) leaves {:.4g} s", elastic, material.stage->name, material.stage->pointer, step);
+  }
+}
 
-void find_critical_step(Model& model, Faults& faults) {
+void find_elastic_step(Model& model, Faults& faults) {
   if (model.body.is_listed()) return find_critical_step_of_list(model, faults);
   const std::size_t before = faults.size();
   for (std::size_t n = 0; n < model.materials.size(); ++n) {
@@ -143,6 +155,14 @@ void find_critical_step(Model& model, Faults& faults) {
     model.critical_because =
         fmt::format("a safe bound for several materials: the springs of a particle {} {} ({})", where, own.stage->name, own.stage->pointer);
   }
+}
+
+}  // namespace
+
+void find_critical_step(Model& model, Faults& faults) {
+  const std::size_t before = faults.size();
+  find_elastic_step(model, faults);
+  if (faults.size() == before) limit_by_laws(model);
 }
 
 }  // namespace hyperlattice

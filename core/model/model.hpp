@@ -51,7 +51,8 @@ struct Joint {
   double cross_rest_length = 0;  ///< metres
   double share = 1;              ///< what counts of it
   std::uint32_t spring_class = 0;
-  double stiffness = 0, cross_stiffness = 0;  ///< N/m, of the whole
+  double stiffness = 0, cross_stiffness = 0;          ///< N/m, of the whole
+  const double *law = nullptr, *cross_law = nullptr;  ///< SpringConstants::law
 };
 
 struct Model {

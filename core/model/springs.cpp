@@ -1,6 +1,7 @@
 // Springs between all pairs of materials. A spring between two materials is half of each: two half springs in series,
 //   k = 2 a b / (a + b),
-// nothing if either has none. (Stiffnesses of opposite sign, which only some membranes have, add up to no series; they take the mean.)
+// nothing if either has none; constants of the law are the mean of both. (Stiffnesses of opposite sign, which only some membranes have, add up to no
+// series; they take the mean.)
 #include <model/build.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -37,6 +38,9 @@ SpringConstants spring_between(const Model& model, const Material& a, const Mate
   spring.cross_stiffness = between(left.cross_ratio[spring_class] * left.base_stiffness, right.cross_ratio[spring_class] * right.base_stiffness);
   const SpringFacts facts{rest_length(model, spring_class), spring.stiffness, model.body.grid.spacing, spring_class};
   spring.alarm = std::min(alarm_of(a, facts), alarm_of(b, facts));
+  for (int cross = 0; cross < 2; ++cross)
+    for (std::size_t n = 0; n < max_law_constants; ++n)
+      spring.law[cross][n] = 0.5 * (left.law[spring_class][cross][n] + right.law[spring_class][cross][n]);
   return spring;
 }
 
@@ -87,6 +91,8 @@ Joint Model::joint(Particle a, Particle b, std::uint32_t neighbour) const {
   const SpringConstants& constants = spring(material(a), material(b), joint.spring_class);
   joint.stiffness = stiffness * constants.stiffness;
   joint.cross_stiffness = stiffness * constants.cross_stiffness;
+  joint.law = constants.law[0];
+  joint.cross_law = constants.law[1];
   return joint;
 }
 
@@ -118,7 +124,8 @@ void set_springs(Model& model, Faults& faults) {
       throw InputError({{"/precision", "float",
                          fmt::format("double; {} has no kernel in floats for {}", model.materials[0].stage->component->type(),
                                      model.choice.listed ? "lists of springs" : "this lattice")}});
-    throw refusal(*model.materials[0].stage, "its library has no kernel for this membrane");
+    throw refusal(*model.materials[0].stage,
+                  model.choice.listed ? "its law has no kernel for lists of springs" : "its library has no kernel for this membrane");
   }
 
   for (const Material& a : model.materials)

@@ -33,6 +33,7 @@ struct Block {
   Numbers displacement[4], velocity[4];
   AlignedArray<std::uint16_t> alive;
   AlignedArray<std::uint8_t> material;
+  AlignedArray<double> memory;  ///< of laws, see KernelRequest
   AlignedArray<double> scratch;
   ListedArrays listed;
   std::vector<double> damped_work;  ///< a row

@@ -74,7 +74,7 @@ void Simulation::Parts::collect_breakages(double dt) {
       const auto [block_b, place_b] = at(breakage.b);
       breakages.push_back(breakage);
       ends.push_back({block_a, block_b, place_a, place_b});
-      failure_energy += energy_of(breakages.size() - 1, dt);
+      failure_energy += energy_of(breakages.size() - 1, block, broken, dt);
     }
     block.broken.clear();
   }
@@ -82,7 +82,7 @@ void Simulation::Parts::collect_breakages(double dt) {
 
 /// What is lost with a base spring and its cross springs. They pulled during the step that found them broken, so half a step of that work
 /// belongs to the energy that is gone: this keeps the scheme's balance exact to second order.
-double Simulation::Parts::energy_of(std::size_t index, double dt) const {
+double Simulation::Parts::energy_of(std::size_t index, const Block& block, const Block::Broken& broken, double dt) const {
   const Breakage& breakage = breakages[index];
   const Ends& where = ends[index];
   const Joint joint = model.joint(breakage.a, breakage.b, breakage.neighbour);
@@ -90,16 +90,25 @@ double Simulation::Parts::energy_of(std::size_t index, double dt) const {
 
   const Vec3 d = b.place - a.place, moved = b.moved - a.moved;
   const double in_space = dot(d, 2 * joint.rest + d), rate_in_space = 2 * dot(joint.rest + d, moved);
-  const auto lost = [&](double stiffness, double rest_length, double growth, double rate) {  // of the squared length, as in kernels/springs.hpp
-    const double length = std::sqrt(rest_length * rest_length + growth), elongation = growth / (length + rest_length);
-    return model.kernels.energy(stiffness, elongation) + 0.5 * model.kernels.force(stiffness, elongation) * rate / (2 * length);
+  // growth and its rate are of the squared length, as in kernels/springs.hpp
+  const auto lost = [&](bool cross, double growth, double rate) {
+    const double rest_length = cross ? joint.cross_rest_length : joint.rest_length;
+    const double length = std::sqrt(rest_length * rest_length + growth);
+    OneSpring spring{cross ? joint.cross_stiffness : joint.stiffness, rest_length, growth / (length + rest_length),
+                     cross ? joint.cross_law : joint.law};
+    double memory[max_law_memory + 2] = {};
+    if (model.kernels.memory > 0) {
+      const Layout::Memory kept = layout->memory(block, broken.row, broken.neighbour, broken.site, cross);
+      for (std::uint32_t n = 0; n < model.kernels.memory; ++n) memory[n] = kept.first[n * kept.stride];
+    }
+    spring.memory = memory;
+    const SpringAnswer answer = model.kernels.ask(spring);
+    return answer.energy + 0.5 * answer.force * rate / (2 * length);
   };
   const double difference = b.height - a.height, total = b.height + a.height, delta = model.body.grid.membrane_distance;
-  double energy =
-      lost(joint.stiffness, joint.rest_length, in_space + difference * difference, rate_in_space + 2 * difference * (b.raised - a.raised));
+  double energy = lost(false, in_space + difference * difference, rate_in_space + 2 * difference * (b.raised - a.raised));
   if (model.choice.membrane != KernelChoice::Membrane::none)
-    energy += lost(joint.cross_stiffness, joint.cross_rest_length, in_space + total * (2 * delta + total),
-                   rate_in_space + 2 * (delta + total) * (b.raised + a.raised));
+    energy += lost(true, in_space + total * (2 * delta + total), rate_in_space + 2 * (delta + total) * (b.raised + a.raised));
   return energy * joint.share;
 }
 

@@ -145,11 +145,18 @@ SpringEnds GridLayout::spring(std::size_t block, std::uint32_t row, std::uint32_
   return {model_.body.at(here), model_.body.at({here.i + to.dx, here.j + to.dy, here.k + to.dz}), neighbour, true};
 }
 
+Layout::Memory GridLayout::memory(const Block& block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site, bool cross) const {
+  const std::uint64_t sites = block.layout->sites, kind = memory_kinds() * neighbour + (cross ? 1 : 0);
+  const Row& of = block.rows[row];
+  return {block.memory.get() + kind * model_.kernels.memory * sites + of.start + static_cast<std::uint64_t>(site - of.begin), sites};
+}
+
 std::uint64_t GridLayout::alive_bits(const Block& block, std::uint64_t index) const { return block.alive[index]; }
 
 void GridLayout::fill(Block& block) const {
   const Body& body = model_.body;
   block.alive = AlignedArray<std::uint16_t>(block.layout->sites);
+  block.memory = AlignedArray<double>(block.layout->sites * body.neighbours.size() * memory_kinds() * model_.kernels.memory);
   if (!model_.material_of.empty()) block.material = AlignedArray<std::uint8_t>(block.layout->sites);
   for (std::uint32_t r = 0; r < block.rows.size(); ++r) {
     const Row& row = block.rows[r];
@@ -185,11 +192,14 @@ void GridLayout::describe(const Block& block, KernelRequest& request) const {
   request.weight_sets = block.layout->weight_sets.data();
   request.weights = weights_.values();
   request.scratch_width = scratch_width_;
+  request.memory = block.memory.get();
+  request.memory_stride = block.layout->sites;
 }
 
 double GridLayout::state_bytes() const {
-  const double a_site = 2.0 * model_.degrees_of_freedom * static_cast<double>(bytes_of(model_.choice.precision)) + sizeof(std::uint16_t) +
-                        (model_.material_of.empty() ? 0.0 : 1.0);
+  const auto number = static_cast<double>(bytes_of(model_.choice.precision));
+  const auto memory = static_cast<double>(model_.body.neighbours.size() * memory_kinds() * model_.kernels.memory * sizeof(double));
+  const double a_site = 2.0 * model_.degrees_of_freedom * number + sizeof(std::uint16_t) + (model_.material_of.empty() ? 0.0 : 1.0) + memory;
   double bytes = weights_.bytes();
   for (const BlockLayout& block : blocks)
     bytes += static_cast<double>(block.sites) * a_site + static_cast<double>(block.weight_sets.size() * sizeof(std::uint32_t));

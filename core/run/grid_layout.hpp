@@ -13,6 +13,7 @@ class GridLayout final : public Layout {
   Place place(Particle particle) const override;
   void for_stretches(const std::function<void(const Stretch&)>& visit) const override;
   SpringEnds spring(std::size_t block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site) const override;
+  Memory memory(const Block& block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site, bool cross) const override;
   std::uint64_t alive_bits(const Block& block, std::uint64_t index) const override;
   void fill(Block& block) const override;
   void exchange(const std::vector<Block>& all, Block& block) const override;
@@ -31,6 +32,7 @@ class GridLayout final : public Layout {
   };
 
   BlockLayout make_block(Planes planes, std::uint64_t padding);
+  std::uint64_t memory_kinds() const { return model_.choice.membrane == KernelChoice::Membrane::none ? 1 : 2; }
   std::uint64_t whole_vectors(std::int32_t sites) const;  ///< places that so many sites of a row take, with the padding
   std::size_t block_of_plane(std::int32_t k) const;
   PlaneRange plane(std::size_t block, std::int32_t k) const;

@@ -55,6 +55,12 @@ class Layout {
   /// All particles in their order.
   virtual void for_stretches(const std::function<void(const Stretch&)>& visit) const = 0;
   virtual SpringEnds spring(std::size_t block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site) const = 0;
+  /// Where the numbers that the law keeps of a spring begin, and how far they are apart; of its cross springs if `cross`.
+  struct Memory {
+    const double* first = nullptr;
+    std::uint64_t stride = 0;
+  };
+  virtual Memory memory(const Block& block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site, bool cross) const = 0;
   virtual std::uint64_t alive_bits(const Block& block, std::uint64_t index) const = 0;  ///< which springs of a particle exist, for hashes
 
   /// Fills the block's arrays of what exists: springs, materials. Displacements and velocities are there already.

@@ -50,7 +50,7 @@ struct Simulation::Parts {
   // breakage.cpp
   const std::uint8_t* review(Block& block, const AlarmRow& alarm) const;
   void collect_breakages(double dt);
-  double energy_of(std::size_t breakage, double dt) const;
+  double energy_of(std::size_t breakage, const Block& block, const Block::Broken& broken, double dt) const;
   double elongation_now(std::size_t breakage) const;
 
   // balance.cpp

@@ -23,6 +23,7 @@
 
 #include <cstddef>
 #include <cstring>
+#include <type_traits>
 
 namespace hyperlattice {
 
@@ -39,16 +40,29 @@ inline constexpr std::size_t max_law_constants = 8, max_law_memory = 6;
 
 /// Whether a law is of the second kind.
 template <class Law>
-concept LawWithConstants = requires { typename Law::Constants; };
+concept LawWithConstants = requires {
+  typename Law::Constants;
+};
 template <class Law>
-concept LawWithMemory = LawWithConstants<Law> && requires { typename Law::Memory; };
+concept LawWithMemory = LawWithConstants<Law> && requires {
+  typename Law::Memory;
+};
 
-/// Numbers that each spring keeps: the law's own, and its last elongation and force, of which rate and work follow.
+/// Numbers in a struct of doubles.
+template <class Struct>
+constexpr std::size_t numbers_in() {
+  if constexpr (std::is_empty_v<Struct>) return 0;
+  static_assert(std::is_empty_v<Struct> || sizeof(Struct) % sizeof(double) == 0, "doubles only");
+  return sizeof(Struct) / sizeof(double);
+}
+
+/// Numbers that each spring keeps: the law's own, and its last elongation and force, of which rate and work follow. A law that needs no number of
+/// its own but the rate has an empty Memory.
 template <class Law>
 constexpr std::size_t memory_of() {
   if constexpr (LawWithMemory<Law>) {
-    static_assert(sizeof(typename Law::Memory) % sizeof(double) == 0 && sizeof(typename Law::Memory) <= max_law_memory * sizeof(double));
-    return sizeof(typename Law::Memory) / sizeof(double) + 2;
+    static_assert(numbers_in<typename Law::Memory>() <= max_law_memory);
+    return numbers_in<typename Law::Memory>() + 2;
   } else {
     return 0;
   }
@@ -63,15 +77,17 @@ struct SpringStep {
   double energy = 0;      ///< J
   double dissipated = 0;  ///< J since the step before
 
+  /// J that the spring has stored, with the memory as it is.
+  static double energy_of(const SpringState& state, const double* constants, const double* memory) requires LawWithMemory<Law> {
+    return Law::energy(state, read<typename Law::Constants>(constants), read<typename Law::Memory>(memory));
+  }
+
   /// `constants`: those of the law; `memory`: memory_of<Law>() numbers, as they were and then as they are.
   static SpringStep take(SpringState state, const double* constants, double* memory) {
-    typename Law::Constants own_constants;
-    static_assert(sizeof own_constants <= max_law_constants * sizeof(double));
-    std::memcpy(&own_constants, constants, sizeof own_constants);
+    const auto own_constants = read<typename Law::Constants>(constants);
     SpringStep step;
     if constexpr (LawWithMemory<Law>) {
-      typename Law::Memory own_memory;
-      std::memcpy(&own_memory, memory, sizeof own_memory);
+      auto own_memory = read<typename Law::Memory>(memory);
       double& last_elongation = memory[own];
       double& last_force = memory[own + 1];
       SpringState before = state;
@@ -82,7 +98,7 @@ struct SpringStep {
       step.force = Law::force(state, own_constants, own_memory);
       step.energy = Law::energy(state, own_constants, own_memory);
       step.dissipated = 0.5 * (last_force + step.force) * stretched - (step.energy - energy_before);
-      std::memcpy(memory, &own_memory, sizeof own_memory);
+      std::memcpy(memory, &own_memory, own * sizeof(double));
       last_elongation = state.elongation;
       last_force = step.force;
     } else {
@@ -90,6 +106,15 @@ struct SpringStep {
       step.energy = Law::energy(state, own_constants);
     }
     return step;
+  }
+
+ private:
+  template <class Struct>
+  static Struct read(const double* numbers) {
+    static_assert(numbers_in<Struct>() <= max_law_constants);
+    Struct read;
+    std::memcpy(&read, numbers, numbers_in<Struct>() * sizeof(double));
+    return read;
   }
 };
 

@@ -4,7 +4,9 @@
 
 #include <hyperlattice/component.hpp>
 #include <hyperlattice/lattice.hpp>
+#include <hyperlattice/law.hpp>
 
+#include <cstring>
 #include <string>
 
 namespace hyperlattice {
@@ -14,11 +16,19 @@ struct SpringRow;
 
 /// What a material makes of a lattice. Cross springs (beta, gamma) share their base spring's neighbour.
 struct MaterialConstants {
-  double density = 0;                           ///< kg/m3
-  double base_stiffness = 0;                    ///< k, N/m; base springs have it times their class's own factor
-  double cross_ratio[max_spring_classes] = {};  ///< k_beta / k, k_gamma / k: one for each spring class
-  double alpha_ratio = 0;                       ///< k_alpha / k; meaningless if clamped
-  bool clamped = false;                         ///< k_alpha infinite: no motion in the fourth dimension (III, IV)
+  double density = 0;                                         ///< kg/m3
+  double base_stiffness = 0;                                  ///< k, N/m; base springs have it times their class's own factor
+  double cross_ratio[max_spring_classes] = {};                ///< k_beta / k, k_gamma / k: one for each spring class
+  double alpha_ratio = 0;                                     ///< k_alpha / k; meaningless if clamped
+  bool clamped = false;                                       ///< k_alpha infinite: no motion in the fourth dimension (III, IV)
+  double law[max_spring_classes][2][max_law_constants] = {};  ///< Law::Constants of each class's base and cross springs, if the law has some
+
+  /// Sets those of one class's base springs (cross 0) or cross springs (1).
+  template <class Constants>
+  void set_law(std::uint32_t spring_class, int cross, const Constants& constants) {
+    static_assert(sizeof constants <= sizeof law[0][0]);
+    std::memcpy(law[spring_class][cross], &constants, sizeof constants);
+  }
 
   bool has_cross_springs() const {
     for (const double ratio : cross_ratio)
@@ -72,26 +82,38 @@ struct KernelChoice {
   Precision precision = Precision::doubles;
 };
 
+/// One spring, outside a kernel.
+struct OneSpring {
+  double stiffness = 0, rest_length = 0, elongation = 0;  ///< N/m, m, m
+  const double* law = nullptr;                            ///< its constants, if the law has some
+  const double* memory = nullptr;                         ///< KernelSet::memory numbers
+};
+struct SpringAnswer {
+  double force = 0, energy = 0;  ///< N, J
+};
+
 /// Moves a block of particles by one step, or measures it. Null members: this library has no such kernel.
 struct KernelSet {
   void (*step)(const KernelRequest& request) noexcept = nullptr;
   void (*step_damped)(const KernelRequest& request) noexcept = nullptr;
   void (*measure)(const KernelRequest& request) noexcept = nullptr;
-  double (*linearise)(const SpringRow& row) noexcept = nullptr;              ///< forces and tangents of a row of springs; returns their energy, J
-  double (*force)(double stiffness, double elongation) noexcept = nullptr;   ///< of one spring, N
-  double (*energy)(double stiffness, double elongation) noexcept = nullptr;  ///< stored in one spring, J
-  const char* instructions = "";                                             ///< "avx512", "avx2", "baseline": what this processor was given
+  double (*linearise)(const SpringRow& row) noexcept = nullptr;  ///< forces and tangents of a row of springs; returns their energy, J
+  SpringAnswer (*ask)(const OneSpring& spring) noexcept = nullptr;
+  std::uint32_t memory = 0;       ///< numbers that each spring keeps, base or cross
+  const char* instructions = "";  ///< "avx512", "avx2", "baseline": what this processor was given
 };
 
 struct MaterialFunctions {
   bool (*constants)(const void* material, const LatticeFacts& lattice, MaterialConstants& constants, const Complaint& why) noexcept;
   KernelSet (*kernels)(const KernelChoice& choice) noexcept;
-  std::string_view law;  ///< materials with the same law share kernels and may stand in one body
+  std::string_view law;                                                       ///< materials with the same law share kernels and may stand in one body
+  double (*stable_step)(const void* material, double elastic_step) noexcept;  ///< null: that of the elastic springs
 };
 
 /// A material class has: MaterialConstants constants(const LatticeFacts&) const, which throws when E, nu and membrane do not fit (a sentence whose
 /// first word is an option's name is an objection to that option);
-/// static KernelSet kernels(const KernelChoice&); static constexpr std::string_view law.
+/// static KernelSet kernels(const KernelChoice&); static constexpr std::string_view law. It may have double stable_time_step(double elastic_step)
+/// const: the largest stable step in seconds, where the law does more than the elastic springs whose stable step it is given (viscosity).
 template <class T>
 concept MaterialComponent = requires(const T& material, const LatticeFacts& lattice, const KernelChoice& choice) {
   { material.constants(lattice) } -> std::convertible_to<MaterialConstants>;
@@ -100,6 +122,15 @@ concept MaterialComponent = requires(const T& material, const LatticeFacts& latt
 };
 
 namespace detail {
+template <class T>
+constexpr auto stable_step_of() -> double (*)(const void*, double) noexcept {
+  if constexpr (requires(const T& material) { material.stable_time_step(1.0); })
+    return
+        [](const void* material, double elastic_step) noexcept -> double { return static_cast<const T*>(material)->stable_time_step(elastic_step); };
+  else
+    return nullptr;
+}
+
 template <MaterialComponent T>
 struct FunctionsOf<T> {
   static constexpr Family family = Family::materials;
@@ -107,7 +138,7 @@ struct FunctionsOf<T> {
       [](const void* material, const LatticeFacts& lattice, MaterialConstants& constants, const Complaint& why) noexcept {
         return guarded(why, [&] { constants = static_cast<const T*>(material)->constants(lattice); });
       },
-      [](const KernelChoice& choice) noexcept { return T::kernels(choice); }, T::law};
+      [](const KernelChoice& choice) noexcept { return T::kernels(choice); }, T::law, stable_step_of<T>()};
 };
 }  // namespace detail
 }  // namespace hyperlattice

@@ -42,6 +42,8 @@ class Static {
   explicit Static(const Options& options) : o_(options) {}
 
   SolverPlan plan(const SolverFacts& facts) const {
+    if (!facts.listed && !facts.tangents)
+      throw std::runtime_error("a law without memory; with this one a body comes to rest by solvers.explicit with damping");
     if (facts.listed) throw std::runtime_error("a structured lattice; a listed one comes to rest by solvers.explicit with damping");
     SolverPlan plan;
     plan.at_rest = true;

@@ -38,7 +38,7 @@ class ListedSweep {
       Pack stored{};
       for (int t = 0; t < row.end; t += lanes) one_vector<Several>(row, index, t, forces, stored);
       motion.vectors(forces);
-      motion.finish(index, 0.5 * stored);  // half of every spring's energy to each of its ends
+      motion.finish(index, {0.5 * stored, 0});  // half of every spring's energy to each of its ends
     }
   }
 

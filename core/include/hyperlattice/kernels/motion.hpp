@@ -69,6 +69,12 @@ class RowValues {
 template <int Components, class Real>
 using Forces = std::array<PackOf<Real>, static_cast<std::size_t>(Components)>;
 
+/// Of a row's springs. What they dissipate is only of laws that have a memory.
+template <class Pack>
+struct Energies {
+  Pack stored = 0, dissipated = 0;
+};
+
 /// Moves or measures a row: vectors() with the forces on its particles, or a vector() at a time, then finish().
 template <Membrane membrane, bool Mixed, Task task, class Stored>
 class Motion {
@@ -140,12 +146,14 @@ class Motion {
     }
   }
 
-  /// `stored`: energy of the row's springs; `index`: the row's.
-  void finish(std::uint32_t index, Pack stored) {
-    if constexpr (task == Task::step_damped) request_.damped_work[index] += sum(damped_);
+  /// `springs`: what the row's have; `index`: the row's.
+  template <bool Dissipating = false>
+  void finish(std::uint32_t index, const Energies<Pack>& springs) {
+    damped_ += springs.dissipated;
+    if constexpr (task == Task::step_damped || (task == Task::step && Dissipating)) request_.damped_work[index] += sum(damped_);
     if constexpr (measuring) {
       RowSums measured;
-      measured.stored = sum(stored + stored_);
+      measured.stored = sum(springs.stored + stored_);
       measured.kinetic = sum(kinetic_);
       measured.kinetic_mean = sum(kinetic_mean_);
       measured.momentum = {sum(momentum_[0]), sum(momentum_[1]), sum(momentum_[2])};

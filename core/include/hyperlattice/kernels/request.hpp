@@ -2,6 +2,7 @@
 #pragma once
 
 #include <hyperlattice/lattice.hpp>
+#include <hyperlattice/law.hpp>
 
 namespace hyperlattice {
 
@@ -12,9 +13,10 @@ inline constexpr int lanes = lanes_of<double>;                        ///< of se
 
 /// One class of springs between two materials. Cross springs (beta, gamma) go from a particle to the mirror copy of its neighbour.
 struct SpringConstants {
-  double stiffness = 0;        ///< k of the base spring, N/m
-  double cross_stiffness = 0;  ///< k_beta or k_gamma, N/m
-  double alarm = infinity;     ///< elongation above which a failure criterion must be asked, metres
+  double stiffness = 0;                   ///< k of the base spring, N/m
+  double cross_stiffness = 0;             ///< k_beta or k_gamma, N/m
+  double alarm = infinity;                ///< elongation above which a failure criterion must be asked, metres
+  double law[2][max_law_constants] = {};  ///< of the base spring, of the cross spring
 };
 
 /// The same for all springs to one neighbour.
@@ -93,6 +95,8 @@ struct KernelRequest {
   void* velocity[4] = {};                  ///< kernel's precision, as are velocities, m/s
   std::uint16_t* alive = nullptr;          ///< bit n: the spring to neighbour n exists; bit 15: the site holds a particle
   const std::uint8_t* material = nullptr;  ///< of each site; null: one material
+  double* memory = nullptr;                ///< of laws that have one: [neighbour][base, cross][number][site]; without a membrane no cross springs
+  std::uint64_t memory_stride = 0;         ///< sites
   /// Of rows that have weights, for each vector of sites the place in `weights` of its set: `lanes` shares of a whole particle (mass, alpha), then
   /// for each neighbour `lanes` shares of a whole spring (force and energy, cross springs' too). Sites without a particle weigh 1.
   const std::uint32_t* weight_sets = nullptr;

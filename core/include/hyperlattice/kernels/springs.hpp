@@ -7,6 +7,7 @@
 // so that the elongation L - L0 = q / (L + L0) comes without cancellation, however small it is. See docs/theory/mirror.md.
 #pragma once
 
+#include <hyperlattice/kernels/law_springs.hpp>
 #include <hyperlattice/kernels/motion.hpp>
 #include <hyperlattice/kernels/response.hpp>
 
@@ -23,17 +24,19 @@ struct RowPair {
   const std::uint8_t *material_here, *material_there;
   const std::uint32_t* weight_sets;  ///< of a row that has weights, for each vector
   const double* weights;             ///< what these places count from: the neighbour's in the sets
+  double* memory;                    ///< of the row's springs to the neighbour, [base, cross][number][site]
 };
 
 template <class Law, Membrane membrane, bool Breakable, bool Mixed, bool Weighted, bool Energy, class Stored, class Real>
-struct Springs {
+class Springs {
   using Pack = PackOf<Real>;
   static constexpr int components = components_of(membrane), width = lanes_of<Real>;
   using Pair = RowPair<components, Stored, Real>;
 
-  /// Adds the forces of `count` springs (padded to whole vectors). Returns whether any is above its alarm; adds energies to `stored`.
+ public:
+  /// Adds the forces of `count` springs (padded to whole vectors). Returns whether any is above its alarm; adds to the energies.
   [[gnu::noinline]] static bool add(const KernelRequest& request, const Pair& pair, const NeighbourGeometry& neighbour, std::uint16_t bit,
-                                    const SpringConstants& constants, int count, Pack& stored) {
+                                    const SpringConstants& constants, int count, Energies<Pack>& energies) {
     const Vec3 rest = neighbour.rest;
     const double twice_delta = 2 * request.membrane_distance;
     Pack base_stiffness = constants.stiffness, cross_stiffness = constants.cross_stiffness;
@@ -45,6 +48,20 @@ struct Springs {
       const auto counted = [&](Pack whole) {
         if constexpr (Weighted) whole *= load_weights<Real>(pair.weights, pair.weight_sets + t / lanes, 0);
         return where(alive, whole);
+      };
+      /// Force over length, counted; cross: 0 the base springs, 1 their cross springs.
+      const auto pull_of = [&](int cross, const Pack& stiffness, double rest_length, const Pack& growth) {
+        if constexpr (LawWithConstants<Law>) {
+          const LawSprings springs = law_springs(request, pair, neighbour, bit, constants, cross, rest_length, t);
+          const LawResponse response = springs.template ask<Law, !Energy>(stiffness, growth);
+          energies.dissipated += counted(response.dissipated);
+          if constexpr (Energy) energies.stored += counted(response.energy);
+          return counted(response.force_over_length);
+        } else {
+          const ResponseOf<Pack> response = respond<Law, Energy>(stiffness, rest_length, growth);
+          if constexpr (Energy) energies.stored += counted(response.energy);
+          return counted(response.force_over_length);
+        }
       };
       if constexpr (Mixed) constants_of_lanes(request, pair, neighbour, t, base_stiffness, cross_stiffness, alarm);
       const Pack dx = difference_of(0, t), dy = difference_of(1, t), dz = difference_of(2, t);
@@ -58,17 +75,13 @@ struct Springs {
         total = there + here;
         base_q += difference * difference;
       }
-      const ResponseOf<Pack> base = respond<Law, Energy>(base_stiffness, neighbour.rest_length, base_q);
+      const Pack base_pull = pull_of(0, base_stiffness, neighbour.rest_length, base_q);
       if constexpr (Breakable) rung |= any(where(alive, base_q) > alarm);
-      const Pack base_pull = counted(base.force_over_length);
       Pack pull = base_pull;
-      if constexpr (Energy) stored += counted(base.energy);
 
       if constexpr (membrane != Membrane::none) {
-        const ResponseOf<Pack> cross = respond<Law, Energy>(cross_stiffness, neighbour.cross_rest_length, q + total * (twice_delta + total));
-        const Pack cross_pull = counted(cross.force_over_length);
+        const Pack cross_pull = pull_of(1, cross_stiffness, neighbour.cross_rest_length, q + total * (twice_delta + total));
         pull += cross_pull;
-        if constexpr (Energy) stored += counted(cross.energy);
         if constexpr (membrane == Membrane::free) {  // the cross spring pushes both heights the same way: no action and reaction
           const Pack along = base_pull * difference, both = cross_pull * (request.membrane_distance + total);
           add_to(pair.own[3] + t, along - both);
@@ -119,6 +132,19 @@ struct Springs {
   }
 
  private:
+  static LawSprings law_springs(const KernelRequest& request, const Pair& pair, const NeighbourGeometry& neighbour, std::uint16_t bit,
+                                const SpringConstants& constants, int cross, double rest_length, int t) {
+    LawSprings springs;
+    springs.rest_length = rest_length;
+    springs.time_step = 2 * request.back;
+    for (int lane = 0; lane < lanes; ++lane) springs.constants[lane] = (Mixed ? between(request, pair, neighbour, t + lane) : constants).law[cross];
+    springs.alive = pair.alive + t;
+    springs.bit = bit;
+    springs.memory_stride = request.memory_stride;
+    springs.memory = pair.memory + static_cast<std::size_t>(cross) * memory_of<Law>() * request.memory_stride + t;
+    return springs;
+  }
+
   static void add_to(Real* target, Pack value) { store(target, load(target) + value); }
 
   static const SpringConstants& between(const KernelRequest& request, const Pair& pair, const NeighbourGeometry& neighbour, int t) {

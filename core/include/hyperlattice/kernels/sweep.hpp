@@ -22,6 +22,7 @@ class Sweep {
   using Pair = RowPair<components_of(membrane), Stored, Real>;
   static constexpr int components = components_of(membrane), width = lanes_of<Real>;
   static constexpr bool measuring = task == Task::measure;
+  static constexpr std::size_t memory_kinds = membrane == Membrane::none ? 1 : 2;
 
  public:
   static void run(const KernelRequest& request) noexcept { Sweep(request).all_rows(); }
@@ -30,7 +31,7 @@ class Sweep {
   template <bool Several, bool Weighted>
   using OneByOne = Springs<Law, membrane, Breakable, Several, Weighted, measuring, Stored, Real>;
   using Fused = Stencil<Law, membrane, Breakable, CubicList, Real>;
-  static constexpr bool can_fuse = !measuring && vectors <= 2;  // processors with shorter vectors have too few registers
+  static constexpr bool can_fuse = !measuring && !LawWithConstants<Law> && vectors <= 2;  // processors with shorter vectors have too few registers
 
   explicit Sweep(const KernelRequest& request) : request_(request), fused_(can_fuse && !exact() && CubicList::is(request.neighbours)) {
     for (int c = 0; c < components; ++c) own_[c] = own_row(c);
@@ -69,9 +70,9 @@ class Sweep {
       for (int c = 0; c < components; ++c)
         for (int t = 0; t < count; t += width) store(own_[c] + t, accelerated ? motion.body_force(c, t) : Pack(0));
 
-    Pack stored = 0;
+    Energies<Pack> energies;
     if (!fused) {
-      one_by_one(row, index, j, k, count, stored);
+      one_by_one(row, index, j, k, count, energies);
     } else if constexpr (can_fuse && may_move_at_once) {
       all_neighbours(
           row, j, k, count, [&](int t, Forces<components, Real>& forces) __attribute__((always_inline)) {
@@ -86,7 +87,7 @@ class Sweep {
     }
     if (!owned) return;
     if (!at_once) motion.vectors(own_);
-    motion.finish(index, stored);
+    motion.template finish<LawWithMemory<Law>>(index, energies);
   }
 
   template <class Take>
@@ -116,17 +117,18 @@ class Sweep {
                                        constants_of(row, request_.neighbours[n].site.spring_class));
   }
 
-  void one_by_one(const Row& row, std::uint32_t index, int j, int k, int count, Pack& stored) {
+  void one_by_one(const Row& row, std::uint32_t index, int j, int k, int count, Energies<Pack>& energies) {
     const bool owned = k >= 0;
     for (std::uint32_t n = 0; n < request_.neighbours.size(); ++n) {
       const NeighbourGeometry& neighbour = request_.neighbours[n];
       if ((row.neighbours >> n & 1u) == 0 || (!owned && k + neighbour.site.dz < 0)) continue;
       Pair pair = pair_of(row, neighbour.site, j, k);
+      if constexpr (memory_of<Law>() > 0) pair.memory = request_.memory + n * memory_kinds * memory_of<Law>() * request_.memory_stride + row.start;
       const auto bit = static_cast<std::uint16_t>(1u << n);
       const bool uniform = !Mixed || row.material >= 0;
       const SpringConstants* constants = constants_of(row, neighbour.site.spring_class);
       const auto add = [&]<bool Several, bool Weighted>() {
-        return OneByOne<Several, Weighted>::add(request_, pair, neighbour, bit, *constants, count, stored);
+        return OneByOne<Several, Weighted>::add(request_, pair, neighbour, bit, *constants, count, energies);
       };
       bool rung;
       if (row.weights == no_weights) {
@@ -213,8 +215,17 @@ class Kernels {
  public:
   static KernelSet of(const KernelChoice& choice, const char* instructions) {
     KernelSet set = of_membrane(choice);
-    set.force = [](double stiffness, double elongation) noexcept { return Law::force(stiffness, elongation); };
-    set.energy = [](double stiffness, double elongation) noexcept { return Law::energy(stiffness, elongation); };
+    set.memory = memory_of<Law>();
+    set.ask = [](const OneSpring& spring) noexcept -> SpringAnswer {
+      const double k = spring.stiffness, u = spring.elongation;
+      if constexpr (LawWithMemory<Law>)
+        return {spring.memory[SpringStep<Law>::own + 1], SpringStep<Law>::energy_of({k, spring.rest_length, u, 0, 0}, spring.law, spring.memory)};
+      else if constexpr (LawWithConstants<Law>) {
+        const auto step = SpringStep<Law>::take({k, spring.rest_length, u, 0, 0}, spring.law, nullptr);
+        return {step.force, step.energy};
+      } else
+        return {Law::force(k, u), Law::energy(k, u)};
+    };
     set.instructions = instructions;
     return set;
   }
@@ -232,17 +243,21 @@ class Kernels {
   }
   template <Membrane membrane>
   static KernelSet of_failure(const KernelChoice& choice) {
+    if constexpr (LawWithConstants<Law>) return of_mixture<membrane, true>(choice);
     return choice.breakable ? of_mixture<membrane, true>(choice) : of_mixture<membrane, false>(choice);
   }
   template <Membrane membrane, bool Breakable>
   static KernelSet of_mixture(const KernelChoice& choice) {
+    if constexpr (LawWithConstants<Law>) return of_topology<membrane, Breakable, true>(choice);  // asks lane by lane: nothing to gain from less
     return choice.mixed ? of_topology<membrane, Breakable, true>(choice) : of_topology<membrane, Breakable, false>(choice);
   }
   template <Membrane membrane, bool Breakable, bool Mixed>
   static KernelSet of_topology(const KernelChoice& choice) {
     KernelSet set;
     const bool floats = choice.precision == Precision::floats;
-    if (choice.listed) {
+    if constexpr (LawWithConstants<Law>) {
+      return floats || choice.listed ? set : of_grid<membrane, Breakable, Mixed, double>();
+    } else if (choice.listed) {
       if (floats) return set;
       set.step = &ListedSweep<Law, membrane, Breakable, Mixed, Task::step>::run;
       set.step_damped = &ListedSweep<Law, membrane, Breakable, Mixed, Task::step_damped>::run;

@@ -1,0 +1,48 @@
+// A viscoelastic solid whose stiffness relaxes: the standard linear solid (a Maxwell element beside a spring) for each spring. E and nu are those at
+// once; after a long time the modulus is (1 - share) E, with the same Poisson ratio, because all springs relax alike. Under a strain that is applied
+// at once and held, the stress is E (1 - share + share exp(-t / time)) times the strain. share = 1 is Maxwell's fluid.
+#include "relaxing.hpp"
+
+#include <hyperlattice/elastic_solid.hpp>
+#include <hyperlattice/kernels/choose.hpp>
+
+namespace {
+using namespace hyperlattice;
+
+class Relaxing {
+ public:
+  struct Options : elastic_solid::Options {
+    double share = 0, time = 0;
+  };
+
+  static constexpr std::string_view law = "relaxing";
+
+  static Schema<Options> schema() {
+    Schema<Options> schema("materials.relaxing", "Viscoelastic springs whose stiffness relaxes: the standard linear solid, or Maxwell's");
+    schema.equation("f = k (u - share w), dw/dt = (u - w) / time; under a constant strain the stress falls as 1 - share + share exp(-t / time)")
+        .source("standard linear solid; the damper's elongation by the exponential that is exact for a constant rate")
+        .restrictions("structured lattices, precision double; young is the modulus at once")
+        .add<&Options::share>("share", "", "part of the stiffness that relaxes; 1: all of it (Maxwell)")
+        .at_least(0)
+        .at_most(1)
+        .add<&Options::time>("time", "s", "relaxation time of the damper")
+        .positive();
+    return Options::declare(schema);
+  }
+
+  explicit Relaxing(const Options& options) : options_(options) {}
+
+  MaterialConstants constants(const LatticeFacts& lattice) const {
+    MaterialConstants constants = options_.constants(lattice);
+    for (std::uint32_t c = 0; c < lattice.spring_classes; ++c)
+      for (const int cross : {0, 1}) constants.set_law(c, cross, RelaxingLaw::Constants{options_.share, options_.time});
+    return constants;
+  }
+  static KernelSet kernels(const KernelChoice& choice) { return kernels_for_processor(choice); }
+
+ private:
+  Options options_;
+};
+}  // namespace
+
+HYPERLATTICE_PLUGIN("1.0") { plugin.add<Relaxing>(); }

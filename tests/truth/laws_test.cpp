@@ -1,0 +1,223 @@
+// Laws with constants and memory of their own: one spring along a path, bodies against closed forms, and the books of bodies in motion.
+#include <support/scenes.hpp>
+
+#include "../../materials/plastic/plastic.hpp"
+#include "../../materials/relaxing/relaxing.hpp"
+#include "../../materials/softening/softening.hpp"
+#include "../../materials/viscous/viscous.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+namespace {
+using namespace hyperlattice;
+using namespace hyperlattice::test;
+
+struct LawCase {
+  const char* name;
+  const char* material;  ///< type and keys; strains of 1e-3 make the law do what it is for
+};
+const LawCase laws[] = {
+    {"viscous", R"("type": "materials.viscous", "time": 2e-7, "membrane": "I-m", "poisson": 0.1)"},
+    {"relaxing", R"("type": "materials.relaxing", "time": 1e-6, "share": 0.6, "membrane": "I-m", "poisson": 0.1)"},
+    {"plastic", R"("type": "materials.plastic", "yield": 2e6, "hardening": 0.1, "membrane": "none", "poisson": 0.25)"},
+    {"softening", R"("type": "materials.softening", "strength": 3e6, "fracture_energy": 5, "membrane": "I-m", "poisson": 0.1)"},
+};
+
+std::string scene_of(const std::string& shape, const std::string& material, const std::string& stages, const std::string& boundary = "particles") {
+  return R"({ "format": "hyperlattice/1", "pipeline": [
+    { "type": "lattices.cubic", "spacing": 1e-3, "boundary": ")" +
+         boundary + R"(", "shape": )" + shape + R"( }, { "young": 1e10, "density": 2500, )" + material + " }" + stages +
+         R"(, { "type": "solvers.explicit", "end_time": 1 } ] })";
+}
+const std::string block_of_particles = R"({ "box": { "low": [0, 0, 0], "high": [5e-3, 4e-3, 6e-3] } })";
+const std::string pair_of_particles = R"({ "box": { "low": [0, 0, 0], "high": [1e-3, 1e-3, 2e-3] } })";
+
+/// k of the base springs of a lattice without a membrane, E = 10 GPa, spacing 1 mm.
+constexpr double stiffness = 0.4 * 1e10 * 1e-3;
+
+// One spring.
+
+template <class Law>
+void follow(const typename Law::Constants& constants, const std::vector<double>& path, double time_step) {
+  double memory[memory_of<Law>()] = {}, numbers[max_law_constants] = {}, worked = 0, dissipated = 0, force = 0, at = 0;
+  std::memcpy(numbers, &constants, sizeof constants);
+  SpringStep<Law> step;
+  for (const double elongation : path) {
+    step = SpringStep<Law>::take({stiffness, 1e-3, elongation, 0, time_step}, numbers, memory);
+    worked += 0.5 * (force + step.force) * (elongation - at);
+    dissipated += step.dissipated;
+    EXPECT_GE(step.dissipated, -1e-9 * stiffness * 1e-12);
+    force = step.force;
+    at = elongation;
+  }
+  EXPECT_NEAR(worked, step.energy + dissipated, 1e-12 * std::abs(worked));
+  EXPECT_GT(dissipated, 0);
+}
+
+TEST(Laws, DissipateAndNeverGiveBackMore) {
+  std::vector<double> path(400);
+  for (std::size_t n = 0; n < path.size(); ++n) path[n] = 1e-6 * std::sin(0.05 * static_cast<double>(n)) * (1 + 0.005 * static_cast<double>(n));
+  follow<ViscousLaw>({2e-7}, path, 1e-7);
+  follow<RelaxingLaw>({0.6, 1e-6}, path, 1e-7);
+  follow<PlasticLaw>({0.3 * stiffness * 1e-6, 0.1 * stiffness}, path, 1e-7);
+  follow<SofteningLaw>({0.5e-6, 2e-6}, path, 1e-7);
+}
+
+TEST(Laws, OfAnElasticForceHaveItFromTheEnergy) {  // along paths that change no memory
+  const auto differs = [](const auto& energy, double u, double force) {
+    const double h = 1e-10;
+    return std::abs((energy(u + h) - energy(u - h)) / (2 * h) - force) / std::abs(force);
+  };
+  const PlasticLaw::Memory flowed{2e-7, 3e-7};
+  const SofteningLaw::Memory damaged{1.5e-6};
+  for (const double u : {-4e-7, 3e-7, 1.2e-6}) {
+    const auto at = [](double elongation) { return SpringState{stiffness, 1e-3, elongation, 0, 1e-7}; };
+    EXPECT_LT(differs([&](double x) { return PlasticLaw::energy(at(x), {1, 0}, flowed); }, u, PlasticLaw::force(at(u), {1, 0}, flowed)), 1e-6);
+    EXPECT_LT(differs(
+                  [&](double x) {
+                    return SofteningLaw::energy(at(x), {1e-6, 2e-6}, damaged);
+                  },
+                  u, SofteningLaw::force(at(u), {1e-6, 2e-6}, damaged)),
+              1e-6);
+  }
+}
+
+// Two particles, one spring.
+
+TEST(Laws, ViscousPairOscillatesAsTheDampedOscillator) {
+  const auto plan = plan_of(scene_of(pair_of_particles, R"("type": "materials.viscous", "time": 1e-8, "membrane": "none")", ""));
+  Simulation simulation(*plan->model, 1);
+  simulation.set_velocities({0, 0, -1, 0, 0, 1}, {});
+  const double mass = 2500e-9, omega = std::sqrt(2 * stiffness / mass), ratio = omega * 1e-8 / 2, damped = omega * std::sqrt(1 - ratio * ratio);
+  const double step = 0.01 / omega;
+  double worst = 0;
+  for (int n = 1; n <= 3000; ++n) {
+    simulation.step(step);
+    std::vector<double> xyz;
+    simulation.displacements(xyz);
+    const double t = (n - 0.0) * step, expected = 2 / damped * std::exp(-ratio * omega * t) * std::sin(damped * t);
+    worst = std::max(worst, std::abs(xyz[5] - xyz[2] - expected));
+  }
+  EXPECT_LT(worst, 0.012 * 2 / omega);
+  const Balance balance = simulation.balance();
+  EXPECT_LT(std::abs(balance.relative_error()), 1e-4);
+  EXPECT_GT(balance.dissipated(), 0.5 * mass);  // of the 2 * 1/2 m v^2 at the start
+}
+
+TEST(Laws, RelaxingPairLosesItsForce) {
+  const auto plan =
+      plan_of(scene_of(pair_of_particles, R"("type": "materials.relaxing", "time": 1e-6, "share": 0.6, "membrane": "none")",
+                       R"(, { "type": "loads.fixed", "on": "z_min" }, { "type": "loads.displacement", "on": "z_max", "value": [0, 0, 1e-7] })"));
+  Simulation simulation(*plan->model, 1);
+  const double step = 1e-8;
+  for (int n = 1; n <= 300; ++n) {
+    simulation.step(step);
+    if (n % 50 != 0) continue;
+    const double held = (n - 0.5) * step, expected = stiffness * 1e-7 * (0.4 + 0.6 * std::exp(-held / 1e-6));  // the first step moved it
+    EXPECT_NEAR(std::abs(simulation.force_on_load()[1].z), expected, 2e-3 * expected) << n;
+  }
+}
+
+TEST(Laws, SofteningLayersTakeTheFractureEnergyApart) {
+  const auto plan = plan_of(scene_of(
+      R"({ "box": { "low": [0, 0, 0], "high": [10e-3, 10e-3, 2e-3] } })",
+      R"("type": "materials.softening", "strength": 3e6, "fracture_energy": 2, "membrane": "none")",
+      R"(, { "type": "loads.fixed", "on": "z_min" }, { "type": "loads.displacement", "on": "z_max", "value": [0, 0, 1e-5], "rise": 1e-4 })"));
+  Simulation simulation(*plan->model, 1);
+  for (int n = 0; n < 2000; ++n) simulation.step(5e-8);
+  const Balance balance = simulation.balance();
+  const double expected = 2 * 1e-6 * (100 + 2 * 360) / 9;  // nine k l^2 pass through a site's part of the plane in a large body
+  EXPECT_NEAR(balance.dissipated(), expected, 1e-3 * expected);
+  EXPECT_LT(std::abs(balance.stored), 1e-6 * expected);
+  EXPECT_LT(std::abs(balance.relative_error()), 1e-3);
+}
+
+// A bar.
+
+TEST(Laws, PlasticBarYieldsAtTheStatedStress) {
+  const auto plan = plan_of(scene_of(R"({ "box": { "low": [0, 0, 0], "high": [6e-3, 3e-3, 3e-3] } })",
+                                     R"("type": "materials.plastic", "yield": 2e6, "membrane": "none")",
+                                     R"(, { "type": "loads.displacement", "on": "x_min", "value": [0, 0, 0], "axes": "x" },
+                                        { "type": "loads.displacement", "on": "x_max", "value": [3.6e-6, 0, 0], "axes": "x", "rise": 4e-4 })",
+                                     "cells"));
+  Simulation simulation(*plan->model, 1);
+  simulation.set_damping(0.8);
+  const double area = 9e-6, step = 0.5 * plan->model->critical_time_step, end = 4e-4;  // strain 6e-4 at the end, 2e-4 at yield
+  double last = 0;
+  while (simulation.time() < end) {
+    simulation.step(step);
+    const double strain = 6e-4 * simulation.time() / end;
+    if (strain - last < 5e-5) continue;
+    last = strain;
+    const double stress = std::abs(simulation.force_on_load()[1].x) / area;
+    EXPECT_NEAR(stress, std::min(1e10 * strain, 2e6), 0.02 * 2e6) << strain;
+  }
+}
+
+// Bodies in motion.
+
+class MovingLaw : public testing::TestWithParam<LawCase> {};
+INSTANTIATE_TEST_SUITE_P(All, MovingLaw, testing::ValuesIn(laws), [](const auto& info) { return info.param.name; });
+
+struct Ended {
+  Balance balance;
+  std::uint64_t hash = 0;
+  std::size_t broken = 0;
+};
+Ended shaken(const Plan& plan, double share, int steps, int threads) {
+  Simulation simulation(*plan.model, threads);
+  simulation.set_velocities(noise(3 * plan.model->body.particles, 4, 3),
+                            plan.model->degrees_of_freedom == 4 ? std::vector<double>(plan.model->body.particles, 0) : std::vector<double>{});
+  for (int n = 0; n < steps; ++n) simulation.step(share * plan.model->critical_time_step);
+  return {simulation.balance(), simulation.hash(), simulation.breakages().size()};
+}
+
+TEST_P(MovingLaw, KeepsTheBooks) {
+  const auto plan = plan_of(scene_of(block_of_particles, GetParam().material, ""));
+  const Ended coarse = shaken(*plan, 0.4, 200, 1), fine = shaken(*plan, 0.1, 800, 1);
+  EXPECT_GT(fine.balance.dissipated(), 0.02 * fine.balance.scale);
+  EXPECT_LT(std::abs(fine.balance.relative_error()), 1e-4);
+  EXPECT_LT(std::abs(coarse.balance.relative_error()), 2e-3);
+}
+
+TEST_P(MovingLaw, GivesTheSameBitsForAnyNumberOfThreads) {
+  for (const char* more : {"", R"(, "failure": { "type": "failures.elongation", "limit": 1.2e-6 })"}) {
+    const auto plan = plan_of(scene_of(block_of_particles, std::string(GetParam().material) + more, ""));
+    const Ended one = shaken(*plan, 0.4, 100, 1);
+    EXPECT_EQ(*more != '\0', one.broken > 0);
+    for (const int threads : {2, 3, 6}) EXPECT_EQ(shaken(*plan, 0.4, 100, threads).hash, one.hash) << threads;
+  }
+}
+
+TEST_P(MovingLaw, KeepsTheBooksWhileSpringsBreak) {
+  const auto plan = plan_of(
+      scene_of(block_of_particles, std::string(GetParam().material) + R"(, "failure": { "type": "failures.elongation", "limit": 1.2e-6 })", ""));
+  const Ended ended = shaken(*plan, 0.1, 400, 2);
+  EXPECT_GT(ended.broken, 10u);
+  EXPECT_LT(std::abs(ended.balance.relative_error()), 2e-3);
+}
+
+TEST(Laws, ThatHaveNoKernelForWhatASceneAsksAreRefused) {
+  const auto refused = [](std::string scene) {
+    try {
+      plan_of(scene);
+    } catch (const InputError& error) {
+      return error.faults().front();
+    }
+    return Fault{};
+  };
+  std::string scene = scene_of(block_of_particles, laws[0].material, "");
+  scene.insert(1, R"("precision": "float", )");
+  EXPECT_EQ(refused(scene).pointer, "/precision");
+  EXPECT_NE(
+      refused(scene_of(block_of_particles, R"("type": "materials.softening", "strength": 3e6, "fracture_energy": 1e-3, "membrane": "none")", ""))
+          .expected.find("a spacing below"),
+      std::string::npos);
+  EXPECT_NE(refused(scene_of(block_of_particles, R"("type": "materials.plastic", "yield": 3e6, "membrane": "I-m", "poisson": 0.1)", ""))
+                .expected.find("membrane none"),
+            std::string::npos);
+}
+
+}  // namespace
