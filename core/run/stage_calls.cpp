@@ -9,8 +9,10 @@ namespace hyperlattice {
 
 SolverFacts solver_facts(const Model& model, double start_time) {
   const Site low = model.body.low, high = model.body.high;
-  return {start_time, model.critical_time_step, model.corners, 1 + std::max({high.i - low.i, high.j - low.j, high.k - low.k}),
-          model.body.is_listed()};
+  SolverFacts facts{start_time, model.critical_time_step, model.corners, 1 + std::max({high.i - low.i, high.j - low.j, high.k - low.k})};
+  facts.listed = model.body.is_listed();
+  facts.answering = model.answering;
+  return facts;
 }
 
 template <class Code>

@@ -13,6 +13,7 @@ struct SolverFacts {
   std::span<const double> corners;  ///< times where a load has a kink, ascending
   std::int32_t sites_across = 1;    ///< of the longest side of the box that the body fills
   bool listed = false;              ///< a list of particles and springs, which has no statics()
+  bool answering = false;           ///< a load answers to the motion; statics() does not know such loads
 };
 
 /// What the solver will do, for `plan`, `summary.json` and the progress line.
