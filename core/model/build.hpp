@@ -35,4 +35,10 @@ void set_springs(Model& model, Faults& faults);
 /// Loads, merged for each particle, with start velocities, corners and body acceleration.
 void add_loads(Model& model, RegionIndex& regions, Faults& faults);
 
+/// Shortens the critical step to one that is stable with what the loads answer.
+void limit_step_by_loads(Model& model);
+
+/// The base springs with one end or both among the particles, which ascend; each once, by a, then b.
+std::vector<RestSpring> springs_at(const Model& model, std::span<const Particle> particles);
+
 }  // namespace hyperlattice

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <unordered_map>
 
@@ -23,6 +24,8 @@ struct View {
   const Model& model;
   RegionIndex& regions;
   std::optional<RegionId> empty;
+  std::map<std::uint32_t, std::vector<RestSpring>> springs;
+  bool springs_unknown = false;  ///< they were asked for, but the materials have faults
 
   std::span<const Particle> particles(RegionId region) {
     const std::span<const Particle> found = regions.particles(region);
@@ -34,6 +37,7 @@ struct View {
     LoadBody seen;
     seen.self = this;
     seen.spacing = model.body.grid.spacing;
+    seen.rim = model.body.cells.empty() ? 0.5 * model.body.grid.spacing : 0;
     seen.region_particles = [](void* self, RegionId region) noexcept { return static_cast<View*>(self)->particles(region); };
     seen.particle_position = [](void* self, Particle particle) noexcept { return static_cast<View*>(self)->model.body.position(particle); };
     seen.particle_mass = [](void* self, Particle particle) noexcept {
@@ -47,6 +51,13 @@ struct View {
     };
     seen.region_true_area = [](void* self, RegionId region) noexcept { return static_cast<View*>(self)->regions.true_area(region); };
     seen.region_centre = [](void* self, RegionId region) noexcept { return static_cast<View*>(self)->regions.centre(region); };
+    seen.region_springs = [](void* self, RegionId region) noexcept -> std::span<const RestSpring> {
+      View& view = *static_cast<View*>(self);
+      const auto [found, fresh] = view.springs.try_emplace(region.index);
+      view.springs_unknown |= view.model.springs.empty();
+      if (fresh && !view.springs_unknown) found->second = springs_at(view.model, view.particles(region));
+      return found->second;
+    };
     return seen;
   }
 };
@@ -55,6 +66,8 @@ struct View {
 struct Collector {
   const Body& body;
   std::unordered_map<Particle, LoadedParticle> particles;
+  std::vector<WatchedParticle> watched;
+  std::set<Particle> watching;
   std::map<Particle, Vec3> start_velocities;
   std::vector<double> corners;
   Vec3 acceleration;
@@ -100,6 +113,14 @@ struct Collector {
       if (particle >= c.body.particles || !is_finite(velocity))
         throw std::range_error("it gives a start velocity that is not finite, or to no particle");
       c.start_velocities[particle] = c.start_velocities[particle] + velocity;
+    };
+    to.receive_watched = [](void* self, Particle particle, bool answered, const Reaction& reaction) {
+      Collector& c = *static_cast<Collector*>(self);
+      if (particle >= c.body.particles) throw std::out_of_range("it watches a particle that does not exist");
+      if (!c.watching.insert(particle).second) throw std::invalid_argument("it watches a particle twice");
+      if (!(reaction.stiffness >= 0 && reaction.viscosity >= 0 && std::isfinite(reaction.stiffness + reaction.viscosity)))
+        throw std::range_error("it gives a reaction that is negative or not finite");
+      c.watched.push_back({particle, answered, reaction});
     };
     to.receive_corner = [](void* self, double time) {
       if (time > 0 && std::isfinite(time)) static_cast<Collector*>(self)->corners.push_back(time);
@@ -161,15 +182,20 @@ void add_loads(Model& model, RegionIndex& regions, Faults& faults) {
       Load load;
       load.stage = stage;
       load.component = make_component(*stage);
-      View view{model, regions, std::nullopt};
-      Collector collector{model.body, {}, {}, {}, {}};
+      View view{model, regions, std::nullopt, {}, false};
+      Collector collector{model.body, {}, {}, {}, {}, {}, {}};
       Objection refused;
       const bool accepted = stage->functions<LoadFunctions>().declare(load.component.get(), view.body(), collector.sink(), refused.why);
       if (view.empty) {
         faults.add(stage->pointer, stage->component->type(), regions.expected_particles(*view.empty));
         continue;
       }
-      if (!accepted) throw refusal(*stage, refused.sentence);
+      if (view.springs_unknown) continue;
+      if (!accepted) throw objection(*model.scene, *stage, refused.sentence);
+      if (!collector.watched.empty() && stage->functions<LoadFunctions>().answer == nullptr)
+        throw refusal(*stage, "it watches particles but has no answer");
+      load.watched = std::move(collector.watched);
+      model.answering |= !load.watched.empty();
       load.particles = in_order(collector.particles);
       load.acceleration = collector.acceleration;
       model.acceleration = model.acceleration + load.acceleration;

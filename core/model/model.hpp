@@ -36,12 +36,20 @@ struct LoadedParticle {
   Axes displaced = 0, driven = 0;  ///< axes with a prescribed displacement, velocity
   Vec3 displacement, velocity;     ///< amplitudes
 };
+struct WatchedParticle {
+  Particle particle = 0;
+  bool answered = true;  ///< false: the load only looks at it
+  Reaction reaction;
+};
 struct Load {
   const Stage* stage = nullptr;
   ComponentPointer component{nullptr, [](void*) {}};
   std::vector<LoadedParticle> particles;  ///< ascending, each once
+  std::vector<WatchedParticle> watched;   ///< as the load named them
   Vec3 acceleration;
   double factor(double time) const { return stage->functions<LoadFunctions>().factor(component.get(), time); }
+  /// Force on the n-th watched particle, N.
+  Vec3 answer(const WatchedMotion& motion, std::size_t n) const { return stage->functions<LoadFunctions>().answer(component.get(), motion, n); }
 };
 
 /// One base spring with the cross springs beside it, wherever it stands.
@@ -66,14 +74,17 @@ struct Model {
 
   std::vector<NeighbourGeometry> neighbours;
   std::vector<SpringConstants> springs;  ///< [(a * materials + b) * spring_classes + class]
+  double crossings = 0;                  ///< see SpringFacts
   KernelChoice choice;
   KernelSet kernels;
   int degrees_of_freedom = 3;
-  double critical_time_step = 0;      ///< s: exact for one material, a rigorous lower bound for several
+  double critical_time_step = 0;      ///< s: exact for one material, a rigorous lower bound for several, and for loads that answer to the motion
   std::string critical_because;       ///< what limits it, in a sentence
   std::vector<std::string> warnings;  ///< sentences: what the scene allows though it is not sound
   std::string two_layers_grow;        ///< of a mirrored layer that is stable: what would grow if both layers were free; empty: nothing
   Vec3 acceleration;                  ///< sum of the loads'
+  bool answering = false;             ///< some load watches the motion
+  bool asks_rate = false;             ///< some criterion asks how fast springs grow
 
   std::uint8_t material(Particle particle) const { return material_of.empty() ? std::uint8_t{0} : material_of[particle]; }
   double mass(Particle particle) const {  ///< kg
@@ -84,7 +95,7 @@ struct Model {
   }
   /// The spring from a to b. `neighbour`: of a structured body the index in `neighbours`, of a listed one that in its list of springs.
   Joint joint(Particle a, Particle b, std::uint32_t neighbour) const;
-  SpringFacts facts(const Joint& joint) const { return {joint.rest_length, joint.stiffness, body.grid.spacing, joint.spring_class}; }
+  SpringFacts facts(const Joint& joint) const { return {joint.rest_length, joint.stiffness, body.grid.spacing, joint.spring_class, crossings}; }
   /// Elongation, metres, below which no criterion of either material breaks such a spring; infinite if nothing does.
   double alarm(std::uint8_t a, std::uint8_t b, const SpringFacts& facts) const;
 };

@@ -36,12 +36,22 @@ SpringConstants spring_between(const Model& model, const Material& a, const Mate
   SpringConstants spring;
   spring.stiffness = model.body.grid.class_stiffness[spring_class] * between(left.base_stiffness, right.base_stiffness);
   spring.cross_stiffness = between(left.cross_ratio[spring_class] * left.base_stiffness, right.cross_ratio[spring_class] * right.base_stiffness);
-  const SpringFacts facts{rest_length(model, spring_class), spring.stiffness, model.body.grid.spacing, spring_class};
+  const SpringFacts facts{rest_length(model, spring_class), spring.stiffness, model.body.grid.spacing, spring_class, model.crossings};
   spring.alarm = std::min(alarm_of(a, facts), alarm_of(b, facts));
   for (int cross = 0; cross < 2; ++cross)
     for (std::size_t n = 0; n < max_law_constants; ++n)
       spring.law[cross][n] = 0.5 * (left.law[spring_class][cross][n] + right.law[spring_class][cross][n]);
   return spring;
+}
+
+/// A spring of length L crosses a plane that is nearer than its own part along the normal, L / 2 in the mean of all directions.
+double crossings(const Model& model) {
+  double length = 0;  // of a particle's springs
+  for (const NeighbourGeometry& neighbour : model.neighbours) length += neighbour.rest_length;
+  const Listed& listed = model.body.listed;
+  for (const ListedSpring& spring : listed.springs)
+    length += norm(listed.positions[spring.b] - listed.positions[spring.a]) / static_cast<double>(model.body.particles);
+  return length / (2 * model.body.grid.site_volume);
 }
 
 /// Free as soon as one material's membrane is; clamped and free ones cannot stand in one body.
@@ -111,13 +121,22 @@ std::vector<NeighbourGeometry> geometry_of(const Grid& grid) {
 
 void set_springs(Model& model, Faults& faults) {
   model.neighbours = geometry_of(model.body.grid);
+  model.crossings = crossings(model);
   model.choice.membrane = membrane_of(model.materials, faults);
   if (model.choice.membrane == Membrane::free) hold_heights(model);
   model.degrees_of_freedom = model.choice.membrane == Membrane::free ? 4 : 3;
   model.choice.mixed = model.materials.size() > 1;
   model.choice.listed = model.body.is_listed();
   model.choice.precision = model.scene->precision;
-  for (const Material& material : model.materials) model.choice.breakable |= material.failure != nullptr;
+  for (const Material& material : model.materials) {
+    if (material.failure == nullptr) continue;
+    model.choice.breakable = true;
+    if (!material.failure_stage->functions<FailureFunctions>().asks_rate) continue;
+    model.asks_rate = true;
+    if (model.body.is_listed())
+      faults.add(material.failure_stage->pointer, material.failure_stage->component->type(),
+                 "a criterion that does not ask for the rate, for a listed lattice");
+  }
   model.kernels = model.materials[0].stage->functions<MaterialFunctions>().kernels(model.choice);
   if (model.kernels.step == nullptr || model.kernels.step_damped == nullptr || model.kernels.measure == nullptr) {
     if (model.choice.precision == Precision::floats)

@@ -37,13 +37,14 @@ void leave_out_kernel_parts(const Plan& plan, std::vector<LeftOut>& out) {
 }
 
 void leave_out_loads(const Plan& plan, std::vector<LeftOut>& out) {
-  bool any_force = false, any_motion = false;
+  bool any_force = plan.model->answering, any_motion = false;
   for (const Load& load : plan.model->loads)
     for (const LoadedParticle& particle : load.particles) {
       if (!(particle.force == Vec3{})) any_force = true;
       if (particle.displaced != 0 || particle.driven != 0) any_motion = true;
     }
   if (!any_force) out.push_back({"external forces", "no load applies one"});
+  if (!plan.model->answering) out.push_back({"forces that answer to the motion", "no load watches particles"});
   if (!any_motion) out.push_back({"prescribed motion", "no load prescribes any"});
 }
 

@@ -82,7 +82,9 @@ void estimate_memory(Plan& plan) {
   double model_bytes =
       static_cast<double>(model.body.listed.springs.size() * sizeof(ListedSpring) + model.body.listed.positions.size() * sizeof(Vec3) +
                           runs * sizeof(Run) + model.body.row_runs.size() * sizeof(std::size_t) + model.material_of.size());
-  for (const Load& load : model.loads) model_bytes += static_cast<double>(load.particles.size() * (sizeof(LoadedParticle) + sizeof(Support)));
+  for (const Load& load : model.loads)
+    model_bytes += static_cast<double>(load.particles.size() * (sizeof(LoadedParticle) + sizeof(Support)) +
+                                       load.watched.size() * (sizeof(WatchedParticle) + sizeof(Support) + 2 * sizeof(Vec3)));
   for (const BlockLayout& block : layout->blocks) model_bytes += static_cast<double>(block.rows.size() * 2 * sizeof(Row));
 
   double output_numbers = 0;  // positions, and the fields of the most demanding output

@@ -11,15 +11,19 @@ namespace hyperlattice {
 /// Sums of the present state, in the rows' order whatever the blocks are; `back`: half of the step before. Changes nothing but the results in
 /// rows and supports.
 RowSums Simulation::Parts::measure(double back) {
+  prepare_loads(2 * back);
 #pragma omp parallel num_threads(threads)
   {
 #pragma omp for schedule(static, 1)
     for (std::size_t b = 0; b < blocks.size(); ++b) {
       layout->exchange(blocks, blocks[b]);
-      prepare_supports(blocks[b], 2 * back);
+      watch(blocks[b]);
     }
 #pragma omp for schedule(static, 1)
-    for (std::size_t b = 0; b < blocks.size(); ++b) model.kernels.measure(request_for(blocks[b], back, 0));
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      prepare_supports(blocks[b], 2 * back);
+      model.kernels.measure(request_for(blocks[b], back, 0));
+    }
   }
   RowSums total;
   for (const Block& block : blocks)

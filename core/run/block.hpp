@@ -9,11 +9,14 @@
 
 namespace hyperlattice {
 
+inline constexpr std::uint32_t not_watched = ~std::uint32_t{0};
+
 /// A load's part in a support.
 struct Contribution {
   std::uint32_t support = 0, load = 0;
   Particle particle = 0;
-  Vec3 force, displacement, velocity;  ///< amplitudes
+  std::uint32_t watched = not_watched;  ///< which of the load's watched particles: the force is its answer, not an amplitude
+  Vec3 force, displacement, velocity;   ///< amplitudes
   Axes displaced = 0, driven = 0;
   double factor = 0;  ///< of the present step
   double work = 0;    ///< of the force since the start, J
@@ -40,6 +43,13 @@ struct Block {
   std::vector<RowSums> sums;        ///< a row
   std::vector<Support> supports;    ///< in the rows' order
   std::vector<Contribution> contributions;
+
+  /// A particle that a load watches.
+  struct Watched {
+    std::uint32_t load = 0, number = 0;  ///< the load's, and the particle's among those that it watches
+    std::uint64_t index = 0;
+  };
+  std::vector<Watched> watched;
 
   struct Broken {
     std::uint32_t row, neighbour;

@@ -3,6 +3,7 @@
 
 #include <hyperlattice/failure.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace hyperlattice {
@@ -32,14 +33,22 @@ End end_of(const Block& block, std::uint64_t n, int components, double dt) {
 
 const std::uint8_t* Simulation::Parts::review(Block& block, const AlarmRow& alarm) const {
   block.answers.assign(alarm.sites.size(), 0);
+  const auto ends = [&](std::size_t n) { return layout->spring(block.number, alarm.row, alarm.neighbour, alarm.sites[n]); };
   const auto ask = [&](const Material& material, const SpringFacts& facts, std::size_t first, std::size_t count) {
     if (material.failure_stage == nullptr) return;
+    const auto& functions = material.failure_stage->functions<FailureFunctions>();
     std::vector<std::uint8_t> answers(count, 0);
-    material.failure_stage->functions<FailureFunctions>().review(material.failure.get(), {time, facts, alarm.elongation.subspan(first, count)},
-                                                                 answers.data());
+    std::vector<Particle> a, b;
+    std::vector<double> rates;
+    for (std::size_t n = first; functions.asks_rate && n < first + count; ++n) rates.push_back(rate_of(block, alarm, n));
+    for (std::size_t n = first; functions.asks_ends && n < first + count; ++n) {
+      const SpringEnds spring = ends(n);
+      a.push_back(std::min(spring.a, spring.b));
+      b.push_back(std::max(spring.a, spring.b));
+    }
+    functions.review(material.failure.get(), {time, facts, alarm.elongation.subspan(first, count), a, b, rates}, answers.data());
     for (std::size_t n = 0; n < count; ++n) block.answers[first + n] |= answers[n];
   };
-  const auto ends = [&](std::size_t n) { return layout->spring(block.number, alarm.row, alarm.neighbour, alarm.sites[n]); };
   if (model.material_of.empty() && !model.body.is_listed()) {  // the same springs all
     const SpringEnds first = ends(0);
     ask(model.materials.front(), model.facts(model.joint(first.a, first.b, first.neighbour)), 0, alarm.sites.size());
@@ -55,6 +64,21 @@ const std::uint8_t* Simulation::Parts::review(Block& block, const AlarmRow& alar
   for (std::size_t n = 0; n < alarm.sites.size(); ++n)
     if (block.answers[n] != 0) block.broken.push_back({alarm.row, alarm.neighbour, alarm.sites[n], alarm.elongation[n]});
   return block.answers.data();
+}
+
+/// How fast a spring grows, m/s, by the velocities of half a step before: neither of its ends has moved yet.
+double Simulation::Parts::rate_of(const Block& block, const AlarmRow& alarm, std::size_t n) const {
+  const Row& row = block.rows[alarm.row];
+  const std::uint64_t a = row.start + static_cast<std::uint64_t>(alarm.sites[n] - row.begin);
+  const std::uint64_t b = layout->other_end(block.number, alarm.row, alarm.neighbour, alarm.sites[n]);
+  const Vec3 rest = model.neighbours[alarm.neighbour].rest;
+  double squared_length = 0, product = 0;
+  for (int c = 0; c < model.degrees_of_freedom; ++c) {
+    const double apart = (c < 3 ? component(rest, c) : 0) + (block.displacement[c][b] - block.displacement[c][a]);
+    squared_length += apart * apart;
+    product += apart * (block.velocity[c][b] - block.velocity[c][a]);
+  }
+  return product / std::sqrt(squared_length);
 }
 
 /// Blocks follow each other as their particles do, and a block's list is in the order of its rows: the log does not depend on the number of threads.

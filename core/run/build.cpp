@@ -23,6 +23,11 @@ Simulation::Parts::Parts(const Model& m, int wanted) : model(m), layout(make_lay
     }
   if (thrown) std::rethrow_exception(thrown);
   for (Block& block : blocks) add_supports(block);
+  acting.resize(model.loads.size());
+  for (std::size_t l = 0; l < acting.size(); ++l) {
+    acting[l].displacement.resize(model.loads[l].watched.size());
+    acting[l].velocity.resize(model.loads[l].watched.size());
+  }
   for (const auto& [particle, velocity] : model.start_velocities) {
     const auto [block, place] = at(particle);
     for (int c = 0; c < 3; ++c) block->velocity[c].set(place, component(velocity, c));
@@ -45,11 +50,11 @@ void Simulation::Parts::allocate(Block& block, std::size_t number) const {
 
 void Simulation::Parts::add_supports(Block& block) const {
   std::vector<std::pair<Particle, Contribution>> found;
-  for (std::size_t l = 0; l < model.loads.size(); ++l)
+  for (std::size_t l = 0; l < model.loads.size(); ++l) {
+    Contribution part;
+    part.load = static_cast<std::uint32_t>(l);
     for (const LoadedParticle& loaded : model.loads[l].particles)
       if (layout->place(loaded.particle).block == block.number) {
-        Contribution part;
-        part.load = static_cast<std::uint32_t>(l);
         part.particle = loaded.particle;
         part.force = loaded.force;
         part.displacement = loaded.displacement;
@@ -58,6 +63,19 @@ void Simulation::Parts::add_supports(Block& block) const {
         part.driven = loaded.driven;
         found.emplace_back(loaded.particle, part);
       }
+    const std::vector<WatchedParticle>& watched = model.loads[l].watched;
+    for (std::uint32_t n = 0; n < watched.size(); ++n) {
+      const Place place = layout->place(watched[n].particle);
+      if (place.block != block.number) continue;
+      block.watched.push_back({part.load, n, place.index});
+      if (!watched[n].answered) continue;
+      Contribution answer;
+      answer.load = part.load;
+      answer.particle = watched[n].particle;
+      answer.watched = n;
+      found.emplace_back(answer.particle, answer);
+    }
+  }
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
 
   Particle last = Body::no_particle;

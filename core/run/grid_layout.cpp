@@ -151,6 +151,12 @@ Layout::Memory GridLayout::memory(const Block& block, std::uint32_t row, std::ui
   return {block.memory.get() + kind * model_.kernels.memory * sites + of.start + static_cast<std::uint64_t>(site - of.begin), sites};
 }
 
+std::uint64_t GridLayout::other_end(std::size_t block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site) const {
+  const Neighbour& to = model_.body.neighbours[neighbour];
+  const Row& other = blocks[block].rows[static_cast<std::size_t>(static_cast<std::int32_t>(row) + to.dz * model_.body.grid.sites[1] + to.dy)];
+  return other.start + static_cast<std::uint64_t>(site + to.dx - other.begin);
+}
+
 std::uint64_t GridLayout::alive_bits(const Block& block, std::uint64_t index) const { return block.alive[index]; }
 
 void GridLayout::fill(Block& block) const {
@@ -181,6 +187,7 @@ void GridLayout::exchange(const std::vector<Block>& all, Block& block) const {
       const PlaneRange to = plane(block.number, k);
       const std::uint64_t count = to.end - to.begin;
       for (int c = 0; c < model_.degrees_of_freedom; ++c) block.displacement[c].copy(owner.displacement[c], from, count, to.begin);
+      for (int c = 0; model_.asks_rate && c < model_.degrees_of_freedom; ++c) block.velocity[c].copy(owner.velocity[c], from, count, to.begin);
       if (model_.choice.breakable && k < first) std::copy_n(owner.alive.get() + from, count, block.alive.get() + to.begin);
     }
 }

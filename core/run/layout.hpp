@@ -61,6 +61,8 @@ class Layout {
     std::uint64_t stride = 0;
   };
   virtual Memory memory(const Block& block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site, bool cross) const = 0;
+  /// Where the spring's other end stands in the arrays of the same block, its own or a ghost. Not of a listed body.
+  virtual std::uint64_t other_end(std::size_t block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site) const = 0;
   virtual std::uint64_t alive_bits(const Block& block, std::uint64_t index) const = 0;  ///< which springs of a particle exist, for hashes
 
   /// Fills the block's arrays of what exists: springs, materials. Displacements and velocities are there already.

@@ -2,6 +2,7 @@
 #include <run/listed_layout.hpp>
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace hyperlattice {
 
@@ -114,6 +115,10 @@ SpringEnds ListedLayout::spring(std::size_t block, std::uint32_t row, std::uint3
   const ListedSpring& spring = model_.body.listed.springs[number];
   const Particle here = part.first + row * row_length + static_cast<Particle>(site);
   return {spring.a, spring.b, number, here == spring.a};
+}
+
+std::uint64_t ListedLayout::other_end(std::size_t, std::uint32_t, std::uint32_t, std::int32_t) const {
+  throw std::logic_error("a listed body holds no velocities of others");  // a model with criteria that ask for them is refused
 }
 
 std::uint64_t ListedLayout::alive_bits(const Block& block, std::uint64_t index) const {

@@ -14,6 +14,7 @@ class ListedLayout final : public Layout {
   void for_stretches(const std::function<void(const Stretch&)>& visit) const override;
   SpringEnds spring(std::size_t block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site) const override;
   Memory memory(const Block&, std::uint32_t, std::uint32_t, std::int32_t, bool) const override { return {}; }  // no kernel of lists has any
+  std::uint64_t other_end(std::size_t block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site) const override;
   std::uint64_t alive_bits(const Block& block, std::uint64_t index) const override;
   void fill(Block& block) const override;
   void exchange(const std::vector<Block>& all, Block& block) const override;

@@ -19,6 +19,14 @@ struct Simulation::Parts {
   std::vector<double> particle_masses;  ///< kg; filled when first asked for
   int threads = 1;
 
+  /// What a load is at the present time, at the end of the step, and what it sees.
+  struct Acting {
+    double now = 0, next = 0;  ///< factors
+    std::vector<Vec3> displacement, velocity;
+    WatchedMotion motion;
+  };
+  std::vector<Acting> acting;  ///< of each load
+
   double damping = 0, last_step = 0;
   double time = 0, time_rest = 0;  ///< compensated sum
   bool time_held = false;
@@ -44,11 +52,14 @@ struct Simulation::Parts {
   // step.cpp
   void step(double dt);
   KernelRequest request_for(Block& block, double back, double forward) const;
+  void prepare_loads(double step);
+  void watch(const Block& block);
   void prepare_supports(Block& block, double step) const;
   void start(double step);
 
   // breakage.cpp
   const std::uint8_t* review(Block& block, const AlarmRow& alarm) const;
+  double rate_of(const Block& block, const AlarmRow& alarm, std::size_t n) const;
   void collect_breakages(double dt);
   double energy_of(std::size_t breakage, const Block& block, const Block::Broken& broken, double dt) const;
   double elongation_now(std::size_t breakage) const;

@@ -9,12 +9,11 @@ namespace hyperlattice {
 
 SolverFacts solver_facts(const Model& model, double start_time) {
   const Site low = model.body.low, high = model.body.high;
-  return {start_time,
-          model.critical_time_step,
-          model.corners,
-          1 + std::max({high.i - low.i, high.j - low.j, high.k - low.k}),
-          model.body.is_listed(),
-          model.kernels.linearise != nullptr};
+  SolverFacts facts{start_time, model.critical_time_step, model.corners, 1 + std::max({high.i - low.i, high.j - low.j, high.k - low.k})};
+  facts.listed = model.body.is_listed();
+  facts.tangents = model.kernels.linearise != nullptr;
+  facts.answering = model.answering;
+  return facts;
 }
 
 template <class Code>

@@ -13,6 +13,7 @@ void set_component(Vec3& v, int c, double value) { (c == 0 ? v.x : c == 1 ? v.y 
 void Simulation::Parts::step(double dt) {
   if (steps == 0) start(dt);
   const double back = last_step / 2, forward = dt / 2;
+  prepare_loads(dt);
   const auto kernel = damping != 0 ? model.kernels.step_damped : model.kernels.step;
   struct Reviewer {
     const Parts* parts;
@@ -23,11 +24,12 @@ void Simulation::Parts::step(double dt) {
 #pragma omp for schedule(static, 1)
     for (std::size_t b = 0; b < blocks.size(); ++b) {
       layout->exchange(blocks, blocks[b]);
-      prepare_supports(blocks[b], dt);
+      watch(blocks[b]);
     }
 #pragma omp for schedule(static, 1)
     for (std::size_t b = 0; b < blocks.size(); ++b) {
       Block& block = blocks[b];
+      prepare_supports(block, dt);
       Reviewer reviewer{this, &block};
       KernelRequest request = request_for(block, back, forward);
       request.self = &reviewer;
@@ -77,20 +79,42 @@ KernelRequest Simulation::Parts::request_for(Block& block, double back, double f
   return request;
 }
 
+/// What the loads are at the present time and a step later. What they watch is filled in by watch().
+void Simulation::Parts::prepare_loads(double step) {
+  for (std::size_t l = 0; l < acting.size(); ++l) {
+    Acting& load = acting[l];
+    load.now = model.loads[l].factor(time);
+    load.next = step > 0 && !time_held ? model.loads[l].factor(time + step) : load.now;
+    load.motion = {time, load.now, load.displacement, load.velocity};
+  }
+}
+
+/// Shows the loads what the block's particles do.
+void Simulation::Parts::watch(const Block& block) {
+  for (const Block::Watched& seen : block.watched) {
+    const auto of = [&](const Numbers* field) { return Vec3{field[0][seen.index], field[1][seen.index], field[2][seen.index]}; };
+    acting[seen.load].displacement[seen.number] = of(block.displacement);
+    acting[seen.load].velocity[seen.number] = of(block.velocity);
+  }
+}
+
 /// External forces at the present time, and the velocities that prescribed particles have during a step of that length.
 void Simulation::Parts::prepare_supports(Block& block, double step) const {
   for (Support& support : block.supports) support.force = support.velocity = {};
   for (Contribution& part : block.contributions) {
-    const Load& load = model.loads[part.load];
+    const Acting& load = acting[part.load];
     Support& support = block.supports[part.support];
-    part.factor = load.factor(time);
+    part.factor = load.now;
+    if (part.watched != not_watched) {
+      part.factor = 1;
+      part.force = model.loads[part.load].answer(load.motion, part.watched);
+    }
     support.force = support.force + part.factor * part.force;
     if ((part.displaced | part.driven) == 0 || step <= 0) continue;
-    const double next = load.factor(time_held ? time : time + step);
     for (int c = 0; c < 3; ++c) {
       const double here = block.displacement[c][support.index];
-      if ((part.displaced >> c & 1u) != 0) set_component(support.velocity, c, (next * component(part.displacement, c) - here) / step);
-      if ((part.driven >> c & 1u) != 0) set_component(support.velocity, c, 0.5 * (part.factor + next) * component(part.velocity, c));
+      if ((part.displaced >> c & 1u) != 0) set_component(support.velocity, c, (load.next * component(part.displacement, c) - here) / step);
+      if ((part.driven >> c & 1u) != 0) set_component(support.velocity, c, 0.5 * (load.now + load.next) * component(part.velocity, c));
     }
   }
 }
@@ -99,6 +123,8 @@ void Simulation::Parts::prepare_supports(Block& block, double step) const {
 /// half a step before the start is what the forces of the start make it.
 void Simulation::Parts::start(double step) {
   bool driven = false;
+  prepare_loads(step);
+  for (const Block& block : blocks) watch(block);
   for (Block& block : blocks) {
     prepare_supports(block, step);
     for (const Support& support : block.supports)

@@ -42,6 +42,16 @@ void expect_same_motion(Simulation& a, Simulation& b, double scale) {
   EXPECT_NEAR(left.injected, right.injected, 1e-10 * std::abs(left.injected) + 1e-14 * left.stored);
 }
 
+TEST(ListedLoads, AnswerToAListAsToTheGrid) {
+  const Twins twins(5, 6, 7, membranes[0].material, "",
+                    R"({ "type": "loads.actuation", "on": "all", "force": 5, "form": "harmonic", "frequency": 1e6 },
+    { "type": "loads.floor", "on": "all", "stiffness": 1e6, "friction": 0.4 }, { "type": "loads.start_velocity", "linear": [1, 0, -2] })");
+  Simulation grid(*twins.grid->model, 1), list(*twins.list->model, 3);
+  for (int n = 0; n < 100; ++n)
+    for (Simulation* simulation : {&grid, &list}) simulation->step(0.5 * twins.grid->model->critical_time_step);
+  expect_same_motion(grid, list, 1e-6);
+}
+
 TEST_P(ListedMembrane, TheCubicLatticeAsAListMovesAsTheGrid) {
   const Twins twins(5, 6, 7, GetParam().material, "", R"({ "type": "loads.gravity", "acceleration": [0, 0, -9.81] },
     { "type": "loads.fixed", "on": "z_min" }, { "type": "loads.force", "on": { "box": { "low": [0, 0, 6e-3], "high": [1, 1, 1] } }, "total": [10, 0, 20] })");

@@ -14,6 +14,7 @@ struct SolverFacts {
   std::int32_t sites_across = 1;    ///< of the longest side of the box that the body fills
   bool listed = false;              ///< a list of particles and springs, which has no statics()
   bool tangents = true;             ///< the law says how its force changes with the elongation; if not, there are no statics() either
+  bool answering = false;           ///< a load answers to the motion; statics() does not know such loads
 };
 
 /// What the solver will do, for `plan`, `summary.json` and the progress line.

@@ -66,6 +66,8 @@ class Relaxation {
     if (!facts.listed && !facts.tangents)
       throw std::runtime_error("a law without memory; with this one a body comes to rest by solvers.explicit with damping");
     if (facts.listed) throw std::runtime_error("a structured lattice; a listed one comes to rest by solvers.explicit with damping");
+    if (facts.answering)
+      throw std::runtime_error("loads that do not answer to the motion; with such loads solvers.explicit with damping comes to rest");
     SolverPlan plan;
     plan.at_rest = true;
     plan.bytes_per_site = 250;  // of the measurement of the residual

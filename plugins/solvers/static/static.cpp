@@ -45,6 +45,8 @@ class Static {
     if (!facts.listed && !facts.tangents)
       throw std::runtime_error("a law without memory; with this one a body comes to rest by solvers.explicit with damping");
     if (facts.listed) throw std::runtime_error("a structured lattice; a listed one comes to rest by solvers.explicit with damping");
+    if (facts.answering)
+      throw std::runtime_error("loads that do not answer to the motion; with such loads solvers.explicit with damping comes to rest");
     SolverPlan plan;
     plan.at_rest = true;
     plan.end_time = o_.end_time.value_or(facts.corners.empty() ? facts.start_time : std::max(facts.start_time, facts.corners.back()));

@@ -1,0 +1,66 @@
+// The strength of springs scatters as Weibull's weakest links. A base spring breaks when its strain passes its own limit,
+//   e = scale [least + (1 - least) (-ln p)^(1 / modulus)]
+// with p a number between 0 and 1 that follows from the seed and the spring's two particles, each as likely as any other: of many springs the share
+//   1 - exp(-((e / scale - least) / (1 - least))^modulus)
+// has a limit below e. The same scene has the same strengths in every run, whatever its threads.
+#include <hyperlattice/failure.hpp>
+
+#include <cmath>
+
+namespace {
+using namespace hyperlattice;
+
+class Weibull {
+ public:
+  struct Options {
+    double scale = 0, modulus = 0, least = 0;
+    std::int64_t seed = 0;
+  };
+
+  static Schema<Options> schema() {
+    return Schema<Options>("failures.weibull", "A spring breaks when its strain passes a limit that scatters from spring to spring")
+        .equation("(|r| - |r0|) / |r0| > scale (least + (1 - least) (-ln p)^(1 / modulus)), p from the seed and the spring's particles")
+        .source("Weibull 1951, three parameters")
+        .restrictions(
+            "springs above the least strain are reviewed at every step: a run with a least far below the strains that occur is slower. Strengths "
+            "belong "
+            "to springs, not to places: another spacing or another shape has others")
+        .add<&Options::scale>("scale", "", "strain below which 63 % of all springs break")
+        .positive()
+        .add<&Options::modulus>("modulus", "", "of Weibull: large ones scatter little")
+        .positive()
+        .add<&Options::least>("least", "", "share of scale below which no spring breaks; 0: Weibull with two parameters")
+        .at_least(0)
+        .below(1)
+        .add<&Options::seed>("seed", "", "of the strengths")
+        .at_least(0)
+        .fallback("1");
+  }
+
+  explicit Weibull(const Options& options) : o_(options) {}
+
+  double alarm(const SpringFacts& spring) const { return o_.scale * o_.least * spring.rest_length; }
+  bool breaks(const SpringFacts& spring, const AlarmedSpring& state) const {
+    const double limit = o_.scale * (o_.least + (1 - o_.least) * std::pow(-std::log(share(state.a, state.b)), 1 / o_.modulus));
+    return state.elongation > limit * spring.rest_length;
+  }
+
+ private:
+  /// Above 0 and below 1.
+  double share(Particle a, Particle b) const {
+    const std::uint64_t bits = mixed(mixed(mixed(static_cast<std::uint64_t>(o_.seed)) ^ a) ^ b);
+    return (static_cast<double>(bits >> 12) + 0.5) * 0x1p-52;
+  }
+  /// Every bit of the result depends on every bit of the argument: the finalizer of SplitMix64 (Steele, Lea and Flood 2014).
+  static std::uint64_t mixed(std::uint64_t bits) {
+    bits += 0x9e3779b97f4a7c15u;
+    bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9u;
+    bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebu;
+    return bits ^ (bits >> 31);
+  }
+
+  Options o_;
+};
+}  // namespace
+
+HYPERLATTICE_PLUGIN("1.0") { plugin.add<Weibull>(); }

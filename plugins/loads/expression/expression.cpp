@@ -1,0 +1,87 @@
+// A load whose function of time f(t) is an expression, such as "exp(-t / 1e-3) * sin(2 * pi * 500 * t)": t in seconds, pi. It acts on particles as
+// loads.force does, or inside the body as loads.actuation:
+//   total, each:      F_i = f(t) total w_i / (sum of w)  or  f(t) each, w_i the share of a whole particle
+//   force, strain:    every base spring pushes its ends apart with f(t) force w, or with k L0 f(t) strain
+//   pressure:         -f(t) pressure A on faces as they turn and stretch
+// muParser reads and evaluates the expression, once a step.
+#include <hyperlattice/watching.hpp>
+
+#include <muParser.h>
+
+#include <numbers>
+
+namespace {
+using namespace hyperlattice;
+
+class Expression {
+ public:
+  struct Options {
+    RegionId on;
+    std::string expression;
+    std::vector<double> corners;
+    std::optional<Vec3> total, each;
+    std::optional<double> force, strain, pressure;
+  };
+
+  static Schema<Options> schema() {
+    return Schema<Options>("loads.expression", "A force, actuation or pressure that follows an expression of time")
+        .equation("f(t) times total, each, force, strain or pressure")
+        .source("expressions: muParser (BSD licence), operators + - * / ^ ?: and or, functions sin, exp, sqrt, abs, min, if ... of its manual")
+        .restrictions(
+            "steps do not land on the expression's kinks unless `corners` says where they are; loads.actuation knows its own. Along springs the "
+            "restrictions of loads.actuation hold")
+        .add<&Options::on>("on", "", "the loaded particles, springs or surface")
+        .add<&Options::expression>("expression", "", "f(t): t is the time in seconds, counted from the start of the run")
+        .add<&Options::corners>("corners", "s", "instants of kinks and jumps")
+        .fallback("[]")
+        .add<&Options::total>("total", "N", "shared evenly by the particles, in a body of cells by their shares of a whole one")
+        .add<&Options::each>("each", "N", "on every particle")
+        .add<&Options::force>("force", "N", "of each base spring; positive pushes its ends apart")
+        .add<&Options::strain>("strain", "", "change of rest length over rest length; positive lengthens")
+        .above(-1)
+        .add<&Options::pressure>("pressure", "Pa", "on moving faces; positive pushes on the body")
+        .check([](const Options& o, const FaultSink& faults) {
+          const int given = o.total.has_value() + o.each.has_value() + o.force.has_value() + o.strain.has_value() + o.pressure.has_value();
+          if (given != 1) faults.fault("total", "exactly one of total, each, force, strain and pressure");
+        });
+  }
+
+  explicit Expression(const Options& options) : o_(options), actuator_{options.force, options.strain, options.pressure, {}, {}} {
+    try {
+      parser_.DefineVar("t", &time_);
+      parser_.DefineConst("pi", std::numbers::pi);
+      parser_.SetExpr(o_.expression);
+      parser_.Eval();
+    } catch (const mu::Parser::exception_type& error) {
+      throw std::invalid_argument("an expression of t, not \"" + options.expression + "\": " + error.GetMsg());
+    }
+  }
+
+  void declare(const LoadBody& body, const LoadSink& sink) {
+    for (const double corner : o_.corners) sink.corner(corner);
+    if (!o_.total && !o_.each) return actuator_.declare(body, sink, o_.on);
+    const std::span<const Particle> particles = body.particles(o_.on);
+    double sum = 0;
+    for (const Particle particle : particles) sum += body.share(particle);
+    for (const Particle particle : particles) sink.force(particle, o_.each ? *o_.each : (body.share(particle) / sum) * *o_.total);
+  }
+
+  double factor(double time) const {
+    time_ = time;
+    try {
+      return parser_.Eval();
+    } catch (const mu::Parser::exception_type&) {
+      return std::numeric_limits<double>::quiet_NaN();  // the run's guard says so
+    }
+  }
+  Vec3 answer(const WatchedMotion& motion, std::size_t n) const { return actuator_.answer(motion, n); }
+
+ private:
+  Options o_;
+  Actuator actuator_;
+  mutable double time_ = 0;
+  mu::Parser parser_;
+};
+}  // namespace
+
+HYPERLATTICE_PLUGIN("1.0") { plugin.add<Expression>(); }

@@ -1,0 +1,109 @@
+// A half-space that holds the body up, with Coulomb friction. A particle whose rim is a depth d > 0 below the surface gets
+//   N = max(0, c d - b v_n)                        outwards, b = damping 2 sqrt(c m)
+//   T = min(mu N, h |v_t|) against v_t             h = grip sqrt(c m)
+// with v_n, v_t the velocity out of the floor and along it. Below the limit mu N friction is viscous, so that a particle at rest creeps with mu N /
+// h, a tiny speed, and time steps stay stable. Along `forward` mu is friction, against it friction_back; between them it goes with the cosine:
+//   mu = (mu_f + mu_b) / 2 + (mu_f - mu_b) / 2 (v_t . forward) / |v_t|
+#include <hyperlattice/load.hpp>
+
+#include <algorithm>
+#include <stdexcept>
+#include <vector>
+
+namespace {
+using namespace hyperlattice;
+
+class Floor {
+ public:
+  struct Options {
+    RegionId on;
+    Vec3 point, normal, forward;
+    std::optional<double> stiffness, friction_back;
+    double friction = 0, damping = 0, grip = 0;
+  };
+
+  static Schema<Options> schema() {
+    return Schema<Options>("loads.floor", "A half-space that holds the body up, with friction that may differ forwards and backwards")
+        .equation("N = max(0, c d - b v_n), T = min(mu N, h |v_t|) against v_t; b = 2 damping sqrt(c m), h = grip sqrt(c m)")
+        .source("penalty contact with Coulomb friction, regularised by a viscosity; c, b and h enter the critical step")
+        .restrictions("a particle at rest on the floor creeps with mu N / h; particles that are deeper than half a spacing mean a floor too soft")
+        .add<&Options::on>("on", "", "the particles that may touch the floor")
+        .fallback("\"outer_surface\"")
+        .add<&Options::point>("point", "m", "on the floor")
+        .fallback("[0, 0, 0]")
+        .add<&Options::normal>("normal", "", "out of the floor; any length")
+        .fallback("[0, 0, 1]")
+        .add<&Options::stiffness>("stiffness", "N/m", "c, of the contact of a whole particle; auto: that of the stiffest base spring of the region")
+        .word("auto")
+        .fallback("\"auto\"")
+        .positive()
+        .add<&Options::damping>("damping", "", "of the normal motion, over the critical one of a particle alone on its contact")
+        .at_least(0)
+        .at_most(1)
+        .fallback("0.2")
+        .add<&Options::friction>("friction", "", "coefficient mu")
+        .at_least(0)
+        .fallback("0")
+        .add<&Options::friction_back>("friction_back", "", "the coefficient against `forward`; left out: the same")
+        .at_least(0)
+        .add<&Options::forward>("forward", "", "direction of the smaller or larger friction; its part along the floor counts")
+        .fallback("[0, 0, 0]")
+        .add<&Options::grip>("grip", "", "viscosity of friction below its limit, over sqrt(c m)")
+        .positive()
+        .fallback("1")
+        .check([](const Options& o, const FaultSink& faults) {
+          if (norm(o.normal) == 0) faults.fault("normal", "a direction");
+          if (o.friction_back && norm(cross(o.normal, o.forward)) == 0) faults.fault("forward", "a direction along the floor, for friction_back");
+        });
+  }
+
+  explicit Floor(const Options& o) : o_(o), normal_((1 / norm(o.normal)) * o.normal) {
+    const Vec3 along = o.forward - dot(o.forward, normal_) * normal_;
+    if (norm(along) > 0) forward_ = (1 / norm(along)) * along;
+  }
+
+  void declare(const LoadBody& body, const LoadSink& sink) {
+    double whole = o_.stiffness.value_or(0);
+    if (!o_.stiffness)
+      for (const RestSpring& spring : body.springs(o_.on)) whole = std::max(whole, spring.stiffness / spring.share);
+    if (!(whole > 0)) throw std::invalid_argument("stiffness as a number: the region has no springs to take it from");
+    const bool rubs = o_.friction > 0 || o_.friction_back.value_or(0) > 0;
+    for (const Particle particle : body.particles(o_.on)) {
+      Contact contact;
+      contact.height = dot(body.position(particle) - o_.point, normal_) - body.rim;
+      contact.stiffness = whole * body.share(particle);
+      const double measure = std::sqrt(contact.stiffness * body.mass(particle));
+      contact.damping = 2 * o_.damping * measure;
+      contact.grip = o_.grip * measure;
+      sink.watch(particle, {contact.stiffness, std::max(contact.damping, rubs ? contact.grip : 0)});
+      contacts_.push_back(contact);
+    }
+  }
+  double factor(double) const { return 1; }
+
+  Vec3 answer(const WatchedMotion& motion, std::size_t n) const {
+    const Contact& contact = contacts_[n];
+    const double depth = -contact.height - dot(motion.displacement[n], normal_);
+    if (!(depth > 0)) return {};
+    const Vec3 v = motion.velocity[n];
+    const double outwards = dot(v, normal_), N = std::max(0.0, contact.stiffness * depth - contact.damping * outwards);
+    const Vec3 along = v - outwards * normal_;
+    const double speed = norm(along);
+    if (speed == 0) return N * normal_;
+    const double back = o_.friction_back.value_or(o_.friction);
+    const double mu = 0.5 * (o_.friction + back) + 0.5 * (o_.friction - back) * dot(along, forward_) / speed;
+    return N * normal_ - (std::min(mu * N, contact.grip * speed) / speed) * along;
+  }
+
+ private:
+  struct Contact {
+    double height = 0;  ///< of the particle's rim over the floor at rest, m
+    double stiffness = 0, damping = 0, grip = 0;
+  };
+  Options o_;
+  Vec3 normal_, forward_;
+  std::vector<Contact> contacts_;
+};
+}  // namespace
+
+HYPERLATTICE_PLUGIN("1.0") { plugin.add<Floor>(); }
