@@ -35,7 +35,7 @@ TEST(Plan, bytes_are_those_of_the_state) {
       const auto plan = plan_of(scene, threads);
       const Simulation simulation(*plan->model, threads);
       const auto particles = static_cast<double>(plan->model->body.particles);
-      EXPECT_EQ(plan->bytes_per_particle * particles, simulation.bytes()) << membrane;
+      EXPECT_DOUBLE_EQ(plan->bytes_per_particle * particles, simulation.bytes()) << membrane;
       EXPECT_GT(plan->memory_bytes, simulation.bytes() + simulation.scratch_bytes());
       EXPECT_GE(plan->bytes_per_particle, 2 * 8 * plan->model->degrees_of_freedom + 2);
     }
@@ -51,7 +51,7 @@ TEST(Plan, cells_cost_little_and_whole_particles_nothing) {
     const Model& model = *cells->model;
     const auto particles = static_cast<double>(model.body.particles);
     EXPECT_FALSE(leaves_out(*cells, "weights at the surface"));
-    EXPECT_EQ(cells->bytes_per_particle * particles, Simulation(model, threads).bytes());
+    EXPECT_DOUBLE_EQ(cells->bytes_per_particle * particles, Simulation(model, threads).bytes());
 
     double sites = 0, vectors = 0;
     std::set<std::uint32_t> sets{whole_set};  // is there even if no vector is whole
@@ -62,7 +62,7 @@ TEST(Plan, cells_cost_little_and_whole_particles_nothing) {
       sets.insert(block.weight_sets.begin(), block.weight_sets.end());
     }
     constexpr double state = 2 * 4 * 8 + 2, set = 10 * 8 * 8;  // bytes of a site; of the shares of particles and nine springs in a vector
-    EXPECT_EQ(cells->bytes_per_particle * particles, state * sites + 4 * vectors + set * static_cast<double>(sets.size()));
+    EXPECT_DOUBLE_EQ(cells->bytes_per_particle * particles, state * sites + 4 * vectors + set * static_cast<double>(sets.size()));
     EXPECT_LT(static_cast<double>(sets.size()), vectors);  // vectors share them, even in a ball that is nearly all surface
   }
 }
