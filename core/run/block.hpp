@@ -44,8 +44,7 @@ struct Contribution {
 /// What a block of a listed body has besides; see ListedSlots.
 struct ListedArrays {
   AlignedArray<std::uint32_t> first, neighbour;
-  AlignedArray<double> rest, stiffness, alarm, around, shares;
-  AlignedArray<std::uint8_t> alive;
+  AlignedArray<double> stiffness, alarm, rest, around, shares;
 };
 
 struct Block {
@@ -63,8 +62,7 @@ struct Block {
   std::vector<Contribution> contributions;
 
   struct Broken {
-    std::uint32_t row, neighbour;
-    std::int32_t site;
+    SpringEnds spring;
     double elongation;
   };
   std::vector<Broken> broken;         ///< in this step, by row, neighbour, site

@@ -39,7 +39,7 @@ const std::uint8_t* Simulation::Parts::review(Block& block, const AlarmRow& alar
                                                                  answers.data());
     for (std::size_t n = 0; n < count; ++n) block.answers[first + n] |= answers[n];
   };
-  const auto ends = [&](std::size_t n) { return layout->spring(block.number, alarm.row, alarm.neighbour, alarm.sites[n]); };
+  const auto ends = [&](std::size_t n) { return layout->spring(block, alarm.row, alarm.neighbour, alarm.sites[n]); };
   if (model.material_of.empty() && !model.body.is_listed()) {  // the same springs all
     const SpringEnds first = ends(0);
     ask(model.materials.front(), model.facts(model.joint(first.a, first.b, first.neighbour)), 0, alarm.sites.size());
@@ -53,7 +53,7 @@ const std::uint8_t* Simulation::Parts::review(Block& block, const AlarmRow& alar
     }
   }
   for (std::size_t n = 0; n < alarm.sites.size(); ++n)
-    if (block.answers[n] != 0) block.broken.push_back({alarm.row, alarm.neighbour, alarm.sites[n], alarm.elongation[n]});
+    if (block.answers[n] != 0) block.broken.push_back({ends(n), alarm.elongation[n]});
   return block.answers.data();
 }
 
@@ -61,7 +61,7 @@ const std::uint8_t* Simulation::Parts::review(Block& block, const AlarmRow& alar
 void Simulation::Parts::collect_breakages(double dt) {
   for (Block& block : blocks) {
     for (const Block::Broken& broken : block.broken) {
-      const SpringEnds spring = layout->spring(block.number, broken.row, broken.neighbour, broken.site);
+      const SpringEnds& spring = broken.spring;
       if (!spring.is_first) continue;
       Breakage breakage;
       breakage.step = steps;

@@ -10,6 +10,8 @@
 #include <hyperlattice/kernels/simd.hpp>
 
 #include <array>
+#include <cstdlib>
+#include <string_view>
 
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
@@ -41,9 +43,6 @@ inline Response respond(Pack stiffness, Length rest_length, Pack q) {
   return response;
 }
 
-/// (L0 + elongation)^2 - L0^2, lowered by rounding's worth so that an alarm rings rather too early than too late.
-inline double squared_growth(double rest_length, double elongation) { return elongation * (2 * rest_length + elongation) * (1 - 1e-12); }
-
 /// (1 - 1 / sqrt(1 + p)) / p in powers of p, exact to rounding for |p| <= range.
 template <std::size_t terms>
 struct Series {
@@ -69,6 +68,21 @@ struct Series {
 };
 inline constexpr Series<7> series_for_small(1.0 / 128);
 inline constexpr Series<11> series_for_large(1.0 / 16);
+
+/// The force over length of springs of a stiffness k and relative growth p = q / L0^2, all within series_for_small.
+template <class Law>
+HYPERLATTICE_INLINE Pack pull_near_rest(Pack stiffness, Pack p) {
+  constexpr auto& c = series_for_small.coefficients;
+  Pack sum = fill(c.back());
+  each<c.size() - 1>([&]<std::size_t n>() __attribute__((always_inline)) { sum = sum * p + c[c.size() - 2 - n]; });
+  return Law::force(stiffness, sum * p);
+}
+
+/// HYPERLATTICE_SPRINGS=exact in the environment asks for root and division everywhere, and for the plainest kernel.
+inline bool exact_springs() {
+  const char* wish = std::getenv("HYPERLATTICE_SPRINGS");
+  return wish != nullptr && std::string_view(wish) == "exact";
+}
 
 /// A series in q for springs of a stiffness and a length: the force over length is q times its sum.
 template <std::size_t terms>

@@ -10,9 +10,6 @@
 #include <hyperlattice/kernels/stencil.hpp>
 #include <hyperlattice/kernels/tangent.hpp>
 
-#include <cstdlib>
-#include <string_view>
-
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
 template <class Law, Membrane membrane, bool Breakable, bool Mixed, Task task>
@@ -28,14 +25,8 @@ class Sweep {
   static constexpr bool enough_registers = vectors <= 2;  // for all springs of a row at once
 
   explicit Sweep(const KernelRequest& request)
-      : request_(request), fused_(!measuring && enough_registers && !exact() && CubicList::is(request.neighbours)) {
+      : request_(request), fused_(!measuring && enough_registers && !exact_springs() && CubicList::is(request.neighbours)) {
     for (int c = 0; c < components; ++c) own_[c] = own_row(c);
-  }
-
-  /// HYPERLATTICE_SPRINGS=exact in the environment asks for the plainest kernel: one neighbour at a time, root and division.
-  static bool exact() {
-    const char* wish = std::getenv("HYPERLATTICE_SPRINGS");
-    return wish != nullptr && std::string_view(wish) == "exact";
   }
 
   void all_rows() {
