@@ -15,7 +15,6 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/HyperlatticeConfigVersion
 install(FILES ${PROJECT_BINARY_DIR}/HyperlatticeConfig.cmake ${PROJECT_BINARY_DIR}/HyperlatticeConfigVersion.cmake
               cmake/HyperlatticePlugin.cmake DESTINATION ${package})
 
-install(DIRECTORY plugins/starter DESTINATION ${share} PATTERN build EXCLUDE PATTERN scene_out EXCLUDE)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 foreach(folder docs scenes)
   if(IS_DIRECTORY ${PROJECT_SOURCE_DIR}/${folder})

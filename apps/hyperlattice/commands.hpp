@@ -26,6 +26,9 @@ Command analyze_command(CLI::App& program);
 Command calibrate_command(CLI::App& program);
 Command study_command(CLI::App& program);
 
+/// Writes the project of a plugin of that type into a new folder, by default ./<name>. InputError if there is no such family, or the folder is there.
+int write_new_plugin(const std::string& type, std::filesystem::path folder);
+
 /// The folder of the results: <input>_out here, if none was given. InputError if something else stands there.
 void choose_directory(std::filesystem::path& directory, const std::filesystem::path& input);
 

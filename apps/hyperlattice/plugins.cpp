@@ -12,6 +12,8 @@ namespace {
 struct Arguments {
   std::string name;
   bool why = false, json = false;
+  std::string new_type;
+  std::filesystem::path out;
 };
 
 [[noreturn]] void say_why_not(const Host& host, const std::string& name) {
@@ -51,6 +53,7 @@ nlohmann::json searched_json(const Host& host) {
 }
 
 int show(const Arguments& arguments) {
+  if (!arguments.new_type.empty()) return write_new_plugin(arguments.new_type, arguments.out);
   Host host;
   const auto components = arguments.name.empty() ? host.load_all() : std::vector{host.find(arguments.name)};
   if (!components.empty() && !components.front()) {
@@ -77,10 +80,12 @@ int show(const Arguments& arguments) {
 
 Command plugins_command(CLI::App& program) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = program.add_subcommand("plugins", "list what a scene can name, or document one component");
+  CLI::App* command = program.add_subcommand("plugins", "list what a scene can name, document one component, or begin one of your own");
   command->add_option("NAME", arguments->name, "a component, e.g. loads.blast");
   command->add_flag("--why", arguments->why, "also every place searched, and why a library was refused");
   command->add_flag("--json", arguments->json, "print it for machines");
+  command->add_option("--new", arguments->new_type, "write a project of your own for a plugin of this type, e.g. failures.my_law");
+  command->add_option("--out", arguments->out, "with --new: the folder to write; ./<name> if left out");
   return {command, [arguments] { return show(*arguments); }};
 }
 

@@ -35,8 +35,8 @@ void check_spring(const ListedSpring& spring, Vec3 rest, std::size_t particles) 
   if (!std::isfinite(spring.stiffness) || spring.stiffness == 0) throw std::invalid_argument(which + " has no stiffness");
 }
 
-/// The particles in their new order.
-std::vector<std::uint64_t> order_of(const PointList& points) {
+/// The particles along slabs and strips.
+std::vector<std::uint64_t> along_strips(const PointList& points) {
   struct Key {
     double slab, strip, x;
     std::uint64_t source;
@@ -59,12 +59,26 @@ std::vector<std::uint64_t> order_of(const PointList& points) {
   return order;
 }
 
+/// Each stretch of the order by number of springs, most first.
+void sort_stretches(std::vector<std::uint64_t>& order, const PointList& points) {
+  std::vector<std::uint32_t> springs(order.size(), 0);
+  for (const ListedSpring& spring : points.springs)
+    for (const std::uint32_t end : {spring.a, spring.b})
+      if (end < springs.size()) ++springs[end];
+  for (auto first = order.begin(); first != order.end();) {
+    const auto last = first + std::min<std::ptrdiff_t>(Listed::stretch, order.end() - first);
+    std::stable_sort(first, last, [&](std::uint64_t a, std::uint64_t b) { return springs[a] > springs[b]; });
+    first = last;
+  }
+}
+
 }  // namespace
 
 Listed sorted(const PointList& points) {
   check_sizes(points);
   Listed listed;
-  listed.source = order_of(points);
+  listed.source = along_strips(points);
+  sort_stretches(listed.source, points);
   std::vector<std::uint32_t> place(listed.source.size());
   for (std::size_t n = 0; n < listed.source.size(); ++n) {
     place[listed.source[n]] = static_cast<std::uint32_t>(n);

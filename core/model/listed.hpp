@@ -9,6 +9,8 @@
 namespace hyperlattice {
 
 struct Listed {
+  static constexpr std::uint64_t stretch = 64;  ///< particles; see sorted()
+
   std::vector<Vec3> positions;         ///< at rest, metres; in the particles' order
   std::vector<std::uint64_t> source;   ///< of each particle, its place in the lattice's own order
   std::vector<double> shares;          ///< volumes over the whole particle's; empty: all 1
@@ -20,7 +22,8 @@ struct Listed {
   bool empty() const { return positions.empty(); }
 };
 
-/// Sorts the list by slabs of one spacing along z, within them by strips along y, within them by x. Throws std::invalid_argument for what is no
+/// Sorts the list by slabs of one spacing along z, within them by strips along y, within them by x; and each stretch of particles, which lie close
+/// together, by their number of springs, so that those that follow each other have about as many. Throws std::invalid_argument for what is no
 /// lattice: numbers that are not finite, springs to nobody, to oneself, given twice, without length, of no stiffness.
 Listed sorted(const PointList& points);
 

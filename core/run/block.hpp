@@ -25,8 +25,7 @@ struct Contribution {
 /// What a block of a listed body has besides; see ListedSlots.
 struct ListedArrays {
   AlignedArray<std::uint32_t> first, neighbour;
-  AlignedArray<double> rest, stiffness, alarm, around, shares;
-  AlignedArray<std::uint8_t> alive;
+  AlignedArray<double> stiffness, alarm, rest, around, shares;
 };
 
 struct Block {
@@ -52,9 +51,10 @@ struct Block {
   std::vector<Watched> watched;
 
   struct Broken {
-    std::uint32_t row, neighbour;
-    std::int32_t site;
+    SpringEnds spring;
     double elongation;
+    std::uint32_t row, neighbour;  ///< where the kernel found it, see AlarmRow
+    std::int32_t site;
   };
   std::vector<Broken> broken;         ///< in this step, by row, neighbour, site
   std::vector<std::uint8_t> answers;  ///< of the failure criterion, for one batch

@@ -33,7 +33,7 @@ End end_of(const Block& block, std::uint64_t n, int components, double dt) {
 
 const std::uint8_t* Simulation::Parts::review(Block& block, const AlarmRow& alarm) const {
   block.answers.assign(alarm.sites.size(), 0);
-  const auto ends = [&](std::size_t n) { return layout->spring(block.number, alarm.row, alarm.neighbour, alarm.sites[n]); };
+  const auto ends = [&](std::size_t n) { return layout->spring(block, alarm.row, alarm.neighbour, alarm.sites[n]); };
   const auto ask = [&](const Material& material, const SpringFacts& facts, std::size_t first, std::size_t count) {
     if (material.failure_stage == nullptr) return;
     const auto& functions = material.failure_stage->functions<FailureFunctions>();
@@ -62,7 +62,7 @@ const std::uint8_t* Simulation::Parts::review(Block& block, const AlarmRow& alar
     }
   }
   for (std::size_t n = 0; n < alarm.sites.size(); ++n)
-    if (block.answers[n] != 0) block.broken.push_back({alarm.row, alarm.neighbour, alarm.sites[n], alarm.elongation[n]});
+    if (block.answers[n] != 0) block.broken.push_back({ends(n), alarm.elongation[n], alarm.row, alarm.neighbour, alarm.sites[n]});
   return block.answers.data();
 }
 
@@ -85,7 +85,7 @@ double Simulation::Parts::rate_of(const Block& block, const AlarmRow& alarm, std
 void Simulation::Parts::collect_breakages(double dt) {
   for (Block& block : blocks) {
     for (const Block::Broken& broken : block.broken) {
-      const SpringEnds spring = layout->spring(block.number, broken.row, broken.neighbour, broken.site);
+      const SpringEnds& spring = broken.spring;
       if (!spring.is_first) continue;
       Breakage breakage;
       breakage.step = steps;

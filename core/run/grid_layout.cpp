@@ -138,8 +138,8 @@ void GridLayout::for_stretches(const std::function<void(const Stretch&)>& visit)
   }
 }
 
-SpringEnds GridLayout::spring(std::size_t block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site) const {
-  Site here = first_site_of_row(block, row);
+SpringEnds GridLayout::spring(const Block& block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site) const {
+  Site here = first_site_of_row(block.number, row);
   here.i = site;
   const Neighbour& to = model_.body.neighbours[neighbour];
   return {model_.body.at(here), model_.body.at({here.i + to.dx, here.j + to.dy, here.k + to.dz}), neighbour, true};

@@ -54,7 +54,8 @@ class Layout {
   virtual Place place(Particle particle) const = 0;
   /// All particles in their order.
   virtual void for_stretches(const std::function<void(const Stretch&)>& visit) const = 0;
-  virtual SpringEnds spring(std::size_t block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site) const = 0;
+  /// Of a spring that exists: see AlarmRow.
+  virtual SpringEnds spring(const Block& block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site) const = 0;
   /// Where the numbers that the law keeps of a spring begin, and how far they are apart; of its cross springs if `cross`.
   struct Memory {
     const double* first = nullptr;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace hyperlattice {
 
@@ -13,52 +14,30 @@ constexpr std::uint64_t vectors_for(std::uint64_t particles) { return (particles
 }  // namespace
 
 ListedLayout::ListedLayout(const Model& model, int threads) : Layout(model) {
-  collect_halves();
   const std::uint64_t particles = model.body.particles, rows = (particles + row_length - 1) / row_length;
   const std::uint64_t wanted = std::clamp<std::uint64_t>(static_cast<std::uint64_t>(threads), 1, rows);
+  std::vector<std::uint32_t> springs_of(particles, 0);
+  for (const ListedSpring& spring : model.body.listed.springs) {
+    ++springs_of[spring.a];
+    ++springs_of[spring.b];
+  }
   for (std::uint64_t n = 0; n < wanted; ++n) {
     const Particle first = rows * n / wanted * row_length, last = std::min(rows * (n + 1) / wanted * row_length, particles);
-    parts_.push_back(make_part(first, last));
+    parts_.push_back(make_part(first, last, springs_of));
     blocks.push_back(make_block(parts_.back()));
   }
-  first_half_ = {};
-  halves_ = {};
 }
 
-/// Every spring from both of its ends; a particle's in the order of the others.
-void ListedLayout::collect_halves() {
-  const std::vector<ListedSpring>& springs = model_.body.listed.springs;
-  first_half_.assign(model_.body.particles + 1, 0);
-  for (const ListedSpring& spring : springs) {
-    ++first_half_[spring.a + 1];
-    ++first_half_[spring.b + 1];
-  }
-  for (Particle p = 0; p < model_.body.particles; ++p) first_half_[p + 1] += first_half_[p];
-  halves_.resize(2 * springs.size());
-  std::vector<std::uint64_t> next(first_half_.begin(), first_half_.end() - 1);
-  for (std::uint32_t n = 0; n < springs.size(); ++n) halves_[next[springs[n].b]++] = {springs[n].a, n};  // first those to particles before
-  for (std::uint32_t n = 0; n < springs.size(); ++n) halves_[next[springs[n].a]++] = {springs[n].b, n};
-}
-
-ListedLayout::Part ListedLayout::make_part(Particle first, Particle last) const {
+ListedLayout::Part ListedLayout::make_part(Particle first, Particle last, const std::vector<std::uint32_t>& springs_of) const {
   Part part;
   part.first = first;
   part.last = last;
   part.first_slot.push_back(0);
-  for (Particle start = first; start < last; start += lanes) {
-    const Particle end = std::min<Particle>(start + lanes, last);
-    std::size_t slots = 0;
-    for (Particle p = start; p < end; ++p) slots = std::max(slots, halves(p).size());
-    const std::size_t at = part.springs.size();
-    part.springs.resize(at + slots * lanes, no_spring);
-    for (Particle p = start; p < end; ++p)
-      for (std::size_t slot = 0; slot < halves(p).size(); ++slot) {
-        const Half half = halves(p)[slot];
-        part.springs[at + slot * lanes + (p - start)] = half.spring;
-        if (half.other < first || half.other >= last) part.ghosts.push_back(half.other);
-      }
-    part.first_slot.push_back(static_cast<std::uint32_t>(part.springs.size() / lanes));
-  }
+  const auto count = [&](Particle particle) { return springs_of.begin() + static_cast<std::ptrdiff_t>(particle); };
+  for (Particle start = first; start < last; start += lanes)
+    part.first_slot.push_back(part.first_slot.back() + *std::max_element(count(start), count(std::min<Particle>(start + lanes, last))));
+  for (const ListedSpring& spring : model_.body.listed.springs)
+    if (part.holds(spring.a) != part.holds(spring.b)) part.ghosts.push_back(part.holds(spring.a) ? spring.b : spring.a);
   std::sort(part.ghosts.begin(), part.ghosts.end());
   part.ghosts.erase(std::unique(part.ghosts.begin(), part.ghosts.end()), part.ghosts.end());
   return part;
@@ -109,12 +88,29 @@ void ListedLayout::for_stretches(const std::function<void(const Stretch&)>& visi
   for (std::size_t n = 0; n < parts_.size(); ++n) visit({n, 0, parts_[n].first, parts_[n].last - parts_[n].first});
 }
 
-SpringEnds ListedLayout::spring(std::size_t block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site) const {
-  const Part& part = parts_[block];
-  const std::uint32_t number = part.springs[std::size_t{neighbour} * lanes + static_cast<std::size_t>(site % lanes)];
-  const ListedSpring& spring = model_.body.listed.springs[number];
+/// Where a block keeps the rest and the displacement of a particle that its springs lead to: among its own, or behind them.
+std::uint32_t ListedLayout::place_around(const Part& part, Particle particle) const {
+  if (part.holds(particle)) return static_cast<std::uint32_t>(particle - part.first);
+  const auto ghost = std::lower_bound(part.ghosts.begin(), part.ghosts.end(), particle) - part.ghosts.begin();
+  return static_cast<std::uint32_t>(vectors_for(part.last - part.first) * lanes + static_cast<std::uint64_t>(ghost));
+}
+
+Particle ListedLayout::particle_around(const Part& part, std::uint32_t place) const {
+  const std::uint64_t own = vectors_for(part.last - part.first) * lanes;
+  return place < own ? part.first + place : part.ghosts[place - own];
+}
+
+SpringEnds ListedLayout::spring(const Block& block, std::uint32_t row, std::uint32_t slot, std::int32_t site) const {
+  const Part& part = parts_[block.number];
   const Particle here = part.first + row * row_length + static_cast<Particle>(site);
-  return {spring.a, spring.b, number, here == spring.a};
+  const Particle there = particle_around(part, block.listed.neighbour[std::size_t{slot} * lanes + static_cast<std::size_t>(site % lanes)]);
+  const auto [a, b] = std::minmax(here, there);
+  const std::vector<ListedSpring>& springs = model_.body.listed.springs;
+  const auto before = [](const ListedSpring& spring, const std::pair<Particle, Particle>& ends) {
+    return std::pair<Particle, Particle>(spring.a, spring.b) < ends;
+  };
+  const auto found = std::lower_bound(springs.begin(), springs.end(), std::pair(a, b), before);
+  return {a, b, static_cast<std::uint32_t>(found - springs.begin()), here == a};
 }
 
 std::uint64_t ListedLayout::other_end(std::size_t, std::uint32_t, std::uint32_t, std::int32_t) const {
@@ -125,13 +121,12 @@ std::uint64_t ListedLayout::alive_bits(const Block& block, std::uint64_t index) 
   const std::vector<std::uint32_t>& first = parts_[block.number].first_slot;
   std::uint64_t bits = 0;
   for (std::uint32_t slot = first[index / lanes]; slot < first[index / lanes + 1]; ++slot)
-    bits = bits << 1 ^ bits >> 63 ^ (block.listed.alive[slot] >> (index % lanes) & 1U);
+    bits = bits << 1 ^ bits >> 63 ^ (block.listed.neighbour[std::size_t{slot} * lanes + index % lanes] != index ? 1U : 0U);
   return bits;
 }
 
 void ListedLayout::fill(Block& block) const {
   const Part& part = parts_[block.number];
-  const std::size_t numbers = part.springs.size();
   const std::uint64_t count = part.last - part.first;
   block.alive = AlignedArray<std::uint16_t>(block.layout->sites);
   std::fill_n(block.alive.get(), count, particle_bit);
@@ -139,56 +134,64 @@ void ListedLayout::fill(Block& block) const {
     block.material = AlignedArray<std::uint8_t>(block.layout->sites);
     for (std::uint64_t n = 0; n < count; ++n) block.material[n] = model_.material_of[part.first + n];
   }
-  ListedArrays& listed = block.listed;
   if (!model_.body.listed.shares.empty()) {
-    listed.shares = AlignedArray<double>(block.layout->sites);
-    std::fill_n(listed.shares.get(), block.layout->sites, 1.0);
-    for (std::uint64_t n = 0; n < count; ++n) listed.shares[n] = model_.body.listed.shares[part.first + n];
+    block.listed.shares = AlignedArray<double>(block.layout->sites);
+    std::fill_n(block.listed.shares.get(), block.layout->sites, 1.0);
+    for (std::uint64_t n = 0; n < count; ++n) block.listed.shares[n] = model_.body.listed.shares[part.first + n];
   }
-  listed.first = AlignedArray<std::uint32_t>(part.first_slot.size());
-  std::copy(part.first_slot.begin(), part.first_slot.end(), listed.first.get());
-  listed.neighbour = AlignedArray<std::uint32_t>(numbers);
-  listed.rest = AlignedArray<double>(4 * numbers);
-  listed.alive = AlignedArray<std::uint8_t>(numbers / lanes);
-  if (has_own_stiffness()) listed.stiffness = AlignedArray<double>(2 * numbers);
-  if (model_.choice.breakable) listed.alarm = AlignedArray<double>(numbers);
-  listed.around = AlignedArray<double>(4 * (block.layout->sites + part.ghosts.size()));
-  for (std::size_t vector = 0; vector + 1 < part.first_slot.size(); ++vector)
-    for (std::size_t n = std::size_t{part.first_slot[vector]} * lanes; n < std::size_t{part.first_slot[vector + 1]} * lanes; ++n) {
-      const std::uint64_t own = vector * lanes + n % lanes;
-      listed.neighbour[n] = static_cast<std::uint32_t>(own);  // a lane without a spring looks at itself
-      listed.rest[n / lanes * 4 * lanes + 3 * lanes + n % lanes] = 1;
-      if (part.springs[n] != no_spring) fill_spring(block, n, part.first + own);
-    }
+  fill_places(block);
+  fill_springs(block);
 }
 
-/// One end of a spring: entry n of the slots, [slot][lane], is the particle's.
-void ListedLayout::fill_spring(Block& block, std::size_t n, Particle particle) const {
+void ListedLayout::fill_places(Block& block) const {
   const Part& part = parts_[block.number];
-  const ListedSpring& spring = model_.body.listed.springs[part.springs[n]];
-  const Joint joint = model_.joint(spring.a, spring.b, part.springs[n]);
-  const bool is_first = particle == spring.a;
-  const Particle other = is_first ? spring.b : spring.a;
-  const std::size_t slot = n / lanes, lane = n % lanes;
+  const std::uint64_t places = block.layout->sites + part.ghosts.size();
+  block.listed.rest = AlignedArray<double>(4 * places);
+  block.listed.around = AlignedArray<double>(4 * places);
+  const auto set = [&](Particle particle) {
+    const Vec3 x = model_.body.listed.positions[particle];
+    double* rest = block.listed.rest.get() + 4 * std::size_t{place_around(part, particle)};
+    rest[0] = x.x;
+    rest[1] = x.y;
+    rest[2] = x.z;
+  };
+  for (Particle particle = part.first; particle < part.last; ++particle) set(particle);
+  for (const Particle ghost : part.ghosts) set(ghost);
+}
+
+/// The springs of a particle take its slots in the order of the others.
+void ListedLayout::fill_springs(Block& block) const {
+  const Part& part = parts_[block.number];
   ListedArrays& listed = block.listed;
-  if (other >= part.first && other < part.last) {
-    listed.neighbour[n] = static_cast<std::uint32_t>(other - part.first);
-  } else {
-    const auto ghost = std::lower_bound(part.ghosts.begin(), part.ghosts.end(), other) - part.ghosts.begin();
-    listed.neighbour[n] = static_cast<std::uint32_t>(block.layout->sites + static_cast<std::uint64_t>(ghost));
-  }
-  const Vec3 rest = is_first ? joint.rest : -1.0 * joint.rest;
-  double* numbers = listed.rest.get() + slot * 4 * lanes + lane;
-  numbers[0] = rest.x;
-  numbers[lanes] = rest.y;
-  numbers[2 * lanes] = rest.z;
-  numbers[3 * lanes] = joint.rest_length;
-  listed.alive[slot] = static_cast<std::uint8_t>(listed.alive[slot] | 1U << lane);
-  if (listed.stiffness.size() > 0) {
+  listed.first = AlignedArray<std::uint32_t>(part.first_slot.size());
+  std::copy(part.first_slot.begin(), part.first_slot.end(), listed.first.get());
+  listed.neighbour = AlignedArray<std::uint32_t>(part.slot_lanes());
+  if (has_own_stiffness()) listed.stiffness = AlignedArray<double>(2 * part.slot_lanes());
+  if (model_.choice.breakable) listed.alarm = AlignedArray<double>(part.slot_lanes());
+  for (std::size_t vector = 0; vector + 1 < part.first_slot.size(); ++vector)
+    for (std::size_t n = std::size_t{part.first_slot[vector]} * lanes; n < std::size_t{part.first_slot[vector + 1]} * lanes; ++n)
+      listed.neighbour[n] = static_cast<std::uint32_t>(vector * lanes + n % lanes);  // a lane without a spring looks at itself
+
+  std::vector<std::uint32_t> taken(block.layout->sites, 0);  // slots of each particle
+  const auto add = [&](Particle here, Particle there, const Joint& joint, double alarm) {
+    if (!part.holds(here)) return;
+    const std::uint64_t own = here - part.first, lane = own % lanes;
+    const std::size_t slot = part.first_slot[own / lanes] + taken[own]++;
+    listed.neighbour[slot * lanes + lane] = place_around(part, there);
+    if (listed.alarm.size() > 0) listed.alarm[slot * lanes + lane] = alarm;
+    if (listed.stiffness.size() == 0) return;
     listed.stiffness[slot * 2 * lanes + lane] = joint.stiffness;
     listed.stiffness[slot * 2 * lanes + lanes + lane] = joint.cross_stiffness;
+  };
+  for (std::uint32_t n = 0; n < model_.body.listed.springs.size(); ++n) {
+    const ListedSpring& spring = model_.body.listed.springs[n];
+    if (!part.holds(spring.a) && !part.holds(spring.b)) continue;
+    const Joint joint = model_.joint(spring.a, spring.b, n);
+    const double alarm = model_.choice.breakable ? model_.alarm(model_.material(spring.a), model_.material(spring.b), model_.facts(joint)) : infinity;
+    const double growth = squared_growth(joint.rest_length, alarm);
+    add(spring.a, spring.b, joint, growth);
+    add(spring.b, spring.a, joint, growth);
   }
-  if (listed.alarm.size() > 0) listed.alarm[n] = model_.alarm(model_.material(spring.a), model_.material(spring.b), model_.facts(joint));
 }
 
 void ListedLayout::exchange(const std::vector<Block>& all, Block& block) const {
@@ -213,20 +216,19 @@ void ListedLayout::describe(const Block& block, KernelRequest& request) const {
   request.weight_sets = block.layout->weight_sets.data();
   request.weights = block.listed.shares.get();
   request.scratch_width = row_length;
-  request.listed = {block.listed.first.get(), block.listed.neighbour.get(), block.listed.rest.get(),  block.listed.stiffness.get(),
-                    block.listed.alarm.get(), block.listed.alive.get(),     block.listed.around.get()};
+  request.listed = {block.listed.first.get(), block.listed.neighbour.get(), block.listed.stiffness.get(),
+                    block.listed.alarm.get(), block.listed.rest.get(),      block.listed.around.get()};
 }
 
 double ListedLayout::state_bytes() const {
-  constexpr double number = sizeof(double);
-  const double state = (2.0 * model_.degrees_of_freedom + 4 + (model_.body.listed.shares.empty() ? 0 : 1)) * number + double{sizeof(std::uint16_t)} +
-                       (model_.material_of.empty() ? 0 : 1);
-  const double slot_lane =
-      double{sizeof(std::uint32_t)} + 1.0 / lanes + (4 + (has_own_stiffness() ? 2 : 0) + (model_.choice.breakable ? 1 : 0)) * number;
+  constexpr double number = sizeof(double), record = 4 * number;
+  const double state = (2.0 * model_.degrees_of_freedom + (model_.body.listed.shares.empty() ? 0 : 1)) * number + 2 * record +
+                       double{sizeof(std::uint16_t)} + (model_.material_of.empty() ? 0 : 1);
+  const double slot_lane = double{sizeof(std::uint32_t)} + ((has_own_stiffness() ? 2 : 0) + (model_.choice.breakable ? 1 : 0)) * number;
   double bytes = 0;
   for (std::size_t n = 0; n < blocks.size(); ++n)
-    bytes += static_cast<double>(blocks[n].sites) * state + static_cast<double>(parts_[n].ghosts.size()) * 4 * number +
-             static_cast<double>(parts_[n].springs.size()) * slot_lane +
+    bytes += static_cast<double>(blocks[n].sites) * state + static_cast<double>(parts_[n].ghosts.size()) * 2 * record +
+             static_cast<double>(parts_[n].slot_lanes()) * slot_lane +
              static_cast<double>((parts_[n].first_slot.size() + blocks[n].weight_sets.size()) * sizeof(std::uint32_t));
   return bytes;
 }

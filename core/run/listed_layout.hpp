@@ -12,7 +12,7 @@ class ListedLayout final : public Layout {
 
   Place place(Particle particle) const override;
   void for_stretches(const std::function<void(const Stretch&)>& visit) const override;
-  SpringEnds spring(std::size_t block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site) const override;
+  SpringEnds spring(const Block& block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site) const override;
   Memory memory(const Block&, std::uint32_t, std::uint32_t, std::int32_t, bool) const override { return {}; }  // no kernel of lists has any
   std::uint64_t other_end(std::size_t block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site) const override;
   std::uint64_t alive_bits(const Block& block, std::uint64_t index) const override;
@@ -23,33 +23,27 @@ class ListedLayout final : public Layout {
   std::size_t scratch_numbers() const override;
 
  private:
-  static constexpr std::uint64_t row_length = 64;  ///< particles
+  static constexpr std::uint64_t row_length = Listed::stretch;  ///< particles
 
-  /// A spring as one of its ends sees it.
-  struct Half {
-    std::uint32_t other, spring;
-  };
-  /// A block's particles [first, last), and what a kernel meets in its slots.
+  /// A block's particles [first, last), and where a kernel finds their springs.
   struct Part {
     Particle first = 0, last = 0;
     std::vector<std::uint32_t> first_slot;  ///< of each vector of particles, and one more
-    std::vector<std::uint32_t> springs;     ///< [slot][lane] in the body's list; no_spring: none
     std::vector<Particle> ghosts;           ///< ascending
-  };
-  static constexpr std::uint32_t no_spring = ~std::uint32_t{0};
 
-  void collect_halves();
-  Part make_part(Particle first, Particle last) const;
+    bool holds(Particle particle) const { return particle >= first && particle < last; }
+    std::size_t slot_lanes() const { return std::size_t{first_slot.back()} * lanes; }
+  };
+
+  Part make_part(Particle first, Particle last, const std::vector<std::uint32_t>& springs_of) const;
   BlockLayout make_block(const Part& part) const;
   std::int32_t material_of_row(Particle first, Particle last) const;
-  void fill_spring(Block& block, std::size_t n, Particle particle) const;
+  void fill_places(Block& block) const;
+  void fill_springs(Block& block) const;
   bool has_own_stiffness() const;
-  std::span<const Half> halves(Particle particle) const {
-    return {halves_.data() + first_half_[particle], halves_.data() + first_half_[particle + 1]};
-  }
+  std::uint32_t place_around(const Part& part, Particle particle) const;
+  Particle particle_around(const Part& part, std::uint32_t place) const;
 
-  std::vector<std::uint64_t> first_half_;  ///< of each particle, and one more; halves are needed while parts are made only
-  std::vector<Half> halves_;
   std::vector<Part> parts_;
 };
 

@@ -1,5 +1,5 @@
-# The first plugin of a user: installs this build, moves the installed tree, copies the starter out of the source tree, and builds and tests
-# it there. BUILD and SOURCE are this project's folders, COMPILER its C++ compiler.
+# The first plugin of a user: installs this build, moves the installed tree, lets the program write a project for each family that it knows, and builds and tests
+# them there. BUILD and SOURCE are this project's folders, COMPILER its C++ compiler.
 set(temporary $ENV{TMPDIR})
 if(NOT temporary)
   set(temporary /tmp)
@@ -20,15 +20,22 @@ endfunction()
 
 must_work(${CMAKE_COMMAND} --install ${BUILD} --prefix ${folder}/installed --strip)
 file(RENAME ${folder}/installed ${folder}/moved)
-file(COPY ${SOURCE}/plugins/starter/ DESTINATION ${folder}/my_law)
 
 must_work(${folder}/moved/bin/hyperlattice plugins --why)
 if(output MATCHES "${BUILD}" OR output MATCHES "refused" OR NOT output MATCHES "${folder}/moved/[^\n]*hyperlattice/lattices.cubic.so")
   message(FATAL_ERROR "the installed program must find its own plugins and no others")
 endif()
 
-must_work(${CMAKE_COMMAND} -S ${folder}/my_law -B ${folder}/my_law/build -D CMAKE_PREFIX_PATH=${folder}/moved -D CMAKE_CXX_COMPILER=${COMPILER}
-          -D CMAKE_CXX_FLAGS=-Wall\ -Wextra\ -Wpedantic\ -Wconversion\ -Werror)
-must_work(${CMAKE_COMMAND} --build ${folder}/my_law/build)
-must_work(${CMAKE_CTEST_COMMAND} --test-dir ${folder}/my_law/build --output-on-failure --no-tests=error)
+foreach(type failures.tearing materials.wearing_out)
+  set(project ${folder}/${type})
+  string(TIMESTAMP start "%s")
+  must_work(${folder}/moved/bin/hyperlattice plugins --new ${type} --out ${project})
+  must_work(${CMAKE_COMMAND} -S ${project} -B ${project}/build -D CMAKE_PREFIX_PATH=${folder}/moved -D CMAKE_CXX_COMPILER=${COMPILER}
+            -D CMAKE_CXX_FLAGS=-Wall\ -Wextra\ -Wpedantic\ -Wconversion\ -Werror)
+  must_work(${CMAKE_COMMAND} --build ${project}/build --parallel)
+  must_work(${CMAKE_CTEST_COMMAND} --test-dir ${project}/build --output-on-failure --no-tests=error)
+  string(TIMESTAMP end "%s")
+  math(EXPR seconds "${end} - ${start}")
+  message("${type}: ${seconds} s from --new to its passed tests")
+endforeach()
 file(REMOVE_RECURSE ${folder})

@@ -24,6 +24,7 @@ std::string keys_for_list(const std::string& material) {
 /// The cubic block and the list of it, of the same stiffness.
 struct Twins {
   std::unique_ptr<Plan> grid, list;
+  std::vector<Particle> in_grid;  ///< of each particle of the list, the same one of the grid
 
   Twins(int nx, int ny, int nz, const std::string& material, const std::string& failure = "", const std::string& stages = "") {
     const ListFiles files(nx, ny, nz);
@@ -31,12 +32,23 @@ struct Twins {
     const auto scene = [&](double young) { return listed_scene(files.lattice(), keys_for_list(material) + failure, stages, young); };
     const double k = grid->model->materials[0].constants.base_stiffness;
     list = plan_of(scene(1e10 * k / plan_of(scene(1e10))->model->materials[0].constants.base_stiffness));
+    const auto x = static_cast<Particle>(nx), y = static_cast<Particle>(ny), z = static_cast<Particle>(nz);
+    for (const Particle n : list->model->body.listed.source) in_grid.push_back(((n % z) * y + n / z % y) * x + n / z / y);  // as ListFiles counts
+  }
+
+  /// A field of the grid as the list has it.
+  std::vector<double> for_list(const std::vector<double>& of_grid) const {
+    const std::size_t components = of_grid.size() / in_grid.size();
+    std::vector<double> of_list;
+    for (const Particle n : in_grid)
+      for (std::size_t c = 0; c < components; ++c) of_list.push_back(of_grid[n * components + c]);
+    return of_list;
   }
 };
 
-void expect_same_motion(Simulation& a, Simulation& b, double scale) {
-  EXPECT_LT(distance(displacements(a), displacements(b)), 1e-11 * scale);
-  const Balance left = a.balance(), right = b.balance();
+void expect_same_motion(const Twins& twins, Simulation& grid, Simulation& list, double scale) {
+  EXPECT_LT(distance(twins.for_list(displacements(grid)), displacements(list)), 1e-11 * scale);
+  const Balance left = grid.balance(), right = list.balance();
   EXPECT_NEAR(left.stored, right.stored, 1e-10 * left.stored);
   EXPECT_NEAR(left.kinetic, right.kinetic, 1e-10 * left.kinetic);
   EXPECT_NEAR(left.injected, right.injected, 1e-10 * std::abs(left.injected) + 1e-14 * left.stored);
@@ -64,13 +76,15 @@ TEST_P(ListedMembrane, TheCubicLatticeAsAListMovesAsTheGrid) {
   const bool heights = model.degrees_of_freedom == 4;
   for (Simulation* simulation : {&grid, &list}) {
     simulation->set_damping(0.1);  // not for long: it is not continuous where velocities change their sign
-    simulation->set_displacements(noise(3 * particles, 1e-6, 1), heights ? noise(particles, 1e-6, 2) : std::vector<double>{});
+    const auto as_it_counts = [&](const std::vector<double>& field) { return simulation == &list ? twins.for_list(field) : field; };
+    simulation->set_displacements(as_it_counts(noise(3 * particles, 1e-6, 1)),
+                                  as_it_counts(heights ? noise(particles, 1e-6, 2) : std::vector<double>{}));
     for (int n = 0; n < 200; ++n) {
       simulation->step(0.5 * model.critical_time_step);
       if (n == 5) simulation->set_damping(0);
     }
   }
-  expect_same_motion(grid, list, 1e-6);
+  expect_same_motion(twins, grid, list, 1e-6);
 }
 
 TEST_P(ListedMembrane, TheSameSpringsBreakInAListAndInAGrid) {
@@ -78,13 +92,18 @@ TEST_P(ListedMembrane, TheSameSpringsBreakInAListAndInAGrid) {
   const Model& model = *twins.grid->model;
   Simulation grid(model, 2), list(*twins.list->model, 3);
   for (Simulation* simulation : {&grid, &list}) {
-    simulation->set_displacements(noise(3 * model.body.particles, 1e-6, 1), {});
+    const std::vector<double> start = noise(3 * model.body.particles, 1e-6, 1);
+    simulation->set_displacements(simulation == &list ? twins.for_list(start) : start, {});
     for (int n = 0; n < 100; ++n) simulation->step(0.5 * model.critical_time_step);
   }
-  expect_same_motion(grid, list, 1e-6);
-  const auto broken = [](const Simulation& simulation) {
+  expect_same_motion(twins, grid, list, 1e-6);
+  const auto broken = [&](const Simulation& simulation) {
     std::vector<std::tuple<std::uint64_t, Particle, Particle>> all;
-    for (const Breakage& breakage : simulation.breakages()) all.emplace_back(breakage.step, breakage.a, breakage.b);
+    for (const Breakage& breakage : simulation.breakages()) {
+      const bool listed = &simulation == &list;
+      const auto [a, b] = std::minmax(listed ? twins.in_grid[breakage.a] : breakage.a, listed ? twins.in_grid[breakage.b] : breakage.b);
+      all.emplace_back(breakage.step, a, b);
+    }
     std::sort(all.begin(), all.end());
     return all;
   };
@@ -136,6 +155,27 @@ TEST_P(RandomBlock, HasTheSameBitsForAnyNumberOfThreads) {
     EXPECT_EQ(hashes[n], hashes[0]);
     EXPECT_EQ(energies[n], energies[0]);  // to the last bit
     EXPECT_EQ(broken[n], broken[0]);
+  }
+}
+
+TEST_P(RandomBlock, TheSeriesGivesTheForcesOfTheRoot) {
+  const auto plan = plan_of(
+      listed_scene(random_lattice(6, 5, 4), std::string(GetParam().material) + R"(, "failure": { "type": "failures.elongation", "limit": 3e-4 })"));
+  const auto velocities = [&](double size) {
+    Simulation simulation(*plan->model, 1);
+    simulation.set_displacements(noise(3 * plan->model->body.particles, size, 1), {});
+    simulation.step(0.3 * plan->model->critical_time_step);
+    std::vector<double> found;
+    simulation.velocities(found);
+    return std::pair(found, simulation.breakages().size());
+  };
+  for (const double size : {1e-12, 1e-8, 1e-6, 1e-5, 1e-4, 3e-4}) {  // of spacings of 1e-3
+    const auto [fast, broken] = velocities(size);
+    setenv("HYPERLATTICE_SPRINGS", "exact", 1);
+    const auto [exact, broken_too] = velocities(size);
+    unsetenv("HYPERLATTICE_SPRINGS");
+    EXPECT_LT(distance(fast, exact), 4e-15 * largest(exact)) << size;
+    EXPECT_EQ(broken, broken_too);
   }
 }
 

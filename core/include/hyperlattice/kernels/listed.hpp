@@ -22,7 +22,7 @@ class ListedSweep {
   }
 
  private:
-  explicit ListedSweep(const KernelRequest& request) : request_(request), slots_(request.listed) {}
+  explicit ListedSweep(const KernelRequest& request) : request_(request), slots_(request.listed), exact_(exact_springs()) {}
 
   /// Several: each spring has a stiffness of its own.
   template <bool Several>
@@ -42,80 +42,140 @@ class ListedSweep {
     }
   }
 
+  /// Eight particles, or the other ends of eight springs: places at rest, displacements, heights.
+  struct Eight {
+    Pack rest[4], moved[4];
+  };
+  /// Eight springs from here to there.
+  struct Reach {
+    Pack rest[3], square;       ///< rest vector, and its square: 0 where there is no spring
+    Pack d[3];                  ///< difference of displacements
+    Pack growth, cross_growth;  ///< of the squared lengths
+    Pack height_difference, height_sum;
+  };
+  struct Pulls {
+    Pack base, cross;  ///< force over length
+  };
+
   template <bool Several>
   void one_vector(const Row& row, std::uint32_t index, int t, double* const (&forces)[components], Pack& stored) const {
-    Pack here[4] = {}, force[components];
-    for (int c = 0; c < components; ++c) {
-      here[c] = load(static_cast<const double*>(request_.displacement[c]) + row.start + t);
-      force[c] = load(forces[c] + t);
-    }
-    const std::uint64_t vector = (row.start + static_cast<std::uint64_t>(t)) / lanes;
+    const std::uint64_t start = row.start + static_cast<std::uint64_t>(t), vector = start / lanes;
+    Pack force[components];
+    for (int c = 0; c < components; ++c) force[c] = load(forces[c] + t);
+    std::uint32_t own[lanes];
+    for (std::uint32_t lane = 0; lane < lanes; ++lane) own[lane] = static_cast<std::uint32_t>(start) + lane;
+    const Eight here = eight(own);
     for (std::uint32_t slot = slots_.first[vector]; slot < slots_.first[vector + 1]; ++slot) {
-      const LanesOf<double> alive = lanes_of_byte(slots_.alive[slot]);
-      Pack there[4] = {};
-      gather(slot, there);
-      const double* rest = slots_.rest + 4 * lanes * std::size_t{slot};
-      const Pack rest_x = load(rest), rest_y = load(rest + lanes), rest_z = load(rest + 2 * lanes), rest_length = load(rest + 3 * lanes);
-      const Pack dx = there[0] - here[0], dy = there[1] - here[1], dz = there[2] - here[2];
-      const Pack q = dx * (2 * rest_x + dx) + dy * (2 * rest_y + dy) + dz * (2 * rest_z + dz);
+      const Reach reach = between(here, eight(slots_.neighbour + lanes * std::size_t{slot}));
       const double* stiffness = slots_.stiffness + 2 * lanes * std::size_t{slot};
       const Pack base_stiffness = Several ? load(stiffness) : fill(request_.springs->stiffness);
-
-      Pack growth = q, difference{}, total{};  // the latter of the heights
-      if constexpr (membrane == Membrane::free) {
-        difference = there[3] - here[3];
-        total = there[3] + here[3];
-        growth += difference * difference;
-      }
-      const Response base = respond<Law, measuring>(base_stiffness, rest_length, growth);
-      const Pack base_pull = where(alive, base.force_over_length);
-      Pack pull = base_pull;
-      if constexpr (measuring) stored += where(alive, base.energy);
-      if constexpr (membrane != Membrane::none) {
-        const double delta = request_.membrane_distance;
-        const Pack cross_stiffness = Several ? load(stiffness + lanes) : fill(request_.springs->cross_stiffness);
-        const Response cross =
-            respond<Law, measuring>(cross_stiffness, root(rest_length * rest_length + delta * delta), q + total * (2 * delta + total));
-        const Pack cross_pull = where(alive, cross.force_over_length);
-        pull += cross_pull;
-        if constexpr (measuring) stored += where(alive, cross.energy);
-        if constexpr (membrane == Membrane::free) force[3] += base_pull * difference - cross_pull * (delta + total);
-      }
-      force[0] += pull * (rest_x + dx);
-      force[1] += pull * (rest_y + dy);
-      force[2] += pull * (rest_z + dz);
-      if constexpr (Breakable && !measuring) review(index, t, slot, rest_length, growth);
+      const Pack cross_stiffness = membrane == Membrane::none ? Pack(0) : Several ? load(stiffness + lanes) : fill(request_.springs->cross_stiffness);
+      const Pulls pulls = pulls_of(reach, base_stiffness, cross_stiffness, index, t, slot, stored);
+      Pack pull = pulls.base;
+      if constexpr (membrane != Membrane::none) pull += pulls.cross;
+      if constexpr (membrane == Membrane::free)
+        force[3] += pulls.base * reach.height_difference - pulls.cross * (request_.membrane_distance + reach.height_sum);
+      each<3>([&]<std::size_t c>() __attribute__((always_inline)) { force[c] += pull * (reach.rest[c] + reach.d[c]); });
     }
     for (int c = 0; c < components; ++c) store(forces[c] + t, force[c]);
   }
 
-  /// Displacements of the slot's other ends.
-  void gather(std::uint32_t slot, Pack (&there)[4]) const {
-    const std::uint32_t* neighbour = slots_.neighbour + lanes * std::size_t{slot};
-    alignas(64) double values[4][lanes];
-    for (int lane = 0; lane < lanes; ++lane) {
-      const double* from = slots_.around + 4 * std::size_t{neighbour[lane]};
-      for (int c = 0; c < components; ++c) values[c][lane] = from[c];
+  HYPERLATTICE_INLINE Eight eight(const std::uint32_t* places) const {
+    const double *rest[lanes], *moved[lanes];
+    each<lanes>([&]<std::size_t lane>() __attribute__((always_inline)) {
+      rest[lane] = slots_.rest + 4 * std::size_t{places[lane]};
+      moved[lane] = slots_.around + 4 * std::size_t{places[lane]};
+    });
+    Eight eight;
+    load_records(rest, eight.rest);
+    load_records(moved, eight.moved);
+    return eight;
+  }
+
+  HYPERLATTICE_INLINE Reach between(const Eight& here, const Eight& there) const {
+    Reach reach;
+    reach.square = reach.growth = 0;
+    each<3>([&]<std::size_t c>() __attribute__((always_inline)) {
+      reach.rest[c] = there.rest[c] - here.rest[c];
+      reach.d[c] = there.moved[c] - here.moved[c];
+      reach.square += reach.rest[c] * reach.rest[c];
+      reach.growth += reach.d[c] * (2 * reach.rest[c] + reach.d[c]);
+    });
+    reach.cross_growth = reach.growth;
+    if constexpr (membrane == Membrane::free) {
+      reach.height_difference = there.moved[3] - here.moved[3];
+      reach.height_sum = there.moved[3] + here.moved[3];
+      reach.growth += reach.height_difference * reach.height_difference;
+      reach.cross_growth += reach.height_sum * (2 * request_.membrane_distance + reach.height_sum);
     }
-    for (int c = 0; c < components; ++c) there[c] = load(values[c]);
+    return reach;
+  }
+
+  HYPERLATTICE_INLINE Pulls pulls_of(const Reach& reach, const Pack& stiffness, const Pack& cross_stiffness, std::uint32_t row, int t,
+                                     std::uint32_t slot, Pack& stored) const {
+    constexpr double smallest = 1e-300;  // m2: where there is no spring
+    Pulls pulls;
+    if constexpr (!measuring && is_linear<Law>) {
+      Outside<double> outside;
+      const Pack p = reach.growth / (reach.square + smallest);
+      outside.look(p, -Terms<double>::few.range, Terms<double>::few.range);
+      Pack cross_p;
+      if constexpr (membrane != Membrane::none) {
+        cross_p = reach.cross_growth / (reach.square + request_.membrane_distance * request_.membrane_distance);
+        outside.look(cross_p, -Terms<double>::few.range, Terms<double>::few.range);
+      }
+      if constexpr (Breakable) outside.look_above(reach.growth, load(slots_.alarm + lanes * std::size_t{slot}));
+      if (!outside && !exact_) [[likely]] {
+        pulls.base = pull_near_rest<Law>(stiffness, p);
+        if constexpr (membrane != Membrane::none) pulls.cross = where(not_zero(reach.square), pull_near_rest<Law>(cross_stiffness, cross_p));
+        return pulls;
+      }
+    }
+    const Reach in_memory = reach;
+    Pack stored_by_slot = 0;
+    pulls = pulls_by_root(in_memory, stiffness, cross_stiffness, row, t, slot, stored_by_slot);
+    if constexpr (measuring) stored += stored_by_slot;
+    return pulls;
+  }
+
+  [[gnu::noinline]] Pulls pulls_by_root(const Reach& reach, const Pack& stiffness, const Pack& cross_stiffness, std::uint32_t row, int t,
+                                        std::uint32_t slot, Pack& stored) const {
+    const LanesOf<double> there_is = not_zero(reach.square);
+    Pulls pulls;
+    const Response base = respond<Law, measuring>(stiffness, root(reach.square), reach.growth);
+    pulls.base = where(there_is, base.force_over_length);
+    if constexpr (measuring) stored += where(there_is, base.energy);
+    if constexpr (membrane != Membrane::none) {
+      const double delta = request_.membrane_distance;
+      const Response cross = respond<Law, measuring>(cross_stiffness, root(reach.square + delta * delta), reach.cross_growth);
+      pulls.cross = where(there_is, cross.force_over_length);
+      if constexpr (measuring) stored += where(there_is, cross.energy);
+    }
+    if constexpr (Breakable && !measuring) review(reach, row, t, slot);
+    return pulls;
   }
 
   /// Asks the failure criterion about the slot's springs above their alarm, and removes those that broke. Each end of a spring asks and finds the
   /// same, because it sees the same numbers but for their signs.
-  void review(std::uint32_t row, int t, std::uint32_t slot, const Pack& rest_length, const Pack& growth) const {
+  void review(const Reach& reach, std::uint32_t row, int t, std::uint32_t slot) const {
     const double* alarm = slots_.alarm + lanes * std::size_t{slot};
-    double elongation[lanes];
-    store(elongation, growth / (root(rest_length * rest_length + growth) + rest_length));
+    std::uint32_t* neighbour = slots_.neighbour + lanes * std::size_t{slot};
+    double growth[lanes], elongation[lanes];
+    const Pack rest_length = root(reach.square);
+    store(growth, reach.growth);
+    store(elongation, reach.growth / (root(reach.square + reach.growth) + rest_length));
     for (int lane = 0; lane < lanes; ++lane) {
-      if (!(elongation[lane] > alarm[lane]) || (slots_.alive[slot] >> lane & 1) == 0) continue;
+      const auto own = static_cast<std::uint32_t>(request_.rows[row].start) + static_cast<std::uint32_t>(t + lane);
+      if (!(growth[lane] > alarm[lane]) || neighbour[lane] == own) continue;
       const std::int32_t site = t + lane;
       const std::uint8_t* broken = request_.review(request_.self, {row, slot, {&site, 1}, {&elongation[lane], 1}});
-      if (*broken != 0) slots_.alive[slot] = static_cast<std::uint8_t>(slots_.alive[slot] & ~(1U << lane));
+      if (*broken != 0) neighbour[lane] = own;
     }
   }
 
   const KernelRequest& request_;
   const ListedSlots& slots_;
+  const bool exact_;
 };
 
 }  // namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS

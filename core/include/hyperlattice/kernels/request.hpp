@@ -19,6 +19,14 @@ struct SpringConstants {
   double law[2][max_law_constants] = {};  ///< of the base spring, of the cross spring
 };
 
+/// (L0 + elongation)^2 - L0^2, lowered by rounding's worth so that an alarm rings rather too early than too late.
+template <class Real = double>
+constexpr double squared_growth(double rest_length, double elongation) {
+  constexpr double rounding = sizeof(Real) == sizeof(double) ? 1e-12 : 1e-4;
+  const double growth = elongation * (2 * rest_length + elongation);
+  return growth * (growth > 0 ? 1 - rounding : 1 + rounding);
+}
+
 /// The same for all springs to one neighbour.
 struct NeighbourGeometry {
   Neighbour site;
@@ -76,13 +84,12 @@ struct RowSums {
 /// The springs of a block of a listed lattice. Particles stand in vectors of `lanes`; a vector has slots, each with one spring of each of its
 /// particles. A spring stands twice, once with each of its ends, so that every particle sums the forces on itself.
 struct ListedSlots {
-  const std::uint32_t* first = nullptr;      ///< of each vector: its slots are first[v] .. first[v + 1]
-  const std::uint32_t* neighbour = nullptr;  ///< [slot][lane] place of the other end in `around`
-  const double* rest = nullptr;              ///< [slot][4][lane] rest vector x y z to the other end, and its length, metres
-  const double* stiffness = nullptr;         ///< [slot][2][lane] of base and cross spring, N/m; null: the same for all, KernelRequest::springs
-  const double* alarm = nullptr;             ///< [slot][lane] metres; null: nothing breaks
-  std::uint8_t* alive = nullptr;             ///< [slot] bit a lane: the spring exists
-  const double* around = nullptr;            ///< [place][4] displacements and heights at the step's start: the block's own places, then its ghosts
+  const std::uint32_t* first = nullptr;  ///< of each vector: its slots are first[v] .. first[v + 1]
+  std::uint32_t* neighbour = nullptr;    ///< [slot][lane] place of the other end in `rest` and `around`; the lane's own place: there is no spring
+  const double* stiffness = nullptr;     ///< [slot][2][lane] of base and cross spring, N/m; null: the same for all, KernelRequest::springs
+  const double* alarm = nullptr;         ///< [slot][lane] as the growth of the squared length, m2; null: nothing breaks
+  const double* rest = nullptr;          ///< [place][4] where particles are at rest, metres: the block's own places, then its ghosts
+  const double* around = nullptr;        ///< [place][4] displacements and heights at the step's start, metres
 };
 
 struct KernelRequest {

@@ -10,7 +10,9 @@
 #include <hyperlattice/kernels/simd.hpp>
 
 #include <array>
+#include <cstdlib>
 #include <limits>
+#include <string_view>
 
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
@@ -42,14 +44,6 @@ inline ResponseOf<Pack> respond(Pack stiffness, Length rest_length, Pack q) {
     if constexpr (Energy) response.energy = Law::energy(stiffness, elongation);
   }
   return response;
-}
-
-/// (L0 + elongation)^2 - L0^2, lowered by rounding's worth so that an alarm rings rather too early than too late.
-template <class Real = double>
-inline double squared_growth(double rest_length, double elongation) {
-  constexpr double rounding = std::is_same_v<Real, double> ? 1e-12 : 1e-4;
-  const double growth = elongation * (2 * rest_length + elongation);
-  return growth * (growth > 0 ? 1 - rounding : 1 + rounding);
 }
 
 /// (1 - 1 / sqrt(1 + p)) / p in powers of p, exact to rounding for |p| <= range.
@@ -88,6 +82,22 @@ template <>
 struct Terms<float> {
   static constexpr Series<4> few{1.0 / 32};
   static constexpr Series<8> many{1.0 / 4};
+};
+
+/// The force over length of springs of a stiffness k and relative growth p = q / L0^2, all within the short series.
+template <class Law>
+HYPERLATTICE_INLINE Pack pull_near_rest(const Pack& stiffness, const Pack& p) {
+  constexpr auto& c = Terms<double>::few.coefficients;
+  Pack sum = c.back();
+  each<c.size() - 1>([&]<std::size_t n>() __attribute__((always_inline)) { sum = sum * p + Pack(c[c.size() - 2 - n]); });
+  return Law::force(stiffness, sum * p);
+}
+
+/// HYPERLATTICE_SPRINGS=exact in the environment asks for root and division everywhere, and for the plainest kernel.
+inline bool exact_springs() {
+  const char* wish = std::getenv("HYPERLATTICE_SPRINGS");
+  return wish != nullptr && std::string_view(wish) == "exact";
+}
 };
 
 /// Springs of one class between two materials, base or cross: constants made ready for the loop.

@@ -10,9 +10,6 @@
 #include <hyperlattice/kernels/stencil.hpp>
 #include <hyperlattice/kernels/tangent.hpp>
 
-#include <cstdlib>
-#include <string_view>
-
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
 template <class Law, Membrane membrane, bool Breakable, bool Mixed, Task task, class Stored>
@@ -33,14 +30,8 @@ class Sweep {
   using Fused = Stencil<Law, membrane, Breakable, CubicList, Real>;
   static constexpr bool can_fuse = !measuring && !LawWithConstants<Law> && vectors <= 2;  // processors with shorter vectors have too few registers
 
-  explicit Sweep(const KernelRequest& request) : request_(request), fused_(can_fuse && !exact() && CubicList::is(request.neighbours)) {
+  explicit Sweep(const KernelRequest& request) : request_(request), fused_(can_fuse && !exact_springs() && CubicList::is(request.neighbours)) {
     for (int c = 0; c < components; ++c) own_[c] = own_row(c);
-  }
-
-  /// HYPERLATTICE_SPRINGS=exact in the environment asks for the plainest kernel: one neighbour at a time, root and division.
-  static bool exact() {
-    const char* wish = std::getenv("HYPERLATTICE_SPRINGS");
-    return wish != nullptr && std::string_view(wish) == "exact";
   }
 
   void all_rows() {

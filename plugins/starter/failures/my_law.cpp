@@ -6,20 +6,20 @@
 namespace {
 using namespace hyperlattice;
 
-class Strain {
+class MyLaw {
  public:
   struct Options {
     double limit = 0;
   };
 
   static Schema<Options> schema() {
-    return Schema<Options>("failures.strain", "A spring breaks when its strain passes a limit")
+    return Schema<Options>("failures.my_law", "A spring breaks when its strain passes a limit")
         .equation("(|r| - |r0|) / |r0| > limit")
         .add<&Options::limit>("limit", "", "strain that breaks a base spring")
         .positive();
   }
 
-  explicit Strain(const Options& options) : limit_(options.limit) {}
+  explicit MyLaw(const Options& options) : limit_(options.limit) {}
 
   // The elongation below which nothing can happen to a spring: while all are below, the run pays nothing for this law.
   double alarm(const SpringFacts& spring) const { return limit_ * spring.rest_length; }
@@ -32,4 +32,4 @@ class Strain {
 };
 }  // namespace
 
-HYPERLATTICE_PLUGIN("1.0") { plugin.add<Strain>(); }
+HYPERLATTICE_PLUGIN("1.0") { plugin.add<MyLaw>(); }

@@ -1,0 +1,15 @@
+// The projects that `plugins --new` writes: one folder a family, of a plugin called my_law.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+namespace hyperlattice {
+
+struct StarterFile {
+  std::string_view path;  ///< "<family>/<file>"
+  std::string_view text;
+};
+extern const std::vector<StarterFile> starter_files;
+
+}  // namespace hyperlattice

@@ -1,0 +1,13 @@
+# Runs SCENE: a spring of k = 0.4 E l = 4e6 N/m, pulled to u = wear = w, takes the work k w^2 (1 - 2 / e) = 1.0570 uJ and keeps k w^2 / (2 e) = 0.7358 uJ.
+execute_process(COMMAND ${PROGRAM} run ${SCENE} --quiet --out ${OUT} COMMAND_ERROR_IS_FATAL ANY)
+file(READ ${OUT}/summary.json summary)
+foreach(expected injected,1.0570e-6 stored,0.7358e-6 dissipated,0.3212e-6)
+  string(REPLACE "," ";" expected ${expected})
+  list(GET expected 0 name)
+  list(GET expected 1 value)
+  string(JSON got GET "${summary}" energy ${name})
+  execute_process(COMMAND awk "BEGIN { e = ${got} / ${value} - 1; exit !(e < 1e-3 && e > -1e-3) }" RESULT_VARIABLE wrong)
+  if(wrong)
+    message(FATAL_ERROR "${name} energy ${got} J, expected ${value} J")
+  endif()
+endforeach()

@@ -1,0 +1,150 @@
+// Speed of the step of a random lattice, beside the plainest program for it: one scalar pass over a list of springs sorted as the particles are, each
+// spring once. Both run in turns, because machines change speed by the second; `of_scalar_list` is the median ratio of their times, above 1 where
+// the scalar list is slower. Arguments: those of Google Benchmark.
+#include <support/lists.hpp>
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <ctime>
+
+namespace {
+using namespace hyperlattice;
+
+struct Variant {
+  const char* name;
+  const char* material;
+};
+const Variant variants[] = {
+    {"three", R"("membrane": "none")"},
+    {"three_breakable", R"("membrane": "none", "failure": { "type": "failures.elongation", "limit": 1e-4 })"},  // is never reached
+    {"clamped", R"("membrane": "III", "lambda": 0.5)"},
+    {"free", R"("membrane": "I", "lambda": 0.5)"},
+};
+
+/// The same body with springs of a linear law in three dimensions: one record a particle, one a spring.
+class ScalarList {
+ public:
+  ScalarList(const Model& model, const std::vector<double>& displacements) : inverse_mass_(1 / model.materials[0].mass) {
+    for (Particle p = 0; p < model.body.particles; ++p)
+      points_.push_back({model.body.position(p) + Vec3{displacements[3 * p], displacements[3 * p + 1], displacements[3 * p + 2]}, {}, {}});
+    for (std::uint32_t n = 0; n < model.body.listed.springs.size(); ++n) {
+      const ListedSpring& spring = model.body.listed.springs[n];
+      const Joint joint = model.joint(spring.a, spring.b, n);
+      springs_.push_back({spring.a, spring.b, joint.rest_length, joint.stiffness});
+    }
+  }
+
+#if defined(__x86_64__)
+  __attribute__((target_clones("arch=x86-64-v3", "default")))
+#endif
+  void
+  step(double kick, double drift) {
+    for (const Spring& spring : springs_) {
+      Point &a = points_[spring.a], &b = points_[spring.b];
+      const double x = b.place.x - a.place.x, y = b.place.y - a.place.y, z = b.place.z - a.place.z;
+      const double pull = spring.stiffness * (1 - spring.length / __builtin_sqrt(x * x + y * y + z * z));
+      const Vec3 force{pull * x, pull * y, pull * z};
+      a.force = a.force + force;
+      b.force = b.force - force;
+    }
+    for (Point& point : points_) {
+      point.velocity = point.velocity + kick * inverse_mass_ * point.force;
+      point.place = point.place + drift * point.velocity;
+      point.force = {};
+    }
+  }
+
+  Vec3 place(Particle particle) const { return points_[particle].place; }
+
+ private:
+  struct Point {
+    Vec3 place, velocity, force;
+  };
+  struct Spring {
+    std::uint32_t a, b;
+    double length, stiffness;
+  };
+  std::vector<Point> points_;
+  std::vector<Spring> springs_;
+  double inverse_mass_;
+};
+
+/// Largest difference of the places after both went from the same start.
+double difference(const Model& model, const Simulation& ours, const ScalarList& scalar) {
+  const std::vector<double> moved = test::displacements(ours);
+  double largest = 0;
+  for (Particle p = 0; p < model.body.particles; ++p)
+    largest = std::max(largest, norm(scalar.place(p) - model.body.position(p) - Vec3{moved[3 * p], moved[3 * p + 1], moved[3 * p + 2]}));
+  return largest;
+}
+
+/// Seconds of this thread: others may be at work on the machine.
+template <class Work>
+double seconds(const Work& work) {
+  const auto now = [] {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  };
+  const double start = now();
+  work();
+  return now() - start;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+void compare(benchmark::State& state, const Variant& variant, int size) {
+  const auto plan = test::plan_of(test::listed_scene(test::random_lattice(size, size, size), variant.material));
+  const Model& model = *plan->model;
+  const double amplitude = 1e-3 * model.body.grid.spacing, step = 0.5 * model.critical_time_step;
+  const std::vector<double> start = test::noise(3 * model.body.particles, amplitude);
+  Simulation ours(model, 1);
+  ScalarList scalar(model, start);
+  ours.set_displacements(start, {});
+  ours.step(step);
+  scalar.step(step / 2, step);  // velocities belong to half a step before
+  ours.step(step);
+  scalar.step(step, step);
+  if (model.choice.membrane == KernelChoice::Membrane::none && !(difference(model, ours, scalar) < 1e-9 * amplitude))
+    return state.SkipWithError("the trajectories differ: nothing to compare");
+
+  const int steps = std::max(1, 100000 * 4 / static_cast<int>(model.body.particles));
+  std::vector<double> times, of_scalar, ratios;
+  for (auto _ : state) {
+    times.push_back(seconds([&] {
+      for (int n = 0; n < steps; ++n) ours.step(step);
+    }));
+    of_scalar.push_back(seconds([&] {
+      for (int n = 0; n < steps; ++n) scalar.step(step, step);
+    }));
+    ratios.push_back(of_scalar.back() / times.back());
+  }
+  const double work = static_cast<double>(model.body.particles) * steps, springs = static_cast<double>(model.body.base_springs());
+  const double nanoseconds = 1e9 * median(times) / work, scalar_nanoseconds = 1e9 * median(of_scalar) / work;
+  state.counters["ns/particle_step"] = nanoseconds;
+  state.counters["ns/spring"] = nanoseconds * static_cast<double>(model.body.particles) / springs;
+  state.counters["scalar_ns"] = scalar_nanoseconds;
+  state.counters["of_scalar_list"] = median(ratios);
+  state.counters["bytes"] = plan->bytes_per_particle;
+  state.SetLabel(model.kernels.instructions);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  for (const Variant& variant : variants)
+    for (const int size : {25, 50, 100}) {
+      const std::string name = std::string(variant.name) + "/" + std::to_string(size);
+      auto* added = benchmark::RegisterBenchmark(name.c_str(), [&variant, size](benchmark::State& state) { compare(state, variant, size); });
+      added->Unit(benchmark::kMillisecond);
+    }
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}
