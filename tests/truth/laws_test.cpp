@@ -48,7 +48,7 @@ void follow(const typename Law::Constants& constants, const std::vector<double>&
     step = SpringStep<Law>::take({stiffness, 1e-3, elongation, 0, time_step}, numbers, memory);
     worked += 0.5 * (force + step.force) * (elongation - at);
     dissipated += step.dissipated;
-    EXPECT_GE(step.dissipated, -1e-9 * stiffness * 1e-12);
+    EXPECT_GE(step.dissipated, -5e-3 * stiffness * 1e-12);  // where a lagging force meets a rate that turns: the square of the step
     force = step.force;
     at = elongation;
   }
@@ -103,13 +103,14 @@ TEST(Laws, ViscousPairOscillatesAsTheDampedOscillator) {
   EXPECT_LT(worst, 0.012 * 2 / omega);
   const Balance balance = simulation.balance();
   EXPECT_LT(std::abs(balance.relative_error()), 1e-4);
-  EXPECT_GT(balance.dissipated(), 0.5 * mass);  // of the 2 * 1/2 m v^2 at the start
+  const double lost = mass * (1 - std::exp(-2 * ratio * 3000 * 0.01));  // of the 2 * 1/2 m v^2 at the start
+  EXPECT_NEAR(balance.dissipated(), lost, 0.02 * lost);
 }
 
 TEST(Laws, RelaxingPairLosesItsForce) {
-  const auto plan =
-      plan_of(scene_of(pair_of_particles, R"("type": "materials.relaxing", "time": 1e-6, "share": 0.6, "membrane": "none")",
-                       R"(, { "type": "loads.fixed", "on": "z_min" }, { "type": "loads.displacement", "on": "z_max", "value": [0, 0, 1e-7] })"));
+  const auto plan = plan_of(scene_of(
+      pair_of_particles, R"("type": "materials.relaxing", "time": 1e-6, "share": 0.6, "membrane": "none")",
+      R"(, { "type": "loads.fixed", "on": "z_min" }, { "type": "loads.displacement", "on": "z_max", "value": [0, 0, 1e-7], "rise": 1e-8 })"));
   Simulation simulation(*plan->model, 1);
   const double step = 1e-8;
   for (int n = 1; n <= 300; ++n) {
@@ -139,7 +140,7 @@ TEST(Laws, SofteningLayersTakeTheFractureEnergyApart) {
 TEST(Laws, PlasticBarYieldsAtTheStatedStress) {
   const auto plan = plan_of(scene_of(R"({ "box": { "low": [0, 0, 0], "high": [6e-3, 3e-3, 3e-3] } })",
                                      R"("type": "materials.plastic", "yield": 2e6, "membrane": "none")",
-                                     R"(, { "type": "loads.displacement", "on": "x_min", "value": [0, 0, 0], "axes": "x" },
+                                     R"(, { "type": "loads.displacement", "on": "x_min", "value": [0, 0, 0], "axes": "x", "rise": 1e-4 },
                                         { "type": "loads.displacement", "on": "x_max", "value": [3.6e-6, 0, 0], "axes": "x", "rise": 4e-4 })",
                                      "cells"));
   Simulation simulation(*plan->model, 1);

@@ -61,7 +61,7 @@ TEST(ListedLoads, AnswerToAListAsToTheGrid) {
   Simulation grid(*twins.grid->model, 1), list(*twins.list->model, 3);
   for (int n = 0; n < 100; ++n)
     for (Simulation* simulation : {&grid, &list}) simulation->step(0.5 * twins.grid->model->critical_time_step);
-  expect_same_motion(grid, list, 1e-6);
+  expect_same_motion(twins, grid, list, 1e-6);
 }
 
 TEST_P(ListedMembrane, TheCubicLatticeAsAListMovesAsTheGrid) {

@@ -98,7 +98,6 @@ inline bool exact_springs() {
   const char* wish = std::getenv("HYPERLATTICE_SPRINGS");
   return wish != nullptr && std::string_view(wish) == "exact";
 }
-};
 
 /// Springs of one class between two materials, base or cross: constants made ready for the loop.
 ///
