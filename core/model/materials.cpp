@@ -72,6 +72,8 @@ void check_laws(const std::vector<Material>& materials, Faults& faults) {
 
 /// Later stages take over the particles of earlier ones.
 void assign(Model& model, RegionIndex& regions, Faults& faults) {
+  const auto has_all = [&](const Material& material) { return model.scene->regions[material.stage->region].kind == Region::Kind::all; };
+  if (model.materials.size() == 1 && has_all(model.materials[0])) return;  // nobody asks which particles these are, not even in a large body
   std::vector<std::uint8_t> material_of(model.body.particles, no_material);
   std::vector<std::uint64_t> count(no_material + std::size_t{1});
   for (std::size_t n = 0; n < model.materials.size(); ++n) {

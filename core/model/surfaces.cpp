@@ -13,11 +13,13 @@ Site beside(Site site, std::size_t face) { return {site.i + steps[face].i, site.
 }  // namespace
 
 Surfaces::Surfaces(const Body& body)
-    : body_(body), widened_{body.grid.sites[0] + std::int64_t{2}, body.grid.sites[1] + std::int64_t{2}, body.grid.sites[2] + std::int64_t{2}} {
+    : body_(body), widened_{body.grid.sites[0] + std::int64_t{2}, body.grid.sites[1] + std::int64_t{2}, body.grid.sites[2] + std::int64_t{2}} {}
+
+void Surfaces::flood() const {
   const auto [nx, ny, nz] = widened_;
   const auto size = static_cast<std::size_t>(nx * ny * nz);
   std::vector<bool> blocked(size);  // a cell that is there, or reached by the flood
-  for (const Run& run : body.cells.empty() ? std::span(body.runs) : body.cells.runs()) {
+  for (const Run& run : body_.cells.empty() ? std::span(body_.runs) : body_.cells.runs()) {
     const auto row = static_cast<std::size_t>(((run.k + 1) * ny + run.j + 1) * nx + 1);
     std::fill(blocked.begin() + static_cast<std::ptrdiff_t>(row) + run.begin, blocked.begin() + static_cast<std::ptrdiff_t>(row) + run.end, true);
   }
@@ -43,6 +45,7 @@ Surfaces::Surfaces(const Body& body)
 }
 
 bool Surfaces::is_outside(Site site) const {
+  if (outside_.empty()) flood();
   return outside_[static_cast<std::size_t>(((site.k + 1) * widened_[1] + site.j + 1) * widened_[0] + site.i + 1)];
 }
 

@@ -17,17 +17,18 @@ using OpenFaces = std::uint32_t;
 /// The open faces of cells. A cavity is an empty space that no path through faces joins to the outside.
 class Surfaces {
  public:
-  explicit Surfaces(const Body& body);     ///< floods the box of sites once
+  explicit Surfaces(const Body& body);
   OpenFaces faces(Site cell) const;        ///< all; of a cell that is there
   OpenFaces outer_faces(Site cell) const;  ///< to the outside
   OpenFaces inner_faces(Site cell) const;  ///< to cavities
 
  private:
+  void flood() const;
   bool is_outside(Site cell) const;
 
   const Body& body_;
   std::array<std::int64_t, 3> widened_;
-  std::vector<bool> outside_;  ///< of each cell of the box widened by one
+  mutable std::vector<bool> outside_;  ///< of each cell of the box widened by one; flooded when first asked for
 };
 
 /// Particles of a region, ascending. A solid holds a particle inside it; one that is a corner of cells, also if it only touches it, up to rounding.
