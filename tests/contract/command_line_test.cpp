@@ -86,7 +86,7 @@ TEST_F(CommandLine, MachinesReadWhatPeopleRead) {
   EXPECT_EQ(plugins.at("searched").at(0).at("outcome"), "accepted");
   EXPECT_EQ(json::parse(run({"plugins", "loads.fixed", "--json"}).out).at("components").size(), 1u);
   EXPECT_EQ(json::parse(run({"schema"}).out).at("type"), "object");
-  EXPECT_NE(run({"plugins"}).out.find("\nloads\n  loads.blast "), std::string::npos);
+  EXPECT_NE(run({"plugins"}).out.find("\nloads\n  loads.actuation "), std::string::npos);
 }
 
 }  // namespace
