@@ -18,7 +18,7 @@ def check(holds, what):
 
 
 def run(safety, end_us, threads):
-    force = 64e3 * (float(spacing) / 2) ** 2  # of a spring, whose section goes with the square of the spacing
+    force = 32e3 * (float(spacing) / 2) ** 2  # of a spring, whose section goes with the square of the spacing
     with tempfile.TemporaryDirectory() as out:
         settings = [f'/pipeline/0/spacing="{spacing} mm"', f"/pipeline/4/force={force}", f"/pipeline/5/safety={safety}", f'/pipeline/5/end_time="{end_us} us"', "/pipeline/7/every=0"]
         command = [program, "run", scene, "--quiet", "--out", out, "--threads", str(threads)]

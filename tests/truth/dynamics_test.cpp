@@ -44,8 +44,8 @@ double frequency(const Model& model, double about, const Shape& shape) {
   std::vector<double> speeds = mode;
   for (double& speed : speeds) speed *= 1e-3;
   simulation.set_velocities(speeds, {});
-  constexpr int apart = 6;  // steps between two looks
   const double step = 0.8 * model.critical_time_step;
+  const int apart = std::max(1, static_cast<int>(1 / (about * step * 100)));  // steps between two looks, a hundred a swing
   double before = 0, first = -1, last = -1;
   int zeros = 0;
   while (simulation.time() < 3.3 / about) {

@@ -24,11 +24,6 @@ struct TimeOptions {
   int pulses = 1;
 };
 
-inline constexpr std::string_view time_equation =
-    "constant: 1, reached in a straight line during rise; triangle: to 1 during rise, to 0 during fall; half_sine: sin(pi t / duration); "
-    "harmonic: sin(2 pi frequency t + phase), during rise as much as t / rise of it; table: straight lines between (times, values); t from start on, "
-    "0 before it";
-
 /// Declares the options above.
 template <class Options>
 void add_time_options(Schema<Options>& schema) {
