@@ -27,7 +27,10 @@ double least_breaking_strain(const Model& model) {
   double strain = infinity;
   for (const NeighbourGeometry& to : model.neighbours) {
     const SpringFacts facts{to.rest_length, model.springs.front().stiffness, model.body.grid.spacing, to.site.spring_class};
-    for (std::uint8_t m = 0; m < model.materials.size(); ++m) strain = std::min(strain, model.alarm(m, m, facts) / to.rest_length);
+    for (std::size_t n = 0; n < model.materials.size(); ++n) {
+      const auto material = static_cast<std::uint8_t>(n);
+      strain = std::min(strain, model.alarm(material, material, facts) / to.rest_length);
+    }
   }
   return strain;
 }
