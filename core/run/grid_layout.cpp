@@ -153,7 +153,8 @@ Layout::Memory GridLayout::memory(const Block& block, std::uint32_t row, std::ui
 
 std::uint64_t GridLayout::other_end(std::size_t block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site) const {
   const Neighbour& to = model_.body.neighbours[neighbour];
-  const Row& other = blocks[block].rows[static_cast<std::size_t>(static_cast<std::int32_t>(row) + to.dz * model_.body.grid.sites[1] + to.dy)];
+  const std::int32_t other_row = static_cast<std::int32_t>(row) + to.dz * model_.body.grid.sites[1] + to.dy;
+  const Row& other = blocks[block].rows[static_cast<std::size_t>(other_row)];
   return other.start + static_cast<std::uint64_t>(site + to.dx - other.begin);
 }
 
