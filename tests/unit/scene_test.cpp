@@ -29,7 +29,7 @@ const char* const good = R"({
     { "type": "probes.spot", "point": [0, 0, "5 mm"] } ] })";
 
 std::unique_ptr<Scene> read(std::string_view text, const std::vector<std::string>& settings = {}) {
-  fakes::Catalogue catalogue;
+  static fakes::Catalogue catalogue;  // the scene points to its components
   return read_scene_text(text, "/scenes/scene.json", settings, catalogue);
 }
 
