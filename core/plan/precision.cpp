@@ -25,13 +25,11 @@ double farthest(const Plan& plan) {
 
 double least_breaking_strain(const Model& model) {
   double strain = infinity;
-  for (const NeighbourGeometry& to : model.neighbours) {
-    const SpringFacts facts{to.rest_length, model.springs.front().stiffness, model.body.grid.spacing, to.site.spring_class};
+  for (const NeighbourGeometry& to : model.neighbours)
     for (std::size_t n = 0; n < model.materials.size(); ++n) {
       const auto material = static_cast<std::uint8_t>(n);
-      strain = std::min(strain, model.alarm(material, material, facts) / to.rest_length);
+      strain = std::min(strain, model.spring(material, material, to.site.spring_class).alarm / to.rest_length);
     }
-  }
   return strain;
 }
 

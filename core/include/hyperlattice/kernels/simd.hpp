@@ -351,7 +351,16 @@ inline PackOf<Real> one_back(const PackOf<Real>& now, const PackOf<Real>& next) 
 template <class Real>
 HYPERLATTICE_INLINE PackOf<Real> product(const PackOf<Real>& a, const PackOf<Real>& b) {
 #if defined(__GNUC__) && !defined(__clang__)
-  return PackOf<Real>::of([&](std::size_t p) __attribute__((always_inline)) { return __builtin_assoc_barrier(a.part[p] * b.part[p]); });
+  return PackOf<Real>::of([&](std::size_t p) __attribute__((always_inline)) {
+#if defined(__AVX512F__)
+    if constexpr (std::is_same_v<Real, float>) {  // gcc 12 takes sixteen floats apart for its own barrier
+      typename PackOf<Real>::Vector rounded = a.part[p] * b.part[p];
+      __asm__("" : "+v"(rounded));
+      return rounded;
+    }
+#endif
+    return __builtin_assoc_barrier(a.part[p] * b.part[p]);
+  });
 #else
   return a * b;
 #endif
