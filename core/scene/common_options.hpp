@@ -23,8 +23,8 @@ inline constexpr std::string_view allow_unstable_help =
 /// The top level's key for the numbers that the state is stored in. Names are those of hyperlattice::Precision.
 inline constexpr std::string_view precision_names[] = {"double", "float"};
 inline constexpr std::string_view precision_help =
-    "numbers that the state is stored in and steps are computed with: float takes half the memory, with errors near 1e-6 of the largest "
-    "displacement; energies are summed in doubles";
+    "numbers that the state is stored in and steps are computed with: float takes half the memory and less time, with errors near 1e-6 "
+    "of the largest displacement; energies are summed in doubles";
 
 /// What a material's "failure" holds; it is no plain option.
 inline constexpr std::string_view failure_help =
