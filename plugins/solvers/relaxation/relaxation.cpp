@@ -4,8 +4,7 @@
 //   kinetic damping:                  undamped steps; at each peak of the kinetic energy all velocities are set to zero
 //
 // until the residual, the largest out-of-balance force over the mean force on held or loaded particles, is small. Loads act as they do at the end.
-#include <hyperlattice/files.hpp>
-#include <hyperlattice/solver.hpp>
+#include <hyperlattice/rest.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -63,17 +62,8 @@ class Relaxation {
   explicit Relaxation(const Options& options) : o_(options) {}
 
   SolverPlan plan(const SolverFacts& facts) const {
-    if (!facts.listed && !facts.tangents)
-      throw std::runtime_error("a law without memory; with this one a body comes to rest by solvers.explicit with damping");
-    if (facts.listed) throw std::runtime_error("a structured lattice; a listed one comes to rest by solvers.explicit with damping");
-    if (facts.answering)
-      throw std::runtime_error("loads that do not answer to the motion; with such loads solvers.explicit with damping comes to rest");
-    SolverPlan plan;
-    plan.at_rest = true;
+    SolverPlan plan = plan_of_rest(facts, o_.end_time);
     plan.bytes_per_site = 250;  // of the measurement of the residual
-    plan.end_time = o_.end_time.value_or(facts.corners.empty() ? facts.start_time : std::max(facts.start_time, facts.corners.back()));
-    if (plan.end_time < facts.start_time)
-      throw std::runtime_error("end_time of at least " + short_number(facts.start_time) + " s, where the stage starts");
     plan.damping = alpha();
     plan.stable_time_step = facts.critical_time_step / std::sqrt(1 + plan.damping);
     plan.time_step = o_.time_step.value_or(o_.safety * plan.stable_time_step);

@@ -1,7 +1,7 @@
 // A state of rest, found as such: Newton's method on the balance of forces, with steps of the load that become shorter where it does not converge.
 #include "newton.hpp"
 
-#include <hyperlattice/files.hpp>
+#include <hyperlattice/rest.hpp>
 
 #include <optional>
 #include <stdexcept>
@@ -42,16 +42,7 @@ class Static {
   explicit Static(const Options& options) : o_(options) {}
 
   SolverPlan plan(const SolverFacts& facts) const {
-    if (!facts.listed && !facts.tangents)
-      throw std::runtime_error("a law without memory; with this one a body comes to rest by solvers.explicit with damping");
-    if (facts.listed) throw std::runtime_error("a structured lattice; a listed one comes to rest by solvers.explicit with damping");
-    if (facts.answering)
-      throw std::runtime_error("loads that do not answer to the motion; with such loads solvers.explicit with damping comes to rest");
-    SolverPlan plan;
-    plan.at_rest = true;
-    plan.end_time = o_.end_time.value_or(facts.corners.empty() ? facts.start_time : std::max(facts.start_time, facts.corners.back()));
-    if (plan.end_time < facts.start_time)
-      throw std::runtime_error("end_time of at least " + short_number(facts.start_time) + " s, where the stage starts");
+    SolverPlan plan = plan_of_rest(facts, o_.end_time);
     plan.steps = static_cast<std::uint64_t>(o_.load_steps);
     plan.sweeps_per_step = 150;
     plan.bytes_per_site = 1300;
