@@ -34,8 +34,7 @@ class Relaxing {
 
   MaterialConstants constants(const LatticeFacts& lattice) const {
     MaterialConstants constants = options_.constants(lattice);
-    for (std::uint32_t c = 0; c < lattice.spring_classes; ++c)
-      for (const int cross : {0, 1}) constants.set_law(c, cross, RelaxingLaw::Constants{options_.share, options_.time});
+    constants.set_law(RelaxingLaw::Constants{options_.share, options_.time});
     return constants;
   }
   static KernelSet kernels(const KernelChoice& choice) { return kernels_for_processor(choice); }

@@ -33,8 +33,7 @@ class Viscous {
 
   MaterialConstants constants(const LatticeFacts& lattice) const {
     MaterialConstants constants = options_.constants(lattice);
-    for (std::uint32_t c = 0; c < lattice.spring_classes; ++c)
-      for (const int cross : {0, 1}) constants.set_law(c, cross, ViscousLaw::Constants{options_.time});
+    constants.set_law(ViscousLaw::Constants{options_.time});
     return constants;
   }
   double stable_time_step(double elastic_step) const {

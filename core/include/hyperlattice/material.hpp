@@ -30,6 +30,13 @@ struct MaterialConstants {
     std::memcpy(law[spring_class][cross], &constants, sizeof constants);
   }
 
+  /// Sets those of all springs.
+  template <class Constants>
+  void set_law(const Constants& constants) {
+    for (std::uint32_t c = 0; c < max_spring_classes; ++c)
+      for (const int cross : {0, 1}) set_law(c, cross, constants);
+  }
+
   bool has_cross_springs() const {
     for (const double ratio : cross_ratio)
       if (ratio != 0) return true;

@@ -28,8 +28,7 @@ class MyMaterial {
 
   MaterialConstants constants(const LatticeFacts& lattice) const {
     MaterialConstants constants = options_.constants(lattice);
-    for (std::uint32_t c = 0; c < lattice.spring_classes; ++c)
-      for (const int cross : {0, 1}) constants.set_law(c, cross, MyLaw::Constants{options_.wear});
+    constants.set_law(MyLaw::Constants{options_.wear});
     return constants;
   }
   static KernelSet kernels(const KernelChoice& choice) { return kernels_for_processor(choice); }
