@@ -1,5 +1,6 @@
 // The energy balance closes for every way in which energy comes and goes: to round-off where the motion is linear, and otherwise with an error
 // that falls by the square of the step.
+#include <support/books.hpp>
 #include <support/scenes.hpp>
 
 #include <gtest/gtest.h>
@@ -35,25 +36,11 @@ const Flow flows[] = {
 class Balanced : public testing::TestWithParam<Flow> {};
 INSTANTIATE_TEST_SUITE_P(Flows, Balanced, testing::ValuesIn(flows), [](const auto& info) { return std::string(info.param.name); });
 
-/// Largest relative error at any step over four microseconds.
-double largest_error(const Plan& plan, double fraction, double damping) {
-  Simulation simulation(*plan.model, 2);
-  simulation.set_damping(damping);
-  const int steps = static_cast<int>(std::ceil(4e-6 / (fraction * plan.model->critical_time_step)));
-  double worst = 0;
-  simulation.balance();
-  for (int n = 0; n < steps; ++n) {
-    simulation.step(4e-6 / steps);
-    worst = std::max(worst, std::abs(simulation.balance().relative_error()));
-  }
-  EXPECT_GT(simulation.balance().scale, 0);
-  return worst;
-}
-
 TEST_P(Balanced, AtEveryStep) {
   for (const char* membrane : {R"("poisson": 0.25)", R"("membrane": "I-m", "poisson": 0.1)"}) {
     const auto plan = plan_of(block(6, 5, 8, membrane, GetParam().loads));
-    const double coarse = largest_error(*plan, 0.4, GetParam().damping), fine = largest_error(*plan, 0.1, GetParam().damping);
+    const auto error = [&](double fraction) { return keep_books(*plan->model, fraction, GetParam().damping).largest_error; };
+    const double coarse = error(0.4), fine = error(0.1);
     std::printf("%s: largest relative error %.1e at 0.4 of the critical step, %.1e at 0.1\n", GetParam().name, coarse, fine);
     EXPECT_LT(coarse, GetParam().tolerance) << membrane;
     EXPECT_LT(fine, std::max(1e-13, coarse / 10)) << membrane << ": a quarter of the step, a sixteenth of the error";

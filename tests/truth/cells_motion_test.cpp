@@ -1,4 +1,5 @@
 // Moving bodies of cells keep what they must: momentum, energy whatever happens to them, and bits that do not depend on the number of threads.
+#include <support/books.hpp>
 #include <support/cells.hpp>
 
 #include <gtest/gtest.h>
@@ -43,21 +44,6 @@ TEST_P(MovingCells, KeepTheirMomentumAndEnergy) {
   }
 }
 
-/// Largest relative error of the balance over four microseconds.
-double largest_error(const Model& model, double fraction, double damping) {
-  Simulation simulation(model, 2);
-  simulation.set_damping(damping);
-  const int steps = static_cast<int>(std::ceil(4e-6 / (fraction * model.critical_time_step)));
-  double worst = 0;
-  simulation.balance();
-  for (int n = 0; n < steps; ++n) {
-    simulation.step(4e-6 / steps);
-    worst = std::max(worst, std::abs(simulation.balance().relative_error()));
-  }
-  EXPECT_GT(simulation.balance().scale, 0);
-  return worst;
-}
-
 TEST(Cells, BalanceTheirEnergy) {
   constexpr const char* held = R"({ "type": "loads.fixed", "on": "z_min" }, )";
   const std::tuple<const char*, std::string, double, double> flows[] = {
@@ -69,7 +55,7 @@ TEST(Cells, BalanceTheirEnergy) {
   for (const char* membrane : {R"("poisson": 0.25)", R"("membrane": "I-m", "poisson": 0.1)"})
     for (const auto& [name, loads, damping, tolerance] : flows) {
       const auto plan = plan_of(scene_of_cells(box_text({0, 0, 0}, {5, 4, 7}), membrane, loads));
-      const double coarse = largest_error(*plan->model, 0.4, damping), fine = largest_error(*plan->model, 0.1, damping);
+      const double coarse = keep_books(*plan->model, 0.4, damping).largest_error, fine = keep_books(*plan->model, 0.1, damping).largest_error;
       EXPECT_LT(coarse, tolerance) << name << membrane;
       EXPECT_LT(fine, std::max(1e-13, coarse / 10)) << name << membrane << ": a quarter of the step, a sixteenth of the error";
     }

@@ -1,0 +1,34 @@
+// How well a simulation keeps its books of energy.
+#pragma once
+
+#include <run/state.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyperlattice::test {
+
+struct Books {
+  double largest_error = 0;  ///< of the balance, relative, at any step
+  Balance last;
+};
+
+/// Of four microseconds in equal steps of about that fraction of the critical one.
+inline Books keep_books(const Model& model, double fraction, double damping = 0) {
+  Simulation simulation(model, 2);
+  simulation.set_damping(damping);
+  const int steps = static_cast<int>(std::ceil(4e-6 / (fraction * model.critical_time_step)));
+  Books books;
+  simulation.balance();
+  for (int n = 0; n < steps; ++n) {
+    simulation.step(4e-6 / steps);
+    books.last = simulation.balance();
+    books.largest_error = std::max(books.largest_error, std::abs(books.last.relative_error()));
+  }
+  EXPECT_GT(books.last.scale, 0);
+  return books;
+}
+
+}  // namespace hyperlattice::test
