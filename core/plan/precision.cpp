@@ -41,7 +41,7 @@ double rounding_strain(const Model& model, double travel) { return std::ldexp(tr
 
 std::string precision_warning(const Model& model, double travel) {
   const double lost = rounding_strain(model, travel);
-  if (model.choice.precision != Precision::floats || !(lost > most_rounding(model))) return "";
+  if (!(lost > most_rounding(model))) return "";
   return fmt::format(
       "floats are coarse here: a particle moved by {:.3g} m, {:.3g} spacings, where they know strains to {:.2g}; compare with precision double",
       travel, travel / model.body.grid.spacing, lost);

@@ -6,7 +6,7 @@
 
 namespace hyperlattice {
 
-/// A sentence if a particle that has moved by `travel` metres leaves floats too coarse; empty if not, and for doubles.
+/// A sentence if a particle that has moved by `travel` metres leaves floats too coarse; empty if not.
 std::string precision_warning(const Model& model, double travel);
 
 /// A fault if the loads move particles so far that floats would not know the strain: to 1e-6 or a hundredth of the least strain at which springs

@@ -168,6 +168,7 @@ void Running::note(Outcome& outcome) {
   outcome.time = simulation_->time();
   outcome.injected_by_load = simulation_->injected_by_load();
   outcome.state_hash = simulation_->hash();
+  if (plan_.model->choice.precision == Precision::doubles) return;
   if (std::string warning = precision_warning(*plan_.model, simulation_->farthest()); !warning.empty())
     outcome.warnings.push_back(std::move(warning));
 }

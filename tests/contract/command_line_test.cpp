@@ -79,6 +79,20 @@ TEST_F(CommandLine, WrongInputNamesEveryFaultAndWritesNothing) {
   EXPECT_FALSE(exists("cube_out"));
 }
 
+TEST_F(CommandLine, BeginsAPluginOnlyWhereThereIsNothing) {
+  for (const char* type : {"failure.mine", "failures.Mine", "failures", "failures."}) {
+    const test::Result result = run({"plugins", "--new", type, "--out", "project"});
+    EXPECT_EQ(result.exit_code, 2) << type;
+    EXPECT_NE(result.err.find("one of failures, materials"), std::string::npos) << result.err;
+    EXPECT_FALSE(exists("project"));
+  }
+  ASSERT_EQ(run({"plugins", "--new", "failures.tearing_up", "--out", "project"}).exit_code, 0);
+  EXPECT_TRUE(exists("project/tearing_up.cpp"));
+  const test::Result again = run({"plugins", "--new", "failures.tearing_up", "--out", "project"});
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_NE(again.err.find("a folder that is not there yet"), std::string::npos) << again.err;
+}
+
 TEST_F(CommandLine, MachinesReadWhatPeopleRead) {
   EXPECT_EQ(json::parse(run({"plan", "cube.json", "--json"}).out).at("particles"), 27);
   const json plugins = json::parse(run({"plugins", "--json", "--why"}).out);

@@ -2,6 +2,7 @@
 #include "support/program.hpp"
 
 #include <plan/plan.hpp>
+#include <plan/precision.hpp>
 #include <run/layout.hpp>
 #include <run/state.hpp>
 
@@ -106,6 +107,41 @@ TEST(Plan, steps_are_safe_and_land_on_the_end) {
   EXPECT_LE(solver.time_step, 0.9 * solver.stable_time_step * (1 + 1e-12));
   EXPECT_GE(static_cast<double>(solver.steps) * solver.time_step, 10e-6 * (1 - 1e-9));
   EXPECT_EQ(plan->end_time(), 10e-6);
+}
+
+// A displacement u is known to floats as u / 2^24: of spacing l, strains to u / (2^24 l).
+TEST(Plan, refuses_floats_where_they_would_not_know_the_strain) {
+  const auto faults = [](double way_in_spacings, double limit_strain) {
+    auto scene = small_sphere();
+    const double spacing = plan_of(scene)->model->body.grid.spacing, end = 10e-6;
+    scene["precision"] = "float";
+    if (limit_strain > 0) scene["pipeline"][1]["failure"] = {{"type", "failures.strain"}, {"limit", limit_strain}};
+    const nlohmann::json flight = {{"type", "loads.start_velocity"}, {"linear", {way_in_spacings * spacing / end, 0, 0}}};
+    scene["pipeline"].insert(scene["pipeline"].begin() + 3, flight);
+    try {
+      plan_of(scene);
+    } catch (const InputError& error) {
+      return error.faults();
+    }
+    return std::vector<Fault>{};
+  };
+  const double known = std::ldexp(1, -24);
+  EXPECT_TRUE(faults(0.99e-6 / known, 0).empty());
+  const auto far = faults(1.01e-6 / known, 0);
+  ASSERT_EQ(far.size(), 1u);
+  EXPECT_EQ(far.front().pointer, "/precision");
+  EXPECT_NE(far.front().expected.find("double"), std::string::npos);
+  EXPECT_TRUE(faults(4, 101 * 4 * known).empty());
+  EXPECT_EQ(faults(4, 99 * 4 * known).size(), 1u);
+}
+
+TEST(Plan, warns_of_floats_that_have_become_coarse) {
+  auto scene = small_sphere();
+  scene["precision"] = "float";
+  const auto plan = plan_of(scene);
+  const double spacing = plan->model->body.grid.spacing, far = 1e-6 * spacing * std::ldexp(1, 24);
+  EXPECT_EQ(precision_warning(*plan->model, 0.99 * far), "");
+  EXPECT_NE(precision_warning(*plan->model, 1.01 * far).find("floats are coarse"), std::string::npos);
 }
 
 }  // namespace

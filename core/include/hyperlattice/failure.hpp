@@ -48,7 +48,7 @@ concept AsksState = requires(const T& failure, const SpringFacts& spring, const 
 };
 
 /// A failure class has: double alarm(const SpringFacts&) const, in metres; and
-/// bool breaks(const SpringFacts&, double elongation) const, or with a AlarmedSpring in place of the elongation if it must know which spring it is;
+/// bool breaks(const SpringFacts&, double elongation) const, or with an AlarmedSpring in place of the elongation if it must know which spring it is;
 /// asked for springs above the alarm only. Both must not throw. One that needs the state's rate says static constexpr bool asks_rate = true; it is
 /// for structured lattices.
 template <class T>
