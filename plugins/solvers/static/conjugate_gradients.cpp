@@ -1,16 +1,21 @@
 #include "conjugate_gradients.hpp"
 
+#include "free_motions.hpp"
+
 namespace hyperlattice::statics {
 
-void ConjugateGradients::start(const Field& b) {
+void ConjugateGradients::start(const Field& b, const FreeMotions* without) {
+  without_ = without;
   std::fill(x_.begin(), x_.end(), 0.0);
   r_ = b;
+  if (without_ != nullptr) without_->remove_from(r_);
   first_ = true;
 }
 
 bool ConjugateGradients::advance() {
-  const int threads = matrix_.threads();
-  preconditioner_.apply(r_, z_);
+  const int threads = system_.threads();
+  system_.apply(r_, z_);
+  if (without_ != nullptr) without_->remove_from(z_);
   // The change of r in place of r: round-off in the preconditioner then does not spoil the directions.
   const double rz = product(r_.data(), z_.data(), size_, threads);
   const double changed = first_ ? 0 : -last_step_ * product(q_.data(), z_.data(), size_, threads);
@@ -20,10 +25,11 @@ bool ConjugateGradients::advance() {
   });
   first_ = false;
   rz_ = rz;
-  matrix_.multiply(p_.data(), q_.data());
-  const double curvature = product(p_.data(), q_.data(), size_, threads);
-  if (!(curvature > 0)) return false;
-  last_step_ = product(r_.data(), p_.data(), size_, threads) / curvature;
+  system_.multiply(p_.data(), q_.data());
+  if (without_ != nullptr) without_->remove_from(q_);
+  curvature_ = product(p_.data(), q_.data(), size_, threads);
+  if (!(curvature_ > 0)) return false;
+  last_step_ = product(r_.data(), p_.data(), size_, threads) / curvature_;
   in_pieces(size_, threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t n = first; n < last; ++n) {
       x_[n] += last_step_ * p_[n];

@@ -1,31 +1,34 @@
-// Conjugate gradients for K x = b with K the tangents of the finest level, an iteration at a time: the caller looks between them.
+// Conjugate gradients for K x = b, an iteration at a time: the caller looks between them.
 #pragma once
 
-#include "multigrid.hpp"
+#include "system.hpp"
 
 namespace hyperlattice::statics {
 
+class FreeMotions;
+
 class ConjugateGradients {
  public:
-  ConjugateGradients(const SpringLevel& matrix, Multigrid& preconditioner)
-      : matrix_(matrix), preconditioner_(preconditioner), size_(matrix.layout().numbers()) {
+  explicit ConjugateGradients(System& system) : system_(system), size_(system.numbers()) {
     for (Field* field : {&x_, &r_, &z_, &p_, &q_}) field->assign(size_, 0);
   }
 
-  void start(const Field& b);
+  /// `without`: motions in which x shall have no part; null: none. They must outlive the iterations.
+  void start(const Field& b, const FreeMotions* without = nullptr);
   /// One iteration. False: K is not positive along direction(), and x() stays.
   bool advance();
 
   const Field& x() const { return x_; }
   const Field& residual() const { return r_; }
   const Field& direction() const { return p_; }
+  double curvature() const { return curvature_; }  ///< of K along direction(), N m
 
  private:
-  const SpringLevel& matrix_;
-  Multigrid& preconditioner_;
+  System& system_;
   std::size_t size_;
+  const FreeMotions* without_ = nullptr;
   Field x_, r_, z_, p_, q_;
-  double rz_ = 0, last_step_ = 0;
+  double rz_ = 0, last_step_ = 0, curvature_ = 0;
   bool first_ = true;
 };
 

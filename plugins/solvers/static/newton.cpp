@@ -1,15 +1,28 @@
 #include "newton.hpp"
 
-#include <hyperlattice/files.hpp>
+#include "free_motions.hpp"
+#include "stability.hpp"
+
+#include <utility>
 
 namespace hyperlattice::statics {
 
-Newton::Newton(const StaticProblem& problem, const SolverHost& host, const Limits& limits)
-    : problem_(problem), host_(host), limits_(limits), matrix_(problem), multigrid_(matrix_), gradients_(matrix_, multigrid_) {
-  for (Field* field : {&external_, &force_, &trial_, &rest_, &right_, &held_part_}) field->assign(problem.grid.numbers(), 0);
+Newton::Newton(System& system, const SolverHost& host, const Limits& limits)
+    : system_(system), problem_(system.problem()), host_(host), limits_(limits), gradients_(system) {
+  for (Field* field : {&external_, &force_, &trial_, &rest_, &right_, &held_part_}) field->assign(system.numbers(), 0);
 }
 
 Found Newton::find(double share, Field& displacement) {
+  Found found;
+  for (const bool careful : {false, true}) {
+    careful_ = careful;
+    found = search(share, displacement);
+    if (found.at_rest || found.hopeless || found.buckles || stopped_) break;
+  }
+  return found;
+}
+
+Found Newton::search(double share, Field& displacement) {
   Field u = displacement;
   problem_.load(share, external_.data());
   Field change = u;  // of what the loads move
@@ -18,57 +31,95 @@ Found Newton::find(double share, Field& displacement) {
 
   for (int n = 0; n < limits_.newton; ++n) {
     switch (step(change, u)) {
-      case Step::at_rest:
-        displacement = u;
-        return {true, false, {}, {}};
+      case Step::at_rest: {
+        const bool linear = n == 0 && largest(displacement) == 0;  // the tangents of the undeformed body were true to the end
+        const Found found = limits_.stable && !linear ? check(u) : Found{.at_rest = true};
+        if (found.at_rest) displacement = u;
+        return found;
+      }
       case Step::better:
         break;
       case Step::stopped:
         stopped_ = true;
         return {};
       case Step::lost:
-        return {false, n == 0, "it has no stiffness against a motion", gradients_.direction()};
+        return give_up(u, n == 0, "it has no stiffness against a motion", gradients_.direction());
       case Step::useless:  // what they found by then is for the most part the motion that they cannot resist
-        return {false, n == 0, "it has next to no stiffness against a motion that the loads drive", gradients_.x()};
+        return give_up(u, n == 0, "it has next to no stiffness against a motion that the loads drive", gradients_.x());
       case Step::wild:
-        return {false, false, "the forces are no longer finite", {}};
+        return {.why = "the forces are no longer finite"};
     }
     std::fill(change.begin(), change.end(), 0.0);
   }
-  return {false, false, "Newton's method does not converge", {}};
+  return {.why = "Newton's method does not converge"};
 }
 
-/// The out-of-balance forces at u + moved, and what they are compared with. False: they are not finite.
-bool Newton::look(const Field& u, const Field& moved) {
-  for (std::size_t n = 0; n < u.size(); ++n) trial_[n] = u[n] + moved[n];
+Found Newton::give_up(const Field& u, bool hopeless, const char* why, const Field& direction) const {
+  if (std::string rigid = FreeMotions(system_, u).driven_by(right_); !rigid.empty())
+    return {.hopeless = hopeless, .why = std::move(rigid) + ", which the loads drive and nothing resists"};
+  return {.hopeless = hopeless, .why = why, .direction = direction};
+}
+
+/// Whether the state of rest u is stable.
+Found Newton::check(const Field& u) {
+  system_.linearise(u, force_);
+  system_.prepare();
+  Field motion = softening_motion(system_, gradients_, u);
+  prepared_ = motion.empty();
+  if (prepared_) return {.at_rest = true};
+  return {.why = "its stiffness against a motion is negative", .buckles = true, .direction = std::move(motion)};
+}
+
+/// The out-of-balance forces at a part of the way from u to u + moved, and what they are compared with. False: they are not finite.
+bool Newton::look(const Field& u, const Field& moved, double part) {
+  for (std::size_t n = 0; n < u.size(); ++n) trial_[n] = u[n] + part * moved[n];
   problem_.respond(trial_.data(), rest_.data(), nullptr);
   scale_ = problem_.force_scale(rest_.data(), external_.data());
   for (std::size_t n = 0; n < rest_.size(); ++n) rest_[n] += external_[n];
-  matrix_.mask(rest_.data());
+  system_.mask(rest_.data());
   const double left = largest(rest_);
   report_.residual = left == 0 ? 0 : left / scale_;
   return std::isfinite(left);
+}
+
+/// The end of a step that was just looked at becomes u; in a careful search, where the out-of-balance forces there do not work against the step by
+/// more than half of what they do for it at its start. Else the potential rises again: a shorter step ends about where it is least. False: forces are
+/// not finite.
+bool Newton::go_along(const Field& moved, Field& u) {
+  constexpr double too_far = 0.5, least = 0.1, most = 0.5;
+  constexpr int tries = 8;
+  const double start = product(right_.data(), moved.data(), u.size(), system_.threads());
+  double part = 1;
+  for (int n = 0; careful_ && n < tries; ++n) {
+    const double end = std::isfinite(report_.residual) ? product(rest_.data(), moved.data(), u.size(), system_.threads()) : -infinity;
+    if (end >= -too_far * start) break;
+    part *= std::clamp(start / (start - end), least, most);
+    look(u, moved, part);
+  }
+  u = trial_;
+  return std::isfinite(report_.residual);
 }
 
 /// One step of Newton's method, in which held components change by `change`. Conjugate gradients go on while the forces at the present end of the
 /// step agree with what the tangent says of them; from there on a new tangent serves better.
 Newton::Step Newton::step(const Field& change, Field& u) {
   constexpr double first_look = 1e-2, agreement = 0.5, done = 0.7;
-  matrix_.linearise(u, force_);
+  const bool prepared = std::exchange(prepared_, false);
+  if (!prepared) system_.linearise(u, force_);
   for (std::size_t n = 0; n < u.size(); ++n) right_[n] = force_[n] + external_[n];
   const bool moves = largest(change) > 0;
   if (moves) {
-    matrix_.multiply(change.data(), held_part_.data());
+    system_.multiply(change.data(), held_part_.data());
     for (std::size_t n = 0; n < u.size(); ++n) right_[n] -= held_part_[n];
   }
-  matrix_.mask(right_.data());
+  system_.mask(right_.data());
   const double start = largest(right_);
   if (start == 0) {
     const bool finite = look(u, change);
     u = trial_;
     return finite && report_.residual <= limits_.tolerance ? Step::at_rest : Step::better;
   }
-  multigrid_.build();
+  if (!prepared) system_.prepare();
   gradients_.start(right_);
   Field moved(u.size());
   double next_look = first_look * start;
@@ -80,11 +131,11 @@ Newton::Step Newton::step(const Field& change, Field& u) {
     if (!std::isfinite(left)) return Step::lost;
     if (left > next_look) continue;
     for (std::size_t m = 0; m < moved.size(); ++m) moved[m] = gradients_.x()[m] + change[m];
-    if (!look(u, moved)) return Step::wild;
+    if (!look(u, moved)) return !moves && go_along(moved, u) ? Step::better : Step::wild;
     if (report_.residual <= limits_.tolerance) {
       u = trial_;
       Field error(u.size());
-      multigrid_.apply(rest_, error);
+      system_.apply(rest_, error);
       const double size = largest(u);
       report_.displacement_error = size > 0 ? largest(error) / size : 0;
       return host_.report(report_) ? Step::at_rest : Step::stopped;
@@ -92,7 +143,8 @@ Newton::Step Newton::step(const Field& change, Field& u) {
     double bent = 0;  // what the tangent does not know
     for (std::size_t m = 0; m < rest_.size(); ++m) bent = std::max(bent, std::abs(rest_[m] - gradients_.residual()[m]));
     if (bent > agreement * left) {
-      u = trial_;
+      if (!moves) return go_along(moved, u) ? Step::better : Step::wild;
+      u = trial_;  // what is held has to go there
       return Step::better;
     }
     next_look = std::max(std::min(bent, 0.5 * left), done * limits_.tolerance * scale_);

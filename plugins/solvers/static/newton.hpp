@@ -14,36 +14,43 @@ struct Limits {
   double tolerance = 1e-6;  ///< residual
   int newton = 30;          ///< steps, before the load step is given up
   int iterations = 1000;    ///< of conjugate gradients in one of them
+  bool stable = true;       ///< states of rest must be stable ones
 };
 
 /// What became of a search.
 struct Found {
   bool at_rest = false;
   bool hopeless = false;  ///< if not, whether a smaller step of the load could not do better: the state before has no stiffness
-  std::string why;        ///< if not, a sentence
-  Field direction;        ///< if not, how the body moves where it has no stiffness; may be empty
+  std::string why{};      ///< if not, a sentence
+  bool buckles = false;   ///< if not, whether there is a state of rest, but no stable one
+  Field direction{};      ///< if not, how the body moves where it has no stiffness; may be empty
 };
 
 class Newton {
  public:
-  Newton(const StaticProblem& problem, const SolverHost& host, const Limits& limits);
+  Newton(System& system, const SolverHost& host, const Limits& limits);
 
-  /// From the displacements of a state of rest to those at a share of the load.
+  /// From the displacements of a state of rest to those at a share of the load; by whole steps first, and with a line search if they fail.
   Found find(double share, Field& displacement);
   const RestReport& report() const { return report_; }
   bool stopped() const { return stopped_; }  ///< the host asked to
 
  private:
   enum class Step { at_rest, better, stopped, lost, useless, wild };
+  Found search(double share, Field& displacement);
   Step step(const Field& change_of_held, Field& u);
-  bool look(const Field& u, const Field& moved);
+  bool look(const Field& u, const Field& moved, double part = 1);
+  bool go_along(const Field& moved, Field& u);
+  Found give_up(const Field& u, bool hopeless, const char* why, const Field& direction) const;
+  Found check(const Field& u);
 
+  System& system_;
   const StaticProblem& problem_;
   const SolverHost& host_;
   Limits limits_;
-  SpringLevel matrix_;
-  Multigrid multigrid_;
   ConjugateGradients gradients_;
+  bool careful_ = false;   ///< steps that go too far are shortened
+  bool prepared_ = false;  ///< tangents and preconditioner are those of the state that the next search starts from
   Field external_, force_, trial_, rest_, right_, held_part_;
   double scale_ = 0;
   bool stopped_ = false;

@@ -99,11 +99,24 @@ void SpringLevel::mask(double* x) const {
   for (const std::int64_t n : held_) x[n] = 0;
 }
 
+bool SpringLevel::has_spring(std::size_t neighbour, std::int64_t place) const {
+  const auto at = neighbour * static_cast<std::size_t>(grid_.places) + static_cast<std::size_t>(place);
+  const auto there = [&](const std::vector<float>& numbers) { return !numbers.empty() && numbers[at] != 0; };
+  return there(axial_) || there(pull_) || there(cross_axial_) || there(cross_pull_);
+}
+
+double SpringLevel::stiffest() const {
+  float found = 0;
+  for (const auto* numbers : {&axial_, &cross_axial_})
+    for (const float value : *numbers) found = std::max(found, std::abs(value));
+  return static_cast<double>(found);
+}
+
 bool SpringLevel::tangent(std::size_t neighbour, std::int64_t place, Tangent& t) const {
   const auto at = neighbour * static_cast<std::size_t>(grid_.places) + static_cast<std::size_t>(place);
   const bool heights = grid_.components == 4;
   const float axial = axial_[at], pull = pull_[at], cross_axial = heights ? cross_axial_[at] : 0, cross_pull = heights ? cross_pull_[at] : 0;
-  if (axial == 0 && pull == 0 && cross_axial == 0 && cross_pull == 0) return false;
+  if (!has_spring(neighbour, place)) return false;
   const NeighbourGeometry& geometry = grid_.neighbours[neighbour];
   const std::int64_t step = grid_.step_to(geometry.site);
   const auto moved = [&](int c, std::int64_t p) { return moved_[static_cast<std::size_t>(c * grid_.places + p)]; };

@@ -26,6 +26,8 @@ class SpringLevel : public Level {
   };
   /// False if there is no spring.
   bool tangent(std::size_t neighbour, std::int64_t place, Tangent& tangent) const;
+  bool has_spring(std::size_t neighbour, std::int64_t place) const;
+  double stiffest() const;  ///< largest tangent of a spring, N/m
   float alpha(std::int64_t place) const { return alpha_.empty() ? 0 : alpha_[static_cast<std::size_t>(place)]; }
   const StaticGrid& grid() const { return grid_; }
 

@@ -1,5 +1,6 @@
 // A state of rest, found as such: Newton's method on the balance of forces, with steps of the load that become shorter where it does not converge.
-#include "newton.hpp"
+#include "failure.hpp"
+#include "grid_system.hpp"
 
 #include <hyperlattice/rest.hpp>
 
@@ -12,6 +13,7 @@ class Static {
  public:
   struct Options {
     double tolerance = 1e-6, load_steps = 1, most_cutbacks = 10;
+    bool stability = true;
     std::optional<double> end_time;
   };
 
@@ -34,6 +36,11 @@ class Static {
         .add<&Options::most_cutbacks>("most_cutbacks", "", "times that a load step may be halved before the run fails")
         .at_least(0)
         .fallback("10")
+        .add<&Options::stability>(
+            "stability", "",
+            "whether states of rest must be stable: each that took more than one tangent is searched for a motion along which its "
+            "stiffness is negative")
+        .fallback("true")
         .add<&Options::end_time>("end_time", "s",
                                  "instant whose loads act at the end, from the start of the run; left out: when the last load has stopped changing")
         .at_least(0);
@@ -49,11 +56,12 @@ class Static {
     return plan;
   }
 
-  void run(const SolverFacts&, SolverHost& host) const {
+  void run(const SolverFacts& facts, SolverHost& host) const {
     if (!host.observe()) return;
     const StaticProblem* problem = host.statics();
     if (problem == nullptr) return;
-    statics::Newton newton(*problem, host, {o_.tolerance});
+    statics::GridSystem system(*problem);
+    statics::Newton newton(system, host, {.tolerance = o_.tolerance, .stable = o_.stability});
     statics::Field u(problem->state, problem->state + problem->grid.numbers());
     const double whole = 1 / std::floor(o_.load_steps), shortest = whole * std::exp2(-o_.most_cutbacks);
     double share = 0, length = whole;
@@ -68,36 +76,14 @@ class Static {
         if (!host.accept(share, u.data()) || !host.report(newton.report()) || !host.observe()) return;
       } else {
         length /= 2;
-        if (found.hopeless || length < 0.99 * shortest) throw std::runtime_error(failure(*problem, share, found));
+        if (!found.hopeless && length >= 0.99 * shortest) continue;
+        const double start = facts.start_time, time = start + share * (plan(facts).end_time - start);
+        throw std::runtime_error(statics::failure_text(*problem, share, time, found));
       }
     }
   }
 
  private:
-  static std::string failure(const StaticProblem& problem, double share, const statics::Found& found) {
-    std::string text = share == 0 ? "the body finds no state of rest under its loads: "
-                                  : "the body finds no state of rest beyond " + short_number(100 * share) + "% of the load: ";
-    text += found.why;
-    if (found.direction.empty()) return text;
-    const StaticGrid& grid = problem.grid;
-    double largest = 0;
-    std::int64_t place = grid.origin;
-    const auto motion = [&](std::int64_t p) {
-      const auto along = [&](std::int64_t c) { return found.direction[static_cast<std::size_t>(c * grid.places + p)]; };
-      return Vec3{along(0), along(1), along(2)};
-    };
-    for (std::int64_t p = 0; p < grid.places; ++p)
-      if (norm(motion(p)) > largest) {
-        largest = norm(motion(p));
-        place = p;
-      }
-    const auto numbers = [](Vec3 v) { return "(" + short_number(v.x) + ", " + short_number(v.y) + ", " + short_number(v.z) + ")"; };
-    const Vec3 way = motion(place);
-    return text + "; that motion is largest at " + numbers(problem.position(place)) + " m, along " +
-           numbers({std::round(100 * way.x / largest) / 100, std::round(100 * way.y / largest) / 100, std::round(100 * way.z / largest) / 100}) +
-           (share == 0 ? ". Supports may be missing, or parts not joined." : ". The body may buckle there.");
-  }
-
   Options o_;
 };
 

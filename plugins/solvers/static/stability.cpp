@@ -1,0 +1,40 @@
+#include "stability.hpp"
+
+#include "free_motions.hpp"
+
+namespace hyperlattice::statics {
+
+namespace {
+
+/// Random numbers, the same in every run, for all that can move.
+Field rough_field(const System& system) {
+  const StaticGrid& grid = system.problem().grid;
+  Field rough(grid.numbers(), 0);
+  std::uint32_t random = 12345;
+  for (std::int64_t p = 0; p < grid.places; ++p)
+    for (int c = 0; c < grid.components; ++c) {
+      if ((grid.free[p] >> c & 1u) == 0) continue;
+      random = random * 1664525u + 1013904223u;
+      rough[static_cast<std::size_t>(c * grid.places + p)] = static_cast<double>(random >> 8) / 16777216.0 - 0.5;
+    }
+  return rough;
+}
+
+}  // namespace
+
+Field softening_motion(System& system, ConjugateGradients& gradients, const Field& displacement) {
+  constexpr int iterations = 30;
+  constexpr double solved = 1e-3, rounding = 1e-13;
+  const FreeMotions free(system, displacement);
+  const Field rough = rough_field(system);
+  gradients.start(rough, &free);
+  for (int n = 0; n < iterations && largest(gradients.residual()) > solved; ++n) {
+    if (gradients.advance()) continue;
+    const Field& p = gradients.direction();
+    const double size = product(p.data(), p.data(), p.size(), system.threads());
+    return gradients.curvature() < -rounding * system.stiffest() * size ? p : Field{};
+  }
+  return {};
+}
+
+}  // namespace hyperlattice::statics
