@@ -187,7 +187,7 @@ class FakeBody {
     return snapshot;
   }
 
-  const std::vector<double>& positions() const { return positions_; }
+  std::vector<double>& positions() { return positions_; }
   const std::vector<Particle>& some() const { return some_; }
 
   std::vector<double> displacements, velocities, open, closed;

@@ -56,7 +56,9 @@ TEST(PointProbe, RefusesWhatItCannotGive) {
 TEST(LineProbe, GivesEachParticleOnceAndNoneInTheOpen) {
   FakeBody body({6, 2, 2});
   // From inside to 4 mm beyond the end; many more points than particles.
-  Plugin probe("probes.line", {{"start", {0.5e-3, 0.6e-3, 0.6e-3}}, {"end", {10.5e-3, 0.6e-3, 0.6e-3}}, {"points", 101}, {"component", "x"}});
+  Plugin probe(
+      "probes.line",
+      {{"start", {0.5e-3, 0.6e-3, 0.6e-3}}, {"end", {10.5e-3, 0.6e-3, 0.6e-3}}, {"points", 101}, {"component", "x"}, {"between", "nearest"}});
   const auto columns = probe.begin_probe(body.context("."), body.at(0));
   ASSERT_EQ(columns.size(), 6u);
   EXPECT_EQ(columns[0], "displacement_x@(0.0005 0.0005 0.0005)");
@@ -64,6 +66,71 @@ TEST(LineProbe, GivesEachParticleOnceAndNoneInTheOpen) {
   const double t = 0.25, l = 1e-3;
   const auto row = probe.sample(body.at(t), 6);
   for (std::size_t n = 0; n < 6; ++n) EXPECT_DOUBLE_EQ(row[n], t * ((static_cast<double>(n) + 0.5) * l - l) + t * t * 0.5 * l);
+}
+
+/// Offsets all particles of a body, each by its own vector of up to a quarter of the spacing.
+void shake(FakeBody& body, double spacing) {
+  std::uint32_t random = 7;
+  for (double& x : body.positions()) {
+    random = random * 1664525u + 1013904223u;
+    x += spacing * (static_cast<double>(random >> 8) / 16777216.0 - 0.5) / 2;
+  }
+}
+
+// The body's motion is affine: whatever the line, inside or up to a spacing beyond the surface, on a lattice or not, the values are exact.
+TEST(LineProbe, InterpolatesAffineFieldsExactly) {
+  constexpr double l = 1e-3, t = 0.25;
+  for (const bool shaken : {false, true})
+    for (const std::array<int, 3> counts : {std::array{6, 5, 4}, {6, 2, 2}}) {
+      FakeBody body(counts, l);
+      if (shaken) shake(body, l);
+      const Vec3 start{-0.2 * l, 0.3 * l, 0.7 * l}, end{6.1 * l, 1.9 * l, 1.4 * l};
+      Plugin probe("probes.line", {{"start", {start.x, start.y, start.z}}, {"end", {end.x, end.y, end.z}}, {"points", 41}});
+      ASSERT_EQ(probe.begin_probe(body.context("."), body.at(0)).size(), 3 * 41u);
+      const auto row = probe.sample(body.at(t), 3 * 41);
+      for (std::size_t n = 0; n < 41; ++n) {
+        const Vec3 x = start + static_cast<double>(n) / 40 * (end - start);
+        EXPECT_NEAR(row[3 * n], t * (x.x - l) + t * t * x.y, 1e-12 * l) << n;
+        EXPECT_NEAR(row[3 * n + 1], t * (x.y - l) + t * t * x.z, 1e-12 * l) << n;
+        EXPECT_NEAR(row[3 * n + 2], t * (x.z - l) + t * t * x.x, 1e-12 * l) << n;
+      }
+    }
+}
+
+// A single row has no slope across itself: beside it the value is the row's.
+TEST(LineProbe, BesideARowItIsTheRowsOwn) {
+  constexpr double l = 1e-3, t = 0.5;
+  FakeBody body({8, 1, 1}, l);
+  Plugin probe("probes.line", {{"start", {l, 0.9 * l, l}}, {"end", {6 * l, 0.9 * l, l}}, {"points", 11}, {"component", "x"}});
+  ASSERT_EQ(probe.begin_probe(body.context("."), body.at(0)).size(), 11u);
+  const auto row = probe.sample(body.at(t), 11);
+  for (std::size_t n = 0; n < 11; ++n) EXPECT_NEAR(row[n], t * (0.5 * static_cast<double>(n)) * l + t * t * 0.5 * l, 1e-12 * l);
+}
+
+// Curved fields: of second order in the spacing, and at a particle its own value.
+TEST(LineProbe, InterpolatesCurvedFieldsToSecondOrder) {
+  const auto error = [](int across) {
+    const double l = 6e-3 / across;
+    FakeBody body({across, across, across}, l);
+    const std::vector<double> start{0.1e-3, 0.2e-3, 0.3e-3}, end{5.9e-3, 5.5e-3, 5.7e-3};
+    Plugin probe("probes.line", {{"start", start}, {"end", end}, {"points", 31}, {"component", "x"}});
+    probe.begin_probe(body.context("."), body.at(0));
+    const auto curved = [](double x, double y, double z) { return std::sin(500 * x) * std::cos(300 * y) + 300 * z; };
+    const Snapshot snapshot = body.at(0);
+    for (std::size_t p = 0; p < body.positions().size(); p += 3)
+      body.displacements[p] = curved(body.positions()[p], body.positions()[p + 1], body.positions()[p + 2]);
+    const auto row = probe.sample(snapshot, 31);
+    double worst = 0;
+    for (std::size_t n = 0; n < 31; ++n) {
+      const auto at = [&](std::size_t axis) { return start[axis] + static_cast<double>(n) / 30 * (end[axis] - start[axis]); };
+      worst = std::max(worst, std::abs(row[n] - curved(at(0), at(1), at(2))));
+    }
+    return worst;
+  };
+  const double coarse = error(8), fine = error(16);
+  std::printf("largest errors %.2e and %.2e\n", coarse, fine);
+  EXPECT_LT(coarse, 0.15);
+  EXPECT_GT(std::log2(coarse / fine), 1.6);
 }
 
 TEST(LineProbe, RefusesALineOfNoLengthOrOutside) {

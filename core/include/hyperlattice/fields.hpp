@@ -96,27 +96,31 @@ class Quantity {
 
   /// Writes the particle's numbers to `out`. `field` is the quantity's field at the snapshot's time.
   void evaluate(const Snapshot& snapshot, const Field& field, Particle particle, double* out) const {
-    if (!options_.component || field.components == 1) {
-      for (std::size_t n = 0; n < names_.size(); ++n) out[n] = field.values[particle * field.components + n];
+    project(&field.values[particle * field.components], position_of(snapshot, particle), out);
+  }
+
+  /// The same from the field's numbers at a place, in the body at rest.
+  void project(const double* value, Vec3 place, double* out) const {
+    if (!options_.component || !is_vector_field(options_.field)) {
+      for (std::size_t n = 0; n < names_.size(); ++n) out[n] = value[n];
       return;
     }
-    const double* v = &field.values[3 * particle];
-    const Vec3 value{v[0], v[1], v[2]};
+    const Vec3 v{value[0], value[1], value[2]};
     switch (*options_.component) {
       case Projection::magnitude:
-        *out = norm(value);
+        *out = norm(v);
         break;
       case Projection::radial:
-        *out = radial(snapshot, particle, value);
+        *out = radial(place, v);
         break;
       default:
-        *out = v[static_cast<std::size_t>(*options_.component)];
+        *out = value[static_cast<std::size_t>(*options_.component)];
     }
   }
 
  private:
-  double radial(const Snapshot& snapshot, Particle particle, Vec3 value) const {
-    const Vec3 outwards = position_of(snapshot, particle) - options_.centre;
+  double radial(Vec3 place, Vec3 value) const {
+    const Vec3 outwards = place - options_.centre;
     const double distance = norm(outwards);
     return distance > 0 ? dot(value, outwards) / distance : 0;
   }
