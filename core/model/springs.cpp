@@ -137,7 +137,11 @@ void set_springs(Model& model, Faults& faults) {
       faults.add(material.failure_stage->pointer, material.failure_stage->component->type(),
                  "a criterion that does not ask for the rate, for a listed lattice");
   }
-  model.kernels = model.materials[0].stage->functions<MaterialFunctions>().kernels(model.choice);
+  const MaterialFunctions& functions = model.materials[0].stage->functions<MaterialFunctions>();
+  model.kernels = functions.kernels(model.choice);
+  KernelChoice row = model.choice;  // a listed spring is a row of one
+  row.listed = false;
+  if (model.choice.listed) model.kernels.linearise = functions.kernels(row).linearise;
   if (model.kernels.step == nullptr || model.kernels.step_damped == nullptr || model.kernels.measure == nullptr) {
     if (model.choice.precision == Precision::floats)
       throw InputError({{"/precision", "float",

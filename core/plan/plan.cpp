@@ -93,7 +93,7 @@ void estimate_memory(Plan& plan) {
   double solver_bytes = 0;
   for (const PlannedStage& stage : plan.stages) solver_bytes = std::max(solver_bytes, stage.plan.bytes_per_site);
   const Site low = model.body.low, high = model.body.high;
-  solver_bytes *= (high.i - low.i + 1.0) * (high.j - low.j + 1.0) * (high.k - low.k + 1.0);
+  solver_bytes *= model.body.is_listed() ? particles : (high.i - low.i + 1.0) * (high.j - low.j + 1.0) * (high.k - low.k + 1.0);
   plan.memory_bytes = solver_bytes + layout->state_bytes() + layout->scratch_bytes() + model_bytes + output_numbers * sizeof(double) * particles;
 }
 

@@ -22,18 +22,14 @@ void Simulation::alive(std::vector<std::uint16_t>& bits) const {
 
 double Simulation::kinetic() const {
   std::vector<double>& masses = parts_->particle_masses;
-  const Body& body = parts_->model.body;
+  const Model& model = parts_->model;
   if (masses.empty())
-    for (const Run& run : body.runs)
-      for (std::int32_t i = run.begin; i < run.end; ++i) {
-        const Particle particle = run.first + static_cast<Particle>(i - run.begin);
-        masses.push_back(parts_->masses[parts_->model.material_of.empty() ? 0 : parts_->model.material_of[particle]] * body.share({i, run.j, run.k}));
-      }
+    for (Particle particle = 0; particle < model.body.particles; ++particle) masses.push_back(model.mass(particle));
   double twice = 0;
   parts_->for_runs([&](const Block& block, std::uint64_t place, Particle first, std::uint64_t count) {
     for (std::uint64_t n = 0; n < count; ++n) {
       double square = 0;
-      for (int c = 0; c < parts_->model.degrees_of_freedom; ++c) square += block.velocity[c][place + n] * block.velocity[c][place + n];
+      for (int c = 0; c < model.degrees_of_freedom; ++c) square += block.velocity[c][place + n] * block.velocity[c][place + n];
       twice += masses[first + n] * square;
     }
   });

@@ -11,6 +11,10 @@ SolverFacts solver_facts(const Model& model, double start_time) {
   const Site low = model.body.low, high = model.body.high;
   SolverFacts facts{start_time, model.critical_time_step, model.corners, 1 + std::max({high.i - low.i, high.j - low.j, high.k - low.k})};
   facts.listed = model.body.is_listed();
+  if (facts.listed) {
+    const Vec3 size = model.body.highest - model.body.lowest;
+    facts.sites_across = 1 + static_cast<std::int32_t>(std::max({size.x, size.y, size.z}) / model.body.grid.spacing);
+  }
   facts.tangents = model.kernels.linearise != nullptr;
   facts.answering = model.answering;
   return facts;

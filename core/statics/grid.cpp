@@ -12,6 +12,7 @@ constexpr std::int64_t vector_margin = lanes;  // kernels read whole vectors
 }  // namespace
 
 std::int64_t Statics::place_of(Particle particle) const {
+  if (problem_.grid.listed) return static_cast<std::int64_t>(particle);
   const Site site = model_.body.site(particle), low = model_.body.low;
   return problem_.grid.place(site.i - low.i, site.j - low.j, site.k - low.k);
 }

@@ -9,10 +9,14 @@ Statics::Statics(const Model& model, Simulation& simulation, double start, doubl
     : model_(model), simulation_(simulation), start_(start), end_(end) {
   for (const Material& material : model.materials)
     stiffness_of_alpha_.push_back(material.constants.clamped ? 0 : material.constants.alpha_ratio * material.constants.base_stiffness);
-  make_grid();
-  constexpr std::int64_t few = 65536;  // places; with fewer, threads would wait for each other longer than they work
+  problem_.grid.listed = model.body.is_listed();
+  if (problem_.grid.listed)
+    make_list();
+  else
+    make_grid();
+  const std::int64_t few = problem_.grid.listed ? 4096 : 65536;  // places; with fewer, threads would wait for each other longer than they work
   problem_.grid.threads = problem_.grid.places < few ? 1 : threads;
-  make_weights();
+  if (!problem_.grid.listed) make_weights();
   state_.assign(problem_.grid.numbers(), 0);
   force_.assign(problem_.grid.numbers(), 0);
   read_state(state_.data());
@@ -32,6 +36,7 @@ Statics::Statics(const Model& model, Simulation& simulation, double start, doubl
   problem_.position_of = [](void* self, std::int64_t place) noexcept {
     const auto& statics = *static_cast<const Statics*>(self);
     const StaticGrid& grid = statics.problem_.grid;
+    if (grid.listed) return statics.model_.body.position(static_cast<Particle>(place));
     const Site low = statics.model_.body.low;
     const std::int64_t from = place - grid.origin;
     return statics.model_.body.position(Site{static_cast<std::int32_t>(from % grid.plane % grid.row) + low.i,

@@ -1,5 +1,5 @@
 // The body in search of rest: makes the StaticProblem of a model and a state, and brings what a solver found back into the simulation.
-// Split by concern: grid.cpp, response.cpp, load_path.cpp, statics.cpp.
+// Split by concern: grid.cpp, list.cpp, response.cpp, load_path.cpp, statics.cpp.
 #pragma once
 
 #include <run/state.hpp>
@@ -32,6 +32,7 @@ class Statics {
   /// Calls visit(first place, first particle, count) for every run.
   template <class Visit>
   void for_runs(const Visit& visit) const {
+    if (problem_.grid.listed) return visit(std::int64_t{0}, Particle{0}, model_.body.particles);
     const Site low = model_.body.low;
     for (const Run& run : model_.body.runs)
       visit(problem_.grid.place(run.begin - low.i, run.j - low.j, run.k - low.k), run.first, static_cast<std::uint64_t>(run.end - run.begin));
@@ -40,7 +41,12 @@ class Statics {
   void read_state(double* field) const;
   Values of_particles(const double* field, int first, int components) const;
 
+  // list.cpp
+  void make_list();
+  double respond_list(const double* u, double* force, const SpringTangents* tangents) const;
+
   // response.cpp
+  double respond_grid(const double* u, double* force, const SpringTangents* tangents) const;
   double respond(const double* u, double* force, const SpringTangents* tangents) const;
   double respond_plane(std::int32_t k, const double* u, double* force, const SpringTangents* tangents) const;
   void fill_alpha(const SpringTangents& tangents) const;
@@ -58,8 +64,10 @@ class Statics {
   double start_, end_;
   StaticProblem problem_;
   std::vector<StaticRow> rows_;
+  std::vector<StaticSpring> springs_;                              ///< of a listed body
+  std::vector<double> spring_stiffness_, spring_cross_stiffness_;  ///< N/m
   std::vector<std::uint8_t> free_, material_;
-  std::vector<float> weight_;               ///< of each spring, [n * places + place]; 0: none
+  std::vector<float> weight_;               ///< of each spring, [n * places + place], or of each listed one; 0: none
   std::vector<float> particle_weight_;      ///< of each place, shares of a whole particle
   std::vector<double> stiffness_of_alpha_;  ///< of each material, N/m
 

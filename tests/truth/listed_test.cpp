@@ -1,4 +1,6 @@
 // Listed lattices: the cubic lattice written out as a list does what the structured one does, and what a body must keep is kept.
+#include <run/stage_calls.hpp>
+
 #include <support/lists.hpp>
 
 #include <gtest/gtest.h>
@@ -199,6 +201,73 @@ TEST_P(RandomBlock, EnergyBalancesWhenSpringsBreak) {
   const Balance balance = simulation.balance();
   EXPECT_GT(simulation.breakages().size(), 100u);
   EXPECT_LT(std::abs(balance.relative_error()), 2e-4);
+}
+
+/// The displacements of a plan's body, brought to rest by its first solver.
+std::vector<double> at_rest(const Plan& plan, int threads = 1, RestReport* report = nullptr) {
+  Simulation simulation(*plan.model, threads);
+  const RestReport found = bring_to_rest(plan, simulation);
+  if (report != nullptr) *report = found;
+  return displacements(simulation);
+}
+
+const char* const bent = R"({ "type": "loads.fixed", "on": "z_min" },
+  { "type": "loads.force", "on": { "box": { "low": [0, 0, 6e-3], "high": [1, 1, 1] } }, "total": [100, 0, 300] },)";
+
+TEST_P(ListedMembrane, TheCubicLatticeAsAListRestsAsTheGrid) {
+  for (const std::string factorisation : {"whole", "incomplete"}) {
+    const Twins twins(5, 6, 7, GetParam().material, "",
+                      bent + std::string(R"({ "type": "solvers.static", "tolerance": 1e-9, "factorisation": ")") + factorisation + R"(" })");
+    const std::vector<double> grid = at_rest(*twins.grid), list = at_rest(*twins.list);
+    EXPECT_LT(distance(twins.for_list(grid), list), 1e-7 * largest(grid)) << factorisation;  // tangents are in single precision
+  }
+}
+
+// Layers of equal springs share a pull evenly, so that the displacement is linear: the patch test of a list.
+TEST(ListedStatics, UniaxialStrainIsUniform) {
+  const ListFiles files(4, 4, 9);
+  const auto plan = plan_of(listed_scene(files.lattice(), R"("membrane": "none")", R"({ "type": "loads.fixed", "on": "all", "axes": "xy" },
+    { "type": "loads.fixed", "on": "z_min", "axes": "z", "name": "end" }, { "type": "loads.displacement", "on": "z_max", "axes": "z", "value": [0, 0, 1e-5],
+      "rise": 1e-9 }, { "type": "solvers.static", "tolerance": 1e-10 })"));
+  const std::vector<double> u = at_rest(*plan);
+  for (Particle p = 0; p < plan->model->body.particles; ++p)
+    EXPECT_NEAR(u[3 * p + 2], 1e-5 * (plan->model->body.position(p).z - 0.5e-3) / 8e-3, 1e-13);
+}
+
+std::string pulled_random_block(int n, const std::string& solver) {
+  return listed_scene(random_lattice(n, n, n), R"("membrane": "I", "poisson": 0.2)",
+                      R"({ "type": "loads.fixed", "on": "z_min" },
+    { "type": "loads.displacement", "on": "z_max", "axes": "z", "value": [0, 0, 1e-6], "rise": 1e-9 },)" +
+                          solver);
+}
+
+// Also with particles on two springs or one, which nothing drives.
+TEST(ListedStatics, RelaxationAgrees) {
+  RestReport quick, slow;
+  const auto found = at_rest(*plan_of(pulled_random_block(7, R"({ "type": "solvers.static", "tolerance": 1e-9 })")), 1, &quick);
+  const auto relaxed =
+      at_rest(*plan_of(pulled_random_block(7, R"({ "type": "solvers.relaxation", "method": "kinetic", "tolerance": 1e-7 })")), 1, &slow);
+  EXPECT_LT(distance(found, relaxed), 1e-3 * largest(found));
+  std::printf("%llu iterations, %llu steps, largest difference %.1e\n", static_cast<unsigned long long>(quick.iterations),
+              static_cast<unsigned long long>(slow.iterations), distance(found, relaxed) / largest(found));
+}
+
+TEST(ListedStatics, ResultsDoNotDependOnThreads) {
+  const std::string scene = pulled_random_block(17, R"({ "type": "solvers.static", "tolerance": 1e-4 })");
+  EXPECT_EQ(at_rest(*plan_of(scene, 1), 1), at_rest(*plan_of(scene, 3), 3));
+}
+
+TEST(ListedStatics, ABodyThatNothingHoldsIsToldHowItMoves) {
+  const ListFiles files(4, 4, 4);
+  const auto plan = plan_of(listed_scene(files.lattice(), R"("membrane": "none")", R"({ "type": "loads.gravity", "acceleration": [0, -9.81, 0] },
+    { "type": "solvers.static" })"));
+  try {
+    at_rest(*plan);
+    FAIL() << "it came to rest";
+  } catch (const RunError& error) {
+    EXPECT_NE(std::string(error.what()).find("the whole body can move as a rigid one: it slides along (0, -1, 0)"), std::string::npos)
+        << error.what();
+  }
 }
 
 }  // namespace

@@ -12,8 +12,8 @@ struct SolverFacts {
   double critical_time_step = 0;    ///< seconds, undamped: 2 / omega_max
   std::span<const double> corners;  ///< times where a load has a kink, ascending
   std::int32_t sites_across = 1;    ///< of the longest side of the box that the body fills
-  bool listed = false;              ///< a list of particles and springs, which has no statics()
-  bool tangents = true;             ///< the law says how its force changes with the elongation; if not, there are no statics() either
+  bool listed = false;              ///< a list of particles and springs
+  bool tangents = true;             ///< the law says how its force changes with the elongation; if not, there are no statics()
   bool answering = false;           ///< a load answers to the motion; statics() does not know such loads
 };
 
@@ -49,8 +49,7 @@ struct SolverHost {
   bool (*stop_motion)(void* self) = nullptr;
   bool (*show_rest)(void* self, const RestReport& report) = nullptr;
 
-  /// The body for a static solver, built when first asked for; valid during the stage. Null: the run must stop. Not of a listed lattice; nor has one
-  /// a residual to measure.
+  /// The body for a static solver, built when first asked for; valid during the stage. Null: the run must stop.
   const StaticProblem* statics() const { return open(self); }
   /// Makes displacements the state, at rest, with that share of the stage's load. False: the run must stop.
   bool accept(double share, const double* displacement) const { return take(self, share, displacement); }

@@ -1,5 +1,6 @@
 // The body in search of a state of rest, as a static solver sees it: a box of sites with one number a component at each, what the springs answer
-// to displacements, and what the loads ask. Plain data and functions; the numerics are the solver's.
+// to displacements, and what the loads ask. Plain data and functions; the numerics are the solver's. Of a listed lattice there is no box: each
+// particle is a place, and the springs are listed too.
 //
 // A field has a number for each component and place, [c * places + place]: metres or newton along x, y, z and, where a membrane can move, of the
 // height. Site (i, j, k) of the box is at place origin + i + j * row + k * plane; a neighbour's place is a fixed step away, also at the border of
@@ -15,6 +16,12 @@ struct StaticRow {
   std::int32_t begin = 0, end = 0;
 };
 
+/// A spring of a listed lattice.
+struct StaticSpring {
+  std::int64_t a = 0, b = 0;  ///< places of its ends
+  Vec3 rest;                  ///< from a to b, metres
+};
+
 struct StaticGrid {
   std::array<std::int32_t, 3> sites{};  ///< box of sites
   std::int64_t row = 0, plane = 0, origin = 0, places = 0;
@@ -22,8 +29,10 @@ struct StaticGrid {
   double spacing = 0;            ///< l, metres
   double membrane_distance = 0;  ///< Delta, metres
   std::span<const NeighbourGeometry> neighbours;
-  std::span<const StaticRow> rows;     ///< [k * ny + j]
-  const std::uint8_t* free = nullptr;  ///< of each place, bit c: a particle is there and may move along c
+  std::span<const StaticRow> rows;        ///< [k * ny + j]
+  bool listed = false;                    ///< sites, neighbours and rows are empty
+  std::span<const StaticSpring> springs;  ///< of a listed lattice
+  const std::uint8_t* free = nullptr;     ///< of each place, bit c: a particle is there and may move along c
   int threads = 1;
 
   std::int64_t place(std::int64_t i, std::int64_t j, std::int64_t k) const { return origin + i + j * row + k * plane; }
@@ -31,8 +40,9 @@ struct StaticGrid {
   std::size_t numbers() const { return static_cast<std::size_t>(components) * static_cast<std::size_t>(places); }
 };
 
-/// Tangents of all springs (kernels/tangent.hpp), N/m, by neighbour and place, [n * places + place]; 0 where there is no spring. Shares and broken
-/// springs are counted. In three components cross springs are counted with their base springs, and the last three are not used.
+/// Tangents of all springs (kernels/tangent.hpp), N/m, by neighbour and place, [n * places + place], or one a listed spring; 0 where there is no
+/// spring. Shares and broken springs are counted. In three components cross springs are counted with their base springs, and the last three are not
+/// used.
 struct SpringTangents {
   float *axial = nullptr, *pull = nullptr, *cross_axial = nullptr, *cross_pull = nullptr;
   float* alpha = nullptr;  ///< of each place: stiffness of the height

@@ -128,7 +128,7 @@ std::unique_ptr<StencilLevel> coarsen(const SpringLevel& fine, const Transfer& t
   const Parts alike(*coarse, transfer, grid);
   const RowKernels& kernels = row_kernels();
   plane_by_plane(grid.sites[2], transfer.coarse_sites()[2], transfer.halved(2), reach, fine.threads(), [&](std::int64_t k) {
-    SpringLevel::Tangent tangent;
+    SpringBlocks tangent;
     End ends[16];
     std::vector<CoarsePart> own(Parts::most_parts);
     for (std::int32_t j = 0; j < grid.sites[1]; ++j) {

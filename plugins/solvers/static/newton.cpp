@@ -123,7 +123,7 @@ Newton::Step Newton::step(const Field& change, Field& u) {
   gradients_.start(right_);
   Field moved(u.size());
   double next_look = first_look * start;
-  for (int n = 0; n < limits_.iterations; ++n) {
+  for (int n = 0; n < system_.most_iterations(); ++n) {
     if (!gradients_.advance()) return Step::lost;
     ++report_.iterations;
     if (!host_.report(report_)) return Step::stopped;

@@ -13,7 +13,6 @@ namespace hyperlattice::statics {
 struct Limits {
   double tolerance = 1e-6;  ///< residual
   int newton = 30;          ///< steps, before the load step is given up
-  int iterations = 1000;    ///< of conjugate gradients in one of them
   bool stable = true;       ///< states of rest must be stable ones
 };
 

@@ -112,11 +112,10 @@ double SpringLevel::stiffest() const {
   return static_cast<double>(found);
 }
 
-bool SpringLevel::tangent(std::size_t neighbour, std::int64_t place, Tangent& t) const {
+bool SpringLevel::tangent(std::size_t neighbour, std::int64_t place, SpringBlocks& blocks) const {
+  if (!has_spring(neighbour, place)) return false;
   const auto at = neighbour * static_cast<std::size_t>(grid_.places) + static_cast<std::size_t>(place);
   const bool heights = grid_.components == 4;
-  const float axial = axial_[at], pull = pull_[at], cross_axial = heights ? cross_axial_[at] : 0, cross_pull = heights ? cross_pull_[at] : 0;
-  if (!has_spring(neighbour, place)) return false;
   const NeighbourGeometry& geometry = grid_.neighbours[neighbour];
   const std::int64_t step = grid_.step_to(geometry.site);
   const auto moved = [&](int c, std::int64_t p) { return moved_[static_cast<std::size_t>(c * grid_.places + p)]; };
@@ -129,13 +128,7 @@ bool SpringLevel::tangent(std::size_t neighbour, std::int64_t place, Tangent& t)
     r[3] = moved(3, place + step) - moved(3, place);
     total += moved(3, place + step) + moved(3, place);
   }
-  const float q[4] = {r[0], r[1], r[2], total};
-  for (int a = 0; a < 4; ++a)
-    for (int b = 0; b < 4; ++b) {
-      const float unit = a == b && (a < 3 || heights) ? 1.0f : 0.0f;
-      t.base[4 * a + b] = double(axial) * double(r[a]) * double(r[b]) + double(pull * unit);
-      t.cross[4 * a + b] = double(cross_axial) * double(q[a]) * double(q[b]) + double(cross_pull * unit);
-    }
+  blocks = {{axial_[at], pull_[at], heights ? cross_axial_[at] : 0, heights ? cross_pull_[at] : 0}, r, total, heights};
   return true;
 }
 
@@ -177,7 +170,7 @@ void SpringLevel::invert_diagonal() {
         const std::int64_t place = grid_.place(i, j, k);
         const std::uint8_t free = grid_.free[place];
         double block[16] = {}, inverse[16] = {};
-        Tangent t;
+        SpringBlocks t;
         const auto add = [&](std::size_t n, std::int64_t at) {
           if (!tangent(n, at, t)) return;
           for (int a = 0; a < size; ++a)

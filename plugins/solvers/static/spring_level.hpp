@@ -3,6 +3,7 @@
 
 #include "level.hpp"
 #include "rows.hpp"
+#include "spring_tangent.hpp"
 
 #include <hyperlattice/statics.hpp>
 
@@ -20,12 +21,8 @@ class SpringLevel : public Level {
   void mask(double* x) const override;
   double largest_eigenvalue() const override { return largest_eigenvalue_; }
 
-  /// A spring's tangent: K_base on differences of ends, K_cross where heights add up, both row by row in 4 x 4.
-  struct Tangent {
-    double base[16], cross[16];
-  };
   /// False if there is no spring.
-  bool tangent(std::size_t neighbour, std::int64_t place, Tangent& tangent) const;
+  bool tangent(std::size_t neighbour, std::int64_t place, SpringBlocks& blocks) const;
   bool has_spring(std::size_t neighbour, std::int64_t place) const;
   double stiffest() const;  ///< largest tangent of a spring, N/m
   float alpha(std::int64_t place) const { return alpha_.empty() ? 0 : alpha_[static_cast<std::size_t>(place)]; }

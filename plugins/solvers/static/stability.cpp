@@ -23,12 +23,11 @@ Field rough_field(const System& system) {
 }  // namespace
 
 Field softening_motion(System& system, ConjugateGradients& gradients, const Field& displacement) {
-  constexpr int iterations = 30;
   constexpr double solved = 1e-3, rounding = 1e-13;
   const FreeMotions free(system, displacement);
   const Field rough = rough_field(system);
   gradients.start(rough, &free);
-  for (int n = 0; n < iterations && largest(gradients.residual()) > solved; ++n) {
+  for (int n = 0; n < system.most_iterations() && largest(gradients.residual()) > solved; ++n) {
     if (gradients.advance()) continue;
     const Field& p = gradients.direction();
     const double size = product(p.data(), p.data(), p.size(), system.threads());

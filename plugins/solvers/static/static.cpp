@@ -1,6 +1,7 @@
 // A state of rest, found as such: Newton's method on the balance of forces, with steps of the load that become shorter where it does not converge.
 #include "failure.hpp"
 #include "grid_system.hpp"
+#include "sparse_system.hpp"
 
 #include <hyperlattice/rest.hpp>
 
@@ -9,20 +10,25 @@
 
 namespace hyperlattice {
 
+constexpr std::string_view factorisation_names[] = {"automatic", "whole", "incomplete"};
+
 class Static {
  public:
   struct Options {
     double tolerance = 1e-6, load_steps = 1, most_cutbacks = 10;
-    bool stability = true;
+    std::optional<bool> stability;
+    statics::Factorisation factorisation = statics::Factorisation::automatic;
     std::optional<double> end_time;
   };
 
   static Schema<Options> schema() {
-    return Schema<Options>("solvers.static", "A state of rest by Newton's method and multigrid, geometrically nonlinear")
-        .equation("F_springs(u) + F_loads = 0;  K(u) du = F, K the exact tangent, by conjugate gradients with a multigrid V-cycle as preconditioner")
+    return Schema<Options>("solvers.static", "A state of rest by Newton's method, geometrically nonlinear")
+        .equation(
+            "F_springs(u) + F_loads = 0;  K(u) du = F, K the exact tangent, by conjugate gradients with a multigrid V-cycle as preconditioner, of "
+            "listed lattices with a sparse factorisation")
         .source("docs/theory/statics.md")
         .restrictions(
-            "Structured lattices. Springs do not break during the stage; those beyond their limit at its end break in the first step in time that "
+            "Springs do not break during the stage; those beyond their limit at its end break in the first step in time that "
             "follows. A body that is a mechanism under its loads, or buckles, is an error that says where it moves. Energy is booked along the load "
             "steps by the trapezoidal rule: with large deformations in few steps the balance of this stage is as rough as that rule.")
         .add<&Options::tolerance>(
@@ -39,8 +45,13 @@ class Static {
         .add<&Options::stability>(
             "stability", "",
             "whether states of rest must be stable: each that took more than one tangent is searched for a motion along which its "
-            "stiffness is negative")
-        .fallback("true")
+            "stiffness is negative; left out: of structured lattices, as particles of a list that hang on two springs buckle alone")
+        .add<&Options::factorisation>(
+            "factorisation", "",
+            "of listed lattices: of the whole tangent, or an incomplete one that takes far less memory and more iterations; "
+            "automatic: whole up to 4000 numbers")
+        .choices(factorisation_names)
+        .fallback("\"automatic\"")
         .add<&Options::end_time>("end_time", "s",
                                  "instant whose loads act at the end, from the start of the run; left out: when the last load has stopped changing")
         .at_least(0);
@@ -52,7 +63,7 @@ class Static {
     SolverPlan plan = plan_of_rest(facts, o_.end_time);
     plan.steps = static_cast<std::uint64_t>(o_.load_steps);
     plan.sweeps_per_step = 150;
-    plan.bytes_per_site = 1300;
+    plan.bytes_per_site = facts.listed ? 8500 : 1300;
     return plan;
   }
 
@@ -60,8 +71,8 @@ class Static {
     if (!host.observe()) return;
     const StaticProblem* problem = host.statics();
     if (problem == nullptr) return;
-    statics::GridSystem system(*problem);
-    statics::Newton newton(system, host, {.tolerance = o_.tolerance, .stable = o_.stability});
+    const std::unique_ptr<statics::System> system = system_of(*problem);
+    statics::Newton newton(*system, host, {.tolerance = o_.tolerance, .stable = o_.stability.value_or(!facts.listed)});
     statics::Field u(problem->state, problem->state + problem->grid.numbers());
     const double whole = 1 / std::floor(o_.load_steps), shortest = whole * std::exp2(-o_.most_cutbacks);
     double share = 0, length = whole;
@@ -84,6 +95,11 @@ class Static {
   }
 
  private:
+  std::unique_ptr<statics::System> system_of(const StaticProblem& problem) const {
+    if (problem.grid.listed) return std::make_unique<statics::SparseSystem>(problem, o_.factorisation);
+    return std::make_unique<statics::GridSystem>(problem);
+  }
+
   Options o_;
 };
 

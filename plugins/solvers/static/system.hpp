@@ -22,9 +22,10 @@ class System {
   virtual void multiply(const double* x, double* y) const = 0;
   /// Sets to zero what cannot move.
   virtual void mask(double* x) const = 0;
-  virtual void prepare() = 0;                        ///< apply(), for the present tangents
-  virtual void apply(const Field& r, Field& z) = 0;  ///< z, about K^-1 r
-  virtual double stiffest() const = 0;               ///< largest tangent of a spring, N/m
+  virtual void prepare() = 0;                           ///< apply(), for the present tangents
+  virtual void apply(const Field& r, Field& z) = 0;     ///< z, about K^-1 r
+  virtual int most_iterations() const { return 1000; }  ///< of conjugate gradients, in which they find what they can
+  virtual double stiffest() const = 0;                  ///< largest tangent of a spring, N/m
   using Join = std::function<void(std::int64_t a, std::int64_t b)>;
   virtual void for_springs(const Join& join) const = 0;  ///< the two places of every spring that is there
 

@@ -1,0 +1,74 @@
+// A listed body: every spring is a row of one. Springs are answered in parallel and added to their ends in the order of the list, so that sums have
+// one order for any number of threads.
+#include <statics/spring_rows.hpp>
+#include <statics/statics.hpp>
+
+namespace hyperlattice {
+
+void Statics::make_list() {
+  const Body& body = model_.body;
+  StaticGrid& grid = problem_.grid;
+  grid.places = static_cast<std::int64_t>(body.particles);
+  grid.components = model_.degrees_of_freedom;
+  grid.spacing = body.grid.spacing;
+  grid.membrane_distance = body.grid.membrane_distance;
+  free_.assign(body.particles, static_cast<std::uint8_t>((1u << grid.components) - 1));
+  grid.free = free_.data();
+  for (Particle p = 0; p < body.particles; ++p) particle_weight_.push_back(static_cast<float>(body.share(p)));
+  if (!model_.material_of.empty()) material_.assign(model_.material_of.begin(), model_.material_of.end());
+  for (std::uint32_t n = 0; n < body.listed.springs.size(); ++n) {
+    const ListedSpring& spring = body.listed.springs[n];
+    const Joint joint = model_.joint(spring.a, spring.b, n);
+    springs_.push_back({spring.a, spring.b, joint.rest});
+    spring_stiffness_.push_back(joint.stiffness);
+    spring_cross_stiffness_.push_back(joint.cross_stiffness);
+  }
+  grid.springs = springs_;
+  weight_.assign(springs_.size(), 1);
+  for (const Breakage& broken : simulation_.breakages()) weight_[broken.neighbour] = 0;
+}
+
+double Statics::respond_list(const double* u, double* force, const SpringTangents* tangents) const {
+  constexpr std::size_t piece = 1024;  // springs, whatever the number of threads
+  const StaticGrid& grid = problem_.grid;
+  const std::size_t springs = springs_.size(), pieces = (springs + piece - 1) / piece, of_spring = 2 * static_cast<std::size_t>(grid.components);
+  std::vector<double> pulls(of_spring * springs, 0), energies(pieces, 0);  // at both ends of each spring, by component and end
+#pragma omp parallel for num_threads(grid.threads) schedule(static)
+  for (std::size_t n = 0; n < pieces; ++n) {
+    RowBuffers buffer(grid, 1);
+    SpringRow& row = buffer.springs;
+    row.count = 1;
+    double here[4][lanes] = {}, there[4][lanes] = {};
+    for (int c = 0; c < grid.components; ++c) {
+      row.here[c] = here[c];
+      row.there[c] = there[c];
+    }
+    for (std::size_t s = n * piece; s < std::min(springs, (n + 1) * piece); ++s) {
+      const StaticSpring& spring = springs_[s];
+      row.rest = spring.rest;
+      row.rest_length = norm(spring.rest);
+      row.cross_rest_length = std::hypot(row.rest_length, grid.membrane_distance);
+      buffer.weight[0] = static_cast<double>(weight_[s]);
+      buffer.stiffness[0] = spring_stiffness_[s];
+      buffer.cross_stiffness[0] = spring_cross_stiffness_[s];
+      for (int c = 0; c < grid.components; ++c) {
+        here[c][0] = u[c * grid.places + spring.a];
+        there[c][0] = u[c * grid.places + spring.b];
+      }
+      energies[n] += model_.kernels.linearise(row);
+      add_forces(buffer, grid, 2, 1, pulls.data() + of_spring * s);
+      if (tangents != nullptr) keep_tangents(buffer, grid.components == 4, s, *tangents);
+    }
+  }
+  for (std::size_t s = 0; s < springs; ++s)
+    for (int c = 0; c < grid.components; ++c) {
+      const double* pull = pulls.data() + of_spring * s + 2 * c;
+      force[c * grid.places + springs_[s].a] += pull[0];
+      force[c * grid.places + springs_[s].b] += pull[1];
+    }
+  double energy = 0;
+  for (const double of_piece : energies) energy += of_piece;
+  return energy;
+}
+
+}  // namespace hyperlattice

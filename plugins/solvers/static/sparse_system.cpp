@@ -1,0 +1,181 @@
+#include "sparse_system.hpp"
+
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/SparseCholesky>
+
+#include <stdexcept>
+
+namespace hyperlattice::statics {
+
+namespace {
+
+using Matrix = Eigen::SparseMatrix<double>;
+
+}  // namespace
+
+struct SparseSystem::Factors {
+  bool whole = true;
+  Eigen::SimplicialLDLT<Matrix> ldlt;
+  Eigen::IncompleteCholesky<double> incomplete;
+};
+
+SparseSystem::SparseSystem(const StaticProblem& problem, Factorisation factorisation)
+    : System(problem),
+      grid_(problem.grid),
+      factorisation_(factorisation),
+      components_(static_cast<std::size_t>(grid_.components)),
+      block_size_(components_ * components_),
+      factors_(std::make_unique<Factors>()) {
+  axial_.resize(grid_.springs.size());
+  pull_.resize(grid_.springs.size());
+  if (components_ == 4) {
+    cross_axial_.resize(grid_.springs.size());
+    cross_pull_.resize(grid_.springs.size());
+    alpha_.resize(static_cast<std::size_t>(grid_.places));
+  }
+  find_pattern();
+}
+
+SparseSystem::~SparseSystem() = default;
+
+void SparseSystem::find_pattern() {
+  std::vector<std::vector<std::int64_t>> neighbours(static_cast<std::size_t>(grid_.places));
+  for (std::int64_t p = 0; p < grid_.places; ++p) neighbours[static_cast<std::size_t>(p)].push_back(p);
+  for (const StaticSpring& spring : grid_.springs) {
+    neighbours[static_cast<std::size_t>(spring.a)].push_back(spring.b);
+    neighbours[static_cast<std::size_t>(spring.b)].push_back(spring.a);
+  }
+  first_.push_back(0);
+  for (auto& row : neighbours) {
+    std::sort(row.begin(), row.end());
+    column_.insert(column_.end(), row.begin(), row.end());
+    first_.push_back(column_.size());
+  }
+  blocks_.resize(column_.size() * block_size_);
+}
+
+std::size_t SparseSystem::find(std::int64_t row, std::int64_t column) const {
+  const auto from = column_.begin() + static_cast<std::ptrdiff_t>(first_[static_cast<std::size_t>(row)]);
+  const auto to = column_.begin() + static_cast<std::ptrdiff_t>(first_[static_cast<std::size_t>(row) + 1]);
+  return static_cast<std::size_t>(std::lower_bound(from, to, column) - column_.begin());
+}
+
+SpringNumbers SparseSystem::numbers(std::size_t s) const {
+  return components_ == 4 ? SpringNumbers{axial_[s], pull_[s], cross_axial_[s], cross_pull_[s]} : SpringNumbers{axial_[s], pull_[s], 0, 0};
+}
+
+double SparseSystem::linearise(const Field& displacement, Field& force) {
+  SpringTangents tangents{axial_.data(), pull_.data(), nullptr, nullptr, nullptr};
+  if (components_ == 4) tangents = {axial_.data(), pull_.data(), cross_axial_.data(), cross_pull_.data(), alpha_.data()};
+  const double energy = problem().respond(displacement.data(), force.data(), &tangents);
+  assemble(displacement);
+  return energy;
+}
+
+void SparseSystem::assemble(const Field& u) {
+  std::fill(blocks_.begin(), blocks_.end(), 0.0);
+  const bool heights = components_ == 4;
+  for (std::size_t s = 0; s < grid_.springs.size(); ++s) {
+    const StaticSpring& spring = grid_.springs[s];
+    const auto at = [&](std::int64_t c, std::int64_t place) { return u[static_cast<std::size_t>(c * grid_.places + place)]; };
+    const auto apart = [&](std::int64_t c) { return at(c, spring.b) - at(c, spring.a); };
+    const auto in_spacings = [&](double length) { return static_cast<float>(length / grid_.spacing); };
+    const float r[4] = {in_spacings(spring.rest.x + apart(0)), in_spacings(spring.rest.y + apart(1)), in_spacings(spring.rest.z + apart(2)),
+                        heights ? in_spacings(apart(3)) : 0};
+    const float total = heights ? in_spacings(grid_.membrane_distance + at(3, spring.a) + at(3, spring.b)) : 0;
+    const SpringBlocks tangent(numbers(s), r, total, heights);
+    const std::int64_t ends[2] = {spring.a, spring.b};
+    for (int e = 0; e < 2; ++e)
+      for (int f = 0; f < 2; ++f) {
+        double* to = block(find(ends[e], ends[f]));
+        const double across = e == f ? 1 : -1;
+        for (std::size_t a = 0; a < components_; ++a)
+          for (std::size_t b = 0; b < components_; ++b) {
+            // of a cross spring, heights add up
+            const double sign = (a < 3 && e == 0 ? -1.0 : 1.0) * (b < 3 && f == 0 ? -1.0 : 1.0);
+            to[a * components_ + b] += across * tangent.base[4 * a + b] + sign * tangent.cross[4 * a + b];
+          }
+      }
+  }
+  for (std::int64_t p = 0; heights && p < grid_.places; ++p) block(find(p, p))[15] += static_cast<double>(alpha_[static_cast<std::size_t>(p)]);
+}
+
+void SparseSystem::multiply(const double* x, double* y) const {
+  const auto places = static_cast<std::size_t>(grid_.places);
+  in_pieces(places, threads(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t p = first; p < last; ++p) {
+      double sum[4] = {};
+      for (std::size_t n = first_[p]; n < first_[p + 1]; ++n)
+        for (std::size_t a = 0; a < components_; ++a)
+          for (std::size_t b = 0; b < components_; ++b)
+            sum[a] += block(n)[a * components_ + b] * x[b * places + static_cast<std::size_t>(column_[n])];
+      for (std::size_t a = 0; a < components_; ++a) y[a * places + p] = sum[a];
+    }
+  });
+  mask(y);
+}
+
+void SparseSystem::mask(double* x) const {
+  for (std::int64_t p = 0; p < grid_.places; ++p)
+    for (int c = 0; c < grid_.components; ++c)
+      if ((grid_.free[p] >> c & 1u) == 0) x[c * grid_.places + p] = 0;
+}
+
+void SparseSystem::prepare() {
+  const auto places = static_cast<std::size_t>(grid_.places);
+  std::vector<int> row_of(components_ * places, -1);
+  free_.clear();
+  for (std::size_t p = 0; p < places; ++p)
+    for (std::size_t c = 0; c < components_; ++c)
+      if ((grid_.free[p] >> c & 1u) != 0 && block(find(static_cast<std::int64_t>(p), static_cast<std::int64_t>(p)))[c * (components_ + 1)] > 0) {
+        row_of[c * places + p] = static_cast<int>(free_.size());
+        free_.push_back(c * places + p);
+      }
+  const auto size = static_cast<Eigen::Index>(free_.size());
+  Matrix lower(size, size);
+  lower.reserve(static_cast<Eigen::Index>(column_.size() * block_size_ / 2 + free_.size()));
+  constexpr double shift = 1e-9;  // where nothing holds the body
+  for (std::size_t column = 0; column < free_.size(); ++column) {
+    const std::size_t p = free_[column] % places, b = free_[column] / places;
+    lower.startVec(static_cast<Eigen::Index>(column));
+    for (std::size_t n = first_[p]; n < first_[p + 1]; ++n)
+      for (std::size_t a = 0; a < components_; ++a) {
+        const int row = row_of[a * places + static_cast<std::size_t>(column_[n])];
+        if (row < static_cast<int>(column)) continue;
+        const double value = block(n)[b * components_ + a];  // of the row of p, which is the column's: K is symmetric
+        lower.insertBack(row, static_cast<Eigen::Index>(column)) = row == static_cast<int>(column) ? value * (1 + shift) : value;
+      }
+  }
+  lower.finalize();
+  constexpr std::size_t few = 4000;  // numbers, of which a whole factorisation takes no longer than iterations with an incomplete one
+  factors_->whole = factorisation_ == Factorisation::whole || (factorisation_ == Factorisation::automatic && free_.size() <= few);
+  if (factors_->whole) {
+    factors_->ldlt.compute(lower);
+    if (factors_->ldlt.info() != Eigen::Success) throw std::runtime_error("the tangent cannot be factorised");
+  } else {
+    factors_->incomplete.compute(lower);
+  }
+}
+
+void SparseSystem::apply(const Field& r, Field& z) {
+  Eigen::VectorXd right(static_cast<Eigen::Index>(free_.size()));
+  for (std::size_t n = 0; n < free_.size(); ++n) right[static_cast<Eigen::Index>(n)] = r[free_[n]];
+  const Eigen::VectorXd left = factors_->whole ? Eigen::VectorXd(factors_->ldlt.solve(right)) : Eigen::VectorXd(factors_->incomplete.solve(right));
+  std::fill(z.begin(), z.end(), 0.0);
+  for (std::size_t n = 0; n < free_.size(); ++n) z[free_[n]] = left[static_cast<Eigen::Index>(n)];
+}
+
+double SparseSystem::stiffest() const {
+  float found = 0;
+  for (const auto* numbers : {&axial_, &cross_axial_})
+    for (const float value : *numbers) found = std::max(found, std::abs(value));
+  return static_cast<double>(found);
+}
+
+void SparseSystem::for_springs(const Join& join) const {
+  for (std::size_t s = 0; s < grid_.springs.size(); ++s)
+    if (const SpringNumbers n = numbers(s); n.axial != 0 || n.pull != 0 || n.cross_axial != 0 || n.cross_pull != 0)
+      join(grid_.springs[s].a, grid_.springs[s].b);
+}
+
+}  // namespace hyperlattice::statics
