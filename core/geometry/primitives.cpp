@@ -1,6 +1,7 @@
 #include <base/input_file.hpp>
 #include <geometry/primitives.hpp>
 #include <geometry/triangle_mesh.hpp>
+#include <geometry/voxel_image.hpp>
 
 #include <algorithm>
 #include <array>
@@ -167,6 +168,7 @@ struct HalfSpace {
 
 /// The solid within a closed surface of triangles.
 struct Stl {
+  static constexpr std::string_view file_holds = "a closed surface";
   struct Options {
     std::string file;
     double scale = 1;
@@ -192,21 +194,69 @@ struct Stl {
   }
 };
 
+/// What an image shows; anchored at the image's corner, so that cells of the voxels' size are the voxels.
+struct Voxels {
+  static constexpr std::string_view file_holds = "such an image";
+  struct Options {
+    std::string file;
+    Vec3 counts, low;
+    double voxel = 0;
+    VoxelType type = VoxelType::uint8;
+    std::vector<double> values;
+  };
+  static constexpr std::string_view type_names[] = {"uint8", "uint16"};
+  static Schema<Options> schema() {
+    return Schema<Options>("voxels",
+                           "Voxels of an image that have one of some values: raw numbers without a header, x running fastest, then y, then z")
+        .add<&Options::file>(path_option, "", "the file, relative to the scene")
+        .file()
+        .add<&Options::counts>("counts", "", "voxels along x, y and z")
+        .positive()
+        .add<&Options::voxel>("voxel", "m", "edge of a voxel, a cube")
+        .positive()
+        .add<&Options::low>("low", "m", "where the image's corner with the smallest coordinates is")
+        .fallback("[0, 0, 0]")
+        .add<&Options::type>("type", "", "of a number: one byte, or two, little-endian")
+        .choices(type_names)
+        .fallback("\"uint8\"")
+        .add<&Options::values>("values", "", "values of the voxels inside; left out: all but 0")
+        .fallback("[]")
+        .check([](const Options& image, const FaultSink& faults) {
+          constexpr double most = 1e5;
+          for (const double count : {image.counts.x, image.counts.y, image.counts.z})
+            if (count != std::floor(count) || count > most) return faults.fault("counts", "whole numbers of voxels, up to 100000");
+          const double largest = image.type == VoxelType::uint8 ? 255 : 65535;
+          for (const double value : image.values)
+            if (!(value >= 0 && value <= largest && value == std::floor(value)))
+              return faults.fault("values", "whole numbers from 0 to " + std::to_string(static_cast<int>(largest)));
+        });
+  }
+  static Region make(const Options& image) {
+    const auto count = [](double number) { return static_cast<std::int64_t>(number); };
+    const auto set = std::make_shared<const VoxelSet>(read_input_file(image.file, "", "a voxel image"),
+                                                      std::array{count(image.counts.x), count(image.counts.y), count(image.counts.z)}, image.type,
+                                                      image.values, image.low, image.voxel);
+    return solid(set->low(), set->high(), image.low, 0.5 * (set->low() + set->high()), [set](Vec3 p) { return set->contains(p); });
+  }
+};
+
 template <class Solid>
 Primitive describe() {
   static const auto schema = Solid::schema();
-  return {schema.name(), schema.summary(), option_set<Solid>(), [](const void* options) {
-            Region region = Solid::make(*static_cast<const typename Solid::Options*>(options));
-            region.primitive = schema.name();
-            return region;
-          }};
+  Primitive primitive{schema.name(), schema.summary(), option_set<Solid>(), {}, [](const void* options) {
+                        Region region = Solid::make(*static_cast<const typename Solid::Options*>(options));
+                        region.primitive = schema.name();
+                        return region;
+                      }};
+  if constexpr (requires { Solid::file_holds; }) primitive.file_holds = Solid::file_holds;
+  return primitive;
 }
 
 }  // namespace
 
 std::span<const Primitive> primitives() {
-  static const std::array all{describe<Box>(),      describe<Sphere>(),    describe<HollowSphere>(),
-                              describe<Cylinder>(), describe<HalfSpace>(), describe<Stl>()};
+  static const std::array all{describe<Box>(),       describe<Sphere>(), describe<HollowSphere>(), describe<Cylinder>(),
+                              describe<HalfSpace>(), describe<Stl>(),    describe<Voxels>()};
   return all;
 }
 

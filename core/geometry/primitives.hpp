@@ -9,6 +9,7 @@ namespace hyperlattice {
 struct Primitive {
   std::string_view name, summary;
   OptionSet options;
+  std::string_view file_holds;                    ///< what the file that the options name must hold, if they name one
   Region (*make)(const void* options) = nullptr;  ///< throws std::runtime_error if a file that the options name is no solid, and says why
 };
 

@@ -13,7 +13,8 @@ namespace hyperlattice {
 namespace {
 
 const std::string expected_region =
-    "a region: a name, or an object with one key out of box, sphere, hollow_sphere, cylinder, half_space, stl, union, intersection, difference";
+    "a region: a name, or an object with one key out of box, sphere, hollow_sphere, cylinder, half_space, stl, voxels, union, intersection, "
+    "difference";
 
 std::vector<std::string> expression_keys() {
   std::vector<std::string> keys;
@@ -106,7 +107,7 @@ std::shared_ptr<const Region> RegionReader::read_primitive(const std::string& ke
     throw;
   } catch (const std::runtime_error& error) {
     faults_.add(member(pointer, path_option), shown(parameters[std::string(path_option)]),
-                std::string("a file with a closed surface; ") + error.what());
+                fmt::format("a file with {}; {}", primitive.file_holds, error.what()));
   }
   return nullptr;
 }

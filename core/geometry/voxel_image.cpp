@@ -1,0 +1,88 @@
+#include <geometry/voxel_image.hpp>
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace hyperlattice {
+
+namespace {
+
+constexpr std::size_t different = 1 << 16;  // values
+
+std::size_t bytes_of(VoxelType type) { return type == VoxelType::uint8 ? 1 : 2; }
+
+std::size_t value_at(std::string_view bytes, std::size_t voxel, VoxelType type) {
+  const auto byte = [&](std::size_t n) { return std::size_t{static_cast<unsigned char>(bytes[n])}; };
+  return type == VoxelType::uint8 ? byte(voxel) : byte(2 * voxel) + 256 * byte(2 * voxel + 1);
+}
+
+/// "0 (12 voxels), 3 (4 voxels)": the first few of those that are there.
+std::string values_text(const std::vector<std::uint64_t>& voxels_of) {
+  constexpr int most = 8;
+  std::string text;
+  int shown = 0;
+  for (std::size_t value = 0; value < different; ++value) {
+    if (voxels_of[value] == 0) continue;
+    if (shown++ == most) return text + ", ...";
+    text += fmt::format("{}{} ({} voxels)", text.empty() ? "" : ", ", value, voxels_of[value]);
+  }
+  return text;
+}
+
+}  // namespace
+
+VoxelSet::VoxelSet(std::string_view bytes, const Index& counts, VoxelType type, const std::vector<double>& values, Vec3 low, double edge)
+    : counts_(counts), low_(low), edge_(edge) {
+  const auto voxels = static_cast<std::size_t>(counts[0] * counts[1] * counts[2]), needed = voxels * bytes_of(type);
+  if (bytes.size() != needed)
+    throw std::runtime_error(fmt::format("{} x {} x {} voxels of {} need {} bytes, and it has {}", counts[0], counts[1], counts[2],
+                                         type == VoxelType::uint8 ? "1 byte" : "2 bytes", needed, bytes.size()));
+  std::vector<bool> wanted(different, values.empty());
+  wanted[0] = false;
+  for (const double value : values) wanted[static_cast<std::size_t>(value)] = true;
+  std::vector<std::uint64_t> voxels_of(different, 0);
+  inside_.resize(voxels);
+  for (std::size_t n = 0; n < voxels; ++n) {
+    const std::size_t value = value_at(bytes, n, type);
+    ++voxels_of[value];
+    inside_[n] = wanted[value];
+  }
+  for (const double value : values)
+    if (voxels_of[static_cast<std::size_t>(value)] == 0)
+      throw std::runtime_error(fmt::format("no voxel has the value {}; there are {}", value, values_text(voxels_of)));
+  if (voxels_of[0] == voxels && values.empty()) throw std::runtime_error("all its voxels are 0, which is outside");
+  find_box();
+}
+
+void VoxelSet::find_box() {
+  first_ = counts_;
+  last_ = {-1, -1, -1};
+  for (std::int64_t k = 0; k < counts_[2]; ++k)
+    for (std::int64_t j = 0; j < counts_[1]; ++j)
+      for (std::int64_t i = 0; i < counts_[0]; ++i) {
+        const Index index{i, j, k};
+        if (!inside_[number(index)]) continue;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          first_[axis] = std::min(first_[axis], index[axis]);
+          last_[axis] = std::max(last_[axis], index[axis]);
+        }
+      }
+}
+
+bool VoxelSet::contains(Vec3 point) const {
+  constexpr double rounding = 1e-9;  // voxels
+  const Vec3 at = (1 / edge_) * (point - low_);
+  const double t[3] = {at.x, at.y, at.z};
+  Index index;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double end = static_cast<double>(counts_[axis]);
+    if (!(t[axis] >= -rounding && t[axis] <= end + rounding)) return false;
+    index[axis] = std::min(static_cast<std::int64_t>(t[axis] + rounding), counts_[axis] - 1);
+  }
+  return inside_[number(index)];
+}
+
+}  // namespace hyperlattice
