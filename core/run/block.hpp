@@ -25,7 +25,8 @@ struct Contribution {
 /// What a block of a listed body has besides; see ListedSlots.
 struct ListedArrays {
   AlignedArray<std::uint32_t> first, neighbour;
-  AlignedArray<double> stiffness, alarm, rest, around, shares;
+  Numbers stiffness, alarm, records;
+  AlignedArray<double> shares;
 };
 
 struct Block {

@@ -7,13 +7,8 @@
 
 namespace hyperlattice {
 
-namespace {
-
-constexpr std::uint64_t vectors_for(std::uint64_t particles) { return (particles + lanes - 1) / lanes; }
-
-}  // namespace
-
-ListedLayout::ListedLayout(const Model& model, int threads) : Layout(model) {
+ListedLayout::ListedLayout(const Model& model, int threads)
+    : Layout(model), width_(model.choice.precision == Precision::floats ? lanes_of<float> : lanes_of<double>) {
   const std::uint64_t particles = model.body.particles, rows = (particles + row_length - 1) / row_length;
   const std::uint64_t wanted = std::clamp<std::uint64_t>(static_cast<std::uint64_t>(threads), 1, rows);
   std::vector<std::uint32_t> springs_of(particles, 0);
@@ -34,8 +29,8 @@ ListedLayout::Part ListedLayout::make_part(Particle first, Particle last, const 
   part.last = last;
   part.first_slot.push_back(0);
   const auto count = [&](Particle particle) { return springs_of.begin() + static_cast<std::ptrdiff_t>(particle); };
-  for (Particle start = first; start < last; start += lanes)
-    part.first_slot.push_back(part.first_slot.back() + *std::max_element(count(start), count(std::min<Particle>(start + lanes, last))));
+  for (Particle start = first; start < last; start += width_)
+    part.first_slot.push_back(part.first_slot.back() + *std::max_element(count(start), count(std::min<Particle>(start + width_, last))));
   for (const ListedSpring& spring : model_.body.listed.springs)
     if (part.holds(spring.a) != part.holds(spring.b)) part.ghosts.push_back(part.holds(spring.a) ? spring.b : spring.a);
   std::sort(part.ghosts.begin(), part.ghosts.end());
@@ -53,12 +48,12 @@ BlockLayout ListedLayout::make_block(const Part& part) const {
     row.start = first - part.first;
     row.material = material_of_row(first, last);
     if (weighted) row.weights = block.weight_sets.size();
-    for (std::uint64_t n = 0; weighted && n < vectors_for(last - first); ++n)
-      block.weight_sets.push_back(static_cast<std::uint32_t>((row.start / lanes + n) * lanes));
+    for (std::uint64_t n = 0; weighted && n < padded(last - first); n += lanes)
+      block.weight_sets.push_back(static_cast<std::uint32_t>(row.start + n));
     block.rows.push_back(row);
   }
   block.last_own = static_cast<std::uint32_t>(block.rows.size());
-  block.sites = vectors_for(part.last - part.first) * lanes;
+  block.sites = padded(part.last - part.first);
   return block;
 }
 
@@ -88,22 +83,22 @@ void ListedLayout::for_stretches(const std::function<void(const Stretch&)>& visi
   for (std::size_t n = 0; n < parts_.size(); ++n) visit({n, 0, parts_[n].first, parts_[n].last - parts_[n].first});
 }
 
-/// Where a block keeps the rest and the displacement of a particle that its springs lead to: among its own, or behind them.
-std::uint32_t ListedLayout::place_around(const Part& part, Particle particle) const {
+/// Of a particle that a block's springs lead to: among its own, or behind them.
+std::uint32_t ListedLayout::record_of(const Part& part, Particle particle) const {
   if (part.holds(particle)) return static_cast<std::uint32_t>(particle - part.first);
   const auto ghost = std::lower_bound(part.ghosts.begin(), part.ghosts.end(), particle) - part.ghosts.begin();
-  return static_cast<std::uint32_t>(vectors_for(part.last - part.first) * lanes + static_cast<std::uint64_t>(ghost));
+  return static_cast<std::uint32_t>(padded(part.last - part.first) + static_cast<std::uint64_t>(ghost));
 }
 
-Particle ListedLayout::particle_around(const Part& part, std::uint32_t place) const {
-  const std::uint64_t own = vectors_for(part.last - part.first) * lanes;
+Particle ListedLayout::particle_of(const Part& part, std::uint32_t place) const {
+  const std::uint64_t own = padded(part.last - part.first);
   return place < own ? part.first + place : part.ghosts[place - own];
 }
 
 SpringEnds ListedLayout::spring(const Block& block, std::uint32_t row, std::uint32_t slot, std::int32_t site) const {
   const Part& part = parts_[block.number];
   const Particle here = part.first + row * row_length + static_cast<Particle>(site);
-  const Particle there = particle_around(part, block.listed.neighbour[std::size_t{slot} * lanes + static_cast<std::size_t>(site % lanes)]);
+  const Particle there = particle_of(part, block.listed.neighbour[slot * width_ + static_cast<std::uint64_t>(site) % width_]);
   const auto [a, b] = std::minmax(here, there);
   const std::vector<ListedSpring>& springs = model_.body.listed.springs;
   const auto before = [](const ListedSpring& spring, const std::pair<Particle, Particle>& ends) {
@@ -120,8 +115,8 @@ std::uint64_t ListedLayout::other_end(std::size_t, std::uint32_t, std::uint32_t,
 std::uint64_t ListedLayout::alive_bits(const Block& block, std::uint64_t index) const {
   const std::vector<std::uint32_t>& first = parts_[block.number].first_slot;
   std::uint64_t bits = 0;
-  for (std::uint32_t slot = first[index / lanes]; slot < first[index / lanes + 1]; ++slot)
-    bits = bits << 1 ^ bits >> 63 ^ (block.listed.neighbour[std::size_t{slot} * lanes + index % lanes] != index ? 1U : 0U);
+  for (std::uint32_t slot = first[index / width_]; slot < first[index / width_ + 1]; ++slot)
+    bits = bits << 1 ^ bits >> 63 ^ (block.listed.neighbour[slot * width_ + index % width_] != index ? 1U : 0U);
   return bits;
 }
 
@@ -139,21 +134,21 @@ void ListedLayout::fill(Block& block) const {
     std::fill_n(block.listed.shares.get(), block.layout->sites, 1.0);
     for (std::uint64_t n = 0; n < count; ++n) block.listed.shares[n] = model_.body.listed.shares[part.first + n];
   }
-  fill_places(block);
+  fill_records(block);
   fill_springs(block);
 }
 
-void ListedLayout::fill_places(Block& block) const {
+void ListedLayout::fill_records(Block& block) const {
   const Part& part = parts_[block.number];
-  const std::uint64_t places = block.layout->sites + part.ghosts.size();
-  block.listed.rest = AlignedArray<double>(4 * places);
-  block.listed.around = AlignedArray<double>(4 * places);
+  block.listed.records = Numbers(model_.choice.precision, record_numbers * (block.layout->sites + part.ghosts.size()));
+  const std::vector<Vec3>& positions = model_.body.listed.positions;
+  const Vec3 origin = positions[positions.size() / 2];  // of every block: where a body stands costs floats nothing
   const auto set = [&](Particle particle) {
-    const Vec3 x = model_.body.listed.positions[particle];
-    double* rest = block.listed.rest.get() + 4 * std::size_t{place_around(part, particle)};
-    rest[0] = x.x;
-    rest[1] = x.y;
-    rest[2] = x.z;
+    const Vec3 x = positions[particle] - origin;
+    const std::size_t record = record_numbers * std::size_t{record_of(part, particle)};
+    block.listed.records.set(record, x.x);
+    block.listed.records.set(record + 1, x.y);
+    block.listed.records.set(record + 2, x.z);
   };
   for (Particle particle = part.first; particle < part.last; ++particle) set(particle);
   for (const Particle ghost : part.ghosts) set(ghost);
@@ -165,30 +160,31 @@ void ListedLayout::fill_springs(Block& block) const {
   ListedArrays& listed = block.listed;
   listed.first = AlignedArray<std::uint32_t>(part.first_slot.size());
   std::copy(part.first_slot.begin(), part.first_slot.end(), listed.first.get());
-  listed.neighbour = AlignedArray<std::uint32_t>(part.slot_lanes());
-  if (has_own_stiffness()) listed.stiffness = AlignedArray<double>(2 * part.slot_lanes());
-  if (model_.choice.breakable) listed.alarm = AlignedArray<double>(part.slot_lanes());
-  for (std::size_t vector = 0; vector + 1 < part.first_slot.size(); ++vector)
-    for (std::size_t n = std::size_t{part.first_slot[vector]} * lanes; n < std::size_t{part.first_slot[vector + 1]} * lanes; ++n)
-      listed.neighbour[n] = static_cast<std::uint32_t>(vector * lanes + n % lanes);  // a lane without a spring looks at itself
+  listed.neighbour = AlignedArray<std::uint32_t>(neighbours(part));
+  const Precision precision = model_.choice.precision;
+  if (has_own_stiffness()) listed.stiffness = Numbers(precision, 2 * slot_lanes(part));
+  if (model_.choice.breakable) listed.alarm = Numbers(precision, slot_lanes(part));
+  for (std::size_t pack = 0; pack + 1 < part.first_slot.size(); ++pack)
+    for (std::size_t n = part.first_slot[pack] * width_; n < part.first_slot[pack + 1] * width_; ++n)
+      listed.neighbour[n] = static_cast<std::uint32_t>(pack * width_ + n % width_);  // a lane without a spring looks at itself
 
   std::vector<std::uint32_t> taken(block.layout->sites, 0);  // slots of each particle
   const auto add = [&](Particle here, Particle there, const Joint& joint, double alarm) {
     if (!part.holds(here)) return;
-    const std::uint64_t own = here - part.first, lane = own % lanes;
-    const std::size_t slot = part.first_slot[own / lanes] + taken[own]++;
-    listed.neighbour[slot * lanes + lane] = place_around(part, there);
-    if (listed.alarm.size() > 0) listed.alarm[slot * lanes + lane] = alarm;
-    if (listed.stiffness.size() == 0) return;
-    listed.stiffness[slot * 2 * lanes + lane] = joint.stiffness;
-    listed.stiffness[slot * 2 * lanes + lanes + lane] = joint.cross_stiffness;
+    const std::uint64_t own = here - part.first, lane = own % width_;
+    const std::size_t slot = part.first_slot[own / width_] + taken[own]++;
+    listed.neighbour[slot * width_ + lane] = record_of(part, there);
+    if (!listed.alarm.empty()) listed.alarm.set(slot * width_ + lane, alarm);
+    if (listed.stiffness.empty()) return;
+    listed.stiffness.set(slot * 2 * width_ + lane, joint.stiffness);
+    listed.stiffness.set((slot * 2 + 1) * width_ + lane, joint.cross_stiffness);
   };
   for (std::uint32_t n = 0; n < model_.body.listed.springs.size(); ++n) {
     const ListedSpring& spring = model_.body.listed.springs[n];
     if (!part.holds(spring.a) && !part.holds(spring.b)) continue;
     const Joint joint = model_.joint(spring.a, spring.b, n);
     const double alarm = model_.choice.breakable ? model_.alarm(model_.material(spring.a), model_.material(spring.b), model_.facts(joint)) : infinity;
-    const double growth = squared_growth(joint.rest_length, alarm);
+    const double growth = precision == Precision::floats ? squared_growth<float>(joint.rest_length, alarm) : squared_growth(joint.rest_length, alarm);
     add(spring.a, spring.b, joint, growth);
     add(spring.b, spring.a, joint, growth);
   }
@@ -196,16 +192,12 @@ void ListedLayout::fill_springs(Block& block) const {
 
 void ListedLayout::exchange(const std::vector<Block>& all, Block& block) const {
   const Part& part = parts_[block.number];
-  double* to = block.listed.around.get();
-  const auto copy = [&](const Block& from, std::uint64_t index) {
-    for (int c = 0; c < model_.degrees_of_freedom; ++c) to[c] = from.displacement[c][index];
-    to += 4;
-  };
-  for (std::uint64_t n = 0; n < block.layout->sites; ++n) copy(block, n);
-  std::size_t owner = 0;
+  std::size_t record = record_numbers * block.layout->sites, owner = 0;
   for (const Particle ghost : part.ghosts) {
     while (ghost >= parts_[owner].last) ++owner;
-    copy(all[owner], ghost - parts_[owner].first);
+    for (int c = 0; c < model_.degrees_of_freedom; ++c)
+      block.listed.records.set(record + record_moved + static_cast<std::size_t>(c), all[owner].displacement[c][ghost - parts_[owner].first]);
+    record += record_numbers;
   }
 }
 
@@ -216,20 +208,20 @@ void ListedLayout::describe(const Block& block, KernelRequest& request) const {
   request.weight_sets = block.layout->weight_sets.data();
   request.weights = block.listed.shares.get();
   request.scratch_width = row_length;
-  request.listed = {block.listed.first.get(), block.listed.neighbour.get(), block.listed.stiffness.get(),
-                    block.listed.alarm.get(), block.listed.rest.get(),      block.listed.around.get()};
+  request.listed = {block.listed.first.get(), block.listed.neighbour.get(), block.listed.stiffness.get(), block.listed.alarm.get(),
+                    block.listed.records.get()};
 }
 
 double ListedLayout::state_bytes() const {
-  constexpr double number = sizeof(double), record = 4 * number;
-  const double state = (2.0 * model_.degrees_of_freedom + (model_.body.listed.shares.empty() ? 0 : 1)) * number + 2 * record +
+  const double number = model_.choice.precision == Precision::floats ? sizeof(float) : sizeof(double), record = record_numbers * number;
+  const double state = 2.0 * model_.degrees_of_freedom * number + record + (model_.body.listed.shares.empty() ? 0 : sizeof(double)) +
                        double{sizeof(std::uint16_t)} + (model_.material_of.empty() ? 0 : 1);
-  const double slot_lane = double{sizeof(std::uint32_t)} + ((has_own_stiffness() ? 2 : 0) + (model_.choice.breakable ? 1 : 0)) * number;
+  const double slot_lane = ((has_own_stiffness() ? 2 : 0) + (model_.choice.breakable ? 1 : 0)) * number;
   double bytes = 0;
   for (std::size_t n = 0; n < blocks.size(); ++n)
-    bytes += static_cast<double>(blocks[n].sites) * state + static_cast<double>(parts_[n].ghosts.size()) * 2 * record +
-             static_cast<double>(parts_[n].slot_lanes()) * slot_lane +
-             static_cast<double>((parts_[n].first_slot.size() + blocks[n].weight_sets.size()) * sizeof(std::uint32_t));
+    bytes += static_cast<double>(blocks[n].sites) * state + static_cast<double>(parts_[n].ghosts.size()) * record +
+             static_cast<double>(slot_lanes(parts_[n])) * slot_lane +
+             static_cast<double>((neighbours(parts_[n]) + parts_[n].first_slot.size() + blocks[n].weight_sets.size()) * sizeof(std::uint32_t));
   return bytes;
 }
 

@@ -25,24 +25,28 @@ class ListedLayout final : public Layout {
  private:
   static constexpr std::uint64_t row_length = Listed::stretch;  ///< particles
 
+  const std::uint64_t width_;  ///< particles in a pack, one a lane
+
   /// A block's particles [first, last), and where a kernel finds their springs.
   struct Part {
     Particle first = 0, last = 0;
-    std::vector<std::uint32_t> first_slot;  ///< of each vector of particles, and one more
+    std::vector<std::uint32_t> first_slot;  ///< of each pack of particles, and one more
     std::vector<Particle> ghosts;           ///< ascending
 
     bool holds(Particle particle) const { return particle >= first && particle < last; }
-    std::size_t slot_lanes() const { return std::size_t{first_slot.back()} * lanes; }
   };
 
   Part make_part(Particle first, Particle last, const std::vector<std::uint32_t>& springs_of) const;
   BlockLayout make_block(const Part& part) const;
+  std::uint64_t padded(std::uint64_t particles) const { return (particles + width_ - 1) / width_ * width_; }
+  std::size_t slot_lanes(const Part& part) const { return part.first_slot.back() * width_; }
+  std::size_t neighbours(const Part& part) const { return slot_lanes(part) + slots_ahead * width_; }
   std::int32_t material_of_row(Particle first, Particle last) const;
-  void fill_places(Block& block) const;
+  void fill_records(Block& block) const;
   void fill_springs(Block& block) const;
   bool has_own_stiffness() const;
-  std::uint32_t place_around(const Part& part, Particle particle) const;
-  Particle particle_around(const Part& part, std::uint32_t place) const;
+  std::uint32_t record_of(const Part& part, Particle particle) const;
+  Particle particle_of(const Part& part, std::uint32_t place) const;
 
   std::vector<Part> parts_;
 };

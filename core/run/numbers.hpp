@@ -48,6 +48,7 @@ class Numbers {
     else
       doubles_[n] = value;
   }
+  bool empty() const { return get() == nullptr; }
   /// Copies `count` numbers of another array of this precision.
   void copy(const Numbers& from, std::size_t first, std::size_t count, std::size_t to) const {
     if (floats_.get() != nullptr)

@@ -121,8 +121,8 @@ TEST(Cost, PlainBodiesHoldTheirMotionTheirSpringsAndNothingElse) {
   make_listed(scene);
   const auto list = plan_of(scene);
   const Size size = size_of(*list->model);
-  constexpr double record = 4 * 8, neighbour = 4;
-  EXPECT_EQ(bytes(*list), (motion + alive + 2 * record) * size.places + neighbour * size.ends + 4 * (size.places / 8 + 1));
+  constexpr double record = 8 * 8, neighbour = 4, read_ahead = 32 * 8;
+  EXPECT_EQ(bytes(*list), (motion + alive + record) * size.places + neighbour * (size.ends + read_ahead) + 4 * (size.places / 8 + 1));
 }
 
 TEST(Cost, ThePlanCountsSprings) {

@@ -53,6 +53,9 @@ inline std::string listed_scene(const std::string& lattice, const std::string& m
          R"(, { "type": "solvers.explicit", "end_time": 1e-6 } ] })";
 }
 
+/// The same, kept in floats.
+inline std::string in_floats(std::string scene) { return scene.insert(scene.find('{') + 1, R"( "precision": "float",)"); }
+
 /// A random block of nx * ny * nz mm, spacing 1 mm.
 inline std::string random_lattice(int nx, int ny, int nz, const std::string& more = "") {
   return R"({ "type": "lattices.random", "spacing": "1 mm", "shape": { "box": { "low": [0, 0, 0], "high": [)" + std::to_string(nx) + "e-3, " +

@@ -137,26 +137,52 @@ TEST_P(RandomBlock, KeepsMomentumAndTheSchemesEnergy) {
 }
 
 TEST_P(RandomBlock, HasTheSameBitsForAnyNumberOfThreads) {
-  const auto plan = plan_of(listed_scene(random_lattice(9, 8, 7),
-                                         std::string(GetParam().material) + R"(, "failure": { "type": "failures.elongation", "limit": 1.5e-6 })",
-                                         R"({ "type": "loads.gravity", "acceleration": [0, 0, -9.81] }, { "type": "loads.fixed", "on": "z_min" })"));
-  std::vector<std::uint64_t> hashes;
-  std::vector<double> energies;
-  std::vector<std::size_t> broken;
-  for (const int threads : {1, 2, 3, 7}) {
-    Simulation simulation(*plan->model, threads);
-    simulation.set_displacements(noise(3 * plan->model->body.particles, 1e-6, 1), {});
-    for (int n = 0; n < 200; ++n) simulation.step(0.5 * plan->model->critical_time_step);
-    hashes.push_back(simulation.hash());
-    const Balance balance = simulation.balance();
-    energies.push_back(balance.kinetic + balance.stored + balance.dissipated() + balance.injected);
-    broken.push_back(simulation.breakages().size());
+  const std::string scene =
+      listed_scene(random_lattice(9, 8, 7), std::string(GetParam().material) + R"(, "failure": { "type": "failures.elongation", "limit": 1.5e-6 })",
+                   R"({ "type": "loads.gravity", "acceleration": [0, 0, -9.81] }, { "type": "loads.fixed", "on": "z_min" })");
+  for (const auto& plan : {plan_of(scene), plan_of(in_floats(scene))}) {
+    std::vector<std::uint64_t> hashes;
+    std::vector<double> energies;
+    std::vector<std::size_t> broken;
+    for (const int threads : {1, 2, 3, 7}) {
+      Simulation simulation(*plan->model, threads);
+      simulation.set_displacements(noise(3 * plan->model->body.particles, 1e-6, 1), {});
+      for (int n = 0; n < 200; ++n) simulation.step(0.5 * plan->model->critical_time_step);
+      hashes.push_back(simulation.hash());
+      const Balance balance = simulation.balance();
+      energies.push_back(balance.kinetic + balance.stored + balance.dissipated() + balance.injected);
+      broken.push_back(simulation.breakages().size());
+    }
+    EXPECT_GT(broken[0], 20u);
+    for (std::size_t n = 1; n < hashes.size(); ++n) {
+      EXPECT_EQ(hashes[n], hashes[0]);
+      EXPECT_EQ(energies[n], energies[0]);  // to the last bit
+      EXPECT_EQ(broken[n], broken[0]);
+    }
   }
-  EXPECT_GT(broken[0], 20u);
-  for (std::size_t n = 1; n < hashes.size(); ++n) {
-    EXPECT_EQ(hashes[n], hashes[0]);
-    EXPECT_EQ(energies[n], energies[0]);  // to the last bit
-    EXPECT_EQ(broken[n], broken[0]);
+}
+
+TEST_P(RandomBlock, FloatsGiveTheForcesAndTheEnergyOfDoubles) {
+  const std::string box = R"("low": [0, 0, 0], "high": [6e-3)", far_box = R"("low": [10, 0, 0], "high": [10.006)";
+  std::string lattice = random_lattice(6, 5, 4);  // far from the origin, which must not matter
+  lattice.replace(lattice.find(box), box.size(), far_box);
+  const std::string scene = listed_scene(lattice, GetParam().material);
+  const auto after_a_step = [](const Plan& plan, double size) {
+    Simulation simulation(*plan.model, 1);
+    std::vector<double> start = noise(3 * plan.model->body.particles, size, 1), found;
+    for (double& u : start) u = static_cast<float>(u);
+    simulation.set_displacements(start, {});
+    const double stored = simulation.balance().stored;
+    simulation.step(0.3 * plan.model->critical_time_step);
+    simulation.velocities(found);
+    return std::pair(found, stored);
+  };
+  const auto doubles = plan_of(scene), floats = plan_of(in_floats(scene));
+  for (const double size : {1e-12, 1e-8, 1e-6, 1e-5, 1e-4, 3e-4}) {  // of spacings of 1e-3: series, long series and root
+    const auto [exact, energy] = after_a_step(*doubles, size);
+    const auto [rounded, its_energy] = after_a_step(*floats, size);
+    EXPECT_LT(distance(rounded, exact), 3e-6 * largest(exact)) << size;
+    EXPECT_NEAR(its_energy / energy, 1, 1e-6) << size;  // places at rest are rounded too
   }
 }
 

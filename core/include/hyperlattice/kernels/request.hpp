@@ -81,16 +81,23 @@ struct RowSums {
   double damped = 0;        ///< energy that damping took in the half step before now, J
 };
 
-/// The springs of a block of a listed lattice. Particles stand in vectors of `lanes`; a vector has slots, each with one spring of each of its
-/// particles. A spring stands twice, once with each of its ends, so that every particle sums the forces on itself.
+/// The springs of a block of a listed lattice. Particles stand in packs of as many as the state's precision has lanes; a pack has slots, each with
+/// one spring of each of its particles. A spring stands twice, once with each of its ends, so that every particle sums the forces on itself.
 struct ListedSlots {
-  const std::uint32_t* first = nullptr;  ///< of each vector: its slots are first[v] .. first[v + 1]
-  std::uint32_t* neighbour = nullptr;    ///< [slot][lane] place of the other end in `rest` and `around`; the lane's own place: there is no spring
-  const double* stiffness = nullptr;     ///< [slot][2][lane] of base and cross spring, N/m; null: the same for all, KernelRequest::springs
-  const double* alarm = nullptr;         ///< [slot][lane] as the growth of the squared length, m2; null: nothing breaks
-  const double* rest = nullptr;          ///< [place][4] where particles are at rest, metres: the block's own places, then its ghosts
-  const double* around = nullptr;        ///< [place][4] displacements and heights at the step's start, metres
+  const std::uint32_t* first = nullptr;  ///< of each pack: its slots are first[n] .. first[n + 1]
+  std::uint32_t* neighbour = nullptr;    ///< [slot][lane] the other end's record; the lane's own: there is no spring. slots_ahead more than there are
+  // in the state's precision
+  const void* stiffness = nullptr;  ///< [slot][2][lane] of base and cross spring, N/m; null: the same for all, KernelRequest::springs
+  const void* alarm = nullptr;      ///< [slot][lane] as the growth of the squared length, m2; null: nothing breaks
+  void* records = nullptr;          ///< [place][record_numbers], metres: the block's own places, then its ghosts
 };
+
+/// How many slots ahead of its springs a kernel asks the memory for their other ends.
+inline constexpr std::size_t slots_ahead = 32;
+
+/// Of a particle of a list: x y z at rest, from any one point; x y z of the displacement at the step's start, and the height; one is unused. A kernel writes what moves
+/// of the block's own particles.
+inline constexpr std::size_t record_numbers = 8, record_moved = 3;
 
 struct KernelRequest {
   // the block: planes [first, first + planes) are its own; `reach` ghost planes stand before and after them

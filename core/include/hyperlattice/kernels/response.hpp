@@ -85,11 +85,11 @@ struct Terms<float> {
 };
 
 /// The force over length of springs of a stiffness k and relative growth p = q / L0^2, all within the short series.
-template <class Law>
-HYPERLATTICE_INLINE Pack pull_near_rest(const Pack& stiffness, const Pack& p) {
-  constexpr auto& c = Terms<double>::few.coefficients;
-  Pack sum = c.back();
-  each<c.size() - 1>([&]<std::size_t n>() __attribute__((always_inline)) { sum = sum * p + Pack(c[c.size() - 2 - n]); });
+template <class Law, class Real>
+HYPERLATTICE_INLINE PackOf<Real> pull_near_rest(const PackOf<Real>& stiffness, const PackOf<Real>& p) {
+  constexpr auto& c = Terms<Real>::few.coefficients;
+  PackOf<Real> sum = c.back();
+  each<c.size() - 1>([&]<std::size_t n>() __attribute__((always_inline)) { sum = sum * p + PackOf<Real>(c[c.size() - 2 - n]); });
   return Law::force(stiffness, sum * p);
 }
 

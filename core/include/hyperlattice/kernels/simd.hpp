@@ -144,49 +144,6 @@ HYPERLATTICE_INLINE void store(Real* to, const PackOf<Real>& pack) {
   each<vectors>([&]<std::size_t p>()
                     __attribute__((always_inline)) { reinterpret_cast<typename VectorsOf<Real>::VectorAnywhere*>(to)[p] = pack.part[p]; });
 }
-/// Four packs from eight records of four numbers: number c of the record of lane n goes to lane n of packs[c].
-HYPERLATTICE_INLINE void load_records(const double* const (&records)[8], Pack (&packs)[4]) {
-  using Vector = VectorsOf<double>::Vector;
-#if defined(__AVX512F__)
-  typedef double Four __attribute__((vector_size(32), aligned(8)));
-  const auto two = [&](std::size_t a, std::size_t b) __attribute__((always_inline)) {
-    return __builtin_shufflevector(*reinterpret_cast<const Four*>(records[a]), *reinterpret_cast<const Four*>(records[b]), 0, 1, 2, 3, 4, 5, 6, 7);
-  };
-  const Vector r02 = two(0, 2), r13 = two(1, 3), r46 = two(4, 6), r57 = two(5, 7);
-  const Vector even_low = __builtin_shufflevector(r02, r13, 0, 8, 2, 10, 4, 12, 6, 14),
-               odd_low = __builtin_shufflevector(r02, r13, 1, 9, 3, 11, 5, 13, 7, 15);
-  const Vector even_high = __builtin_shufflevector(r46, r57, 0, 8, 2, 10, 4, 12, 6, 14),
-               odd_high = __builtin_shufflevector(r46, r57, 1, 9, 3, 11, 5, 13, 7, 15);
-  packs[0].part[0] = __builtin_shufflevector(even_low, even_high, 0, 1, 4, 5, 8, 9, 12, 13);
-  packs[1].part[0] = __builtin_shufflevector(odd_low, odd_high, 0, 1, 4, 5, 8, 9, 12, 13);
-  packs[2].part[0] = __builtin_shufflevector(even_low, even_high, 2, 3, 6, 7, 10, 11, 14, 15);
-  packs[3].part[0] = __builtin_shufflevector(odd_low, odd_high, 2, 3, 6, 7, 10, 11, 14, 15);
-#elif defined(__AVX__)
-  using VectorAnywhere = VectorsOf<double>::VectorAnywhere;
-  each<2>([&]<std::size_t p>() __attribute__((always_inline)) {
-    const auto record = [&](std::size_t n) __attribute__((always_inline)) { return *reinterpret_cast<const VectorAnywhere*>(records[4 * p + n]); };
-    const Vector a = record(0), b = record(1), c = record(2), d = record(3);
-    const Vector even_low = __builtin_shufflevector(a, b, 0, 4, 2, 6), odd_low = __builtin_shufflevector(a, b, 1, 5, 3, 7);
-    const Vector even_high = __builtin_shufflevector(c, d, 0, 4, 2, 6), odd_high = __builtin_shufflevector(c, d, 1, 5, 3, 7);
-    packs[0].part[p] = __builtin_shufflevector(even_low, even_high, 0, 1, 4, 5);
-    packs[1].part[p] = __builtin_shufflevector(odd_low, odd_high, 0, 1, 4, 5);
-    packs[2].part[p] = __builtin_shufflevector(even_low, even_high, 2, 3, 6, 7);
-    packs[3].part[p] = __builtin_shufflevector(odd_low, odd_high, 2, 3, 6, 7);
-  });
-#else
-  using VectorAnywhere = VectorsOf<double>::VectorAnywhere;
-  each<4>([&]<std::size_t p>() __attribute__((always_inline)) {
-    each<2>([&]<std::size_t half>() __attribute__((always_inline)) {
-      const auto record = [&](std::size_t n) __attribute__((always_inline)) {
-        return *reinterpret_cast<const VectorAnywhere*>(records[2 * p + n] + 2 * half);
-      };
-      const Vector a = record(0), b = record(1);
-      packs[2 * half].part[p] = __builtin_shufflevector(a, b, 0, 2);
-      packs[2 * half + 1].part[p] = __builtin_shufflevector(a, b, 1, 3);
-    });
-  });
-#endif
-}
 /// Sum of the lanes, always in the same order.
 template <class Real>
 inline double sum(const PackOf<Real>& pack) {
@@ -225,6 +182,7 @@ HYPERLATTICE_INLINE LanesOf<Real> lanes_with(BitsOf<Real> bits, std::uint16_t bi
 }
 HYPERLATTICE_INLINE LanesOf<double> lanes_of_byte(std::uint8_t byte) { return byte; }  // whose bit is set
 HYPERLATTICE_INLINE LanesOf<double> not_zero(const Pack& pack) { return _mm512_cmp_pd_mask(pack.part[0], _mm512_setzero_pd(), _CMP_NEQ_UQ); }
+HYPERLATTICE_INLINE LanesOf<float> not_zero(const PackOf<float>& pack) { return _mm512_cmp_ps_mask(pack.part[0], _mm512_setzero_ps(), _CMP_NEQ_UQ); }
 HYPERLATTICE_INLINE Pack where(LanesOf<double> lanes, Pack pack) {  // 0 elsewhere
   pack.part[0] = _mm512_maskz_mov_pd(lanes, pack.part[0]);
   return pack;
@@ -266,9 +224,10 @@ inline LanesOf<double> lanes_of_byte(std::uint8_t byte) {
   std::memcpy(&lanes, all, sizeof all);
   return lanes;
 }
-HYPERLATTICE_INLINE LanesOf<double> not_zero(const Pack& pack) {
-  LanesOf<double> lanes;
-  each<vectors>([&]<std::size_t p>() __attribute__((always_inline)) { lanes.part[p] = pack.part[p] != 0.0; });
+template <class Real>
+HYPERLATTICE_INLINE LanesOf<Real> not_zero(const PackOf<Real>& pack) {
+  LanesOf<Real> lanes;
+  each<vectors>([&]<std::size_t p>() __attribute__((always_inline)) { lanes.part[p] = pack.part[p] != Real{0}; });
   return lanes;
 }
 template <class Real>
@@ -299,7 +258,12 @@ class Outside {
     else
       found_ |= _mm512_cmp_ps_mask(x.part[0], _mm512_set1_ps(low), _CMP_NGE_UQ) | _mm512_cmp_ps_mask(x.part[0], _mm512_set1_ps(high), _CMP_NLE_UQ);
   }
-  HYPERLATTICE_INLINE void look_above(const Pack& x, const Pack& high) { found_ |= _mm512_cmp_pd_mask(x.part[0], high.part[0], _CMP_NLE_UQ); }
+  HYPERLATTICE_INLINE void look_above(const PackOf<Real>& x, const PackOf<Real>& high) {
+    if constexpr (std::is_same_v<Real, double>)
+      found_ |= _mm512_cmp_pd_mask(x.part[0], high.part[0], _CMP_NLE_UQ);
+    else
+      found_ |= _mm512_cmp_ps_mask(x.part[0], high.part[0], _CMP_NLE_UQ);
+  }
   explicit operator bool() const { return found_ != 0; }
 
  private:
@@ -308,7 +272,7 @@ class Outside {
   HYPERLATTICE_INLINE void look(const PackOf<Real>& x, Real low, Real high) {
     each<vectors>([&]<std::size_t p>() __attribute__((always_inline)) { found_ |= ~((x.part[p] >= low) & (x.part[p] <= high)); });
   }
-  HYPERLATTICE_INLINE void look_above(const Pack& x, const Pack& high) {
+  HYPERLATTICE_INLINE void look_above(const PackOf<Real>& x, const PackOf<Real>& high) {
     each<vectors>([&]<std::size_t p>() __attribute__((always_inline)) { found_ |= ~(x.part[p] <= high.part[p]); });
   }
 #if defined(__AVX__)

@@ -247,24 +247,21 @@ class Kernels {
     KernelSet set;
     const bool floats = choice.precision == Precision::floats;
     if constexpr (LawWithConstants<Law>) {
-      return floats || choice.listed ? set : of_grid<membrane, Breakable, Mixed, double>();
+      return floats || choice.listed ? set : of_sweep<Sweep, membrane, Breakable, Mixed, double>();
     } else if (choice.listed) {
-      if (floats) return set;
-      set.step = &ListedSweep<Law, membrane, Breakable, Mixed, Task::step>::run;
-      set.step_damped = &ListedSweep<Law, membrane, Breakable, Mixed, Task::step_damped>::run;
-      set.measure = &ListedSweep<Law, membrane, false, Mixed, Task::measure>::run;
+      return floats ? of_sweep<ListedSweep, membrane, Breakable, Mixed, float>() : of_sweep<ListedSweep, membrane, Breakable, Mixed, double>();
     } else {
-      set = floats ? of_grid<membrane, Breakable, Mixed, float>() : of_grid<membrane, Breakable, Mixed, double>();
+      set = floats ? of_sweep<Sweep, membrane, Breakable, Mixed, float>() : of_sweep<Sweep, membrane, Breakable, Mixed, double>();
       set.linearise = &Tangent<Law, membrane>::run;
+      return set;
     }
-    return set;
   }
-  template <Membrane membrane, bool Breakable, bool Mixed, class Stored>
-  static KernelSet of_grid() {
+  template <template <class, Membrane, bool, bool, Task, class> class Of, Membrane membrane, bool Breakable, bool Mixed, class Stored>
+  static KernelSet of_sweep() {
     KernelSet set;
-    set.step = &Sweep<Law, membrane, Breakable, Mixed, Task::step, Stored>::run;
-    set.step_damped = &Sweep<Law, membrane, Breakable, Mixed, Task::step_damped, Stored>::run;
-    set.measure = &Sweep<Law, membrane, false, Mixed, Task::measure, Stored>::run;
+    set.step = &Of<Law, membrane, Breakable, Mixed, Task::step, Stored>::run;
+    set.step_damped = &Of<Law, membrane, Breakable, Mixed, Task::step_damped, Stored>::run;
+    set.measure = &Of<Law, membrane, false, Mixed, Task::measure, Stored>::run;
     return set;
   }
 };
