@@ -95,8 +95,8 @@ struct ListedSlots {
 /// How many slots ahead of its springs a kernel asks the memory for their other ends.
 inline constexpr std::size_t slots_ahead = 32;
 
-/// Of a particle of a list: x y z at rest, from any one point; x y z of the displacement at the step's start, and the height; one is unused. A kernel writes what moves
-/// of the block's own particles.
+/// Of a particle of a list: x y z at rest, from any one point; x y z of the displacement at the step's start, and the height; one is unused. A kernel
+/// writes what moves of the block's own particles.
 inline constexpr std::size_t record_numbers = 8, record_moved = 3;
 
 struct KernelRequest {
