@@ -47,6 +47,7 @@ std::vector<std::string> missing(const ComponentInfo& info, const Json& stage) {
 }  // namespace
 
 Json example_value(const Option& option, std::size_t axis) {
+  if (!option.example.empty()) return Json::parse(option.example);
   if (!option.fallback.empty()) return Json::parse(option.fallback);
   switch (option.kind) {
     case OptionKind::number:
@@ -87,7 +88,7 @@ Json example_stage(const ComponentInfo& info) {
     if (option.kind == OptionKind::vector) ++vectors;
   };
   for (const Option& option : info.options)
-    if (option.fallback.empty() && !option.optional) add(option);
+    if (!option.example.empty() || (option.fallback.empty() && !option.optional)) add(option);
   const std::vector<std::string> missed = missing(info, stage);
   for (const Option& option : info.options)
     if (std::find(missed.begin(), missed.end(), option.name) != missed.end()) add(option);

@@ -25,6 +25,7 @@ class Plastic {
         .source("return mapping of one-dimensional plasticity (Simo and Hughes 1998, section 1.2), for each spring")
         .restrictions("structured lattices, membrane none, precision double")
         .add<&Options::yield>("yield", "Pa", "stress along [100] at which a bar leaves the elastic line")
+        .example("\"10 MPa\"")
         .positive()
         .add<&Options::hardening>("hardening", "", "tangent stiffness of a spring that yields, over its elastic one")
         .at_least(0)

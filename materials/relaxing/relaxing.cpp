@@ -26,6 +26,7 @@ class Relaxing {
         .at_least(0)
         .at_most(1)
         .add<&Options::time>("time", "s", "relaxation time of the damper")
+        .example("\"10 us\"")
         .positive();
     return Options::declare(schema);
   }

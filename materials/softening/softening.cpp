@@ -30,8 +30,10 @@ class Softening {
         .source("Bazant and Oh 1983 (crack band), applied to the lattice's springs; closed cracks carry compression")
         .restrictions("structured lattices, precision double; the spacing must be small enough for the fracture energy")
         .add<&Options::strength>("strength", "Pa", "tensile stress of a bar along [100] at which springs begin to soften")
+        .example("\"3 MPa\"")
         .positive()
         .add<&Options::fracture_energy>("fracture_energy", "J/m2", "energy that a crack normal to [100] takes for each of its area")
+        .example("\"5 J/m2\"")
         .positive();
     return Options::declare(schema);
   }

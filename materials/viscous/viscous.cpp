@@ -25,6 +25,7 @@ class Viscous {
         .source("Kelvin-Voigt element; stable step: linear stability of central differences with the rate of the step before")
         .restrictions("structured lattices, precision double; the stable step is smaller than that of elastic springs")
         .add<&Options::time>("time", "s", "viscosity over stiffness of each spring: the time in which a damped creep decays")
+        .example("\"0.5 us\"")
         .at_least(0);
     return Options::declare(schema);
   }

@@ -47,6 +47,7 @@ struct Options {
   static Schema<Of>& declare(Schema<Of>& schema) {
     return schema.template add<&Options::young>("young", "Pa", "Young's modulus of the body")
         .positive()
+        .example("\"10 GPa\"")
         .template add<&Options::poisson>("poisson", "", "Poisson ratio; may be left out without a membrane, with lambda, and with free ratios")
         .above(-1)
         .below(0.5)

@@ -106,6 +106,8 @@ struct KernelSet {
   void (*measure)(const KernelRequest& request) noexcept = nullptr;
   double (*linearise)(const SpringRow& row) noexcept = nullptr;  ///< forces and tangents of a row of springs; returns their energy, J
   SpringAnswer (*ask)(const OneSpring& spring) noexcept = nullptr;
+  /// Takes one spring a step of that many seconds further, to the elongation given; `kept`: its memory, which becomes that of now.
+  SpringAnswer (*take)(const OneSpring& spring, double time_step, double* kept) noexcept = nullptr;
   std::uint32_t memory = 0;       ///< numbers that each spring keeps, base or cross
   const char* instructions = "";  ///< "avx512", "avx2", "baseline": what this processor was given
 };

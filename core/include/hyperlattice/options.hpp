@@ -41,6 +41,7 @@ struct Option {
   std::string_view help;
   std::string_view fallback;  ///< default as JSON text; empty: required, or absent if `optional`
   std::string_view word;      ///< a word accepted in place of the value: "auto"
+  std::string_view example;   ///< a value for examples and contract tests, as JSON text; empty: one is made up from the range
   std::span<const std::string_view> choices;
   double low = -infinity, high = infinity;
   bool low_open = false, high_open = false;  ///< whether the bound itself is outside the range
@@ -177,6 +178,12 @@ class Schema {
   }
   Schema& word(std::string_view text) {
     last().word = text;
+    return *this;
+  }
+  /// A value with which the component does what it is for, to solids of 1 mm and 10 GPa: it stands in the page's example, and
+  /// `hyperlattice plugins --test` runs with it.
+  Schema& example(std::string_view json) {
+    last().example = json;
     return *this;
   }
   Schema& positive() {

@@ -17,6 +17,7 @@ class Elongation {
         .equation("u_n = |r| - |r0| > limit")
         .source("Zhao 2017, section 3.2")
         .add<&Options::limit>("limit", "m", "u_n*, the elongation that breaks a base spring, the same for every class")
+        .example("\"1 um\"")
         .positive();
   }
 

@@ -22,6 +22,7 @@ class Energy {
         .equation("u_n > 0 and k u_n^2 / 2 > limit, or > fracture_energy / n with n springs through a unit of area")
         .restrictions("for linear springs. At once and for good: the strength that goes with a fracture energy falls as the root of the spacing")
         .add<&Options::limit>("limit", "J", "energy that breaks a base spring")
+        .example("\"2 uJ\"")
         .positive()
         .add<&Options::fracture_energy>("fracture_energy", "J/m2",
                                         "G_c: energy of the base springs through a unit of crack area, mean over all directions")
@@ -34,7 +35,9 @@ class Energy {
   explicit Energy(const Options& options) : o_(options) {}
 
   double alarm(const SpringFacts& spring) const { return spring.stiffness > 0 ? std::sqrt(2 * energy(spring) / spring.stiffness) : infinity; }
-  bool breaks(const SpringFacts& spring, double elongation) const { return 0.5 * spring.stiffness * elongation * elongation > energy(spring); }
+  bool breaks(const SpringFacts& spring, double elongation) const {
+    return elongation > 0 && 0.5 * spring.stiffness * elongation * elongation > energy(spring);
+  }
 
  private:
   double energy(const SpringFacts& spring) const { return o_.limit ? *o_.limit : *o_.fracture_energy / spring.crossings; }

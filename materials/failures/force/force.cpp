@@ -17,6 +17,7 @@ class Force {
         .equation("k u_n > limit")
         .restrictions("for linear springs: the force is stiffness times elongation")
         .add<&Options::limit>("limit", "N", "force that breaks a base spring")
+        .example("\"4 N\"")
         .positive();
   }
 

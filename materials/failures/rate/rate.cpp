@@ -20,6 +20,7 @@ class Rate {
         .source("Cowper and Symonds 1957, for strains in place of stresses")
         .restrictions("structured lattices only; the rate is that of half a step before. The stiffness does not depend on the rate")
         .add<&Options::limit>("limit", "", "strain that breaks a base spring that is pulled slowly")
+        .example("1e-3")
         .positive()
         .add<&Options::reference>("reference", "1/s", "rate of strain at which the limit is twice as large")
         .positive()

@@ -16,6 +16,7 @@ class Strain {
     return Schema<Options>("failures.strain", "A spring breaks when its strain passes a limit")
         .equation("(|r| - |r0|) / |r0| > limit")
         .add<&Options::limit>("limit", "", "elongation over rest length that breaks a base spring, the same for every class")
+        .example("1e-3")
         .positive();
   }
 

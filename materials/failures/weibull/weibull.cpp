@@ -26,8 +26,10 @@ class Weibull {
             "belong "
             "to springs, not to places: another spacing or another shape has others")
         .add<&Options::scale>("scale", "", "strain below which 63 % of all springs break")
+        .example("1e-3")
         .positive()
         .add<&Options::modulus>("modulus", "", "of Weibull: large ones scatter little")
+        .example("5")
         .positive()
         .add<&Options::least>("least", "", "share of scale below which no spring breaks; 0: Weibull with two parameters")
         .at_least(0)

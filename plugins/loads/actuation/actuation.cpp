@@ -27,6 +27,7 @@ class Actuation {
             "or soften a spring against turning by their force over its length, as its own elongation does, which the solver's safety is for")
         .add<&Options::on>("on", "", "the particles whose springs act, or the surface under pressure")
         .add<&Options::force>("force", "N", "of each base spring at f = 1; positive pushes its ends apart")
+        .example("\"1 N\"")
         .add<&Options::strain>("strain", "", "change of rest length over rest length at f = 1; positive lengthens")
         .above(-1)
         .add<&Options::pressure>("pressure", "Pa", "at f = 1; positive pushes on the body");

@@ -18,10 +18,12 @@ class Displacement {
         .equation("u(t) = value min(t / rise, 1) along the axes")
         .add<&Options::on>("on", "", "the particles moved")
         .add<&Options::value>("value", "m", "displacement that is reached at the end of the rise and kept")
+        .example("[\"1 um\", 0, 0]")
         .add<&Options::axes>("axes", "", "along which the displacement is prescribed; value is ignored along the others")
         .choices(axis_set_names)
         .fallback("\"xyz\"")
         .add<&Options::rise>("rise", "s", "time from rest to the full value, at constant speed")
+        .example("\"10 us\"")
         .positive();
   }
 

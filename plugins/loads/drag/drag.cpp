@@ -30,6 +30,7 @@ class Drag {
         .add<&Options::on>("on", "", "the surface in the fluid")
         .fallback("\"outer_surface\"")
         .add<&Options::density>("density", "kg/m3", "of the fluid")
+        .example("\"1000 kg/m3\"")
         .at_least(0)
         .fallback("0")
         .add<&Options::across>("across", "",

@@ -19,6 +19,7 @@ class Force {
         .equation("F = f(t) total w / sum w or f(t) each, w the share of a whole particle; f rises in a straight line to 1 and stays")
         .add<&Options::on>("on", "", "the loaded particles")
         .add<&Options::total>("total", "N", "shared evenly by the particles, in a body of cells by their shares of a whole one")
+        .example("[\"10 N\", 0, 0]")
         .add<&Options::each>("each", "N", "on every particle")
         .add<&Options::rise>("rise", "s", "time from nothing to the full force; 0: at once")
         .at_least(0)

@@ -18,6 +18,7 @@ class StartVelocity {
         .add<&Options::on>("on", "", "the particles set in motion")
         .fallback("\"all\"")
         .add<&Options::linear>("linear", "m/s", "the same for all particles")
+        .example("[\"1 m/s\", 0, 0]")
         .fallback("[0, 0, 0]")
         .add<&Options::angular>("angular", "rad/s", "spin about the centre")
         .fallback("[0, 0, 0]")

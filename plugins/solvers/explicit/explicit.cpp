@@ -57,6 +57,7 @@ class Explicit {
         .source("Zhao 2017, section 2.2 (central differences, local damping); limit: 2 / omega_max of the lattice by Bloch analysis")
         .restrictions("Steps land on the corners of the loads and on end_time, so they may be a little shorter than time_step.")
         .add<&Options::end_time>("end_time", "s", "instant at which the stage ends, counted from the start of the whole run, not of the stage")
+        .example("\"20 us\"")
         .positive()
         .add<&Options::time_step>("time_step", "s",
                                   "longest step; auto: the fraction `safety` of the stable one; a number above the stable step is refused")

@@ -217,6 +217,13 @@ class Kernels {
       } else
         return {Law::force(k, u), Law::energy(k, u)};
     };
+    set.take = [](const OneSpring& spring, double time_step, double* kept) noexcept -> SpringAnswer {
+      if constexpr (LawWithConstants<Law>) {
+        const auto step = SpringStep<Law>::take({spring.stiffness, spring.rest_length, spring.elongation, 0, time_step}, spring.law, kept);
+        return {step.force, step.energy};
+      } else
+        return {Law::force(spring.stiffness, spring.elongation), Law::energy(spring.stiffness, spring.elongation)};
+    };
     set.instructions = instructions;
     return set;
   }
