@@ -29,6 +29,9 @@ Command study_command(CLI::App& program);
 /// Writes the project of a plugin of that type into a new folder, by default ./<name>. InputError if there is no such family, or the folder is there.
 int write_new_plugin(const std::string& type, std::filesystem::path folder);
 
+/// Prints a line for each check of the components' contracts, and the counts; exit_run if one failed. `pictures`: see contract::check.
+int test_plugins(Host& host, const std::vector<const Component*>& components, const std::filesystem::path& pictures, bool json);
+
 /// The folder of the results: <input>_out here, if none was given. InputError if something else stands there.
 void choose_directory(std::filesystem::path& directory, const std::filesystem::path& input);
 

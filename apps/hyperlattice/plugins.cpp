@@ -1,4 +1,4 @@
-// hyperlattice plugins: what can be named in a scene, one component's page, and where it was all looked for.
+// hyperlattice plugins: what can be named in a scene, components' pages and tests, and where it was all looked for.
 #include "commands.hpp"
 
 #include <nlohmann/json.hpp>
@@ -10,8 +10,10 @@ namespace hyperlattice {
 namespace {
 
 struct Arguments {
-  std::string name;
-  bool why = false, json = false;
+  std::vector<std::string> names;
+  std::vector<std::filesystem::path> folders;
+  bool why = false, json = false, test = false;
+  std::filesystem::path pictures;
   std::string new_type;
   std::filesystem::path out;
 };
@@ -52,15 +54,24 @@ nlohmann::json searched_json(const Host& host) {
   return places;
 }
 
+/// The components asked for, or all.
+std::vector<const Component*> named(Host& host, const Arguments& arguments) {
+  if (arguments.names.empty()) return host.load_all();
+  std::vector<const Component*> components;
+  for (const std::string& name : arguments.names) {
+    components.push_back(host.find(name));
+    if (components.back() != nullptr) continue;
+    if (arguments.why) print_searched(host);
+    say_why_not(host, name);
+  }
+  return components;
+}
+
 int show(const Arguments& arguments) {
   if (!arguments.new_type.empty()) return write_new_plugin(arguments.new_type, arguments.out);
-  Host host;
-  const auto components = arguments.name.empty() ? host.load_all() : std::vector{host.find(arguments.name)};
-  if (!components.empty() && !components.front()) {
-    if (arguments.why) print_searched(host);
-    say_why_not(host, arguments.name);
-  }
-
+  Host host(arguments.folders);
+  const auto components = named(host, arguments);
+  if (arguments.test) return test_plugins(host, components, arguments.pictures, arguments.json);
   if (arguments.json) {
     nlohmann::json document;
     for (const Component* component : components) document["components"].push_back(nlohmann::json::parse(component_json(*component)));
@@ -68,10 +79,8 @@ int show(const Arguments& arguments) {
     std::cout << document.dump(2) << '\n';
     return exit_done;
   }
-  if (arguments.name.empty())
-    print_list(components);
-  else
-    std::cout << component_page(*components.front());
+  if (arguments.names.empty()) print_list(components);
+  for (std::size_t n = 0; n < arguments.names.size(); ++n) std::cout << (n > 0 ? "\n" : "") << component_page(*components[n]);
   if (arguments.why) print_searched(host);
   return exit_done;
 }
@@ -80,10 +89,15 @@ int show(const Arguments& arguments) {
 
 Command plugins_command(CLI::App& program) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = program.add_subcommand("plugins", "list what a scene can name, document one component, or begin one of your own");
-  command->add_option("NAME", arguments->name, "a component, e.g. loads.blast");
+  CLI::App* command = program.add_subcommand("plugins", "list what a scene can name, document or test components, or begin one of your own");
+  command->add_option("NAME", arguments->names, "components, e.g. loads.blast; all if left out");
+  command->add_option("--plugin-path", arguments->folders, "a folder to look into before all others; may be given several times")
+      ->type_name("DIR")
+      ->allow_extra_args(false);
   command->add_flag("--why", arguments->why, "also every place searched, and why a library was refused");
   command->add_flag("--json", arguments->json, "print it for machines");
+  command->add_flag("--test", arguments->test, "run components through the contract of their family; exit code 3 if a check failed");
+  command->add_option("--pictures", arguments->pictures, "with --test: folder for a picture of each law, force against elongation")->type_name("DIR");
   command->add_option("--new", arguments->new_type, "write a project of your own for a plugin of this type, e.g. failures.my_law");
   command->add_option("--out", arguments->out, "with --new: the folder to write; ./<name> if left out");
   return {command, [arguments] { return show(*arguments); }};

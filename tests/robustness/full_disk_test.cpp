@@ -1,36 +1,17 @@
 // A disk that is full in the middle of a run: a clear refusal, no half-written file under a final name, and earlier frames untouched.
+#include <contract/small_disk.hpp>
 #include <support/output.hpp>
 
 #include <hyperlattice/files.hpp>
 
 #include <gtest/gtest.h>
 
-#include <sys/resource.h>
-#include <csignal>
 #include <functional>
 
 namespace hyperlattice::test {
 namespace {
 
-/// No file may grow beyond `bytes` while this lives; a write beyond fails as on a full disk.
-class SmallDisk {
- public:
-  explicit SmallDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  SmallDisk(const SmallDisk&) = delete;
-  SmallDisk& operator=(const SmallDisk&) = delete;
-  ~SmallDisk() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-
- private:
-  rlimit before_{};
-  void (*handler_)(int);
-};
+using contract::SmallDisk;
 
 std::string message_of(const std::function<void()>& code) {
   try {

@@ -1,14 +1,8 @@
-// Laws with constants and memory of their own: one spring along a path, bodies against closed forms, and the books of bodies in motion.
+// Laws with constants and memory of their own: bodies against closed forms, and the books of bodies in motion. What every law must do along the path
+// of one spring is in contract/contract_test.cpp.
 #include <support/scenes.hpp>
 
-#include "../../materials/plastic/plastic.hpp"
-#include "../../materials/relaxing/relaxing.hpp"
-#include "../../materials/softening/softening.hpp"
-#include "../../materials/viscous/viscous.hpp"
-
 #include <gtest/gtest.h>
-
-#include <numeric>
 
 namespace {
 using namespace hyperlattice;
@@ -36,53 +30,6 @@ const std::string pair_of_particles = R"({ "box": { "low": [0, 0, 0], "high": [1
 
 /// k of the base springs of a lattice without a membrane, E = 10 GPa, spacing 1 mm.
 constexpr double stiffness = 0.4 * 1e10 * 1e-3;
-
-// One spring.
-
-template <class Law>
-void follow(const typename Law::Constants& constants, const std::vector<double>& path, double time_step) {
-  double memory[memory_of<Law>()] = {}, numbers[max_law_constants] = {}, worked = 0, dissipated = 0, force = 0, at = 0;
-  std::memcpy(numbers, &constants, sizeof constants);
-  SpringStep<Law> step;
-  for (const double elongation : path) {
-    step = SpringStep<Law>::take({stiffness, 1e-3, elongation, 0, time_step}, numbers, memory);
-    worked += 0.5 * (force + step.force) * (elongation - at);
-    dissipated += step.dissipated;
-    EXPECT_GE(step.dissipated, -5e-3 * stiffness * 1e-12);  // where a lagging force meets a rate that turns: the square of the step
-    force = step.force;
-    at = elongation;
-  }
-  EXPECT_NEAR(worked, step.energy + dissipated, 1e-12 * std::abs(worked));
-  EXPECT_GT(dissipated, 0);
-}
-
-TEST(Laws, DissipateAndNeverGiveBackMore) {
-  std::vector<double> path(400);
-  for (std::size_t n = 0; n < path.size(); ++n) path[n] = 1e-6 * std::sin(0.05 * static_cast<double>(n)) * (1 + 0.005 * static_cast<double>(n));
-  follow<ViscousLaw>({2e-7}, path, 1e-7);
-  follow<RelaxingLaw>({0.6, 1e-6}, path, 1e-7);
-  follow<PlasticLaw>({0.3 * stiffness * 1e-6, 0.1 * stiffness}, path, 1e-7);
-  follow<SofteningLaw>({0.5e-6, 2e-6}, path, 1e-7);
-}
-
-TEST(Laws, OfAnElasticForceHaveItFromTheEnergy) {  // along paths that change no memory
-  const auto differs = [](const auto& energy, double u, double force) {
-    const double h = 1e-10;
-    return std::abs((energy(u + h) - energy(u - h)) / (2 * h) - force) / std::abs(force);
-  };
-  const PlasticLaw::Memory flowed{2e-7, 3e-7};
-  const SofteningLaw::Memory damaged{1.5e-6};
-  for (const double u : {-4e-7, 3e-7, 1.2e-6}) {
-    const auto at = [](double elongation) { return SpringState{stiffness, 1e-3, elongation, 0, 1e-7}; };
-    EXPECT_LT(differs([&](double x) { return PlasticLaw::energy(at(x), {1, 0}, flowed); }, u, PlasticLaw::force(at(u), {1, 0}, flowed)), 1e-6);
-    EXPECT_LT(differs(
-                  [&](double x) {
-                    return SofteningLaw::energy(at(x), {1e-6, 2e-6}, damaged);
-                  },
-                  u, SofteningLaw::force(at(u), {1e-6, 2e-6}, damaged)),
-              1e-6);
-  }
-}
 
 // Two particles, one spring.
 

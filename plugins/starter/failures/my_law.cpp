@@ -16,7 +16,8 @@ class MyLaw {
     return Schema<Options>("failures.my_law", "A spring breaks when its strain passes a limit")
         .equation("(|r| - |r0|) / |r0| > limit")
         .add<&Options::limit>("limit", "", "strain that breaks a base spring")
-        .positive();
+        .positive()
+        .example("1e-3");
   }
 
   explicit MyLaw(const Options& options) : limit_(options.limit) {}

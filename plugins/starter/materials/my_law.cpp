@@ -20,7 +20,8 @@ class MyMaterial {
     Schema<Options> schema("materials.my_law", "Springs that wear out as they move");
     schema.equation("f = k exp(-p / wear) u, p the way that u has gone")
         .add<&Options::wear>("wear", "m", "way that a spring's elongation goes while its stiffness falls to 1/e")
-        .positive();
+        .positive()
+        .example("\"1 um\"");
     return Options::declare(schema);
   }
 

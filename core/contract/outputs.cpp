@@ -1,0 +1,176 @@
+// What every writer and probe must do: whole files and nothing else, numbers that are numbers, and on a full disk a sentence in place of half a file.
+#include <base/csv.hpp>
+#include <contract/families.hpp>
+#include <contract/scenes.hpp>
+#include <contract/small_disk.hpp>
+#include <run/outputs.hpp>
+
+#include <spdlog/fmt/fmt.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <sstream>
+
+namespace hyperlattice::contract {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of its own that ends with this object.
+class Folder {
+ public:
+  Folder() {
+    static int count = 0;
+    path_ = fs::temp_directory_path() / fmt::format("hyperlattice_contract_{}_{}", ::getpid(), count++);
+    fs::create_directories(path_);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  ~Folder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  const fs::path& path() const { return path_; }
+
+  /// Every file below, by its path from here.
+  std::map<std::string, std::string> files() const {
+    std::map<std::string, std::string> all;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(path_)) {
+      if (!entry.is_regular_file()) continue;
+      std::ostringstream text;
+      text << std::ifstream(entry.path(), std::ios::binary).rdbuf();
+      all[fs::relative(entry.path(), path_).string()] = text.str();
+    }
+    return all;
+  }
+
+ private:
+  fs::path path_;
+};
+
+/// A small block in motion, whose springs may break, and the output that watches it.
+class Watched {
+ public:
+  Watched(const Plan& plan, const Folder& folder) : model_(*plan.model), simulation_(model_, plan.threads) {
+    const std::size_t particles = model_.body.particles;
+    simulation_.set_velocities(noise(3 * particles, 1), std::vector<double>(particles, 0.0));
+    outputs_ = std::make_unique<Outputs>(model_, simulation_, folder.path(), 1e-4);
+  }
+  void show() { outputs_->show_now(); }
+  void move() { simulation_.step(0.5 * model_.critical_time_step); }
+  void end() { outputs_->end(); }
+
+ private:
+  const Model& model_;
+  Simulation simulation_;
+  std::unique_ptr<Outputs> outputs_;
+};
+
+std::unique_ptr<Plan> plan_with(Trial& trial, int threads = 1) {
+  Json material = elastic(usual_membrane);
+  material["failure"] = {{"type", "failures.elongation"}, {"limit", 1e-7}};
+  return plan_of(trial.host, {cubic_box(6, 5, 4), material, trial.example}, threads);
+}
+
+/// What three frames leave.
+std::map<std::string, std::string> written(const Plan& plan) {
+  const Folder folder;
+  Watched watched(plan, folder);
+  for (int n = 0; n < 3; ++n) {
+    if (n > 0) watched.move();
+    watched.show();
+  }
+  watched.end();
+  return folder.files();
+}
+
+std::string partial(const std::map<std::string, std::string>& files) {
+  for (const auto& [name, bytes] : files)
+    if (bytes.empty() || name.ends_with(".part")) return name;
+  return "";
+}
+
+Finding finishes_files(const Plan& plan) {
+  const auto files = written(plan);
+  std::size_t bytes = 0;
+  for (const auto& [name, content] : files) bytes += content.size();
+  if (const std::string name = partial(files); !name.empty()) return passes_if(false, name + " is empty, or was not finished");
+  return passes_if(!files.empty(), fmt::format("three frames leave {} files, {} bytes", files.size(), bytes));
+}
+
+/// Other files, or other bytes, of the same frames.
+std::string difference(const std::map<std::string, std::string>& a, const std::map<std::string, std::string>& b) {
+  for (const auto& [name, bytes] : a)
+    if (const auto other = b.find(name); other == b.end() || other->second != bytes) return name;
+  for (const auto& [name, bytes] : b)
+    if (a.count(name) == 0) return name;
+  return "";
+}
+
+/// Two frames, the second when nothing more can be written, and a third when there is room again.
+Finding full_disk(const Plan& plan) {
+  constexpr rlim_t nothing = 16;
+  const Folder folder;
+  Watched watched(plan, folder);
+  watched.show();
+  const auto before = folder.files();
+  watched.move();
+  std::cout.flush();  // it may be a file
+  std::string sentence;
+  {
+    const SmallDisk disk(nothing);
+    try {
+      watched.show();
+      watched.end();
+    } catch (const std::exception& error) {
+      sentence = error.what();
+    }
+  }
+  if (sentence.empty()) return passes_if(false, "a frame that cannot be written is no error");
+  if (const std::string name = difference(before, folder.files()); !name.empty())
+    return passes_if(false, fmt::format("it complains (\"{}\"), but {} is not as it was before", sentence, name));
+  watched.move();
+  watched.show();
+  return passes_if(folder.files().size() >= before.size(),
+                   "it says \"" + sentence + "\", leaves no half-written file, and goes on when there is room");
+}
+
+Finding table(const Plan& plan) {
+  const auto files = written(plan);
+  if (files.size() != 1) return passes_if(false, fmt::format("{} tables", files.size()));
+  const CsvTable table = parse_csv(files.begin()->second);
+  for (const auto& row : table.rows)
+    for (std::size_t c = 0; c < table.columns.size(); ++c)
+      if (!csv_number(row[c])) return passes_if(false, fmt::format("'{}' in the column {} is no number", row[c], table.columns[c]));
+  for (std::size_t c = 1; c < table.columns.size(); ++c)
+    if (std::find(table.columns.begin(), table.columns.end(), table.columns[c]) != table.columns.begin() + static_cast<std::ptrdiff_t>(c))
+      return passes_if(false, "two columns are called " + table.columns[c]);
+  return passes_if(table.columns.size() > 1 && !table.rows.empty(),
+                   fmt::format("three samples: {} numbers in {} columns read back", table.rows.size() * table.columns.size(), table.columns.size()));
+}
+
+Finding same_bytes(const Plan& one, const Plan& three) {
+  const std::string name = difference(written(one), written(three));
+  return passes_if(name.empty(), name.empty() ? "with 1 and 3 threads" : name + " differs with 1 and 3 threads");
+}
+
+}  // namespace
+
+void check_writer(Trial& trial) {
+  const auto plan = plan_with(trial), with_three = plan_with(trial, 3);
+  trial.check("finishes its files", [&] { return finishes_files(*plan); });
+  trial.check("full disk", [&] { return full_disk(*plan); });
+  trial.check("same bytes", [&] { return same_bytes(*plan, *with_three); });
+}
+
+void check_probe(Trial& trial) {
+  const auto plan = plan_with(trial), with_three = plan_with(trial, 3);
+  trial.check("table reads back", [&] { return table(*plan); });
+  trial.check("same bytes", [&] { return same_bytes(*plan, *with_three); });
+}
+
+}  // namespace hyperlattice::contract

@@ -1,0 +1,80 @@
+#include <contract/scenes.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace hyperlattice::contract {
+
+Json cubic_box(int nx, int ny, int nz, const char* boundary) {
+  constexpr double l = 1e-3;
+  Json lattice{{"type", "lattices.cubic"}, {"spacing", l}, {"boundary", boundary}};
+  lattice["shape"]["box"] = {{"low", {0, 0, 0}}, {"high", {nx * l, ny * l, nz * l}}};
+  return lattice;
+}
+
+Json elastic(const char* membrane) {
+  Json material{{"type", "materials.elastic"}, {"young", 1e10}, {"density", 2500}, {"membrane", membrane}};
+  if (std::string_view(membrane) != "none") material["poisson"] = 0.1;
+  return material;
+}
+
+std::unique_ptr<Plan> plan_of(Host& host, const std::vector<Json>& stages, int threads) {
+  Json scene{{"format", "hyperlattice/1"}, {"title", "contract"}, {"pipeline", stages}};
+  const auto is_solver = [](const Json& stage) { return stage.at("type").get<std::string>().starts_with("solvers."); };
+  if (std::none_of(stages.begin(), stages.end(), is_solver)) scene["pipeline"].push_back({{"type", "solvers.explicit"}, {"end_time", 1e-3}});
+  return make_plan(read_scene_text(scene.dump(), host), threads);
+}
+
+std::vector<double> noise(std::size_t count, double amplitude, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::vector<double> values(count);
+  for (double& value : values) value = amplitude * (2 * (static_cast<double>(random() >> 11) * 0x1p-53) - 1);
+  return values;
+}
+
+Shaken shake(const Model& model, const Shaking& how) {
+  Simulation simulation(model, how.threads);
+  const std::size_t particles = model.body.particles;
+  simulation.set_velocities(noise(3 * particles, how.speed), std::vector<double>(model.degrees_of_freedom == 4 ? particles : 0, 0.0));
+  Shaken shaken;
+  simulation.balance();
+  const int steps = static_cast<int>(std::ceil(how.duration / how.step));
+  for (int n = 0; n < steps; ++n) {
+    simulation.step(how.duration / steps * model.critical_time_step);
+    shaken.balance = simulation.balance();
+    const double error = std::abs(shaken.balance.relative_error());
+    shaken.largest_error = std::isnan(error) ? infinity : std::max(shaken.largest_error, error);
+  }
+  shaken.hash = simulation.hash();
+  return shaken;
+}
+
+std::vector<double> Led::forces(const std::vector<double>& displacements, double time_step) {
+  const bool heights = model_.degrees_of_freedom == 4;
+  const std::vector<double> still(displacements.size(), 0.0), level(heights ? displacements.size() / 3 : 0, 0.0);
+  simulation_.set_displacements(displacements, level);
+  simulation_.set_velocities(still, level);
+  simulation_.step(time_step);
+  std::vector<double> forces;
+  simulation_.velocities(forces);  // v = (back + forward) F / m
+  for (std::size_t n = 0; n < forces.size(); ++n) forces[n] *= model_.mass(n / 3) * 2 / (last_step_ + time_step);
+  last_step_ = time_step;
+  return forces;
+}
+
+double largest(const std::vector<double>& values) {
+  double found = 0;
+  for (const double value : values) found = std::isnan(value) ? infinity : std::max(found, std::abs(value));
+  return found;
+}
+
+double distance(const std::vector<double>& a, const std::vector<double>& b) {
+  std::vector<double> differences(a.size());
+  for (std::size_t n = 0; n < a.size(); ++n) differences[n] = a[n] - b[n];
+  return largest(differences);
+}
+
+}  // namespace hyperlattice::contract

@@ -1,0 +1,26 @@
+// A writer that looks at nothing: it writes under the final name, and does not notice when the disk is full.
+#include <hyperlattice/output.hpp>
+
+#include <fstream>
+#include <string>
+
+namespace {
+using namespace hyperlattice;
+
+class Careless {
+ public:
+  struct Options {};
+  static Schema<Options> schema() { return {"writers.careless", "Writes, whatever becomes of it"}; }
+  explicit Careless(const Options&) {}
+  void begin(const OutputContext& context) { directory_ = context.directory; }
+  void frame(const Snapshot& snapshot) {
+    std::ofstream(directory_ + "/frame_" + std::to_string(snapshot.step)) << std::string(snapshot.particles, '.');
+  }
+  void end() {}
+
+ private:
+  std::string directory_;
+};
+}  // namespace
+
+HYPERLATTICE_PLUGIN("1.0") { plugin.add<Careless>(); }
