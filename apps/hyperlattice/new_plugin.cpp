@@ -15,8 +15,6 @@
 namespace hyperlattice {
 namespace {
 
-constexpr std::string_view starter_name = "my_law", starter_class = "MyLaw";
-
 /// "tearing_apart" as a class: "TearingApart".
 std::string class_name(std::string_view name) {
   std::string result;
@@ -31,6 +29,13 @@ std::string class_name(std::string_view name) {
 std::string replaced(std::string text, std::string_view from, const std::string& to) {
   for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) text.replace(at, from.size(), to);
   return text;
+}
+
+/// What a family's starter is called, by its source: "my_law".
+std::string starter_name(const std::string& family) {
+  for (const StarterFile& file : starter_files)
+    if (file.path.starts_with(family + "/my_") && file.path.ends_with(".cpp")) return std::filesystem::path(file.path).stem().string();
+  return "";
 }
 
 bool is_name(std::string_view name) {
@@ -51,11 +56,12 @@ int write_new_plugin(const std::string& type, std::filesystem::path folder) {
   if (folder.empty()) folder = name;
   if (std::filesystem::exists(folder)) throw InputError({{"--out", folder.string(), "a folder that is not there yet"}});
 
+  const std::string starter = starter_name(family);
   std::filesystem::create_directories(folder);
   for (const StarterFile& file : starter_files) {
     if (file.path.substr(0, file.path.find('/')) != family) continue;
     const auto named = [&](std::string_view text) {
-      return replaced(replaced(std::string(text), starter_name, name), starter_class, class_name(name));
+      return replaced(replaced(std::string(text), starter, name), class_name(starter), class_name(name));
     };
     write_file((folder / named(file.path.substr(family.size() + 1))).string(), named(file.text));
   }

@@ -26,7 +26,7 @@ if(output MATCHES "${BUILD}" OR output MATCHES "refused" OR NOT output MATCHES "
   message(FATAL_ERROR "the installed program must find its own plugins and no others")
 endif()
 
-foreach(type failures.tearing materials.wearing_out)
+foreach(type failures.tearing materials.wearing_out lattices.dense loads.nudge writers.places)
   set(project ${folder}/${type})
   string(TIMESTAMP start "%s")
   must_work(${folder}/moved/bin/hyperlattice plugins --new ${type} --out ${project})
