@@ -83,7 +83,7 @@ TEST_F(CommandLine, BeginsAPluginOnlyWhereThereIsNothing) {
   for (const char* type : {"failure.mine", "failures.Mine", "failures", "failures."}) {
     const test::Result result = run({"plugins", "--new", type, "--out", "project"});
     EXPECT_EQ(result.exit_code, 2) << type;
-    EXPECT_NE(result.err.find("one of failures, materials"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("one of failures, lattices, loads, materials, writers"), std::string::npos) << result.err;
     EXPECT_FALSE(exists("project"));
   }
   ASSERT_EQ(run({"plugins", "--new", "failures.tearing_up", "--out", "project"}).exit_code, 0);
