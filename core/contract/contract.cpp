@@ -7,7 +7,7 @@ namespace {
 /// The option that names a file which the example cannot have; empty: none.
 std::string missing_file(const ComponentInfo& info, const Json& example) {
   for (const Option& option : info.options)
-    if (const std::string name(option.name); option.kind == OptionKind::file && example.contains(name)) return name;
+    if (std::string name(option.name); option.kind == OptionKind::file && example.contains(name)) return name;
   return "";
 }
 

@@ -15,8 +15,8 @@ namespace hyperlattice::contract {
 namespace {
 
 double largest_force(const std::vector<PathPoint>& path) {
-  std::vector<double> forces;
-  for (const PathPoint& point : path) forces.push_back(point.force);
+  std::vector<double> forces(path.size());
+  std::transform(path.begin(), path.end(), forces.begin(), [](const PathPoint& point) { return point.force; });
   return largest(forces);
 }
 
@@ -58,7 +58,7 @@ Finding dissipates(const LoneSpring& spring) {
     }
   };
   add(usual_path(spring));
-  for (const std::uint64_t seed : {1, 2, 3}) add(random_path(spring, seed));
+  for (const std::uint64_t seed : {1U, 2U, 3U}) add(random_path(spring, seed));
   return passes_if(scale > 0 && gained <= allowed * scale,
                    fmt::format("loaded, unloaded, compressed and at random: {:.3g} of the work is dissipated, {:.1e} of it given back out of nothing",
                                spent / scale, gained / scale));
@@ -142,7 +142,7 @@ Finding objective(const Model& model, const LoneSpring& spring) {
   const double time_step = spring.period() / 10, amplitude = spring.reach();
   Led upright(model), leaning(model);
   std::vector<double> forces, expected, seen;
-  for (const std::uint64_t seed : {1, 2, 3}) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
     const std::vector<double> u = noise(count, amplitude, seed);
     forces = upright.forces(u, time_step);
     seen = leaning.forces(turned(model, u), time_step);

@@ -46,7 +46,8 @@ Shaken shake(const Model& model, const Shaking& how) {
     simulation.step(how.duration / steps * model.critical_time_step);
     shaken.balance = simulation.balance();
     const double error = std::abs(shaken.balance.relative_error());
-    shaken.largest_error = std::isnan(error) ? infinity : std::max(shaken.largest_error, error);
+    if (std::isnan(error)) shaken.largest_error = infinity;
+    shaken.largest_error = std::max(shaken.largest_error, error);
   }
   shaken.hash = simulation.hash();
   return shaken;
@@ -67,7 +68,10 @@ std::vector<double> Led::forces(const std::vector<double>& displacements, double
 
 double largest(const std::vector<double>& values) {
   double found = 0;
-  for (const double value : values) found = std::isnan(value) ? infinity : std::max(found, std::abs(value));
+  for (const double value : values) {
+    if (std::isnan(value)) found = infinity;
+    found = std::max(found, std::abs(value));
+  }
   return found;
 }
 

@@ -214,7 +214,7 @@ void ListedLayout::describe(const Block& block, KernelRequest& request) const {
 
 double ListedLayout::state_bytes() const {
   const double number = model_.choice.precision == Precision::floats ? sizeof(float) : sizeof(double), record = record_numbers * number;
-  const double state = 2.0 * model_.degrees_of_freedom * number + record + (model_.body.listed.shares.empty() ? 0 : sizeof(double)) +
+  const double state = 2.0 * model_.degrees_of_freedom * number + record + (model_.body.listed.shares.empty() ? 0.0 : double{sizeof(double)}) +
                        double{sizeof(std::uint16_t)} + (model_.material_of.empty() ? 0 : 1);
   const double slot_lane = ((has_own_stiffness() ? 2 : 0) + (model_.choice.breakable ? 1 : 0)) * number;
   double bytes = 0;
