@@ -15,9 +15,10 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/HyperlatticeConfigVersion
 install(FILES ${PROJECT_BINARY_DIR}/HyperlatticeConfig.cmake ${PROJECT_BINARY_DIR}/HyperlatticeConfigVersion.cmake
               cmake/HyperlatticePlugin.cmake DESTINATION ${package})
 
-install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/hyperlattice RENAME copyright)
 foreach(folder docs scenes)
   if(IS_DIRECTORY ${PROJECT_SOURCE_DIR}/${folder})
-    install(DIRECTORY ${folder}/ DESTINATION ${share}/${folder} FILES_MATCHING PATTERN "*.md" PATTERN "*.csv" PATTERN "*.json" PATTERN "*.png" PATTERN "*.svg")
+    install(DIRECTORY ${folder}/ DESTINATION ${share}/${folder} FILES_MATCHING PATTERN "*.md" PATTERN "*.csv" PATTERN "*.json" PATTERN "*.png" PATTERN "*.svg"
+            PATTERN "*.py")
   endif()
 endforeach()

@@ -33,7 +33,7 @@ Found Newton::search(double share, Field& displacement) {
     switch (step(change, u)) {
       case Step::at_rest: {
         const bool linear = n == 0 && largest(displacement) == 0;  // the tangents of the undeformed body were true to the end
-        const Found found = limits_.stable && !linear ? check(u) : Found{.at_rest = true};
+        Found found = limits_.stable && !linear ? check(u) : Found{.at_rest = true};
         if (found.at_rest) displacement = u;
         return found;
       }
