@@ -51,7 +51,7 @@ Json scene_of(const Variant& variant, int size, const char* precision) {
             material,
             spin(-far, middle, 1),
             spin(middle, far, -1),
-            {{"type", "solvers.explicit"}, {"end_time", "1 s"}}}}};
+            {{"type", "solvers.explicit"}, {"end_time", "1 ms"}}}}};
 }
 
 /// Flops a second of multiply-adds in registers on one thread, measured now.

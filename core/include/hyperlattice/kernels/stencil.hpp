@@ -65,14 +65,39 @@ class Stencil {
   }
 
  private:
-  /// What falls one site further than a vector, on the row itself and on each line: its last lane belongs to the next vector.
+  static constexpr bool leans_forward(std::size_t line) { return line != 0 && (List::in_line(List::lines[line]) & List::leaning(1)) != 0; }
+  static constexpr std::size_t leaning_before(std::size_t line) {
+    std::size_t number = 0;
+    for (std::size_t l = 0; l < line; ++l) number += leans_forward(l) ? 1 : 0;
+    return number;
+  }
+
+  /// What falls one site further than a vector, on the row itself and on the lines that springs lean to: its last lane belongs to the next vector.
   struct Carried {
-    Packs own, to_line[lines];
+    static constexpr std::size_t rows = 1 + leaning_before(lines);
+    Packs row[rows];  // the row itself first
     HYPERLATTICE_INLINE Carried() {
-      each<components>([&]<std::size_t c>() __attribute__((always_inline)) {
-        own[c] = 0;
-        each<lines>([&]<std::size_t l>() __attribute__((always_inline)) { to_line[l][c] = 0; });
-      });
+      every([&](std::size_t r, std::size_t c) __attribute__((always_inline)) { row[r][c] = 0; });
+    }
+    HYPERLATTICE_INLINE Carried(const Carried& other) { *this = other; }
+    HYPERLATTICE_INLINE Carried& operator=(const Carried& other) {  // by vectors: what a compiler makes of an array of this size is slow to begin
+      every([&](std::size_t r, std::size_t c) __attribute__((always_inline)) { row[r][c] = other.row[r][c]; });
+      return *this;
+    }
+    template <std::size_t line>
+    HYPERLATTICE_INLINE Packs& to_line() {
+      return row[1 + leaning_before(line)];
+    }
+    template <std::size_t line>
+    HYPERLATTICE_INLINE const Packs& to_line() const {
+      return row[1 + leaning_before(line)];
+    }
+
+   private:
+    template <class Visit>
+    HYPERLATTICE_INLINE static void every(const Visit& visit) {
+      each<rows>([&]<std::size_t r>()
+                     __attribute__((always_inline)) { each<components>([&]<std::size_t c>() __attribute__((always_inline)) { visit(r, c); }); });
     }
   };
   static constexpr auto batches = List::template batches<membrane == Membrane::free>();
@@ -82,7 +107,6 @@ class Stencil {
       if ((batches[b] & List::in_line(List::lines[line])) != 0) last = b;
     return last;
   }
-  static constexpr bool leans_forward(std::size_t line) { return line != 0 && (List::in_line(List::lines[line]) & List::leaning(1)) != 0; }
 
   const Real* displacement(std::size_t line, std::size_t c) const {
     return static_cast<const Real*>(request_.displacement[c]) + rows_.displacement[line];
@@ -149,10 +173,10 @@ class Stencil {
     if constexpr (only == List::all())
       each<components>([&]<std::size_t c>() __attribute__((always_inline)) {
         Real* const so_far = received(0, c) + t;
-        forces[c] = sums.own[c] + load(so_far) + one_further(carried.own[c], sums.own_further[c]);
+        forces[c] = sums.own[c] + load(so_far) + one_further(carried.row[0][c], sums.own_further[c]);
         store(so_far, Pack(0));
       });
-    carried.own = sums.own_further;
+    carried.row[0] = sums.own_further;
   }
 
   /// Gives what the springs pull at in another row to that row.
@@ -162,10 +186,10 @@ class Stencil {
     each<components>([&]<std::size_t c>() __attribute__((always_inline)) {
       Real* const so_far = received(line, c) + t;
       Pack sum = load(so_far) + sums.line[line][c];
-      if constexpr (leans_forward(line)) sum += one_further(carried.to_line[line][c], sums.line_further[line][c]);
+      if constexpr (leans_forward(line)) sum += one_further(carried.template to_line<line>()[c], sums.line_further[line][c]);
       store(so_far, sum);
     });
-    if constexpr (leans_forward(line)) carried.to_line[line] = sums.line_further[line];
+    if constexpr (leans_forward(line)) carried.template to_line<line>() = sums.line_further[line];
   }
 
   /// A vector of springs to one neighbour, from there to here.
@@ -271,27 +295,21 @@ class Stencil {
 
   /// What the last sites pull at beyond the row's end.
   void last(const Carried& carried) {
-    for (std::size_t line = 1; line < lines; ++line)
-      if (leans_forward(line) && (rows_.neighbours & List::in_line(List::lines[line])) != 0)
+    each<lines>([&]<std::size_t line>() __attribute__((always_inline)) {
+      if constexpr (leans_forward(line)) {
+        if ((rows_.neighbours & List::in_line(List::lines[line])) == 0) return;
         for (std::size_t c = 0; c < components; ++c) {
           Real* const so_far = received(line, c) + rows_.count;
-          store(so_far, load(so_far) + one_further(carried.to_line[line][c], Pack(0)));
+          store(so_far, load(so_far) + one_further(carried.template to_line<line>()[c], Pack(0)));
         }
+      }
+    });
   }
 
   const KernelRequest& request_;
   const Rows& rows_;
   const Pack spacing_;
   std::uint32_t rung_ = 0;
-};
-
-/// Adds the forces to rows of them, one a component, for what is to be done later.
-template <int Components, class Real>
-struct Keep {
-  Real* const (&rows)[Components];
-  void operator()(int t, const Forces<Components, Real>& forces) const {
-    for (std::size_t c = 0; c < Components; ++c) store(rows[c] + t, load(rows[c] + t) + forces[c]);
-  }
 };
 
 }  // namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS

@@ -56,24 +56,19 @@ class Sweep {
     // Particles can move as soon as the forces on them are known if no criterion and no support must see them first.
     constexpr bool may_move_at_once = !Breakable && !Mixed && !measuring;
     const bool at_once = may_move_at_once && fused && owned && row.first_support == row.last_support;
-    const Keep<components, Real> keep{own_};
-    if (!at_once)
-      for (int c = 0; c < components; ++c)
-        for (int t = 0; t < count; t += width) store(own_[c] + t, accelerated ? motion.body_force(c, t) : Pack(0));
-
     Energies<Pack> energies;
     if (!fused) {
+      for (int c = 0; c < components; ++c)
+        for (int t = 0; t < count; t += width) store(own_[c] + t, accelerated ? motion.body_force(c, t) : Pack(0));
       one_by_one(row, index, j, k, count, energies);
-    } else if constexpr (can_fuse && may_move_at_once) {
-      all_neighbours(
+    } else if constexpr (can_fuse) {
+      const std::uint32_t rung = all_neighbours(
           row, j, k, count, [&](int t, Forces<components, Real>& forces) __attribute__((always_inline)) {
-            if (!at_once) return keep(t, forces);
             if (accelerated)
               for (std::size_t c = 0; c < components; ++c) forces[c] += motion.body_force(static_cast<int>(c), t);
-            motion.vector(t, forces);
+            if (may_move_at_once && at_once) return motion.vector(t, forces);
+            for (std::size_t c = 0; c < components; ++c) store(own_[c] + t, forces[c]);
           });
-    } else if constexpr (can_fuse) {
-      const std::uint32_t rung = all_neighbours(row, j, k, count, keep);
       if (Breakable && owned) review_all(row, index, j, k, rung);
     }
     if (!owned) return;
