@@ -13,7 +13,11 @@ class GridSystem : public System {
   double linearise(const Field& displacement, Field& force) override { return matrix_.linearise(displacement, force); }
   void multiply(const double* x, double* y) const override { matrix_.multiply(x, y); }
   void mask(double* x) const override { matrix_.mask(x); }
-  void prepare() override { multigrid_.build(); }
+  void prepare() override {
+    if (!matrix_.is_new()) return;
+    multigrid_.build();
+    matrix_.prepared();
+  }
   void apply(const Field& r, Field& z) override { multigrid_.apply(r, z); }
   double stiffest() const override { return matrix_.stiffest(); }
   void for_springs(const Join& join) const override {

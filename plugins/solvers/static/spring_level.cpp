@@ -43,9 +43,36 @@ double SpringLevel::linearise(const Field& displacement, Field& force) {
   deformed_ = largest(displacement) > 0;
   for (std::size_t n = 0; n < displacement.size(); ++n) moved_[n] = static_cast<float>(displacement[n] / grid_.spacing);
   invert_diagonal();
-  constexpr double bound = 2.02;  // 2 holds for any sum of springs that are not compressed, see StiffnessBound
-  largest_eigenvalue_ = deformed_ ? std::max(bound, power_iteration()) : bound;
+  constexpr float little = 0.02F;
+  constexpr double bound = 2.02, slack = 1 + little;  // 2 holds for any sum of springs that are not compressed, see StiffnessBound
+  new_ = moved_when_prepared_.empty() || largest_change() > little;
+  if (new_)
+    largest_eigenvalue_ = deformed_ ? std::max(bound, power_iteration()) : bound;
+  else
+    largest_eigenvalue_ = std::max(largest_eigenvalue_, slack * bound);
   return energy;
+}
+
+void SpringLevel::prepared() {
+  moved_when_prepared_ = moved_;
+  new_ = false;
+}
+
+/// By how much a spring was strained or turned since the last preparation, at most.
+float SpringLevel::largest_change() const {
+  float largest = 0;
+  for (int c = 0; c < grid_.components; ++c) {
+    const float* now = moved_.data() + c * grid_.places;
+    const float* then = moved_when_prepared_.data() + c * grid_.places;
+#pragma omp parallel for num_threads(threads_) schedule(static) reduction(max : largest)
+    for (std::int64_t place = grid_.origin; place < grid_.places; ++place)
+      for (std::size_t n = 0; n < grid_.neighbours.size(); ++n) {
+        if (!has_spring(n, place)) continue;
+        const std::int64_t there = place + grid_.step_to(grid_.neighbours[n].site);
+        largest = std::max(largest, std::abs((now[there] - then[there]) - (now[place] - then[place])));
+      }
+  }
+  return largest;
 }
 
 void SpringLevel::multiply(const double* x, double* y) const {

@@ -21,6 +21,11 @@ class SpringLevel : public Level {
   void mask(double* x) const override;
   double largest_eigenvalue() const override { return largest_eigenvalue_; }
 
+  /// Whether the tangents are still about those when this was last said to be new: since then no spring was strained or turned by more than a
+  /// little. What was prepared for those tangents then serves for these.
+  bool is_new() const { return new_; }
+  void prepared();
+
   /// False if there is no spring.
   bool tangent(std::size_t neighbour, std::int64_t place, SpringBlocks& blocks) const;
   bool has_spring(std::size_t neighbour, std::int64_t place) const;
@@ -30,12 +35,14 @@ class SpringLevel : public Level {
 
  private:
   void invert_diagonal();
+  float largest_change() const;
 
   const RowKernels* row_kernels_ = &row_kernels();
   const StaticProblem& problem_;
   const StaticGrid& grid_;
   std::vector<float> axial_, pull_, cross_axial_, cross_pull_, alpha_;
-  std::vector<float> moved_;  ///< displacements in lattice constants, by component and place
+  std::vector<float> moved_, moved_when_prepared_;  ///< displacements in lattice constants, by component and place
+  bool new_ = true;
   bool deformed_ = false;
   double largest_eigenvalue_ = 2;
   std::vector<float> diagonal_;     ///< inverse of the diagonal blocks: 10 (6) numbers of each place, by number and place
