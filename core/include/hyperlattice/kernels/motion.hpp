@@ -26,10 +26,7 @@ inline PackOf<Real> load_weights(const double* weights, const std::uint32_t* pla
   if constexpr (lanes_of<Real> == lanes) {
     return load(weights + places[0] + offset);
   } else {
-    Real values[lanes_of<Real>];
-    for (int lane = 0; lane < lanes_of<Real>; ++lane)
-      values[lane] = static_cast<Real>(weights[places[lane / lanes] + static_cast<std::uint32_t>(offset + lane % lanes)]);
-    return load(values);
+    return load_halves(weights + places[0] + offset, weights + places[1] + offset);
   }
 }
 

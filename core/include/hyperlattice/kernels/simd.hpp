@@ -139,6 +139,21 @@ HYPERLATTICE_INLINE PackOf<Real> load_as(const Stored* from) {
     return load(values);
   }
 }
+/// Sixteen floats from eight doubles in one place and eight in another.
+HYPERLATTICE_INLINE PackOf<float> load_halves(const double* low, const double* high) {
+  typedef double Doubles __attribute__((vector_size(vector_bytes), aligned(8)));
+  typedef float Half __attribute__((vector_size(vector_bytes / 2)));
+  constexpr std::size_t in_half = vector_bytes / sizeof(double), halves = 2 * vectors;
+  const auto half = [&](std::size_t n) __attribute__((always_inline)) {
+    const double* from = n < halves / 2 ? low + n * in_half : high + (n - halves / 2) * in_half;
+    return __builtin_convertvector(*reinterpret_cast<const Doubles*>(from), Half);
+  };
+  return PackOf<float>::of([&](std::size_t p) __attribute__((always_inline)) {
+    const Half left = half(2 * p), right = half(2 * p + 1);
+    return [&]<std::size_t... n>(std::index_sequence<n...>) __attribute__((always_inline)) { return __builtin_shufflevector(left, right, n...); }
+    (std::make_index_sequence<vector_bytes / sizeof(float)>());
+  });
+}
 template <class Real>
 HYPERLATTICE_INLINE void store(Real* to, const PackOf<Real>& pack) {
   each<vectors>([&]<std::size_t p>()
@@ -304,11 +319,15 @@ HYPERLATTICE_INLINE PackOf<Real> one_further(const PackOf<Real>& before, const P
 }
 /// The lanes one back: all but the first of `now`, then the first of `next`.
 template <class Real>
-inline PackOf<Real> one_back(const PackOf<Real>& now, const PackOf<Real>& next) {
-  Real both[2 * lanes_of<Real>];
-  store(both, now);
-  store(both + lanes_of<Real>, next);
-  return load(both + 1);
+HYPERLATTICE_INLINE PackOf<Real> one_back(const PackOf<Real>& now, const PackOf<Real>& next) {
+  using Vector = typename PackOf<Real>::Vector;
+  return PackOf<Real>::of([&](std::size_t p) __attribute__((always_inline)) {
+    const Vector left = now.part[p], right = p + 1 == vectors ? next.part[0] : now.part[p + 1];
+    return [&]<std::size_t... n>(std::index_sequence<n...>) __attribute__((always_inline)) {
+      return __builtin_shufflevector(left, right, (n + 1)...);
+    }
+    (std::make_index_sequence<vector_bytes / sizeof(Real)>());
+  });
 }
 
 /// a b, rounded: where it is added to two sums, a product and two additions share the processor's units better than two fused ones.
