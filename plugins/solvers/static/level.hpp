@@ -47,7 +47,4 @@ class Level {
   void clear_margin(Field& x) const;
 };
 
-/// The inverse of a symmetric block of `size` rows. Rows without stiffness get zeros.
-void invert_block(const double* block, int size, double* inverse);
-
 }  // namespace hyperlattice::statics

@@ -8,7 +8,7 @@ namespace {
 constexpr std::int64_t chunk = 64;  // springs whose forces are found before they are added: both ends may lie in one row
 
 template <bool Heights, bool Deformed>
-void springs_of(const SpringProduct& s) {
+void springs_of(const RowOfSprings& s, const SpringProduct& product) {
   constexpr int components = Heights ? 4 : 3;
   const std::int64_t step = s.step;
   for (std::int64_t first = 0; first < s.count; first += chunk) {
@@ -16,7 +16,8 @@ void springs_of(const SpringProduct& s) {
     double force[4][chunk], both[chunk];
     const float *axial = s.axial + first, *cross_axial = Heights ? s.cross_axial + first : nullptr;
     const float *pull = Deformed ? s.pull + first : nullptr, *cross_pull = Deformed && Heights ? s.cross_pull + first : nullptr;
-    const double *vx = s.in[0] + first, *vy = s.in[1] + first, *vz = s.in[2] + first, *vh = Heights ? s.in[3] + first : nullptr;
+    const double *vx = product.in[0] + first, *vy = product.in[1] + first, *vz = product.in[2] + first,
+                 *vh = Heights ? product.in[3] + first : nullptr;
     const float *ux = nullptr, *uy = nullptr, *uz = nullptr, *uh = nullptr;
     if constexpr (Deformed) {
       ux = s.moved[0] + first;
@@ -64,24 +65,24 @@ void springs_of(const SpringProduct& s) {
       }
     }
     for (int c = 0; c < components; ++c) {
-      double *own = s.out[c] + first, *other = own + step;
+      double *own = product.out[c] + first, *other = own + step;
       for (std::int64_t t = 0; t < count; ++t) own[t] -= force[c][t];
       for (std::int64_t t = 0; t < count; ++t) other[t] += force[c][t];
     }
     if constexpr (Heights) {  // cross springs press both heights the same way
-      double *own = s.out[3] + first, *other = own + step;
+      double *own = product.out[3] + first, *other = own + step;
       for (std::int64_t t = 0; t < count; ++t) own[t] += both[t];
       for (std::int64_t t = 0; t < count; ++t) other[t] += both[t];
     }
   }
 }
 
-void springs(const SpringProduct& s, int components) {
+void springs(const RowOfSprings& s, int components, const SpringProduct& product) {
   const bool deformed = s.pull != nullptr;
   if (components == 4)
-    deformed ? springs_of<true, true>(s) : springs_of<true, false>(s);
+    deformed ? springs_of<true, true>(s, product) : springs_of<true, false>(s, product);
   else
-    deformed ? springs_of<false, true>(s) : springs_of<false, false>(s);
+    deformed ? springs_of<false, true>(s, product) : springs_of<false, false>(s, product);
 }
 
 typedef double Four __attribute__((vector_size(32)));
@@ -128,7 +129,10 @@ void add_block(double* block, double factor, const double* other) {
 
 }  // namespace
 
+void diagonal(const RowOfSprings& springs, int components, const Triangles& blocks);  // diagonal.cpp
+void invert(std::int64_t count, int components, const std::uint8_t* free, const Triangles& blocks);
+
 extern const RowKernels kernels;
-const RowKernels kernels{&springs, &stencil, &add_spring, &add_block};
+const RowKernels kernels{&springs, &diagonal, &invert, &stencil, &add_spring, &add_block};
 
 }  // namespace hyperlattice::statics::HYPERLATTICE_INSTRUCTIONS

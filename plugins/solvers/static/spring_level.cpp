@@ -75,50 +75,58 @@ float SpringLevel::largest_change() const {
   return largest;
 }
 
-void SpringLevel::multiply(const double* x, double* y) const {
-  const std::int64_t places = grid_.places;
-  const int components = grid_.components, planes = grid_.sites[2];
+template <class Visit>
+void SpringLevel::for_springs_of(int plane, const Visit& visit) const {
+  const auto spacing = static_cast<float>(grid_.spacing);
+  for (int j = 0; j < grid_.sites[1]; ++j) {
+    const StaticRow& row = grid_.rows[static_cast<std::size_t>(plane) * static_cast<std::size_t>(grid_.sites[1]) + static_cast<std::size_t>(j)];
+    const std::int64_t first = grid_.place(row.begin, j, plane);
+    RowOfSprings springs;
+    springs.count = row.end - row.begin;
+    springs.membrane_distance = static_cast<float>(grid_.membrane_distance) / spacing;
+    for (int c = 0; c < grid_.components; ++c) springs.moved[c] = moved_.data() + c * grid_.places + first;
+    for (std::size_t n = 0; n < grid_.neighbours.size(); ++n) {
+      const NeighbourGeometry& neighbour = grid_.neighbours[n];
+      const std::int64_t at = static_cast<std::int64_t>(n) * grid_.places + first;
+      springs.step = grid_.step_to(neighbour.site);
+      springs.axial = axial_.data() + at;
+      springs.pull = deformed_ ? pull_.data() + at : nullptr;
+      if (grid_.components == 4) {
+        springs.cross_axial = cross_axial_.data() + at;
+        springs.cross_pull = deformed_ ? cross_pull_.data() + at : nullptr;
+      }
+      springs.rest[0] = static_cast<float>(neighbour.rest.x) / spacing;
+      springs.rest[1] = static_cast<float>(neighbour.rest.y) / spacing;
+      springs.rest[2] = static_cast<float>(neighbour.rest.z) / spacing;
+      visit(first, springs);
+    }
+  }
+}
+
+template <class Visit>
+void SpringLevel::for_springs(const Visit& visit) const {
   int reach = 1;
   for (const NeighbourGeometry& n : grid_.neighbours) reach = std::max(reach, n.site.dz);
-  const auto spacing = static_cast<float>(grid_.spacing);
-  const auto one_plane = [&](int k) {
-    for (int j = 0; j < grid_.sites[1]; ++j) {
-      const StaticRow& row = grid_.rows[static_cast<std::size_t>(k) * static_cast<std::size_t>(grid_.sites[1]) + static_cast<std::size_t>(j)];
-      const std::int64_t first = grid_.place(row.begin, j, k);
-      SpringProduct product;
-      product.count = row.end - row.begin;
-      product.membrane_distance = static_cast<float>(grid_.membrane_distance) / spacing;
-      for (int c = 0; c < components; ++c) {
-        product.in[c] = x + c * places + first;
-        product.out[c] = y + c * places + first;
-        product.moved[c] = moved_.data() + c * places + first;
-      }
-      for (std::size_t n = 0; n < grid_.neighbours.size(); ++n) {
-        const NeighbourGeometry& neighbour = grid_.neighbours[n];
-        const std::int64_t at = static_cast<std::int64_t>(n) * places + first;
-        product.step = grid_.step_to(neighbour.site);
-        product.axial = axial_.data() + at;
-        product.pull = deformed_ ? pull_.data() + at : nullptr;
-        if (components == 4) {
-          product.cross_axial = cross_axial_.data() + at;
-          product.cross_pull = deformed_ ? cross_pull_.data() + at : nullptr;
-        }
-        product.rest[0] = static_cast<float>(neighbour.rest.x) / spacing;
-        product.rest[1] = static_cast<float>(neighbour.rest.y) / spacing;
-        product.rest[2] = static_cast<float>(neighbour.rest.z) / spacing;
-        row_kernels_->springs(product, components);
-      }
-    }
-  };
+  for (int colour = 0; colour <= reach; ++colour) {  // planes that share no other plane
+#pragma omp parallel for num_threads(threads_) schedule(static)
+    for (int k = colour; k < grid_.sites[2]; k += reach + 1) for_springs_of(k, visit);
+  }
+}
+
+void SpringLevel::multiply(const double* x, double* y) const {
   in_pieces(grid_.numbers(), threads_, [&](std::size_t first, std::size_t last) {
-    const auto heights = static_cast<std::size_t>(3 * places);
+    const auto heights = static_cast<std::size_t>(3 * grid_.places);
     std::fill(y + first, y + last, 0.0);
     for (std::size_t n = std::max(first, heights); n < last; ++n) y[n] = static_cast<double>(alpha_[n - heights]) * x[n];
   });
-  for (int colour = 0; colour <= reach; ++colour) {  // planes that share no other plane
-#pragma omp parallel for num_threads(threads_) schedule(static)
-    for (int k = colour; k < planes; k += reach + 1) one_plane(k);
-  }
+  for_springs([&](std::int64_t first, const RowOfSprings& springs) {
+    SpringProduct product;
+    for (int c = 0; c < grid_.components; ++c) {
+      product.in[c] = x + c * grid_.places + first;
+      product.out[c] = y + c * grid_.places + first;
+    }
+    row_kernels_->springs(springs, grid_.components, product);
+  });
   mask(y);
 }
 
@@ -159,70 +167,20 @@ bool SpringLevel::tangent(std::size_t neighbour, std::int64_t place, SpringBlock
   return true;
 }
 
-void invert_block(const double* block, int size, double* inverse) {
-  // Gauss-Jordan of a symmetric positive block; a pivot that vanishes beside the largest belongs to nothing that has stiffness
-  double a[4][8] = {};
-  double scale = 0;
-  for (int i = 0; i < size; ++i) {
-    scale = std::max(scale, block[i * size + i]);
-    for (int j = 0; j < size; ++j) a[i][j] = block[i * size + j];
-    a[i][4 + i] = 1;
-  }
-  bool empty[4] = {};
-  for (int p = 0; p < size; ++p) {
-    if (!(a[p][p] > 1e-7 * scale) || scale == 0) {
-      empty[p] = true;
-      continue;
-    }
-    const double pivot = 1 / a[p][p];
-    for (double& value : a[p]) value *= pivot;
-    for (int i = 0; i < size; ++i) {
-      if (i == p || a[i][p] == 0) continue;
-      const double factor = a[i][p];
-      for (int j = 0; j < 8; ++j) a[i][j] -= factor * a[p][j];
-    }
-  }
-  for (int i = 0; i < size; ++i)
-    for (int j = 0; j < size; ++j) inverse[i * size + j] = empty[i] || empty[j] ? 0 : a[i][4 + j];
-}
-
 void SpringLevel::invert_diagonal() {
-  const int components = grid_.components, size = components;
-  const std::int64_t places = grid_.places;
-#pragma omp parallel for num_threads(threads_) schedule(static)
-  for (int k = 0; k < grid_.sites[2]; ++k)
-    for (int j = 0; j < grid_.sites[1]; ++j) {
-      const StaticRow& row = grid_.rows[static_cast<std::size_t>(k) * static_cast<std::size_t>(grid_.sites[1]) + static_cast<std::size_t>(j)];
-      for (std::int32_t i = row.begin; i < row.end; ++i) {
-        const std::int64_t place = grid_.place(i, j, k);
-        const std::uint8_t free = grid_.free[place];
-        double block[16] = {}, inverse[16] = {};
-        SpringBlocks t;
-        const auto add = [&](std::size_t n, std::int64_t at) {
-          if (!tangent(n, at, t)) return;
-          for (int a = 0; a < size; ++a)
-            for (int b = 0; b < size; ++b) {
-              // a spring sees one end move: the other end's sign matters only between space and height of a cross spring
-              const bool turned = at != place && (a == 3) != (b == 3);
-              const double cross = t.cross[4 * a + b] * (((a == 3) != (b == 3)) ? (turned ? 1.0 : -1.0) : 1.0);
-              block[a * size + b] += t.base[4 * a + b] + cross;
-            }
-        };
-        for (std::size_t n = 0; n < grid_.neighbours.size(); ++n) {
-          add(n, place);
-          add(n, place - grid_.step_to(grid_.neighbours[n].site));
-        }
-        if (components == 4) block[15] += static_cast<double>(alpha(place));
-        for (int a = 0; a < size; ++a)
-          if ((free >> a & 1u) == 0)
-            for (int b = 0; b < size; ++b) block[a * size + b] = block[b * size + a] = 0;
-        invert_block(block, size, inverse);
-        std::size_t number = 0;
-        for (int a = 0; a < size; ++a)
-          for (int b = a; b < size; ++b, ++number)
-            diagonal_[number * static_cast<std::size_t>(places) + static_cast<std::size_t>(place)] = static_cast<float>(inverse[a * size + b]);
-      }
-    }
+  const auto places = static_cast<std::size_t>(grid_.places);
+  const auto blocks = [&](std::int64_t first) {
+    Triangles blocks;
+    for (std::size_t n = 0; n < diagonal_.size() / places; ++n) blocks.numbers[n] = diagonal_.data() + n * places + first;
+    return blocks;
+  };
+  std::fill(diagonal_.begin(), diagonal_.end(), 0.0F);
+  if (grid_.components == 4) std::copy(alpha_.begin(), alpha_.end(), diagonal_.end() - grid_.places);
+  for_springs([&](std::int64_t first, const RowOfSprings& springs) { row_kernels_->diagonal(springs, grid_.components, blocks(first)); });
+  in_pieces(places, threads_, [&](std::size_t first, std::size_t last) {
+    const auto at = static_cast<std::int64_t>(first);
+    row_kernels_->invert(static_cast<std::int64_t>(last - first), grid_.components, grid_.free + at, blocks(at));
+  });
 }
 
 void SpringLevel::divide(const double* r, double* z) const {

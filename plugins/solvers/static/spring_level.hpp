@@ -34,6 +34,11 @@ class SpringLevel : public Level {
   const StaticGrid& grid() const { return grid_; }
 
  private:
+  /// Calls visit(first place, springs) for each row and neighbour of a plane, or of all planes: these at once where they share no place.
+  template <class Visit>
+  void for_springs_of(int plane, const Visit& visit) const;
+  template <class Visit>
+  void for_springs(const Visit& visit) const;
   void invert_diagonal();
   float largest_change() const;
 

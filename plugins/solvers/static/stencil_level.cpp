@@ -16,6 +16,35 @@ Layout layout_of(const std::array<std::int64_t, 3>& sites, std::int64_t reach) {
   return layout;
 }
 
+/// The inverse of a symmetric block. Rows without stiffness get zeros.
+void invert_block(const double* block, double* inverse) {
+  constexpr int size = 4;
+  // Gauss-Jordan of a symmetric positive block; a pivot that vanishes beside the largest belongs to nothing that has stiffness
+  double a[4][8] = {};
+  double scale = 0;
+  for (int i = 0; i < size; ++i) {
+    scale = std::max(scale, block[i * size + i]);
+    for (int j = 0; j < size; ++j) a[i][j] = block[i * size + j];
+    a[i][4 + i] = 1;
+  }
+  bool empty[4] = {};
+  for (int p = 0; p < size; ++p) {
+    if (!(a[p][p] > 1e-7 * scale) || scale == 0) {
+      empty[p] = true;
+      continue;
+    }
+    const double pivot = 1 / a[p][p];
+    for (double& value : a[p]) value *= pivot;
+    for (int i = 0; i < size; ++i) {
+      if (i == p || a[i][p] == 0) continue;
+      const double factor = a[i][p];
+      for (int j = 0; j < 8; ++j) a[i][j] -= factor * a[p][j];
+    }
+  }
+  for (int i = 0; i < size; ++i)
+    for (int j = 0; j < size; ++j) inverse[i * size + j] = empty[i] || empty[j] ? 0 : a[i][4 + j];
+}
+
 }  // namespace
 
 StencilLevel::StencilLevel(const std::array<std::int64_t, 3>& sites, int reach, int threads)
@@ -33,9 +62,7 @@ StencilLevel::StencilLevel(const std::array<std::int64_t, 3>& sites, int reach, 
 void StencilLevel::finish() {
   inverse_.assign(16 * static_cast<std::size_t>(layout_.places), 0);
   in_pieces(static_cast<std::size_t>(layout_.places), threads_, [&](std::size_t first, std::size_t last) {
-    for (std::size_t p = first; p < last; ++p) {
-      invert_block(block(static_cast<std::int64_t>(p), 0), 4, inverse_.data() + 16 * p);
-    }
+    for (std::size_t p = first; p < last; ++p) invert_block(block(static_cast<std::int64_t>(p), 0), inverse_.data() + 16 * p);
   });
   largest_eigenvalue_ = power_iteration();
 }

@@ -1,0 +1,124 @@
+// The diagonal blocks of the springs' stiffness, and their inverses. Compiled once for each instruction set; see rows.hpp.
+#include "rows.hpp"
+
+namespace hyperlattice::statics::HYPERLATTICE_INSTRUCTIONS {
+
+void diagonal(const RowOfSprings& springs, int components, const Triangles& blocks);
+void invert(std::int64_t count, int components, const std::uint8_t* free, const Triangles& blocks);
+
+namespace {
+
+constexpr std::int64_t chunk = 64;  // springs whose blocks are found before they are added: both ends may lie in one row
+
+/// One number of the blocks of both ends: that of base springs, and that of cross springs with its sign at the near end.
+template <int size>
+void add(const float (&base)[size], const float (&cross)[size], float sign, std::int64_t count, std::int64_t step, float* own) {
+  float* other = own + step;
+  for (std::int64_t t = 0; t < count; ++t) own[t] += base[t] + sign * cross[t];
+  for (std::int64_t t = 0; t < count; ++t) other[t] += base[t] + cross[t];
+}
+
+/// A spring sees one end move: the difference of its ends turns its sign, or not, twice. In a cross spring heights add up and space does not, so that
+/// its mixed numbers have one sign at one end and the other at the other.
+template <bool Heights, bool Deformed>
+void diagonal_of(const RowOfSprings& s, const Triangles& blocks) {
+  constexpr int components = Heights ? 4 : 3;
+  for (std::int64_t first = 0; first < s.count; first += chunk) {
+    const std::int64_t count = s.count - first < chunk ? s.count - first : chunk;
+    float r[4][chunk], total[chunk], base[chunk], cross[chunk];
+    for (int c = 0; c < components; ++c)
+      for (std::int64_t t = 0; t < count; ++t) {
+        r[c][t] = c < 3 ? s.rest[c] : 0;
+        if constexpr (Deformed) r[c][t] += s.moved[c][first + t + s.step] - s.moved[c][first + t];
+      }
+    for (std::int64_t t = 0; t < count; ++t) {
+      total[t] = s.membrane_distance;
+      if constexpr (Deformed && Heights) total[t] += s.moved[3][first + t + s.step] + s.moved[3][first + t];
+    }
+    int number = 0;
+    for (int a = 0; a < components; ++a)
+      for (int b = a; b < components; ++b, ++number) {
+        const float *x = r[a], *y = r[b], *across = b < 3 ? r[b] : total, *along = a < 3 ? r[a] : total;
+        for (std::int64_t t = 0; t < count; ++t) {
+          base[t] = s.axial[first + t] * x[t] * y[t];
+          cross[t] = 0;
+          if constexpr (Heights) cross[t] = s.cross_axial[first + t] * along[t] * across[t];
+          if constexpr (Deformed) {
+            if (a == b) base[t] += s.pull[first + t];
+            if (Heights && a == b) cross[t] += s.cross_pull[first + t];
+          }
+        }
+        add(base, cross, (a == 3) == (b == 3) ? 1.0F : -1.0F, count, s.step, blocks.numbers[number] + first);
+      }
+  }
+}
+
+/// 1 / pivot; 0 for one that vanishes beside the largest, which belongs to nothing that has stiffness.
+[[gnu::always_inline]] inline double inverse_of(double pivot, double least) { return pivot > least ? 1 / pivot : 0.0; }
+
+[[gnu::always_inline]] inline double larger(double a, double b) { return a > b ? a : b; }
+
+/// By K = L D L^T and K^-1 = M^T D^-1 M, M = L^-1. A pivot that is left out leaves zeros in its row and column, and the rest is inverted without it.
+void invert_four(std::int64_t count, const std::uint8_t* free, const Triangles& blocks) {
+  float* const* n = blocks.numbers;
+#pragma omp simd
+  for (std::int64_t t = 0; t < count; ++t) {
+    const double fx = free[t] & 1, fy = free[t] >> 1 & 1, fz = free[t] >> 2 & 1, fh = free[t] >> 3 & 1;
+    const double xx = fx * double(n[0][t]), xy = fx * fy * double(n[1][t]), xz = fx * fz * double(n[2][t]), xh = fx * fh * double(n[3][t]),
+                 yy = fy * double(n[4][t]), yz = fy * fz * double(n[5][t]), yh = fy * fh * double(n[6][t]), zz = fz * double(n[7][t]),
+                 zh = fz * fh * double(n[8][t]), hh = fh * double(n[9][t]);
+    const double least = 1e-7 * larger(larger(xx, yy), larger(zz, hh));
+    const double dx = inverse_of(xx, least), lyx = xy * dx, lzx = xz * dx, lhx = xh * dx;
+    const double dy = inverse_of(yy - lyx * xy, least), byz = yz - lyx * xz, byh = yh - lyx * xh, lzy = byz * dy, lhy = byh * dy;
+    const double dz = inverse_of(zz - lzx * xz - lzy * byz, least), bzh = zh - lzx * xh - lzy * byh, lhz = bzh * dz;
+    const double dh = inverse_of(hh - lhx * xh - lhy * byh - lhz * bzh, least);
+    const double myx = -lyx, mzy = -lzy, mhz = -lhz, mzx = lzy * lyx - lzx, mhy = lhz * lzy - lhy, mhx = -(lhx + lhy * myx + lhz * mzx);
+    n[0][t] = static_cast<float>(dx + dy * myx * myx + dz * mzx * mzx + dh * mhx * mhx);
+    n[1][t] = static_cast<float>(dy * myx + dz * mzx * mzy + dh * mhx * mhy);
+    n[2][t] = static_cast<float>(dz * mzx + dh * mhx * mhz);
+    n[3][t] = static_cast<float>(dh * mhx);
+    n[4][t] = static_cast<float>(dy + dz * mzy * mzy + dh * mhy * mhy);
+    n[5][t] = static_cast<float>(dz * mzy + dh * mhy * mhz);
+    n[6][t] = static_cast<float>(dh * mhy);
+    n[7][t] = static_cast<float>(dz + dh * mhz * mhz);
+    n[8][t] = static_cast<float>(dh * mhz);
+    n[9][t] = static_cast<float>(dh);
+  }
+}
+
+void invert_three(std::int64_t count, const std::uint8_t* free, const Triangles& blocks) {
+  float* const* n = blocks.numbers;
+#pragma omp simd
+  for (std::int64_t t = 0; t < count; ++t) {
+    const double fx = free[t] & 1, fy = free[t] >> 1 & 1, fz = free[t] >> 2 & 1;
+    const double xx = fx * double(n[0][t]), xy = fx * fy * double(n[1][t]), xz = fx * fz * double(n[2][t]), yy = fy * double(n[3][t]),
+                 yz = fy * fz * double(n[4][t]), zz = fz * double(n[5][t]);
+    const double least = 1e-7 * larger(larger(xx, yy), zz);
+    const double dx = inverse_of(xx, least), lyx = xy * dx, lzx = xz * dx;
+    const double dy = inverse_of(yy - lyx * xy, least), byz = yz - lyx * xz, lzy = byz * dy;
+    const double dz = inverse_of(zz - lzx * xz - lzy * byz, least);
+    const double myx = -lyx, mzy = -lzy, mzx = lzy * lyx - lzx;
+    n[0][t] = static_cast<float>(dx + dy * myx * myx + dz * mzx * mzx);
+    n[1][t] = static_cast<float>(dy * myx + dz * mzx * mzy);
+    n[2][t] = static_cast<float>(dz * mzx);
+    n[3][t] = static_cast<float>(dy + dz * mzy * mzy);
+    n[4][t] = static_cast<float>(dz * mzy);
+    n[5][t] = static_cast<float>(dz);
+  }
+}
+
+}  // namespace
+
+void diagonal(const RowOfSprings& s, int components, const Triangles& blocks) {
+  const bool deformed = s.pull != nullptr;
+  if (components == 4)
+    deformed ? diagonal_of<true, true>(s, blocks) : diagonal_of<true, false>(s, blocks);
+  else
+    deformed ? diagonal_of<false, true>(s, blocks) : diagonal_of<false, false>(s, blocks);
+}
+
+void invert(std::int64_t count, int components, const std::uint8_t* free, const Triangles& blocks) {
+  components == 4 ? invert_four(count, free, blocks) : invert_three(count, free, blocks);
+}
+
+}  // namespace hyperlattice::statics::HYPERLATTICE_INSTRUCTIONS
