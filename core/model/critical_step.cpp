@@ -77,7 +77,7 @@ void find_critical_step_of_list(Model& model, Faults& faults) {
   if (!bound.all_positive && !model.scene->allow_unstable)
     return faults.add(stage.pointer, stage.component->type(),
                       "springs of positive stiffness, or allow_unstable in the scene: a listed lattice with negative ones is not known to be stable");
-  if (!bound.all_positive) model.warnings.push_back("a listed lattice with springs of negative stiffness is not known to be stable");
+  if (!bound.all_positive) model.warnings.emplace_back("a listed lattice with springs of negative stiffness is not known to be stable");
   if (!(bound.square > 0)) return faults.add("/pipeline", "", "a lattice with springs; this one's particles are all alone");
   const Vec3 at = model.body.position(bound.particle);
   for (Material& material : model.materials) material.critical_time_step = 2 / std::sqrt(bound.square);
