@@ -74,7 +74,12 @@ Curve reduced(Curve curve, Reduction reduction) {
   return curve;
 }
 
-double distance(const Curve& observed, const Curve& truth, Norm norm) {
+double Distance::relative(Norm norm) const {
+  if (size == 0) throw std::runtime_error("the truth is zero, so that there is no relative error");
+  return norm == Norm::relative_l2 || norm == Norm::together_l2 ? std::sqrt(difference / size) : difference / size;
+}
+
+Distance distance(const Curve& observed, const Curve& truth, Norm norm) {
   double difference = 0, size = 0;
   std::size_t common = 0;
   for (std::size_t n = 0; n < truth.over.size(); ++n) {
@@ -84,6 +89,7 @@ double distance(const Curve& observed, const Curve& truth, Norm norm) {
     const double apart = std::abs(value - truth.values[n]), true_size = std::abs(truth.values[n]);
     switch (norm) {
       case Norm::relative_l2:
+      case Norm::together_l2:
         difference += apart * apart;
         size += true_size * true_size;
         break;
@@ -104,8 +110,7 @@ double distance(const Curve& observed, const Curve& truth, Norm norm) {
     throw std::runtime_error(
         fmt::format("the run and the truth have nothing in common: the run is known {}, the truth {}", range(observed), range(truth)));
   }
-  if (size == 0) throw std::runtime_error("the truth is zero, so that there is no relative error");
-  return norm == Norm::relative_l2 ? std::sqrt(difference / size) : difference / size;
+  return {difference, size};
 }
 
 }  // namespace hyperlattice::study

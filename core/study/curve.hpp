@@ -30,11 +30,20 @@ Curve reduced(Curve curve, Reduction reduction);
 enum class Norm {
   relative_l2,   ///< sqrt(sum (u - t)^2 / sum t^2)
   relative_max,  ///< max |u - t| / max |t|
-  relative_end   ///< |u - t| / |t| at the last of them
+  relative_end,  ///< |u - t| / |t| at the last of them
+  together_l2    ///< as relative_l2, with the sums over the points of all curves that are compared, as of the components of one vector
 };
-inline constexpr std::string_view norm_names[] = {"relative_l2", "relative_max", "relative_end"};
+inline constexpr std::string_view norm_names[] = {"relative_l2", "relative_max", "relative_end", "together_l2"};
 
-/// Throws std::runtime_error, with a sentence, where no error is defined: nothing in common, or a truth that is zero.
-double distance(const Curve& observed, const Curve& truth, Norm norm);
+/// How far a curve is from its truth, and how large that is: squares summed, or magnitudes.
+struct Distance {
+  double difference = 0, size = 0;
+
+  /// Their ratio in the norm. Throws std::runtime_error, with a sentence, where the truth is zero.
+  double relative(Norm norm) const;
+};
+
+/// Throws std::runtime_error, with a sentence, where the curves have nothing in common.
+Distance distance(const Curve& observed, const Curve& truth, Norm norm);
 
 }  // namespace hyperlattice::study

@@ -61,15 +61,26 @@ class Evaluation {
 
   void compare(std::size_t r) {
     Row& row = rows_[r];
+    std::vector<Distance> apart;
     for (std::size_t c = 0; c < study_.comparisons.size(); ++c) {
       const Comparison& comparison = study_.comparisons[c];
       try {
-        row.errors.push_back(distance(curves_[r][c].curve, truth_curve(r, c), study_.norm));
+        apart.push_back(distance(curves_[r][c].curve, truth_curve(r, c), study_.norm));
+        if (study_.norm != Norm::together_l2) row.errors.push_back(apart.back().relative(study_.norm));
       } catch (const std::runtime_error& error) {
         throw std::runtime_error(comparison.name + ": " + error.what());
       }
     }
+    if (study_.norm == Norm::together_l2) return compare_together(row, apart);
     row.error = *std::max_element(row.errors.begin(), row.errors.end());
+  }
+
+  /// All quantities are one: each of their errors is in relation to the whole, so that their squares add up.
+  static void compare_together(Row& row, const std::vector<Distance>& apart) {
+    Distance whole;
+    for (const Distance& one : apart) whole = {whole.difference + one.difference, whole.size + one.size};
+    row.error = whole.relative(Norm::together_l2);
+    for (const Distance& one : apart) row.errors.push_back(Distance{one.difference, whole.size}.relative(Norm::together_l2));
   }
 
   Curve truth_curve(std::size_t r, std::size_t c) const {

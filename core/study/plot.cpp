@@ -11,7 +11,8 @@ namespace hyperlattice::study {
 
 namespace {
 
-constexpr const char* colours[] = {"#1b6ca8", "#e67e22", "#27825a", "#8e44ad", "#b03a2e", "#7f6000", "#2e86c1", "#7f8c8d"};
+constexpr const char* colours[] = {"#1b6ca8", "#e67e22", "#27825a", "#8e44ad", "#b03a2e", "#7f6000",
+                                   "#2e86c1", "#7f8c8d", "#c2185b", "#00796b", "#5d4037", "#9e9d24"};
 
 std::string quoted(const std::string& text) {
   std::string out = "\"";
@@ -36,7 +37,7 @@ class Plot {
     if (curves_.empty()) return "";
     draw_peers();
     draw_front();
-    std::string text = "set encoding utf8\nset logscale xy\nset tics out\nset key above left Left reverse vertical maxcols 2 samplen 2 font ',11'\n";
+    std::string text = "set encoding utf8\nset logscale xy\nset tics out\nset key above left Left reverse vertical maxrows 6 samplen 2 font ',11'\n";
     fmt::format_to(std::back_inserter(text), "set title {} noenhanced\nset xlabel 'run time in s'\nset ylabel 'error in %, {}' noenhanced\n",
                    quoted(study_.title), norm_names[static_cast<std::size_t>(study_.norm)]);
     fmt::format_to(std::back_inserter(text), "set xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\n", least_.seconds / 2, most_.seconds * 2,

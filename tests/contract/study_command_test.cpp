@@ -98,6 +98,24 @@ TEST_F(StudyCommand, GivesRowsOrdersAndTheCheapestSetting) {
   EXPECT_NE(contents(out() + "/study.svg").find("Swinging pair"), std::string::npos);
 }
 
+TEST_F(StudyCommand, CountsQuantitiesTogether) {
+  json file = swinging_pair();
+  file["scene"]["pipeline"][5].erase("component");
+  file["truth"] = {{"values", {{"along", 1.5 * swing(10e9)}, {"across", 0}}}};  // a zero, which alone has no relative error
+  file["compare"] = {{"along", {{"probe", "upper"}, {"column", "displacement_z"}, {"truth", "along"}}},
+                     {"across", {{"probe", "upper"}, {"column", "displacement_x"}, {"truth", "across"}}}};
+  file["vary"]["step"]["/pipeline/4/time_step"] = {"0.05 us"};
+  file["vary"].erase("stiffness");
+  EXPECT_EQ(study(file).exit_code, 3);
+  file["error"] = "together_l2";
+  const Result result = study(file, {"--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json row = json::parse(result.out).at("rows").at(0);
+  EXPECT_NEAR(row["error"], 1.0 / 3, 1e-3);
+  EXPECT_NEAR(row["errors"]["along"], 1.0 / 3, 1e-3);
+  EXPECT_EQ(row["errors"]["across"], 0);
+}
+
 TEST_F(StudyCommand, RunsAgainOnlyWhatIsMissing) {
   json file = true_swinging_pair();
   file["repeats"] = 2;

@@ -35,9 +35,72 @@ def hollow_sphere_blast(rows, orders):
     check(len(orders) == 3 and all(o["order"] > 0.8 for o in orders), f"orders {[o['order'] for o in orders]}")
 
 
+def complex_domain(rows, orders):
+    """Within the tolerances of the truth, first order as for any mesh of equal cells; membrane IV, which is not isotropic, far off at any spacing."""
+    error = {(r["boundary"], r["membrane"], r["spacing"]): r["error"] for r in rows}
+    for boundary, tolerance in (("cells", {"10 mm": 0.12, "5 mm": 0.065}), ("particles", {"10 mm": 0.13, "5 mm": 0.08})):
+        for spacing, most in tolerance.items():
+            check(error[boundary, "I-m", spacing] < most, f"{boundary}, {spacing}: {error[boundary, 'I-m', spacing]}, at most {most}")
+            check(error[boundary, "IV", spacing] > 3 * error[boundary, "I-m", spacing], f"{boundary}, {spacing}: membrane IV is as good as I-m")
+        check(error[boundary, "I-m", "5 mm"] < 0.7 * error[boundary, "I-m", "10 mm"], f"{boundary}: the error falls too little")
+    order = {o["boundary"]: o["order"] for o in orders if o["membrane"] == "IV"}
+    check(len(order) == 2 and all(value < 0.1 for value in order.values()), f"membrane IV converges: {order}")
+
+
+def table(rows, orders):
+    """Across and down: particles within the tolerances of the truth, cells as what is reached with a little room; cells of higher order."""
+    tolerance = {("cells", "5 mm"): (0.17, 0.14), ("cells", "2.5 mm"): (0.06, 0.05), ("particles", "5 mm"): (0.12, 0.105), ("particles", "2.5 mm"): (0.08, 0.07)}
+    for r in rows:
+        for name, most in zip(("across", "down"), tolerance[r["boundary"], r["spacing"]]):
+            check(r["errors"][name] < most, f"{r['boundary']}, {r['spacing']}, nu {r['nu']}: {name} {r['errors'][name]}, at most {most}")
+    for o in orders:
+        check(o["order"] > (1.2 if o["boundary"] == "cells" else 0.5), f"{o['boundary']}, nu {o['nu']}: order {o['order']}")
+
+
+def beam(rows, orders):
+    """Within the tolerances of the truth over the whole curve of loads; cells of second order."""
+    tolerance = {"cells": {"h/4": 0.06, "h/6": 0.03, "h/8": 0.016}, "particles": {"h/4": 0.08, "h/6": 0.05, "h/8": 0.04}}
+    for r in rows:
+        most = tolerance[r["boundary"]][r["spacing"]]
+        check(r["error"] < most, f"{r['boundary']}, {r['spacing']}: {r['error']}, at most {most}")
+    order = {o["boundary"]: o["order"] for o in orders}
+    check(order["cells"] > 1.8, f"order of cells {order['cells']}, expected 2")
+    check(order["particles"] > 1, f"order of particles {order['particles']}")
+
+
+def clamped_beam(rows, orders):
+    """Within the tolerances of the truth over the whole curve of loads and at the least load, where the beam is linear; cells of second order there."""
+    tolerance = {"cells": {"h/4": 0.06, "h/6": 0.03, "h/8": 0.016}, "particles": {"h/4": 0.08, "h/6": 0.05, "h/8": 0.04}}
+    for r in rows:
+        most = tolerance[r["boundary"]][r["spacing"]]
+        check(r["error"] < most, f"{r['boundary']}, {r['spacing']}: {r['errors']}, at most {most}")
+    least = {r["spacing"]: r["errors"]["least load"] for r in rows if r["boundary"] == "cells"}
+    check(least["h/8"] < least["h/4"] / 2**1.8, f"cells at the least load: {least}")
+
+
+def notched_plate(rows, orders):
+    """Without a truth from outside, the spacings among each other: the notch gapes alike, within 5 % with a crack and more nearly without one."""
+    error = {(r["traction"], r["spacing"]): r["error"] for r in rows}
+    check(error["1 MPa", "0.5 mm"] < 0.05, f"with a crack: {error['1 MPa', '0.5 mm']}")
+    check(error["0.2 MPa", "0.5 mm"] < 0.5 * error["1 MPa", "0.5 mm"], f"without one: {error['0.2 MPa', '0.5 mm']}")
+
+
+def kalthoff_winkler(rows, orders):
+    """Likewise: where nothing breaks the plate moves alike at 2 and 1 mm. With cracks it does not converge, and nothing is asked of the error."""
+    error = {(r["speed"], r["spacing"]): r["error"] for r in rows}
+    check(error["4 m/s", "1 mm"] < 0.08, f"without cracks: {error['4 m/s', '1 mm']}")
+    check(error["4 m/s", "1 mm"] < error["16.5 m/s", "1 mm"], "cracks do no harm")
+
+
 studies = {
     "plane_wave": (plane_wave, '/exclude=[{"spacing": "0.5 mm"}]', 6),
     "hollow_sphere_blast": (hollow_sphere_blast, '/exclude/-={"spacing": "1 mm"}', 6),
+    "complex_domain": (complex_domain, '/exclude=[{"spacing": "2.5 mm"}, {"membrane": ["I", "II", "III"]}]', 8),
+    "table": (table, '/exclude=[{"spacing": "1.25 mm"}]', 12),
+    "beam": (beam, '/exclude=[{"spacing": "h/12"}]', 6),
+    "clamped_beam": (clamped_beam, '/exclude=[{"spacing": "h/12"}]', 6),
+    "notched_plate": (notched_plate, '/exclude=[{"spacing": ["0.25 mm", "0.125 mm"]}]', 4),
+    "kalthoff_winkler": (kalthoff_winkler, '/exclude=[{"spacing": "0.5 mm"}]', 4),
 }
 find_faults, setting, runs = studies[name]
 with tempfile.TemporaryDirectory() as folder:
@@ -49,6 +112,6 @@ with tempfile.TemporaryDirectory() as folder:
 check(len(found["rows"]) == runs and all(r["status"] == "done" for r in found["rows"]), "not every run is done")
 find_faults(found["rows"], found["orders"])
 for row in found["rows"]:
-    print({key: value for key, value in row.items() if key in ("spacing", "boundary", "stiffness", "error", "seconds", "particles")})
+    print({key: value for key, value in row.items() if key not in ("errors", "size", "repeats", "run", "status", "pareto", "setup_seconds")})
 print("\n".join(faults) if faults else f"{name}: {runs} runs, orders {[round(o['order'], 2) for o in found['orders']]}")
 sys.exit(1 if faults else 0)

@@ -40,20 +40,25 @@ TEST(StudyCurve, IsReducedToOneNumber) {
   EXPECT_DOUBLE_EQ(reduced(curve, Reduction::mean).values[0], (4.0 + 6.0) / 4);  // of the range: trapezoids of 4 and 6
 }
 
+double error_of(const Curve& observed, const Curve& truth, Norm norm) { return distance(observed, truth, norm).relative(norm); }
+
 TEST(StudyNorm, CountsWhatItSays) {
   const Curve truth{{0, 1, 2}, {3, 4, 5}}, observed{{0, 2}, {3, 6}};  // 3, 4.5, 6
-  EXPECT_DOUBLE_EQ(distance(observed, truth, Norm::relative_l2), std::sqrt(1.25 / 50));
-  EXPECT_DOUBLE_EQ(distance(observed, truth, Norm::relative_max), 1.0 / 5);
-  EXPECT_DOUBLE_EQ(distance(observed, truth, Norm::relative_end), 1.0 / 5);
+  EXPECT_DOUBLE_EQ(error_of(observed, truth, Norm::relative_l2), std::sqrt(1.25 / 50));
+  EXPECT_DOUBLE_EQ(error_of(observed, truth, Norm::relative_max), 1.0 / 5);
+  EXPECT_DOUBLE_EQ(error_of(observed, truth, Norm::relative_end), 1.0 / 5);
   const Curve shorter{{0, 1}, {3, 4.5}};  // the truth's points that it reaches
-  EXPECT_DOUBLE_EQ(distance(shorter, truth, Norm::relative_l2), std::sqrt(0.25 / 25));
-  EXPECT_DOUBLE_EQ(distance(shorter, truth, Norm::relative_end), 0.5 / 4);
+  EXPECT_DOUBLE_EQ(error_of(shorter, truth, Norm::relative_l2), std::sqrt(0.25 / 25));
+  EXPECT_DOUBLE_EQ(error_of(shorter, truth, Norm::relative_end), 0.5 / 4);
+  const Distance part = distance(observed, truth, Norm::together_l2);  // can be added to others
+  EXPECT_DOUBLE_EQ(part.difference, 1.25);
+  EXPECT_DOUBLE_EQ(part.size, 50);
 }
 
 TEST(StudyNorm, SaysWhyThereIsNone) {
   const auto why = [](const Curve& observed, const Curve& truth) {
     try {
-      distance(observed, truth, Norm::relative_l2);
+      error_of(observed, truth, Norm::relative_l2);
     } catch (const std::runtime_error& error) {
       return std::string(error.what());
     }
