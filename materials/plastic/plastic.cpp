@@ -23,7 +23,7 @@ class Plastic {
     Schema<Options> schema("materials.plastic", "Elastic-plastic springs with linear hardening; a bar along [100] yields at the stated stress");
     schema.equation("f = k (u - w), |f| <= limit + h p; limit = k L (1 - (1 + nu) (n_y^2 + n_z^2)) yield / young along the bar")
         .source("return mapping of one-dimensional plasticity (Simo and Hughes 1998, section 1.2), for each spring")
-        .restrictions("structured lattices, membrane none, precision double")
+        .restrictions("structured lattices, membrane none")
         .add<&Options::yield>("yield", "Pa", "stress along [100] at which a bar leaves the elastic line")
         .example("\"10 MPa\"")
         .positive()
@@ -37,6 +37,8 @@ class Plastic {
   explicit Plastic(const Options& options) : options_(options) {}
 
   MaterialConstants constants(const LatticeFacts& lattice) const {
+    if (lattice.neighbours.empty())
+      throw std::invalid_argument("a structured lattice: springs that point in all directions do not yield at one stress");
     MaterialConstants constants = options_.constants(lattice);
     if (constants.has_cross_springs()) throw std::invalid_argument("membrane none: how cross springs yield is not known");
     const double poisson = lattice.elastic_constants(constants).poisson(), strain = options_.yield / options_.young;
