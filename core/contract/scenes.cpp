@@ -8,12 +8,17 @@
 
 namespace hyperlattice::contract {
 
-Json cubic_box(int nx, int ny, int nz, const char* boundary) {
+namespace {
+Json box(Json lattice, int nx, int ny, int nz) {
   constexpr double l = 1e-3;
-  Json lattice{{"type", "lattices.cubic"}, {"spacing", l}, {"boundary", boundary}};
+  lattice["spacing"] = l;
   lattice["shape"]["box"] = {{"low", {0, 0, 0}}, {"high", {nx * l, ny * l, nz * l}}};
   return lattice;
 }
+}  // namespace
+
+Json cubic_box(int nx, int ny, int nz, const char* boundary) { return box({{"type", "lattices.cubic"}, {"boundary", boundary}}, nx, ny, nz); }
+Json random_box(int nx, int ny, int nz) { return box({{"type", "lattices.random"}}, nx, ny, nz); }
 
 Json elastic(const char* membrane) {
   Json material{{"type", "materials.elastic"}, {"young", 1e10}, {"density", 2500}, {"membrane", membrane}};
@@ -21,8 +26,8 @@ Json elastic(const char* membrane) {
   return material;
 }
 
-std::unique_ptr<Plan> plan_of(Host& host, const std::vector<Json>& stages, int threads) {
-  Json scene{{"format", "hyperlattice/1"}, {"title", "contract"}, {"pipeline", stages}};
+std::unique_ptr<Plan> plan_of(Host& host, const std::vector<Json>& stages, int threads, const char* precision) {
+  Json scene{{"format", "hyperlattice/1"}, {"title", "contract"}, {"precision", precision}, {"pipeline", stages}};
   const auto is_solver = [](const Json& stage) { return stage.at("type").get<std::string>().starts_with("solvers."); };
   if (std::none_of(stages.begin(), stages.end(), is_solver)) scene["pipeline"].push_back({{"type", "solvers.explicit"}, {"end_time", 1e-3}});
   return make_plan(read_scene_text(scene.dump(), host), threads);

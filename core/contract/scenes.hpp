@@ -13,6 +13,9 @@ namespace hyperlattice::contract {
 /// A box of that many cells of the cubic lattice, 1 mm wide, its low corner at the origin.
 Json cubic_box(int nx, int ny, int nz, const char* boundary = "particles");
 
+/// The same box of a random lattice, which is a list of springs.
+Json random_box(int nx, int ny, int nz);
+
 /// An elastic material of 10 GPa and 2500 kg/m3 with a membrane; none: nu is 1/4 in the cubic lattice.
 Json elastic(const char* membrane = "none");
 
@@ -20,7 +23,7 @@ Json elastic(const char* membrane = "none");
 inline constexpr const char* usual_membrane = "I-m";
 
 /// Plans a scene of these stages, for the explicit solver if there is none. InputError with the faults.
-std::unique_ptr<Plan> plan_of(Host& host, const std::vector<Json>& stages, int threads = 1);
+std::unique_ptr<Plan> plan_of(Host& host, const std::vector<Json>& stages, int threads = 1, const char* precision = "double");
 
 /// Numbers drawn evenly from [-amplitude, amplitude], the same in every run.
 std::vector<double> noise(std::size_t count, double amplitude, std::uint64_t seed = 1);

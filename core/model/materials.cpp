@@ -34,8 +34,10 @@ LatticeFacts facts_of(const Model& model, const LatticeGeometry& geometry) {
   if (!body.is_listed()) return facts;
   facts.particles = static_cast<std::uint64_t>(std::llround(geometry.volume / body.grid.site_volume));
   for (const ListedSpring& spring : body.listed.springs) {
-    const Vec3 rest = body.listed.positions[spring.b] - body.listed.positions[spring.a];
-    facts.squared_lengths += spring.stiffness * dot(rest, rest);
+    const double length = norm(body.listed.positions[spring.b] - body.listed.positions[spring.a]);
+    facts.lengths += spring.stiffness * length;
+    facts.squared_lengths += spring.stiffness * length * length;
+    facts.cubed_lengths += spring.stiffness * length * length * length;
   }
   return facts;
 }

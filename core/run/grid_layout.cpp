@@ -146,9 +146,9 @@ SpringEnds GridLayout::spring(const Block& block, std::uint32_t row, std::uint32
 }
 
 Layout::Memory GridLayout::memory(const Block& block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site, bool cross) const {
-  const std::uint64_t sites = block.layout->sites, kind = memory_kinds() * neighbour + (cross ? 1 : 0);
+  const std::uint64_t sites = block.layout->sites, before = kept_numbers() * neighbour + (cross ? model_.kernels.memory : 0);
   const Row& of = block.rows[row];
-  return {block.memory.get() + kind * model_.kernels.memory * sites + of.start + static_cast<std::uint64_t>(site - of.begin), sites};
+  return {block.memory.get() + before * sites + of.start + static_cast<std::uint64_t>(site - of.begin), sites};
 }
 
 std::uint64_t GridLayout::other_end(std::size_t block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site) const {
@@ -163,7 +163,7 @@ std::uint64_t GridLayout::alive_bits(const Block& block, std::uint64_t index) co
 void GridLayout::fill(Block& block) const {
   const Body& body = model_.body;
   block.alive = AlignedArray<std::uint16_t>(block.layout->sites);
-  block.memory = AlignedArray<double>(block.layout->sites * body.neighbours.size() * memory_kinds() * model_.kernels.memory);
+  block.memory = AlignedArray<double>(block.layout->sites * body.neighbours.size() * kept_numbers());
   if (!model_.material_of.empty()) block.material = AlignedArray<std::uint8_t>(block.layout->sites);
   for (std::uint32_t r = 0; r < block.rows.size(); ++r) {
     const Row& row = block.rows[r];
@@ -206,7 +206,7 @@ void GridLayout::describe(const Block& block, KernelRequest& request) const {
 
 double GridLayout::state_bytes() const {
   const auto number = static_cast<double>(bytes_of(model_.choice.precision));
-  const auto memory = static_cast<double>(model_.body.neighbours.size() * memory_kinds() * model_.kernels.memory * sizeof(double));
+  const auto memory = static_cast<double>(model_.body.neighbours.size() * kept_numbers() * sizeof(double));
   const double a_site = 2.0 * model_.degrees_of_freedom * number + sizeof(std::uint16_t) + (model_.material_of.empty() ? 0.0 : 1.0) + memory;
   double bytes = weights_.bytes();
   for (const BlockLayout& block : blocks)

@@ -33,7 +33,6 @@ class GridLayout final : public Layout {
   };
 
   BlockLayout make_block(Planes planes, std::uint64_t padding);
-  std::uint64_t memory_kinds() const { return model_.choice.membrane == KernelChoice::Membrane::none ? 1 : 2; }
   std::uint64_t whole_vectors(std::int32_t sites) const;  ///< places that so many sites of a row take, with the padding
   std::size_t block_of_plane(std::int32_t k) const;
   PlaneRange plane(std::size_t block, std::int32_t k) const;

@@ -79,6 +79,8 @@ class Layout {
 
  protected:
   explicit Layout(const Model& model) : model_(model) {}
+  /// Numbers that laws keep of a base spring and its cross spring.
+  std::size_t kept_numbers() const { return (model_.choice.membrane == KernelChoice::Membrane::none ? 1 : 2) * std::size_t{model_.kernels.memory}; }
 
   const Model& model_;
 };

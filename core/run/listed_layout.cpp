@@ -108,6 +108,11 @@ SpringEnds ListedLayout::spring(const Block& block, std::uint32_t row, std::uint
   return {a, b, static_cast<std::uint32_t>(found - springs.begin()), here == a};
 }
 
+Layout::Memory ListedLayout::memory(const Block& block, std::uint32_t, std::uint32_t slot, std::int32_t site, bool cross) const {
+  const std::size_t numbers = std::size_t{slot} * kept_numbers() + (cross ? model_.kernels.memory : 0);
+  return {block.memory.get() + numbers * width_ + static_cast<std::uint64_t>(site) % width_, width_};
+}
+
 std::uint64_t ListedLayout::other_end(std::size_t, std::uint32_t, std::uint32_t, std::int32_t) const {
   throw std::logic_error("a listed body holds no velocities of others");  // a model with criteria that ask for them is refused
 }
@@ -149,6 +154,7 @@ void ListedLayout::fill_records(Block& block) const {
     block.listed.records.set(record, x.x);
     block.listed.records.set(record + 1, x.y);
     block.listed.records.set(record + 2, x.z);
+    block.listed.records.set(record + record_material, model_.material(particle));
   };
   for (Particle particle = part.first; particle < part.last; ++particle) set(particle);
   for (const Particle ghost : part.ghosts) set(ghost);
@@ -164,6 +170,7 @@ void ListedLayout::fill_springs(Block& block) const {
   const Precision precision = model_.choice.precision;
   if (has_own_stiffness()) listed.stiffness = Numbers(precision, 2 * slot_lanes(part));
   if (model_.choice.breakable) listed.alarm = Numbers(precision, slot_lanes(part));
+  block.memory = AlignedArray<double>(slot_lanes(part) * kept_numbers());
   for (std::size_t pack = 0; pack + 1 < part.first_slot.size(); ++pack)
     for (std::size_t n = part.first_slot[pack] * width_; n < part.first_slot[pack + 1] * width_; ++n)
       listed.neighbour[n] = static_cast<std::uint32_t>(pack * width_ + n % width_);  // a lane without a spring looks at itself
@@ -208,15 +215,16 @@ void ListedLayout::describe(const Block& block, KernelRequest& request) const {
   request.weight_sets = block.layout->weight_sets.data();
   request.weights = block.listed.shares.get();
   request.scratch_width = row_length;
-  request.listed = {block.listed.first.get(), block.listed.neighbour.get(), block.listed.stiffness.get(), block.listed.alarm.get(),
-                    block.listed.records.get()};
+  request.listed = {block.listed.first.get(), block.listed.neighbour.get(), block.listed.stiffness.get(),
+                    block.listed.alarm.get(), block.listed.records.get(),   block.memory.get()};
 }
 
 double ListedLayout::state_bytes() const {
   const double number = model_.choice.precision == Precision::floats ? sizeof(float) : sizeof(double), record = record_numbers * number;
   const double state = 2.0 * model_.degrees_of_freedom * number + record + (model_.body.listed.shares.empty() ? 0.0 : double{sizeof(double)}) +
                        double{sizeof(std::uint16_t)} + (model_.material_of.empty() ? 0 : 1);
-  const double slot_lane = ((has_own_stiffness() ? 2 : 0) + (model_.choice.breakable ? 1 : 0)) * number;
+  const double slot_lane =
+      ((has_own_stiffness() ? 2 : 0) + (model_.choice.breakable ? 1 : 0)) * number + static_cast<double>(kept_numbers() * sizeof(double));
   double bytes = 0;
   for (std::size_t n = 0; n < blocks.size(); ++n)
     bytes += static_cast<double>(blocks[n].sites) * state + static_cast<double>(parts_[n].ghosts.size()) * record +

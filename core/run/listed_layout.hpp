@@ -13,7 +13,7 @@ class ListedLayout final : public Layout {
   Place place(Particle particle) const override;
   void for_stretches(const std::function<void(const Stretch&)>& visit) const override;
   SpringEnds spring(const Block& block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site) const override;
-  Memory memory(const Block&, std::uint32_t, std::uint32_t, std::int32_t, bool) const override { return {}; }  // no kernel of lists has any
+  Memory memory(const Block& block, std::uint32_t row, std::uint32_t slot, std::int32_t site, bool cross) const override;
   std::uint64_t other_end(std::size_t block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site) const override;
   std::uint64_t alive_bits(const Block& block, std::uint64_t index) const override;
   void fill(Block& block) const override;

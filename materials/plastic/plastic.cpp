@@ -1,8 +1,13 @@
 // An elastic-plastic solid. Under a stress s along [100] an elastic lattice's springs carry forces in a fixed proportion; each may carry, at most,
 // what it carries at s = yield:
-//   limit = |k L strain|,  strain of a spring along n: (n_x^2 - nu (n_y^2 + n_z^2)) yield / E.
-// So all springs that a bar along [100] pulls yield at once, when its stress is the stated one, and the bar's curve has one sharp knee; springs
-// across the bar get the same limit as those along it. After it, hardening h = ratio k / (1 - ratio) leaves each spring the tangent ratio k.
+//   limit = |k u|,  u = R.e.R / L of a base spring, (R.e.R + 2 h Delta) / sqrt(L^2 + Delta^2) of a cross spring,
+// with R its rest vector, e = (1, -nu, -nu) yield / E, and h the height at which a membrane that can move is at rest (its cross springs push it with
+// the sum of what they carry; 0 if clamped).
+//
+// So all springs that a bar along [100] pulls yield at once, when its stress is the stated one, and the bar's curve has one sharp knee. Springs
+// across the bar have the limit of those along it and must carry less: this is what some membranes do not give. Then yield is also the most that a
+// bar without hardening carries: it can flow while nothing changes across it, heights neither, and that takes the work of this stress. Hardening h =
+// ratio k / (1 - ratio) leaves each spring the tangent ratio k.
 #include "plastic.hpp"
 
 #include <hyperlattice/elastic_solid.hpp>
@@ -10,6 +15,50 @@
 
 namespace {
 using namespace hyperlattice;
+
+/// The elongations of an endless elastic lattice that is pulled along [100]; a membrane that can move has the height at which it is at rest.
+class Pulled {
+ public:
+  Pulled(const LatticeFacts& lattice, const MaterialConstants& constants, double strain)
+      : lattice_(lattice), strain_(strain), poisson_(lattice.elastic_constants(constants).poisson()) {
+    const double delta = lattice.membrane_distance;
+    double push = 0, stiffness = constants.alpha_ratio;  // of a particle's springs on its height, over 2 k
+    for (const Neighbour& n : lattice.neighbours) {
+      const double ratio = constants.cross_ratio[n.spring_class] / (square(n) + delta * delta);
+      push += ratio * growth(n) * delta;
+      stiffness += 2 * ratio * delta * delta;
+    }
+    if (!constants.clamped && constants.has_cross_springs()) height_ = -push / stiffness;
+  }
+
+  /// Of the springs of a class that lie along the bar, more or less: the largest size, m.
+  double limit(std::uint32_t spring_class, int cross) const { return largest(spring_class, cross, true); }
+  /// Of those that lie across it.
+  double across(std::uint32_t spring_class, int cross) const { return largest(spring_class, cross, false); }
+
+ private:
+  Vec3 rest(const Neighbour& n) const { return lattice_.spacing * combined(lattice_.basis, n.dx, n.dy, n.dz); }
+  double square(const Neighbour& n) const { return dot(rest(n), rest(n)); }
+  /// R.strain R, half of what the squared length grows.
+  double growth(const Neighbour& n) const {
+    const Vec3 r = rest(n);
+    return strain_ * (r.x * r.x - poisson_ * (r.y * r.y + r.z * r.z));
+  }
+  double elongation(const Neighbour& n, int cross) const {
+    const double delta = lattice_.membrane_distance;
+    if (cross == 0) return growth(n) / std::sqrt(square(n));
+    return (growth(n) + 2 * delta * height_) / std::sqrt(square(n) + delta * delta);
+  }
+  double largest(std::uint32_t spring_class, int cross, bool along) const {
+    double found = 0;
+    for (const Neighbour& n : lattice_.neighbours)
+      if (n.spring_class == spring_class && (rest(n).x != 0) == along) found = std::max(found, std::abs(elongation(n, cross)));
+    return found;
+  }
+
+  const LatticeFacts& lattice_;
+  double strain_, poisson_, height_ = 0;
+};
 
 class Plastic {
  public:
@@ -21,9 +70,9 @@ class Plastic {
 
   static Schema<Options> schema() {
     Schema<Options> schema("materials.plastic", "Elastic-plastic springs with linear hardening; a bar along [100] yields at the stated stress");
-    schema.equation("f = k (u - w), |f| <= limit + h p; limit = k L (1 - (1 + nu) (n_y^2 + n_z^2)) yield / young along the bar")
+    schema.equation("f = k (u - w), |f| <= limit + h p; limit: what each spring carries in an elastic bar along [100] under the stress yield")
         .source("return mapping of one-dimensional plasticity (Simo and Hughes 1998, section 1.2), for each spring")
-        .restrictions("structured lattices, membrane none, precision double")
+        .restrictions("structured lattices; springs of positive stiffness, of which those across a bar carry less than those along it")
         .add<&Options::yield>("yield", "Pa", "stress along [100] at which a bar leaves the elastic line")
         .example("\"10 MPa\"")
         .positive()
@@ -37,21 +86,23 @@ class Plastic {
   explicit Plastic(const Options& options) : options_(options) {}
 
   MaterialConstants constants(const LatticeFacts& lattice) const {
+    if (lattice.neighbours.empty())
+      throw std::invalid_argument("a structured lattice: springs that point in all directions do not yield at one stress");
     MaterialConstants constants = options_.constants(lattice);
-    if (constants.has_cross_springs()) throw std::invalid_argument("membrane none: how cross springs yield is not known");
-    const double poisson = lattice.elastic_constants(constants).poisson(), strain = options_.yield / options_.young;
-    for (std::uint32_t c = 0; c < lattice.spring_classes; ++c) {
-      double along = 0, length = 0;  // of the class's springs that are pulled most
-      for (const Neighbour& n : lattice.neighbours) {
-        if (n.spring_class != c) continue;
-        const Vec3 rest = lattice.spacing * combined(lattice.basis, n.dx, n.dy, n.dz);
-        length = norm(rest);
-        const double of_x = rest.x * rest.x / dot(rest, rest);
-        along = std::max(along, of_x - poisson * (1 - of_x));
+    const Pulled bar(lattice, constants, options_.yield / options_.young);
+    for (std::uint32_t c = 0; c < lattice.spring_classes; ++c)
+      for (const int cross : {0, 1}) {
+        const double stiffness = constants.base_stiffness * (cross == 0 ? lattice.class_stiffness[c] : constants.cross_ratio[c]);
+        if (stiffness < 0)
+          throw std::invalid_argument(
+              "membrane of another kind, or a smaller poisson: springs of negative stiffness would give energy when they yield");
+        if (stiffness == 0) continue;
+        const double limit = bar.limit(c, cross), across = bar.across(c, cross);
+        if (across > limit)
+          throw std::invalid_argument(elastic_solid::text("membrane of another kind, or a smaller poisson: springs across a bar would yield at ",
+                                                          limit / across, " of the stress at which those along it do"));
+        constants.set_law(c, cross, PlasticLaw::Constants{stiffness * limit, stiffness * options_.hardening / (1 - options_.hardening)});
       }
-      const double stiffness = constants.base_stiffness * lattice.class_stiffness[c];
-      constants.set_law(c, 0, PlasticLaw::Constants{stiffness * length * along * strain, stiffness * options_.hardening / (1 - options_.hardening)});
-    }
     return constants;
   }
   static KernelSet kernels(const KernelChoice& choice) { return kernels_for_processor(choice); }

@@ -21,7 +21,7 @@ class Relaxing {
     Schema<Options> schema("materials.relaxing", "Viscoelastic springs whose stiffness relaxes: the standard linear solid, or Maxwell's");
     schema.equation("f = k (u - share w), dw/dt = (u - w) / time; under a constant strain the stress falls as 1 - share + share exp(-t / time)")
         .source("standard linear solid; the damper's elongation by the exponential that is exact for a constant rate")
-        .restrictions("structured lattices, precision double; young is the modulus at once")
+        .restrictions("young is the modulus at once")
         .add<&Options::share>("share", "", "part of the stiffness that relaxes; 1: all of it (Maxwell)")
         .at_least(0)
         .at_most(1)

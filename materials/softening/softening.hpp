@@ -9,17 +9,18 @@
 
 struct SofteningLaw {
   struct Constants {
-    double strength;  ///< u1: elongation at the largest force, m
-    double opening;   ///< u2: elongation at which nothing is left, m
+    double strength;  ///< u1 over the length at rest: strain at the largest force
+    double opening;   ///< u2 likewise: strain at which nothing is left
   };
   struct Memory {
     double largest;  ///< elongation so far, m
   };
 
   static double left(const hyperlattice::SpringState& s, const Constants& c, const Memory& m) {  // 1 - D
-    if (s.elongation < 0 || m.largest <= c.strength) return 1;
-    if (m.largest >= c.opening) return 0;
-    return c.strength * (c.opening - m.largest) / (m.largest * (c.opening - c.strength));
+    const double largest = m.largest / s.rest_length;
+    if (s.elongation < 0 || largest <= c.strength) return 1;
+    if (largest >= c.opening) return 0;
+    return c.strength * (c.opening - largest) / (largest * (c.opening - c.strength));
   }
   static void update(const hyperlattice::SpringState& s, const Constants&, Memory& m) { m.largest = std::max(m.largest, s.elongation); }
   static double force(const hyperlattice::SpringState& s, const Constants& c, const Memory& m) { return left(s, c, m) * s.stiffness * s.elongation; }

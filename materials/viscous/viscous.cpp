@@ -23,7 +23,7 @@ class Viscous {
     Schema<Options> schema("materials.viscous", "Viscoelastic springs after Kelvin and Voigt: a damper beside each");
     schema.equation("f = k (u + time du/dt); damping ratio of a wave of angular frequency w: w time / 2")
         .source("Kelvin-Voigt element; stable step: linear stability of central differences with the rate of the step before")
-        .restrictions("structured lattices, precision double; the stable step is smaller than that of elastic springs")
+        .restrictions("the stable step is smaller than that of elastic springs")
         .add<&Options::time>("time", "s", "viscosity over stiffness of each spring: the time in which a damped creep decays")
         .example("\"0.5 us\"")
         .at_least(0);

@@ -97,7 +97,7 @@ double bytes(const Plan& plan) { return plan.bytes_per_particle * static_cast<do
 
 struct Size {
   double places = 0;  ///< of particles, with the padding
-  double ends = 0;    ///< of a list's springs, with the padding: for each eight particles as many as the one has that has most
+  double ends = 0;    ///< of a list's springs, with the padding: for each eight particles (in floats sixteen) as many as the one that has most
 };
 Size size_of(const Model& model) {
   Size size;
@@ -105,9 +105,10 @@ Size size_of(const Model& model) {
   size.places = static_cast<double>(layout->blocks[0].sites);
   std::vector<double> springs(model.body.particles);
   model.body.for_springs([&](Particle a, Particle b, std::uint32_t) { ++springs[a], ++springs[b]; });
-  for (std::size_t n = 0; n < springs.size(); n += 8)
-    size.ends += 8 * *std::max_element(springs.begin() + static_cast<std::ptrdiff_t>(n),
-                                       springs.begin() + static_cast<std::ptrdiff_t>(std::min(n + 8, springs.size())));
+  const std::size_t pack = 64 / bytes_of(model.choice.precision);
+  for (std::size_t n = 0; n < springs.size(); n += pack)
+    size.ends += static_cast<double>(pack) * *std::max_element(springs.begin() + static_cast<std::ptrdiff_t>(n),
+                                                               springs.begin() + static_cast<std::ptrdiff_t>(std::min(n + pack, springs.size())));
   return size;
 }
 
@@ -123,6 +124,31 @@ TEST(Cost, PlainBodiesHoldTheirMotionTheirSpringsAndNothingElse) {
   const Size size = size_of(*list->model);
   constexpr double record = 8 * 8, neighbour = 4, read_ahead = 32 * 8;
   EXPECT_EQ(bytes(*list), (motion + alive + record) * size.places + neighbour * (size.ends + read_ahead) + 4 * (size.places / 8 + 1));
+}
+
+// A law's memory: its own numbers and two more, in doubles, of each base and cross spring; in a list of each of their ends.
+TEST(Cost, AMemoryIsItsNumbers) {
+  for (const char* lattice : {"lattices.cubic", "lattices.random"})
+    for (const char* precision : {"double", "float"})
+      for (const bool membrane : {false, true}) {
+        json scene = minimal_scene();
+        scene["precision"] = precision;
+        scene["pipeline"][0]["type"] = lattice;
+        if (membrane) scene["pipeline"][1].update({{"membrane", "I"}, {"lambda", 0.5}});
+        const auto without = plan_of(scene, 3);
+        scene["pipeline"][1].update({{"type", "materials.relaxing"}, {"time", 1e-6}, {"share", 0.5}});
+        const auto with = plan_of(scene, 3), with_one_thread = plan_of(scene);
+        const std::size_t before = allocated;
+        const Simulation simulation(*with->model, 3);
+        EXPECT_EQ(static_cast<double>(allocated - before), bytes(*with) + simulation.scratch_bytes()) << lattice << precision;
+        scene["pipeline"][1]["type"] = "materials.elastic";
+        scene["pipeline"][1].erase("time");
+        scene["pipeline"][1].erase("share");
+        const Size size = size_of(*with->model);
+        const double springs = scene["pipeline"][0]["type"] == "lattices.cubic" ? 9 * size.places : size.ends;
+        EXPECT_EQ(bytes(*with_one_thread), bytes(*plan_of(scene)) + (membrane ? 2 : 1) * (1 + 2) * 8 * springs) << lattice << precision;
+        EXPECT_GT(bytes(*with), bytes(*without));
+      }
 }
 
 TEST(Cost, ThePlanCountsSprings) {

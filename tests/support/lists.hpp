@@ -9,11 +9,7 @@ namespace hyperlattice::test {
 class ListFiles {
  public:
   /// The block of block(), in the order x, y, z, which is not the program's.
-  ListFiles(int nx, int ny, int nz) {
-    static int count = 0;
-    const std::string name = "hyperlattice_list_" + std::to_string(::getpid()) + "_" + std::to_string(count++);
-    points = std::filesystem::temp_directory_path() / (name + "_points.csv");
-    springs = std::filesystem::temp_directory_path() / (name + "_springs.csv");
+  ListFiles(int nx, int ny, int nz) : ListFiles() {
     std::ofstream table(points), joints(springs);
     table.precision(17);
     table << "x,y,z\n";
@@ -30,6 +26,15 @@ class ListFiles {
           }
         }
   }
+  /// These points, and springs between them.
+  ListFiles(const std::vector<Vec3>& places, const std::vector<std::pair<int, int>>& pairs) : ListFiles() {
+    std::ofstream table(points), joints(springs);
+    table.precision(17);
+    table << "x,y,z\n";
+    joints << "a,b\n";
+    for (const Vec3& x : places) table << x.x << "," << x.y << "," << x.z << "\n";
+    for (const auto& [a, b] : pairs) joints << a << "," << b << "\n";
+  }
   ~ListFiles() {
     std::filesystem::remove(points);
     std::filesystem::remove(springs);
@@ -44,6 +49,14 @@ class ListFiles {
   }
 
   std::filesystem::path points, springs;
+
+ private:
+  ListFiles() {
+    static int count = 0;
+    const std::string name = "hyperlattice_list_" + std::to_string(::getpid()) + "_" + std::to_string(count++);
+    points = std::filesystem::temp_directory_path() / (name + "_points.csv");
+    springs = std::filesystem::temp_directory_path() / (name + "_springs.csv");
+  }
 };
 
 /// A scene of a lattice stage, a material's keys and more stages.

@@ -62,8 +62,9 @@ struct LatticeFacts {
   std::uint32_t spring_classes = 1;
   std::array<double, max_spring_classes> class_stiffness{1, 1, 1, 1};  ///< of base springs, over k
   std::uint64_t particles = 0;                                         ///< of the body, in whole ones: with boundary cells the sum of their shares
-  double squared_lengths = 0;   ///< sum over the body's base springs, in whole ones, of stiffness / k times squared length, m2
-  bool allow_unstable = false;  ///< the scene wants unstable lattices to run: nothing is refused for that
+  double squared_lengths = 0;             ///< sum over the body's base springs, in whole ones, of stiffness / k times squared length, m2
+  double lengths = 0, cubed_lengths = 0;  ///< of a list: likewise with length, m, and its third power, m3
+  bool allow_unstable = false;            ///< the scene wants unstable lattices to run: nothing is refused for that
 
   void* self = nullptr;
   ElasticConstants (*get_elastic_constants)(void* self, const MaterialConstants& constants) = nullptr;

@@ -12,29 +12,29 @@ struct LawResponse {
   Pack force_over_length = 0, energy = 0, dissipated = 0;
 };
 
-/// The springs of a vector of sites to one neighbour, base or cross.
+/// Springs of a vector of particles, base or cross. Always in doubles: a law that is asked lane by lane has nothing to gain from floats.
 struct LawSprings {
-  double rest_length = 0;
+  Pack rest_length = 0;
   double time_step = 0;             ///< the step before now, s
   const double* constants[lanes];   ///< of each lane's law
-  const std::uint16_t* alive;       ///< of each lane's site
-  std::uint16_t bit = 0;            ///< of the neighbour
-  double* memory = nullptr;         ///< [number][site]
+  std::uint32_t there = 0;          ///< bit n: lane n has a spring
+  double* memory = nullptr;         ///< [number][lane]
   std::uint64_t memory_stride = 0;  ///< between numbers
 
   /// Keep: the memory becomes that of now; otherwise it stays that of the step before.
   template <LawWithConstants Law, bool Keep>
   LawResponse ask(const Pack& stiffness, const Pack& q) const {
     const Pack length = root(rest_length * rest_length + q);
-    double k[lanes], elongation[lanes], force[lanes] = {}, energy[lanes] = {}, dissipated[lanes] = {};
+    double k[lanes], rest[lanes], elongation[lanes], force[lanes] = {}, energy[lanes] = {}, dissipated[lanes] = {};
     store(k, stiffness);
+    store(rest, rest_length);
     store(elongation, q / (length + rest_length));
     for (int lane = 0; lane < lanes; ++lane) {
-      if ((alive[lane] & bit) == 0) continue;
+      if ((there >> lane & 1u) == 0) continue;
       constexpr std::size_t numbers = memory_of<Law>();
       double own[numbers + 1];
       for (std::size_t n = 0; n < numbers; ++n) own[n] = memory[n * memory_stride + static_cast<std::size_t>(lane)];
-      const auto step = SpringStep<Law>::take({k[lane], rest_length, elongation[lane], 0, time_step}, constants[lane], own);
+      const auto step = SpringStep<Law>::take({k[lane], rest[lane], elongation[lane], 0, time_step}, constants[lane], own);
       force[lane] = step.force;
       energy[lane] = step.energy;
       dissipated[lane] = step.dissipated;

@@ -12,7 +12,7 @@ namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
 template <class Law, Membrane membrane, bool Breakable, bool Mixed, Task task, class Stored>
 class ListedSweep {
-  using Real = RealOf<task, Stored>;
+  using Real = RealOf<Law, task, Stored>;
   using Pack = PackOf<Real>;
   static constexpr int components = components_of(membrane), width = lanes_of<Real>, slot_width = lanes_of<Stored>;
   static constexpr bool measuring = task == Task::measure;
@@ -45,17 +45,18 @@ class ListedSweep {
   void all_rows() const {
     for (std::uint32_t index = 0; index < static_cast<std::uint32_t>(request_.rows_per_plane); ++index) {
       const Row& row = request_.rows[index];
-      Motion<membrane, Mixed, task, Stored> motion(request_, row);
+      Motion<membrane, Mixed, task, Stored, Real> motion(request_, row);
       Real* forces[components];
       for (int c = 0; c < components; ++c) {
         forces[c] = static_cast<Real*>(request_.scratch) + c * request_.scratch_width;
         for (int t = 0; t < row.end; t += width) store(forces[c] + t, motion.accelerated() ? motion.body_force(c, t) : Pack(0));
       }
       Energies<Pack> energies;
-      for (int t = 0; t < row.end; t += width) one_pack<Several>(row, index, t, forces, energies.stored);
+      for (int t = 0; t < row.end; t += width) one_pack<Several>(row, index, t, forces, energies);
       energies.stored *= 0.5;  // half of every spring's energy to each of its ends
+      energies.dissipated *= 0.5;
       motion.vectors(forces);
-      motion.finish(index, energies);
+      motion.template finish<LawWithMemory<Law>>(index, energies);
     }
   }
 
@@ -77,7 +78,7 @@ class ListedSweep {
   };
 
   template <bool Several>
-  void one_pack(const Row& row, std::uint32_t index, int t, Real* const (&forces)[components], Pack& stored) const {
+  void one_pack(const Row& row, std::uint32_t index, int t, Real* const (&forces)[components], Energies<Pack>& energies) const {
     const std::uint64_t start = row.start + static_cast<std::uint64_t>(t), pack = start / slot_width;
     Pack force[components];
     for (int c = 0; c < components; ++c) force[c] = load(forces[c] + t);
@@ -92,7 +93,11 @@ class ListedSweep {
       const Pack cross_stiffness = membrane == Membrane::none ? Pack(0)
                                    : Several                  ? stiffness(slot, 1)
                                                               : fill<Real>(request_.springs->cross_stiffness);
-      const Pulls pulls = pulls_of(reach, base_stiffness, cross_stiffness, slot, stored);
+      Pulls pulls;
+      if constexpr (LawWithConstants<Law>)
+        pulls = pulls_by_law(reach, base_stiffness, cross_stiffness, slot, energies);
+      else
+        pulls = pulls_of(reach, base_stiffness, cross_stiffness, slot, energies.stored);
       Pack pull = pulls.base;
       if constexpr (membrane != Membrane::none) pull += pulls.cross;
       if constexpr (membrane == Membrane::free)
@@ -182,6 +187,41 @@ class ListedSweep {
     return pulls;
   }
 
+  /// The same of a law with constants, and perhaps a memory, of its own.
+  [[gnu::noinline]] Pulls pulls_by_law(const Reach& reach, const Pack& stiffness, const Pack& cross_stiffness, const Slot& slot,
+                                       Energies<Pack>& energies) const {
+    LawSprings springs;
+    springs.time_step = 2 * request_.back;
+    springs.memory_stride = slot_width;
+    const SpringConstants* constants[lanes];
+    for (std::uint32_t lane = 0; lane < lanes; ++lane) {
+      const std::uint32_t own = own_place(slot, lane), other = slots_.neighbour[slot.first_lane + lane];
+      constants[lane] = request_.springs + (material(own) * request_.materials + material(other)) * request_.spring_classes;
+      if (other != own) springs.there |= 1u << lane;
+    }
+    const auto pull = [&](std::size_t cross, const Pack& square, const Pack& growth, const Pack& k) {
+      springs.rest_length = root(square);
+      springs.memory = slots_.memory + (kinds_of(membrane) * slot.number + cross) * slot_width * memory_of<Law>() + slot.first_lane % slot_width;
+      for (int lane = 0; lane < lanes; ++lane) springs.constants[lane] = constants[lane]->law[cross];
+      const LawResponse response = springs.template ask<Law, !measuring>(k, growth);
+      energies.dissipated += response.dissipated;
+      if constexpr (measuring) energies.stored += response.energy;
+      return where(not_zero(reach.square), response.force_over_length);  // not a number where there is no spring
+    };
+    Pulls pulls;
+    pulls.base = pull(0, reach.square, reach.growth, stiffness);
+    if constexpr (membrane != Membrane::none)
+      pulls.cross = pull(1, reach.square + request_.membrane_distance * request_.membrane_distance, reach.cross_growth, cross_stiffness);
+    if constexpr (Breakable && !measuring)
+      if (slots_.alarm != nullptr) review(reach, slot);
+    return pulls;
+  }
+
+  std::uint32_t own_place(const Slot& slot, std::uint32_t lane) const {
+    return static_cast<std::uint32_t>(request_.rows[slot.row].start) + static_cast<std::uint32_t>(slot.site) + lane;
+  }
+  std::uint32_t material(std::uint32_t place) const { return static_cast<std::uint32_t>(record(place)[record_material]); }
+
   /// Asks the failure criterion about the slot's springs above their alarm, and removes those that broke. Each end of a spring asks and finds the
   /// same, because it sees the same numbers but for their signs.
   void review(const Reach& reach, const Slot& slot) const {
@@ -193,7 +233,7 @@ class ListedSweep {
     store(elongation, reach.growth / (root(reach.square + reach.growth) + rest_length));
     for (int lane = 0; lane < width; ++lane) {
       const std::int32_t site = slot.site + lane;
-      const auto own = static_cast<std::uint32_t>(request_.rows[slot.row].start) + static_cast<std::uint32_t>(site);
+      const std::uint32_t own = own_place(slot, static_cast<std::uint32_t>(lane));
       if (!(growth[lane] > alarm[lane]) || neighbour[lane] == own) continue;
       const double found = elongation[lane];
       const std::uint8_t* broken = request_.review(request_.self, {slot.row, slot.number, {&site, 1}, {&found, 1}});

@@ -13,12 +13,25 @@ namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
 using Membrane = KernelChoice::Membrane;
 constexpr int components_of(Membrane membrane) { return membrane == Membrane::free ? 4 : 3; }
+constexpr std::size_t kinds_of(Membrane membrane) { return membrane == Membrane::none ? 1 : 2; }  // of springs: base, cross
 
 enum class Task { step, step_damped, measure };
 
-/// What is measured is computed in doubles, whatever the state is stored in.
-template <Task task, class Stored>
-using RealOf = std::conditional_t<task == Task::measure, double, Stored>;
+/// What is measured is computed in doubles, whatever the state is stored in; so is what a law with constants of its own does.
+template <class Law, Task task, class Stored>
+using RealOf = std::conditional_t<task == Task::measure || LawWithConstants<Law>, double, Stored>;
+
+/// Stores a pack as numbers of the state's precision.
+template <class Real, class Stored>
+HYPERLATTICE_INLINE void store_as(Stored* to, const PackOf<Real>& pack) {
+  if constexpr (std::is_same_v<Real, Stored>) {
+    store(to, pack);
+  } else {
+    Real values[lanes_of<Real>];
+    store(values, pack);
+    for (int lane = 0; lane < lanes_of<Real>; ++lane) to[lane] = static_cast<Stored>(values[lane]);
+  }
+}
 
 /// A pack of weights: `places` of the sets of the vectors of `lanes` sites that it covers; `offset` into the sets.
 template <class Real>
@@ -73,9 +86,8 @@ struct Energies {
 };
 
 /// Moves or measures a row: vectors() with the forces on its particles, or a vector() at a time, then finish().
-template <Membrane membrane, bool Mixed, Task task, class Stored>
+template <Membrane membrane, bool Mixed, Task task, class Stored, class Real>
 class Motion {
-  using Real = RealOf<task, Stored>;
   using Pack = PackOf<Real>;
   static constexpr int components = components_of(membrane), width = lanes_of<Real>;
   static constexpr bool measuring = task == Task::measure;
@@ -136,8 +148,8 @@ class Motion {
         damped_ += request_.back * drag * velocity;
       } else {
         const Pack faster = velocity + kick * inverse_mass_ * force;
-        store(v, faster);
-        store(u, displacement + drift * faster);
+        store_as(v, faster);
+        store_as(u, displacement + drift * faster);
         if constexpr (task == Task::step_damped) damped_ += drag * (request_.back * velocity + request_.forward * faster);
       }
     }

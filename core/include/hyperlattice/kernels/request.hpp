@@ -90,14 +90,15 @@ struct ListedSlots {
   const void* stiffness = nullptr;  ///< [slot][2][lane] of base and cross spring, N/m; null: the same for all, KernelRequest::springs
   const void* alarm = nullptr;      ///< [slot][lane] as the growth of the squared length, m2; null: nothing breaks
   void* records = nullptr;          ///< [place][record_numbers], metres: the block's own places, then its ghosts
+  double* memory = nullptr;         ///< of laws that have one: [slot][base, cross][number][lane]; each end of a spring has its own, of the same bits
 };
 
 /// How many slots ahead of its springs a kernel asks the memory for their other ends.
 inline constexpr std::size_t slots_ahead = 32;
 
-/// Of a particle of a list: x y z at rest, from any one point; x y z of the displacement at the step's start, and the height; one is unused. A kernel
-/// writes what moves of the block's own particles.
-inline constexpr std::size_t record_numbers = 8, record_moved = 3;
+/// Of a particle of a list: x y z at rest, from any one point; x y z of the displacement at the step's start, and the height; its material's number.
+/// A kernel writes what moves of the block's own particles.
+inline constexpr std::size_t record_numbers = 8, record_moved = 3, record_material = 7;
 
 struct KernelRequest {
   // the block: planes [first, first + planes) are its own; `reach` ghost planes stand before and after them

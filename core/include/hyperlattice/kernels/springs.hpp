@@ -138,8 +138,7 @@ class Springs {
     springs.rest_length = rest_length;
     springs.time_step = 2 * request.back;
     for (int lane = 0; lane < lanes; ++lane) springs.constants[lane] = (Mixed ? between(request, pair, neighbour, t + lane) : constants).law[cross];
-    springs.alive = pair.alive + t;
-    springs.bit = bit;
+    for (int lane = 0; lane < lanes; ++lane) springs.there |= ((pair.alive[t + lane] & bit) != 0 ? 1u : 0u) << lane;
     springs.memory_stride = request.memory_stride;
     springs.memory = pair.memory + static_cast<std::size_t>(cross) * memory_of<Law>() * request.memory_stride + t;
     return springs;

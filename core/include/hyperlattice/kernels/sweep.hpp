@@ -14,12 +14,11 @@ namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
 template <class Law, Membrane membrane, bool Breakable, bool Mixed, Task task, class Stored>
 class Sweep {
-  using Real = RealOf<task, Stored>;
+  using Real = RealOf<Law, task, Stored>;
   using Pack = PackOf<Real>;
   using Pair = RowPair<components_of(membrane), Stored, Real>;
   static constexpr int components = components_of(membrane), width = lanes_of<Real>;
   static constexpr bool measuring = task == Task::measure;
-  static constexpr std::size_t memory_kinds = membrane == Membrane::none ? 1 : 2;
 
  public:
   static void run(const KernelRequest& request) noexcept { Sweep(request).all_rows(); }
@@ -51,7 +50,7 @@ class Sweep {
   void one_row(const Row& row, std::uint32_t index, int j, int k) {
     const bool owned = k >= 0, fused = fused_ && (!Mixed || row.material >= 0);
     const int count = (row.end - row.begin + width - 1) / width * width;
-    Motion<membrane, Mixed, task, Stored> motion(request_, row);
+    Motion<membrane, Mixed, task, Stored, Real> motion(request_, row);
     const bool accelerated = motion.accelerated();
     // Particles can move as soon as the forces on them are known if no criterion and no support must see them first.
     constexpr bool may_move_at_once = !Breakable && !Mixed && !measuring;
@@ -109,7 +108,8 @@ class Sweep {
       const NeighbourGeometry& neighbour = request_.neighbours[n];
       if ((row.neighbours >> n & 1u) == 0 || (!owned && k + neighbour.site.dz < 0)) continue;
       Pair pair = pair_of(row, neighbour.site, j, k);
-      if constexpr (memory_of<Law>() > 0) pair.memory = request_.memory + n * memory_kinds * memory_of<Law>() * request_.memory_stride + row.start;
+      if constexpr (memory_of<Law>() > 0)
+        pair.memory = request_.memory + n * kinds_of(membrane) * memory_of<Law>() * request_.memory_stride + row.start;
       const auto bit = static_cast<std::uint16_t>(1u << n);
       const bool uniform = !Mixed || row.material >= 0;
       const SpringConstants* constants = constants_of(row, neighbour.site.spring_class);
@@ -246,17 +246,12 @@ class Kernels {
   }
   template <Membrane membrane, bool Breakable, bool Mixed>
   static KernelSet of_topology(const KernelChoice& choice) {
-    KernelSet set;
     const bool floats = choice.precision == Precision::floats;
-    if constexpr (LawWithConstants<Law>) {
-      return floats || choice.listed ? set : of_sweep<Sweep, membrane, Breakable, Mixed, double>();
-    } else if (choice.listed) {
+    if (choice.listed)
       return floats ? of_sweep<ListedSweep, membrane, Breakable, Mixed, float>() : of_sweep<ListedSweep, membrane, Breakable, Mixed, double>();
-    } else {
-      set = floats ? of_sweep<Sweep, membrane, Breakable, Mixed, float>() : of_sweep<Sweep, membrane, Breakable, Mixed, double>();
-      set.linearise = &Tangent<Law, membrane>::run;
-      return set;
-    }
+    KernelSet set = floats ? of_sweep<Sweep, membrane, Breakable, Mixed, float>() : of_sweep<Sweep, membrane, Breakable, Mixed, double>();
+    if constexpr (!LawWithConstants<Law>) set.linearise = &Tangent<Law, membrane>::run;
+    return set;
   }
   template <template <class, Membrane, bool, bool, Task, class> class Of, Membrane membrane, bool Breakable, bool Mixed, class Stored>
   static KernelSet of_sweep() {

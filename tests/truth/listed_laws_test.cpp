@@ -1,0 +1,241 @@
+// Laws with constants and memory of their own on lists. Each end of a spring keeps its own memory there, so these tests ask first whether both ends
+// stay together; then for closed forms, the grid's answer, and the books.
+#include <support/laws.hpp>
+#include <support/lists.hpp>
+
+#include <gtest/gtest.h>
+
+namespace {
+using namespace hyperlattice;
+using namespace hyperlattice::test;
+
+const LawCase laws[] = {
+    {"viscous", R"("type": "materials.viscous", "time": 2e-7, "membrane": "none")"},
+    {"viscous_4D", R"("type": "materials.viscous", "time": 2e-7, "membrane": "I", "lambda": 1.7)"},
+    {"relaxing", R"("type": "materials.relaxing", "time": 1e-6, "share": 0.6, "membrane": "none")"},
+    {"relaxing_clamped", R"("type": "materials.relaxing", "time": 1e-6, "share": 0.6, "membrane": "III", "lambda": 2)"},
+    {"softening", R"("type": "materials.softening", "strength": 3e6, "fracture_energy": 5, "membrane": "none")"},
+    {"softening_4D", R"("type": "materials.softening", "strength": 3e6, "fracture_energy": 5, "membrane": "I", "lambda": 1.7)"},
+};
+class ListedLaw : public testing::TestWithParam<LawCase> {};
+INSTANTIATE_TEST_SUITE_P(All, ListedLaw, testing::ValuesIn(laws), [](const auto& info) { return info.param.name; });
+
+// Both ends of a spring.
+
+/// Many particles in pairs that know nothing of each other, of all lengths and directions; partners are far apart in the list.
+struct Pairs {
+  static constexpr int number = 300;
+  std::vector<Vec3> places;
+  std::vector<std::pair<int, int>> springs;
+
+  Pairs() {
+    const std::vector<double> random = noise(6 * number, 1, 5);
+    for (int n = 0; n < number; ++n) places.push_back({3.0 * n, 9 * random[6 * n], 9 * random[6 * n + 1]});
+    for (int n = 0; n < number; ++n) {
+      const Vec3 reach{random[6 * n + 2], random[6 * n + 3], random[6 * n + 4]};
+      places.push_back(places[n] + (1 / norm(reach) + 0.3 * random[6 * n + 5]) * reach);
+      springs.emplace_back(n, number + n);
+    }
+  }
+};
+
+TEST_P(ListedLaw, BothEndsOfASpringKeepTheSameBits) {
+  const Pairs pairs;
+  const ListFiles files(pairs.places, pairs.springs);
+  for (const char* failure : {"", law_failure})
+    for (const bool floats : {false, true}) {
+      std::string scene = law_scene(files.lattice(), std::string(GetParam().material) + failure);
+      const auto plan = plan_of(floats ? in_floats(scene) : scene);
+      const Model& model = *plan->model;
+      LedBody body(model, 3);
+      std::vector<double> u(3 * model.body.particles, 0.0);
+      std::size_t pulling = 0;
+      for (unsigned step = 0; step < 60; ++step) {
+        const std::vector<double> move = noise(u.size(), 3e-7, step);
+        for (std::size_t n = 0; n < u.size(); ++n) u[n] += move[n];
+        const std::vector<double> forces = body.forces(u);
+        for (const ListedSpring& spring : model.body.listed.springs)
+          for (std::size_t c = 0; c < 3; ++c) {
+            ASSERT_EQ(forces[3 * spring.a + c], -forces[3 * spring.b + c]) << step;
+            pulling += forces[3 * spring.a + c] != 0 ? 1 : 0;
+          }
+      }
+      EXPECT_EQ(body.simulation().breakages().empty(), *failure == '\0');
+      EXPECT_GT(pulling, 3u * Pairs::number * 20);
+    }
+}
+
+// Closed forms.
+
+TEST(ListedLaws, AViscousPairOscillatesAsTheDampedOscillator) {
+  const ListFiles files({{0, 0, 0}, {0, 0.6, 0.8}}, {{0, 1}});
+  const auto plan = plan_of(law_scene(files.lattice(), R"("type": "materials.viscous", "time": 1e-8, "membrane": "none")"));
+  const Model& model = *plan->model;
+  const double stiffness = model.joint(0, 1, 0).stiffness, mass = model.mass(0), omega = std::sqrt(2 * stiffness / mass), ratio = omega * 1e-8 / 2,
+               damped = omega * std::sqrt(1 - ratio * ratio), step = 0.01 / omega;
+  ASSERT_LT(ratio, 0.5);
+  Simulation simulation(model, 1);
+  const bool swapped = model.body.position(0).y > model.body.position(1).y;
+  std::vector<double> start{0, -0.6, -0.8, 0, 0.6, 0.8};
+  for (double& v : start) v *= swapped ? -1 : 1;
+  simulation.set_velocities(start, {});
+  double worst = 0;
+  const int steps = static_cast<int>(1 / (ratio * 0.01));
+  for (int n = 1; n <= steps; ++n) {
+    simulation.step(step);
+    const std::vector<double> xyz = displacements(simulation);
+    const double t = n * step, expected = 2 / damped * std::exp(-ratio * omega * t) * std::sin(damped * t);
+    worst = std::max(worst, std::abs((swapped ? -1 : 1) * (0.6 * (xyz[4] - xyz[1]) + 0.8 * (xyz[5] - xyz[2])) - expected));
+  }
+  EXPECT_LT(worst, 0.012 * 2 / omega);
+  const Balance balance = simulation.balance();
+  EXPECT_LT(std::abs(balance.relative_error()), 1e-4);
+  const double lost = mass * (1 - std::exp(-2));  // of the 2 * 1/2 m v^2 at the start
+  EXPECT_NEAR(balance.dissipated(), lost, 0.02 * lost);
+}
+
+// Held in any shape, every spring relaxes alike, so that every particle's force falls as one spring's does.
+TEST(ListedLaws, AStrainedRandomBlockLosesItsForces) {
+  for (const char* membrane : {R"("membrane": "none")", R"("membrane": "III", "lambda": 2)"}) {
+    const auto plan =
+        plan_of(law_scene(random_lattice(6, 5, 4), R"("type": "materials.relaxing", "time": 1e-6, "share": 0.6, )" + std::string(membrane)));
+    LedBody body(*plan->model, 2);
+    const std::vector<double> u = noise(3 * plan->model->body.particles, 1e-7, 1), first = body.forces(u);
+    std::vector<double> forces, expected = first;
+    for (int n = 1; n <= 200; ++n) forces = body.forces(u);
+    for (double& force : expected) force *= 0.4 + 0.6 * std::exp(-200 * LedBody::time_step / 1e-6);
+    EXPECT_LT(distance(forces, expected), 1e-10 * largest(first));
+  }
+}
+
+// Two halves drawn apart until no spring joins them.
+TEST(ListedLaws, ASofteningRandomBlockTakesTheFractureEnergyApart) {
+  const char* halves = R"(, { "type": "loads.fixed", "on": { "box": { "low": [0, 0, 0], "high": [5e-3, 1, 1] } } },
+    { "type": "loads.displacement", "on": { "box": { "low": [5e-3, 0, 0], "high": [1, 1, 1] } }, "value": [1e-4, 0, 0], "rise": 1e-4 })";
+  for (const char* membrane : {R"("membrane": "none")", R"("membrane": "III", "lambda": 2)"}) {
+    const auto plan = plan_of(law_scene(random_lattice(10, 16, 16),
+                                        R"("type": "materials.softening", "strength": 3e6, "fracture_energy": 5, )" + std::string(membrane), halves));
+    Simulation simulation(*plan->model, 2);
+    for (int n = 0; n < 1000; ++n) simulation.step(1e-7);
+    const double expected = 5 * 16e-3 * 16e-3;
+    const Balance balance = simulation.balance();
+    std::printf("%s: %.3f of the fracture energy\n", membrane, balance.dissipated() / expected);
+    EXPECT_NEAR(balance.dissipated(), expected, 0.1 * expected);  // some 500 springs, of all lengths, and fewer at the surface
+    EXPECT_LT(std::abs(balance.stored), 0.01 * expected);
+    EXPECT_LT(std::abs(balance.relative_error()), 1e-3);
+  }
+}
+
+// The grid.
+
+/// Of a number, all digits.
+std::string text(double number) {
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "%.17g", number);
+  return digits;
+}
+
+/// A block of the cubic lattice, and its list.
+struct LawTwins {
+  std::unique_ptr<Plan> grid, list;
+  std::vector<Particle> in_grid;
+
+  LawTwins(int nx, int ny, int nz, const std::string& law, const std::string& more) {
+    const ListFiles files(nx, ny, nz);
+    const std::string shape =
+        R"({ "box": { "low": [0, 0, 0], "high": [)" + std::to_string(nx) + "e-3, " + std::to_string(ny) + "e-3, " + std::to_string(nz) + "e-3] } }";
+    const auto scene = [&](const std::string& lattice, double scale, double fracture) {
+      const auto material = [&](double stiff, const std::string& where) {
+        std::string keys = R"({ "type": "materials.)" + law + R"(", "density": 2500, "young": )" + text(stiff * scale * 1e10) + where;
+        if (law == "viscous") keys += R"(, "time": )" + text(stiff) + "e-7";
+        if (law == "relaxing") keys += R"(, "time": 1e-6, "share": )" + text(0.4 * stiff);
+        if (law == "softening") keys += R"(, "strength": )" + text(stiff * scale * 3e6) + R"(, "fracture_energy": )" + text(stiff * fracture);
+        return keys + ", " + more + " }";
+      };
+      return R"({ "format": "hyperlattice/1", "pipeline": [ )" + lattice + ", " + material(1, "") + ", " +
+             material(2, R"(, "region": { "box": { "low": [0, 0, 0], "high": [1, 1, 3e-3] } })") +
+             R"(, { "type": "solvers.explicit", "end_time": 1 } ] })";
+    };
+    const auto opening = [](const Plan& plan) { return plan.model->springs[0].law[0][1]; };
+    grid = plan_of(scene(R"({ "type": "lattices.cubic", "spacing": 1e-3, "shape": )" + shape + " }", 1, 5));
+    list = plan_of(scene(files.lattice(), 1, 5));
+    const double scale = grid->model->springs[0].stiffness / list->model->springs[0].stiffness;
+    list = plan_of(scene(files.lattice(), scale, law == "softening" ? 5 * scale * opening(*grid) / opening(*list) : 5));
+    const auto x = static_cast<Particle>(nx), y = static_cast<Particle>(ny), z = static_cast<Particle>(nz);
+    for (const Particle n : list->model->body.listed.source) in_grid.push_back(((n % z) * y + n / z % y) * x + n / z / y);  // as ListFiles counts
+  }
+  std::vector<double> for_list(const std::vector<double>& of_grid) const {
+    const std::size_t components = of_grid.size() / in_grid.size();
+    std::vector<double> of_list;
+    for (const Particle n : in_grid)
+      for (std::size_t c = 0; c < components; ++c) of_list.push_back(of_grid[n * components + c]);
+    return of_list;
+  }
+};
+
+TEST(ListedLaws, TheCubicLatticeAsAListMovesAsTheGrid) {
+  for (const char* law : {"viscous", "relaxing", "softening"})
+    for (const char* membrane : {R"("membrane": "none")", R"("membrane": "I", "lambda": 1.7)", R"("membrane": "III", "lambda": 2)"}) {
+      const LawTwins twins(5, 6, 7, law, membrane);
+      Simulation grid(*twins.grid->model, 1), list(*twins.list->model, 2);
+      const std::vector<double> start = noise(3 * twins.in_grid.size(), 1, 1);
+      const std::vector<double> level(twins.grid->model->degrees_of_freedom == 4 ? twins.in_grid.size() : 0, 0.0);
+      grid.set_velocities(start, level);
+      list.set_velocities(twins.for_list(start), level);
+      for (int n = 0; n < 100; ++n)
+        for (Simulation* simulation : {&grid, &list}) simulation->step(0.4 * twins.grid->model->critical_time_step);
+      EXPECT_LT(distance(twins.for_list(displacements(grid)), displacements(list)), 1e-10 * largest(displacements(grid))) << law << membrane;
+      const Balance left = grid.balance(), right = list.balance();
+      EXPECT_GT(left.dissipated(), 0.01 * left.scale) << law << membrane;
+      EXPECT_NEAR(left.stored, right.stored, 1e-9 * left.scale);
+      EXPECT_NEAR(left.kinetic, right.kinetic, 1e-9 * left.scale);
+      EXPECT_NEAR(left.dissipated(), right.dissipated(), 1e-9 * left.scale);
+    }
+}
+
+// Bodies in motion.
+
+std::string random_scene(const std::string& material) { return law_scene(random_lattice(6, 5, 6), material); }
+
+TEST_P(ListedLaw, KeepsMomentumAndTheBooks) {
+  const auto plan = plan_of(random_scene(GetParam().material));
+  const Ended start = shaken(*plan, 0.4, 1, 2), coarse = shaken(*plan, 0.4, 200, 2), fine = shaken(*plan, 0.1, 800, 1);
+  const double scale = std::sqrt(2 * start.balance.scale * plan->model->mass(0) * static_cast<double>(plan->model->body.particles));
+  EXPECT_LT(norm(coarse.balance.momentum - start.balance.momentum), 1e-12 * scale);
+  EXPECT_GT(fine.balance.dissipated(), 0.02 * fine.balance.scale);
+  EXPECT_LT(std::abs(fine.balance.relative_error()), 2e-4);
+  EXPECT_LT(std::abs(coarse.balance.relative_error()), 3e-3);
+}
+
+TEST_P(ListedLaw, KeepsTheBooksWhileSpringsBreak) {
+  const auto plan = plan_of(random_scene(std::string(GetParam().material) + law_failure));
+  const Ended ended = shaken(*plan, 0.1, 400, 2);
+  EXPECT_GT(ended.broken, 10u);
+  EXPECT_LT(std::abs(ended.balance.relative_error()), 2e-3);
+}
+
+TEST_P(ListedLaw, GivesTheSameBitsForAnyNumberOfThreads) {
+  const std::string scene = law_scene(random_lattice(9, 8, 7), std::string(GetParam().material) + law_failure);
+  for (const auto& plan : {plan_of(scene), plan_of(in_floats(scene))}) {
+    const Ended one = shaken(*plan, 0.4, 100, 1);
+    EXPECT_GT(one.broken, 10u);
+    for (const int threads : {2, 3, 6}) {
+      const Ended more = shaken(*plan, 0.4, 100, threads);
+      EXPECT_EQ(more.hash, one.hash) << threads;
+      EXPECT_EQ(more.balance.dissipated(), one.balance.dissipated()) << threads;  // to the last bit
+      EXPECT_EQ(more.balance.stored, one.balance.stored) << threads;
+      EXPECT_EQ(more.broken, one.broken) << threads;
+    }
+  }
+}
+
+TEST(ListedLaws, PlasticSpringsOfAllDirectionsAreRefused) {
+  try {
+    plan_of(random_scene(R"("type": "materials.plastic", "yield": 3e6, "membrane": "none")"));
+    FAIL() << "it was planned";
+  } catch (const InputError& error) {
+    EXPECT_NE(error.faults().front().expected.find("structured lattice"), std::string::npos) << error.faults().front().expected;
+  }
+}
+
+}  // namespace
