@@ -27,7 +27,7 @@ struct Simulation::Parts {
   };
   std::vector<Acting> acting;  ///< of each load
 
-  double damping = 0, last_step = 0;
+  double damping = 0, damping_rate = 0, last_step = 0;
   double time = 0, time_rest = 0;  ///< compensated sum
   bool time_held = false;
   std::uint64_t steps = 0;

@@ -25,14 +25,29 @@ double Simulation::kinetic() const {
   const Model& model = parts_->model;
   if (masses.empty())
     for (Particle particle = 0; particle < model.body.particles; ++particle) masses.push_back(model.mass(particle));
-  double twice = 0;
+  struct Piece {
+    const Block* block;
+    std::uint64_t place, count;
+    Particle first;
+    double twice;
+  };
+  std::vector<Piece> pieces;  // the same for any number of blocks: these are cut between rows
   parts_->for_runs([&](const Block& block, std::uint64_t place, Particle first, std::uint64_t count) {
-    for (std::uint64_t n = 0; n < count; ++n) {
-      double square = 0;
-      for (int c = 0; c < model.degrees_of_freedom; ++c) square += block.velocity[c][place + n] * block.velocity[c][place + n];
-      twice += masses[first + n] * square;
-    }
+    for (std::uint64_t n = 0; n < count; n += Listed::stretch)
+      pieces.push_back({&block, place + n, std::min<std::uint64_t>(Listed::stretch, count - n), first + n, 0});
   });
+#pragma omp parallel for num_threads(parts_->threads) schedule(static)
+  for (Piece& piece : pieces)
+    for (std::uint64_t n = 0; n < piece.count; ++n) {
+      double square = 0;
+      for (int c = 0; c < model.degrees_of_freedom; ++c) {
+        const double velocity = piece.block->velocity[c][piece.place + n];
+        square += velocity * velocity;
+      }
+      piece.twice += masses[piece.first + n] * square;
+    }
+  double twice = 0;
+  for (const Piece& piece : pieces) twice += piece.twice;
   return twice / 2;
 }
 

@@ -76,6 +76,10 @@ StageCalls::StageCalls(const Model& model, Simulation& simulation, const Planned
     auto& calls = *static_cast<StageCalls*>(self);
     return calls.guarded([&] { calls.simulation_.halt(); });
   };
+  host_.set_damping_rate = [](void* self, double rate) {
+    const auto& calls = *static_cast<StageCalls*>(self);
+    calls.simulation_.set_damping(calls.stage_.plan.damping, rate);
+  };
   host_.show_rest = [](void* self, const RestReport& report) {
     auto& calls = *static_cast<StageCalls*>(self);
     return calls.guarded([&] {

@@ -10,7 +10,10 @@ namespace hyperlattice {
 Simulation::Simulation(const Model& model, int threads) : parts_(std::make_unique<Parts>(model, threads)) {}
 Simulation::~Simulation() = default;
 
-void Simulation::set_damping(double alpha) { parts_->damping = alpha; }
+void Simulation::set_damping(double alpha, double rate) {
+  parts_->damping = alpha;
+  parts_->damping_rate = rate;
+}
 void Simulation::step(double time_step) { parts_->step(time_step); }
 double Simulation::time() const { return parts_->time; }
 std::uint64_t Simulation::steps() const { return parts_->steps; }

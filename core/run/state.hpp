@@ -45,7 +45,8 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  void set_damping(double alpha);  ///< of the steps that follow
+  /// Of the steps that follow: alpha of local damping, and the rate of damping in proportion to mass, 1/s.
+  void set_damping(double alpha, double rate = 0);
   void step(double time_step);     ///< advances time; RunError if a law or criterion fails
   double time() const;
   /// While held, steps do not advance time and loads act as they do at that time.

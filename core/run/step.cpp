@@ -14,7 +14,7 @@ void Simulation::Parts::step(double dt) {
   if (steps == 0) start(dt);
   const double back = last_step / 2, forward = dt / 2;
   prepare_loads(dt);
-  const auto kernel = damping != 0 ? model.kernels.step_damped : model.kernels.step;
+  const auto kernel = damping != 0 || damping_rate != 0 ? model.kernels.step_damped : model.kernels.step;
   struct Reviewer {
     const Parts* parts;
     Block* block;
@@ -71,6 +71,7 @@ KernelRequest Simulation::Parts::request_for(Block& block, double back, double f
   request.back = back;
   request.forward = forward;
   request.damping = damping;
+  request.damping_rate = damping_rate;
   request.acceleration = model.acceleration;
   request.supports = block.supports.data();
   request.scratch = block.scratch.get();

@@ -34,6 +34,25 @@ TEST_P(EveryMembrane, MomentumOfAFreeBodyIsKept) {
   EXPECT_LT(norm(simulation.balance().momentum - start.momentum), 1e-13 * scale);
 }
 
+TEST_P(EveryMembrane, ADragInProportionToMassTakesMomentumAtItsRate) {
+  const auto plan = plan_of(block(7, 6, 5, GetParam()));
+  const Model& model = *plan->model;
+  Simulation simulation(model, 1);
+  shake(simulation, model, 1e-11);  // strains near 1e-8
+  constexpr double x = 0.05;        // half of what the drag takes in a step
+  const double step = 0.5 * model.critical_time_step;
+  simulation.set_damping(0, 2 * x / step);
+  simulation.step(step);
+  const Balance start = simulation.balance();
+  constexpr int steps = 20;
+  for (int n = 0; n < steps; ++n) simulation.step(step);
+  const Balance end = simulation.balance();
+  const double left = std::pow((1 - x) / (1 + x), steps);
+  EXPECT_LT(norm(end.momentum - left * start.momentum), 1e-10 * norm(start.momentum));
+  EXPECT_GT(end.dissipated(), 0.5 * start.kinetic);
+  EXPECT_LT(std::abs(end.relative_error()), 1e-6);
+}
+
 TEST_P(EveryMembrane, TheSchemesEnergyIsConstantForSmallStrains) {
   const auto plan = plan_of(block(5, 5, 5, GetParam()));
   Simulation simulation(*plan->model, 1);
@@ -149,7 +168,7 @@ TEST_P(EveryMembrane, TheSameBitsForAnyNumberOfThreads) {
   std::vector<std::size_t> broken;
   for (const int threads : {1, 2, 3, 11, 22}) {  // 22: as many as planes, if every cell has two
     Simulation simulation(*plan->model, threads);
-    simulation.set_damping(0.1);
+    simulation.set_damping(0.1, 1e4);
     shake(simulation, *plan->model, 1e-6);
     for (int n = 0; n < 200; ++n) simulation.step(0.5 * plan->model->critical_time_step);
     hashes.push_back(simulation.hash());

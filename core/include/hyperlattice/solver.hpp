@@ -47,6 +47,7 @@ struct SolverHost {
   bool (*take)(void* self, double share, const double* displacement) = nullptr;
   bool (*measure_rest)(void* self, double* residual, double* kinetic) = nullptr;
   bool (*stop_motion)(void* self) = nullptr;
+  void (*set_damping_rate)(void* self, double rate) = nullptr;
   bool (*show_rest)(void* self, const RestReport& report) = nullptr;
 
   /// The body for a static solver, built when first asked for; valid during the stage. Null: the run must stop.
@@ -56,7 +57,10 @@ struct SolverHost {
   /// The residual of the present state (see RestReport), and its kinetic energy, J; one evaluation of all springs. Either may be null. Kinetic energy
   /// alone costs little. False: the run must stop.
   bool measure(double* residual, double* kinetic) const { return measure_rest(self, residual, kinetic); }
-  bool halt() const { return stop_motion(self); }                                  ///< all velocities to zero
+  bool halt() const { return stop_motion(self); }  ///< all velocities to zero
+  /// Of the steps of this stage that follow: each particle feels a drag of rate (1/s) times its mass and velocity, the mean of those before and
+  /// after.
+  void damp(double rate) const { set_damping_rate(self, rate); }
   bool report(const RestReport& report) const { return show_rest(self, report); }  ///< for the progress line and the summary
 };
 

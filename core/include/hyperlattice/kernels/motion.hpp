@@ -85,6 +85,25 @@ struct Energies {
   Pack stored = 0, dissipated = 0;
 };
 
+inline double with_sign(double magnitude, double sign) { return sign == 0 ? 0 : __builtin_copysign(magnitude, sign); }
+
+/// A kick of a damped particle along one component: v+ = v- + kick (F - drag) / m, the drag being damping |F| sign(v-) + damping_rate m (v- + v+)
+/// / 2.
+template <class Number>
+struct Kick {
+  Number after, drag;
+
+  HYPERLATTICE_INLINE Kick(const KernelRequest& request, double kick, const Number& force, const Number& velocity, const Number& mass,
+                           const Number& inverse_mass) {
+    drag = with_sign(request.damping * force, velocity);
+    after = velocity + kick * inverse_mass * (force - drag);
+    if (request.damping_rate == 0) return;
+    const double x = 0.5 * kick * request.damping_rate;
+    after = (1 / (1 + x)) * (after - x * velocity);
+    drag += 0.5 * request.damping_rate * mass * (velocity + after);
+  }
+};
+
 /// Moves or measures a row: vectors() with the forces on its particles, or a vector() at a time, then finish().
 template <Membrane membrane, bool Mixed, Task task, class Stored, class Real>
 class Motion {
@@ -133,24 +152,24 @@ class Motion {
         force -= 2.0 * alpha * displacement;
         if constexpr (measuring) stored_ += alpha * displacement * displacement;
       }
-      Pack drag = 0;
-      if (task == Task::step_damped || (measuring && request_.damping != 0)) {
-        drag = with_sign(request_.damping * force, velocity);
-        force -= drag;
-      }
       if constexpr (measuring) {
         const double acceleration[4] = {request_.acceleration.x, request_.acceleration.y, request_.acceleration.z, 0};
-        const Pack kicked = velocity + 2 * request_.back * inverse_mass_ * force, mean = velocity + request_.back * inverse_mass_ * force;
-        kinetic_ += 0.5 * mass_ * velocity * kicked;
+        const Kick<Pack> kicked(request_, 2 * request_.back, force, velocity, mass_, inverse_mass_);
+        const Pack mean = 0.5 * (velocity + kicked.after);
+        kinetic_ += 0.5 * mass_ * velocity * kicked.after;
         kinetic_mean_ += 0.5 * mass_ * mean * mean;
         momentum_[c] += mass_ * mean;
         potential_ += mass_ * acceleration[c] * displacement;
-        damped_ += request_.back * drag * velocity;
+        damped_ += request_.back * kicked.drag * velocity;
+      } else if constexpr (task == Task::step_damped) {
+        const Kick<Pack> kicked(request_, kick, force, velocity, mass_, inverse_mass_);
+        store_as(v, kicked.after);
+        store_as(u, displacement + drift * kicked.after);
+        damped_ += kicked.drag * (request_.back * velocity + request_.forward * kicked.after);
       } else {
         const Pack faster = velocity + kick * inverse_mass_ * force;
         store_as(v, faster);
         store_as(u, displacement + drift * faster);
-        if constexpr (task == Task::step_damped) damped_ += drag * (request_.back * velocity + request_.forward * faster);
       }
     }
   }
@@ -159,7 +178,7 @@ class Motion {
   template <bool Dissipating = false>
   void finish(std::uint32_t index, const Energies<Pack>& springs) {
     damped_ += springs.dissipated;
-    if constexpr (task == Task::step_damped || (task == Task::step && Dissipating)) request_.damped_work[index] += sum(damped_);
+    if constexpr (task == Task::step_damped || (task == Task::step && Dissipating)) request_.damped_work[index] += sum(damped_) - not_damped_;
     if constexpr (measuring) {
       RowSums measured;
       measured.stored = sum(springs.stored + stored_);
@@ -202,6 +221,10 @@ class Motion {
         Stored& v = velocity(c)[support.index];
         const bool held = (support.axes >> c & 1u) != 0;
         if (held) {
+          if constexpr (task == Task::step_damped) {  // what drives it does not feel the drag
+            const Kick<double> free(request_, kick, support.sum[c], support.speed_before[c], support.mass, 1 / support.mass);
+            not_damped_ += free.drag * (request_.back * support.speed_before[c] + request_.forward * free.after);
+          }
           v = static_cast<Stored>(prescribed[c]);
           displacement(c)[support.index] = static_cast<Stored>(support.place_before[c] + drift * prescribed[c]);
         }
@@ -223,13 +246,11 @@ class Motion {
         const double before = support.speed_before[c];
         half_path[c] = request_.back * before;
         if ((support.axes >> c & 1u) == 0) continue;
-        double force = support.sum[c];
-        if (request_.damping != 0 && before != 0) force -= __builtin_copysign(request_.damping * __builtin_fabs(force), before);
-        const double free_mean = before + request_.back * force / support.mass;
-        const double free_after = before + 2 * request_.back * force / support.mass;
+        const Kick<double> free(request_, 2 * request_.back, support.sum[c], before, support.mass, 1 / support.mass);
         const double after = request_.back > 0 ? prescribed[c] : before;
-        const double mean = 0.5 * (before + after);
-        measured.kinetic += 0.5 * support.mass * before * (after - free_after);
+        const double mean = 0.5 * (before + after), free_mean = 0.5 * (before + free.after);
+        measured.damped -= free.drag * half_path[c];
+        measured.kinetic += 0.5 * support.mass * before * (after - free.after);
         measured.kinetic_mean += 0.5 * support.mass * (mean * mean - free_mean * free_mean);
         momentum[c] = support.mass * (mean - free_mean);
         if (request_.back > 0) support.reaction_now += (support.mass * (after - before) / (2 * request_.back) - support.sum[c]) * half_path[c];
@@ -244,6 +265,7 @@ class Motion {
   RowValues<Mixed, Real> values_;
   Pack mass_, inverse_mass_;
   Pack stored_ = 0, damped_ = 0, kinetic_ = 0, kinetic_mean_ = 0, momentum_[4] = {0, 0, 0, 0}, potential_ = 0;
+  double not_damped_ = 0;  ///< of damped_, what was counted for components that are held
 };
 
 }  // namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS

@@ -127,10 +127,11 @@ struct KernelRequest {
   double membrane_distance = 0;  ///< Delta, metres
 
   // the step: v(n+1/2) = v(n-1/2) + (back + forward) F(n) / m; u(n+1) = u(n) + 2 forward v(n+1/2)
-  double back = 0;     ///< half of the step before, s; 0 at the start
-  double forward = 0;  ///< half of this step, s
-  double damping = 0;  ///< alpha of local damping
-  Vec3 acceleration;   ///< of every particle, m/s2
+  double back = 0;          ///< half of the step before, s; 0 at the start
+  double forward = 0;       ///< half of this step, s
+  double damping = 0;       ///< alpha of local damping
+  double damping_rate = 0;  ///< c of damping in proportion to mass and velocity, 1/s
+  Vec3 acceleration;        ///< of every particle, m/s2
   Support* supports = nullptr;
   void* self = nullptr;
   /// Asks the criterion about springs above their alarm; returns a flag a spring: 1 remove it.
