@@ -14,6 +14,7 @@ LoneSpring::LoneSpring(const Model& model) : kernels_(model.kernels), memory_(mo
   spring_.stiffness = constants.stiffness;
   spring_.rest_length = neighbour.rest_length;
   spring_.law = constants.law[0];
+  if (kernels_.start != nullptr) kernels_.start(spring_.law, {0, 1}, memory_.data());
   period_ = std::sqrt(model.materials.front().mass / constants.stiffness);
 }
 

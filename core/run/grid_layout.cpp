@@ -170,10 +170,22 @@ void GridLayout::fill(Block& block) const {
     if (row.begin == row.end) continue;
     Site site = first_site_of_row(block.number, r);
     fill_alive(body, site.j, site.k, row, block.alive.get() + row.start);
+    if (model_.kernels.start != nullptr) start_row(block, r, site);
     if (model_.material_of.empty()) continue;
     for (; site.i < row.end; ++site.i)
       if (const Particle particle = body.at(site); particle != Body::no_particle)
         block.material[row.start + static_cast<std::uint64_t>(site.i - row.begin)] = model_.material_of[particle];
+  }
+}
+
+/// What the law keeps of the springs of a row, of a ghost's too.
+void GridLayout::start_row(const Block& block, std::uint32_t r, Site site) const {
+  const Body& body = model_.body;
+  for (std::uint32_t n = 0; n < body.neighbours.size(); ++n) {
+    const Neighbour& to = body.neighbours[n];
+    for (const Range& range : body.springs_of(site.j, site.k, to))
+      for (std::int32_t i = range.begin; i < range.end; ++i)
+        start_memory(block, r, n, i, body.at({i, site.j, site.k}), body.at({i + to.dx, site.j + to.dy, site.k + to.dz}), n);
   }
 }
 

@@ -58,7 +58,7 @@ class Layout {
   virtual SpringEnds spring(const Block& block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site) const = 0;
   /// Where the numbers that the law keeps of a spring begin, and how far they are apart; of its cross springs if `cross`.
   struct Memory {
-    const double* first = nullptr;
+    double* first = nullptr;
     std::uint64_t stride = 0;
   };
   virtual Memory memory(const Block& block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site, bool cross) const = 0;
@@ -81,6 +81,10 @@ class Layout {
   explicit Layout(const Model& model) : model_(model) {}
   /// Numbers that laws keep of a base spring and its cross spring.
   std::size_t kept_numbers() const { return (model_.choice.membrane == KernelChoice::Membrane::none ? 1 : 2) * std::size_t{model_.kernels.memory}; }
+
+  /// Sets what the law keeps of a new spring between a and b. `index`: see Model::joint.
+  void start_memory(const Block& block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site, Particle a, Particle b,
+                    std::uint32_t index) const;
 
   const Model& model_;
 };

@@ -176,11 +176,13 @@ void ListedLayout::fill_springs(Block& block) const {
       listed.neighbour[n] = static_cast<std::uint32_t>(pack * width_ + n % width_);  // a lane without a spring looks at itself
 
   std::vector<std::uint32_t> taken(block.layout->sites, 0);  // slots of each particle
-  const auto add = [&](Particle here, Particle there, const Joint& joint, double alarm) {
+  const auto add = [&](Particle here, Particle there, const Joint& joint, double alarm, std::uint32_t index) {
     if (!part.holds(here)) return;
     const std::uint64_t own = here - part.first, lane = own % width_;
     const std::size_t slot = part.first_slot[own / width_] + taken[own]++;
     listed.neighbour[slot * width_ + lane] = record_of(part, there);
+    if (model_.kernels.start != nullptr)
+      start_memory(block, 0, static_cast<std::uint32_t>(slot), static_cast<std::int32_t>(lane), here, there, index);
     if (!listed.alarm.empty()) listed.alarm.set(slot * width_ + lane, alarm);
     if (listed.stiffness.empty()) return;
     listed.stiffness.set(slot * 2 * width_ + lane, joint.stiffness);
@@ -192,8 +194,8 @@ void ListedLayout::fill_springs(Block& block) const {
     const Joint joint = model_.joint(spring.a, spring.b, n);
     const double alarm = model_.choice.breakable ? model_.alarm(model_.material(spring.a), model_.material(spring.b), model_.facts(joint)) : infinity;
     const double growth = precision == Precision::floats ? squared_growth<float>(joint.rest_length, alarm) : squared_growth(joint.rest_length, alarm);
-    add(spring.a, spring.b, joint, growth);
-    add(spring.b, spring.a, joint, growth);
+    add(spring.a, spring.b, joint, growth, n);
+    add(spring.b, spring.a, joint, growth, n);
   }
 }
 

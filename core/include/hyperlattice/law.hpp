@@ -12,7 +12,8 @@
 //
 //      struct Slider {
 //        struct Constants { double limit; };         // doubles only; what MaterialConstants::law holds
-//        struct Memory { double slipped = 0; };      // doubles only; all zero at first
+//        struct Memory { double slipped = 0; };      // doubles only; all zero at first, if there is no start()
+//        static Memory start(const Constants& c, const SpringIdentity& spring);           // for springs that differ from the beginning
 //        static void update(const SpringState& s, const Constants& c, Memory& m);         // once a step, before the force is asked for
 //        static double force(const SpringState& s, const Constants& c, const Memory& m);  // N, positive if the spring pulls
 //        static double energy(const SpringState& s, const Constants& c, const Memory& m); // J that it would give back
@@ -22,6 +23,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <type_traits>
 
@@ -36,6 +38,11 @@ struct SpringState {
   double time_step = 0;    ///< the step before now, s; 0 at the start
 };
 
+/// Which spring it is, or a cross spring beside it: the particles at its ends, a < b, in the order in which the lattice names them.
+struct SpringIdentity {
+  std::uint64_t a = 0, b = 0;
+};
+
 inline constexpr std::size_t max_law_constants = 8, max_law_memory = 6;
 
 /// Whether a law is of the second kind.
@@ -46,6 +53,10 @@ concept LawWithConstants = requires {
 template <class Law>
 concept LawWithMemory = LawWithConstants<Law> && requires {
   typename Law::Memory;
+};
+template <class Law>
+concept LawWithStart = LawWithMemory<Law> && requires(const typename Law::Constants& constants, const SpringIdentity& spring) {
+  Law::start(constants, spring);
 };
 
 /// Numbers in a struct of doubles.
@@ -80,6 +91,12 @@ struct SpringStep {
   /// J that the spring has stored, with the memory as it is.
   static double energy_of(const SpringState& state, const double* constants, const double* memory) requires LawWithMemory<Law> {
     return Law::energy(state, read<typename Law::Constants>(constants), read<typename Law::Memory>(memory));
+  }
+
+  /// What a new spring keeps.
+  static void start(const double* constants, const SpringIdentity& spring, double* memory) requires LawWithStart<Law> {
+    const typename Law::Memory begun = Law::start(read<typename Law::Constants>(constants), spring);
+    std::memcpy(memory, &begun, own * sizeof(double));
   }
 
   /// `constants`: those of the law; `memory`: memory_of<Law>() numbers, as they were and then as they are.

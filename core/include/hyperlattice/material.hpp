@@ -109,6 +109,8 @@ struct KernelSet {
   SpringAnswer (*ask)(const OneSpring& spring) noexcept = nullptr;
   /// Takes one spring a step of that many seconds further, to the elongation given; `kept`: its memory, which becomes that of now.
   SpringAnswer (*take)(const OneSpring& spring, double time_step, double* kept) noexcept = nullptr;
+  /// Sets what a spring keeps at first, where all is zero; null: that is right.
+  void (*start)(const double* law, const SpringIdentity& spring, double* kept) noexcept = nullptr;
   std::uint32_t memory = 0;       ///< numbers that each spring keeps, base or cross
   const char* instructions = "";  ///< "avx512", "avx2", "baseline": what this processor was given
 };

@@ -3,6 +3,7 @@
 // with p a number between 0 and 1 that follows from the seed and the spring's two particles, each as likely as any other: of many springs the share
 //   1 - exp(-((e / scale - least) / (1 - least))^modulus)
 // has a limit below e. The same scene has the same strengths in every run, whatever its threads.
+#include <hyperlattice/chance.hpp>
 #include <hyperlattice/failure.hpp>
 
 #include <cmath>
@@ -43,24 +44,12 @@ class Weibull {
 
   double alarm(const SpringFacts& spring) const { return o_.scale * o_.least * spring.rest_length; }
   bool breaks(const SpringFacts& spring, const AlarmedSpring& state) const {
-    const double limit = o_.scale * (o_.least + (1 - o_.least) * std::pow(-std::log(share(state.a, state.b)), 1 / o_.modulus));
+    const double limit =
+        o_.scale * (o_.least + (1 - o_.least) * std::pow(-std::log(chance(static_cast<std::uint64_t>(o_.seed), state.a, state.b)), 1 / o_.modulus));
     return state.elongation > limit * spring.rest_length;
   }
 
  private:
-  /// Above 0 and below 1.
-  double share(Particle a, Particle b) const {
-    const std::uint64_t bits = mixed(mixed(mixed(static_cast<std::uint64_t>(o_.seed)) ^ a) ^ b);
-    return (static_cast<double>(bits >> 12) + 0.5) * 0x1p-52;
-  }
-  /// Every bit of the result depends on every bit of the argument: the finalizer of SplitMix64 (Steele, Lea and Flood 2014).
-  static std::uint64_t mixed(std::uint64_t bits) {
-    bits += 0x9e3779b97f4a7c15u;
-    bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9u;
-    bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebu;
-    return bits ^ (bits >> 31);
-  }
-
   Options o_;
 };
 }  // namespace

@@ -202,6 +202,8 @@ class Kernels {
   static KernelSet of(const KernelChoice& choice, const char* instructions) {
     KernelSet set = of_membrane(choice);
     set.memory = memory_of<Law>();
+    if constexpr (LawWithStart<Law>)
+      set.start = [](const double* law, const SpringIdentity& spring, double* kept) noexcept { SpringStep<Law>::start(law, spring, kept); };
     set.ask = [](const OneSpring& spring) noexcept -> SpringAnswer {
       const double k = spring.stiffness, u = spring.elongation;
       if constexpr (LawWithMemory<Law>)
