@@ -50,7 +50,7 @@ TEST_P(EveryMembrane, ADragInProportionToMassTakesMomentumAtItsRate) {
   const double left = std::pow((1 - x) / (1 + x), steps);
   EXPECT_LT(norm(end.momentum - left * start.momentum), 1e-10 * norm(start.momentum));
   EXPECT_GT(end.dissipated(), 0.5 * start.kinetic);
-  EXPECT_LT(std::abs(end.relative_error()), 1e-6);
+  EXPECT_LT(std::abs(end.error - start.error), 1e-6 * start.kinetic);  // the first half step is of first order
 }
 
 TEST_P(EveryMembrane, TheSchemesEnergyIsConstantForSmallStrains) {
