@@ -112,7 +112,7 @@ void estimate_output(Plan& plan) {
 /// From what the kernels take on one core of a common server processor (docs: performance); another machine may differ by a factor of two.
 void estimate_time(Plan& plan) {
   constexpr double baseline = 4, avx2 = 1.4, avx512 = 0.9;  // ns a base spring and step
-  constexpr double fourth_dimension = 1.8, damped = 1.1, floats = 0.6, listed = 8, second_thread = 0.6;
+  constexpr double fourth_dimension = 1.8, damped = 1.1, floats = 0.6, listed = 4, second_thread = 0.6;
   const Model& model = *plan.model;
   const std::string_view instructions = model.kernels.instructions;
   double spring = instructions == "avx512" ? avx512 : instructions == "avx2" ? avx2 : baseline;
