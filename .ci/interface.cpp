@@ -1,5 +1,5 @@
-// What crosses between program and plugin, in one place for abidiff: the tables of functions hang on pointers without a type, so that nothing that the
-// library exports leads to them. See .ci/abi.
+// What crosses between program and plugin, in one place for abidiff: the tables of functions hang on pointers without a type, so that nothing that
+// the library exports leads to them. See .ci/abi.
 #include <hyperlattice/component.hpp>
 #include <hyperlattice/failure.hpp>
 #include <hyperlattice/kernels/request.hpp>

@@ -47,7 +47,7 @@ class Simulation {
 
   /// Of the steps that follow: alpha of local damping, and the rate of damping in proportion to mass, 1/s.
   void set_damping(double alpha, double rate = 0);
-  void step(double time_step);     ///< advances time; RunError if a law or criterion fails
+  void step(double time_step);  ///< advances time; RunError if a law or criterion fails
   double time() const;
   /// While held, steps do not advance time and loads act as they do at that time.
   void hold_time(double time);

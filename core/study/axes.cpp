@@ -184,10 +184,11 @@ Condition read_condition(const Json& given, const std::string& pointer, const st
   return condition;
 }
 
-std::string choice_text(const std::vector<Axis>& axes, const Choice& choice, std::size_t except) {
+std::string choice_text(const std::vector<Axis>& axes, const Choice& choice, const std::vector<std::size_t>& except) {
   std::string text;
   for (std::size_t a = 0; a < axes.size(); ++a)
-    if (a != except) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", axes[a].name, axes[a].labels[choice[a]]);
+    if (std::find(except.begin(), except.end(), a) == except.end())
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", axes[a].name, axes[a].labels[choice[a]]);
   return text;
 }
 

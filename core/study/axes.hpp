@@ -43,7 +43,7 @@ Condition read_condition(const Json& given, const std::string& pointer, const st
 /// The axis of that name; if there is none, a fault at `pointer`, and the number of axes.
 std::size_t find_axis(const std::string& name, const std::string& pointer, const std::vector<Axis>& axes, Faults& faults);
 
-/// "spacing 4 mm, boundary cells", without the axis `except`.
-std::string choice_text(const std::vector<Axis>& axes, const Choice& choice, std::size_t except);
+/// "spacing 4 mm, boundary cells", without some axes.
+std::string choice_text(const std::vector<Axis>& axes, const Choice& choice, const std::vector<std::size_t>& except = {});
 
 }  // namespace hyperlattice::study

@@ -10,9 +10,9 @@ namespace hyperlattice::study {
 
 namespace {
 
-/// Whether two choices differ in the refinement alone.
-bool same_but(std::size_t refinement, Choice a, const Choice& b) {
-  a[refinement] = b[refinement];
+/// Whether two choices differ in some axes alone.
+bool same_but(const std::vector<std::size_t>& axes, Choice a, const Choice& b) {
+  for (const std::size_t axis : axes) a[axis] = b[axis];
   return a == b;
 }
 
@@ -88,7 +88,7 @@ class Evaluation {
     if (truth.kind != Truth::Kind::finest) return true_curve(study_.comparisons[c], truth, curves_[r][c].place, rows_[r].numbers);
     std::vector<SizedCurve> family;
     for (std::size_t other = 0; other < rows_.size(); ++other)
-      if (curves_[other].size() > c && same_but(*study_.refinement, rows_[other].choice, rows_[r].choice))
+      if (curves_[other].size() > c && same_but({*study_.refinement}, rows_[other].choice, rows_[r].choice))
         family.push_back({*rows_[other].numbers[*study_.refinement], curves_[other][c].curve});
     std::sort(family.begin(), family.end(), [](const SizedCurve& a, const SizedCurve& b) { return a.size > b.size; });
     return extrapolated(family, truth.order);
@@ -107,13 +107,40 @@ std::vector<ChoiceOrder> find_orders(std::size_t refinement, const std::vector<R
     if (taken[r]) continue;
     std::vector<SizedError> errors;
     for (std::size_t other = r; other < rows.size(); ++other) {
-      if (!same_but(refinement, rows[other].choice, rows[r].choice)) continue;
+      if (!same_but({refinement}, rows[other].choice, rows[r].choice)) continue;
       taken[other] = true;
       if (rows[other].error) errors.push_back({*rows[other].numbers[refinement], *rows[other].error});
     }
     if (auto observed = observed_order(std::move(errors))) orders.push_back({rows[r].choice, std::move(*observed)});
   }
   return orders;
+}
+
+/// A setting that must do for several cases costs what they take together, and its error is the largest; `row` has it.
+struct Setting {
+  std::size_t row = 0;
+  Cost cost;
+};
+
+/// Those whose error is known in every case.
+std::vector<Setting> settings_of(const Study& study, const std::vector<Row>& rows) {
+  std::vector<Setting> settings;
+  std::vector<bool> taken(rows.size());
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (taken[r]) continue;
+    Setting setting{r, {0, 0}};
+    bool known = true;
+    for (std::size_t other = r; other < rows.size(); ++other) {
+      if (!same_but(study.cases, rows[other].choice, rows[r].choice)) continue;
+      taken[other] = true;
+      known = known && rows[other].error.has_value();
+      if (!known) continue;
+      if (*rows[other].error >= setting.cost.error) setting = {other, {*rows[other].error, setting.cost.seconds}};
+      setting.cost.seconds += rows[other].seconds();
+    }
+    if (known) settings.push_back(setting);
+  }
+  return settings;
 }
 
 }  // namespace
@@ -132,10 +159,13 @@ Findings find(const Study& study, const std::vector<Row>& rows) {
   findings.pareto.assign(rows.size(), false);
   const std::vector<bool> front = pareto_front(costs);
   for (std::size_t n = 0; n < costs.size(); ++n) findings.pareto[place[n]] = front[n];
-  if (const auto best = most_accurate(costs)) findings.best = place[*best];
+  const std::vector<Setting> settings = settings_of(study, rows);
+  std::vector<Cost> of_settings;
+  for (const Setting& setting : settings) of_settings.push_back(setting.cost);
+  if (const auto best = most_accurate(of_settings)) findings.best = settings[*best].row;
   findings.target = study.target_error;
   if (findings.target)
-    if (const auto found = cheapest(costs, *findings.target)) findings.cheapest = place[*found];
+    if (const auto found = cheapest(of_settings, *findings.target)) findings.cheapest = settings[*found].row;
   if (study.refinement) findings.orders = find_orders(*study.refinement, rows);
   return findings;
 }

@@ -72,8 +72,7 @@ std::vector<Point> grid(const Study& study) {
     Point& point = points.emplace_back(Point{choice, name_of(study.axes, choice, taken), study.scene, std::nullopt});
     for (std::size_t a = 0; a < study.axes.size(); ++a) setter.set(point, study.axes[a], choice[a]);
     if (std::none_of(study.truths.begin(), study.truths.end(), [&](const Truth& truth) { return truth.when.holds(choice); }))
-      faults.add("/truth", choice_text(study.axes, choice, study.axes.size()),
-                 "a truth for every run; none of them has a \"when\" that holds for this one");
+      faults.add("/truth", choice_text(study.axes, choice), "a truth for every run; none of them has a \"when\" that holds for this one");
   } while (next(choice, study.axes));
   if (points.empty()) faults.add("/exclude", "", "at least one run that is not excluded");
   faults.throw_if_any();

@@ -56,7 +56,7 @@ class Plot {
         if (rows_[r].error && *rows_[r].error > 0 && rows_[r].seconds() > 0)
           points.emplace_back(Cost{*rows_[r].error, rows_[r].seconds()}, label(rows_[r]));
       if (points.empty()) continue;
-      const std::string title = choice_text(study_.axes, rows_[members.front()].choice, study_.refinement.value_or(study_.axes.size()));
+      const std::string title = choice_text(study_.axes, rows_[members.front()].choice, {study_.refinement.value_or(study_.axes.size())});
       draw("$family", number, points, title.empty() ? "this scene" : title, 7);
       ++number;
     }

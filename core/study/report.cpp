@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 
 namespace hyperlattice::study {
 
@@ -93,7 +94,7 @@ std::string orders_text(const Study& study, const Findings& findings) {
   if (findings.orders.empty()) return "";
   std::string text = fmt::format("\nObserved order of convergence in \"{}\"\n", study.axes[*study.refinement].name);
   for (const ChoiceOrder& order : findings.orders) {
-    const std::string choice = choice_text(study.axes, order.choice, *study.refinement);
+    const std::string choice = choice_text(study.axes, order.choice, {*study.refinement});
     fmt::format_to(std::back_inserter(text), "  {}{:.2f}", choice.empty() ? "" : choice + ": ", order.observed.order);
     if (order.observed.pairs.size() > 1) fmt::format_to(std::back_inserter(text), " (step by step {:.2f})", fmt::join(order.observed.pairs, ", "));
     text += '\n';
@@ -118,7 +119,7 @@ std::string promise(const Study& study, const Findings& findings) {
       size = *found;
     }
   if (best == nullptr) return "";
-  const std::string choice = choice_text(study.axes, best->choice, *study.refinement);
+  const std::string choice = choice_text(study.axes, best->choice, {*study.refinement});
   return fmt::format(" By its observed order, {} would meet it at a {} of about {:.2g} (SI).", choice.empty() ? "the scene" : choice,
                      study.axes[*study.refinement].name, size);
 }
@@ -131,7 +132,7 @@ std::vector<std::vector<std::size_t>> families(const Study& study, const std::ve
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const auto family = std::find_if(found.begin(), found.end(), [&](const auto& members) {
       return study.refinement &&
-             choice_text(study.axes, rows[members.front()].choice, refinement) == choice_text(study.axes, rows[r].choice, refinement);
+             choice_text(study.axes, rows[members.front()].choice, {refinement}) == choice_text(study.axes, rows[r].choice, {refinement});
     });
     if (family == found.end())
       found.push_back({r});
@@ -148,8 +149,12 @@ std::vector<std::vector<std::size_t>> families(const Study& study, const std::ve
 std::string cheapest_sentence(const Study& study, const std::vector<Row>& rows, const Findings& findings) {
   if (!findings.target) return "";
   const auto setting = [&](std::size_t r) {
-    return fmt::format("{}: error {}, {:.3g} s, {} particles", choice_text(study.axes, rows[r].choice, study.axes.size()), percent(*rows[r].error),
-                       rows[r].seconds(), rows[r].particles);
+    std::vector<std::size_t> settings(study.axes.size());
+    std::iota(settings.begin(), settings.end(), std::size_t{0});
+    std::erase_if(settings, [&](std::size_t a) { return std::find(study.cases.begin(), study.cases.end(), a) != study.cases.end(); });
+    const std::string cases = choice_text(study.axes, rows[r].choice, settings);
+    return fmt::format("{}: error {}{}, {:.3g} s, {} particles", choice_text(study.axes, rows[r].choice, study.cases), percent(*rows[r].error),
+                       cases.empty() ? "" : " at most, with " + cases, rows[r].seconds(), rows[r].particles);
   };
   const std::string target = percent(*findings.target);
   if (findings.cheapest) return fmt::format("The cheapest setting for an error of {} is {}.", target, setting(*findings.cheapest));
@@ -190,8 +195,7 @@ std::string study_csv(const Study& study, const std::vector<Row>& rows, const Fi
 std::string study_text(const Study& study, const std::vector<Row>& rows, const Findings& findings) {
   std::string text = (study.title.empty() ? "" : study.title + "\n\n") + table_text(study, rows, findings) + peers_text(study);
   for (const Row& row : rows)
-    if (!row.reason.empty())
-      fmt::format_to(std::back_inserter(text), "\n{} failed: {}\n", choice_text(study.axes, row.choice, study.axes.size()), row.reason);
+    if (!row.reason.empty()) fmt::format_to(std::back_inserter(text), "\n{} failed: {}\n", choice_text(study.axes, row.choice), row.reason);
   text += orders_text(study, findings);
   const std::string sentence = cheapest_sentence(study, rows, findings);
   return text + (sentence.empty() ? "" : '\n' + sentence + '\n');

@@ -17,7 +17,7 @@ struct Heading {
     Norm error = Norm::relative_l2;
     std::int64_t repeats = 3;
     std::optional<double> target_error;
-    std::vector<std::string> peers;
+    std::vector<std::string> peers, cases;
   };
   static Schema<Options> schema() {
     static constexpr std::string_view formats[] = {study::format};
@@ -34,6 +34,8 @@ struct Heading {
         .at_least(1)
         .at_most(99)
         .fallback("3")
+        .add<&Options::cases>("cases", "", "axes that change what is asked, such as a material: the cheapest setting has to do for all their values")
+        .fallback("[]")
         .add<&Options::target_error>("target_error", "", "the error for which the cheapest setting is sought")
         .positive()
         .add<&Options::peers>("peers", "", "tables of other programs' errors and times: label, error, seconds; relative to the study")
@@ -69,6 +71,10 @@ class StudyReader {
     study_.repeats = heading.repeats;
     study_.target_error = heading.target_error;
     for (std::size_t n = 0; n < heading.peers.size(); ++n) append_peers(study_.peers, folder() / heading.peers[n], member("/peers", n), faults_);
+    for (std::size_t n = 0; n < heading.cases.size(); ++n) {
+      const std::size_t axis = find_axis(heading.cases[n], member("/cases", n), study_.axes, faults_);
+      if (axis < study_.axes.size()) study_.cases.push_back(axis);
+    }
     if (!heading.refine) return find_spacing();
     const std::size_t axis = find_axis(*heading.refine, "/refine", study_.axes, faults_);
     if (axis < study_.axes.size()) study_.refinement = axis;

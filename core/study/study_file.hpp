@@ -13,6 +13,7 @@ struct Study {
   std::filesystem::path scene_file;  ///< where the scene stands; the study's own file if it is inline
   std::vector<Axis> axes;
   std::optional<std::size_t> refinement;  ///< the axis whose values are sizes: spacing, or what "refine" names
+  std::vector<std::size_t> cases;         ///< axes that change what is asked, not how it is answered
   std::vector<Condition> excluded;
   std::vector<Truth> truths;
   std::vector<Comparison> comparisons;

@@ -98,6 +98,27 @@ TEST_F(StudyCommand, GivesRowsOrdersAndTheCheapestSetting) {
   EXPECT_NE(contents(out() + "/study.svg").find("Swinging pair"), std::string::npos);
 }
 
+TEST_F(StudyCommand, TheCheapestSettingDoesForAllCases) {
+  json file = true_swinging_pair();
+  file["cases"] = {"stiffness"};
+  const Result result = study(file, {"--json", "--target-error", "0.5%"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json found = json::parse(result.out);
+  ASSERT_TRUE(found.at("cheapest").is_object());
+  for (const json& row : found["rows"])
+    if (row["step"] == found["cheapest"]["step"]) {
+      EXPECT_LE(row["error"], found["cheapest"]["error"]);
+    }
+  EXPECT_LE(found["cheapest"]["error"], 0.005);
+  EXPECT_NE(found["sentence"].get<std::string>().find(" at most, with stiffness "), std::string::npos) << found["sentence"];
+}
+
+TEST_F(StudyCommand, RefusesACaseThatIsNoAxis) {
+  json file = true_swinging_pair();
+  file["cases"] = {"stifness"};
+  expect_refused(file, {"/cases/0"});
+}
+
 TEST_F(StudyCommand, CountsQuantitiesTogether) {
   json file = swinging_pair();
   file["scene"]["pipeline"][5].erase("component");

@@ -19,7 +19,7 @@ HYPERLATTICE_INLINE auto picked(const Vector& a, const Vector& b, Index) {
 
 /// A vector of pieces, `apart` records from each other.
 template <class Real>
-HYPERLATTICE_INLINE auto pieces(const Real* const* records, std::size_t offset, [[maybe_unused]] std::size_t apart) {
+HYPERLATTICE_INLINE typename VectorsOf<Real>::Vector pieces(const Real* const* records, std::size_t offset, [[maybe_unused]] std::size_t apart) {
 #if defined(__AVX__)
   const auto piece = [&](std::size_t n) __attribute__((always_inline)) {
     return _mm_loadu_ps(reinterpret_cast<const float*>(records[n * apart] + offset));
