@@ -33,10 +33,11 @@ struct Pairs {
 
   Pairs() {
     const std::vector<double> random = noise(6 * number, 1, 5);
-    for (int n = 0; n < number; ++n) places.push_back({3.0 * n, 9 * random[6 * n], 9 * random[6 * n + 1]});
+    const auto chance = [&](int n, int which) { return random[static_cast<std::size_t>(6 * n + which)]; };
+    for (int n = 0; n < number; ++n) places.push_back({3.0 * n, 9 * chance(n, 0), 9 * chance(n, 1)});
     for (int n = 0; n < number; ++n) {
-      const Vec3 reach{random[6 * n + 2], random[6 * n + 3], random[6 * n + 4]};
-      places.push_back(places[n] + (1 / norm(reach) + 0.3 * random[6 * n + 5]) * reach);
+      const Vec3 reach{chance(n, 2), chance(n, 3), chance(n, 4)};
+      places.push_back(places[static_cast<std::size_t>(n)] + (1 / norm(reach) + 0.3 * chance(n, 5)) * reach);
       springs.emplace_back(n, number + n);
     }
   }
