@@ -161,6 +161,7 @@ Findings find(const Study& study, const std::vector<Row>& rows) {
   for (std::size_t n = 0; n < costs.size(); ++n) findings.pareto[place[n]] = front[n];
   const std::vector<Setting> settings = settings_of(study, rows);
   std::vector<Cost> of_settings;
+  of_settings.reserve(settings.size());
   for (const Setting& setting : settings) of_settings.push_back(setting.cost);
   if (const auto best = most_accurate(of_settings)) findings.best = settings[*best].row;
   findings.target = study.target_error;
