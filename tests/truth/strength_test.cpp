@@ -23,9 +23,9 @@ double strength(double sideways, double full) {
     { "type": "loads.pressure", "name": "top", "on": "z_max", "pressure": )" +
                       number(full) + R"(, "rise": 5e-4 },)";
   for (const std::string axis : {"x", "y", "z"}) {
-    scene += R"({ "type": "loads.fixed", "name": "wall )" + axis + R"(", "on": ")" + axis + R"(_min", "axes": ")" + axis + R"(" },)";
+    scene += R"({ "type": "loads.fixed", "name": "wall_)" + axis + R"(", "on": ")" + axis + R"(_min", "axes": ")" + axis + R"(" },)";
     if (axis != "z" && sideways > 0)
-      scene += R"({ "type": "loads.pressure", "name": "side )" + axis + R"(", "on": ")" + axis + R"(_max", "pressure": )" + number(sideways) +
+      scene += R"({ "type": "loads.pressure", "name": "side_)" + axis + R"(", "on": ")" + axis + R"(_max", "pressure": )" + number(sideways) +
                R"(, "rise": 5e-5 },)";
   }
   const auto plan = plan_of(scene + R"({ "type": "solvers.explicit", "end_time": 5e-4 } ] })");
