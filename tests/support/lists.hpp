@@ -59,6 +59,30 @@ class ListFiles {
   }
 };
 
+/// Of each particle of the list of a cubic block, the same one of the block as a grid.
+class InGrid {
+ public:
+  InGrid() = default;
+  InGrid(int nx, int ny, int nz, const Model& list) {
+    const auto x = static_cast<Particle>(nx), y = static_cast<Particle>(ny), z = static_cast<Particle>(nz);
+    for (const Particle n : list.body.listed.source) particle_.push_back(((n % z) * y + n / z % y) * x + n / z / y);  // as ListFiles counts
+  }
+  std::size_t size() const { return particle_.size(); }
+  const Particle& operator[](Particle of_list) const { return particle_[of_list]; }
+
+  /// A field of the grid as the list has it.
+  std::vector<double> for_list(const std::vector<double>& of_grid) const {
+    const std::size_t components = of_grid.size() / size();
+    std::vector<double> of_list;
+    for (const Particle n : particle_)
+      for (std::size_t c = 0; c < components; ++c) of_list.push_back(of_grid[n * components + c]);
+    return of_list;
+  }
+
+ private:
+  std::vector<Particle> particle_;
+};
+
 /// A scene of a lattice stage, a material's keys and more stages.
 inline std::string listed_scene(const std::string& lattice, const std::string& material, const std::string& stages = "", double young = 1e10) {
   return R"({ "format": "hyperlattice/1", "pipeline": [)" + lattice + R"(, { "type": "materials.elastic", "density": 2500, "young": )" +

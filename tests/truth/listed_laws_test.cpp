@@ -160,7 +160,7 @@ std::string text(double number) {
 /// A block of the cubic lattice, and its list.
 struct LawTwins {
   std::unique_ptr<Plan> grid, list;
-  std::vector<Particle> in_grid;
+  InGrid in_grid;
 
   LawTwins(int nx, int ny, int nz, const std::string& law, const std::string& more) {
     const ListFiles files(nx, ny, nz);
@@ -183,15 +183,7 @@ struct LawTwins {
     list = plan_of(scene(files.lattice(), 1, 5));
     const double scale = grid->model->springs[0].stiffness / list->model->springs[0].stiffness;
     list = plan_of(scene(files.lattice(), scale, law == "softening" ? 5 * scale * opening(*grid) / opening(*list) : 5));
-    const auto x = static_cast<Particle>(nx), y = static_cast<Particle>(ny), z = static_cast<Particle>(nz);
-    for (const Particle n : list->model->body.listed.source) in_grid.push_back(((n % z) * y + n / z % y) * x + n / z / y);  // as ListFiles counts
-  }
-  std::vector<double> for_list(const std::vector<double>& of_grid) const {
-    const std::size_t components = of_grid.size() / in_grid.size();
-    std::vector<double> of_list;
-    for (const Particle n : in_grid)
-      for (std::size_t c = 0; c < components; ++c) of_list.push_back(of_grid[n * components + c]);
-    return of_list;
+    in_grid = InGrid(nx, ny, nz, *list->model);
   }
 };
 
@@ -203,10 +195,10 @@ TEST(ListedLaws, TheCubicLatticeAsAListMovesAsTheGrid) {
       const std::vector<double> start = noise(3 * twins.in_grid.size(), 1, 1);
       const std::vector<double> level(twins.grid->model->degrees_of_freedom == 4 ? twins.in_grid.size() : 0, 0.0);
       grid.set_velocities(start, level);
-      list.set_velocities(twins.for_list(start), level);
+      list.set_velocities(twins.in_grid.for_list(start), level);
       for (int n = 0; n < 100; ++n)
         for (Simulation* simulation : {&grid, &list}) simulation->step(0.4 * twins.grid->model->critical_time_step);
-      EXPECT_LT(distance(twins.for_list(displacements(grid)), displacements(list)), 1e-10 * largest(displacements(grid))) << law << membrane;
+      EXPECT_LT(distance(twins.in_grid.for_list(displacements(grid)), displacements(list)), 1e-10 * largest(displacements(grid))) << law << membrane;
       const Balance left = grid.balance(), right = list.balance();
       EXPECT_GT(left.dissipated(), 0.01 * left.scale) << law << membrane;
       EXPECT_NEAR(left.stored, right.stored, 1e-9 * left.scale);

@@ -26,7 +26,7 @@ std::string keys_for_list(const std::string& material) {
 /// The cubic block and the list of it, of the same stiffness.
 struct Twins {
   std::unique_ptr<Plan> grid, list;
-  std::vector<Particle> in_grid;  ///< of each particle of the list, the same one of the grid
+  InGrid in_grid;
 
   Twins(int nx, int ny, int nz, const std::string& material, const std::string& failure = "", const std::string& stages = "") {
     const ListFiles files(nx, ny, nz);
@@ -34,22 +34,12 @@ struct Twins {
     const auto scene = [&](double young) { return listed_scene(files.lattice(), keys_for_list(material) + failure, stages, young); };
     const double k = grid->model->materials[0].constants.base_stiffness;
     list = plan_of(scene(1e10 * k / plan_of(scene(1e10))->model->materials[0].constants.base_stiffness));
-    const auto x = static_cast<Particle>(nx), y = static_cast<Particle>(ny), z = static_cast<Particle>(nz);
-    for (const Particle n : list->model->body.listed.source) in_grid.push_back(((n % z) * y + n / z % y) * x + n / z / y);  // as ListFiles counts
-  }
-
-  /// A field of the grid as the list has it.
-  std::vector<double> for_list(const std::vector<double>& of_grid) const {
-    const std::size_t components = of_grid.size() / in_grid.size();
-    std::vector<double> of_list;
-    for (const Particle n : in_grid)
-      for (std::size_t c = 0; c < components; ++c) of_list.push_back(of_grid[n * components + c]);
-    return of_list;
+    in_grid = InGrid(nx, ny, nz, *list->model);
   }
 };
 
 void expect_same_motion(const Twins& twins, Simulation& grid, Simulation& list, double scale) {
-  EXPECT_LT(distance(twins.for_list(displacements(grid)), displacements(list)), 1e-11 * scale);
+  EXPECT_LT(distance(twins.in_grid.for_list(displacements(grid)), displacements(list)), 1e-11 * scale);
   const Balance left = grid.balance(), right = list.balance();
   EXPECT_NEAR(left.stored, right.stored, 1e-10 * left.stored);
   EXPECT_NEAR(left.kinetic, right.kinetic, 1e-10 * left.kinetic);
@@ -78,7 +68,7 @@ TEST_P(ListedMembrane, TheCubicLatticeAsAListMovesAsTheGrid) {
   const bool heights = model.degrees_of_freedom == 4;
   for (Simulation* simulation : {&grid, &list}) {
     simulation->set_damping(0.1);  // not for long: it is not continuous where velocities change their sign
-    const auto as_it_counts = [&](const std::vector<double>& field) { return simulation == &list ? twins.for_list(field) : field; };
+    const auto as_it_counts = [&](const std::vector<double>& field) { return simulation == &list ? twins.in_grid.for_list(field) : field; };
     simulation->set_displacements(as_it_counts(noise(3 * particles, 1e-6, 1)),
                                   as_it_counts(heights ? noise(particles, 1e-6, 2) : std::vector<double>{}));
     for (int n = 0; n < 200; ++n) {
@@ -95,7 +85,7 @@ TEST_P(ListedMembrane, TheSameSpringsBreakInAListAndInAGrid) {
   Simulation grid(model, 2), list(*twins.list->model, 3);
   for (Simulation* simulation : {&grid, &list}) {
     const std::vector<double> start = noise(3 * model.body.particles, 1e-6, 1);
-    simulation->set_displacements(simulation == &list ? twins.for_list(start) : start, {});
+    simulation->set_displacements(simulation == &list ? twins.in_grid.for_list(start) : start, {});
     for (int n = 0; n < 100; ++n) simulation->step(0.5 * model.critical_time_step);
   }
   expect_same_motion(twins, grid, list, 1e-6);
@@ -245,7 +235,7 @@ TEST_P(ListedMembrane, TheCubicLatticeAsAListRestsAsTheGrid) {
     const Twins twins(5, 6, 7, GetParam().material, "",
                       bent + std::string(R"({ "type": "solvers.static", "tolerance": 1e-9, "factorisation": ")") + factorisation + R"(" })");
     const std::vector<double> grid = at_rest(*twins.grid), list = at_rest(*twins.list);
-    EXPECT_LT(distance(twins.for_list(grid), list), 1e-7 * largest(grid)) << factorisation;  // tangents are in single precision
+    EXPECT_LT(distance(twins.in_grid.for_list(grid), list), 1e-7 * largest(grid)) << factorisation;  // tangents are in single precision
   }
 }
 

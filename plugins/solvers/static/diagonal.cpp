@@ -59,51 +59,42 @@ void diagonal_of(const RowOfSprings& s, const Triangles& blocks) {
 [[gnu::always_inline]] inline double larger(double a, double b) { return a > b ? a : b; }
 
 /// By K = L D L^T and K^-1 = M^T D^-1 M, M = L^-1. A pivot that is left out leaves zeros in its row and column, and the rest is inverted without it.
-void invert_four(std::int64_t count, const std::uint8_t* free, const Triangles& blocks) {
+template <int components>
+void invert_each(std::int64_t count, const std::uint8_t* free, const Triangles& blocks) {
+  constexpr bool heights = components == 4;
+  constexpr int at_xx = 0, at_xy = 1, at_xz = 2, at_xh = 3, at_yy = components, at_yz = at_yy + 1, at_yh = at_yy + 2, at_zz = 2 * components - 1,
+                at_zh = at_zz + 1, at_hh = at_zz + 2;
   float* const* n = blocks.numbers;
 #pragma omp simd
   for (std::int64_t t = 0; t < count; ++t) {
-    const double fx = free[t] & 1, fy = free[t] >> 1 & 1, fz = free[t] >> 2 & 1, fh = free[t] >> 3 & 1;
-    const double xx = fx * double(n[0][t]), xy = fx * fy * double(n[1][t]), xz = fx * fz * double(n[2][t]), xh = fx * fh * double(n[3][t]),
-                 yy = fy * double(n[4][t]), yz = fy * fz * double(n[5][t]), yh = fy * fh * double(n[6][t]), zz = fz * double(n[7][t]),
-                 zh = fz * fh * double(n[8][t]), hh = fh * double(n[9][t]);
+    const double fx = free[t] & 1, fy = free[t] >> 1 & 1, fz = free[t] >> 2 & 1, fh = heights ? free[t] >> 3 & 1 : 0;
+    const double xx = fx * double(n[at_xx][t]), xy = fx * fy * double(n[at_xy][t]), xz = fx * fz * double(n[at_xz][t]), yy = fy * double(n[at_yy][t]),
+                 yz = fy * fz * double(n[at_yz][t]), zz = fz * double(n[at_zz][t]);
+    double xh = 0, yh = 0, zh = 0, hh = 0;
+    if constexpr (heights) {
+      xh = fx * fh * double(n[at_xh][t]);
+      yh = fy * fh * double(n[at_yh][t]);
+      zh = fz * fh * double(n[at_zh][t]);
+      hh = fh * double(n[at_hh][t]);
+    }
     const double least = 1e-7 * larger(larger(xx, yy), larger(zz, hh));
     const double dx = inverse_of(xx, least), lyx = xy * dx, lzx = xz * dx, lhx = xh * dx;
     const double dy = inverse_of(yy - lyx * xy, least), byz = yz - lyx * xz, byh = yh - lyx * xh, lzy = byz * dy, lhy = byh * dy;
     const double dz = inverse_of(zz - lzx * xz - lzy * byz, least), bzh = zh - lzx * xh - lzy * byh, lhz = bzh * dz;
     const double dh = inverse_of(hh - lhx * xh - lhy * byh - lhz * bzh, least);
     const double myx = -lyx, mzy = -lzy, mhz = -lhz, mzx = lzy * lyx - lzx, mhy = lhz * lzy - lhy, mhx = -(lhx + lhy * myx + lhz * mzx);
-    n[0][t] = static_cast<float>(dx + dy * myx * myx + dz * mzx * mzx + dh * mhx * mhx);
-    n[1][t] = static_cast<float>(dy * myx + dz * mzx * mzy + dh * mhx * mhy);
-    n[2][t] = static_cast<float>(dz * mzx + dh * mhx * mhz);
-    n[3][t] = static_cast<float>(dh * mhx);
-    n[4][t] = static_cast<float>(dy + dz * mzy * mzy + dh * mhy * mhy);
-    n[5][t] = static_cast<float>(dz * mzy + dh * mhy * mhz);
-    n[6][t] = static_cast<float>(dh * mhy);
-    n[7][t] = static_cast<float>(dz + dh * mhz * mhz);
-    n[8][t] = static_cast<float>(dh * mhz);
-    n[9][t] = static_cast<float>(dh);
-  }
-}
-
-void invert_three(std::int64_t count, const std::uint8_t* free, const Triangles& blocks) {
-  float* const* n = blocks.numbers;
-#pragma omp simd
-  for (std::int64_t t = 0; t < count; ++t) {
-    const double fx = free[t] & 1, fy = free[t] >> 1 & 1, fz = free[t] >> 2 & 1;
-    const double xx = fx * double(n[0][t]), xy = fx * fy * double(n[1][t]), xz = fx * fz * double(n[2][t]), yy = fy * double(n[3][t]),
-                 yz = fy * fz * double(n[4][t]), zz = fz * double(n[5][t]);
-    const double least = 1e-7 * larger(larger(xx, yy), zz);
-    const double dx = inverse_of(xx, least), lyx = xy * dx, lzx = xz * dx;
-    const double dy = inverse_of(yy - lyx * xy, least), byz = yz - lyx * xz, lzy = byz * dy;
-    const double dz = inverse_of(zz - lzx * xz - lzy * byz, least);
-    const double myx = -lyx, mzy = -lzy, mzx = lzy * lyx - lzx;
-    n[0][t] = static_cast<float>(dx + dy * myx * myx + dz * mzx * mzx);
-    n[1][t] = static_cast<float>(dy * myx + dz * mzx * mzy);
-    n[2][t] = static_cast<float>(dz * mzx);
-    n[3][t] = static_cast<float>(dy + dz * mzy * mzy);
-    n[4][t] = static_cast<float>(dz * mzy);
-    n[5][t] = static_cast<float>(dz);
+    n[at_xx][t] = static_cast<float>(dx + dy * myx * myx + dz * mzx * mzx + dh * mhx * mhx);
+    n[at_xy][t] = static_cast<float>(dy * myx + dz * mzx * mzy + dh * mhx * mhy);
+    n[at_xz][t] = static_cast<float>(dz * mzx + dh * mhx * mhz);
+    n[at_yy][t] = static_cast<float>(dy + dz * mzy * mzy + dh * mhy * mhy);
+    n[at_yz][t] = static_cast<float>(dz * mzy + dh * mhy * mhz);
+    n[at_zz][t] = static_cast<float>(dz + dh * mhz * mhz);
+    if constexpr (heights) {
+      n[at_xh][t] = static_cast<float>(dh * mhx);
+      n[at_yh][t] = static_cast<float>(dh * mhy);
+      n[at_zh][t] = static_cast<float>(dh * mhz);
+      n[at_hh][t] = static_cast<float>(dh);
+    }
   }
 }
 
@@ -118,7 +109,7 @@ void diagonal(const RowOfSprings& s, int components, const Triangles& blocks) {
 }
 
 void invert(std::int64_t count, int components, const std::uint8_t* free, const Triangles& blocks) {
-  components == 4 ? invert_four(count, free, blocks) : invert_three(count, free, blocks);
+  components == 4 ? invert_each<4>(count, free, blocks) : invert_each<3>(count, free, blocks);
 }
 
 }  // namespace hyperlattice::statics::HYPERLATTICE_INSTRUCTIONS

@@ -87,8 +87,7 @@ struct Energies {
 
 inline double with_sign(double magnitude, double sign) { return sign == 0 ? 0 : __builtin_copysign(magnitude, sign); }
 
-/// A kick of a damped particle along one component: v+ = v- + kick (F - drag) / m, the drag being damping |F| sign(v-) + damping_rate m (v- + v+)
-/// / 2.
+/// A kick of a damped particle along one component, v+ = v- + kick (F - drag) / m; drag = damping |F| sign(v-) + damping_rate m (v- + v+) / 2.
 template <class Number>
 struct Kick {
   Number after, drag;
