@@ -1,12 +1,12 @@
 // Arrays of the state: memory aligned to cache lines, and numbers in the precision of the run.
 #pragma once
 
+#include <hyperlattice/array_memory.hpp>
 #include <hyperlattice/material.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <memory>
-#include <new>
 
 namespace hyperlattice {
 
@@ -15,7 +15,7 @@ template <class T>
 class AlignedArray {
  public:
   AlignedArray() = default;
-  explicit AlignedArray(std::size_t size) : data_(static_cast<T*>(::operator new[](size * sizeof(T), std::align_val_t{64}))), size_(size) {
+  explicit AlignedArray(std::size_t size) : data_(static_cast<T*>(allocate_array(size * sizeof(T))), Free{size}), size_(size) {
     std::uninitialized_fill_n(data_.get(), size, T{});
   }
   T* get() const { return data_.get(); }
@@ -24,7 +24,8 @@ class AlignedArray {
 
  private:
   struct Free {
-    void operator()(T* data) const { ::operator delete[](data, std::align_val_t{64}); }
+    std::size_t size = 0;
+    void operator()(T* data) const { free_array(data, size * sizeof(T)); }
   };
   std::unique_ptr<T, Free> data_;
   std::size_t size_ = 0;

@@ -1,6 +1,8 @@
 // Arithmetic on fields, in parallel. Sums are of fixed pieces in a fixed order: results do not depend on the number of threads.
 #pragma once
 
+#include <hyperlattice/array_memory.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -9,7 +11,8 @@
 
 namespace hyperlattice::statics {
 
-using Field = std::vector<double>;
+using Field = std::vector<double, ArrayMemory<double>>;
+using Floats = std::vector<float, ArrayMemory<float>>;
 
 /// Calls work(first, last) for pieces of [0, size).
 template <class Work>

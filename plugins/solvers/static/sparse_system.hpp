@@ -38,8 +38,8 @@ class SparseSystem : public System {
   std::size_t components_, block_size_;
   std::vector<std::size_t> first_;    ///< of each particle, where its blocks begin; one more entry at the end
   std::vector<std::int64_t> column_;  ///< of each block, ascending in a row; a particle's own among them
-  std::vector<double> blocks_;        ///< row by row, N/m
-  std::vector<float> axial_, pull_, cross_axial_, cross_pull_, alpha_;
+  Field blocks_;                      ///< row by row, N/m
+  Floats axial_, pull_, cross_axial_, cross_pull_, alpha_;
   std::vector<std::size_t> free_;  ///< numbers of a field that can move and have stiffness, by particle and component
   struct Factors;
   std::unique_ptr<Factors> factors_;

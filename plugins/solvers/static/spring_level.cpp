@@ -136,7 +136,7 @@ void SpringLevel::mask(double* x) const {
 
 bool SpringLevel::has_spring(std::size_t neighbour, std::int64_t place) const {
   const auto at = neighbour * static_cast<std::size_t>(grid_.places) + static_cast<std::size_t>(place);
-  const auto there = [&](const std::vector<float>& numbers) { return !numbers.empty() && numbers[at] != 0; };
+  const auto there = [&](const Floats& numbers) { return !numbers.empty() && numbers[at] != 0; };
   return there(axial_) || there(pull_) || there(cross_axial_) || there(cross_pull_);
 }
 

@@ -45,12 +45,12 @@ class SpringLevel : public Level {
   const RowKernels* row_kernels_ = &row_kernels();
   const StaticProblem& problem_;
   const StaticGrid& grid_;
-  std::vector<float> axial_, pull_, cross_axial_, cross_pull_, alpha_;
-  std::vector<float> moved_, moved_when_prepared_;  ///< displacements in lattice constants, by component and place
+  Floats axial_, pull_, cross_axial_, cross_pull_, alpha_;
+  Floats moved_, moved_when_prepared_;  ///< displacements in lattice constants, by component and place
   bool new_ = true;
   bool deformed_ = false;
   double largest_eigenvalue_ = 2;
-  std::vector<float> diagonal_;     ///< inverse of the diagonal blocks: 10 (6) numbers of each place, by number and place
+  Floats diagonal_;                 ///< inverse of the diagonal blocks: 10 (6) numbers of each place, by number and place
   std::vector<std::int64_t> held_;  ///< numbers of a field that belong to particles and cannot move
 };
 

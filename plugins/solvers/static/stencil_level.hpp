@@ -35,7 +35,7 @@ class StencilLevel : public Level {
  private:
   int reach_;
   std::vector<std::int64_t> steps_;
-  std::vector<double> blocks_, inverse_;
+  Field blocks_, inverse_;
   double largest_eigenvalue_ = 2;
 };
 
