@@ -4,6 +4,7 @@
 
 #include <run/state.hpp>
 
+#include <hyperlattice/array_memory.hpp>
 #include <hyperlattice/statics.hpp>
 
 #include <functional>
@@ -24,7 +25,7 @@ class Statics {
   double residual();
 
  private:
-  using Values = std::vector<double>;
+  using Values = std::vector<double, ArrayMemory<double>>;
 
   // grid.cpp
   void make_grid();
@@ -39,7 +40,7 @@ class Statics {
   }
   std::int64_t place_of(Particle particle) const;
   void read_state(double* field) const;
-  Values of_particles(const double* field, int first, int components) const;
+  std::vector<double> of_particles(const double* field, int first, int components) const;
 
   // list.cpp
   void make_list();
@@ -67,9 +68,9 @@ class Statics {
   std::vector<StaticSpring> springs_;                              ///< of a listed body
   std::vector<double> spring_stiffness_, spring_cross_stiffness_;  ///< N/m
   std::vector<std::uint8_t> free_, material_;
-  std::vector<float> weight_;               ///< of each spring, [n * places + place], or of each listed one; 0: none
-  std::vector<float> particle_weight_;      ///< of each place, shares of a whole particle
-  std::vector<double> stiffness_of_alpha_;  ///< of each material, N/m
+  std::vector<float, ArrayMemory<float>> weight_;  ///< of each spring, [n * places + place], or of each listed one; 0: none
+  std::vector<float> particle_weight_;             ///< of each place, shares of a whole particle
+  std::vector<double> stiffness_of_alpha_;         ///< of each material, N/m
 
   Values state_;                                   ///< displacements
   double share_ = 0;                               ///< of the state

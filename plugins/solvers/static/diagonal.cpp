@@ -5,6 +5,7 @@ namespace hyperlattice::statics::HYPERLATTICE_INSTRUCTIONS {
 
 void diagonal(const RowOfSprings& springs, int components, const Triangles& blocks);
 void invert(std::int64_t count, int components, const std::uint8_t* free, const Triangles& blocks);
+void divide(const Division& division, int components);
 
 namespace {
 
@@ -98,6 +99,22 @@ void invert_each(std::int64_t count, const std::uint8_t* free, const Triangles& 
   }
 }
 
+template <int components>
+void divide_each(const Division& s) {
+#pragma omp simd
+  for (std::int64_t t = 0; t < s.count; ++t) {
+    double sum[components] = {};
+    int number = 0;
+    for (int a = 0; a < components; ++a)
+      for (int b = a; b < components; ++b, ++number) {
+        const double value = static_cast<double>(s.inverse[number][t]);
+        sum[a] += value * s.in[b][t];
+        if (b > a) sum[b] += value * s.in[a][t];
+      }
+    for (int a = 0; a < components; ++a) s.out[a][t] = sum[a];
+  }
+}
+
 }  // namespace
 
 void diagonal(const RowOfSprings& s, int components, const Triangles& blocks) {
@@ -107,6 +124,8 @@ void diagonal(const RowOfSprings& s, int components, const Triangles& blocks) {
   else
     deformed ? diagonal_of<false, true>(s, blocks) : diagonal_of<false, false>(s, blocks);
 }
+
+void divide(const Division& division, int components) { components == 4 ? divide_each<4>(division) : divide_each<3>(division); }
 
 void invert(std::int64_t count, int components, const std::uint8_t* free, const Triangles& blocks) {
   components == 4 ? invert_each<4>(count, free, blocks) : invert_each<3>(count, free, blocks);

@@ -15,9 +15,8 @@ using Field = std::vector<double, ArrayMemory<double>>;
 using Floats = std::vector<float, ArrayMemory<float>>;
 
 /// Calls work(first, last) for pieces of [0, size).
-template <class Work>
+template <std::size_t piece = 8192, class Work>
 void in_pieces(std::size_t size, int threads, const Work& work) {
-  constexpr std::size_t piece = 8192;
   const auto pieces = static_cast<std::int64_t>((size + piece - 1) / piece);
 #pragma omp parallel for num_threads(threads) schedule(static) if (threads > 1)
   for (std::int64_t n = 0; n < pieces; ++n) {

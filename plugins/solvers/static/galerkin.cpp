@@ -33,6 +33,32 @@ void plane_by_plane(std::int64_t fine_planes, std::int64_t coarse_planes, bool h
   }
 }
 
+/// The fine sites that blocks in the making are made of.
+class Needed {
+ public:
+  Needed(const StencilLevel& coarse, const Transfer& transfer, int reach) : sites_(transfer.fine_sites()) {
+    needed_.assign(static_cast<std::size_t>(sites_[0] * sites_[1] * sites_[2]), 0);
+    const auto inside = [&](std::size_t axis, std::int64_t at) {
+      const Window window = transfer.window(static_cast<int>(axis), at, reach);
+      return Window{std::max<std::int64_t>(window.first, 0), std::min(window.last, sites_[axis] - 1)};
+    };
+    coarse.layout().for_sites([&](std::int64_t I, std::int64_t J, std::int64_t K) {
+      if (!coarse.makes(coarse.layout().place(I, J, K))) return;
+      const Window is = inside(0, I), js = inside(1, J), ks = inside(2, K);
+      for (std::int64_t k = ks.first; k <= ks.last; ++k)
+        for (std::int64_t j = js.first; j <= js.last; ++j)
+          for (std::int64_t i = is.first; i <= is.last; ++i) needed_[at(i, j, k)] = 1;
+    });
+  }
+  bool operator()(std::int64_t i, std::int64_t j, std::int64_t k) const { return needed_[at(i, j, k)] != 0; }
+
+ private:
+  std::size_t at(std::int64_t i, std::int64_t j, std::int64_t k) const { return static_cast<std::size_t>((k * sites_[1] + j) * sites_[0] + i); }
+
+  std::array<std::int64_t, 3> sites_;
+  std::vector<std::uint8_t> needed_;
+};
+
 int reach_between(const Transfer& transfer, int reach) {
   int found = 1;  // two sites `reach` apart, and their parents
   for (int axis = 0; axis < 3; ++axis) found = std::max(found, transfer.halved(axis) ? reach / 2 + 1 : reach);
@@ -73,7 +99,8 @@ int parts_of(const StencilLevel& coarse, const Parent& from, const End* ends, in
       if (n < 0) continue;
       CoarsePart& part = parts[found++];
       const std::int64_t places = layout.place(a.i, a.j, a.k) - layout.place(from.i, from.j, from.k);
-      part.block = 16 * (places * static_cast<std::int64_t>(coarse.stride()) + n);
+      part.place = places;
+      part.neighbour = n;
       for (int c = 0; c < 4; ++c)
         for (int d = 0; d < 4; ++d) {  // of a cross spring, heights add up
           part.base[4 * c + d] = a.difference[c] * b.difference[d];
@@ -112,7 +139,8 @@ void add_alpha(StencilLevel& coarse, double alpha, const Family& family) {
     for (int q = 0; q < family.count; ++q) {
       const Parent &a = family.of[p], &b = family.of[q];
       const int n = coarse.neighbour(b.i - a.i, b.j - a.j, b.k - a.k);
-      if (n >= 0) coarse.block(coarse.layout().place(a.i, a.j, a.k), static_cast<std::size_t>(n))[15] += alpha * a.weight * b.weight;
+      if (n < 0) continue;
+      if (double* block = coarse.making(coarse.layout().place(a.i, a.j, a.k), static_cast<std::size_t>(n))) block[15] += alpha * a.weight * b.weight;
     }
 }
 
@@ -122,7 +150,9 @@ std::unique_ptr<StencilLevel> coarsen(const SpringLevel& fine, const Transfer& t
   const StaticGrid& grid = fine.grid();
   int reach = 1;
   for (const NeighbourGeometry& n : grid.neighbours) reach = std::max({reach, std::abs(n.site.dx), std::abs(n.site.dy), n.site.dz});
-  auto coarse = std::make_unique<StencilLevel>(transfer.coarse_sites(), reach_between(transfer, reach), fine.threads());
+  auto coarse = std::make_unique<StencilLevel>(transfer.coarse_sites(), reach_between(transfer, reach),
+                                               coarse_signatures(fine.signatures(), transfer, reach), fine.threads());
+  const Needed needed(*coarse, transfer, reach);
   const bool heights = grid.components == 4;
   const auto all = static_cast<std::uint8_t>((1u << grid.components) - 1);
   const Parts alike(*coarse, transfer, grid);
@@ -134,21 +164,22 @@ std::unique_ptr<StencilLevel> coarsen(const SpringLevel& fine, const Transfer& t
     for (std::int32_t j = 0; j < grid.sites[1]; ++j) {
       const StaticRow& row = grid.rows[static_cast<std::size_t>(k) * static_cast<std::size_t>(grid.sites[1]) + static_cast<std::size_t>(j)];
       for (std::int64_t i = row.begin; i < row.end; ++i) {
+        if (!needed(i, j, k)) continue;
         const std::int64_t place = grid.place(i, j, k);
         const Parent from{transfer.parents(0, i).at[0], transfer.parents(1, j).at[0], transfer.parents(2, k).at[0], 1};
-        double* blocks = coarse->block(coarse->layout().place(from.i, from.j, from.k), 0);
+        const BlockSums sums = coarse->sums(coarse->layout().place(from.i, from.j, from.k));
         for (std::size_t n = 0; n < grid.neighbours.size(); ++n) {
           if (!fine.tangent(n, place, tangent)) continue;
           const Neighbour& to = grid.neighbours[n].site;
           const std::uint8_t free_here = grid.free[place], free_there = grid.free[place + grid.step_to(to)];
           if (free_here == all && free_there == all) {
             const std::vector<CoarsePart>& parts = alike.of(n, i, j, k);
-            kernels.add_spring(blocks, parts.data(), static_cast<int>(parts.size()), tangent.base, tangent.cross);
+            kernels.add_spring(sums, parts.data(), static_cast<int>(parts.size()), tangent.base, tangent.cross);
             continue;
           }
           const Family near(transfer, i, j, k), far(transfer, i + to.dx, j + to.dy, k + to.dz);
           const int count = collect_ends(near, free_here, far, free_there, ends);
-          kernels.add_spring(blocks, own.data(), parts_of(*coarse, from, ends, count, own.data()), tangent.base, tangent.cross);
+          kernels.add_spring(sums, own.data(), parts_of(*coarse, from, ends, count, own.data()), tangent.base, tangent.cross);
         }
         if (heights && (grid.free[place] >> 3 & 1u) != 0) add_alpha(*coarse, double(fine.alpha(place)), Family(transfer, i, j, k));
       }
@@ -160,12 +191,15 @@ std::unique_ptr<StencilLevel> coarsen(const SpringLevel& fine, const Transfer& t
 
 std::unique_ptr<StencilLevel> coarsen(const StencilLevel& fine, const Transfer& transfer) {
   const Layout& from = fine.layout();
-  auto coarse = std::make_unique<StencilLevel>(transfer.coarse_sites(), reach_between(transfer, fine.reach()), fine.threads());
+  auto coarse = std::make_unique<StencilLevel>(transfer.coarse_sites(), reach_between(transfer, fine.reach()),
+                                               coarse_signatures(fine.signatures(), transfer, fine.reach()), fine.threads());
+  const Needed needed(*coarse, transfer, fine.reach());
   const RowKernels& kernels = row_kernels();
   plane_by_plane(from.sites[2], transfer.coarse_sites()[2], transfer.halved(2), fine.reach(), fine.threads(), [&](std::int64_t k) {
     double turned[16];
     for (std::int64_t j = 0; j < from.sites[1]; ++j)
       for (std::int64_t i = 0; i < from.sites[0]; ++i) {
+        if (!needed(i, j, k)) continue;
         const std::int64_t place = from.place(i, j, k);
         const Family near(transfer, i, j, k);
         for (std::int64_t dk = 0; dk <= fine.reach(); ++dk)
@@ -183,7 +217,8 @@ std::unique_ptr<StencilLevel> coarsen(const StencilLevel& fine, const Transfer& 
                   const int to = coarse->neighbour(Q.i - P.i, Q.j - P.j, Q.k - P.k);
                   const double weight = P.weight * Q.weight;
                   const auto add = [&](const Parent& at, int neighbour, const double* what) {
-                    kernels.add_block(coarse->block(coarse->layout().place(at.i, at.j, at.k), static_cast<std::size_t>(neighbour)), weight, what);
+                    if (double* sum = coarse->making(coarse->layout().place(at.i, at.j, at.k), static_cast<std::size_t>(neighbour)))
+                      kernels.add_block(sum, weight, what);
                   };
                   if (to >= 0) add(P, to, block);
                   if (to <= 0 && n != 0) add(Q, -to, turned);  // the same block from the other end

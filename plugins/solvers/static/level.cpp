@@ -15,7 +15,7 @@ double Level::power_iteration() const {
   double growth = 1;
   for (int n = 0; n < iterations; ++n) {
     multiply(x.data(), y.data());
-    divide(y.data(), z.data());
+    divide(0, static_cast<std::size_t>(layout_.places), y.data(), z.data());
     const double norm = std::sqrt(product(z.data(), z.data(), size, threads_));
     if (!(norm > 0)) break;
     growth = norm / std::sqrt(product(x.data(), x.data(), size, threads_));
@@ -28,9 +28,7 @@ double Level::power_iteration() const {
 /// Zeros everywhere but at the sites of the box, and where something can move.
 void Level::clear_margin(Field& x) const {
   std::vector<bool> inside(static_cast<std::size_t>(layout_.places), false);
-  for (std::int64_t k = 0; k < layout_.sites[2]; ++k)
-    for (std::int64_t j = 0; j < layout_.sites[1]; ++j)
-      for (std::int64_t i = 0; i < layout_.sites[0]; ++i) inside[static_cast<std::size_t>(layout_.place(i, j, k))] = true;
+  layout_.for_sites([&](std::int64_t i, std::int64_t j, std::int64_t k) { inside[static_cast<std::size_t>(layout_.place(i, j, k))] = true; });
   const auto components = static_cast<std::int64_t>(layout_.numbers()) / layout_.places;
   for (std::int64_t p = 0; p < layout_.places; ++p)
     for (std::int64_t c = 0; c < components && !inside[static_cast<std::size_t>(p)]; ++c)

@@ -16,6 +16,20 @@ struct Layout {
   int components = 4;
 
   std::int64_t place(std::int64_t i, std::int64_t j, std::int64_t k) const { return origin + i + j * row + k * plane; }
+  /// Calls visit(i, j, k) for all sites, in the order of the box.
+  template <class Visit>
+  void for_sites(const Visit& visit) const {
+    for (std::int64_t k = 0; k < sites[2]; ++k)
+      for (std::int64_t j = 0; j < sites[1]; ++j)
+        for (std::int64_t i = 0; i < sites[0]; ++i) visit(i, j, k);
+  }
+  /// Calls visit(begin, end) for the stretches of a field that belong to places [first, last).
+  template <class Visit>
+  void for_numbers(std::size_t first, std::size_t last, const Visit& visit) const {
+    const auto of = static_cast<std::size_t>(of_place), apart = static_cast<std::size_t>(of_component);
+    if (of_place > 1) return visit(of * first, of * last);
+    for (std::size_t c = 0; c < static_cast<std::size_t>(components); ++c) visit(c * apart + first, c * apart + last);
+  }
   std::size_t numbers() const { return static_cast<std::size_t>(places) * static_cast<std::size_t>(of_place == 1 ? components : of_place); }
 };
 
@@ -28,8 +42,8 @@ class Level {
 
   /// y = K x
   virtual void multiply(const double* x, double* y) const = 0;
-  /// z = D^-1 r, D the diagonal blocks of K; 0 where nothing can move.
-  virtual void divide(const double* r, double* z) const = 0;
+  /// z = D^-1 r at places [first, last), D the diagonal blocks of K; 0 where nothing can move.
+  virtual void divide(std::size_t first, std::size_t last, const double* r, double* z) const = 0;
   /// Sets to zero what cannot move.
   virtual void mask(double* x) const = 0;
   virtual double largest_eigenvalue() const = 0;  ///< of D^-1 K, a bound or a good estimate

@@ -54,33 +54,29 @@ void Multigrid::smooth(const Level& level, Work& w, bool from_zero) {
   const double high = level.largest_eigenvalue(), low = high / share;
   const double middle = (high + low) / 2, half = (high - low) / 2, sigma = middle / half;
   double rho = 1 / sigma;
-  if (from_zero) {
-    w.r = w.b;
-  } else {
-    level.multiply(w.x.data(), w.t.data());
-    in_pieces(w.r.size(), level.threads(), [&](std::size_t first, std::size_t last) {
-      for (std::size_t n = first; n < last; ++n) w.r[n] = w.b[n] - w.t[n];
-    });
-  }
+  constexpr std::size_t piece = 512;  // places, whose numbers stay in the processor's caches from one loop to the next
   for (int step = 0; step < degree; ++step) {
     double keep = 0, take = 1 / middle;
     if (step > 0) {
-      level.multiply(w.d.data(), w.t.data());
-      in_pieces(w.r.size(), level.threads(), [&](std::size_t first, std::size_t last) {
-        for (std::size_t n = first; n < last; ++n) w.r[n] -= w.t[n];
-      });
       const double next = 1 / (2 * sigma - rho);
       keep = next * rho;
       take = 2 * next / half;
       rho = next;
     }
-    level.divide(w.r.data(), w.t.data());
-    const bool first_of_all = from_zero && step == 0;
-    in_pieces(w.r.size(), level.threads(), [&](std::size_t first, std::size_t last) {
-      for (std::size_t n = first; n < last; ++n) {
-        w.d[n] = (step > 0 ? keep * w.d[n] : 0.0) + take * w.t[n];
-        w.x[n] = first_of_all ? w.d[n] : w.x[n] + w.d[n];
-      }
+    const bool from_nothing = from_zero && step == 0;
+    if (!from_nothing) level.multiply(step == 0 ? w.x.data() : w.d.data(), w.t.data());
+    const Field& left = step == 0 ? w.b : w.r;
+    in_pieces<piece>(static_cast<std::size_t>(level.layout().places), level.threads(), [&](std::size_t first, std::size_t last) {
+      level.layout().for_numbers(first, last, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t n = begin; n < end; ++n) w.r[n] = from_nothing ? left[n] : left[n] - w.t[n];
+      });
+      level.divide(first, last, w.r.data(), w.t.data());
+      level.layout().for_numbers(first, last, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t n = begin; n < end; ++n) {
+          w.d[n] = (step > 0 ? keep * w.d[n] : 0.0) + take * w.t[n];
+          w.x[n] = from_nothing ? w.d[n] : w.x[n] + w.d[n];
+        }
+      });
     });
   }
 }

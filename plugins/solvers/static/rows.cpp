@@ -1,95 +1,94 @@
 // Compiled once for each instruction set; see rows.hpp.
 #include "rows.hpp"
 
+#include <hyperlattice/kernels/simd.hpp>
+
 namespace hyperlattice::statics::HYPERLATTICE_INSTRUCTIONS {
+
+namespace simd = hyperlattice::HYPERLATTICE_INSTRUCTIONS;
 
 namespace {
 
-constexpr std::int64_t chunk = 64;  // springs whose forces are found before they are added: both ends may lie in one row
+using simd::load;
+using simd::load_as;
+using simd::Pack;
+using simd::store;
 
+void add(double* to, const Pack& pack) { store(to, load(to) + pack); }
+
+/// Eight places at a time, all springs of these: what they do to their own place stays in registers until the last.
 template <bool Heights, bool Deformed>
-void springs_of(const RowOfSprings& s, const SpringProduct& product) {
-  constexpr int components = Heights ? 4 : 3;
-  const std::int64_t step = s.step;
-  for (std::int64_t first = 0; first < s.count; first += chunk) {
-    const std::int64_t count = s.count - first < chunk ? s.count - first : chunk;
-    double force[4][chunk], both[chunk];
-    const float *axial = s.axial + first, *cross_axial = Heights ? s.cross_axial + first : nullptr;
-    const float *pull = Deformed ? s.pull + first : nullptr, *cross_pull = Deformed && Heights ? s.cross_pull + first : nullptr;
-    const double *vx = product.in[0] + first, *vy = product.in[1] + first, *vz = product.in[2] + first,
-                 *vh = Heights ? product.in[3] + first : nullptr;
-    const float *ux = nullptr, *uy = nullptr, *uz = nullptr, *uh = nullptr;
-    if constexpr (Deformed) {
-      ux = s.moved[0] + first;
-      uy = s.moved[1] + first;
-      uz = s.moved[2] + first;
-      if constexpr (Heights) uh = s.moved[3] + first;
+void springs_of(const SpringProduct& s) {
+  constexpr std::size_t components = Heights ? 4 : 3;
+  const float* tangent = s.tangents;
+  const auto next = [&] {
+    const Pack pack = load_as<double>(tangent);
+    tangent += lanes;
+    return pack;
+  };
+  for (std::int64_t t = 0; t < s.count; t += lanes) {
+    Pack here[components], own[components];
+    for (std::size_t c = 0; c < components; ++c) {
+      here[c] = load(s.in[c] + t);
+      own[c] = 0;
     }
-    for (std::int64_t t = 0; t < count; ++t) {
-      double rx = static_cast<double>(s.rest[0]), ry = static_cast<double>(s.rest[1]), rz = static_cast<double>(s.rest[2]);
-      if constexpr (Deformed) {
-        rx += static_cast<double>(ux[t + step] - ux[t]);
-        ry += static_cast<double>(uy[t + step] - uy[t]);
-        rz += static_cast<double>(uz[t + step] - uz[t]);
-      }
-      const double dx = vx[t + step] - vx[t], dy = vy[t + step] - vy[t], dz = vz[t + step] - vz[t];
-      const double along = rx * dx + ry * dy + rz * dz;
+    for (const Direction* to = s.to; to < s.to + s.neighbours; ++to) {
+      const std::int64_t at = t + to->step;
+      const auto moved = [&](std::size_t c) { return load_as<double>(s.moved[c] + at) - load_as<double>(s.moved[c] + t); };
+      Pack r[3] = {to->rest[0], to->rest[1], to->rest[2]}, apart[components];
+      for (std::size_t c = 0; c < components; ++c) apart[c] = load(s.in[c] + at) - here[c];
+      if constexpr (Deformed)
+        for (std::size_t c = 0; c < 3; ++c) r[c] += moved(c);
+      const Pack along = r[0] * apart[0] + r[1] * apart[1] + r[2] * apart[2], axial = next();
+      Pack sum, straight;  // forces along the spring, and against any motion
       if constexpr (Heights) {
-        const double dh = vh[t + step] - vh[t], sh = vh[t + step] + vh[t];
-        double difference = 0, total = static_cast<double>(s.membrane_distance);
+        const Pack cross_axial = next(), together = load(s.in[3] + at) + here[3];
+        Pack total = s.membrane_distance, both;  // of both ends: cross springs press both heights the same way
         if constexpr (Deformed) {
-          difference = static_cast<double>(uh[t + step] - uh[t]);
-          total += static_cast<double>(uh[t + step] + uh[t]);
+          const Pack pull = next(), cross_pull = next(), rise = moved(3);
+          total += load_as<double>(s.moved[3] + at) + load_as<double>(s.moved[3] + t);
+          const Pack base = axial * (along + rise * apart[3]), cross = cross_axial * (along + total * together);
+          const Pack difference = base * rise + pull * apart[3];
+          sum = base + cross;
+          straight = pull + cross_pull;
+          both = cross * total + cross_pull * together;
+          own[3] += both - difference;
+          add(s.out[3] + at, both + difference);
+        } else {
+          const Pack cross = cross_axial * (along + total * together);
+          sum = axial * along + cross;
+          both = cross * total;
+          own[3] += both;
+          add(s.out[3] + at, both);
         }
-        const double base = static_cast<double>(axial[t]) * (along + difference * dh),
-                     cross = static_cast<double>(cross_axial[t]) * (along + total * sh);
-        double straight = 0;
-        force[3][t] = base * difference;
-        both[t] = cross * total;
-        if constexpr (Deformed) {
-          straight = static_cast<double>(pull[t]) + static_cast<double>(cross_pull[t]);
-          force[3][t] += static_cast<double>(pull[t]) * dh;
-          both[t] += static_cast<double>(cross_pull[t]) * sh;
-        }
-        const double sum = base + cross;
-        force[0][t] = sum * rx + straight * dx;
-        force[1][t] = sum * ry + straight * dy;
-        force[2][t] = sum * rz + straight * dz;
       } else {
-        const double base = static_cast<double>(axial[t]) * along;
-        double straight = 0;
-        if constexpr (Deformed) straight = static_cast<double>(pull[t]);
-        force[0][t] = base * rx + straight * dx;
-        force[1][t] = base * ry + straight * dy;
-        force[2][t] = base * rz + straight * dz;
+        sum = axial * along;
+        if constexpr (Deformed) straight = next();
+      }
+      for (std::size_t c = 0; c < 3; ++c) {
+        Pack force = sum * r[c];
+        if constexpr (Deformed) force += straight * apart[c];
+        own[c] -= force;
+        add(s.out[c] + at, force);
       }
     }
-    for (int c = 0; c < components; ++c) {
-      double *own = product.out[c] + first, *other = own + step;
-      for (std::int64_t t = 0; t < count; ++t) own[t] -= force[c][t];
-      for (std::int64_t t = 0; t < count; ++t) other[t] += force[c][t];
-    }
-    if constexpr (Heights) {  // cross springs press both heights the same way
-      double *own = product.out[3] + first, *other = own + step;
-      for (std::int64_t t = 0; t < count; ++t) own[t] += both[t];
-      for (std::int64_t t = 0; t < count; ++t) other[t] += both[t];
-    }
+    for (std::size_t c = 0; c < components; ++c) add(s.out[c] + t, own[c]);  // others in the row may have added to it meanwhile
   }
 }
 
-void springs(const RowOfSprings& s, int components, const SpringProduct& product) {
-  const bool deformed = s.pull != nullptr;
+void springs(const SpringProduct& product, int components) {
+  const bool deformed = product.moved[0] != nullptr;
   if (components == 4)
-    deformed ? springs_of<true, true>(s, product) : springs_of<true, false>(s, product);
+    deformed ? springs_of<true, true>(product) : springs_of<true, false>(product);
   else
-    deformed ? springs_of<false, true>(s, product) : springs_of<false, false>(s, product);
+    deformed ? springs_of<false, true>(product) : springs_of<false, false>(product);
 }
 
 typedef double Four __attribute__((vector_size(32)));
 typedef double Block __attribute__((vector_size(128)));
 
 template <class Vector>
-Vector load(const double* from) {
+Vector take(const double* from) {
   Vector v;
   __builtin_memcpy(&v, from, sizeof v);
   return v;
@@ -100,12 +99,12 @@ Block repeated(Four x) { return __builtin_shufflevector(x, x, 0, 0, 0, 0, 1, 1, 
 void stencil(const StencilProduct& s) {
   const std::int64_t stride = 16 * (1 + s.neighbours);
   for (std::int64_t t = 0; t < s.count; ++t) {
-    const double *blocks = s.blocks + t * stride, *x = s.in + 4 * t;
-    Block rows = load<Block>(blocks) * tiled(load<Four>(x)), columns{};
+    const double *blocks = s.blocks + s.kind[t] * stride, *x = s.in + 4 * t;
+    Block rows = take<Block>(blocks) * tiled(take<Four>(x)), columns{};
     for (int n = 0; n < s.neighbours; ++n) {
       const std::int64_t step = s.steps[n];
-      rows += load<Block>(blocks + 16 * (n + 1)) * tiled(load<Four>(x + 4 * step));
-      columns += load<Block>(blocks - step * stride + 16 * (n + 1)) * repeated(load<Four>(x - 4 * step));
+      rows += take<Block>(blocks + 16 * (n + 1)) * tiled(take<Four>(x + 4 * step));
+      columns += take<Block>(s.blocks + s.kind[t - step] * stride + 16 * (n + 1)) * repeated(take<Four>(x - 4 * step));
     }
     for (int a = 0; a < 4; ++a)
       s.out[4 * t + a] = ((rows[4 * a] + rows[4 * a + 1]) + (rows[4 * a + 2] + rows[4 * a + 3])) +
@@ -113,17 +112,19 @@ void stencil(const StencilProduct& s) {
   }
 }
 
-void add_spring(double* blocks, const CoarsePart* parts, int count, const double* base, const double* cross) {
-  const Block of_base = load<Block>(base), of_cross = load<Block>(cross);
+void add_spring(const BlockSums& sums, const CoarsePart* parts, int count, const double* base, const double* cross) {
+  const Block of_base = take<Block>(base), of_cross = take<Block>(cross);
   for (int n = 0; n < count; ++n) {
-    double* block = blocks + parts[n].block;
-    const Block sum = load<Block>(block) + of_base * load<Block>(parts[n].base) + of_cross * load<Block>(parts[n].cross);
+    const std::int32_t kind = sums.making[parts[n].place];
+    if (kind < 0) continue;
+    double* block = sums.blocks + 16 * (kind * sums.stride + parts[n].neighbour);
+    const Block sum = take<Block>(block) + of_base * take<Block>(parts[n].base) + of_cross * take<Block>(parts[n].cross);
     __builtin_memcpy(block, &sum, sizeof sum);
   }
 }
 
 void add_block(double* block, double factor, const double* other) {
-  const Block sum = load<Block>(block) + factor * load<Block>(other);
+  const Block sum = take<Block>(block) + factor * take<Block>(other);
   __builtin_memcpy(block, &sum, sizeof sum);
 }
 
@@ -131,8 +132,9 @@ void add_block(double* block, double factor, const double* other) {
 
 void diagonal(const RowOfSprings& springs, int components, const Triangles& blocks);  // diagonal.cpp
 void invert(std::int64_t count, int components, const std::uint8_t* free, const Triangles& blocks);
+void divide(const Division& division, int components);
 
 extern const RowKernels kernels;
-const RowKernels kernels{&springs, &diagonal, &invert, &stencil, &add_spring, &add_block};
+const RowKernels kernels{&springs, &diagonal, &invert, &divide, &stencil, &add_spring, &add_block};
 
 }  // namespace hyperlattice::statics::HYPERLATTICE_INSTRUCTIONS

@@ -15,8 +15,20 @@ struct RowOfSprings {
   float rest[3] = {}, membrane_distance = 0;
 };
 
-/// K times a field, at the row's first place.
+/// Where a neighbour is: in places, and in lattice constants.
+struct Direction {
+  std::int64_t step = 0;
+  double rest[3] = {};
+};
+
+/// K times a field, of all springs of a row; pointers are at its first place.
 struct SpringProduct {
+  std::int64_t count = 0;
+  int neighbours = 0;
+  const Direction* to = nullptr;
+  double membrane_distance = 0;
+  const float* tangents = nullptr;  ///< see TangentRows
+  const float* moved[4] = {};       ///< displacements in lattice constants; null: the body is undeformed
   const double* in[4] = {};
   double* out[4] = {};  ///< the product is added
 };
@@ -27,30 +39,49 @@ struct Triangles {
   float* numbers[most_in_triangle] = {};
 };
 
+/// The inverse blocks of some places, like Triangles, times a field's numbers there, by component.
+struct Division {
+  std::int64_t count = 0;
+  const float* inverse[most_in_triangle] = {};
+  const double* in[4] = {};
+  double* out[4] = {};
+};
+
 /// Blocks of 4 x 4 numbers, [a][b].
 struct StencilProduct {
   std::int64_t count = 0;               ///< sites of the row
   int neighbours = 0;                   ///< forward ones
   const std::int64_t* steps = nullptr;  ///< to each, in places
-  const double* blocks = nullptr;       ///< of the row's first place: its own, then those to its forward neighbours
+  const double* blocks = nullptr;       ///< of each kind of site: its own, then those to its forward neighbours
+  const std::int32_t* kind = nullptr;   ///< of the row's first place
   const double* in = nullptr;           ///< 4 numbers a place, of the row's first
   double* out = nullptr;
 };
 
 /// What a spring adds to one block of the coarser level: its tangents, each number times a weight.
 struct CoarsePart {
-  std::int64_t block;  ///< place of the block, in numbers from where the spring stands
+  std::int64_t place;      ///< of the block, from where the spring stands
+  std::int64_t neighbour;  ///< to which the block leads
   double base[16], cross[16];
 };
 
+/// Blocks in the making, from where a spring stands.
+struct BlockSums {
+  double* blocks = nullptr;              ///< of each kind
+  const std::int32_t* making = nullptr;  ///< which kind's blocks are made at a place; below 0: none
+  std::int64_t stride = 0;               ///< blocks of a kind
+};
+
 struct RowKernels {
-  void (*springs)(const RowOfSprings&, int components, const SpringProduct&) = nullptr;
+  /// Reads and adds zeros up to seven places beyond the row.
+  void (*springs)(const SpringProduct&, int components) = nullptr;
   /// Adds what springs have in the diagonal blocks of both ends.
   void (*diagonal)(const RowOfSprings&, int components, const Triangles&) = nullptr;
   /// Each block becomes its inverse, with zeros for what is not free (bits) or has no stiffness.
   void (*invert)(std::int64_t count, int components, const std::uint8_t* free, const Triangles&) = nullptr;
+  void (*divide)(const Division&, int components) = nullptr;
   void (*stencil)(const StencilProduct&) = nullptr;
-  void (*add_spring)(double* blocks, const CoarsePart* parts, int count, const double* base, const double* cross) = nullptr;
+  void (*add_spring)(const BlockSums&, const CoarsePart* parts, int count, const double* base, const double* cross) = nullptr;
   /// block[16] += factor * other[16]
   void (*add_block)(double* block, double factor, const double* other) = nullptr;
 };

@@ -1,5 +1,7 @@
 #include "spring_level.hpp"
 
+#include <bit>
+
 namespace hyperlattice::statics {
 
 namespace {
@@ -31,6 +33,8 @@ SpringLevel::SpringLevel(const StaticProblem& problem)
   }
   moved_.resize(grid_.numbers());
   diagonal_.resize(static_cast<std::size_t>(grid_.components == 4 ? 10 : 6) * places);
+  for (const NeighbourGeometry& n : grid_.neighbours)
+    directions_.push_back({grid_.step_to(n.site), {n.rest.x / grid_.spacing, n.rest.y / grid_.spacing, n.rest.z / grid_.spacing}});
   for (std::int64_t p = 0; p < grid_.places; ++p)
     for (int c = 0; c < grid_.components; ++c)
       if ((grid_.free[p] >> c & 1u) == 0) held_.push_back(c * grid_.places + p);
@@ -41,6 +45,7 @@ double SpringLevel::linearise(const Field& displacement, Field& force) {
   if (grid_.components == 4) tangents = {axial_.data(), pull_.data(), cross_axial_.data(), cross_pull_.data(), alpha_.data()};
   const double energy = problem_.respond(displacement.data(), force.data(), &tangents);
   deformed_ = largest(displacement) > 0;
+  rows_.pack(grid_, tangents, deformed_);
   for (std::size_t n = 0; n < displacement.size(); ++n) moved_[n] = static_cast<float>(displacement[n] / grid_.spacing);
   invert_diagonal();
   constexpr float little = 0.02F;
@@ -75,41 +80,19 @@ float SpringLevel::largest_change() const {
   return largest;
 }
 
+/// Calls visit(number of the row, its first place, count) for the rows that are not empty; planes at once where their springs share no place.
 template <class Visit>
-void SpringLevel::for_springs_of(int plane, const Visit& visit) const {
-  const auto spacing = static_cast<float>(grid_.spacing);
-  for (int j = 0; j < grid_.sites[1]; ++j) {
-    const StaticRow& row = grid_.rows[static_cast<std::size_t>(plane) * static_cast<std::size_t>(grid_.sites[1]) + static_cast<std::size_t>(j)];
-    const std::int64_t first = grid_.place(row.begin, j, plane);
-    RowOfSprings springs;
-    springs.count = row.end - row.begin;
-    springs.membrane_distance = static_cast<float>(grid_.membrane_distance) / spacing;
-    for (int c = 0; c < grid_.components; ++c) springs.moved[c] = moved_.data() + c * grid_.places + first;
-    for (std::size_t n = 0; n < grid_.neighbours.size(); ++n) {
-      const NeighbourGeometry& neighbour = grid_.neighbours[n];
-      const std::int64_t at = static_cast<std::int64_t>(n) * grid_.places + first;
-      springs.step = grid_.step_to(neighbour.site);
-      springs.axial = axial_.data() + at;
-      springs.pull = deformed_ ? pull_.data() + at : nullptr;
-      if (grid_.components == 4) {
-        springs.cross_axial = cross_axial_.data() + at;
-        springs.cross_pull = deformed_ ? cross_pull_.data() + at : nullptr;
-      }
-      springs.rest[0] = static_cast<float>(neighbour.rest.x) / spacing;
-      springs.rest[1] = static_cast<float>(neighbour.rest.y) / spacing;
-      springs.rest[2] = static_cast<float>(neighbour.rest.z) / spacing;
-      visit(first, springs);
-    }
-  }
-}
-
-template <class Visit>
-void SpringLevel::for_springs(const Visit& visit) const {
+void SpringLevel::for_rows(const Visit& visit) const {
   int reach = 1;
   for (const NeighbourGeometry& n : grid_.neighbours) reach = std::max(reach, n.site.dz);
-  for (int colour = 0; colour <= reach; ++colour) {  // planes that share no other plane
+  for (int colour = 0; colour <= reach; ++colour) {
 #pragma omp parallel for num_threads(threads_) schedule(static)
-    for (int k = colour; k < grid_.sites[2]; k += reach + 1) for_springs_of(k, visit);
+    for (int k = colour; k < grid_.sites[2]; k += reach + 1)
+      for (int j = 0; j < grid_.sites[1]; ++j) {
+        const auto number = static_cast<std::size_t>(k) * static_cast<std::size_t>(grid_.sites[1]) + static_cast<std::size_t>(j);
+        const StaticRow& row = grid_.rows[number];
+        if (row.begin < row.end) visit(number, grid_.place(row.begin, j, k), row.end - row.begin);
+      }
   }
 }
 
@@ -119,13 +102,18 @@ void SpringLevel::multiply(const double* x, double* y) const {
     std::fill(y + first, y + last, 0.0);
     for (std::size_t n = std::max(first, heights); n < last; ++n) y[n] = static_cast<double>(alpha_[n - heights]) * x[n];
   });
-  for_springs([&](std::int64_t first, const RowOfSprings& springs) {
-    SpringProduct product;
+  for_rows([&](std::size_t number, std::int64_t first, std::int64_t count) {
+    SpringProduct product{.count = count,
+                          .neighbours = static_cast<int>(directions_.size()),
+                          .to = directions_.data(),
+                          .membrane_distance = grid_.membrane_distance / grid_.spacing,
+                          .tangents = rows_.row(number)};
     for (int c = 0; c < grid_.components; ++c) {
+      product.moved[c] = deformed_ ? moved_.data() + c * grid_.places + first : nullptr;
       product.in[c] = x + c * grid_.places + first;
       product.out[c] = y + c * grid_.places + first;
     }
-    row_kernels_->springs(springs, grid_.components, product);
+    row_kernels_->springs(product, grid_.components);
   });
   mask(y);
 }
@@ -167,44 +155,67 @@ bool SpringLevel::tangent(std::size_t neighbour, std::int64_t place, SpringBlock
   return true;
 }
 
+/// Of all that a site's springs are and what of it can move. In a deformed body every site is its own.
+Signatures SpringLevel::signatures() const {
+  Signatures all(static_cast<std::size_t>(grid_.sites[0]) * static_cast<std::size_t>(grid_.sites[1]) * static_cast<std::size_t>(grid_.sites[2]));
+  const auto bits = [](float value) { return std::uint64_t{std::bit_cast<std::uint32_t>(value)}; };
+  const std::int64_t rows = std::int64_t{grid_.sites[1]} * grid_.sites[2];
+#pragma omp parallel for num_threads(threads_) schedule(static)
+  for (std::int64_t r = 0; r < rows; ++r) {
+    std::uint64_t* row = all.data() + r * grid_.sites[0];
+    const auto first = static_cast<std::size_t>(grid_.place(0, r % grid_.sites[1], r / grid_.sites[1])),
+               count = static_cast<std::size_t>(grid_.sites[0]);
+    for (std::size_t i = 0; i < count; ++i)
+      row[i] = deformed_ ? first + i : std::uint64_t{grid_.free[first + i]} << 32 | bits(alpha(static_cast<std::int64_t>(first + i)));
+    for (std::size_t n = 0; n < grid_.neighbours.size() && !deformed_; ++n) {
+      const std::size_t at = n * static_cast<std::size_t>(grid_.places) + first;
+      for (std::size_t i = 0; i < count; ++i)
+        row[i] = signed_by(row[i], bits(axial_[at + i]) << 32 | (cross_axial_.empty() ? 0 : bits(cross_axial_[at + i])));
+    }
+  }
+  return all;
+}
+
 void SpringLevel::invert_diagonal() {
   const auto places = static_cast<std::size_t>(grid_.places);
-  const auto blocks = [&](std::int64_t first) {
+  const auto diagonal = [&](std::size_t first) {
     Triangles blocks;
     for (std::size_t n = 0; n < diagonal_.size() / places; ++n) blocks.numbers[n] = diagonal_.data() + n * places + first;
     return blocks;
   };
   std::fill(diagonal_.begin(), diagonal_.end(), 0.0F);
   if (grid_.components == 4) std::copy(alpha_.begin(), alpha_.end(), diagonal_.end() - grid_.places);
-  for_springs([&](std::int64_t first, const RowOfSprings& springs) { row_kernels_->diagonal(springs, grid_.components, blocks(first)); });
+  for_rows([&](std::size_t, std::int64_t first, std::int64_t count) {
+    RowOfSprings springs{.count = count};
+    springs.membrane_distance = static_cast<float>(grid_.membrane_distance / grid_.spacing);
+    for (int c = 0; c < grid_.components; ++c) springs.moved[c] = moved_.data() + c * grid_.places + first;
+    for (std::size_t n = 0; n < directions_.size(); ++n) {
+      const std::int64_t at = static_cast<std::int64_t>(n) * grid_.places + first;
+      springs.step = directions_[n].step;
+      for (int c = 0; c < 3; ++c) springs.rest[c] = static_cast<float>(directions_[n].rest[c]);
+      springs.axial = axial_.data() + at;
+      springs.pull = deformed_ ? pull_.data() + at : nullptr;
+      if (grid_.components == 4) {
+        springs.cross_axial = cross_axial_.data() + at;
+        springs.cross_pull = deformed_ ? cross_pull_.data() + at : nullptr;
+      }
+      row_kernels_->diagonal(springs, grid_.components, diagonal(static_cast<std::size_t>(first)));
+    }
+  });
   in_pieces(places, threads_, [&](std::size_t first, std::size_t last) {
-    const auto at = static_cast<std::int64_t>(first);
-    row_kernels_->invert(static_cast<std::int64_t>(last - first), grid_.components, grid_.free + at, blocks(at));
+    row_kernels_->invert(static_cast<std::int64_t>(last - first), grid_.components, grid_.free + first, diagonal(first));
   });
 }
 
-void SpringLevel::divide(const double* r, double* z) const {
+void SpringLevel::divide(std::size_t first, std::size_t last, const double* r, double* z) const {
+  Division division{.count = static_cast<std::int64_t>(last - first)};
   const auto places = static_cast<std::size_t>(grid_.places);
-  const auto d = [&](std::size_t number) { return diagonal_.data() + number * places; };
-  in_pieces(places, threads_, [&](std::size_t first, std::size_t last) {
-    const double *x = r, *y = r + places, *w = r + 2 * places, *h = r + 3 * places;
-    if (grid_.components == 4) {
-      const float *xx = d(0), *xy = d(1), *xw = d(2), *xh = d(3), *yy = d(4), *yw = d(5), *yh = d(6), *ww = d(7), *wh = d(8), *hh = d(9);
-      for (std::size_t n = first; n < last; ++n) {
-        z[n] = double(xx[n]) * x[n] + double(xy[n]) * y[n] + double(xw[n]) * w[n] + double(xh[n]) * h[n];
-        z[places + n] = double(xy[n]) * x[n] + double(yy[n]) * y[n] + double(yw[n]) * w[n] + double(yh[n]) * h[n];
-        z[2 * places + n] = double(xw[n]) * x[n] + double(yw[n]) * y[n] + double(ww[n]) * w[n] + double(wh[n]) * h[n];
-        z[3 * places + n] = double(xh[n]) * x[n] + double(yh[n]) * y[n] + double(wh[n]) * w[n] + double(hh[n]) * h[n];
-      }
-    } else {
-      const float *xx = d(0), *xy = d(1), *xw = d(2), *yy = d(3), *yw = d(4), *ww = d(5);
-      for (std::size_t n = first; n < last; ++n) {
-        z[n] = double(xx[n]) * x[n] + double(xy[n]) * y[n] + double(xw[n]) * w[n];
-        z[places + n] = double(xy[n]) * x[n] + double(yy[n]) * y[n] + double(yw[n]) * w[n];
-        z[2 * places + n] = double(xw[n]) * x[n] + double(yw[n]) * y[n] + double(ww[n]) * w[n];
-      }
-    }
-  });
+  for (std::size_t n = 0; n < diagonal_.size() / places; ++n) division.inverse[n] = diagonal_.data() + n * places + first;
+  for (int c = 0; c < grid_.components; ++c) {
+    division.in[c] = r + c * grid_.places + first;
+    division.out[c] = z + c * grid_.places + first;
+  }
+  row_kernels_->divide(division, grid_.components);
 }
 
 }  // namespace hyperlattice::statics

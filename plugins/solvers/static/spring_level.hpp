@@ -3,7 +3,9 @@
 
 #include "level.hpp"
 #include "rows.hpp"
+#include "signatures.hpp"
 #include "spring_tangent.hpp"
+#include "tangent_rows.hpp"
 
 #include <hyperlattice/statics.hpp>
 
@@ -17,7 +19,7 @@ class SpringLevel : public Level {
   double linearise(const Field& displacement, Field& force);
 
   void multiply(const double* x, double* y) const override;
-  void divide(const double* r, double* z) const override;
+  void divide(std::size_t first, std::size_t last, const double* r, double* z) const override;
   void mask(double* x) const override;
   double largest_eigenvalue() const override { return largest_eigenvalue_; }
 
@@ -32,19 +34,19 @@ class SpringLevel : public Level {
   double stiffest() const;  ///< largest tangent of a spring, N/m
   float alpha(std::int64_t place) const { return alpha_.empty() ? 0 : alpha_[static_cast<std::size_t>(place)]; }
   const StaticGrid& grid() const { return grid_; }
+  Signatures signatures() const;
 
  private:
-  /// Calls visit(first place, springs) for each row and neighbour of a plane, or of all planes: these at once where they share no place.
   template <class Visit>
-  void for_springs_of(int plane, const Visit& visit) const;
-  template <class Visit>
-  void for_springs(const Visit& visit) const;
+  void for_rows(const Visit& visit) const;
   void invert_diagonal();
   float largest_change() const;
 
   const RowKernels* row_kernels_ = &row_kernels();
   const StaticProblem& problem_;
   const StaticGrid& grid_;
+  std::vector<Direction> directions_;  ///< to each neighbour
+  TangentRows rows_;
   Floats axial_, pull_, cross_axial_, cross_pull_, alpha_;
   Floats moved_, moved_when_prepared_;  ///< displacements in lattice constants, by component and place
   bool new_ = true;

@@ -1,5 +1,7 @@
 #include "stencil_level.hpp"
 
+#include <unordered_map>
+
 namespace hyperlattice::statics {
 
 namespace {
@@ -47,7 +49,7 @@ void invert_block(const double* block, double* inverse) {
 
 }  // namespace
 
-StencilLevel::StencilLevel(const std::array<std::int64_t, 3>& sites, int reach, int threads)
+StencilLevel::StencilLevel(const std::array<std::int64_t, 3>& sites, int reach, const Signatures& signatures, int threads)
     : Level(layout_of(sites, reach), threads), reach_(reach) {
   constexpr std::int64_t few = 16384;  // places; with fewer, threads would wait for each other longer than they work
   if (layout_.places < few) threads_ = 1;
@@ -56,13 +58,33 @@ StencilLevel::StencilLevel(const std::array<std::int64_t, 3>& sites, int reach, 
     for (std::int64_t dj = -reach; dj <= reach; ++dj)
       for (std::int64_t di = -reach; di <= reach; ++di)
         if (neighbour(di, dj, dk) > 0) steps_.push_back(di + dj * layout_.row + dk * layout_.plane);
-  blocks_.assign(16 * static_cast<std::size_t>(layout_.places) * stride(), 0);
+  kind_.assign(static_cast<std::size_t>(layout_.places), 0);
+  making_.assign(kind_.size(), -1);
+  std::unordered_map<std::uint64_t, std::int32_t> kinds;
+  const std::uint64_t* signature = signatures.data();
+  layout_.for_sites([&](std::int64_t i, std::int64_t j, std::int64_t k) {
+    const auto place = static_cast<std::size_t>(layout_.place(i, j, k));
+    const auto [found, is_new] = kinds.try_emplace(*signature++, static_cast<std::int32_t>(kinds.size() + 1));
+    kind_[place] = found->second;
+    if (is_new) making_[place] = found->second;
+  });
+  kinds_ = 1 + kinds.size();
+  blocks_.assign(16 * kinds_ * stride(), 0);
+}
+
+Signatures StencilLevel::signatures() const {
+  Signatures all;
+  layout_.for_sites([&](std::int64_t i, std::int64_t j, std::int64_t k) {
+    all.push_back(static_cast<std::uint64_t>(kind_[static_cast<std::size_t>(layout_.place(i, j, k))]));
+  });
+  return all;
 }
 
 void StencilLevel::finish() {
-  inverse_.assign(16 * static_cast<std::size_t>(layout_.places), 0);
-  in_pieces(static_cast<std::size_t>(layout_.places), threads_, [&](std::size_t first, std::size_t last) {
-    for (std::size_t p = first; p < last; ++p) invert_block(block(static_cast<std::int64_t>(p), 0), inverse_.data() + 16 * p);
+  inverse_.assign(16 * kinds_, 0);
+  in_pieces(kinds_, threads_, [&](std::size_t first, std::size_t last) {
+    for (std::size_t kind = first; kind < last; ++kind)
+      invert_block(blocks_.data() + at(static_cast<std::int32_t>(kind), 0), inverse_.data() + 16 * kind);
   });
   largest_eigenvalue_ = power_iteration();
 }
@@ -73,18 +95,17 @@ void StencilLevel::multiply(const double* x, double* y) const {
 #pragma omp parallel for num_threads(threads_) schedule(static)
   for (std::int64_t r = 0; r < rows; ++r) {
     const std::int64_t first = layout_.place(0, r % layout_.sites[1], r / layout_.sites[1]);
-    kernels.stencil({layout_.sites[0], static_cast<int>(steps_.size()), steps_.data(), block(first, 0), x + 4 * first, y + 4 * first});
+    kernels.stencil(
+        {layout_.sites[0], static_cast<int>(steps_.size()), steps_.data(), blocks_.data(), kind_.data() + first, x + 4 * first, y + 4 * first});
   }
 }
 
-void StencilLevel::divide(const double* r, double* z) const {
-  in_pieces(static_cast<std::size_t>(layout_.places), threads_, [&](std::size_t first, std::size_t last) {
-    for (std::size_t p = first; p < last; ++p) {
-      const double *inverse = inverse_.data() + 16 * p, *in = r + 4 * p;
-      double* out = z + 4 * p;
-      for (int a = 0; a < 4; ++a) out[a] = inverse[a] * in[0] + inverse[4 + a] * in[1] + inverse[8 + a] * in[2] + inverse[12 + a] * in[3];
-    }
-  });
+void StencilLevel::divide(std::size_t first, std::size_t last, const double* r, double* z) const {
+  for (std::size_t p = first; p < last; ++p) {
+    const double *inverse = inverse_.data() + 16 * static_cast<std::size_t>(kind_[p]), *in = r + 4 * p;
+    double* out = z + 4 * p;
+    for (int a = 0; a < 4; ++a) out[a] = inverse[a] * in[0] + inverse[4 + a] * in[1] + inverse[8 + a] * in[2] + inverse[12 + a] * in[3];
+  }
 }
 
 }  // namespace hyperlattice::statics

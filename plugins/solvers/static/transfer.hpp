@@ -13,16 +13,27 @@ struct Parents {
   double weight[2] = {1, 0};
 };
 
+/// A stretch of fine sites along an axis; it may reach beyond the box.
+struct Window {
+  std::int64_t first, last;
+};
+
 class Transfer {
  public:
   explicit Transfer(const std::array<std::int64_t, 3>& fine);
 
+  const std::array<std::int64_t, 3>& fine_sites() const { return fine_; }
   const std::array<std::int64_t, 3>& coarse_sites() const { return coarse_; }
   bool coarsens() const { return halved_[0] || halved_[1] || halved_[2]; }
   bool halved(int axis) const { return halved_[static_cast<std::size_t>(axis)]; }
   Parents parents(int axis, std::int64_t i) const {
     if (!halved(axis)) return {1, {i, i}, {1, 0}};
     return i % 2 == 0 ? Parents{1, {i / 2, i / 2}, {1, 0}} : Parents{2, {i / 2, i / 2 + 1}, {0.5, 0.5}};
+  }
+
+  /// Fine sites that a coarse one, or a stiffness between it and another, is made of, if they are joined up to `reach` sites apart.
+  Window window(int axis, std::int64_t coarse, int reach) const {
+    return halved(axis) ? Window{2 * coarse - 1 - reach, 2 * coarse + 1 + reach} : Window{coarse - reach, coarse + reach};
   }
 
   void restrict_to(const Level& coarse, double* to, const Level& fine, const double* from) const;
