@@ -17,7 +17,7 @@ constexpr std::size_t cache_line = 64, large_page = std::size_t{2} << 20;
 /// Throws std::bad_alloc.
 inline void* allocate_array(std::size_t bytes) {
   const std::size_t whole = bytes / large_page * large_page;
-  void* memory = ::operator new (bytes, std::align_val_t{whole > 0 ? large_page : cache_line});
+  void* memory = ::operator new[](bytes, std::align_val_t{whole > 0 ? large_page : cache_line});
 #ifdef MADV_HUGEPAGE
   if (whole > 0) madvise(memory, whole, MADV_HUGEPAGE);  // a wish: small pages serve too
 #endif
@@ -26,7 +26,7 @@ inline void* allocate_array(std::size_t bytes) {
 
 /// Of that many bytes, from allocate_array.
 inline void free_array(void* memory, std::size_t bytes) noexcept {
-  ::operator delete (memory, std::align_val_t{bytes >= large_page ? large_page : cache_line});
+  ::operator delete[](memory, std::align_val_t{bytes >= large_page ? large_page : cache_line});
 }
 
 /// The same for standard containers.
