@@ -65,10 +65,14 @@ StageCalls::StageCalls(const Model& model, Simulation& simulation, const Planned
       calls.host_.time = calls.simulation_.time();
     });
   };
-  host_.measure_rest = [](void* self, double* residual, double* kinetic) {
+  host_.measure_rest = [](void* self, RestReport* report, double* kinetic) {
     auto& calls = *static_cast<StageCalls*>(self);
     return calls.guarded([&] {
-      if (residual != nullptr) *residual = calls.statics().residual();
+      if (report != nullptr) {
+        const RestReport now = calls.statics().rest();
+        report->residual = now.residual;
+        report->displacement_error = now.displacement_error;
+      }
       if (kinetic != nullptr) *kinetic = calls.simulation_.kinetic();
     });
   };

@@ -65,22 +65,4 @@ void Statics::accept(double share, const double* displacement) {
   share_ = share;
 }
 
-double Statics::residual() {
-  const StaticGrid& grid = problem_.grid;
-  read_state(state_.data());
-  respond(state_.data(), force_.data(), nullptr);
-  Values external(force_.size());
-  add_loads(1, external.data());
-  double largest = 0;
-  for (std::size_t p = 0; p < free_.size(); ++p)
-    for (int c = 0; c < grid.components; ++c)
-      if ((free_[p] >> c & 1u) != 0) {
-        const std::size_t n = static_cast<std::size_t>(c) * free_.size() + p;
-        const double rest = std::abs(force_[n] + external[n]);
-        if (!(rest <= largest)) largest = rest;  // also what is not a number
-      }
-  const double scale = force_scale(force_.data(), external.data());
-  return largest == 0 ? 0 : largest / scale;
-}
-
 }  // namespace hyperlattice

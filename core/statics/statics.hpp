@@ -1,5 +1,5 @@
 // The body in search of rest: makes the StaticProblem of a model and a state, and brings what a solver found back into the simulation.
-// Split by concern: grid.cpp, list.cpp, response.cpp, load_path.cpp, statics.cpp.
+// Split by concern: grid.cpp, list.cpp, response.cpp, load_path.cpp, rest.cpp, statics.cpp.
 #pragma once
 
 #include <run/state.hpp>
@@ -21,8 +21,8 @@ class Statics {
   const StaticProblem& problem() const { return problem_; }
   /// Displacements become the simulation's state, with that share of the stage's load.
   void accept(double share, const double* displacement);
-  /// Of the simulation's present state, under the loads of the stage's end.
-  double residual();
+  /// Of the simulation's present state, under the loads of the stage's end; the error is known from the third call on.
+  RestReport rest();
 
  private:
   using Values = std::vector<double, ArrayMemory<double>>;
@@ -90,7 +90,9 @@ class Statics {
     double from[3], to[3];  ///< m, at the start and the end
   };
   std::vector<Loaded> loaded_;
-  std::vector<Held> held_;  ///< each particle once
+  bool compared_ = false;
+  double slowest_ = infinity;  ///< least Rayleigh quotient so far of a motion between two states, 1/s^2
+  std::vector<Held> held_;     ///< each particle once
 };
 
 }  // namespace hyperlattice

@@ -13,7 +13,7 @@ namespace {
 struct Host {
   std::uint64_t steps = 0, halts = 0, measurements = 0;
   std::vector<double> rates;
-  double reduction = 0.1, residual = 1;
+  double reduction = 0.1, residual = 1, error_over_residual = 1000;
   RestReport last;
   SolverHost host;
 
@@ -22,12 +22,13 @@ struct Host {
     host.take_step = [](void* self, double) { return ++static_cast<Host*>(self)->steps > 0; };
     host.show = [](void*) { return true; };
     host.stop_motion = [](void* self) { return ++static_cast<Host*>(self)->halts > 0; };
-    host.measure_rest = [](void* self, double* residual, double* kinetic) {
+    host.measure_rest = [](void* self, RestReport* report, double* kinetic) {
       Host& h = *static_cast<Host*>(self);
       if (kinetic != nullptr) *kinetic = h.steps % 12 == 0 ? 0.5 : 1 + static_cast<double>(h.steps % 12);
-      if (residual == nullptr) return true;
+      if (report == nullptr) return true;
       ++h.measurements;
-      *residual = h.residual *= h.reduction;
+      report->residual = h.residual *= h.reduction;
+      if (h.measurements > 2) report->displacement_error = h.error_over_residual * h.residual;
       return true;
     };
     host.set_damping_rate = [](void* self, double rate) { static_cast<Host*>(self)->rates.push_back(rate); };
@@ -49,6 +50,21 @@ TEST(Relaxation, StopsWhenTheResidualIsSmall) {
   EXPECT_EQ(host.last.iterations, host.steps);
   EXPECT_LE(host.last.residual, o.tolerance);
   EXPECT_EQ(host.halts, 1u);  // at the end
+}
+
+TEST(Relaxation, StopsWhenTheErrorOfDisplacementsIsSmall) {
+  Host host;
+  Relaxation::Options o = options();
+  o.tolerance = 1;
+  o.displacement_error = 2e-3;
+  Relaxation(o).run({0, 1, {}, 10}, host.host);
+  EXPECT_EQ(host.measurements, 6u);  // errors of 1, 0.1, 0.01 and 0.001 from the third on
+
+  host = Host();
+  host.host.self = &host;
+  host.reduction = 1;
+  o.most_steps = 100;
+  EXPECT_THROW(Relaxation(o).run({0, 1, {}, 10}, host.host), std::runtime_error);
 }
 
 TEST(Relaxation, AcceleratedRestartsWhereTheKineticEnergyFalls) {

@@ -45,7 +45,7 @@ struct SolverHost {
   // For stages that look for a state of rest.
   const StaticProblem* (*open)(void* self) = nullptr;
   bool (*take)(void* self, double share, const double* displacement) = nullptr;
-  bool (*measure_rest)(void* self, double* residual, double* kinetic) = nullptr;
+  bool (*measure_rest)(void* self, RestReport* report, double* kinetic) = nullptr;
   bool (*stop_motion)(void* self) = nullptr;
   void (*set_damping_rate)(void* self, double rate) = nullptr;
   bool (*show_rest)(void* self, const RestReport& report) = nullptr;
@@ -54,9 +54,9 @@ struct SolverHost {
   const StaticProblem* statics() const { return open(self); }
   /// Makes displacements the state, at rest, with that share of the stage's load. False: the run must stop.
   bool accept(double share, const double* displacement) const { return take(self, share, displacement); }
-  /// The residual of the present state (see RestReport), and its kinetic energy, J; one evaluation of all springs. Either may be null. Kinetic energy
-  /// alone costs little. False: the run must stop.
-  bool measure(double* residual, double* kinetic) const { return measure_rest(self, residual, kinetic); }
+  /// Residual and estimated error of the present state, one evaluation of all springs, and its kinetic energy, J, which costs little. Either may be
+  /// null. The error compares states: it is known from the third call on. False: the run must stop.
+  bool measure(RestReport* report, double* kinetic) const { return measure_rest(self, report, kinetic); }
   bool halt() const { return stop_motion(self); }  ///< all velocities to zero
   /// Of the steps of this stage that follow: each particle feels a drag of rate (1/s) times its mass and velocity, the mean of those before and
   /// after.

@@ -74,7 +74,7 @@ struct StaticProblem {
 /// How near to rest a body is.
 struct RestReport {
   double residual = 0;             ///< largest component of an out-of-balance force over the mean force on held or loaded particles
-  double displacement_error = -1;  ///< estimated, of the largest displacement; below 0: not known
+  double displacement_error = -1;  ///< estimated error of the displacements, a share of them; below 0: not known
   std::uint64_t iterations = 0;    ///< of the solver, so far in this stage
 };
 

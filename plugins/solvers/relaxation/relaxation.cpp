@@ -4,7 +4,8 @@
 //   accelerated:                      v(n+1/2) = a v(n-1/2) + (1 + a) / 2 dt F / m,  a = j / (j + 3),  j steps since the last restart,
 //                                     as under a drag of 6 m v / ((2 j + 3) dt); restart when the kinetic energy falls
 //
-// until the residual, the largest out-of-balance force over the mean force on held or loaded particles, is small. Loads act as they do at the end.
+// until the residual, the largest out-of-balance force over the mean force on held or loaded particles, is small, and the estimated error of the
+// displacements if the scene asks for that. Loads act as they do at the end.
 #include <hyperlattice/rest.hpp>
 
 #include <algorithm>
@@ -48,7 +49,7 @@ class Relaxation {
   struct Options {
     Damping method = Damping::local_damping;
     double damping = 0.8, tolerance = 1e-5, safety = 0.9, most_steps = 1e6;
-    std::optional<double> end_time, time_step;
+    std::optional<double> displacement_error, end_time, time_step;
   };
 
   static Schema<Options> schema() {
@@ -61,8 +62,7 @@ class Relaxation {
             "2016); limit: 2 / omega_max of the lattice by Bloch analysis")
         .restrictions(
             "Time stands still at end_time, and so do the loads. Springs may break on the way, as in any motion. The residual is not the error of "
-            "the "
-            "displacements, which is larger for slender bodies; solvers.static says both.")
+            "the displacements: of slender bodies that is a thousand times larger. displacement_error asks for it.")
         .add<&Options::method>("method", "", "how motion is damped; accelerated takes a fifth to a third of the steps, local_damping is the paper's")
         .choices(damping_names)
         .fallback("\"local_damping\"")
@@ -73,6 +73,9 @@ class Relaxation {
         .add<&Options::tolerance>("tolerance", "", "residual at which the body is at rest")
         .positive()
         .fallback("1e-5")
+        .add<&Options::displacement_error>(
+            "displacement_error", "", "estimated error of the displacements, a share of them, above which the body is not at rest; left out: any")
+        .positive()
         .add<&Options::end_time>("end_time", "s",
                                  "instant whose loads act, from the start of the run; left out: when the last load has stopped changing")
         .at_least(0)
@@ -114,18 +117,25 @@ class Relaxation {
       if (o_.method == Damping::accelerated && !acceleration.set_drag(host)) return;
       if (!host.step(time_step)) return;
       ++report.iterations;
-      if (report.iterations % every == 0 && !host.measure(&report.residual, nullptr)) return;
+      if (report.iterations % every == 0 && !host.measure(&report, nullptr)) return;
       if (!host.report(report) || !host.observe()) return;
-      if (report.iterations % every == 0 && report.residual <= o_.tolerance) {
+      if (report.iterations % every == 0 && at_rest(report)) {
         host.halt();
         return;
       }
     }
-    throw std::runtime_error("the body is not at rest after " + short_number(o_.most_steps) + " steps: the residual is " +
-                             short_number(report.residual) + ", and tolerance " + short_number(o_.tolerance));
+    std::string why = "the residual is " + short_number(report.residual) + ", and tolerance " + short_number(o_.tolerance);
+    if (o_.displacement_error)
+      why += "; the estimated error of the displacements " + short_number(report.displacement_error) + ", and displacement_error " +
+             short_number(*o_.displacement_error);
+    throw std::runtime_error("the body is not at rest after " + short_number(o_.most_steps) + " steps: " + why);
   }
 
  private:
+  bool at_rest(const RestReport& report) const {
+    const double error = report.displacement_error;
+    return report.residual <= o_.tolerance && (!o_.displacement_error || (error >= 0 && error <= *o_.displacement_error));
+  }
   double alpha() const { return o_.method == Damping::accelerated ? 0 : o_.damping; }
 
   Options o_;

@@ -1,0 +1,49 @@
+// How near to rest the simulation's present state is: its out-of-balance forces, and what they say of the displacements that are still to come.
+//
+// The error e of the displacements and the forces r left are K e = r. The slowest motion of the body, of frequency w, has the largest error by far,
+// and there e = M^-1 r / w^2. Between two states a motion d changes the forces by -K d; its Rayleigh quotient d.K d / d.M d is never below the
+// slowest motion's w^2 and comes near to it while all faster ones die away: the least that was met so far stands for it. Other motions make the
+// estimate larger than the error.
+#include <statics/statics.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyperlattice {
+
+RestReport Statics::rest() {
+  const StaticGrid& grid = problem_.grid;
+  const Values before = state_, force_before = force_;
+  read_state(state_.data());
+  respond(state_.data(), force_.data(), nullptr);
+  Values external(force_.size());
+  add_loads(1, external.data());
+
+  double largest = 0, stiffness = 0, inertia = 0, left = 0, moved = 0;
+  for_runs([&](std::int64_t first, Particle particle, std::uint64_t count) {
+    for (std::uint64_t n = 0; n < count; ++n) {
+      const std::size_t place = static_cast<std::size_t>(first) + n;
+      const double mass = model_.mass(particle + n);
+      for (std::size_t c = 0; c < static_cast<std::size_t>(grid.components); ++c) {
+        if ((free_[place] >> c & 1u) == 0) continue;
+        const std::size_t at = c * free_.size() + place;
+        const double rest = force_[at] + external[at];
+        if (!(std::abs(rest) <= largest)) largest = std::abs(rest);  // also what is not a number
+        if (c == 3) continue;                                        // waves of the membranes are short
+        const double d = state_[at] - before[at];
+        stiffness -= d * (force_[at] - force_before[at]);
+        inertia += mass * d * d;
+        left += rest * rest / mass;
+        moved += mass * state_[at] * state_[at];
+      }
+    }
+  });
+  const bool first = !std::exchange(compared_, true);  // loads and held particles moved since the stage began
+  if (!first && stiffness > 0 && inertia > 0) slowest_ = std::min(slowest_, stiffness / inertia);
+  RestReport report;
+  report.residual = largest == 0 ? 0 : largest / force_scale(force_.data(), external.data());
+  if (moved > 0 && (left == 0 || std::isfinite(slowest_))) report.displacement_error = left == 0 ? 0 : std::sqrt(left / moved) / slowest_;
+  return report;
+}
+
+}  // namespace hyperlattice
