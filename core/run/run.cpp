@@ -1,5 +1,6 @@
 // The run: planned solver stages one after the other. Each step belongs to the solver; records, outputs, guards and the end are here.
 #include <plan/precision.hpp>
+#include <run/failing_motion.hpp>
 #include <run/guard.hpp>
 #include <run/interrupt.hpp>
 #include <run/outputs.hpp>
@@ -74,7 +75,7 @@ void Running::start(Outcome& outcome) {
   const auto start = Clock::now();
   namespace fs = std::filesystem;
   fs::create_directories(options_.directory);
-  for (const char* stale : {"summary.json", "failures.csv"}) fs::remove(options_.directory / stale);
+  for (const char* stale : {"summary.json", "failures.csv", failing_motion_file}) fs::remove(options_.directory / stale);
   write_file((options_.directory / "scene.resolved.json").string(), plan_.scene->resolved);
   simulation_ = std::make_unique<Simulation>(*plan_.model, plan_.threads);
   guard_ = std::make_unique<Guard>(*plan_.model, *simulation_);
@@ -110,6 +111,7 @@ void Running::solve_stage(const PlannedStage& stage) {
   hooks.stepped = [this](double time_step) { stepped(time_step); };
   hooks.observe = [this] { observe(); };
   hooks.report = [this](const RestReport& report) { rest_ = report; };
+  hooks.failing_motion = [this](const std::vector<double>& motion) { write_failing_motion(options_.directory, plan_.model->body, motion); };
   hooks.must_stop = [] { return stop_requested(); };
   StageCalls(*plan_.model, *simulation_, stage, plan_.threads, std::move(hooks)).run();
   record();

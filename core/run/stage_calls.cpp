@@ -90,6 +90,12 @@ StageCalls::StageCalls(const Model& model, Simulation& simulation, const Planned
       if (calls.hooks_.report) calls.hooks_.report(report);
     });
   };
+  host_.keep_motion = [](void* self, const double* motion) {
+    auto& calls = *static_cast<StageCalls*>(self);
+    return calls.guarded([&] {
+      if (calls.hooks_.failing_motion) calls.hooks_.failing_motion(calls.statics().of_particles(motion, 0, 3));
+    });
+  };
 }
 
 void StageCalls::run() {

@@ -18,6 +18,7 @@ class StageCalls {
     std::function<void(double time_step)> stepped;
     std::function<void()> observe;
     std::function<void(const RestReport&)> report;
+    std::function<void(const std::vector<double>& motion)> failing_motion;  ///< three numbers a particle
     std::function<bool()> must_stop;
   };
   StageCalls(const Model& model, Simulation& simulation, const PlannedStage& stage, int threads, Hooks hooks);

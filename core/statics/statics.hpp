@@ -23,6 +23,8 @@ class Statics {
   void accept(double share, const double* displacement);
   /// Of the simulation's present state, under the loads of the stage's end; the error is known from the third call on.
   RestReport rest();
+  /// Of a field, `components` numbers a particle, from component `first` on.
+  std::vector<double> of_particles(const double* field, int first, int components) const;
 
  private:
   using Values = std::vector<double, ArrayMemory<double>>;
@@ -40,7 +42,6 @@ class Statics {
   }
   std::int64_t place_of(Particle particle) const;
   void read_state(double* field) const;
-  std::vector<double> of_particles(const double* field, int first, int components) const;
 
   // list.cpp
   void make_list();

@@ -49,6 +49,7 @@ struct SolverHost {
   bool (*stop_motion)(void* self) = nullptr;
   void (*set_damping_rate)(void* self, double rate) = nullptr;
   bool (*show_rest)(void* self, const RestReport& report) = nullptr;
+  bool (*keep_motion)(void* self, const double* motion) = nullptr;
 
   /// The body for a static solver, built when first asked for; valid during the stage. Null: the run must stop.
   const StaticProblem* statics() const { return open(self); }
@@ -62,6 +63,8 @@ struct SolverHost {
   /// after.
   void damp(double rate) const { set_damping_rate(self, rate); }
   bool report(const RestReport& report) const { return show_rest(self, report); }  ///< for the progress line and the summary
+  /// Keeps for the user how the body moves where there is no state of rest: a field like a displacement, of any size.
+  bool show_motion(const double* motion) const { return keep_motion(self, motion); }
 };
 
 struct SolverFunctions {
