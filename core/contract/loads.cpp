@@ -43,6 +43,11 @@ void check_load(Trial& trial) {
   trial.check("same bits", [&] {
     return passes_if(shake(model, {0.5, 0.4, 40, 1}).hash == shake(model, {0.5, 0.4, 40, 3}).hash, "with 1 and 3 threads");
   });
+  trial.check("restart", [&] {
+    const Shaken whole = shake(model, {0.5}), cut_off = shake(model, {.speed = 0.5, .cut_off = true});
+    return passes_if(cut_off.hash == whole.hash && cut_off.balance.injected == whole.balance.injected,
+                     "the same motion and work when it is cut off half-way and goes on");
+  });
 }
 
 }  // namespace hyperlattice::contract

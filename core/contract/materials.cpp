@@ -173,6 +173,16 @@ Finding same_bits(const Model& model, const LoneSpring& spring) {
   return passes_if(shake(model, how).hash == one, "with 1 and 3 threads");
 }
 
+Finding restart(const Model& model, const LoneSpring& spring) {
+  const double speed = spring.reach() / (2 * spring.period());
+  Shaking how{speed};
+  const Shaken whole = shake(model, how);
+  how.cut_off = true;
+  const Shaken cut_off = shake(model, how);
+  return passes_if(cut_off.hash == whole.hash && cut_off.balance.error == whole.balance.error,
+                   "the same bits, and the same books, when it is cut off half-way and goes on");
+}
+
 /// What a scene with the material is refused for; empty: it is not.
 std::string refusal_of(Host& host, const std::vector<Json>& stages, std::unique_ptr<Plan>& plan, const char* precision = "double") {
   try {
@@ -259,7 +269,7 @@ void check_material(Trial& trial) {
   trial.check("books of energy", [&] { return books(*block->model, spring); });
   trial.check("same bits", [&] { return same_bits(*block->model, spring); });
   trial.check("in a list", [&] { return in_a_list(trial, spring); });
-  trial.check("restart", [] { return not_applicable("runs do not resume yet"); });
+  trial.check("restart", [&] { return restart(*block->model, spring); });
 }
 
 }  // namespace hyperlattice::contract

@@ -55,18 +55,29 @@ class Folder {
 /// A small block in motion, whose springs may break, and the output that watches it.
 class Watched {
  public:
-  Watched(const Plan& plan, const Folder& folder) : model_(*plan.model), simulation_(model_, plan.threads) {
+  Watched(const Plan& plan, const Folder& folder)
+      : plan_(plan), folder_(folder), model_(*plan.model), simulation_(std::make_unique<Simulation>(model_, plan.threads)) {
     const std::size_t particles = model_.body.particles;
-    simulation_.set_velocities(noise(3 * particles, 1), std::vector<double>(particles, 0.0));
-    outputs_ = std::make_unique<Outputs>(model_, simulation_, folder.path(), 1e-4);
+    simulation_->set_velocities(noise(3 * particles, 1), std::vector<double>(particles, 0.0));
+    outputs_ = std::make_unique<Outputs>(model_, *simulation_, folder.path(), 1e-4);
   }
   void show() { outputs_->show_now(); }
-  void move() { simulation_.step(0.5 * model_.critical_time_step); }
+  void move() { simulation_->step(0.5 * model_.critical_time_step); }
   void end() { outputs_->end(); }
 
+  /// As if the program had ended here, and another went on.
+  void restart() {
+    const std::string shown = saved([&](Archive& archive) { outputs_->save(archive); });
+    outputs_.reset();
+    simulation_ = restarted(*simulation_, model_, plan_.threads);
+    restore(shown, [&](Archive& archive) { outputs_ = std::make_unique<Outputs>(model_, *simulation_, folder_.path(), 1e-4, &archive); });
+  }
+
  private:
+  const Plan& plan_;
+  const Folder& folder_;
   const Model& model_;
-  Simulation simulation_;
+  std::unique_ptr<Simulation> simulation_;
   std::unique_ptr<Outputs> outputs_;
 };
 
@@ -77,12 +88,13 @@ std::unique_ptr<Plan> plan_with(Trial& trial, int threads = 1) {
 }
 
 /// What three frames leave.
-std::map<std::string, std::string> written(const Plan& plan) {
+std::map<std::string, std::string> written(const Plan& plan, bool cut_off = false) {
   const Folder folder;
   Watched watched(plan, folder);
   for (int n = 0; n < 3; ++n) {
     if (n > 0) watched.move();
     watched.show();
+    if (n == 1 && cut_off) watched.restart();
   }
   watched.end();
   return folder.files();
@@ -158,6 +170,12 @@ Finding same_bytes(const Plan& one, const Plan& three) {
   return passes_if(name.empty(), name.empty() ? "with 1 and 3 threads" : name + " differs with 1 and 3 threads");
 }
 
+Finding restart(const Plan& plan) {
+  const std::string name = difference(written(plan), written(plan, true));
+  return passes_if(name.empty(), name.empty() ? "the same files when it is cut off after two frames and goes on"
+                                              : name + " is another when it is cut off after two frames and goes on, see OutputContext::earlier");
+}
+
 }  // namespace
 
 void check_writer(Trial& trial) {
@@ -165,12 +183,14 @@ void check_writer(Trial& trial) {
   trial.check("finishes its files", [&] { return finishes_files(*plan); });
   trial.check("full disk", [&] { return full_disk(*plan); });
   trial.check("same bytes", [&] { return same_bytes(*plan, *with_three); });
+  trial.check("restart", [&] { return restart(*plan); });
 }
 
 void check_probe(Trial& trial) {
   const auto plan = plan_with(trial), with_three = plan_with(trial, 3);
   trial.check("table reads back", [&] { return table(*plan); });
   trial.check("same bytes", [&] { return same_bytes(*plan, *with_three); });
+  trial.check("restart", [&] { return restart(*plan); });
 }
 
 }  // namespace hyperlattice::contract

@@ -40,21 +40,41 @@ std::vector<double> noise(std::size_t count, double amplitude, std::uint64_t see
   return values;
 }
 
+std::string saved(const std::function<void(Archive&)>& visit) {
+  std::string bytes;
+  Archive archive([&](void* data, std::size_t size) { bytes.append(static_cast<const char*>(data), size); }, false);
+  visit(archive);
+  return bytes;
+}
+
+void restore(const std::string& bytes, const std::function<void(Archive&)>& visit) {
+  std::size_t read = 0;
+  Archive archive([&](void* data, std::size_t size) { read += bytes.copy(static_cast<char*>(data), size, read); }, true);
+  visit(archive);
+}
+
+std::unique_ptr<Simulation> restarted(Simulation& simulation, const Model& model, int threads) {
+  auto other = std::make_unique<Simulation>(model, threads);
+  restore(saved([&](Archive& archive) { simulation.archive(archive); }), [&](Archive& archive) { other->archive(archive); });
+  return other;
+}
+
 Shaken shake(const Model& model, const Shaking& how) {
-  Simulation simulation(model, how.threads);
+  auto simulation = std::make_unique<Simulation>(model, how.threads);
   const std::size_t particles = model.body.particles;
-  simulation.set_velocities(noise(3 * particles, how.speed), std::vector<double>(model.degrees_of_freedom == 4 ? particles : 0, 0.0));
+  simulation->set_velocities(noise(3 * particles, how.speed), std::vector<double>(model.degrees_of_freedom == 4 ? particles : 0, 0.0));
   Shaken shaken;
-  simulation.balance();
+  simulation->balance();
   const int steps = static_cast<int>(std::ceil(how.duration / how.step));
   for (int n = 0; n < steps; ++n) {
-    simulation.step(how.duration / steps * model.critical_time_step);
-    shaken.balance = simulation.balance();
+    if (how.cut_off && n == steps / 2) simulation = restarted(*simulation, model, how.threads);
+    simulation->step(how.duration / steps * model.critical_time_step);
+    shaken.balance = simulation->balance();
     const double error = std::abs(shaken.balance.relative_error());
     if (std::isnan(error)) shaken.largest_error = infinity;
     shaken.largest_error = std::max(shaken.largest_error, error);
   }
-  shaken.hash = simulation.hash();
+  shaken.hash = simulation->hash();
   return shaken;
 }
 

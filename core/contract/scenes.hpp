@@ -2,6 +2,7 @@
 #pragma once
 
 #include <plan/plan.hpp>
+#include <run/archive.hpp>
 #include <run/state.hpp>
 #include <scene/json.hpp>
 
@@ -39,8 +40,16 @@ struct Shaking {
   double step = 0.4;     ///< over the critical one
   double duration = 40;  ///< in critical steps
   int threads = 1;
+  bool cut_off = false;  ///< half-way, and gone on with from its archive in another simulation
 };
 Shaken shake(const Model& model, const Shaking& how);
+
+/// What is visited, as bytes, and back.
+std::string saved(const std::function<void(Archive&)>& visit);
+void restore(const std::string& bytes, const std::function<void(Archive&)>& visit);
+
+/// The state of a simulation in another of the same model.
+std::unique_ptr<Simulation> restarted(Simulation& simulation, const Model& model, int threads);
 
 /// A body that nothing moves but the caller.
 class Led {

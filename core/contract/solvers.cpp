@@ -25,17 +25,26 @@ struct Solved {
   std::uint64_t steps = 0, hash = 0;
   RestReport rest;
 };
-Solved solve(const Plan& plan) {
-  Simulation simulation(*plan.model, plan.threads);
-  simulation.balance();
+/// Cut off and gone on with after that many steps, if any.
+Solved solve(const Plan& plan, std::uint64_t cut_off = 0) {
+  auto simulation = std::make_unique<Simulation>(*plan.model, plan.threads);
+  simulation->balance();
   Solved solved;
-  StageCalls::Hooks hooks;
-  hooks.report = [&](const RestReport& report) { solved.rest = report; };
-  StageCalls(*plan.model, simulation, plan.stages.front(), plan.threads, std::move(hooks)).run();
-  solved.time = simulation.time();
-  solved.relative_error = simulation.balance().relative_error();
-  solved.steps = simulation.steps();
-  solved.hash = simulation.hash();
+  const auto run = [&](std::uint64_t done, std::uint64_t end) {
+    StageCalls::Hooks hooks;
+    hooks.report = [&](const RestReport& report) { solved.rest = report; };
+    if (end > 0) hooks.must_stop = [&] { return simulation->steps() >= end; };
+    StageCalls(*plan.model, *simulation, plan.stages.front(), plan.threads, std::move(hooks), done).run();
+  };
+  if (cut_off > 0) {
+    run(0, cut_off);
+    simulation = restarted(*simulation, *plan.model, plan.threads);
+  }
+  run(cut_off, 0);
+  solved.time = simulation->time();
+  solved.relative_error = simulation->balance().relative_error();
+  solved.steps = simulation->steps();
+  solved.hash = simulation->hash();
   return solved;
 }
 
@@ -69,6 +78,10 @@ void check_solver(Trial& trial) {
     return comes_to_its_end(plan->stages.front().plan, *solved);
   });
   trial.check("same bits", [&] { return passes_if(solved && solve(*with_three).hash == solved->hash, "with 1 and 3 threads"); });
+  trial.check("restart", [&] {
+    if (!plan->stages.front().plan.resumes) return not_applicable("a stage that is cut off begins anew");
+    return passes_if(solved && solve(*plan, solved->steps / 2).hash == solved->hash, "the same bits when it is cut off half-way and goes on");
+  });
 }
 
 }  // namespace hyperlattice::contract

@@ -94,14 +94,18 @@ void Simulation::Parts::collect_breakages(double dt) {
       breakage.b = spring.b;
       breakage.neighbour = spring.neighbour;
       breakage.elongation = broken.elongation;
-      const auto [block_a, place_a] = at(breakage.a);
-      const auto [block_b, place_b] = at(breakage.b);
       breakages.push_back(breakage);
-      ends.push_back({block_a, block_b, place_a, place_b});
+      note_ends(breakage);
       failure_energy += energy_of(breakages.size() - 1, block, broken, dt);
     }
     block.broken.clear();
   }
+}
+
+void Simulation::Parts::note_ends(const Breakage& breakage) {
+  const auto [block_a, place_a] = at(breakage.a);
+  const auto [block_b, place_b] = at(breakage.b);
+  ends.push_back({block_a, block_b, place_a, place_b});
 }
 
 /// What is lost with a base spring and its cross springs. They pulled during the step that found them broken, so half a step of that work

@@ -16,7 +16,8 @@ struct Record {
 
 class History {
  public:
-  explicit History(const std::filesystem::path& directory);
+  explicit History(const std::filesystem::path& directory, Archive* resumed = nullptr);
+  void save(Archive& archive) { table_.save(archive); }
   void write(const Record& record);
 
  private:
@@ -26,12 +27,13 @@ class History {
 /// Only for runs with a failure criterion.
 class FailureLog {
  public:
-  explicit FailureLog(const std::filesystem::path& directory);
+  explicit FailureLog(const std::filesystem::path& directory, Archive* resumed = nullptr);
+  void save(Archive& archive);
   void write_new(const std::vector<Breakage>& breakages);  ///< those that came since the last call
 
  private:
   Table table_;
-  std::size_t written_ = 0;
+  std::uint64_t written_ = 0;
 };
 
 }  // namespace hyperlattice

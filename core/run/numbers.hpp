@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <span>
 
 namespace hyperlattice {
 
@@ -50,6 +51,10 @@ class Numbers {
       doubles_[n] = value;
   }
   bool empty() const { return get() == nullptr; }
+  std::span<std::byte> bytes() const {
+    return floats_.get() != nullptr ? std::as_writable_bytes(std::span(floats_.get(), floats_.size()))
+                                    : std::as_writable_bytes(std::span(doubles_.get(), doubles_.size()));
+  }
   /// Copies `count` numbers of another array of this precision.
   void copy(const Numbers& from, std::size_t first, std::size_t count, std::size_t to) const {
     if (floats_.get() != nullptr)

@@ -1,5 +1,6 @@
 #include <plan/fields.hpp>
 #include <plan/plan.hpp>
+#include <run/archive.hpp>
 #include <run/outputs.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -18,7 +19,7 @@ void call(const Stage& stage, Call&& function) {
 
 }  // namespace
 
-Outputs::Outputs(const Model& model, const Simulation& simulation, const std::filesystem::path& directory, double end_time)
+Outputs::Outputs(const Model& model, const Simulation& simulation, const std::filesystem::path& directory, double end_time, Archive* resumed)
     : model_(model), simulation_(simulation), source_(model, simulation), directory_(directory), regions_(model.body, model.scene->regions) {
   for (const std::string_view name : field_names)
     if (has_field(model, name)) fields_.push_back(name);
@@ -28,11 +29,24 @@ Outputs::Outputs(const Model& model, const Simulation& simulation, const std::fi
       output.stage = stage;
       output.component = make_component(*stage);
       output.schedule = Schedule(0, output_interval(*stage, end_time), stage->cadence.first);
-      begin(output);
+      if (resumed != nullptr) visit(*resumed, output);
+      begin(output, resumed);
     }
 }
 
-void Outputs::begin(Output& output) {
+void Outputs::visit(Archive& archive, Output& output) {
+  archive(output.schedule);
+  archive(output.shown);
+}
+
+void Outputs::save(Archive& archive) {
+  for (Output& output : outputs_) {
+    visit(archive, output);
+    if (output.table) output.table->save(archive);
+  }
+}
+
+void Outputs::begin(Output& output, Archive* resumed) {
   const Stage& stage = *output.stage;
   const bool is_probe = stage.family() == Family::probes;
   const std::string type = stage.component->type();
@@ -43,6 +57,7 @@ void Outputs::begin(Output& output) {
   context.directory = output.directory;
   context.title = model_.scene->title;
   context.fields = fields_;
+  context.earlier = output.shown;
   context.self = this;
   context.region_particles = [](void* self, RegionId region) noexcept { return static_cast<Outputs*>(self)->regions_.particles(region); };
   if (!is_probe) {
@@ -55,7 +70,8 @@ void Outputs::begin(Output& output) {
        [&](const Complaint& why) { return stage.functions<ProbeFunctions>().begin(output.component.get(), context, source_.take(), sink, why); });
   source_.rethrow();
   output.row.resize(columns.size());
-  output.table.emplace(directory_ / "probes" / (stage.name + ".csv"), columns);
+  const std::filesystem::path file = directory_ / "probes" / (stage.name + ".csv");
+  output.table.emplace(resumed != nullptr ? Table::resumed(file, *resumed) : Table(file, columns));
 }
 
 void Outputs::show(double time_step) {
@@ -65,12 +81,12 @@ void Outputs::show(double time_step) {
 
 void Outputs::show_now() {
   for (Output& output : outputs_)
-    if (output.seen != simulation_.steps()) show_to(output);
+    if (!has_seen_this(output)) show_to(output);
 }
 
 void Outputs::show_last() {
   for (Output& output : outputs_)
-    if (output.stage->cadence.last && output.seen != simulation_.steps()) show_to(output);
+    if (output.stage->cadence.last && !has_seen_this(output)) show_to(output);
 }
 
 void Outputs::show_to(Output& output) {
@@ -81,7 +97,8 @@ void Outputs::show_to(Output& output) {
                         : stage.functions<WriterFunctions>().frame(output.component.get(), snapshot, why);
   });
   source_.rethrow();
-  output.seen = snapshot.step;
+  if (output.table) output.shown.clear();
+  output.shown.push_back({snapshot.step, snapshot.time});
   if (!output.table) return;
   output.row[0] = snapshot.time;
   output.table->row(output.row);

@@ -15,8 +15,9 @@ namespace hyperlattice {
 /// Everything here throws OutsideError when a writer, a probe or the disk refuses.
 class Outputs {
  public:
-  /// Begins every writer and probe. `end_time` is the run's, for those that do not say how often.
-  Outputs(const Model& model, const Simulation& simulation, const std::filesystem::path& directory, double end_time);
+  /// Begins every writer and probe, or goes on with them. `end_time` is the run's, for those that do not say how often.
+  Outputs(const Model& model, const Simulation& simulation, const std::filesystem::path& directory, double end_time, Archive* resumed = nullptr);
+  void save(Archive& archive);
 
   void show(double time_step);  ///< to those that are due, at the present state
   void show_now();              ///< to all that have not seen the present state
@@ -29,11 +30,13 @@ class Outputs {
     ComponentPointer component{nullptr, [](void*) {}};
     std::string directory;
     Schedule schedule;
-    std::optional<std::uint64_t> seen;  ///< step of the latest state it was shown
-    std::optional<Table> table;         ///< of a probe
+    std::vector<FrameMark> shown;  ///< all that it was shown; of a probe, the latest
+    std::optional<Table> table;    ///< of a probe
     std::vector<double> row;
   };
-  void begin(Output& output);
+  void begin(Output& output, Archive* resumed);
+  static void visit(Archive& archive, Output& output);
+  bool has_seen_this(const Output& output) const { return !output.shown.empty() && output.shown.back().step == simulation_.steps(); }
   void show_to(Output& output);
 
   const Model& model_;

@@ -1,4 +1,5 @@
-// The inside of a Simulation: its blocks and its books. Split by concern: build.cpp, step.cpp, settle.cpp, breakage.cpp, balance.cpp.
+// The inside of a Simulation: its blocks and its books. Split by concern: build.cpp, step.cpp, settle.cpp, breakage.cpp, balance.cpp,
+// restart.cpp.
 #pragma once
 
 #include <run/block.hpp>
@@ -61,6 +62,7 @@ struct Simulation::Parts {
   const std::uint8_t* review(Block& block, const AlarmRow& alarm) const;
   double rate_of(const Block& block, const AlarmRow& alarm, std::size_t n) const;
   void collect_breakages(double dt);
+  void note_ends(const Breakage& breakage);
   double energy_of(std::size_t breakage, const Block& block, const Block::Broken& broken, double dt) const;
   double elongation_now(std::size_t breakage) const;
 

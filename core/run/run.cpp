@@ -1,5 +1,6 @@
 // The run: planned solver stages one after the other. Each step belongs to the solver; records, outputs, guards and the end are here.
 #include <plan/precision.hpp>
+#include <run/checkpoint.hpp>
 #include <run/failing_motion.hpp>
 #include <run/guard.hpp>
 #include <run/interrupt.hpp>
@@ -38,6 +39,10 @@ class Running {
  private:
   static constexpr std::uint64_t guard_every = 50;  ///< steps; a guard reads the velocities once, a fraction of a step's work
 
+  void open(Archive* resumed);
+  void visit(Archive& archive);
+  void save();
+  void save_if_due();
   void solve_stage(const PlannedStage& stage);
   void stepped(double time_step);
   void observe();
@@ -55,6 +60,10 @@ class Running {
   std::unique_ptr<Progress> progress_;
 
   const PlannedStage* stage_ = nullptr;
+  std::uint64_t stages_done_ = 0, stage_steps_ = 0;  ///< whole stages, and steps of the present one
+  std::uint64_t observed_ = 0;                       ///< steps when the state was observed
+  bool resumed_ = false;                             ///< in the middle of a stage
+  Clock::time_point saved_ = Clock::now();
   std::optional<RestReport> rest_;  ///< the latest that a solver gave
   Schedule record_schedule_;
   double time_step_ = 0;
@@ -74,21 +83,69 @@ void Running::timed(Output&& output) {
 void Running::start(Outcome& outcome) {
   const auto start = Clock::now();
   namespace fs = std::filesystem;
+  const bool goes_on = options_.resume && !read_checkpoint_head(plan_, options_.directory).at_start;
   fs::create_directories(options_.directory);
-  for (const char* stale : {"summary.json", "failures.csv", failing_motion_file}) fs::remove(options_.directory / stale);
+  for (const char* stale : {"summary.json", failing_motion_file}) fs::remove(options_.directory / stale);
+  if (!goes_on)
+    for (const char* stale : {"failures.csv", checkpoint_file}) fs::remove(options_.directory / stale);
   write_file((options_.directory / "scene.resolved.json").string(), plan_.scene->resolved);
   simulation_ = std::make_unique<Simulation>(*plan_.model, plan_.threads);
   guard_ = std::make_unique<Guard>(*plan_.model, *simulation_);
-  history_ = std::make_unique<History>(options_.directory);
-  if (plan_.model->choice.breakable) failures_ = std::make_unique<FailureLog>(options_.directory);
-  outputs_ = std::make_unique<Outputs>(*plan_.model, *simulation_, options_.directory, plan_.end_time());
+  if (goes_on)
+    read_checkpoint(options_.directory, [this](Archive& archive) { visit(archive); });
+  else
+    open(nullptr);
   progress_ = std::make_unique<Progress>(plan_.steps(), options_.quiet);
   outcome.setup_seconds += seconds_since(start);
 }
 
+/// The files that grow: begun, or gone on with.
+void Running::open(Archive* resumed) {
+  history_ = std::make_unique<History>(options_.directory, resumed);
+  if (plan_.model->choice.breakable) failures_ = std::make_unique<FailureLog>(options_.directory, resumed);
+  outputs_ = std::make_unique<Outputs>(*plan_.model, *simulation_, options_.directory, plan_.end_time(), resumed);
+}
+
+/// All that a run is, at a point from which it can go on.
+void Running::visit(Archive& archive) {
+  simulation_->archive(archive);
+  archive(stages_done_);
+  archive(stage_steps_);
+  archive(record_schedule_);
+  archive(time_step_);
+  archive(last_);
+  archive(recorded_);
+  archive(largest_relative_error_);
+  archive(rest_);
+  archive(solve_seconds_);
+  archive(output_seconds_);
+  if (archive.restores()) {
+    resumed_ = stage_steps_ > 0;
+    observed_ = simulation_->steps();
+    open(&archive);
+    return;
+  }
+  history_->save(archive);
+  if (failures_) failures_->save(archive);
+  outputs_->save(archive);
+}
+
+void Running::save() {
+  timed(
+      [&] { write_checkpoint(options_.directory, checkpoint_head(plan_, simulation_->steps() == 0), [this](Archive& archive) { visit(archive); }); });
+  saved_ = Clock::now();
+}
+
+void Running::save_if_due() {
+  constexpr std::uint64_t every = 16;  // steps; a clock costs about as much as a hundred particles
+  if (!stage_->plan.resumes || !(options_.checkpoint_every > 0) || stage_steps_ == 0 || stage_steps_ % every != 0) return;
+  if (seconds_since(saved_) >= options_.checkpoint_every) save();
+}
+
 void Running::solve() {
-  for (const PlannedStage& stage : plan_.stages) {
-    if (stop_requested()) return;
+  while (stages_done_ < plan_.stages.size()) {
+    const PlannedStage& stage = plan_.stages[stages_done_];
+    if (stop_requested()) return save();
     const auto start = Clock::now();
     const double output_before = output_seconds_;
     const auto clock = [&] { solve_seconds_ += seconds_since(start) - (output_seconds_ - output_before); };
@@ -99,21 +156,32 @@ void Running::solve() {
       throw;
     }
     clock();
+    if (stop_requested()) return;
+    ++stages_done_;
+    stage_steps_ = 0;
   }
 }
 
 void Running::solve_stage(const PlannedStage& stage) {
   stage_ = &stage;
   guard_->start(stage);
-  record_schedule_ = Schedule(stage.start_time, record_interval(stage), true);
-  time_step_ = stage.plan.time_step;
+  if (!resumed_) {
+    record_schedule_ = Schedule(stage.start_time, record_interval(stage), true);
+    time_step_ = stage.plan.time_step;
+    if (!stage.plan.resumes) save();  // such a stage begins anew
+  }
+  resumed_ = false;
   StageCalls::Hooks hooks;
   hooks.stepped = [this](double time_step) { stepped(time_step); };
   hooks.observe = [this] { observe(); };
   hooks.report = [this](const RestReport& report) { rest_ = report; };
   hooks.failing_motion = [this](const std::vector<double>& motion) { write_failing_motion(options_.directory, plan_.model->body, motion); };
   hooks.must_stop = [] { return stop_requested(); };
-  StageCalls(*plan_.model, *simulation_, stage, plan_.threads, std::move(hooks)).run();
+  StageCalls(*plan_.model, *simulation_, stage, plan_.threads, std::move(hooks), stage_steps_).run();
+  if (stop_requested() && stage.plan.resumes) {
+    if (observed_ != simulation_->steps()) observe();
+    save();
+  }
   record();
   if (stage.plan.at_rest) {
     timed([&] { outputs_->show_now(); });  // at rest all instants are one
@@ -123,16 +191,19 @@ void Running::solve_stage(const PlannedStage& stage) {
 
 void Running::stepped(double time_step) {
   time_step_ = time_step;
+  ++stage_steps_;
   if (simulation_->steps() % guard_every == 0) guard_->check_motion(time_step);
 }
 
 void Running::observe() {
+  observed_ = simulation_->steps();
   if (stage_->plan.at_rest ? simulation_->steps() % record_steps(*stage_) == 0 : record_schedule_.due(simulation_->time(), time_step_)) record();
   // A share of a stage's time is rarely a round number: an instant is also met nearly.
   const double near_enough = 1e-6 * (stage_->plan.end_time - stage_->start_time);
   timed([&] { outputs_->show(stage_->plan.at_rest ? near_enough : time_step_); });
   progress_->update(simulation_->steps(), simulation_->time(), time_step_, simulation_->breakages().size(),
                     stage_->plan.at_rest && rest_ ? rest_->residual : -1);
+  save_if_due();
 }
 
 void Running::record() {
@@ -177,6 +248,12 @@ void Running::note(Outcome& outcome) {
 
 }  // namespace
 
+void prepare_to_resume(Plan& plan, const std::filesystem::path& directory) {
+  const int threads = read_checkpoint_head(plan, directory).threads;
+  if (threads != plan.threads) spdlog::info("the run goes on with {} threads, as it began", threads);
+  plan.threads = threads;
+}
+
 int run(Plan& plan, const RunOptions& options) {
   const FileLimitGuard file_limit;
   Outcome outcome;
@@ -208,6 +285,7 @@ int run(Plan& plan, const RunOptions& options) {
   }
   forget_stop();
   try {
+    if (outcome.exit_code == exit_done) std::filesystem::remove(options.directory / checkpoint_file);
     write_file((options.directory / "summary.json").string(), summary_json(plan, outcome).dump(2) + "\n");
   } catch (const std::exception& error) {
     spdlog::error("{}", error.what());

@@ -36,10 +36,11 @@ Statics& StageCalls::statics() {
   return *statics_;
 }
 
-StageCalls::StageCalls(const Model& model, Simulation& simulation, const PlannedStage& stage, int threads, Hooks hooks)
+StageCalls::StageCalls(const Model& model, Simulation& simulation, const PlannedStage& stage, int threads, Hooks hooks, std::uint64_t steps_done)
     : model_(model), simulation_(simulation), stage_(stage), threads_(threads), hooks_(std::move(hooks)) {
   host_.self = this;
   host_.time = simulation.time();
+  host_.steps_done = steps_done;
   host_.take_step = [](void* self, double time_step) {
     auto& calls = *static_cast<StageCalls*>(self);
     return calls.guarded([&] {

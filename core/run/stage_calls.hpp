@@ -21,7 +21,7 @@ class StageCalls {
     std::function<void(const std::vector<double>& motion)> failing_motion;  ///< three numbers a particle
     std::function<bool()> must_stop;
   };
-  StageCalls(const Model& model, Simulation& simulation, const PlannedStage& stage, int threads, Hooks hooks);
+  StageCalls(const Model& model, Simulation& simulation, const PlannedStage& stage, int threads, Hooks hooks, std::uint64_t steps_done = 0);
   StageCalls(const StageCalls&) = delete;
   StageCalls& operator=(const StageCalls&) = delete;
 

@@ -9,6 +9,8 @@
 
 namespace hyperlattice {
 
+class Archive;
+
 /// A base spring that broke. Its cross springs went with it.
 struct Breakage {
   std::uint64_t step = 0;
@@ -84,6 +86,7 @@ class Simulation {
   std::uint64_t hash() const;  ///< FNV-1a over displacements, velocities and alive springs, in the particles' order
   double bytes() const;        ///< of the state, without scratch
   double scratch_bytes() const;
+  void archive(Archive& archive);  ///< all of it; restored in a simulation of the same model and number of threads, it goes on with the same bits
 
  private:
   struct Parts;

@@ -1,5 +1,6 @@
 // Tables: appended through the system's own calls, because they alone say how much of a line reached the disk.
 #include <base/errors.hpp>
+#include <run/archive.hpp>
 #include <run/table.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -28,6 +29,24 @@ Table::Table(std::filesystem::path file, const std::vector<std::string>& columns
   if (descriptor_ < 0) fail(errno);
   lines(fmt::format("{}\n", fmt::join(columns, ",")));
 }
+
+void Table::save(Archive& archive) {
+  std::uint64_t now = bytes();
+  archive(now);
+}
+
+Table Table::resumed(std::filesystem::path file, Archive& archive) {
+  std::uint64_t saved = 0;
+  archive(saved);
+  Table table(std::move(file));
+  table.descriptor_ = ::open(table.file_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  if (table.descriptor_ < 0) table.fail(errno);
+  if (table.bytes() < saved) throw OutsideError(fmt::format("{}: shorter than when the checkpoint was made", table.file_.string()));
+  if (::ftruncate(table.descriptor_, static_cast<off_t>(saved)) != 0) table.fail(errno);
+  return table;
+}
+
+std::uint64_t Table::bytes() const { return static_cast<std::uint64_t>(::lseek(descriptor_, 0, SEEK_END)); }
 
 Table::Table(Table&& other) noexcept
     : file_(std::move(other.file_)), descriptor_(std::exchange(other.descriptor_, -1)), buffer_(std::move(other.buffer_)) {}

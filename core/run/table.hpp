@@ -9,6 +9,8 @@
 
 namespace hyperlattice {
 
+class Archive;
+
 /// Each append is one write; what a full disk cuts off is taken back to the last whole line. Every member throws OutsideError.
 class Table {
  public:
@@ -17,9 +19,14 @@ class Table {
   ~Table();
 
   void row(std::span<const double> values);
+  void save(Archive& archive);  ///< how far it has come
+  /// Goes on with a table that is there, from where it had come.
+  static Table resumed(std::filesystem::path file, Archive& archive);
   void lines(std::string_view whole_lines);  ///< each ends with a newline
 
  private:
+  explicit Table(std::filesystem::path file) : file_(std::move(file)) {}
+  std::uint64_t bytes() const;
   [[noreturn]] void fail(int error);
 
   std::filesystem::path file_;

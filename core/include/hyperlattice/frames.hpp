@@ -54,11 +54,12 @@ class FrameFiles {
  public:
   FrameFiles() = default;
   FrameFiles(const OutputContext& context, std::string_view file, std::string_view extension)
-      : base_(std::string(context.directory) + "/"), file_(file), extension_(extension) {}
+      : base_(std::string(context.directory) + "/"), file_(file), extension_(extension), frame_(context.earlier.size()) {}
 
   /// Name of the present frame, without its folder.
-  std::string name() const {
-    std::string number = std::to_string(frame_);
+  std::string name() const { return name(frame_); }
+  std::string name(std::uint64_t frame) const {
+    std::string number = std::to_string(frame);
     if (number.size() < 6) number.insert(0, 6 - number.size(), '0');
     return file_ + "_" + number + extension_;
   }

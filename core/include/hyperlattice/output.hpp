@@ -32,11 +32,18 @@ struct Snapshot {
 inline constexpr std::string_view field_names[] = {"displacement", "velocity",    "height",        "material",
                                                    "source",       "broken_open", "broken_closed", "damage"};
 
+/// A frame that stands in the folder already.
+struct FrameMark {
+  std::uint64_t step = 0;
+  double time = 0;  ///< seconds
+};
+
 /// Where output goes and what body it is about.
 struct OutputContext {
   std::string_view directory;  ///< exists; ends without a slash
   std::string_view title;
   std::span<const std::string_view> fields;  ///< those of field_names that this run has; empty: only the snapshot tells
+  std::span<const FrameMark> earlier;        ///< of a run that goes on: this writer's frames, in their order; its next follows them
   void* self = nullptr;
   std::span<const Particle> (*region_particles)(void* self, RegionId region) noexcept = nullptr;
 

@@ -26,6 +26,7 @@ struct SolverPlan {
   std::uint64_t steps = 0;
   /// The stage looks for a state of rest: its steps are not steps in time, time_step may be 0. Loads act as they do at end_time.
   bool at_rest = false;
+  bool resumes = false;        ///< run() can go on in the middle of a stage, after SolverHost::steps_done steps
   double bytes_per_site = 0;   ///< that the solver needs besides the state, for each site of the box around the body
   double sweeps_per_step = 1;  ///< evaluations of all springs that a step takes, about
 };
@@ -33,7 +34,8 @@ struct SolverPlan {
 /// The running simulation as a solver sees it.
 struct SolverHost {
   void* self = nullptr;
-  double time = 0;  ///< seconds; advanced by step()
+  double time = 0;               ///< seconds; advanced by step()
+  std::uint64_t steps_done = 0;  ///< of this stage, by the run that this one goes on with; that state was observed
   bool (*take_step)(void* self, double time_step) = nullptr;
   bool (*show)(void* self) = nullptr;
 

@@ -21,6 +21,7 @@ class Csv {
     for (const std::string& name : options_.fields) require_field(context, name);
     files_ = FrameFiles(context, options_.file, ".csv");
     selection_ = Selection(context.particles(options_.region));
+    for (std::size_t n = 0; n < context.earlier.size(); ++n) add_to_times(files_.name(n), context.earlier[n].step, context.earlier[n].time);
   }
 
   void frame(const Snapshot& snapshot) {
@@ -52,7 +53,8 @@ class Csv {
     }
     file.write(text);
     file.commit();
-    add_to_times(snapshot);
+    add_to_times(files_.name(), snapshot.step, snapshot.time);
+    write_file(files_.path_of_series("_times.csv"), times_);
     files_.next();
   }
 
@@ -66,11 +68,10 @@ class Csv {
     }
   }
 
-  void add_to_times(const Snapshot& snapshot) {
-    times_ += files_.name() + "," + std::to_string(snapshot.step) + ",";
-    append_number(times_, snapshot.time);
+  void add_to_times(const std::string& file, std::uint64_t step, double time) {
+    times_ += file + "," + std::to_string(step) + ",";
+    append_number(times_, time);
     times_ += '\n';
-    write_file(files_.path_of_series("_times.csv"), times_);
   }
 
   Options options_;

@@ -56,6 +56,7 @@ class Vtu {
     for (const std::string& name : options_.fields) require_field(context, name);
     files_ = FrameFiles(context, options_.file, ".vtu");
     selection_ = Selection(context.particles(options_.region));
+    for (std::size_t n = 0; n < context.earlier.size(); ++n) add_to_collection(files_.name(n), context.earlier[n].time);
   }
 
   void frame(const Snapshot& snapshot) {
@@ -85,7 +86,8 @@ class Vtu {
     file.write(appended);
     file.write("\n</AppendedData>\n</VTKFile>\n");
     file.commit();
-    add_to_collection(snapshot.time);
+    add_to_collection(files_.name(), snapshot.time);
+    write_collection();
     files_.next();
   }
 
@@ -127,11 +129,14 @@ class Vtu {
     return cells_;
   }
 
-  /// The collection is rewritten with every frame, so that a run that is cut off can be opened.
-  void add_to_collection(double time) {
+  void add_to_collection(const std::string& file, double time) {
     collection_ += "<DataSet timestep=\"";
     append_number(collection_, time);
-    collection_ += "\" part=\"0\" file=\"" + files_.name() + "\"/>\n";
+    collection_ += "\" part=\"0\" file=\"" + file + "\"/>\n";
+  }
+
+  /// Rewritten with every frame, so that a run that is cut off can be opened.
+  void write_collection() const {
     write_file(files_.path_of_series(".pvd"), "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n" + collection_ +
                                                   "</Collection>\n</VTKFile>\n");
   }

@@ -80,6 +80,7 @@ class Explicit {
     SolverPlan plan;
     plan.end_time = options_.end_time;
     plan.damping = options_.damping;
+    plan.resumes = true;
     plan.stable_time_step = facts.critical_time_step / std::sqrt(1 + options_.damping);
     for (const Segment& segment : segments(facts)) {
       plan.steps += segment.steps;
@@ -89,12 +90,16 @@ class Explicit {
   }
 
   void run(const SolverFacts& facts, SolverHost& host) const {
-    if (!host.observe()) return;
-    for (const Segment& segment : segments(facts))
-      for (std::uint64_t n = 1; n <= segment.steps; ++n) {
+    std::uint64_t before = host.steps_done;
+    if (before == 0 && !host.observe()) return;
+    for (const Segment& segment : segments(facts)) {
+      const std::uint64_t done = std::min(before, segment.steps);
+      before -= done;
+      for (std::uint64_t n = done + 1; n <= segment.steps; ++n) {
         const bool last = n == segment.steps;  // takes what round-off left, to land exactly
         if (!host.step(last ? segment.end - host.time : segment.time_step) || !host.observe()) return;
       }
+    }
   }
 
  private:

@@ -1,0 +1,196 @@
+// A run that is cut off, again and again, at any step, and goes on: what it leaves is, byte for byte, what a run leaves that never was.
+#include <support/program.hpp>
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+namespace hyperlattice::test {
+namespace {
+
+using nlohmann::json;
+
+/// A stage's place in the scenes below.
+constexpr std::size_t lattice = 0, material = 1;
+
+json pulled_block() {
+  return json::parse(R"({ "format": "hyperlattice/1", "pipeline": [
+    { "type": "lattices.cubic", "spacing": 1e-3, "shape": { "box": { "low": [0, 0, 0], "high": [0.012, 0.012, 0.02] } } },
+    { "type": "materials.elastic", "young": "10 GPa", "poisson": 0.1, "density": 2500, "membrane": "I-m",
+      "failure": { "type": "failures.elongation", "limit": "2e-3 mm" } },
+    { "type": "loads.fixed", "on": "z_min" }, { "type": "loads.velocity", "on": "z_max", "value": [0, 0, 1], "rise": "10 us" },
+    { "type": "loads.drag", "density": 1000 },
+    { "type": "solvers.explicit", "end_time": "1 ms" },
+    { "type": "writers.vtu", "every": "100 us" }, { "type": "writers.csv", "every": "300 us", "name": "tables" },
+    { "type": "writers.picture", "every": "400 us", "width": 320, "height": 320 },
+    { "type": "probes.point", "name": "top", "position": [0.006, 0.006, 0.02] }, { "type": "probes.line", "name": "axis", "start": [0.006, 0.006, 0],
+      "end": [0.006, 0.006, 0.02], "points": 5, "every": "200 us" } ] })");
+}
+
+struct Case {
+  const char* name;
+  void (*change)(json& scene);
+};
+void PrintTo(const Case& scene, std::ostream* out) { *out << scene.name; }
+const Case cases[] = {
+    {"breakable", [](json&) {}},
+    {"floats", [](json& scene) { scene["precision"] = "float"; }},
+    {"plastic",
+     [](json& scene) {
+       scene["pipeline"][material] = {
+           {"type", "materials.plastic"}, {"young", "10 GPa"}, {"density", 2500}, {"membrane", "none"}, {"yield", "5 MPa"}};
+     }},
+    {"listed",
+     [](json& scene) {
+       scene["pipeline"].erase(4);  // the drag wants more springs at the surface
+       scene["pipeline"][lattice]["type"] = "lattices.random";
+       scene["pipeline"][material]["membrane"] = "I";
+     }},
+    {"after_rest",
+     [](json& scene) {
+       json& pipeline = scene["pipeline"];
+       pipeline.erase(4);  // no static solver knows the drag
+       pipeline[3] = {{"type", "loads.force"}, {"on", "z_max"}, {"total", {5, 0, 200}}, {"rise", "10 us"}};
+       pipeline.insert(pipeline.begin() + 4, json{{"type", "solvers.static"}});
+       pipeline[5]["damping"] = 0.1;
+     }},
+};
+
+/// Every file of a run but the times that it took.
+std::map<std::string, std::string> left_behind(const std::string& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) files[std::filesystem::relative(entry.path(), folder).string()] = contents(entry.path().string());
+  json summary = json::parse(files.at("summary.json"));
+  for (const char* key : {"wall_seconds", "nanoseconds_per_particle_step", "peak_memory_bytes"}) summary.erase(key);
+  files["summary.json"] = summary.dump(1);
+  return files;
+}
+
+class Resume : public testing::TestWithParam<Case> {
+ protected:
+  Resume() { GetParam().change(scene); }
+  Result run(const std::string& out, std::vector<std::string> more = {}, const Launch& launch = {}) {
+    std::vector<std::string> arguments{"run", file, "--out", out, "--threads", "2", "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_program(arguments, launch);
+  }
+  /// Runs to the end, cut off by the signal at every third or so of what is left.
+  void cut_off_and_go_on(int signal, const std::string& out, const std::vector<std::string>& more) {
+    constexpr std::size_t rows = 40;  // of the history, from one cut to the next
+    std::size_t cuts = 0, next = rows;
+    std::vector<std::string> arguments = more;
+    for (;;) {
+      Launch launch;
+      launch.meanwhile = [&](pid_t child) {
+        const auto far_enough = [&] {
+          siginfo_t ended{};
+          waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT);
+          if (ended.si_pid != 0) return true;
+          return std::filesystem::exists(out + "/history.csv") && table_rows(out + "/history.csv").size() > next &&
+                 (signal != SIGKILL || std::filesystem::exists(out + "/checkpoint.bin"));
+        };
+        wait_until(far_enough);
+        kill(child, signal);
+      };
+      const Result result = run(out, arguments, launch);
+      if (result.exit_code == 0) break;
+      ASSERT_TRUE(result.exit_code == 130 || result.exit_code == 1000 + SIGKILL) << result.exit_code << result.err;
+      ++cuts;
+      next += rows;
+      ASSERT_LT(cuts, 100u);
+      arguments = more;
+      arguments.push_back("--resume");
+    }
+    std::printf("cut off %zu times\n", cuts);
+    EXPECT_GT(cuts, 0u);
+  }
+  void compare(const std::string& out) {
+    const auto found = left_behind(out), expected = left_behind(whole);
+    for (const auto& [name, bytes] : expected) {
+      ASSERT_TRUE(found.count(name)) << name;
+      EXPECT_TRUE(found.at(name) == bytes) << name;
+    }
+    for (const auto& [name, bytes] : found) EXPECT_TRUE(expected.count(name) || name.ends_with(".part")) << name;
+  }
+
+  Folder folder{"resume"};
+  json scene = pulled_block();
+  std::string file, whole = folder.file("whole");
+};
+INSTANTIATE_TEST_SUITE_P(Scenes, Resume, testing::ValuesIn(cases), [](const auto& info) { return std::string(info.param.name); });
+
+TEST_P(Resume, LeavesNoTrace) {
+  file = write_scene(folder, scene);
+  const Result never_cut_off = run(whole);
+  ASSERT_EQ(never_cut_off.exit_code, 0) << never_cut_off.err;
+  for (const auto& [signal, every] : {std::pair{SIGINT, "0"}, std::pair{SIGKILL, "0.001"}}) {
+    const std::string out = folder.file(signal == SIGINT ? "interrupted" : "killed");
+    ASSERT_NO_FATAL_FAILURE(cut_off_and_go_on(signal, out, {"--checkpoint-every", every}));
+    compare(out);
+  }
+}
+
+class ResumeFaults : public testing::Test {
+ protected:
+  void SetUp() override {
+    json scene = pulled_block();
+    scene["pipeline"][5]["end_time"] = 1;
+    file = write_scene(folder, scene);
+    Launch launch;
+    launch.meanwhile = [&](pid_t child) {
+      EXPECT_TRUE(wait_until([&] { return std::filesystem::exists(out + "/checkpoint.bin"); }));
+      kill(child, SIGKILL);
+    };
+    run_program({"run", file, "--out", out, "--threads", "2", "--checkpoint-every", "0.001"}, launch);
+  }
+  Result resume(std::vector<std::string> more = {}) {
+    std::vector<std::string> arguments{"run", file, "--out", out, "--resume"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_program(arguments);
+  }
+
+  Folder folder{"resume"};
+  std::string file, out = folder.file("out");
+};
+
+TEST_F(ResumeFaults, NothingToResume) {
+  out = folder.file("elsewhere");
+  const Result result = resume();
+  EXPECT_EQ(result.exit_code, 2) << result.err;
+  EXPECT_NE(result.err.find("--resume"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("there is none"), std::string::npos) << result.err;
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST_F(ResumeFaults, AnotherScene) {
+  const auto before = contents(out + "/checkpoint.bin");
+  const Result result = resume({"--set", "/pipeline/1/young=2e10"});
+  EXPECT_EQ(result.exit_code, 2) << result.err;
+  EXPECT_NE(result.err.find("a checkpoint of this scene"), std::string::npos) << result.err;
+  EXPECT_EQ(contents(out + "/checkpoint.bin"), before);
+}
+
+TEST_F(ResumeFaults, DamagedOrCutOff) {
+  const std::string path = out + "/checkpoint.bin", whole = contents(path);
+  std::string damaged = whole;
+  damaged[whole.size() / 2] = static_cast<char>(damaged[whole.size() / 2] ^ 1);
+  for (const std::string& bytes : {damaged, whole.substr(0, whole.size() / 2)}) {
+    std::ofstream(path, std::ios::binary) << bytes;
+    const Result result = resume();
+    EXPECT_EQ(result.exit_code, 4) << result.err;
+    EXPECT_NE(result.err.find(bytes == damaged ? "damaged" : "cut off"), std::string::npos) << result.err;
+  }
+  std::ofstream(path, std::ios::binary) << "no checkpoint at all";
+  EXPECT_EQ(resume().exit_code, 2);
+}
+
+TEST_F(ResumeFaults, AShorterTable) {
+  std::ofstream(out + "/history.csv") << "time\n";
+  const Result result = resume();
+  EXPECT_EQ(result.exit_code, 4) << result.err;
+  EXPECT_NE(result.err.find("history.csv: shorter"), std::string::npos) << result.err;
+}
+
+}  // namespace
+}  // namespace hyperlattice::test
