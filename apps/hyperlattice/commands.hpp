@@ -25,6 +25,7 @@ Command schema_command(CLI::App& program);
 Command analyze_command(CLI::App& program);
 Command calibrate_command(CLI::App& program);
 Command study_command(CLI::App& program);
+Command report_command(CLI::App& program);
 
 /// Writes the project of a plugin of that type into a new folder, by default ./<name>. InputError if there is no such family, or the folder is there.
 int write_new_plugin(const std::string& type, std::filesystem::path folder);

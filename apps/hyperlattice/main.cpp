@@ -26,7 +26,7 @@ int main(int count, char** words) {
   program.set_version_flag("--version", "hyperlattice " HYPERLATTICE_VERSION);
   program.footer("Exit codes: 0 done, 2 wrong input, 3 the run failed, 4 the outside failed (disk, memory, plugin), 130 interrupted.");
   const Command commands[] = {run_command(program),     plan_command(program),      plugins_command(program), schema_command(program),
-                              analyze_command(program), calibrate_command(program), study_command(program)};
+                              analyze_command(program), calibrate_command(program), study_command(program),   report_command(program)};
   try {
     program.parse(count, words);
     for (const Command& command : commands)

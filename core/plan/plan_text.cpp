@@ -1,4 +1,5 @@
 // The plan as a page for people; every number comes from the JSON form, so that the two never differ.
+#include <base/figures.hpp>
 #include <plan/plan.hpp>
 #include <run/state.hpp>
 
@@ -11,28 +12,11 @@ namespace hyperlattice {
 
 namespace {
 
-/// "1.25 GB".
-std::string bytes_text(double bytes) {
-  static constexpr const char* units[] = {"B", "kB", "MB", "GB", "TB"};
-  std::size_t unit = 0;
-  while (bytes >= 1000 && unit + 1 < std::size(units)) {
-    bytes /= 1000;
-    ++unit;
-  }
-  return fmt::format("{:.3g} {}", bytes, units[unit]);
-}
-
 std::string duration_text(double seconds) {
   if (seconds < 1) return "less than a second";
   if (seconds < 120) return fmt::format("about {:.0f} s", seconds);
   if (seconds < 7200) return fmt::format("about {:.0f} min", seconds / 60);
   return fmt::format("about {:.1f} h", seconds / 3600);
-}
-
-/// Integers with a space between thousands: "490 432".
-std::string count_text(std::uint64_t number) {
-  if (number < 1000) return fmt::format("{}", number);
-  return fmt::format("{} {:03}", count_text(number / 1000), number % 1000);
 }
 
 std::string stage_text(const PlannedStage& stage) {

@@ -134,6 +134,11 @@ std::string member(const std::string& pointer, std::string_view key) {
 
 std::string member(const std::string& pointer, std::size_t index) { return fmt::format("{}/{}", pointer, index); }
 
+std::string word_in(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
 std::string shown(const Json& value) {
   std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
   if (text.size() <= longest) return text;

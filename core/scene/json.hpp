@@ -19,6 +19,9 @@ bool parse_json(std::string_view text, Json& json, Faults& faults);
 std::string member(const std::string& pointer, std::string_view key);
 std::string member(const std::string& pointer, std::size_t index);
 
+/// The text that an object has by that key; empty if it has none, or is no object.
+std::string word_in(const Json& object, const char* key);
+
 /// A value as one line for a message, cut short if long.
 std::string shown(const Json& value);
 

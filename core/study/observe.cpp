@@ -1,10 +1,9 @@
+#include <base/probe_column.hpp>
 #include <scene/expectation.hpp>
 #include <study/observe.hpp>
 
 #include <spdlog/fmt/fmt.h>
 
-#include <array>
-#include <sstream>
 #include <stdexcept>
 
 namespace hyperlattice::study {
@@ -19,14 +18,10 @@ std::vector<std::size_t> columns_of(const Comparison& comparison, const std::vec
   return found;
 }
 
-/// A coordinate of the place in a column's name: "displacement_x@(0.01 0 0)".
+/// A coordinate of the place in a column's name.
 std::optional<double> coordinate_in(const std::string& column, Coordinate coordinate) {
-  const auto open = column.find("@(");
-  if (open == std::string::npos || column.back() != ')') return std::nullopt;
-  std::istringstream words(column.substr(open + 2, column.size() - open - 3));
-  std::array<std::string, 3> place;
-  words >> place[0] >> place[1] >> place[2];
-  return csv_number(place[static_cast<std::size_t>(coordinate)]);
+  const auto place = column_place(column);
+  return place ? std::optional<double>((*place)[static_cast<std::size_t>(coordinate)]) : std::nullopt;
 }
 
 double number_in(const CsvTable& table, std::size_t row, std::size_t column) {
@@ -42,7 +37,7 @@ std::string column_fault(const Comparison& comparison, const std::vector<std::st
   const auto found = columns_of(comparison, columns);
   std::vector<std::string> names;
   for (const std::string& column : columns)
-    if (const std::string name = column.substr(0, column.find('@')); names.empty() || names.back() != name) names.push_back(name);
+    if (const std::string name = column_name(column); names.empty() || names.back() != name) names.push_back(name);
   if (found.empty())
     return fmt::format("a column of probe {}: {}", comparison.probe, fmt::join(names, ", ")) + did_you_mean(comparison.column, names);
   if (!comparison.along)

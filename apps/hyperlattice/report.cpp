@@ -1,0 +1,44 @@
+// hyperlattice report: one page of one or more runs.
+#include "commands.hpp"
+
+#include <base/errors.hpp>
+#include <report/report.hpp>
+
+#include <hyperlattice/files.hpp>
+
+#include <spdlog/spdlog.h>
+
+#include <iostream>
+
+namespace hyperlattice {
+
+Command report_command(CLI::App& program) {
+  struct Arguments {
+    std::vector<std::filesystem::path> folders;
+    std::filesystem::path file;
+    bool json = false;
+  };
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = program.add_subcommand("report", "one page (HTML, with all that it needs) of one or more runs, also of runs that go on");
+  command->add_option("DIR", arguments->folders, "folders that runs or studies left")->required();
+  command->add_option("--out", arguments->file, "the page (default: DIR/report.html of one folder, report.html here of several)")->type_name("FILE");
+  command->add_flag("--json", arguments->json, "print what the page says for machines");
+  return {command, [arguments] {
+            auto& [folders, file, json] = *arguments;
+            if (file.empty()) file = (folders.size() == 1 ? folders.front() : std::filesystem::path()) / "report.html";
+            if (std::filesystem::is_directory(file)) throw InputError({{"--out", file.string(), "a file; there is a folder of that name"}});
+            const report::Report report = report::read_report(folders);
+            write_file(file.string(), report::report_page(report));
+            if (json) {
+              Json found = report::report_json(report);
+              found["file"] = file.string();
+              std::cout << found.dump(2, ' ', false, Json::error_handler_t::replace) << std::endl;
+            } else {
+              std::cout << report::report_text(report) << std::flush;
+            }
+            spdlog::info("the page is {}", file.string());
+            return exit_done;
+          }};
+}
+
+}  // namespace hyperlattice

@@ -1,0 +1,93 @@
+#include <base/csv.hpp>
+#include <report/pictures.hpp>
+
+#include <spdlog/fmt/fmt.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+
+namespace hyperlattice::report {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t head_bytes = 4096;  // of a picture: the texts stand before the pixels
+
+std::string head_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string bytes(head_bytes, '\0');
+  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(stream.gcount()));
+  return bytes;
+}
+
+/// "1e-05 s" is what the writer says.
+std::optional<double> time_of(const fs::path& file) {
+  for (const auto& [key, text] : png_texts(head_of(file)))
+    if (key == "Time") return csv_number(std::string_view(text).substr(0, text.find(' ')));
+  return std::nullopt;
+}
+
+/// The writer's frames in their order.
+std::vector<PictureFile> frames(const fs::path& folder, const std::string& base) {
+  std::vector<PictureFile> found;
+  double last = 0;
+  for (std::size_t n = 0;; ++n) {
+    PictureFile picture{folder / fmt::format("{}_{:06}.png", base, n), std::nullopt};
+    if (!fs::exists(picture.file)) return found;
+    picture.time = time_of(picture.file);
+    if (n > 0 && picture.time && *picture.time < last) return found;
+    last = picture.time.value_or(last);
+    found.push_back(std::move(picture));
+  }
+}
+
+}  // namespace
+
+std::vector<std::size_t> evenly(std::size_t count, std::size_t most) {
+  std::vector<std::size_t> chosen;
+  const std::size_t kept = std::min(count, most);
+  for (std::size_t n = 0; n < kept; ++n) chosen.push_back(kept == 1 ? count - 1 : (n * (count - 1) + (kept - 1) / 2) / (kept - 1));
+  return chosen;
+}
+
+std::vector<std::pair<std::string, std::string>> png_texts(std::string_view bytes) {
+  std::vector<std::pair<std::string, std::string>> texts;
+  if (!bytes.starts_with("\x89PNG\r\n\x1a\n")) return texts;
+  for (std::size_t at = 8; at + 8 <= bytes.size();) {
+    std::size_t length = 0;
+    for (std::size_t n = 0; n < 4; ++n) length = length << 8 | static_cast<unsigned char>(bytes[at + n]);
+    const std::string_view kind = bytes.substr(at + 4, 4);
+    if (kind == "IDAT" || at + 12 + length > bytes.size()) break;
+    const std::string_view content = bytes.substr(at + 8, length);
+    const auto end = content.find('\0');
+    if (kind == "tEXt" && end != std::string_view::npos) texts.emplace_back(content.substr(0, end), content.substr(end + 1));
+    if (kind == "iTXt" && end != std::string_view::npos && end + 2 < content.size() && content[end + 1] == 0) {  // not compressed
+      const auto language = content.find('\0', end + 3), translated = content.find('\0', language + 1);
+      if (language != std::string_view::npos && translated != std::string_view::npos)
+        texts.emplace_back(content.substr(0, end), content.substr(translated + 1));
+    }
+    at += 12 + length;
+  }
+  return texts;
+}
+
+std::vector<PictureSeries> find_pictures(const fs::path& folder, const Json& scene) {
+  std::vector<PictureSeries> all;
+  if (!scene.is_object() || !scene.contains("pipeline")) return all;
+  for (const Json& stage : scene["pipeline"]) {
+    const std::string type = word_in(stage, "type"), file = word_in(stage, "file");
+    if (!type.starts_with("writers.") || file.empty()) continue;
+    PictureSeries series{word_in(stage, "name"), {}, 0};
+    const bool is_labelled = series.name != type.substr(type.find('.') + 1);  // it then writes into a folder of that name
+    const auto found = frames(is_labelled ? folder / series.name : folder, file);
+    series.count = found.size();
+    for (const std::size_t n : evenly(found.size(), most_pictures)) series.files.push_back(found[n]);
+    if (series.count > 0) all.push_back(std::move(series));
+  }
+  return all;
+}
+
+}  // namespace hyperlattice::report

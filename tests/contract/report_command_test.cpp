@@ -1,0 +1,240 @@
+// `hyperlattice report` as a user types it: what the page holds, what machines read, what is refused and how. Another program judges the page itself:
+// report_page.py.
+#include <gtest/gtest.h>
+#include <support/program.hpp>
+
+namespace {
+using namespace hyperlattice::test;
+using nlohmann::json;
+using Words = std::vector<std::string>;
+namespace fs = std::filesystem;
+
+class ReportCommand : public testing::Test {
+ protected:
+  /// Runs the small sphere into a folder of this test.
+  void run(const std::string& name, const json& changes = json::object()) {
+    json scene = small_sphere();
+    scene["pipeline"].push_back({{"type", "probes.point"}, {"name", "outer"}, {"position", {"8 mm", 0, 0}}, {"component", "x"}});
+    for (const auto& [pointer, value] : changes.items()) scene[json::json_pointer(pointer)] = value;
+    const Result result = run_program({"run", write_scene(folder_, scene), "--out", out(name), "--quiet"});
+    ASSERT_TRUE(result.exit_code == 0 || result.exit_code == 3) << result.err;
+  }
+  std::string out(const std::string& name) const { return folder_.file(name); }
+  std::string page(const std::string& name) const { return contents(out(name) + "/report.html"); }
+  static Result report(Words words) {
+    words.insert(words.begin(), "report");
+    return run_program(words);
+  }
+  static const json& finding(const json& run, const std::string& about) {
+    for (const json& finding : run.at("findings"))
+      if (finding.at("about") == about) return finding;
+    throw std::runtime_error("no finding about " + about + " in " + run.dump(1));
+  }
+  static void write(const std::string& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
+
+  /// Exit code 2, no page, every part of a message in it, and no more faults than that.
+  void expect_refused(Words words, const Words& parts) {
+    const std::string file = out("refused.html");
+    words.insert(words.end(), {"--out", file});
+    const Result result = report(words);
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    for (const std::string& part : parts) EXPECT_NE(result.err.find(part), std::string::npos) << "missing: " << part << '\n' << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1 + static_cast<std::ptrdiff_t>(parts.size())) << result.err;
+    EXPECT_FALSE(fs::exists(file));
+    EXPECT_EQ(result.out, "");
+  }
+
+  Folder folder_{"report"};
+};
+
+TEST_F(ReportCommand, SaysWhatTheSummarySays) {
+  run("one");
+  const Result result = report({out("one"), "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json found = json::parse(result.out), summary = read_json(out("one") + "/summary.json");
+  EXPECT_EQ(found.at("file"), out("one") + "/report.html");
+  ASSERT_EQ(found.at("runs").size(), 1u);
+  const json& reported = found["runs"][0];
+  EXPECT_EQ(reported.at("status"), "done");
+  EXPECT_EQ(reported.at("title"), "small sphere");
+  for (const char* key : {"particles", "springs", "steps", "time_step", "state_hash", "wall_seconds", "broken_springs"})
+    EXPECT_EQ(reported.at("figures").at(key), summary.at(key)) << key;
+  const json step = finding(reported, "time_step").at("numbers");
+  EXPECT_EQ(step.at("time_step"), summary["time_step"]);
+  EXPECT_EQ(step.at("critical_time_step"), summary["critical_time_step"]);
+  EXPECT_DOUBLE_EQ(step.at("share"), summary["time_step"].get<double>() / summary["critical_time_step"].get<double>());
+  EXPECT_EQ(finding(reported, "time_step").at("judgement"), "fine");
+  const json energy = finding(reported, "energy_balance").at("numbers");
+  EXPECT_EQ(energy.at("relative_error"), summary["energy"]["relative_error"]);
+  EXPECT_EQ(energy.at("largest_relative_error"), summary["energy"]["largest_relative_error"]);
+  EXPECT_EQ(energy.at("energy_tolerance"), 0.05) << "the default of solvers.explicit";
+  EXPECT_EQ(finding(reported, "energy_balance").at("judgement"), "fine");
+
+  const std::string text = page("one");
+  for (const std::string part : {"small sphere", "No spring of this scene can break.", "Probe outer: displacement_x", "&quot;pipeline&quot;"})
+    EXPECT_NE(text.find(part), std::string::npos) << part;
+  for (const json& said : reported["findings"]) EXPECT_NE(report({out("one")}).out.find(said.at("sentence").get<std::string>()), std::string::npos);
+  EXPECT_NE(result.err.find("report.html"), std::string::npos) << "it says where the page is";
+}
+
+TEST_F(ReportCommand, IsTheSamePageForTheSameResults) {
+  run("one");
+  ASSERT_EQ(report({out("one")}).exit_code, 0);
+  const std::string first = page("one");
+  ASSERT_EQ(report({out("one")}).exit_code, 0);
+  EXPECT_EQ(page("one"), first);
+  EXPECT_FALSE(fs::exists(out("one") + "/report.html.part"));
+}
+
+TEST_F(ReportCommand, PutsRunsSideBySide) {
+  run("soft", {{"/pipeline/1/young", "5 GPa"}});
+  run("hard", {{"/title", "harder"}});
+  Launch here;
+  here.directory = out("");
+  const Result result = run_program({"report", "soft", "hard", "--json"}, here);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json found = json::parse(result.out);
+  EXPECT_EQ(found.at("file"), "report.html");
+  ASSERT_EQ(found.at("differences").size(), 2u);
+  EXPECT_EQ(found["differences"][0], json::parse(R"({"pointer": "/title", "values": ["small sphere", "harder"]})"));
+  EXPECT_EQ(found["differences"][1], json::parse(R"({"pointer": "/pipeline/1/young", "values": [5e9, 10e9]})"));
+  const std::string text = contents(out("report.html"));
+  for (const char* part : {"Report of 2 runs", "/pipeline/1/young", "Energy, kinetic", "Energy, stored", "Energy, dissipated", "Energy, injected",
+                           "soft: small sphere", "hard: harder"})
+    EXPECT_NE(text.find(part), std::string::npos) << part;
+}
+
+TEST_F(ReportCommand, TellsWhyARunFailed) {
+  run("broken", {{"/pipeline/2/peak", 1e200}, {"/pipeline/3/energy_tolerance", 0}});
+  const Result result = report({out("broken"), "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json reported = json::parse(result.out)["runs"][0], summary = read_json(out("broken") + "/summary.json");
+  ASSERT_EQ(summary["status"], "failed");
+  EXPECT_EQ(reported["status"], "failed");
+  EXPECT_EQ(finding(reported, "reason").at("sentence"), summary["reason"]);
+  EXPECT_EQ(finding(reported, "reason").at("judgement"), "wrong");
+  EXPECT_EQ(finding(reported, "energy_balance").at("judgement"), "doubtful") << "nothing would have stopped it";
+}
+
+TEST_F(ReportCommand, TellsWhenSpringsBreak) {
+  run("breaking", {{"/pipeline/1/failure", {{"type", "failures.elongation"}, {"limit", "1e-3 mm"}}}});
+  const Result result = report({out("breaking"), "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json summary = read_json(out("breaking") + "/summary.json"),
+             numbers = finding(json::parse(result.out)["runs"][0], "broken_springs").at("numbers");
+  ASSERT_GT(summary["broken_springs"]["open"], 0);
+  EXPECT_EQ(numbers.at("open"), summary["broken_springs"]["open"]);
+  EXPECT_EQ(numbers.at("closed"), summary["broken_springs"]["closed"]);
+  const std::string first = table_rows(out("breaking") + "/failures.csv").at(0);  // step,time,...
+  EXPECT_EQ(numbers.at("first_time"), std::stod(first.substr(first.find(',') + 1)));
+  EXPECT_NE(page("breaking").find("<figcaption>Broken springs</figcaption>"), std::string::npos);
+}
+
+TEST_F(ReportCommand, TellsHowNearToRestABodyIs) {
+  run("rest",
+      {{"/pipeline/2", {{"type", "loads.pressure"}, {"on", "inner_surface"}, {"pressure", "1 MPa"}}}, {"/pipeline/3", {{"type", "solvers.static"}}}});
+  const Result result = report({out("rest"), "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json summary = read_json(out("rest") + "/summary.json"), rest = finding(json::parse(result.out)["runs"][0], "rest");
+  EXPECT_EQ(rest.at("judgement"), "fine");
+  EXPECT_EQ(rest["numbers"]["residual"], summary["rest"]["residual"]);
+  EXPECT_EQ(rest["numbers"]["displacement_error"], summary["rest"]["displacement_error"]);
+  EXPECT_EQ(rest["numbers"]["tolerance"], 1e-6) << "the default of solvers.static";
+}
+
+TEST_F(ReportCommand, ShowsARunThatIsCutOff) {
+  run("cut");
+  fs::remove(out("cut") + "/summary.json");
+  std::string history = contents(out("cut") + "/history.csv");
+  const auto rows = table_rows(out("cut") + "/history.csv");
+  history.resize(history.size() - rows.back().size() / 2);  // within the last line
+  write(out("cut") + "/history.csv", history);
+  const Result result = report({out("cut"), "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json reported = json::parse(result.out)["runs"][0];
+  EXPECT_EQ(reported["status"], "unfinished");
+  EXPECT_EQ(reported["title"], "small sphere") << "the resolved scene knows it";
+  EXPECT_EQ(finding(reported, "note").at("sentence"), "history.csv ends within a line, which is left out.");
+  const std::string whole = rows.at(rows.size() - 2);
+  const json progress = finding(reported, "progress").at("numbers");
+  EXPECT_EQ(progress.at("time"), std::stod(whole)) << "the latest whole line";
+  EXPECT_EQ(progress.at("planned_end_time"), 10e-6);
+  EXPECT_NE(page("cut").find("<figcaption>Energies</figcaption>"), std::string::npos);
+}
+
+TEST_F(ReportCommand, ShowsAStudy) {
+  fs::create_directory(out("study"));
+  write(out("study") + "/study.json", R"({"title": "Errors & times", "rows": [], "sentence": "The cheapest is <small>."})");
+  write(out("study") + "/study.csv", "step,error\n1 us,0.01\n");
+  write(out("study") + "/study.svg", "<svg/>");
+  const Result result = report({out("study"), "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(json::parse(result.out)["studies"][0]["title"], "Errors & times");
+  for (const char* part : {"Errors &amp; times", "The cheapest is &lt;small&gt;.", "<td>0.01</td>", "data:image/svg+xml;base64,PHN2Zy8+\""})
+    EXPECT_NE(page("study").find(part), std::string::npos) << part;
+}
+
+TEST_F(ReportCommand, RefusesWhatItCannotUnderstandAllAtOnce) {
+  run("good");
+  for (const char* name : {"empty", "torn", "wrong", "listed"}) fs::create_directory(out(name));
+  write(out("torn") + "/summary.json", R"({"status": "done", "partic)");
+  write(out("torn") + "/scene.resolved.json", R"({"pipeline": [)");
+  write(out("wrong") + "/summary.json", R"({"particles": 3})");
+  write(out("wrong") + "/history.csv", "time,step,kinetic\n0,0,0\n1e-6,one,0\n");
+  write(out("listed") + "/summary.json", "[]");
+  const std::string history = out("wrong") + "/history.csv";
+  expect_refused(
+      {out("good"), out("good"), out("nowhere"), out("empty"), out("torn"), out("wrong"), out("listed")},
+      {out("good") + ": expected each folder once", out("nowhere") + ": expected a folder with what a run left",
+       out("empty") + ": expected a run's summary.json or history.csv", out("torn") + "/summary.json line 1, column 27: expected valid JSON",
+       out("torn") + "/scene.resolved.json line 1, column 15: expected valid JSON", out("wrong") + "/summary.json /status: expected \"done\"",
+       history + " line 3: \"one\": expected a number in column \"step\"",
+       history + ": expected the columns of a history; it has no stored, dissipated, injected, relative_error, broken_open, broken_closed",
+       out("listed") + "/summary.json: []: expected an object"});
+}
+
+/// Whatever stands in a file: a page, or exit code 2 with a message and no page.
+TEST_F(ReportCommand, BearsFilesOfAnyContent) {
+  run("run");
+  const std::string summary = out("run") + "/summary.json", scene = out("run") + "/scene.resolved.json";
+  const auto expect_borne = [&](const std::string& what) {
+    fs::remove(out("page.html"));
+    const Result result = report({out("run"), "--out", out("page.html"), "--json"});
+    EXPECT_TRUE(result.exit_code == 0 || result.exit_code == 2) << what << ": " << result.exit_code << ' ' << result.err;
+    EXPECT_EQ(fs::exists(out("page.html")), result.exit_code == 0) << what;
+    if (result.exit_code == 2) {
+      EXPECT_NE(result.err.find(out("run")), std::string::npos) << what;
+    }
+    return result.exit_code;
+  };
+  for (const std::string& file : {summary, scene}) {  // every value of another type
+    const json good = read_json(file);
+    for (const auto& [key, value] : good.items())
+      for (const json& other : {json(), json(-1e300), json("text"), json::array({1, "a"}), json::object({{"a", 1}})}) {
+        json changed = good;
+        changed[key] = other;
+        write(file, changed.dump());
+        expect_borne(key + " = " + other.dump());
+      }
+    write(file, good.dump());
+  }
+  for (const std::string& file : {summary, scene, out("run") + "/history.csv", out("run") + "/probes/outer.csv"}) {
+    const std::string good = contents(file);
+    for (const double share : {0.0, 0.03, 0.3, 0.7, 0.99}) {
+      write(file, good.substr(0, static_cast<std::size_t>(share * static_cast<double>(good.size()))));
+      EXPECT_EQ(expect_borne("cut " + file), file.ends_with(".csv") && share > 0.1 ? 0 : 2) << file << ' ' << share;
+    }
+    write(file, good);
+    EXPECT_EQ(expect_borne("whole"), 0);
+  }
+}
+
+TEST_F(ReportCommand, RefusesCommandsThatMakeNoSense) {
+  run("good");
+  EXPECT_EQ(report({}).exit_code, 2);
+  EXPECT_EQ(report({out("good"), "--out", out("good")}).exit_code, 2) << "a folder is no file";
+  EXPECT_EQ(report({out("good"), "--out", out("nowhere/report.html")}).exit_code, 4) << "the disk refuses";
+  EXPECT_FALSE(fs::exists(out("good") + "/report.html"));
+}
+
+}  // namespace
