@@ -8,10 +8,13 @@
 #include <report/style.hpp>
 #include <report/verdict.hpp>
 
+#include <hyperlattice/files.hpp>
+
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 
 namespace hyperlattice::report {
@@ -98,7 +101,7 @@ void put_run(std::string& page, const RunRecord& run, bool is_only) {
   page += "</section>\n";
 }
 
-/// The figures of all runs side by side; those in which they differ are marked.
+/// The figures of all runs side by side.
 HtmlTable comparison(const Report& report) {
   HtmlTable table{{""}, {}};
   for (const RunRecord& run : report.runs) {
@@ -137,7 +140,11 @@ void put_study(std::string& page, const StudyRecord& study, bool is_only) {
       escaped(study.folder.string()));
   put(page, "<p>{}</p>\n", escaped(word_in(study.found, "sentence")));
   if (!study.plot.empty()) put(page, "<figure><img alt=\"error against run time\" src=\"{}\"/></figure>\n", data_uri("image/svg+xml", study.plot));
-  page += table_html({study.table.columns, study.table.rows});
+  HtmlTable table{study.table.columns, study.table.rows};
+  for (auto& row : table.rows)
+    for (std::string& cell : row)
+      if (const auto number = csv_number(cell); number && *number != std::round(*number)) cell = short_number(*number, 4);
+  page += table_html(table);
   page += "</section>\n";
 }
 

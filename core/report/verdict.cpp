@@ -144,7 +144,7 @@ class Sceptic {
     const double largest =
         std::max(std::abs(*at_end), run_.number("/energy/largest_relative_error").value_or(largest_of(run_.history, "relative_error")));
     const double tolerance = energy_tolerance();
-    std::string sentence = fmt::format("Energy balance: off by {} of the largest energy at the end, by {} at most", percent_text(std::abs(*at_end)),
+    std::string sentence = fmt::format("Energy balance: off by {} of the largest energy {}, by {} at most", percent_text(std::abs(*at_end)), now_,
                                        percent_text(largest));
     sentence += all_at_rest_    ? "; along states of rest it is a measure of how finely the loads were stepped."
                 : tolerance > 0 ? fmt::format("; the run stops at {}.", percent_text(tolerance))
@@ -167,7 +167,7 @@ class Sceptic {
           largest, std::hypot((*run_.history.find("momentum_x"))[n], (*run_.history.find("momentum_y"))[n], (*run_.history.find("momentum_z"))[n]));
     const double size = std::hypot(*x, *y, *z);
     add("momentum", Judgement::plain,
-        fmt::format("Momentum: {} N s at the end, at most {} N s. Only loads and supports can change it.", short_number(size, 3),
+        fmt::format("Momentum: {} N s {}, at most {} N s. Only loads and supports can change it.", short_number(size, 3), now_,
                     short_number(largest, 3)),
         {{"at_end", {*x, *y, *z}}, {"largest", largest}});
   }
@@ -200,6 +200,7 @@ class Sceptic {
   const RunRecord& run_;
   std::vector<Json> solvers_, stages_;
   bool all_at_rest_ = false;
+  const char* now_ = run_.summary.is_null() ? "at the latest record" : "at the end";
   std::vector<Finding> findings_;
 };
 
