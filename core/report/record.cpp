@@ -65,7 +65,7 @@ const Json* find(const Json& json, const std::string& pointer) {
 
 std::string RunRecord::title() const {
   for (const Json* source : {&summary, &scene})
-    if (const std::string title = word_in(*source, "title"); !title.empty()) return title;
+    if (std::string title = word_in(*source, "title"); !title.empty()) return title;
   return label;
 }
 
