@@ -1,6 +1,7 @@
 #include <base/csv.hpp>
 #include <base/input_file.hpp>
 #include <report/record.hpp>
+#include <run/checkpoint.hpp>
 #include <run/failing_motion.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -107,6 +108,7 @@ RunRecord read_run(const fs::path& folder, Faults& faults) {
   read_probes(run, faults);
   run.first_break = read_first_break(folder / "failures.csv");
   run.has_failing_motion = fs::exists(folder / failing_motion_file);
+  run.has_checkpoint = fs::exists(folder / checkpoint_file);
   run.pictures = find_pictures(folder, run.scene);
   return run;
 }

@@ -26,6 +26,7 @@ struct RunRecord {
   std::vector<PictureSeries> pictures;
   std::optional<double> first_break;  ///< s
   bool has_failing_motion = false;
+  bool has_checkpoint = false;
   std::vector<std::string> notes;  ///< sentences on what is left out
 
   std::string title() const;                                       ///< of the scene; of a scene without one, the label

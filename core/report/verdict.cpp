@@ -53,6 +53,8 @@ class Sceptic {
     if (const std::string reason = run_.word("/reason"); !reason.empty())
       add("reason", run_.status() == "failed" ? Judgement::wrong : Judgement::doubtful, reason, {});
     ask_progress();
+    if (run_.has_checkpoint && run_.status() != "done")
+      add("checkpoint", Judgement::plain, "Its checkpoint.bin is there, from which `hyperlattice run --resume` goes on.", {});
     for (const Json& stage : stages_) ask_time_step(stage);
     ask_rest();
     ask_energy();

@@ -145,6 +145,7 @@ TEST_F(ReportCommand, TellsHowNearToRestABodyIs) {
 TEST_F(ReportCommand, ShowsARunThatIsCutOff) {
   run("cut");
   fs::remove(out("cut") + "/summary.json");
+  write(out("cut") + "/checkpoint.bin", "");
   std::string history = contents(out("cut") + "/history.csv");
   const auto rows = table_rows(out("cut") + "/history.csv");
   history.resize(history.size() - rows.back().size() / 2);  // within the last line
@@ -155,6 +156,7 @@ TEST_F(ReportCommand, ShowsARunThatIsCutOff) {
   EXPECT_EQ(reported["status"], "unfinished");
   EXPECT_EQ(reported["title"], "small sphere") << "the resolved scene knows it";
   EXPECT_EQ(finding(reported, "note").at("sentence"), "history.csv ends within a line, which is left out.");
+  EXPECT_NE(finding(reported, "checkpoint").at("sentence").get<std::string>().find("--resume"), std::string::npos);
   const std::string whole = rows.at(rows.size() - 2);
   const json progress = finding(reported, "progress").at("numbers");
   EXPECT_EQ(progress.at("time"), std::stod(whole)) << "the latest whole line";
