@@ -1,31 +1,9 @@
-#include "sparse_system.hpp"
-
-#include <Eigen/IterativeLinearSolvers>
-#include <Eigen/SparseCholesky>
-
-#include <stdexcept>
+#include "listed_system.hpp"
 
 namespace hyperlattice::statics {
 
-namespace {
-
-using Matrix = Eigen::SparseMatrix<double>;
-
-}  // namespace
-
-struct SparseSystem::Factors {
-  bool whole = true;
-  Eigen::SimplicialLDLT<Matrix> ldlt;
-  Eigen::IncompleteCholesky<double> incomplete;
-};
-
-SparseSystem::SparseSystem(const StaticProblem& problem, Factorisation factorisation)
-    : System(problem),
-      grid_(problem.grid),
-      factorisation_(factorisation),
-      components_(static_cast<std::size_t>(grid_.components)),
-      block_size_(components_ * components_),
-      factors_(std::make_unique<Factors>()) {
+ListedSystem::ListedSystem(const StaticProblem& problem)
+    : System(problem), grid_(problem.grid), components_(static_cast<std::size_t>(grid_.components)), block_size_(components_ * components_) {
   axial_.resize(grid_.springs.size());
   pull_.resize(grid_.springs.size());
   if (components_ == 4) {
@@ -36,9 +14,7 @@ SparseSystem::SparseSystem(const StaticProblem& problem, Factorisation factorisa
   find_pattern();
 }
 
-SparseSystem::~SparseSystem() = default;
-
-void SparseSystem::find_pattern() {
+void ListedSystem::find_pattern() {
   std::vector<std::vector<std::int64_t>> neighbours(static_cast<std::size_t>(grid_.places));
   for (std::int64_t p = 0; p < grid_.places; ++p) neighbours[static_cast<std::size_t>(p)].push_back(p);
   for (const StaticSpring& spring : grid_.springs) {
@@ -54,17 +30,17 @@ void SparseSystem::find_pattern() {
   blocks_.resize(column_.size() * block_size_);
 }
 
-std::size_t SparseSystem::find(std::int64_t row, std::int64_t column) const {
+std::size_t ListedSystem::find(std::int64_t row, std::int64_t column) const {
   const auto from = column_.begin() + static_cast<std::ptrdiff_t>(first_[static_cast<std::size_t>(row)]);
   const auto to = column_.begin() + static_cast<std::ptrdiff_t>(first_[static_cast<std::size_t>(row) + 1]);
   return static_cast<std::size_t>(std::lower_bound(from, to, column) - column_.begin());
 }
 
-SpringNumbers SparseSystem::numbers(std::size_t s) const {
+SpringNumbers ListedSystem::numbers_of(std::size_t s) const {
   return components_ == 4 ? SpringNumbers{axial_[s], pull_[s], cross_axial_[s], cross_pull_[s]} : SpringNumbers{axial_[s], pull_[s], 0, 0};
 }
 
-double SparseSystem::linearise(const Field& displacement, Field& force) {
+double ListedSystem::linearise(const Field& displacement, Field& force) {
   SpringTangents tangents{axial_.data(), pull_.data(), nullptr, nullptr, nullptr};
   if (components_ == 4) tangents = {axial_.data(), pull_.data(), cross_axial_.data(), cross_pull_.data(), alpha_.data()};
   const double energy = problem().respond(displacement.data(), force.data(), &tangents);
@@ -72,7 +48,7 @@ double SparseSystem::linearise(const Field& displacement, Field& force) {
   return energy;
 }
 
-void SparseSystem::assemble(const Field& u) {
+void ListedSystem::assemble(const Field& u) {
   std::fill(blocks_.begin(), blocks_.end(), 0.0);
   const bool heights = components_ == 4;
   for (std::size_t s = 0; s < grid_.springs.size(); ++s) {
@@ -83,7 +59,7 @@ void SparseSystem::assemble(const Field& u) {
     const float r[4] = {in_spacings(spring.rest.x + apart(0)), in_spacings(spring.rest.y + apart(1)), in_spacings(spring.rest.z + apart(2)),
                         heights ? in_spacings(apart(3)) : 0};
     const float total = heights ? in_spacings(grid_.membrane_distance + at(3, spring.a) + at(3, spring.b)) : 0;
-    const SpringBlocks tangent(numbers(s), r, total, heights);
+    const SpringBlocks tangent(numbers_of(s), r, total, heights);
     const std::int64_t ends[2] = {spring.a, spring.b};
     for (int e = 0; e < 2; ++e)
       for (int f = 0; f < 2; ++f) {
@@ -100,7 +76,7 @@ void SparseSystem::assemble(const Field& u) {
   for (std::int64_t p = 0; heights && p < grid_.places; ++p) block(find(p, p))[15] += static_cast<double>(alpha_[static_cast<std::size_t>(p)]);
 }
 
-void SparseSystem::multiply(const double* x, double* y) const {
+void ListedSystem::multiply(const double* x, double* y) const {
   const auto places = static_cast<std::size_t>(grid_.places);
   in_pieces(places, threads(), [&](std::size_t first, std::size_t last) {
     for (std::size_t p = first; p < last; ++p) {
@@ -115,66 +91,29 @@ void SparseSystem::multiply(const double* x, double* y) const {
   mask(y);
 }
 
-void SparseSystem::mask(double* x) const {
+void ListedSystem::mask(double* x) const {
   for (std::int64_t p = 0; p < grid_.places; ++p)
     for (int c = 0; c < grid_.components; ++c)
       if ((grid_.free[p] >> c & 1u) == 0) x[c * grid_.places + p] = 0;
 }
 
-void SparseSystem::prepare() {
+bool ListedSystem::is_unknown(std::size_t number) const {
   const auto places = static_cast<std::size_t>(grid_.places);
-  std::vector<int> row_of(components_ * places, -1);
-  free_.clear();
-  for (std::size_t p = 0; p < places; ++p)
-    for (std::size_t c = 0; c < components_; ++c)
-      if ((grid_.free[p] >> c & 1u) != 0 && block(find(static_cast<std::int64_t>(p), static_cast<std::int64_t>(p)))[c * (components_ + 1)] > 0) {
-        row_of[c * places + p] = static_cast<int>(free_.size());
-        free_.push_back(c * places + p);
-      }
-  const auto size = static_cast<Eigen::Index>(free_.size());
-  Matrix lower(size, size);
-  lower.reserve(static_cast<Eigen::Index>(column_.size() * block_size_ / 2 + free_.size()));
-  constexpr double shift = 1e-9;  // where nothing holds the body
-  for (std::size_t column = 0; column < free_.size(); ++column) {
-    const std::size_t p = free_[column] % places, b = free_[column] / places;
-    lower.startVec(static_cast<Eigen::Index>(column));
-    for (std::size_t n = first_[p]; n < first_[p + 1]; ++n)
-      for (std::size_t a = 0; a < components_; ++a) {
-        const int row = row_of[a * places + static_cast<std::size_t>(column_[n])];
-        if (row < static_cast<int>(column)) continue;
-        const double value = block(n)[b * components_ + a];  // of the row of p, which is the column's: K is symmetric
-        lower.insertBack(row, static_cast<Eigen::Index>(column)) = row == static_cast<int>(column) ? value * (1 + shift) : value;
-      }
-  }
-  lower.finalize();
-  constexpr std::size_t few = 4000;  // numbers, of which a whole factorisation takes no longer than iterations with an incomplete one
-  factors_->whole = factorisation_ == Factorisation::whole || (factorisation_ == Factorisation::automatic && free_.size() <= few);
-  if (factors_->whole) {
-    factors_->ldlt.compute(lower);
-    if (factors_->ldlt.info() != Eigen::Success) throw std::runtime_error("the tangent cannot be factorised");
-  } else {
-    factors_->incomplete.compute(lower);
-  }
+  const std::size_t p = number % places, c = number / places;
+  const auto place = static_cast<std::int64_t>(p);
+  return (grid_.free[p] >> c & 1u) != 0 && block(find(place, place))[c * (components_ + 1)] > 0;
 }
 
-void SparseSystem::apply(const Field& r, Field& z) {
-  Eigen::VectorXd right(static_cast<Eigen::Index>(free_.size()));
-  for (std::size_t n = 0; n < free_.size(); ++n) right[static_cast<Eigen::Index>(n)] = r[free_[n]];
-  const Eigen::VectorXd left = factors_->whole ? Eigen::VectorXd(factors_->ldlt.solve(right)) : Eigen::VectorXd(factors_->incomplete.solve(right));
-  std::fill(z.begin(), z.end(), 0.0);
-  for (std::size_t n = 0; n < free_.size(); ++n) z[free_[n]] = left[static_cast<Eigen::Index>(n)];
-}
-
-double SparseSystem::stiffest() const {
+double ListedSystem::stiffest() const {
   float found = 0;
   for (const auto* numbers : {&axial_, &cross_axial_})
     for (const float value : *numbers) found = std::max(found, std::abs(value));
   return static_cast<double>(found);
 }
 
-void SparseSystem::for_springs(const Join& join) const {
+void ListedSystem::for_springs(const Join& join) const {
   for (std::size_t s = 0; s < grid_.springs.size(); ++s)
-    if (const SpringNumbers n = numbers(s); n.axial != 0 || n.pull != 0 || n.cross_axial != 0 || n.cross_pull != 0)
+    if (const SpringNumbers n = numbers_of(s); n.axial != 0 || n.pull != 0 || n.cross_axial != 0 || n.cross_pull != 0)
       join(grid_.springs[s].a, grid_.springs[s].b);
 }
 

@@ -1,0 +1,96 @@
+#include "block_smoother.hpp"
+
+#include <Eigen/Dense>
+
+namespace hyperlattice::statics {
+
+BlockSmoother::BlockSmoother(const ListedSystem& system)
+    : system_(system),
+      places_(static_cast<std::size_t>(system.grid().places)),
+      components_(static_cast<std::size_t>(system.grid().components)),
+      step_(system.numbers(), 0),
+      rest_(system.numbers(), 0) {
+  invert_blocks();
+  estimate_largest();
+}
+
+void BlockSmoother::invert_blocks() {
+  using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, 4, 4>;
+  const auto size = static_cast<Eigen::Index>(components_);
+  inverse_.assign(system_.numbers() * components_, 0);
+  in_pieces(places_, system_.threads(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t p = first; p < last; ++p) {
+      Block block = Block::Zero(size, size);
+      for (std::size_t a = 0; a < components_; ++a) {
+        const auto row = static_cast<Eigen::Index>(a);
+        if (!system_.is_unknown(a * places_ + p)) continue;
+        system_.for_row(a * places_ + p, [&](std::size_t number, double value) {
+          if (number % places_ == p && system_.is_unknown(number)) block(row, static_cast<Eigen::Index>(number / places_)) = value;
+        });
+      }
+      block.diagonal().array() += shift * block.trace();
+      for (Eigen::Index a = 0; a < size; ++a)
+        if (!system_.is_unknown(static_cast<std::size_t>(a) * places_ + p)) block(a, a) = 1;
+      Eigen::Map<Block> inverse(inverse_.data() + p * components_ * components_, size, size);
+      inverse = block.inverse();
+      for (Eigen::Index a = 0; a < size; ++a)
+        if (!system_.is_unknown(static_cast<std::size_t>(a) * places_ + p)) inverse(a, a) = 0;
+    }
+  });
+}
+
+/// Calls use(number, value) for D^-1 r.
+template <class Use>
+void BlockSmoother::for_inverse_times(const Field& r, const Use& use) const {
+  in_pieces(places_, system_.threads(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t p = first; p < last; ++p)
+      for (std::size_t a = 0; a < components_; ++a) {
+        double sum = 0;
+        for (std::size_t b = 0; b < components_; ++b) sum += inverse_[(p * components_ + a) * components_ + b] * r[b * places_ + p];
+        use(a * places_ + p, sum);
+      }
+  });
+}
+
+/// At most 2 without compressed springs: a spring's energy is at most twice that of its ends moving alone.
+void BlockSmoother::estimate_largest() {
+  constexpr int rounds = 12;
+  constexpr double safe = 1.1;
+  std::uint32_t random = 12345;
+  for (double& value : step_) {
+    random = random * 1664525u + 1013904223u;
+    value = static_cast<double>(random >> 8) / 16777216.0 - 0.5;
+  }
+  system_.mask(step_.data());
+  const auto length = [&] { return std::sqrt(product(step_.data(), step_.data(), step_.size(), system_.threads())); };
+  for (int n = 0; n < rounds; ++n) {
+    const double before = length();
+    if (!(before > 0)) return;
+    for (double& value : step_) value /= before;
+    system_.multiply(step_.data(), rest_.data());
+    for_inverse_times(rest_, [&](std::size_t number, double value) { step_[number] = value; });
+  }
+  largest_ = std::max(largest_, safe * length());
+}
+
+void BlockSmoother::smooth(const Field& b, Field& x, bool from_zero) {
+  constexpr int degree = 2;
+  constexpr double part = 8;  // of the eigenvalues up to the largest, those above largest / part are damped
+  const double centre = largest_ * (1 + 1 / part) / 2, radius = largest_ * (1 - 1 / part) / 2, ratio = centre / radius;
+  double rho = 1 / ratio;
+  for (int n = 0; n < degree; ++n) {
+    const bool zero = n == 0 && from_zero;
+    if (!zero) system_.multiply(x.data(), rest_.data());
+    in_pieces(b.size(), system_.threads(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t m = first; m < last; ++m) rest_[m] = zero ? b[m] : b[m] - rest_[m];
+    });
+    const double next = 1 / (2 * ratio - rho), old_step = n == 0 ? 0 : next * rho, new_step = n == 0 ? 1 / centre : 2 * next / radius;
+    for_inverse_times(rest_, [&](std::size_t number, double value) {
+      step_[number] = (n == 0 ? 0 : old_step * step_[number]) + new_step * value;
+      x[number] = (zero ? 0 : x[number]) + step_[number];
+    });
+    if (n > 0) rho = next;
+  }
+}
+
+}  // namespace hyperlattice::statics

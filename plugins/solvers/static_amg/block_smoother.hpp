@@ -1,0 +1,34 @@
+// A smoother that takes the numbers of a particle together: Chebyshev polynomials of the inverse of its own block. Particles on few springs are soft
+// in directions that lie askew to the axes; smoothers that take one number after the other hardly see these.
+#pragma once
+
+#include "listed_system.hpp"
+
+namespace hyperlattice::statics {
+
+class BlockSmoother {
+ public:
+  /// Of the system's present tangent.
+  explicit BlockSmoother(const ListedSystem& system);
+
+  /// x comes nearer to the solution of K x = b; from_zero: x is 0, whatever it holds.
+  void smooth(const Field& b, Field& x, bool from_zero);
+
+  /// What is added, over itself, to the diagonal, so that what nothing holds has a stiffness; so little that no other motion notices, and so much
+  /// that rounding errors along motions of no stiffness stay small.
+  static constexpr double shift = 1e-6;
+
+ private:
+  void invert_blocks();
+  void estimate_largest();
+  template <class Use>
+  void for_inverse_times(const Field& r, const Use& use) const;
+
+  const ListedSystem& system_;
+  std::size_t places_, components_;
+  Field inverse_;       ///< of each particle's block, row by row; 0 where nothing can move
+  double largest_ = 2;  ///< eigenvalue of the inverse blocks times K, or more
+  Field step_, rest_;
+};
+
+}  // namespace hyperlattice::statics
