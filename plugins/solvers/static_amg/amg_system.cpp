@@ -53,7 +53,9 @@ SparseRows AmgSystem::rows() const {
       const std::size_t before = rows.column.size();
       if (unknown[row])
         for_row(row, [&](std::size_t number, double value) {
-          if (unknown[number] && value != 0) add(number, number == row ? value * (1 + BlockSmoother::shift) : value);
+          if (!unknown[number]) return;
+          if (number % places == p) value += smoother_->added(row, number);
+          if (value != 0) add(number, number == row ? value * (1 + BlockSmoother::shift) : value);
         });
       else
         add(row, 1);

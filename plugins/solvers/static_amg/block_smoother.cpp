@@ -1,6 +1,6 @@
 #include "block_smoother.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
 
 namespace hyperlattice::statics {
 
@@ -14,27 +14,34 @@ BlockSmoother::BlockSmoother(const ListedSystem& system)
   estimate_largest();
 }
 
+/// Of a particle that hangs on two springs the block has no stiffness in a direction, or a negative one if these are compressed.
 void BlockSmoother::invert_blocks() {
-  using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, 4, 4>;
-  const auto size = static_cast<Eigen::Index>(components_);
+  constexpr double softest = 1e-3;  // of the largest stiffness
   inverse_.assign(system_.numbers() * components_, 0);
+  added_ = inverse_;
   in_pieces(places_, system_.threads(), [&](std::size_t first, std::size_t last) {
     for (std::size_t p = first; p < last; ++p) {
-      Block block = Block::Zero(size, size);
-      for (std::size_t a = 0; a < components_; ++a) {
-        const auto row = static_cast<Eigen::Index>(a);
-        if (!system_.is_unknown(a * places_ + p)) continue;
-        system_.for_row(a * places_ + p, [&](std::size_t number, double value) {
-          if (number % places_ == p && system_.is_unknown(number)) block(row, static_cast<Eigen::Index>(number / places_)) = value;
-        });
-      }
-      block.diagonal().array() += shift * block.trace();
-      for (Eigen::Index a = 0; a < size; ++a)
-        if (!system_.is_unknown(static_cast<std::size_t>(a) * places_ + p)) block(a, a) = 1;
-      Eigen::Map<Block> inverse(inverse_.data() + p * components_ * components_, size, size);
-      inverse = block.inverse();
-      for (Eigen::Index a = 0; a < size; ++a)
-        if (!system_.is_unknown(static_cast<std::size_t>(a) * places_ + p)) inverse(a, a) = 0;
+      Eigen::Matrix4d block = Eigen::Matrix4d::Zero();
+      for (std::size_t a = 0; a < components_; ++a)
+        if (system_.is_unknown(a * places_ + p))
+          system_.for_row(a * places_ + p, [&](std::size_t number, double value) {
+            if (number % places_ == p && system_.is_unknown(number))
+              block(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(number / places_)) = value;
+          });
+      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> modes(block);
+      const double largest = modes.eigenvalues()[3];
+      if (!(largest > 0)) continue;
+      const Eigen::Vector4d flexibility = modes.eigenvalues().cwiseMax(softest * largest).cwiseInverse();
+      const Eigen::Vector4d more = (softest * largest - modes.eigenvalues().array()).cwiseMax(0.0);
+      const Eigen::Matrix4d added = modes.eigenvectors() * more.asDiagonal() * modes.eigenvectors().transpose();
+      const Eigen::Matrix4d inverse = modes.eigenvectors() * flexibility.asDiagonal() * modes.eigenvectors().transpose();
+      for (std::size_t a = 0; a < components_; ++a)
+        for (std::size_t b = 0; b < components_; ++b)
+          if (system_.is_unknown(a * places_ + p) && system_.is_unknown(b * places_ + p)) {
+            const auto row = static_cast<Eigen::Index>(a), column = static_cast<Eigen::Index>(b);
+            inverse_[(p * components_ + a) * components_ + b] = inverse(row, column);
+            added_[(p * components_ + a) * components_ + b] = added(row, column);
+          }
     }
   });
 }

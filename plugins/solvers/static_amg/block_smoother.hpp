@@ -14,8 +14,13 @@ class BlockSmoother {
   /// x comes nearer to the solution of K x = b; from_zero: x is 0, whatever it holds.
   void smooth(const Field& b, Field& x, bool from_zero);
 
-  /// What is added, over itself, to the diagonal, so that what nothing holds has a stiffness; so little that no other motion notices, and so much
-  /// that rounding errors along motions of no stiffness stay small.
+  /// What is added, N/m, to an entry of the tangent between two numbers of one particle, so that the particle's block is nowhere softer than
+  /// a share of its largest stiffness: conjugate gradients shall not be led into motions of single particles that hang on two springs.
+  double added(std::size_t row, std::size_t column) const {
+    return added_[(row % places_ * components_ + row / places_) * components_ + column / places_];
+  }
+
+  /// What is added to the diagonal, over itself, where nothing holds a body.
   static constexpr double shift = 1e-6;
 
  private:
@@ -27,6 +32,7 @@ class BlockSmoother {
   const ListedSystem& system_;
   std::size_t places_, components_;
   Field inverse_;       ///< of each particle's block, row by row; 0 where nothing can move
+  Field added_;         ///< the same for added()
   double largest_ = 2;  ///< eigenvalue of the inverse blocks times K, or more
   Field step_, rest_;
 };
