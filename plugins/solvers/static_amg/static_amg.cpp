@@ -34,7 +34,7 @@ class StaticAmg {
   SolverPlan plan(const SolverFacts& facts) const {
     if (!facts.listed) throw std::runtime_error("a listed lattice; of structured ones solvers.static finds the rest, by geometric multigrid");
     SolverPlan plan = statics::plan_of_load_steps(facts, o_);
-    plan.bytes_per_site = 12000;
+    plan.bytes_per_site = 9000;
     return plan;
   }
 
