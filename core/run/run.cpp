@@ -175,7 +175,10 @@ void Running::solve_stage(const PlannedStage& stage) {
   hooks.stepped = [this](double time_step) { stepped(time_step); };
   hooks.observe = [this] { observe(); };
   hooks.report = [this](const RestReport& report) { rest_ = report; };
-  hooks.failing_motion = [this](const std::vector<double>& motion) { write_failing_motion(options_.directory, plan_.model->body, motion); };
+  hooks.failing_motion = [this](const std::vector<double>& motion) {
+    write_failing_motion(options_.directory, plan_.model->body, motion);
+    spdlog::info("how the body moves is in {}", (options_.directory / failing_motion_file).string());
+  };
   hooks.must_stop = [] { return stop_requested(); };
   StageCalls(*plan_.model, *simulation_, stage, plan_.threads, std::move(hooks), stage_steps_).run();
   if (stop_requested() && stage.plan.resumes) {

@@ -142,6 +142,24 @@ TEST_F(Run, interrupted_ends_in_order) {
   }
 }
 
+TEST_F(Run, a_body_without_rest_leaves_how_it_moves) {
+  json scene = small_sphere();
+  scene["pipeline"][load] = {{"type", "loads.force"}, {"on", "outer_surface"}, {"total", {0, 0, 1}}};
+  scene["pipeline"][solver] = {{"type", "solvers.static"}};
+  const Result result = run(scene);
+  EXPECT_EQ(result.exit_code, 3) << result.err;
+  EXPECT_NE(result.err.find("failing_motion.csv"), std::string::npos) << result.err;
+  const std::vector<std::string> rows = table_rows(out + "/failing_motion.csv");
+  EXPECT_EQ(rows.size(), summary()["particles"]);
+  for (const std::string& row : rows) {  // it slides along z
+    double x, y, z, along[3];
+    ASSERT_EQ(std::sscanf(row.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf", &x, &y, &z, &along[0], &along[1], &along[2]), 6) << row;
+    EXPECT_NEAR(along[0], 0, 1e-9);
+    EXPECT_NEAR(along[1], 0, 1e-9);
+    EXPECT_NEAR(along[2], 1, 1e-9);
+  }
+}
+
 TEST_F(Run, full_disk_keeps_whole_lines) {
   Launch launch;
   launch.file_limit = 8000;

@@ -294,16 +294,26 @@ TEST(Statics, IterationsDoNotGrowWithTheBody) {
   EXPECT_LE(iterations(24), coarse + 6);
 }
 
-/// Why a scene's first solver finds no rest; "" if it does.
-std::string failure_of(const std::string& scene) {
+struct Failure {
+  std::string text;  ///< why a scene's first solver finds no rest; "" if it does
+  std::unique_ptr<Plan> plan;
+  std::vector<double> motion;  ///< that it keeps
+};
+Failure failing(const std::string& scene) {
+  Failure failure;
+  failure.plan = plan_of(scene, 1);
+  Simulation simulation(*failure.plan->model, 1);
+  StageCalls::Hooks hooks;
+  hooks.failing_motion = [&](const std::vector<double>& motion) { failure.motion = motion; };
   try {
-    AtRest body(scene);
+    StageCalls(*failure.plan->model, simulation, failure.plan->stages.front(), 1, std::move(hooks)).run();
   } catch (const RunError& error) {
     std::printf("%s\n", error.what());
-    return error.what();
+    failure.text = error.what();
   }
-  return "";
+  return failure;
 }
+std::string failure_of(const std::string& scene) { return failing(scene).text; }
 
 bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
@@ -321,10 +331,11 @@ double number_before(const std::string& text, const std::string& word) {
 TEST(Statics, AColumnBucklesAtEulersLoad) {
   constexpr double young = 1e9, shear = young / 2.5, slenderness = 10, stress = 4e6;
   for (const int n : {4, 8}) {
-    const std::string text = failure_of(scene(R"("spacing": 1, "boundary": "cells", "shape": )" + box({}, {double(n), double(n), slenderness * n}),
-                                              elastic(young, R"("membrane": "none")") + R"({ "type": "loads.fixed", "on": "z_min" },
+    const Failure failure = failing(scene(R"("spacing": 1, "boundary": "cells", "shape": )" + box({}, {double(n), double(n), slenderness * n}),
+                                          elastic(young, R"("membrane": "none")") + R"({ "type": "loads.fixed", "on": "z_min" },
           { "type": "loads.pressure", "on": "z_max", "facing": "z_max", "pressure": 4e6, "rise": 1 },
           { "type": "solvers.static", "load_steps": 4, "most_cutbacks": 7 })"));
+    const std::string& text = failure.text;
     const double area = n * n, euler = M_PI * M_PI * young * area * area / 12 / (4 * std::pow(slenderness * n, 2));
     const double expected = euler / (1 + euler / (5.0 / 6 * shear * area));
     const double found = number_before(text, "% of the load") / 100 * stress * area;
@@ -333,6 +344,19 @@ TEST(Statics, AColumnBucklesAtEulersLoad) {
     EXPECT_TRUE(says(text, "buckles")) << text;
     EXPECT_TRUE(says(text, ", " + std::to_string(10 * n) + ") m")) << text;  // largest at the free end
     EXPECT_NEAR(number_before(text, "% of the particles"), 33, 4);
+    double alike = 0, kept = 0, mode = 0;  // along the way of the free end
+    const Body& body = failure.plan->model->body;
+    ASSERT_EQ(failure.motion.size(), 3 * body.particles);
+    const double* end = failure.motion.data() + 3 * (body.particles - 1);
+    for (Particle p = 0; p < body.particles; ++p) {
+      const double across = failure.motion[3 * p] * end[0] + failure.motion[3 * p + 1] * end[1];
+      const double expected_there = 1 - std::cos(M_PI * body.position(p).z / (2 * slenderness * n));
+      alike += across * expected_there;
+      kept += across * across;
+      mode += expected_there * expected_there;
+    }
+    std::printf("correlation with Euler's mode: %.6f\n", alike / std::sqrt(kept * mode));
+    EXPECT_GT(alike, 0.999 * std::sqrt(kept * mode));
   }
 }
 
@@ -370,7 +394,17 @@ TEST(Statics, ABodyThatNothingHoldsIsToldHowItMoves) {
     EXPECT_TRUE(says(failure_of(pulled(pull + supports)), "the whole body can move as a rigid one: it slides along (0, 0, 1)"));
   const std::string couple = R"({ "type": "loads.force", "on": "x_min", "total": [0, -1e3, 0] },
                                 { "type": "loads.force", "on": "x_max", "total": [0, 1e3, 0], "name": "other" },)";
-  EXPECT_TRUE(says(failure_of(pulled(couple)), "it turns about the axis (0, 0, 1) through (2, 2, 2) m"));
+  const Failure turns = failing(pulled(couple));
+  EXPECT_TRUE(says(turns.text, "it turns about the axis (0, 0, 1) through (2, 2, 2) m"));
+  const Body& body = turns.plan->model->body;
+  ASSERT_EQ(turns.motion.size(), 3 * body.particles);
+  const double rate = turns.motion[3 * body.particles - 2] / 1.5;  // of the last, at (3.5, 3.5, 3.5)
+  EXPECT_GT(rate, 0);
+  for (Particle p = 0; p < body.particles; ++p) {
+    const Vec3 from = body.position(p) - Vec3{2, 2, 2};
+    EXPECT_NEAR(turns.motion[3 * p], -rate * from.y, 1e-9 * rate);
+    EXPECT_NEAR(turns.motion[3 * p + 1], rate * from.x, 1e-9 * rate);
+  }
 }
 
 std::string two_blocks(Vec3 low, Vec3 high) {

@@ -34,7 +34,7 @@ std::string failure_text(const StaticProblem& problem, double share, double time
   std::string text = "the body finds no state of rest ";
   text += share == 0 ? "under its loads" : "beyond " + short_number(100 * share) + "% of the load, at " + short_number(time) + " s";
   text += ": " + found.why;
-  if (found.direction.empty()) return text;
+  if (found.direction.empty() || found.rigid) return text;
   return text + "; " + motion_text(problem, found.direction) +
          (found.buckles ? ". There the body buckles."
           : share == 0  ? ". Supports may be missing, or parts not joined."

@@ -128,10 +128,11 @@ void FreeMotions::remove_from(Field& field) const {
     }
 }
 
-std::string FreeMotions::driven_by(const Field& force) const {
+FreeMotions::Driven FreeMotions::driven_by(const Field& force) const {
   constexpr double noticeable = 1e-6;
   double most = noticeable * std::sqrt(product(force.data(), force.data(), force.size(), 1));
-  std::string found;
+  const Piece* found = nullptr;
+  Motion with{};
   for (const Piece& piece : pieces_) {
     Motion driven{};
     double square = 0;
@@ -142,9 +143,15 @@ std::string FreeMotions::driven_by(const Field& force) const {
     }
     if (std::sqrt(square) <= most) continue;
     most = std::sqrt(square);
-    found = sentence(piece, driven);
+    found = &piece;
+    with = driven;
   }
-  return found;
+  if (found == nullptr) return {};
+  Driven most_driven{sentence(*found, with), Field(force.size(), 0)};
+  for (const std::int64_t place : found->places)
+    for (int c = 0; c < 3; ++c)
+      most_driven.motion[static_cast<std::size_t>(c * problem_.grid.places + place)] = component(moved(*found, with, place), c);
+  return most_driven;
 }
 
 std::string FreeMotions::sentence(const Piece& piece, const Motion& m) const {

@@ -15,8 +15,12 @@ class FreeMotions {
 
   /// Takes the part of these motions out of a field.
   void remove_from(Field& field) const;
-  /// The free motion that forces drive most, as a sentence; "" if they drive none.
-  std::string driven_by(const Field& force) const;
+  struct Driven {
+    std::string sentence;
+    Field motion;
+  };
+  /// The free motion that forces drive most; "" and empty if they drive none.
+  Driven driven_by(const Field& force) const;
 
  private:
   using Motion = std::array<double, 6>;  ///< translation, and rotation about the piece's centre times its size

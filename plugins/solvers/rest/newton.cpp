@@ -55,8 +55,11 @@ Found Newton::search(double share, Field& displacement) {
 }
 
 Found Newton::give_up(const Field& u, bool hopeless, const char* why, const Field& direction) const {
-  if (std::string rigid = FreeMotions(system_, u).driven_by(right_); !rigid.empty())
-    return {.hopeless = hopeless, .why = std::move(rigid) + ", which the loads drive and nothing resists"};
+  if (FreeMotions::Driven rigid = FreeMotions(system_, u).driven_by(right_); !rigid.sentence.empty())
+    return {.hopeless = hopeless,
+            .why = std::move(rigid.sentence) + ", which the loads drive and nothing resists",
+            .rigid = true,
+            .direction = std::move(rigid.motion)};
   return {.hopeless = hopeless, .why = why, .direction = direction};
 }
 

@@ -22,6 +22,7 @@ struct Found {
   bool hopeless = false;  ///< if not, whether a smaller step of the load could not do better: the state before has no stiffness
   std::string why{};      ///< if not, a sentence
   bool buckles = false;   ///< if not, whether there is a state of rest, but no stable one
+  bool rigid = false;     ///< if not, whether it moves as a rigid body or piece, which `why` tells of
   Field direction{};      ///< if not, how the body moves where it has no stiffness; may be empty
 };
 

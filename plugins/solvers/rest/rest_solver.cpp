@@ -31,6 +31,7 @@ void bring_to_rest(System& system, const SolverFacts& facts, SolverHost& host, c
     } else {
       length /= 2;
       if (!found.hopeless && length >= 0.99 * shortest) continue;
+      if (!found.direction.empty() && !host.show_motion(found.direction.data())) return;
       const double start = facts.start_time, end = plan_of_load_steps(facts, options).end_time, time = start + share * (end - start);
       throw std::runtime_error(failure_text(problem, share, time, found));
     }
