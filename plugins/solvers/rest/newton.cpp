@@ -125,7 +125,7 @@ Newton::Step Newton::step(const Field& change, Field& u) {
   if (!prepared) system_.prepare();
   gradients_.start(right_);
   Field moved(u.size());
-  double next_look = first_look * start;
+  double next_look = std::max(first_look * start, done * limits_.tolerance * scale_);
   for (int n = 0; n < system_.most_iterations(); ++n) {
     if (!gradients_.advance()) return Step::lost;
     ++report_.iterations;
