@@ -14,10 +14,7 @@ function(hyperlattice_add_plugin type)
   if(TARGET hyperlattice_flags) # this project's own plugins
     target_link_libraries(${type} PRIVATE hyperlattice_flags)
     set_target_properties(${type} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/hyperlattice)
-    if(NOT HYPERLATTICE_INSTALL_COMPONENT) # another one: not in the Debian package
-      set(HYPERLATTICE_INSTALL_COMPONENT plugins)
-    endif()
-    install(TARGETS ${type} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/hyperlattice COMPONENT ${HYPERLATTICE_INSTALL_COMPONENT})
+    install(TARGETS ${type} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/hyperlattice COMPONENT plugins)
   endif()
 endfunction()
 

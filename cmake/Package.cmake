@@ -10,6 +10,4 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "g++, cmake") # for plugins of one's own
-# All that is installed but plugins of libraries that few have: who wants those builds them.
-set(CPACK_INSTALL_CMAKE_PROJECTS "${PROJECT_BINARY_DIR};Hyperlattice;Unspecified;/;${PROJECT_BINARY_DIR};Hyperlattice;plugins;/")
 include(CPack)

@@ -231,11 +231,11 @@ const char* const bent = R"({ "type": "loads.fixed", "on": "z_min" },
   { "type": "loads.force", "on": { "box": { "low": [0, 0, 6e-3], "high": [1, 1, 1] } }, "total": [100, 0, 300] },)";
 
 TEST_P(ListedMembrane, TheCubicLatticeAsAListRestsAsTheGrid) {
-  for (const std::string factorisation : {"whole", "incomplete"}) {
+  for (const std::string preconditioner : {"whole", "incomplete", "multigrid"}) {
     const Twins twins(5, 6, 7, GetParam().material, "",
-                      bent + std::string(R"({ "type": "solvers.static", "tolerance": 1e-9, "factorisation": ")") + factorisation + R"(" })");
+                      bent + std::string(R"({ "type": "solvers.static", "tolerance": 1e-9, "preconditioner": ")") + preconditioner + R"(" })");
     const std::vector<double> grid = at_rest(*twins.grid), list = at_rest(*twins.list);
-    EXPECT_LT(distance(twins.in_grid.for_list(grid), list), 1e-7 * largest(grid)) << factorisation;  // tangents are in single precision
+    EXPECT_LT(distance(twins.in_grid.for_list(grid), list), 1e-7 * largest(grid)) << preconditioner;  // tangents are in single precision
   }
 }
 

@@ -19,8 +19,9 @@ struct FactorisedSystem::Factors {
   Eigen::IncompleteCholesky<double> incomplete;
 };
 
-FactorisedSystem::FactorisedSystem(const StaticProblem& problem, Factorisation factorisation)
-    : ListedSystem(problem), factorisation_(factorisation), factors_(std::make_unique<Factors>()) {}
+FactorisedSystem::FactorisedSystem(const StaticProblem& problem, bool whole) : ListedSystem(problem), factors_(std::make_unique<Factors>()) {
+  factors_->whole = whole;
+}
 
 FactorisedSystem::~FactorisedSystem() = default;
 
@@ -46,8 +47,6 @@ void FactorisedSystem::prepare() {
     });
   }
   lower.finalize();
-  constexpr std::size_t few = 4000;  // numbers, of which a whole factorisation takes no longer than iterations with an incomplete one
-  factors_->whole = factorisation_ == Factorisation::whole || (factorisation_ == Factorisation::automatic && unknowns_.size() <= few);
   if (factors_->whole) {
     factors_->ldlt.compute(lower);
     if (factors_->ldlt.info() != Eigen::Success) throw std::runtime_error("the tangent cannot be factorised");

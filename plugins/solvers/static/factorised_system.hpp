@@ -7,11 +7,9 @@
 
 namespace hyperlattice::statics {
 
-enum class Factorisation : std::uint32_t { automatic, whole, incomplete };
-
 class FactorisedSystem : public ListedSystem {
  public:
-  FactorisedSystem(const StaticProblem& problem, Factorisation factorisation);
+  FactorisedSystem(const StaticProblem& problem, bool whole);
   ~FactorisedSystem() override;
 
   void prepare() override;
@@ -19,7 +17,6 @@ class FactorisedSystem : public ListedSystem {
 
  private:
   struct Factors;
-  Factorisation factorisation_;
   std::vector<std::size_t> unknowns_;  ///< numbers of a field, by particle and component
   std::unique_ptr<Factors> factors_;
 };

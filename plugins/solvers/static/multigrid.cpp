@@ -1,12 +1,12 @@
 #include "multigrid.hpp"
 
+#include "chebyshev.hpp"
+
 namespace hyperlattice::statics {
 
 namespace {
 
 constexpr std::int64_t few_sites = 300;  // for the factorisation
-constexpr int degree = 2;                // of a smoothing polynomial
-constexpr double share = 8;              // it smooths eigenvalues from the largest down to this part of it
 
 }  // namespace
 
@@ -51,18 +51,10 @@ void Multigrid::cycle(std::size_t level) {
 
 /// Chebyshev iteration on D^-1 K x = D^-1 b; leaves in r what was left before the last step d.
 void Multigrid::smooth(const Level& level, Work& w, bool from_zero) {
-  const double high = level.largest_eigenvalue(), low = high / share;
-  const double middle = (high + low) / 2, half = (high - low) / 2, sigma = middle / half;
-  double rho = 1 / sigma;
+  Chebyshev chebyshev(level.largest_eigenvalue());
   constexpr std::size_t piece = 512;  // places, whose numbers stay in the processor's caches from one loop to the next
-  for (int step = 0; step < degree; ++step) {
-    double keep = 0, take = 1 / middle;
-    if (step > 0) {
-      const double next = 1 / (2 * sigma - rho);
-      keep = next * rho;
-      take = 2 * next / half;
-      rho = next;
-    }
+  for (int step = 0; step < Chebyshev::degree; ++step) {
+    const Chebyshev::Step weights = step == 0 ? chebyshev.first() : chebyshev.next();
     const bool from_nothing = from_zero && step == 0;
     if (!from_nothing) level.multiply(step == 0 ? w.x.data() : w.d.data(), w.t.data());
     const Field& left = step == 0 ? w.b : w.r;
@@ -73,7 +65,7 @@ void Multigrid::smooth(const Level& level, Work& w, bool from_zero) {
       level.divide(first, last, w.r.data(), w.t.data());
       level.layout().for_numbers(first, last, [&](std::size_t begin, std::size_t end) {
         for (std::size_t n = begin; n < end; ++n) {
-          w.d[n] = (step > 0 ? keep * w.d[n] : 0.0) + take * w.t[n];
+          w.d[n] = (step > 0 ? weights.keep * w.d[n] : 0.0) + weights.take * w.t[n];
           w.x[n] = from_nothing ? w.d[n] : w.x[n] + w.d[n];
         }
       });

@@ -1,5 +1,7 @@
 #include "block_smoother.hpp"
 
+#include "chebyshev.hpp"
+
 #include <Eigen/Eigenvalues>
 
 namespace hyperlattice::statics {
@@ -81,22 +83,18 @@ void BlockSmoother::estimate_largest() {
 }
 
 void BlockSmoother::smooth(const Field& b, Field& x, bool from_zero) {
-  constexpr int degree = 2;
-  constexpr double part = 8;  // of the eigenvalues up to the largest, those above largest / part are damped
-  const double centre = largest_ * (1 + 1 / part) / 2, radius = largest_ * (1 - 1 / part) / 2, ratio = centre / radius;
-  double rho = 1 / ratio;
-  for (int n = 0; n < degree; ++n) {
+  Chebyshev chebyshev(largest_);
+  for (int n = 0; n < Chebyshev::degree; ++n) {
     const bool zero = n == 0 && from_zero;
     if (!zero) system_.multiply(x.data(), rest_.data());
     in_pieces(b.size(), system_.threads(), [&](std::size_t first, std::size_t last) {
       for (std::size_t m = first; m < last; ++m) rest_[m] = zero ? b[m] : b[m] - rest_[m];
     });
-    const double next = 1 / (2 * ratio - rho), old_step = n == 0 ? 0 : next * rho, new_step = n == 0 ? 1 / centre : 2 * next / radius;
+    const Chebyshev::Step weights = n == 0 ? chebyshev.first() : chebyshev.next();
     for_inverse_times(rest_, [&](std::size_t number, double value) {
-      step_[number] = (n == 0 ? 0 : old_step * step_[number]) + new_step * value;
+      step_[number] = (n == 0 ? 0 : weights.keep * step_[number]) + weights.take * value;
       x[number] = (zero ? 0 : x[number]) + step_[number];
     });
-    if (n > 0) rho = next;
   }
 }
 

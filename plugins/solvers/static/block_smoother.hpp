@@ -2,6 +2,7 @@
 // in directions that lie askew to the axes; smoothers that take one number after the other hardly see these.
 #pragma once
 
+#include "aggregation.hpp"
 #include "listed_system.hpp"
 
 namespace hyperlattice::statics {
@@ -19,6 +20,9 @@ class BlockSmoother {
   double added(std::size_t row, std::size_t column) const {
     return added_[(row % places_ * components_ + row / places_) * components_ + column / places_];
   }
+
+  /// For the levels below.
+  NodeBlocks blocks() const { return {components_, {inverse_.begin(), inverse_.end()}, largest_}; }
 
   /// What is added to the diagonal, over itself, where nothing holds a body.
   static constexpr double shift = 1e-6;

@@ -1,0 +1,81 @@
+#include "aggregated_system.hpp"
+
+namespace hyperlattice::statics {
+
+AggregatedSystem::AggregatedSystem(const StaticProblem& problem) : ListedSystem(problem), rest_(numbers(), 0) {
+  right_.setZero(static_cast<Eigen::Index>(numbers()));
+  left_ = right_;
+}
+
+double AggregatedSystem::linearise(const Field& displacement, Field& force) {
+  present_ = displacement;
+  return ListedSystem::linearise(displacement, force);
+}
+
+/// Whether no spring has been strained or turned much on the way from made_at_.
+bool AggregatedSystem::is_near(const Field& displacement) const {
+  constexpr double little = 0.02;
+  const auto places = static_cast<std::size_t>(grid().places);
+  for (const StaticSpring& spring : grid().springs) {
+    double square = 0;
+    for (std::size_t c = 0; c < static_cast<std::size_t>(grid().components); ++c) {
+      const std::size_t a = c * places + static_cast<std::size_t>(spring.a), b = c * places + static_cast<std::size_t>(spring.b);
+      const double apart = (displacement[b] - made_at_[b]) - (displacement[a] - made_at_[a]);
+      square += apart * apart;
+    }
+    if (!(square <= little * little * dot(spring.rest, spring.rest))) return false;
+  }
+  return true;
+}
+
+void AggregatedSystem::prepare() {
+  smoother_.emplace(*this);
+  if (!made_at_.empty() && is_near(present_)) return;
+  below_.reset();
+  below_.emplace(rows(), smoother_->blocks());
+  made_at_ = present_;
+}
+
+/// What cannot move, or has no stiffness, has a row of its own; so each particle has as many rows.
+SparseRows AggregatedSystem::rows() const {
+  const auto places = static_cast<std::size_t>(grid().places), components = static_cast<std::size_t>(grid().components);
+  std::vector<bool> unknown(numbers());
+  for (std::size_t n = 0; n < numbers(); ++n) unknown[n] = is_unknown(n);
+  SparseRows rows(static_cast<Eigen::Index>(numbers()), static_cast<Eigen::Index>(numbers()));
+  rows.reserve(static_cast<Eigen::Index>(blocks() * components * components));
+  for (std::size_t p = 0; p < places; ++p)
+    for (std::size_t a = 0; a < components; ++a) {
+      const std::size_t row = a * places + p;
+      const auto at = static_cast<Eigen::Index>(p * components + a);
+      rows.startVec(at);
+      if (unknown[row])
+        for_row(row, [&](std::size_t number, double value) {
+          if (!unknown[number]) return;
+          if (number % places == p) value += smoother_->added(row, number);
+          if (value == 0) return;
+          rows.insertBack(at, static_cast<Eigen::Index>(number % places * components + number / places)) =
+              number == row ? value * (1 + BlockSmoother::shift) : value;
+        });
+      else
+        rows.insertBack(at, at) = 1;
+    }
+  rows.finalize();
+  return rows;
+}
+
+void AggregatedSystem::apply(const Field& r, Field& z) {
+  smoother_->smooth(r, z, true);
+  multiply(z.data(), rest_.data());
+  const auto places = static_cast<std::size_t>(grid().places), components = static_cast<std::size_t>(grid().components);
+  const auto for_numbers = [&](const auto& visit) {
+    for (std::size_t p = 0; p < places; ++p)
+      for (std::size_t c = 0; c < components; ++c) visit(c * places + p, static_cast<Eigen::Index>(p * components + c));
+  };
+  for_numbers([&](std::size_t number, Eigen::Index row) { right_[row] = r[number] - rest_[number]; });
+  below_->apply(right_, left_);
+  for_numbers([&](std::size_t number, Eigen::Index row) { z[number] += left_[row]; });
+  mask(z.data());
+  smoother_->smooth(r, z, false);
+}
+
+}  // namespace hyperlattice::statics

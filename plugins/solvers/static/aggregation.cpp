@@ -1,0 +1,242 @@
+#define EIGEN_DONT_PARALLELIZE  // coarse levels are small beside the finest
+#include "aggregation.hpp"
+
+#include "chebyshev.hpp"
+
+#include <Eigen/Dense>
+
+#include <numeric>
+
+namespace hyperlattice::statics {
+
+namespace {
+
+constexpr Eigen::Index few_rows = 2000;  // for the factorisation
+constexpr std::size_t most_levels = 12;
+constexpr int none = -1;
+
+/// Calls visit(node, other node, value) for the entries of a node's rows.
+template <class Visit>
+void for_entries(const SparseRows& K, int node, int components, const Visit& visit) {
+  for (int a = 0; a < components; ++a)
+    for (SparseRows::InnerIterator entry(K, node * components + a); entry; ++entry)
+      visit(static_cast<int>(entry.col()) / components, a, static_cast<int>(entry.col()) % components, entry.value());
+}
+
+/// How stiffly nodes are joined: the norm of the block between them, other than 0.
+struct Graph {
+  std::vector<int> first{0}, other;
+  std::vector<double> norm, own;
+
+  Graph(const SparseRows& K, int components) {
+    const int nodes = static_cast<int>(K.rows()) / components;
+    std::vector<double> sum(static_cast<std::size_t>(nodes), 0);
+    std::vector<int> met;
+    for (int node = 0; node < nodes; ++node) {
+      met.clear();
+      for_entries(K, node, components, [&](int there, int, int, double value) {
+        double& square = sum[static_cast<std::size_t>(there)];
+        if (square == 0 && value != 0) met.push_back(there);
+        square += value * value;
+      });
+      std::sort(met.begin(), met.end());
+      own.push_back(std::sqrt(sum[static_cast<std::size_t>(node)]));
+      for (const int there : met) {
+        if (there != node) {
+          other.push_back(there);
+          norm.push_back(std::sqrt(sum[static_cast<std::size_t>(there)]));
+        }
+        sum[static_cast<std::size_t>(there)] = 0;
+      }
+      first.push_back(static_cast<int>(other.size()));
+    }
+  }
+};
+
+/// The aggregate of each node, or none of those that nothing is joined to. Whole neighbourhoods first, then what is left goes to the stiffest
+/// neighbour.
+int aggregate(const Graph& graph, double threshold, std::vector<int>& of) {
+  const int nodes = static_cast<int>(graph.first.size()) - 1;
+  of.assign(static_cast<std::size_t>(nodes), none);
+  const auto at = [&](int node) -> int& { return of[static_cast<std::size_t>(node)]; };
+  const auto own = [&](int node) { return graph.own[static_cast<std::size_t>(node)]; };
+  const auto for_strong = [&](int node, const auto& visit) {
+    for (int n = graph.first[static_cast<std::size_t>(node)]; n < graph.first[static_cast<std::size_t>(node) + 1]; ++n) {
+      const int there = graph.other[static_cast<std::size_t>(n)];
+      const double norm = graph.norm[static_cast<std::size_t>(n)];
+      if (norm > threshold * std::sqrt(own(node) * own(there))) visit(there, norm);
+    }
+  };
+  int count = 0;
+  for (int node = 0; node < nodes; ++node) {
+    bool alone = true, whole = at(node) == none;
+    for_strong(node, [&](int there, double) {
+      alone = false;
+      whole = whole && at(there) == none;
+    });
+    if (alone || !whole) continue;
+    at(node) = count;
+    for_strong(node, [&](int there, double) { at(there) = count; });
+    ++count;
+  }
+  const std::vector<int> roots = of;
+  for (int node = 0; node < nodes; ++node) {
+    double stiffest = 0;
+    if (at(node) != none) continue;
+    for_strong(node, [&](int there, double norm) {
+      if (roots[static_cast<std::size_t>(there)] == none || norm <= stiffest) return;
+      stiffest = norm;
+      at(node) = roots[static_cast<std::size_t>(there)];
+    });
+  }
+  for (int node = 0; node < nodes; ++node) {
+    if (at(node) != none) continue;
+    bool alone = true;
+    for_strong(node, [&](int there, double) {
+      alone = false;
+      if (at(there) == none) at(there) = count;
+    });
+    if (alone) continue;
+    at(node) = count++;
+  }
+  return count;
+}
+
+void times_blocks(const NodeBlocks& blocks, const Eigen::VectorXd& r, Eigen::VectorXd& z) {
+  const std::size_t size = blocks.components;
+  for (std::size_t row = 0; row < static_cast<std::size_t>(r.size()); ++row) {
+    double sum = 0;
+    const std::size_t first = row / size * size;
+    for (std::size_t b = 0; b < size; ++b) sum += blocks.inverse[row * size + b] * r[static_cast<Eigen::Index>(first + b)];
+    z[static_cast<Eigen::Index>(row)] = sum;
+  }
+}
+
+NodeBlocks blocks_of(const SparseRows& K, std::size_t components) {
+  NodeBlocks blocks{components, std::vector<double>(static_cast<std::size_t>(K.rows()) * components, 0)};
+  const auto size = static_cast<Eigen::Index>(components);
+  for (int node = 0; node < static_cast<int>(K.rows() / size); ++node) {
+    Eigen::MatrixXd block = Eigen::MatrixXd::Zero(size, size);
+    for_entries(K, node, static_cast<int>(size), [&](int there, int a, int b, double value) {
+      if (there == node) block(a, b) = value;
+    });
+    const Eigen::MatrixXd inverse = block.inverse();
+    for (Eigen::Index a = 0; a < size; ++a)
+      for (Eigen::Index b = 0; b < size; ++b)
+        blocks.inverse[(static_cast<std::size_t>(node) * components + static_cast<std::size_t>(a)) * components + static_cast<std::size_t>(b)] =
+            inverse(a, b);
+  }
+  constexpr int rounds = 12;
+  constexpr double safe = 1.1;  // they approach the largest from below
+  Eigen::VectorXd x(K.rows()), y(K.rows());
+  std::uint32_t random = 12345;
+  for (double& value : x) {
+    random = random * 1664525u + 1013904223u;
+    value = static_cast<double>(random >> 8) / 16777216.0 - 0.5;
+  }
+  for (int n = 0; n < rounds; ++n) {
+    x.normalize();
+    y = K * x;
+    times_blocks(blocks, y, x);
+  }
+  blocks.largest = safe * x.norm();
+  return blocks;
+}
+
+/// What each aggregate's components do to the nodes, smoothed.
+SparseRows interpolation(const SparseRows& K, const NodeBlocks& blocks, const std::vector<int>& aggregates, int count) {
+  const auto size = static_cast<int>(blocks.components);
+  SparseRows sharp(K.rows(), static_cast<Eigen::Index>(count) * size), damped(K.rows(), K.rows());
+  sharp.reserve(Eigen::VectorXi::Constant(K.rows(), 1));
+  damped.reserve(Eigen::VectorXi::Constant(K.rows(), size));
+  const double omega = 4 / (3 * blocks.largest);
+  for (int row = 0; row < static_cast<int>(K.rows()); ++row) {
+    const int node = row / size, aggregate = aggregates[static_cast<std::size_t>(node)];
+    const bool moves =
+        std::any_of(blocks.inverse.begin() + row * size, blocks.inverse.begin() + (row + 1) * size, [](double value) { return value != 0; });
+    if (aggregate != none && moves) sharp.insert(row, aggregate * size + row % size) = 1;
+    for (int b = 0; b < size; ++b) damped.insert(row, node * size + b) = omega * blocks.inverse[static_cast<std::size_t>(row * size + b)];
+  }
+  sharp.makeCompressed();
+  damped.makeCompressed();
+  return (sharp - SparseRows(damped * SparseRows(K * sharp))).pruned();
+}
+
+}  // namespace
+
+struct Aggregation::Level {
+  SparseRows from_coarse, to_coarse;  ///< between the finer level and this one
+  SparseRows K;
+  NodeBlocks blocks;
+  Eigen::VectorXd b, x, rest, step, product;
+
+  void smooth(bool from_zero) {
+    Chebyshev chebyshev(blocks.largest);
+    for (int n = 0; n < Chebyshev::degree; ++n) {
+      const Chebyshev::Step weights = n == 0 ? chebyshev.first() : chebyshev.next();
+      const bool zero = from_zero && n == 0;
+      rest = zero ? b : Eigen::VectorXd(b - K * x);
+      times_blocks(blocks, rest, product);
+      step = n == 0 ? Eigen::VectorXd(weights.take * product) : Eigen::VectorXd(weights.keep * step + weights.take * product);
+      x = zero ? step : Eigen::VectorXd(x + step);
+    }
+  }
+};
+
+Aggregation::Aggregation(const SparseRows& finest, const NodeBlocks& finest_blocks) {
+  constexpr double threshold = 0.08;  // on the finest level; aggregates are joined to few others
+  const SparseRows* K = &finest;
+  const NodeBlocks* blocks = &finest_blocks;
+  std::vector<int> aggregates;
+  do {
+    const int count = aggregate(Graph(*K, static_cast<int>(blocks->components)), levels_.empty() ? threshold : 0, aggregates);
+    const Eigen::Index rows = static_cast<Eigen::Index>(count) * static_cast<Eigen::Index>(blocks->components);
+    if (count == 0 || rows >= K->rows()) break;
+    auto level = std::make_unique<Level>();
+    level->from_coarse = interpolation(*K, *blocks, aggregates, count);
+    level->to_coarse = level->from_coarse.transpose();
+    level->K = level->to_coarse * SparseRows(*K * level->from_coarse);
+    for (Eigen::Index row = 0; row < rows; ++row)  // of what no node of an aggregate can do
+      if (!(level->K.coeff(row, row) > 0)) level->K.coeffRef(row, row) = 1;
+    level->K.makeCompressed();
+    level->blocks = blocks_of(level->K, blocks->components);
+    for (Eigen::VectorXd* field : {&level->b, &level->x, &level->rest, &level->step, &level->product}) field->setZero(rows);
+    levels_.push_back(std::move(level));
+    K = &levels_.back()->K;
+    blocks = &levels_.back()->blocks;
+  } while (K->rows() > few_rows && levels_.size() < most_levels);
+  if (levels_.empty()) return;
+  constexpr double shift = 1e-9;  // where nothing holds the body
+  Eigen::SparseMatrix<double> last = levels_.back()->K;
+  for (Eigen::Index row = 0; row < last.rows(); ++row) last.coeffRef(row, row) *= 1 + shift;
+  coarsest_.compute(last);
+}
+
+Aggregation::~Aggregation() = default;
+
+void Aggregation::apply(const Eigen::VectorXd& r, Eigen::VectorXd& z) {
+  if (levels_.empty()) {
+    z.setZero();
+    return;
+  }
+  levels_.front()->b = levels_.front()->to_coarse * r;
+  cycle(0);
+  z = levels_.front()->from_coarse * levels_.front()->x;
+}
+
+void Aggregation::cycle(std::size_t n) {
+  Level& level = *levels_[n];
+  if (n + 1 == levels_.size()) {
+    level.x = coarsest_.solve(level.b);
+    return;
+  }
+  Level& below = *levels_[n + 1];
+  level.smooth(true);
+  level.rest = level.b - level.K * level.x;
+  below.b = below.to_coarse * level.rest;
+  cycle(n + 1);
+  level.x += below.from_coarse * below.x;
+  level.smooth(false);
+}
+
+}  // namespace hyperlattice::statics

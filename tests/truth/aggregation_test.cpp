@@ -1,0 +1,96 @@
+// Multigrid by aggregation, of listed lattices, against factorisations.
+#include <run/stage_calls.hpp>
+
+#include <support/lists.hpp>
+
+#include <gtest/gtest.h>
+
+namespace {
+using namespace hyperlattice;
+using namespace hyperlattice::test;
+
+class Aggregation : public testing::TestWithParam<MembraneCase> {};
+const MembraneCase cases[] = {
+    {"none", R"("membrane": "none")"}, {"I", R"("membrane": "I", "poisson": 0.2)"}, {"clamped", R"("membrane": "III", "lambda": 1)"}};
+INSTANTIATE_TEST_SUITE_P(Membranes, Aggregation, testing::ValuesIn(cases), [](const auto& info) { return std::string(info.param.name); });
+
+std::string solver(const std::string& preconditioner, const std::string& more) {
+  return R"({ "type": "solvers.static", "preconditioner": ")" + preconditioner + R"(", )" + more + " }";
+}
+
+/// A random block of n^3 mm, pulled.
+std::string pulled(int n, const std::string& solver, const std::string& material = R"("membrane": "I", "poisson": 0.2)", const char* way = "1e-6") {
+  return listed_scene(random_lattice(n, n, n), material,
+                      R"({ "type": "loads.fixed", "on": "z_min" },
+    { "type": "loads.displacement", "on": "z_max", "value": [0, 0, )" +
+                          std::string(way) + R"(], "rise": 1e-9 },)" + solver);
+}
+
+struct Found {
+  std::vector<double> u;
+  RestReport report;
+};
+Found at_rest(const std::string& scene, int threads = 1) {
+  const auto plan = plan_of(scene, threads);
+  Simulation simulation(*plan->model, threads);
+  const RestReport report = bring_to_rest(*plan, simulation);
+  return {displacements(simulation), report};
+}
+
+std::string complaint_of(const std::string& scene) {
+  try {
+    at_rest(scene);
+  } catch (const RunError& error) {
+    return error.what();
+  }
+  return "it came to rest";
+}
+
+TEST_P(Aggregation, AgreesWithTheWholeFactorisation) {
+  const Found whole = at_rest(pulled(8, solver("whole", R"("tolerance": 1e-9)"), GetParam().material));
+  const Found levels = at_rest(pulled(8, solver("multigrid", R"("tolerance": 1e-9)"), GetParam().material));
+  EXPECT_LT(distance(whole.u, levels.u), 1e-7 * largest(whole.u));
+  EXPECT_LE(levels.report.residual, 1e-9);
+}
+
+// The cost of an iteration is in proportion to the body's size, so what counts is how their number grows.
+TEST(AggregationOf, IterationsGrowLessThanThoseOfAnIncompleteFactorisation) {
+  const auto iterations = [](int n, const std::string& solver) { return static_cast<double>(at_rest(pulled(n, solver)).report.iterations); };
+  const std::string levels = solver("multigrid", R"("tolerance": 1e-6)"), incomplete = solver("incomplete", R"("tolerance": 1e-6)");
+  for (const int n : {14, 22}) {
+    const double few = iterations(n, levels), many = iterations(n, incomplete);
+    std::printf("%d^3: %g iterations, %g with an incomplete factorisation\n", n, few, many);
+    EXPECT_LE(few, many / 2.5) << n;
+  }
+}
+
+TEST_P(Aggregation, HasTheSameBitsForAnyNumberOfThreads) {
+  const std::string scene = pulled(9, solver("multigrid", R"("tolerance": 1e-6)"), GetParam().material);
+  EXPECT_EQ(at_rest(scene, 1).u, at_rest(scene, 3).u);
+}
+
+// A bar bent by a third of its length, against the factorisation.
+TEST(AggregationOf, LargeRotations) {
+  const auto bent = [](const std::string& solver) {
+    return listed_scene(random_lattice(3, 3, 16, R"("coordination": 13)"), R"("membrane": "I", "poisson": 0.2)",
+                        R"({ "type": "loads.fixed", "on": "z_min" },
+    { "type": "loads.displacement", "on": "z_max", "axes": "x", "value": [5e-3, 0, 0], "rise": 1e-9 },)" +
+                            solver);
+  };
+  const Found whole = at_rest(bent(solver("whole", R"("tolerance": 1e-9)")));
+  const Found levels = at_rest(bent(solver("multigrid", R"("tolerance": 1e-9)")));
+  EXPECT_GT(largest(whole.u), 4.9e-3);
+  EXPECT_LT(distance(whole.u, levels.u), 1e-6 * largest(whole.u));
+}
+
+TEST(AggregationOf, ABodyThatNothingHoldsIsToldHowItMoves) {
+  const ListFiles files(4, 4, 4);
+  for (const char* preconditioner : {"whole", "multigrid"}) {
+    const std::string complaint =
+        complaint_of(listed_scene(files.lattice(), R"("membrane": "none")",
+                                  R"({ "type": "loads.gravity", "acceleration": [0, -9.81, 0] },)" + solver(preconditioner, R"("tolerance": 1e-6)")));
+    EXPECT_NE(complaint.find("the whole body can move as a rigid one: it slides along (0, -1, 0)"), std::string::npos) << complaint;
+  }
+}
+
+}  // namespace
