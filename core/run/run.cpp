@@ -288,7 +288,8 @@ int run(Plan& plan, const RunOptions& options) {
   }
   forget_stop();
   try {
-    if (outcome.exit_code == exit_done) std::filesystem::remove(options.directory / checkpoint_file);
+    // a run that failed by itself would fail again
+    if (outcome.exit_code == exit_done || outcome.exit_code == exit_run) std::filesystem::remove(options.directory / checkpoint_file);
     write_file((options.directory / "summary.json").string(), summary_json(plan, outcome).dump(2) + "\n");
   } catch (const std::exception& error) {
     spdlog::error("{}", error.what());
