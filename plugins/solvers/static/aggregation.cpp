@@ -1,4 +1,3 @@
-#define EIGEN_DONT_PARALLELIZE  // coarse levels are small beside the finest
 #include "aggregation.hpp"
 
 #include "chebyshev.hpp"
