@@ -154,7 +154,8 @@ SparseRows interpolation(const SparseRows& K, const NodeBlocks& blocks, const st
     const bool moves =
         std::any_of(blocks.inverse.begin() + row * size, blocks.inverse.begin() + (row + 1) * size, [](double value) { return value != 0; });
     if (aggregate != none && moves) sharp.insert(row, aggregate * size + row % size) = 1;
-    for (int b = 0; b < size; ++b) damped.insert(row, node * size + b) = omega * blocks.inverse[static_cast<std::size_t>(row * size + b)];
+    for (int b = 0; b < size; ++b)
+      damped.insert(row, node * size + b) = omega * blocks.inverse[static_cast<std::size_t>(row) * blocks.components + static_cast<std::size_t>(b)];
   }
   sharp.makeCompressed();
   damped.makeCompressed();
