@@ -48,6 +48,8 @@ struct Load {
   std::vector<WatchedParticle> watched;   ///< as the load named them
   Vec3 acceleration;
   double factor(double time) const { return stage->functions<LoadFunctions>().factor(component.get(), time); }
+  bool prepares() const { return !watched.empty() && stage->functions<LoadFunctions>().prepare != nullptr; }
+  void prepare(const WatchedMotion& motion) const { stage->functions<LoadFunctions>().prepare(component.get(), motion); }
   /// Force on the n-th watched particle, N.
   Vec3 answer(const WatchedMotion& motion, std::size_t n) const { return stage->functions<LoadFunctions>().answer(component.get(), motion, n); }
 };

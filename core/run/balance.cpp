@@ -19,6 +19,10 @@ RowSums Simulation::Parts::measure(double back) {
       layout->exchange(blocks, blocks[b]);
       watch(blocks[b]);
     }
+    if (prepares) {
+#pragma omp single
+      prepare_answers();
+    }
 #pragma omp for schedule(static, 1)
     for (std::size_t b = 0; b < blocks.size(); ++b) {
       prepare_supports(blocks[b], 2 * back);

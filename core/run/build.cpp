@@ -27,6 +27,7 @@ Simulation::Parts::Parts(const Model& m, int wanted) : model(m), layout(make_lay
   for (std::size_t l = 0; l < acting.size(); ++l) {
     acting[l].displacement.resize(model.loads[l].watched.size());
     acting[l].velocity.resize(model.loads[l].watched.size());
+    prepares = prepares || model.loads[l].prepares();
   }
   for (const auto& [particle, velocity] : model.start_velocities) {
     const auto [block, place] = at(particle);

@@ -27,6 +27,7 @@ struct Simulation::Parts {
     WatchedMotion motion;
   };
   std::vector<Acting> acting;  ///< of each load
+  bool prepares = false;       ///< some load prepares its answers
 
   double damping = 0, damping_rate = 0, last_step = 0;
   double time = 0, time_rest = 0;  ///< compensated sum
@@ -55,6 +56,7 @@ struct Simulation::Parts {
   KernelRequest request_for(Block& block, double back, double forward) const;
   void prepare_loads(double step);
   void watch(const Block& block);
+  void prepare_answers();
   void prepare_supports(Block& block, double step) const;
   void start(double step);
 

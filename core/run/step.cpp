@@ -26,6 +26,10 @@ void Simulation::Parts::step(double dt) {
       layout->exchange(blocks, blocks[b]);
       watch(blocks[b]);
     }
+    if (prepares) {
+#pragma omp single
+      prepare_answers();
+    }
 #pragma omp for schedule(static, 1)
     for (std::size_t b = 0; b < blocks.size(); ++b) {
       Block& block = blocks[b];
@@ -99,6 +103,12 @@ void Simulation::Parts::watch(const Block& block) {
   }
 }
 
+/// Once all that loads watch has been shown to them.
+void Simulation::Parts::prepare_answers() {
+  for (std::size_t l = 0; l < acting.size(); ++l)
+    if (model.loads[l].prepares()) model.loads[l].prepare(acting[l].motion);
+}
+
 /// External forces at the present time, and the velocities that prescribed particles have during a step of that length.
 void Simulation::Parts::prepare_supports(Block& block, double step) const {
   for (Support& support : block.supports) support.force = support.velocity = {};
@@ -126,6 +136,7 @@ void Simulation::Parts::start(double step) {
   bool driven = false;
   prepare_loads(step);
   for (const Block& block : blocks) watch(block);
+  prepare_answers();
   for (Block& block : blocks) {
     prepare_supports(block, step);
     for (const Support& support : block.supports)

@@ -110,6 +110,7 @@ struct LoadFunctions {
   bool (*declare)(void* load, const LoadBody& body, const LoadSink& sink, const Complaint& why) noexcept;
   double (*factor)(const void* load, double time) noexcept;
   Vec3 (*answer)(const void* load, const WatchedMotion& motion, std::size_t n) noexcept;  ///< null: the load does not answer
+  void (*prepare)(void* load, const WatchedMotion& motion) noexcept;                      ///< before answers; null: nothing to prepare
 };
 
 /// A load class has: void declare(const LoadBody&, const LoadSink&), which throws when its region is unsuitable, and is called once;
@@ -121,7 +122,8 @@ concept LoadComponent = requires(T& load, const LoadBody& body, const LoadSink& 
 };
 
 /// One that answers also has: Vec3 answer(const WatchedMotion&, std::size_t n) const, the force on the n-th watched particle in newton. It must not
-/// throw, may be called by several threads at once, and depends on nothing but its arguments. factor(t) does not apply by itself.
+/// throw, may be called by several threads at once, and depends on nothing but its arguments. factor(t) does not apply by itself. It may have
+/// void prepare(const WatchedMotion&), called once by one thread before it answers for a motion; what answers are must not depend on earlier ones.
 template <class T>
 concept AnsweringLoad = LoadComponent<T> && requires(const T& load, const WatchedMotion& motion) {
   { load.answer(motion, std::size_t{}) } -> std::convertible_to<Vec3>;
@@ -137,13 +139,22 @@ constexpr auto answer_of() -> decltype(LoadFunctions::answer) {
 }
 
 template <LoadComponent T>
+constexpr auto prepare_of() -> decltype(LoadFunctions::prepare) {
+  if constexpr (requires(T & load, const WatchedMotion& motion) { load.prepare(motion); })
+    return [](void* load, const WatchedMotion& motion) noexcept { static_cast<T*>(load)->prepare(motion); };
+  else
+    return nullptr;
+}
+
+template <LoadComponent T>
 struct FunctionsOf<T> {
   static constexpr Family family = Family::loads;
   static constexpr LoadFunctions table{
       [](void* load, const LoadBody& body, const LoadSink& sink, const Complaint& why) noexcept {
         return guarded(why, [&] { static_cast<T*>(load)->declare(body, sink); });
       },
-      [](const void* load, double time) noexcept { return static_cast<double>(static_cast<const T*>(load)->factor(time)); }, answer_of<T>()};
+      [](const void* load, double time) noexcept { return static_cast<double>(static_cast<const T*>(load)->factor(time)); }, answer_of<T>(),
+      prepare_of<T>()};
 };
 }  // namespace detail
 }  // namespace hyperlattice

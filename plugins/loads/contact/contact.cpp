@@ -1,0 +1,112 @@
+// Particles that come too near push each other away: fragments that meet, bodies that collide, cracks that close. Two particles that are d apart,
+// nearer than d_0, get the depth p = d_0 - d and, with v_n and v_t their relative velocity along and across their line,
+//   N = max(0, c p - b v_n)                        apart, b = 2 damping sqrt(c m)
+//   T = min(mu N, h |v_t|) against v_t             h = grip sqrt(c m), m = m_1 m_2 / (m_1 + m_2)
+// d_0 is `reach` spacings, but no more than nine tenths of what they are apart in the undeformed body: neighbours whose spring holds are not
+// compressed that far, those whose spring broke meet again.
+#include "pairs.hpp"
+
+#include <stdexcept>
+
+namespace {
+using namespace hyperlattice;
+
+class Contact {
+ public:
+  struct Options {
+    RegionId on;
+    double reach = 0, damping = 0, friction = 0, grip = 0;
+    std::optional<double> stiffness;
+  };
+
+  static Schema<Options> schema() {
+    return Schema<Options>("loads.contact", "Particles that come too near push each other away, with friction")
+        .equation(
+            "N = max(0, c p - b v_n), T = min(mu N, h |v_t|) against v_t, p = min(reach l, 0.9 d_rest) - d; b = 2 damping sqrt(c m), h = grip sqrt(c "
+            "m)")
+        .source(
+            "short-range forces between particles (Silling and Askari 2005) with Coulomb friction, regularised by a viscosity; c, b and h enter the "
+            "critical step")
+        .restrictions(
+            "Springs that are compressed by more than a tenth are pushed too: not for laws of large strains. The work of contacts is in the books as "
+            "that of a "
+            "load: what they store counts as taken from the body, and comes back. Particles that are deeper than half a spacing mean a contact too "
+            "soft.")
+        .add<&Options::on>("on", "", "the particles that may meet each other")
+        .fallback("\"all\"")
+        .add<&Options::reach>("reach", "", "distance below which particles push each other, in spacings")
+        .positive()
+        .at_most(1)
+        .fallback("0.9")
+        .add<&Options::stiffness>("stiffness", "N/m", "c, of a pair; auto: that of the stiffest base spring of the region")
+        .word("auto")
+        .fallback("\"auto\"")
+        .positive()
+        .add<&Options::damping>("damping", "", "of the motion along the line between two particles, over the critical one of the pair")
+        .at_least(0)
+        .at_most(1)
+        .fallback("0")
+        .add<&Options::friction>("friction", "", "coefficient mu")
+        .at_least(0)
+        .fallback("0")
+        .add<&Options::grip>("grip", "", "viscosity of friction below its limit, over sqrt(c m)")
+        .positive()
+        .fallback("0.2");
+  }
+
+  explicit Contact(const Options& o) : o_(o) {}
+
+  void declare(const LoadBody& body, const LoadSink& sink) {
+    stiffness_ = o_.stiffness.value_or(0);
+    if (!o_.stiffness)
+      for (const RestSpring& spring : body.springs(o_.on)) stiffness_ = std::max(stiffness_, spring.stiffness / spring.share);
+    if (!(stiffness_ > 0)) throw std::invalid_argument("stiffness as a number: the region has no springs to take it from");
+    reach_ = o_.reach * body.spacing;
+    std::vector<Vec3> at_rest;
+    for (const Particle particle : body.particles(o_.on)) {
+      at_rest.push_back(body.position(particle));
+      mass_.push_back(body.mass(particle));
+      // As many as twelve others can be that near, evenly around; a pair's stiffness counts twice where both move, and friction has two directions.
+      constexpr double along = 2 * 12.0 / 3, across = 2 * along;
+      const double pair = std::sqrt(stiffness_ * mass_.back() / 2);
+      sink.watch(particle, {along * stiffness_, along * 2 * o_.damping * pair + (o_.friction > 0 ? across * o_.grip * pair : 0)});
+    }
+    pairs_ = contact::Pairs(std::move(at_rest), reach_);
+  }
+  double factor(double) const { return 1; }
+  void prepare(const WatchedMotion& motion) { pairs_.find(motion.displacement); }
+
+  Vec3 answer(const WatchedMotion& motion, std::size_t n) const {
+    Vec3 sum;
+    for (const std::uint32_t other : pairs_.of(n)) {
+      const Vec3 apart = pairs_.apart(other, n, motion.displacement);
+      const double distance = norm(apart);
+      if (!(distance < reach_) || distance == 0) continue;
+      constexpr double held = 0.9;  // of what neighbours are apart at rest
+      const double depth = std::min(reach_, held * pairs_.apart_at_rest(other, n)) - distance;
+      if (depth > 0)
+        sum = sum +
+              push(depth, (1 / distance) * apart, motion.velocity[n] - motion.velocity[other], mass_[n] * mass_[other] / (mass_[n] + mass_[other]));
+    }
+    return sum;
+  }
+
+ private:
+  /// On the particle to which `away` points; v: its velocity against the other.
+  Vec3 push(double depth, Vec3 away, Vec3 v, double mass) const {
+    const double measure = std::sqrt(stiffness_ * mass), outwards = dot(v, away);
+    const double N = std::max(0.0, stiffness_ * depth - 2 * o_.damping * measure * outwards);
+    const Vec3 along = v - outwards * away;
+    const double speed = norm(along);
+    if (o_.friction == 0 || speed == 0) return N * away;
+    return N * away - (std::min(o_.friction * N, o_.grip * measure * speed) / speed) * along;
+  }
+
+  Options o_;
+  double stiffness_ = 0, reach_ = 0;  ///< N/m, m
+  std::vector<double> mass_;
+  contact::Pairs pairs_;
+};
+}  // namespace
+
+HYPERLATTICE_PLUGIN("1.0") { plugin.add<Contact>(); }

@@ -1,0 +1,78 @@
+// Bodies that meet. Two equal bars of which one stands: after the waves of the impact have gone to the ends and back, that one moves, and the other
+// stands (Saint-Venant 1867). Momentum and energy are kept, and results do not depend on threads.
+#include <run/state.hpp>
+
+#include <support/scenes.hpp>
+
+#include <gtest/gtest.h>
+
+namespace {
+using namespace hyperlattice;
+using namespace hyperlattice::test;
+
+/// Two bars of 30 x 3 x 3 cells, 2 mm between their last particles; the left one comes with 10 m/s.
+std::unique_ptr<Plan> bars(const std::string& contact, int threads = 1) {
+  return plan_of(R"({ "format": "hyperlattice/1", "regions": { "left": { "box": { "low": [-1, -1, -1], "high": [0.0305, 1, 1] } } }, "pipeline": [
+    { "type": "lattices.cubic", "spacing": 1e-3, "anchor": [0, 0, 0], "shape": { "union": [ { "box": { "low": [0, 0, 0], "high": [0.0299, 0.0029, 0.0029] } },
+      { "box": { "low": [0.0311, 0, 0], "high": [0.0609, 0.0029, 0.0029] } } ] } },
+    { "type": "materials.elastic", "young": 1e10, "density": 2500, "membrane": "none" },
+    { "type": "loads.start_velocity", "on": "left", "linear": [10, 0, 0] },)" +
+                     contact + R"({ "type": "solvers.explicit", "end_time": 3e-4 } ] })",
+                 threads);
+}
+
+struct Met {
+  double left = 0, right = 0;  ///< mean velocities along x, m/s
+  double largest_error = 0;    ///< of the energy balance, relative
+  Balance start, end;
+  std::uint64_t hash = 0;
+};
+Met meet(const Plan& plan) {
+  Simulation simulation(*plan.model, plan.threads);
+  Met met;
+  met.start = simulation.balance();
+  const double step = 0.5 * plan.model->critical_time_step;
+  while (simulation.time() < 3e-4) {
+    simulation.step(step);
+    met.end = simulation.balance();
+    met.largest_error = std::max(met.largest_error, std::abs(met.end.relative_error()));
+  }
+  std::vector<double> v;
+  simulation.velocities(v);
+  const std::uint64_t half = plan.model->body.particles / 2;
+  EXPECT_EQ(half, 270u);
+  for (Particle p = 0; p < plan.model->body.particles; ++p)
+    (plan.model->body.position(p).x < 0.0305 ? met.left : met.right) += v[3 * p] / static_cast<double>(half);
+  met.hash = simulation.hash();
+  return met;
+}
+
+TEST(Collisions, EqualBarsExchangeTheirVelocities) {
+  const Met met = meet(*bars(R"({ "type": "loads.contact" },)"));
+  std::printf("after the impact: %.4f and %.4f m/s of 10; balance error %.1e\n", met.left, met.right, met.largest_error);
+  EXPECT_NEAR(met.left, 0, 0.2);  // a little stays behind as waves across the bars
+  EXPECT_NEAR(met.right, 10, 0.2);
+  EXPECT_NEAR(met.end.momentum.x / met.start.momentum.x, 1, 1e-12);
+  EXPECT_LT(met.largest_error, 1e-3);
+  EXPECT_NEAR((met.end.kinetic + met.end.stored) / met.start.kinetic, 1, 1e-3);  // nothing is left in the contacts
+}
+
+TEST(Collisions, WithoutItBodiesGoThroughEachOther) {
+  const Met met = meet(*bars(""));
+  EXPECT_NEAR(met.left, 10, 1e-9);
+  EXPECT_NEAR(met.right, 0, 1e-9);
+}
+
+TEST(Collisions, DampingTakesEnergyAndNoMomentum) {
+  const Met met = meet(*bars(R"({ "type": "loads.contact", "damping": 0.5, "friction": 0.3 },)"));
+  EXPECT_NEAR(met.end.momentum.x / met.start.momentum.x, 1, 1e-12);
+  EXPECT_LT(met.end.kinetic + met.end.stored, 0.999 * met.start.kinetic);
+  EXPECT_GT(met.right, met.left);
+}
+
+TEST(Collisions, ResultsDoNotDependOnThreads) {
+  const char* contact = R"({ "type": "loads.contact", "damping": 0.1, "friction": 0.3 },)";
+  EXPECT_EQ(meet(*bars(contact, 1)).hash, meet(*bars(contact, 3)).hash);
+}
+
+}  // namespace
