@@ -70,6 +70,18 @@ TEST(Collisions, DampingTakesEnergyAndNoMomentum) {
   EXPECT_GT(met.right, met.left);
 }
 
+// The critical step counts contacts however stiff they are, and whatever they damp.
+TEST(Collisions, StiffContactsStayStable) {
+  for (const char* more : {"", R"(, "damping": 1, "friction": 1, "grip": 2)"}) {
+    const Met met = meet(*bars(R"({ "type": "loads.contact", "stiffness": 1e8)" + std::string(more) + " },"));  // thirty times a spring
+    std::printf("after the impact: %.4f and %.4f m/s of 10; balance error %.1e\n", met.left, met.right, met.largest_error);
+    EXPECT_NEAR(met.end.momentum.x / met.start.momentum.x, 1, 1e-11);
+    EXPECT_LT(met.end.kinetic + met.end.stored, 1.001 * met.start.kinetic);
+    EXPECT_LT(met.largest_error, 0.02);
+    EXPECT_GT(met.right, 9);
+  }
+}
+
 TEST(Collisions, ResultsDoNotDependOnThreads) {
   const char* contact = R"({ "type": "loads.contact", "damping": 0.1, "friction": 0.3 },)";
   EXPECT_EQ(meet(*bars(contact, 1)).hash, meet(*bars(contact, 3)).hash);

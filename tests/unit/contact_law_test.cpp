@@ -82,6 +82,10 @@ TEST(Contact, NeighboursAreLeftAlone) {
   expect_near(forces(neighbours, {{}, {-0.09e-3, 0, 0}}, still)[0], {-stiffness * 1e-5, 0, 0}, 1e-9 * N);
 }
 
+TEST(Contact, ParticlesThatAreNowhereMeetNobody) {
+  for (const double lost : {double{NAN}, double{INFINITY}, 1e300}) EXPECT_EQ(norm(forces(two, {{}, {lost, 0, 0}}, still)[0]), 0) << lost;
+}
+
 TEST(Contact, NoPairIsMissed) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> even(-1, 1);

@@ -6,7 +6,7 @@
 // compressed that far, those whose spring broke meet again.
 #include "pairs.hpp"
 
-#include <stdexcept>
+#include <hyperlattice/penalty_contact.hpp>
 
 namespace {
 using namespace hyperlattice;
@@ -57,10 +57,7 @@ class Contact {
   explicit Contact(const Options& o) : o_(o) {}
 
   void declare(const LoadBody& body, const LoadSink& sink) {
-    stiffness_ = o_.stiffness.value_or(0);
-    if (!o_.stiffness)
-      for (const RestSpring& spring : body.springs(o_.on)) stiffness_ = std::max(stiffness_, spring.stiffness / spring.share);
-    if (!(stiffness_ > 0)) throw std::invalid_argument("stiffness as a number: the region has no springs to take it from");
+    stiffness_ = contact_stiffness(body, o_.on, o_.stiffness);
     reach_ = o_.reach * body.spacing;
     std::vector<Vec3> at_rest;
     for (const Particle particle : body.particles(o_.on)) {
@@ -68,8 +65,8 @@ class Contact {
       mass_.push_back(body.mass(particle));
       // As many as twelve others can be that near, evenly around; a pair's stiffness counts twice where both move, and friction has two directions.
       constexpr double along = 2 * 12.0 / 3, across = 2 * along;
-      const double pair = std::sqrt(stiffness_ * mass_.back() / 2);
-      sink.watch(particle, {along * stiffness_, along * 2 * o_.damping * pair + (o_.friction > 0 ? across * o_.grip * pair : 0)});
+      const PenaltyContact pair(stiffness_, mass_.back() / 2, o_.damping, o_.grip);
+      sink.watch(particle, {along * stiffness_, along * pair.damping + (o_.friction > 0 ? across * pair.grip : 0)});
     }
     pairs_ = contact::Pairs(std::move(at_rest), reach_);
   }
@@ -84,24 +81,14 @@ class Contact {
       if (!(distance < reach_) || distance == 0) continue;
       constexpr double held = 0.9;  // of what neighbours are apart at rest
       const double depth = std::min(reach_, held * pairs_.apart_at_rest(other, n)) - distance;
-      if (depth > 0)
-        sum = sum +
-              push(depth, (1 / distance) * apart, motion.velocity[n] - motion.velocity[other], mass_[n] * mass_[other] / (mass_[n] + mass_[other]));
+      if (!(depth > 0)) continue;
+      const PenaltyContact pair(stiffness_, mass_[n] * mass_[other] / (mass_[n] + mass_[other]), o_.damping, o_.grip);
+      sum = sum + pair.force(depth, (1 / distance) * apart, motion.velocity[n] - motion.velocity[other], [this](Vec3) { return o_.friction; });
     }
     return sum;
   }
 
  private:
-  /// On the particle to which `away` points; v: its velocity against the other.
-  Vec3 push(double depth, Vec3 away, Vec3 v, double mass) const {
-    const double measure = std::sqrt(stiffness_ * mass), outwards = dot(v, away);
-    const double N = std::max(0.0, stiffness_ * depth - 2 * o_.damping * measure * outwards);
-    const Vec3 along = v - outwards * away;
-    const double speed = norm(along);
-    if (o_.friction == 0 || speed == 0) return N * away;
-    return N * away - (std::min(o_.friction * N, o_.grip * measure * speed) / speed) * along;
-  }
-
   Options o_;
   double stiffness_ = 0, reach_ = 0;  ///< N/m, m
   std::vector<double> mass_;

@@ -19,8 +19,13 @@ struct Member {
   auto operator<=>(const Member&) const = default;
 };
 
+/// What is nowhere, or beyond all that can be counted, is at the origin: a run that goes so bad is stopped elsewhere.
 Cell cell_of(Vec3 at, double width) {
-  const auto count = [&](double value) { return static_cast<std::int64_t>(std::floor(value / width)); };
+  const auto count = [&](double value) {
+    constexpr double most = 1e15;
+    const double cells = std::floor(value / width);
+    return std::abs(cells) < most ? static_cast<std::int64_t>(cells) : std::int64_t{0};
+  };
   return {count(at.z), count(at.y), count(at.x)};
 }
 

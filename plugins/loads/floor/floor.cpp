@@ -4,10 +4,8 @@
 // with v_n, v_t the velocity out of the floor and along it. Below the limit mu N friction is viscous, so that a particle at rest creeps with mu N /
 // h, a tiny speed, and time steps stay stable. Along `forward` mu is friction, against it friction_back; between them it goes with the cosine:
 //   mu = (mu_f + mu_b) / 2 + (mu_f - mu_b) / 2 (v_t . forward) / |v_t|
-#include <hyperlattice/load.hpp>
+#include <hyperlattice/penalty_contact.hpp>
 
-#include <algorithm>
-#include <stdexcept>
 #include <vector>
 
 namespace {
@@ -63,20 +61,12 @@ class Floor {
   }
 
   void declare(const LoadBody& body, const LoadSink& sink) {
-    double whole = o_.stiffness.value_or(0);
-    if (!o_.stiffness)
-      for (const RestSpring& spring : body.springs(o_.on)) whole = std::max(whole, spring.stiffness / spring.share);
-    if (!(whole > 0)) throw std::invalid_argument("stiffness as a number: the region has no springs to take it from");
+    const double whole = contact_stiffness(body, o_.on, o_.stiffness);
     const bool rubs = o_.friction > 0 || o_.friction_back.value_or(0) > 0;
     for (const Particle particle : body.particles(o_.on)) {
-      Contact contact;
-      contact.height = dot(body.position(particle) - o_.point, normal_) - body.rim;
-      contact.stiffness = whole * body.share(particle);
-      const double measure = std::sqrt(contact.stiffness * body.mass(particle));
-      contact.damping = 2 * o_.damping * measure;
-      contact.grip = o_.grip * measure;
-      sink.watch(particle, {contact.stiffness, std::max(contact.damping, rubs ? contact.grip : 0)});
-      contacts_.push_back(contact);
+      const PenaltyContact law(whole * body.share(particle), body.mass(particle), o_.damping, o_.grip);
+      sink.watch(particle, {law.stiffness, std::max(law.damping, rubs ? law.grip : 0)});
+      contacts_.push_back({dot(body.position(particle) - o_.point, normal_) - body.rim, law});
     }
   }
   double factor(double) const { return 1; }
@@ -85,20 +75,16 @@ class Floor {
     const Contact& contact = contacts_[n];
     const double depth = -contact.height - dot(motion.displacement[n], normal_);
     if (!(depth > 0)) return {};
-    const Vec3 v = motion.velocity[n];
-    const double outwards = dot(v, normal_), N = std::max(0.0, contact.stiffness * depth - contact.damping * outwards);
-    const Vec3 along = v - outwards * normal_;
-    const double speed = norm(along);
-    if (speed == 0) return N * normal_;
-    const double back = o_.friction_back.value_or(o_.friction);
-    const double mu = 0.5 * (o_.friction + back) + 0.5 * (o_.friction - back) * dot(along, forward_) / speed;
-    return N * normal_ - (std::min(mu * N, contact.grip * speed) / speed) * along;
+    return contact.law.force(depth, normal_, motion.velocity[n], [this](Vec3 along) {
+      const double back = o_.friction_back.value_or(o_.friction);
+      return 0.5 * (o_.friction + back) + 0.5 * (o_.friction - back) * dot(along, forward_) / norm(along);
+    });
   }
 
  private:
   struct Contact {
-    double height = 0;  ///< of the particle's rim over the floor at rest, m
-    double stiffness = 0, damping = 0, grip = 0;
+    double height;  ///< of the particle's rim over the floor at rest, m
+    PenaltyContact law;
   };
   Options o_;
   Vec3 normal_, forward_;

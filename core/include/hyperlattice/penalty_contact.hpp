@@ -1,0 +1,50 @@
+// Contact by penalty, as loads.floor and loads.contact have it: what is a depth p inside is pushed out, and rubs.
+//
+//   N = max(0, c p - b v_n)                        outwards, b = 2 damping sqrt(c m)
+//   T = min(mu N, h |v_t|) against v_t             h = grip sqrt(c m)
+//
+// Below the limit mu N friction is viscous, so that what rests creeps with mu N / h, a tiny speed, and time steps stay stable.
+#pragma once
+
+#include <hyperlattice/load.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+namespace hyperlattice {
+
+/// c of a whole particle, N/m: as asked, or that of the stiffest base spring of the region. std::invalid_argument if there is none.
+inline double contact_stiffness(const LoadBody& body, RegionId region, std::optional<double> asked) {
+  double stiffness = asked.value_or(0);
+  if (!asked)
+    for (const RestSpring& spring : body.springs(region)) stiffness = std::max(stiffness, spring.stiffness / spring.share);
+  if (!(stiffness > 0)) throw std::invalid_argument("stiffness as a number: the region has no springs to take it from");
+  return stiffness;
+}
+
+struct PenaltyContact {
+  double stiffness = 0;  ///< c, N/m
+  double damping = 0;    ///< b, N s/m
+  double grip = 0;       ///< h, N s/m
+
+  /// Of a mass, kg; damping and grip as shares of 2 sqrt(c m) and sqrt(c m).
+  PenaltyContact(double c, double mass, double damping_share, double grip_share) : stiffness(c) {
+    const double measure = std::sqrt(c * mass);
+    damping = 2 * damping_share * measure;
+    grip = grip_share * measure;
+  }
+
+  /// The force, N, at a depth above 0, m; `away`: of length 1, outwards; v: velocity against what is touched, m/s. friction(v_t): the coefficient mu.
+  template <class Friction>
+  Vec3 force(double depth, Vec3 away, Vec3 v, const Friction& friction) const {
+    const double outwards = dot(v, away), N = std::max(0.0, stiffness * depth - damping * outwards);
+    const Vec3 along = v - outwards * away;
+    const double speed = norm(along);
+    if (speed == 0) return N * away;
+    return N * away - (std::min(friction(along) * N, grip * speed) / speed) * along;
+  }
+};
+
+}  // namespace hyperlattice
