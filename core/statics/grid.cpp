@@ -28,7 +28,8 @@ void Statics::make_grid() {
     reach[2] = std::max(reach[2], std::abs(n.dz));
   }
   grid.row = std::max(grid.sites[0] + reach[0], lanes);  // the margin after a row is the one before the next; kernels reach beyond it by a vector
-  grid.plane = grid.row * (grid.sites[1] + reach[1]);
+  // Beyond the last row of a plane's margin too: there a kernel would meet another thread, which adds to the plane after.
+  grid.plane = grid.row * (grid.sites[1] + reach[1]) + lanes;
   grid.origin = reach[0] + reach[1] * grid.row + reach[2] * grid.plane;
   grid.places = grid.place(grid.sites[0] - 1, grid.sites[1] - 1, grid.sites[2] - 1) + grid.origin + vector_margin;
   grid.components = model_.degrees_of_freedom;

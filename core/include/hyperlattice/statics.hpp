@@ -4,7 +4,8 @@
 //
 // A field has a number for each component and place, [c * places + place]: metres or newton along x, y, z and, where a membrane can move, of the
 // height. Site (i, j, k) of the box is at place origin + i + j * row + k * plane; a neighbour's place is a fixed step away, also at the border of
-// the box, where there is a margin that no particle owns. Places without a particle hold zeros. A row, with its margin, is at least a vector long.
+// the box, where there is a margin that no particle owns. Places without a particle hold zeros. A row, with its margin, is at least a vector long,
+// and so is what follows the last one of a plane.
 #pragma once
 
 #include <hyperlattice/kernels/request.hpp>
