@@ -16,6 +16,13 @@ int complain(int code, const std::string& message) {
   return code;
 }
 
+/// Names the command that was most likely meant by a word that is none.
+void suggest(const CLI::App& program, const std::string& word) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) names.push_back(command->get_name());
+  if (const std::string near = hyperlattice::nearest(word, names); !near.empty()) std::cerr << "Did you mean '" << near << "'?\n";
+}
+
 }  // namespace
 
 int main(int count, char** words) {
@@ -32,7 +39,9 @@ int main(int count, char** words) {
     for (const Command& command : commands)
       if (command.arguments->parsed()) return command.act();
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? exit_done : exit_input;
+    const int code = program.exit(error);
+    if (code != 0 && program.get_subcommands().empty() && count > 1) suggest(program, words[1]);
+    return code == 0 ? exit_done : exit_input;
   } catch (const InputError& error) {
     return complain(exit_input, "wrong input, nothing was written\n" + std::string(error.what()));
   } catch (const RunError& error) {

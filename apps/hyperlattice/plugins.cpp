@@ -1,6 +1,7 @@
 // hyperlattice plugins: what can be named in a scene, components' pages and tests, and where it was all looked for.
 #include "commands.hpp"
 
+#include <spdlog/fmt/fmt.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -61,15 +62,22 @@ std::vector<const Component*> named(Host& host, const Arguments& arguments) {
   for (const std::string& name : arguments.names) {
     components.push_back(host.find(name));
     if (components.back() != nullptr) continue;
-    if (arguments.why) print_searched(host);
+    if (arguments.why && arguments.json)
+      std::cout << nlohmann::json{{"searched", searched_json(host)}}.dump(2) << '\n';
+    else if (arguments.why)
+      print_searched(host);
     say_why_not(host, name);
   }
   return components;
 }
 
 int show(const Arguments& arguments) {
-  if (!arguments.new_type.empty()) return write_new_plugin(arguments.new_type, arguments.out);
   Host host(arguments.folders);
+  if (!arguments.new_type.empty()) {
+    if (const Component* taken = host.find(arguments.new_type))
+      throw InputError({{"--new", arguments.new_type, fmt::format("a name that no component has yet; this one is in {}", taken->path.string())}});
+    return write_new_plugin(arguments.new_type, arguments.out);
+  }
   const auto components = named(host, arguments);
   if (arguments.test) return test_plugins(host, components, arguments.pictures, arguments.json);
   if (arguments.json) {

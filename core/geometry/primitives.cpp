@@ -53,6 +53,7 @@ struct Box {
       return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y && low.z <= p.z && p.z <= high.z;
     });
     const Vec3 edge = high - low;
+    region.volume = edge.x * edge.y * edge.z;
     region.outer_area = 2 * (edge.x * edge.y + edge.y * edge.z + edge.z * edge.x);
     return region;
   }
@@ -74,6 +75,7 @@ struct Sphere {
     const Vec3 c = sphere.centre;
     const double r = sphere.radius;
     Region region = solid(c - Vec3{r, r, r}, c + Vec3{r, r, r}, c, c, [c, r](Vec3 p) { return dot(p - c, p - c) <= r * r; });
+    region.volume = 4 * pi / 3 * r * r * r;
     region.outer_area = 4 * pi * r * r;
     return region;
   }
@@ -103,6 +105,7 @@ struct HollowSphere {
       const double square = dot(p - c, p - c);
       return a * a <= square && square <= b * b;
     });
+    region.volume = 4 * pi / 3 * (b * b * b - a * a * a);
     region.outer_area = 4 * pi * b * b;
     region.inner_area = 4 * pi * a * a;
     return region;
@@ -133,11 +136,13 @@ struct Cylinder {
     const Vec3 wide{reach(d.x), reach(d.y), reach(d.z)};
     const Vec3 low{std::fmin(start.x, cylinder.end.x), std::fmin(start.y, cylinder.end.y), std::fmin(start.z, cylinder.end.z)};
     const Vec3 high{std::fmax(start.x, cylinder.end.x), std::fmax(start.y, cylinder.end.y), std::fmax(start.z, cylinder.end.z)};
-    return solid(low - wide, high + wide, start, start + 0.5 * axis, [start, d, length, r](Vec3 p) {
+    Region region = solid(low - wide, high + wide, start, start + 0.5 * axis, [start, d, length, r](Vec3 p) {
       const double along = dot(p - start, d);
       const Vec3 across = p - start - along * d;
       return 0 <= along && along <= length && dot(across, across) <= r * r;
     });
+    region.volume = pi * r * r * length;
+    return region;
   }
 };
 

@@ -32,6 +32,7 @@ struct Region {
   std::function<bool(Vec3)> inside;       ///< on the boundary counts as inside
   Vec3 low, high;                         ///< bounding box; infinite for a half-space
   Vec3 anchor, centre;                    ///< see Shape::anchor
+  double volume = 0;                      ///< m3, 0 if unknown
   double outer_area = 0, inner_area = 0;  ///< true areas in m2 of the outer surface and of the cavity's, 0 if unknown
 
   /// Whether the region is a solid (or a set of solids), so that `contains` has a meaning without a lattice.

@@ -8,6 +8,13 @@ namespace hyperlattice {
 
 namespace {
 
+/// The place at which a particle stands in its run.
+Site site_in(std::span<const Run> runs, Particle particle) {
+  const auto after = std::upper_bound(runs.begin(), runs.end(), particle, [](Particle p, const Run& run) { return p < run.first; });
+  const Run& run = *(after - 1);
+  return {run.begin + static_cast<std::int32_t>(particle - run.first), run.j, run.k};
+}
+
 /// Follows (dx, dy, dz) in the order z, y, x.
 bool is_forward(const Neighbour& n) { return n.dz != 0 ? n.dz > 0 : n.dy != 0 ? n.dy > 0 : n.dx > 0; }
 
@@ -126,11 +133,9 @@ struct Builder {
 
 }  // namespace
 
-Site Body::site(Particle particle) const {
-  const auto after = std::upper_bound(runs.begin(), runs.end(), particle, [](Particle p, const Run& run) { return p < run.first; });
-  const Run& run = *(after - 1);
-  return {run.begin + static_cast<std::int32_t>(particle - run.first), run.j, run.k};
-}
+Site Body::site(Particle particle) const { return site_in(runs, particle); }
+
+Vec3 Body::centre_of_cell(Particle cell) const { return position(site_in(cells.runs(), cell)) + 0.5 * grid.spacing * Vec3{1, 1, 1}; }
 
 Particle Body::at(Site site) const {
   for (const Run& run : row(site.j, site.k))

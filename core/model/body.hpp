@@ -41,6 +41,7 @@ struct Body {
   // of a structured body
   Site site(Particle particle) const;
   Vec3 position(Site site) const { return grid.origin + grid.spacing * combined(grid.basis, site.i, site.j, site.k); }  ///< at rest, metres
+  Vec3 centre_of_cell(Particle cell) const;  ///< by its place in `cells`, metres
   /// The particle at a site, or no_particle.
   Particle at(Site site) const;
   static constexpr Particle no_particle = ~Particle{0};

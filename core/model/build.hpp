@@ -32,6 +32,9 @@ void add_materials(Model& model, RegionIndex& regions, Faults& faults);
 /// Neighbour geometry, the springs between all materials, alarms, and which kernel is needed.
 void set_springs(Model& model, Faults& faults);
 
+/// Springs, masses and alpha springs of each mixture, behind those of the materials.
+void add_mixtures(Model& model);
+
 /// Loads, merged for each particle, with start velocities, corners and body acceleration.
 void add_loads(Model& model, RegionIndex& regions, Faults& faults);
 

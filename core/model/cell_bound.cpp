@@ -4,37 +4,17 @@
 
 #include <Eigen/Dense>
 
-#include <set>
-
 namespace hyperlattice {
 
 namespace {
 
 constexpr int corners = 8;
-using Materials = std::array<std::uint8_t, corners>;  // of the particles at a cell's corners, x fastest
 using Membrane = KernelChoice::Membrane;
 
-Site corner(int n) { return {n & 1, n >> 1 & 1, n >> 2 & 1}; }
 int number(Site s) { return s.i + 2 * s.j + 4 * s.k; }
 
-/// Every choice of materials that some cell has.
-std::set<Materials> kinds_of_cells(const Model& model) {
-  if (model.material_of.empty()) return {Materials{}};
-  std::set<Materials> kinds;
-  for (const Run& run : model.body.cells.runs())
-    for (std::int32_t i = run.begin; i < run.end; ++i) {
-      Materials here{};
-      for (int n = 0; n < corners; ++n) {
-        const Site at = corner(n);
-        here[static_cast<std::size_t>(n)] = model.material_of[model.body.at({i + at.i, run.j + at.j, run.k + at.k})];
-      }
-      kinds.insert(here);
-    }
-  return kinds;
-}
-
 /// omega^2 of the stiffest motion of one cell: its share of the springs on its share of the masses.
-double stiffest(const Model& model, const Materials& materials) {
+double stiffest(const Model& model, std::uint8_t material) {
   const int size = model.choice.membrane == Membrane::free ? 4 : 3;
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(corners * size, corners * size);
   Eigen::VectorXd mass(corners * size);
@@ -50,18 +30,14 @@ double stiffest(const Model& model, const Materials& materials) {
     for_cells_of(n.site, [&](int, int, int) { ++cells; });
     for_cells_of(n.site, [&](int di, int dj, int dk) {
       const int a = number({-di, -dj, -dk}), b = number({n.site.dx - di, n.site.dy - dj, n.site.dz - dk});
-      const SpringConstants& spring =
-          model.spring(materials[static_cast<std::size_t>(a)], materials[static_cast<std::size_t>(b)], n.site.spring_class);
+      const SpringConstants& spring = model.spring(material, material, n.site.spring_class);
       add(a, b, spring.stiffness / cells, n.rest, 0, n.rest_length);
       if (model.choice.membrane != Membrane::none)
         add(a, b, spring.cross_stiffness / cells, n.rest, model.body.grid.membrane_distance, n.cross_rest_length);
     });
   }
-  for (int n = 0; n < corners; ++n) {
-    const Material& material = model.materials[materials[static_cast<std::size_t>(n)]];
-    mass.segment(size * n, size).setConstant(material.mass / corners);
-    if (size == 4) stiffness(size * n + 3, size * n + 3) += 2 * material.constants.alpha_ratio * material.constants.base_stiffness / corners;
-  }
+  mass.setConstant(model.masses[material] / corners);
+  for (int n = 0; n < corners && size == 4; ++n) stiffness(size * n + 3, size * n + 3) += 2 * model.alphas[material] / corners;
   const Eigen::VectorXd root = mass.cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = root.asDiagonal() * stiffness * root.asDiagonal();
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
@@ -71,7 +47,8 @@ double stiffest(const Model& model, const Materials& materials) {
 
 double cell_bound(const Model& model) {
   double largest = 0;
-  for (const Materials& kind : kinds_of_cells(model)) largest = std::max(largest, stiffest(model, kind));
+  for (std::size_t material = 0; material < model.materials.size(); ++material)
+    largest = std::max(largest, stiffest(model, static_cast<std::uint8_t>(material)));
   return largest;
 }
 

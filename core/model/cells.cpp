@@ -16,10 +16,10 @@ std::span<const Run> Cells::row(std::int32_t j, std::int32_t k) const {
   return {runs_.data() + row_runs_[row], runs_.data() + row_runs_[row + 1]};
 }
 
-bool Cells::holds(Site cell) const {
-  const auto inside = [cell](const Run& run) { return run.begin <= cell.i && cell.i < run.end; };
-  const std::span<const Run> runs = row(cell.j, cell.k);
-  return std::any_of(runs.begin(), runs.end(), inside);
+Particle Cells::at(Site cell) const {
+  for (const Run& run : row(cell.j, cell.k))
+    if (run.begin <= cell.i && cell.i < run.end) return run.first + static_cast<Particle>(cell.i - run.begin);
+  return ~Particle{0};
 }
 
 double Cells::share(Site site, const Neighbour& to) const {

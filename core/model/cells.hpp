@@ -42,7 +42,8 @@ class Cells {
   std::uint64_t count() const { return count_; }
   std::span<const Run> runs() const { return runs_; }
   std::span<const Run> row(std::int32_t j, std::int32_t k) const;  ///< none outside the box
-  bool holds(Site cell) const;
+  bool holds(Site cell) const { return at(cell) != ~Particle{0}; }
+  Particle at(Site cell) const;  ///< its place in the order of runs(); ~0: there is none
 
   double share(Site site, const Neighbour& to = {}) const;  ///< of a spring, or with `to` {} of the particle at the site
   /// Sites of row (j, k) where that share is not nothing, ascending and apart.

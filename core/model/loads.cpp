@@ -71,6 +71,7 @@ struct Collector {
   std::map<Particle, Vec3> start_velocities;
   std::vector<double> corners;
   Vec3 acceleration;
+  std::vector<std::string> warnings;
 
   LoadedParticle& at(Particle particle, Vec3 amplitude) {
     if (particle >= body.particles) throw std::out_of_range("it loads a particle that does not exist");
@@ -122,6 +123,7 @@ struct Collector {
         throw std::range_error("it gives a reaction that is negative or not finite");
       c.watched.push_back({particle, answered, reaction});
     };
+    to.receive_warning = [](void* self, std::string_view sentence) { static_cast<Collector*>(self)->warnings.emplace_back(sentence); };
     to.receive_corner = [](void* self, double time) {
       if (time > 0 && std::isfinite(time)) static_cast<Collector*>(self)->corners.push_back(time);
     };
@@ -137,8 +139,19 @@ std::vector<LoadedParticle> in_order(const std::unordered_map<Particle, LoadedPa
   return all;
 }
 
-/// Two loads that prescribe one axis of one particle contradict each other.
-void check_conflicts(const Model& model, Faults& faults) {
+/// Whether both loads hold the particle where it is, along all of these axes: they agree at all times, whatever their factors are.
+bool both_hold(const LoadedParticle& a, const LoadedParticle& b, Axes axes) {
+  const auto holds = [axes](const LoadedParticle& loaded) {
+    const double amplitudes[3] = {std::abs(loaded.displacement.x), std::abs(loaded.displacement.y), std::abs(loaded.displacement.z)};
+    for (unsigned axis = 0; axis < 3; ++axis)
+      if ((axes >> axis & 1U) != 0 && amplitudes[axis] != 0) return false;
+    return (axes & ~loaded.displaced) == 0;
+  };
+  return holds(a) && holds(b);
+}
+
+/// Two loads that prescribe one axis of one particle contradict each other, unless both hold it where it is: then the earlier one does.
+void check_conflicts(Model& model, Faults& faults) {
   struct Conflict {
     Axes axes = 0;
     std::uint64_t particles = 0;
@@ -146,8 +159,12 @@ void check_conflicts(const Model& model, Faults& faults) {
   };
   std::map<std::pair<std::size_t, std::size_t>, Conflict> conflicts;       // (earlier load, later load)
   std::unordered_map<Particle, std::array<std::size_t, 3>> prescribed_by;  // load + 1 of each axis; 0: free
+  const auto of = [&](std::size_t load, Particle particle) {
+    const auto& all = model.loads[load].particles;
+    return *std::lower_bound(all.begin(), all.end(), particle, [](const LoadedParticle& l, Particle p) { return l.particle < p; });
+  };
   for (std::size_t later = 0; later < model.loads.size(); ++later)
-    for (const LoadedParticle& loaded : model.loads[later].particles) {
+    for (LoadedParticle& loaded : model.loads[later].particles) {
       const Axes axes = loaded.displaced | loaded.driven;
       if (axes == 0) continue;
       std::array<std::size_t, 3>& owners = prescribed_by[loaded.particle];
@@ -160,6 +177,10 @@ void check_conflicts(const Model& model, Faults& faults) {
           owners[axis] = later + 1;
       }
       for (const auto& [earlier, common] : shared) {
+        if (both_hold(of(earlier, loaded.particle), loaded, common)) {
+          loaded.displaced &= ~common;
+          continue;
+        }
         Conflict& conflict = conflicts[{earlier, later}];
         if (conflict.particles++ == 0) conflict.first = loaded.particle;
         conflict.axes |= common;
@@ -183,7 +204,7 @@ void add_loads(Model& model, RegionIndex& regions, Faults& faults) {
       load.stage = stage;
       load.component = make_component(*stage);
       View view{model, regions, std::nullopt, {}, false};
-      Collector collector{model.body, {}, {}, {}, {}, {}, {}};
+      Collector collector{model.body, {}, {}, {}, {}, {}, {}, {}};
       Objection refused;
       const bool accepted = stage->functions<LoadFunctions>().declare(load.component.get(), view.body(), collector.sink(), refused.why);
       if (view.empty) {
@@ -200,6 +221,8 @@ void add_loads(Model& model, RegionIndex& regions, Faults& faults) {
       load.acceleration = collector.acceleration;
       model.acceleration = model.acceleration + load.acceleration;
       for (const auto& [particle, velocity] : collector.start_velocities) start_velocities[particle] = start_velocities[particle] + velocity;
+      for (const std::string& warning : collector.warnings)
+        model.warnings.push_back(fmt::format("{} ({}): {}", stage->name, stage->pointer, warning));
       model.corners.insert(model.corners.end(), collector.corners.begin(), collector.corners.end());
       model.loads.push_back(std::move(load));
     } catch (const InputError& error) {

@@ -72,30 +72,43 @@ void check_laws(const std::vector<Material>& materials, Faults& faults) {
   }
 }
 
-/// Later stages take over the particles of earlier ones.
+/// Says of which material each particle is, or each cell of a body of cells. Later stages take over what earlier ones had.
 void assign(Model& model, RegionIndex& regions, Faults& faults) {
   const auto has_all = [&](const Material& material) { return model.scene->regions[material.stage->region].kind == Region::Kind::all; };
   if (model.materials.size() == 1 && has_all(model.materials[0])) return;  // nobody asks which particles these are, not even in a large body
-  std::vector<std::uint8_t> material_of(model.body.particles, no_material);
+  const bool of_cells = !model.body.cells.empty();
+  const char* member = of_cells ? "cell" : "particle";
+  std::vector<std::uint8_t> material_of(of_cells ? model.body.cells.count() : model.body.particles, no_material);
   std::vector<std::uint64_t> count(no_material + std::size_t{1});
   for (std::size_t n = 0; n < model.materials.size(); ++n) {
     const Stage& stage = *model.materials[n].stage;
-    const std::span<const Particle> particles = regions.particles(stage.region);
-    if (particles.empty()) faults.add(stage.pointer + "/region", "", regions.expected_particles(stage.region));
-    for (const Particle particle : particles) material_of[particle] = static_cast<std::uint8_t>(n);
+    const auto take = [&](std::span<const Particle> members) {
+      if (members.empty())
+        faults.add(stage.pointer + "/region", "", of_cells ? regions.expected_cells(stage.region) : regions.expected_particles(stage.region));
+      for (const Particle taken : members) material_of[taken] = static_cast<std::uint8_t>(n);
+    };
+    if (of_cells)
+      take(regions.cells(stage.region));
+    else
+      take(regions.particles(stage.region));
   }
   if (!faults.empty()) return;
   for (const std::uint8_t material : material_of) ++count[material];
   for (std::size_t n = 0; n < model.materials.size(); ++n)
-    if (count[n] == 0) faults.add(model.materials[n].stage->pointer + "/region", "", "particles of its own; later materials take all of this one's");
+    if (count[n] == 0)
+      faults.add(model.materials[n].stage->pointer + "/region", "", fmt::format("{}s of its own; later materials take all of this one's", member));
   if (count[no_material] > 0) {
-    const auto first = std::find(material_of.begin(), material_of.end(), no_material) - material_of.begin();
-    const Vec3 at = model.body.position(static_cast<Particle>(first));
+    const auto first = static_cast<Particle>(std::find(material_of.begin(), material_of.end(), no_material) - material_of.begin());
+    const Vec3 at = of_cells ? model.body.centre_of_cell(first) : model.body.position(first);
     faults.add(
         "/pipeline", "",
-        fmt::format("a material for every particle; {} have none, the first at ({:.6g}, {:.6g}, {:.6g}) m", count[no_material], at.x, at.y, at.z));
+        fmt::format("a material for every {}; {} have none, the first at ({:.6g}, {:.6g}, {:.6g}) m", member, count[no_material], at.x, at.y, at.z));
   }
-  if (faults.empty() && model.materials.size() > 1) model.material_of = std::move(material_of);
+  if (!faults.empty() || model.materials.size() == 1) return;
+  if (of_cells)
+    model.mixtures = Mixtures(model.body, material_of, model.materials.size());
+  else
+    model.material_of = std::move(material_of);
 }
 
 }  // namespace

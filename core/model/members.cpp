@@ -87,7 +87,37 @@ struct Sites {
   }
 };
 
+/// The cells of a body, each at its centre.
+struct Centres {
+  using Point = Site;
+  using Face = Sites::Face;
+
+  const Sites& sites;
+
+  Vec3 centre(Site cell) const { return sites.body.position(cell) + 0.5 * sites.body.grid.spacing * Vec3{1, 1, 1}; }
+  bool in_solid(const Region& region, Site cell) const { return region.inside(centre(cell)); }
+  bool has_face(const Region& region, Site cell) const {
+    for (int direction = 0; direction < 6; ++direction)
+      if (sites.is_open(region, {cell, direction})) return true;
+    return false;
+  }
+  bool is_outermost(Site cell, int direction) const {
+    return sites.is_outermost(direction % 2 == 0 ? cell : Site{cell.i + 1, cell.j + 1, cell.k + 1}, direction);
+  }
+};
+
 }  // namespace
+
+std::vector<Particle> cells_in(const Body& body, const Surfaces& surfaces, const Region& region) {
+  const Sites sites{body, surfaces};
+  const Centres centres{sites};
+  const Meaning<Centres> meaning(centres);
+  std::vector<Particle> found;
+  for (const Run& run : body.cells.runs())
+    for (std::int32_t i = run.begin; i < run.end; ++i)
+      if (meaning.holds(region, {i, run.j, run.k})) found.push_back(run.first + static_cast<Particle>(i - run.begin));
+  return found;
+}
 
 std::vector<Particle> particles_in(const Body& body, const Surfaces& surfaces, const Region& region) {
   const Sites sites{body, surfaces};

@@ -1,7 +1,7 @@
 // The model: particles, springs, masses, loads; everything that stays the same during a run. Built from a scene, then immutable.
 #pragma once
 
-#include <model/body.hpp>
+#include <model/mixtures.hpp>
 #include <scene/scene.hpp>
 
 #include <hyperlattice/failure.hpp>
@@ -69,14 +69,17 @@ struct Model {
   const Scene* scene = nullptr;
   Body body;
   std::vector<Material> materials;
-  std::vector<std::uint8_t> material_of;  ///< of each particle; empty if there is one material
+  std::vector<std::uint8_t> material_of;  ///< of each particle; empty if there is one material, or cells have them
+  Mixtures mixtures;                      ///< of a body of cells of several materials
+  std::vector<double> masses, alphas;     ///< of a whole particle of each material, then of each mixture: kg; N/m, 0 if it is clamped
   std::vector<Load> loads;
   std::vector<std::pair<Particle, Vec3>> start_velocities;  ///< ascending
   std::vector<double> corners;                              ///< ascending, each once
 
   std::vector<NeighbourGeometry> neighbours;
-  std::vector<SpringConstants> springs;  ///< [(a * materials + b) * spring_classes + class]
-  double crossings = 0;                  ///< see SpringFacts
+  std::vector<SpringConstants> springs;        ///< [(a * materials + b) * spring_classes + class], then those of mixtures
+  std::vector<std::uint32_t> mixture_springs;  ///< [mixture * neighbours + n] place in `springs`
+  double crossings = 0;                        ///< see SpringFacts
   KernelChoice choice;
   KernelSet kernels;
   int degrees_of_freedom = 3;
@@ -88,18 +91,34 @@ struct Model {
   bool answering = false;             ///< some load watches the motion
   bool asks_rate = false;             ///< some criterion asks how fast springs grow
 
-  std::uint8_t material(Particle particle) const { return material_of.empty() ? std::uint8_t{0} : material_of[particle]; }
-  double mass(Particle particle) const {  ///< kg
-    return body.share(particle) * materials[material(particle)].mass;
+  /// Of a particle between cells of several materials, the one that most of them are of.
+  std::uint8_t material(Particle particle) const {
+    if (!mixtures.empty()) return mixtures.commonest(mixtures.of(particle));
+    return material_of.empty() ? std::uint8_t{0} : material_of[particle];
   }
+  /// The particle's place in `masses` and `alphas`.
+  std::uint32_t kind(Particle particle) const { return mixtures.empty() ? material(particle) : mixtures.of(particle); }
+  double mass(Particle particle) const { return body.share(particle) * masses[kind(particle)]; }  ///< kg
   const SpringConstants& spring(std::uint8_t a, std::uint8_t b, std::uint32_t spring_class) const {
     return springs[(a * materials.size() + b) * body.grid.spring_classes + spring_class];
   }
+  /// Of the spring to a neighbour that begins at a particle of one kind and ends at one of another.
+  const SpringConstants& spring_to(std::uint32_t neighbour, std::uint32_t here, std::uint32_t there) const {
+    if (!mixtures.empty()) return springs[mixture_springs[here * neighbours.size() + neighbour]];
+    return spring(static_cast<std::uint8_t>(here), static_cast<std::uint8_t>(there), neighbours[neighbour].site.spring_class);
+  }
   /// The spring from a to b. `neighbour`: of a structured body the index in `neighbours`, of a listed one that in its list of springs.
   Joint joint(Particle a, Particle b, std::uint32_t neighbour) const;
-  SpringFacts facts(const Joint& joint) const { return {joint.rest_length, joint.stiffness, body.grid.spacing, joint.spring_class, crossings}; }
-  /// Elongation, metres, below which no criterion of either material breaks such a spring; infinite if nothing does.
-  double alarm(std::uint8_t a, std::uint8_t b, const SpringFacts& facts) const;
+  /// Those that the spring from a to b is of: its cells', or its ends'.
+  SpringMaterials materials_of(Particle a, Particle b, std::uint32_t neighbour) const;
+  /// What a criterion of one of its materials is told of a spring. A spring of cells has the part of each material beside those of the others, as
+  /// stiff as inside that material; one between two particles is a whole.
+  SpringFacts facts(const Joint& joint, std::uint8_t material) const {
+    const double stiffness = mixtures.empty() ? joint.stiffness : spring(material, material, joint.spring_class).stiffness;
+    return {joint.rest_length, stiffness, body.grid.spacing, joint.spring_class, crossings};
+  }
+  /// Elongation, metres, below which no criterion of its materials breaks the spring from a to b; infinite if nothing does.
+  double alarm(Particle a, Particle b, std::uint32_t neighbour, const Joint& joint) const;
 };
 
 /// Rest vectors and lengths of a lattice's forward neighbours.

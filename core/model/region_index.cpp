@@ -62,6 +62,8 @@ std::span<const Particle> RegionIndex::particles(RegionId region) {
   return entry->second;
 }
 
+std::vector<Particle> RegionIndex::cells(RegionId region) { return cells_in(body_, surfaces(), regions_[region]); }
+
 std::span<const OpenArea> RegionIndex::open_areas(RegionId region) {
   const auto [entry, is_new] = open_areas_.try_emplace(region.index);
   if (is_new)
@@ -97,11 +99,17 @@ Vec3 RegionIndex::centre(RegionId region) {
   return count == 0 ? sum : (1 / static_cast<double>(count)) * sum;
 }
 
-std::string RegionIndex::expected_particles(RegionId region) const {
+std::string RegionIndex::expected_particles(RegionId region) const { return expected(region, "particles", "none of the body's, which stand"); }
+
+std::string RegionIndex::expected_cells(RegionId region) const {
+  return expected(region, "cells", "the centre of none of the body's, whose corners stand");
+}
+
+std::string RegionIndex::expected(RegionId region, const char* members, const char* held) const {
   const std::string& name = regions_.name(region);
   const std::string named = name.starts_with('{') ? "" : fmt::format("\"{}\", ", name);  // one that the scene describes in place has no name
-  return fmt::format("a region with particles; {}{}, holds none of the body's, which stand between {} and {} m", named, what(regions_[region]),
-                     text(body_.lowest), text(body_.highest));
+  return fmt::format("a region with {}; {}{}, holds {} between {} and {} m", members, named, what(regions_[region]), held, text(body_.lowest),
+                     text(body_.highest));
 }
 
 }  // namespace hyperlattice

@@ -14,16 +14,20 @@ class RegionIndex {
   RegionIndex(const Body& body, const Regions& regions) : body_(body), regions_(regions) {}
 
   std::span<const Particle> particles(RegionId region);  ///< ascending
+  std::vector<Particle> cells(RegionId region);          ///< places in the body's cells, ascending: a solid holds those whose centres are inside
   std::span<const OpenArea> open_areas(RegionId region);
   double true_area(RegionId region) const;  ///< m2, of a surface of the shape that the lattice filled; 0 if unknown
   Vec3 centre(RegionId region);             ///< of the shape behind the region; else of its particles
 
   /// What an empty region is and where the body is, for a fault: "a region with particles; "slab", a box ..., holds none ...".
   std::string expected_particles(RegionId region) const;
+  /// The same of a region that holds no cell.
+  std::string expected_cells(RegionId region) const;
 
  private:
   const Surfaces& surfaces();
   const Skin& skin();
+  std::string expected(RegionId region, const char* members, const char* held) const;
   const Region* filled() const;  ///< the shape that the lattice filled, or null
 
   const Body& body_;

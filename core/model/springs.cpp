@@ -1,4 +1,5 @@
-// Springs between all pairs of materials. A spring between two materials is half of each: two half springs in series,
+// Springs between all pairs of materials, and those of mixtures. A spring between two particles of two materials is half of each: two half springs in
+// series,
 //   k = 2 a b / (a + b),
 // nothing if either has none; constants of the law are the mean of both. (Stiffnesses of opposite sign, which only some membranes have, add up to no
 // series; they take the mean.)
@@ -98,7 +99,7 @@ Joint Model::joint(Particle a, Particle b, std::uint32_t neighbour) const {
     joint.spring_class = to.site.spring_class;
     if (!body.cells.empty()) joint.share = body.share(body.site(a), to.site);
   }
-  const SpringConstants& constants = spring(material(a), material(b), joint.spring_class);
+  const SpringConstants& constants = body.is_listed() ? spring(material(a), material(b), 0) : spring_to(neighbour, kind(a), kind(b));
   joint.stiffness = stiffness * constants.stiffness;
   joint.cross_stiffness = stiffness * constants.cross_stiffness;
   joint.law = constants.law[0];
@@ -106,8 +107,21 @@ Joint Model::joint(Particle a, Particle b, std::uint32_t neighbour) const {
   return joint;
 }
 
-double Model::alarm(std::uint8_t a, std::uint8_t b, const SpringFacts& facts) const {
-  return std::min(alarm_of(materials[a], facts), alarm_of(materials[b], facts));
+SpringMaterials Model::materials_of(Particle a, Particle b, std::uint32_t neighbour) const {
+  SpringMaterials found;
+  if (!mixtures.empty()) {
+    mixtures.for_cells(mixtures.of(a), body.neighbours[neighbour], [&](std::uint8_t material) { found.add(material); });
+  } else {
+    found.add(material(a));
+    found.add(material(b));
+  }
+  return found;
+}
+
+double Model::alarm(Particle a, Particle b, std::uint32_t neighbour, const Joint& joint) const {
+  double lowest = infinity;
+  for (const std::uint8_t material : materials_of(a, b, neighbour)) lowest = std::min(lowest, alarm_of(materials[material], facts(joint, material)));
+  return lowest;
 }
 
 std::vector<NeighbourGeometry> geometry_of(const Grid& grid) {
@@ -154,6 +168,12 @@ void set_springs(Model& model, Faults& faults) {
   for (const Material& a : model.materials)
     for (const Material& b : model.materials)
       for (std::uint32_t c = 0; c < model.body.grid.spring_classes; ++c) model.springs.push_back(spring_between(model, a, b, c));
+  for (const Material& material : model.materials) {
+    const MaterialConstants& constants = material.constants;
+    model.masses.push_back(material.mass);
+    model.alphas.push_back(constants.clamped ? 0 : constants.alpha_ratio * constants.base_stiffness);
+  }
+  if (!model.mixtures.empty()) add_mixtures(model);
 }
 
 }  // namespace hyperlattice

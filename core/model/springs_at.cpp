@@ -14,7 +14,7 @@ RestSpring rest_spring(const Model& model, Particle a, Particle b, std::uint32_t
   spring.stiffness = joint.share * joint.stiffness;
   spring.share = joint.share;
   spring.rest_length = joint.rest_length;
-  spring.breakable = model.choice.breakable && model.alarm(model.material(a), model.material(b), model.facts(joint)) < infinity;
+  spring.breakable = model.choice.breakable && model.alarm(a, b, neighbour, joint) < infinity;
   return spring;
 }
 

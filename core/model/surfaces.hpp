@@ -34,6 +34,9 @@ class Surfaces {
 /// Particles of a region, ascending. A solid holds a particle inside it; one that is a corner of cells, also if it only touches it, up to rounding.
 std::vector<Particle> particles_in(const Body& body, const Surfaces& surfaces, const Region& region);
 
+/// Cells of a region in a body of cells, by their place in its runs, ascending. A solid holds a cell whose centre is inside.
+std::vector<Particle> cells_in(const Body& body, const Surfaces& surfaces, const Region& region);
+
 /// The surface that a region means (see LoadBody), by particles, ascending. Faces count if they are open to the side that the region means: to the
 /// cavity for inner_surface, to the outside for outer_surface, that one direction for x_min ... z_max, any for others; and if the region holds all
 /// particles that the face belongs to. Of a union faces of any part, of an intersection those of all, of a difference those of the first part

@@ -81,7 +81,8 @@ void estimate_memory(Plan& plan) {
   const std::size_t runs = model.body.runs.size() + model.body.cells.runs().size();
   double model_bytes =
       static_cast<double>(model.body.listed.springs.size() * sizeof(ListedSpring) + model.body.listed.positions.size() * sizeof(Vec3) +
-                          runs * sizeof(Run) + model.body.row_runs.size() * sizeof(std::size_t) + model.material_of.size());
+                          runs * sizeof(Run) + model.body.row_runs.size() * sizeof(std::size_t) + model.material_of.size()) +
+      model.mixtures.bytes();
   for (const Load& load : model.loads)
     model_bytes += static_cast<double>(load.particles.size() * (sizeof(LoadedParticle) + sizeof(Support)) +
                                        load.watched.size() * (sizeof(WatchedParticle) + sizeof(Support) + 2 * sizeof(Vec3)));
@@ -158,6 +159,8 @@ std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, int threads) {
   } catch (const std::bad_alloc&) {
     throw OutsideError("out of memory while the lattice was built: too many particles for this machine");
   }
+  plan->body = body_figures(*plan->model);
+  for (std::string& warning : size_warnings(plan->body, plan->model->body.grid.spacing)) plan->model->warnings.push_back(std::move(warning));
   Faults faults;
   plan_stages(*plan, faults);
   check_fields(*plan, faults);

@@ -1,7 +1,7 @@
 // The plan: what a run will load, allocate and compute, and what it leaves out; known before anything is computed.
 #pragma once
 
-#include <model/model.hpp>
+#include <model/body_figures.hpp>
 
 #include <hyperlattice/solver.hpp>
 
@@ -34,6 +34,7 @@ struct PlannedTable {
 struct Plan {
   std::unique_ptr<Scene> scene;
   std::unique_ptr<Model> model;
+  BodyFigures body;  ///< how large it came out
   std::vector<PlannedStage> stages;
   std::vector<PlannedTable> tables;  ///< in the order of the scene's probes
   int threads = 1;

@@ -1,6 +1,7 @@
 #include <plan/plan.hpp>
 #include <scene/common_options.hpp>
 
+#include <spdlog/fmt/fmt.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -23,7 +24,7 @@ nlohmann::json plugins_json(const Scene& scene) {
   return list;
 }
 
-const char* membrane_name(KernelChoice::Membrane membrane) {
+const char* motion_name(KernelChoice::Membrane membrane) {
   switch (membrane) {
     case KernelChoice::Membrane::none:
       return "none";
@@ -32,6 +33,30 @@ const char* membrane_name(KernelChoice::Membrane membrane) {
     default:
       return "free";
   }
+}
+
+/// As the scene names it; of several materials with several membranes, all of them.
+std::string membrane_name(const Model& model) {
+  const auto resolved = nlohmann::json::parse(model.scene->resolved);
+  std::vector<std::string> names;
+  for (const Material& material : model.materials) {
+    const auto& stage = resolved.at(nlohmann::json::json_pointer(material.stage->pointer));
+    const auto name = stage.find("membrane");
+    if (name == stage.end() || !name->is_string() || std::find(names.begin(), names.end(), *name) != names.end()) continue;
+    names.push_back(*name);
+  }
+  return names.empty() ? motion_name(model.choice.membrane) : fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// What the body is, beside what its shape asks for where that is known.
+nlohmann::json body_json(const BodyFigures& body) {
+  const auto vector = [](Vec3 v) { return nlohmann::json{v.x, v.y, v.z}; };
+  nlohmann::json json = {{"volume", body.volume}, {"mass", body.mass}, {"parts", body.parts}};
+  if (body.size) json["size"] = vector(*body.size);
+  if (body.asked_size) json["asked_size"] = vector(*body.asked_size);
+  if (body.asked_volume) json["asked_volume"] = *body.asked_volume;
+  if (body.asked_mass) json["asked_mass"] = *body.asked_mass;
+  return json;
 }
 
 }  // namespace
@@ -59,10 +84,12 @@ nlohmann::json plan_json(const Plan& plan) {
   return {{"title", plan.scene->title},
           {"version", HYPERLATTICE_VERSION},
           {"particles", model.body.particles},
+          {"body", body_json(plan.body)},
           {"springs", model.body.base_springs()},
           {"springs_per_particle", springs / particles},
           {"degrees_of_freedom", model.degrees_of_freedom},
-          {"membrane", membrane_name(model.choice.membrane)},
+          {"membrane", membrane_name(model)},
+          {"fourth_dimension", motion_name(model.choice.membrane)},
           {"breakable", model.choice.breakable},
           {"materials", model.materials.size()},
           {"loads", model.loads.size()},

@@ -58,6 +58,9 @@ std::string plan_text(const Plan& plan) {
     page.line(plugin.at("name").get<std::string>(),
               fmt::format("{}  {}", plugin.at("version").get<std::string>(), plugin.at("path").get<std::string>()));
 
+  page.section("Body");
+  for (const auto& [name, value] : body_lines(plan.body)) page.line(name, value);
+
   page.section("Allocated");
   page.line("particles", count("particles"));
   page.line("state", fmt::format("{:.1f} bytes per particle", number("bytes_per_particle")));

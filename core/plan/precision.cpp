@@ -2,11 +2,40 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <Eigen/Dense>
+
 #include <algorithm>
 #include <cmath>
 
 namespace hyperlattice {
 namespace {
+
+/// How far the start velocities, at most, move a particle until `end`. What turns as one body goes round in circles, no wider than it is.
+double started(const Model& model, double end) {
+  const auto vector = [](Vec3 v) { return Eigen::Vector3d(v.x, v.y, v.z); };
+  const double count = static_cast<double>(model.start_velocities.size());
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero(), drift = centre, momentum = centre;
+  for (const auto& [particle, velocity] : model.start_velocities) {
+    centre += vector(model.body.position(particle)) / count;
+    drift += vector(velocity) / count;
+  }
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  double radius = 0;
+  for (const auto& [particle, velocity] : model.start_velocities) {
+    const Eigen::Vector3d arm = vector(model.body.position(particle)) - centre;
+    momentum += arm.cross(vector(velocity));
+    inertia += arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose();
+    radius = std::max(radius, arm.norm());
+  }
+  const Eigen::Vector3d spin = inertia.completeOrthogonalDecomposition().solve(momentum);
+  double travel = 0;
+  for (const auto& [particle, velocity] : model.start_velocities) {
+    const Eigen::Vector3d turning = spin.cross(vector(model.body.position(particle)) - centre);
+    const double other = (vector(velocity) - drift - turning).norm() + drift.norm();
+    travel = std::max(travel, other * end + std::min(turning.norm() * end, 2 * radius));
+  }
+  return travel;
+}
 
 /// How far, at most, a load moves a particle that it prescribes or starts; forces are not followed.
 double farthest(const Plan& plan) {
@@ -19,8 +48,7 @@ double farthest(const Plan& plan) {
     for (const LoadedParticle& loaded : load.particles)
       travel = std::max(travel, factor * std::max(norm(loaded.displacement), norm(loaded.velocity) * end));
   }
-  for (const auto& [particle, velocity] : model.start_velocities) travel = std::max(travel, norm(velocity) * end);
-  return travel;
+  return std::max(travel, started(model, end));
 }
 
 double least_breaking_strain(const Model& model) {

@@ -21,6 +21,9 @@ struct Shown {
 constexpr Shown shown_figures[] = {
     {"Status", "/status", Kind::word},
     {"Particles", "/particles", Kind::count},
+    {"Volume of the body", "/body/volume", Kind::unit, "m3"},
+    {"Mass of the body", "/body/mass", Kind::unit, "kg"},
+    {"Bodies that no spring joins", "/body/parts", Kind::count},
     {"Springs of the base layer", "/springs", Kind::count},
     {"Springs per particle", "/springs_per_particle", Kind::number},
     {"Degrees of freedom per particle", "/degrees_of_freedom", Kind::count},

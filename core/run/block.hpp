@@ -36,6 +36,7 @@ struct Block {
   Numbers displacement[4], velocity[4];
   AlignedArray<std::uint16_t> alive;
   AlignedArray<std::uint8_t> material;
+  AlignedArray<std::uint32_t> mixture;
   AlignedArray<double> memory;  ///< of laws, see KernelRequest
   AlignedArray<double> scratch;
   ListedArrays listed;

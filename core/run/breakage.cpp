@@ -49,16 +49,15 @@ const std::uint8_t* Simulation::Parts::review(Block& block, const AlarmRow& alar
     functions.review(material.failure.get(), {time, facts, alarm.elongation.subspan(first, count), a, b, rates}, answers.data());
     for (std::size_t n = 0; n < count; ++n) block.answers[first + n] |= answers[n];
   };
-  if (model.material_of.empty() && !model.body.is_listed()) {  // the same springs all
+  if (model.materials.size() == 1 && !model.body.is_listed()) {  // the same springs all
     const SpringEnds first = ends(0);
-    ask(model.materials.front(), model.facts(model.joint(first.a, first.b, first.neighbour)), 0, alarm.sites.size());
+    ask(model.materials.front(), model.facts(model.joint(first.a, first.b, first.neighbour), 0), 0, alarm.sites.size());
   } else {
     for (std::size_t n = 0; n < alarm.sites.size(); ++n) {
       const SpringEnds spring = ends(n);
-      const SpringFacts facts = model.facts(model.joint(spring.a, spring.b, spring.neighbour));
-      const std::uint8_t here = model.material(spring.a), there = model.material(spring.b);
-      ask(model.materials[here], facts, n, 1);  // a spring between two materials breaks when either criterion says so
-      if (there != here) ask(model.materials[there], facts, n, 1);
+      const Joint joint = model.joint(spring.a, spring.b, spring.neighbour);
+      for (const std::uint8_t material : model.materials_of(spring.a, spring.b, spring.neighbour))  // one that says so breaks it
+        ask(model.materials[material], model.facts(joint, material), n, 1);
     }
   }
   for (std::size_t n = 0; n < alarm.sites.size(); ++n)

@@ -8,11 +8,6 @@ namespace hyperlattice {
 
 Simulation::Parts::Parts(const Model& m, int wanted) : model(m), layout(make_layout(m, wanted)), blocks(layout->blocks.size()) {
   threads = static_cast<int>(blocks.size());
-  for (const Material& material : model.materials) {
-    const MaterialConstants& constants = material.constants;
-    masses.push_back(material.mass);
-    alphas.push_back(constants.clamped ? 0 : constants.alpha_ratio * constants.base_stiffness);
-  }
   std::exception_ptr thrown;  // most likely for want of memory; none may leave a parallel region
 #pragma omp parallel for num_threads(threads) schedule(static, 1)
   for (std::size_t b = 0; b < blocks.size(); ++b) try {

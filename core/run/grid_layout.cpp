@@ -6,19 +6,22 @@
 namespace hyperlattice {
 namespace {
 
+/// Of all springs of the row, or -1 if they are several. A row's mixtures say it of its springs; materials of particles, with those of its
+/// neighbours.
 std::int32_t material_of_row(const Model& model, std::int32_t j, std::int32_t k) {
-  if (model.material_of.empty()) return 0;
+  if (model.materials.size() == 1) return 0;
   std::int32_t found = -2;
   const auto look = [&](std::span<const Run> runs) {
     for (const Run& run : runs)
       for (std::int32_t i = run.begin; i < run.end; ++i) {
-        const std::int32_t material = model.material_of[run.first + static_cast<Particle>(i - run.begin)];
-        if (found != -2 && found != material) return false;
-        found = material;
+        const auto kind = static_cast<std::int32_t>(model.kind(run.first + static_cast<Particle>(i - run.begin)));
+        if (found != -2 && found != kind) return false;
+        found = kind;
       }
     return true;
   };
-  if (!look(model.body.row(j, k))) return -1;
+  if (!look(model.body.row(j, k)) || found >= static_cast<std::int32_t>(model.materials.size())) return -1;
+  if (!model.mixtures.empty()) return found;
   for (const Neighbour& to : model.body.neighbours)
     if (!look(model.body.row(j + to.dy, k + to.dz))) return -1;
   return found;
@@ -165,16 +168,23 @@ void GridLayout::fill(Block& block) const {
   block.alive = AlignedArray<std::uint16_t>(block.layout->sites);
   block.memory = AlignedArray<double>(block.layout->sites * body.neighbours.size() * kept_numbers());
   if (!model_.material_of.empty()) block.material = AlignedArray<std::uint8_t>(block.layout->sites);
+  if (!model_.mixtures.empty()) block.mixture = AlignedArray<std::uint32_t>(block.layout->sites);
   for (std::uint32_t r = 0; r < block.rows.size(); ++r) {
     const Row& row = block.rows[r];
     if (row.begin == row.end) continue;
     Site site = first_site_of_row(block.number, r);
     fill_alive(body, site.j, site.k, row, block.alive.get() + row.start);
     if (model_.kernels.start != nullptr) start_row(block, r, site);
-    if (model_.material_of.empty()) continue;
-    for (; site.i < row.end; ++site.i)
-      if (const Particle particle = body.at(site); particle != Body::no_particle)
-        block.material[row.start + static_cast<std::uint64_t>(site.i - row.begin)] = model_.material_of[particle];
+    if (model_.materials.size() == 1) continue;
+    for (; site.i < row.end; ++site.i) {
+      const Particle particle = body.at(site);
+      const std::uint64_t place = row.start + static_cast<std::uint64_t>(site.i - row.begin);
+      if (particle == Body::no_particle) continue;
+      if (model_.mixtures.empty())
+        block.material[place] = model_.material_of[particle];
+      else
+        block.mixture[place] = model_.mixtures.of(particle);
+    }
   }
 }
 
@@ -212,6 +222,8 @@ void GridLayout::describe(const Block& block, KernelRequest& request) const {
   request.weight_sets = block.layout->weight_sets.data();
   request.weights = weights_.values();
   request.scratch_width = scratch_width_;
+  request.mixture = block.mixture.get();
+  request.mixture_springs = model_.mixture_springs.data();
   request.memory = block.memory.get();
   request.memory_stride = block.layout->sites;
 }
@@ -219,7 +231,8 @@ void GridLayout::describe(const Block& block, KernelRequest& request) const {
 double GridLayout::state_bytes() const {
   const auto number = static_cast<double>(bytes_of(model_.choice.precision));
   const auto memory = static_cast<double>(model_.body.neighbours.size() * kept_numbers() * sizeof(double));
-  const double a_site = 2.0 * model_.degrees_of_freedom * number + sizeof(std::uint16_t) + (model_.material_of.empty() ? 0.0 : 1.0) + memory;
+  const double a_site = 2.0 * model_.degrees_of_freedom * number + sizeof(std::uint16_t) + (model_.material_of.empty() ? 0.0 : 1.0) +
+                        (model_.mixtures.empty() ? 0.0 : 4.0) + memory;
   double bytes = weights_.bytes();
   for (const BlockLayout& block : blocks)
     bytes += static_cast<double>(block.sites) * a_site + static_cast<double>(block.weight_sets.size() * sizeof(std::uint32_t));

@@ -34,7 +34,7 @@ void Guard::fail(const std::string& what, double time_step) const {
   bool finite = true;
   const Particle particle = simulation_.fastest(speed, finite);
   const Vec3 x = model_.body.position(particle);
-  const Material& material = model_.materials[model_.material_of.empty() ? 0 : model_.material_of[particle]];
+  const Material& material = model_.materials[model_.material(particle)];
   std::string law = fmt::format("{} ({})", material.stage->component->type(), material.stage->pointer);
   if (material.failure_stage != nullptr) law += fmt::format(" with {}", material.failure_stage->component->type());
   throw RunError(

@@ -192,7 +192,7 @@ void ListedLayout::fill_springs(Block& block) const {
     const ListedSpring& spring = model_.body.listed.springs[n];
     if (!part.holds(spring.a) && !part.holds(spring.b)) continue;
     const Joint joint = model_.joint(spring.a, spring.b, n);
-    const double alarm = model_.choice.breakable ? model_.alarm(model_.material(spring.a), model_.material(spring.b), model_.facts(joint)) : infinity;
+    const double alarm = model_.choice.breakable ? model_.alarm(spring.a, spring.b, n, joint) : infinity;
     const double growth = precision == Precision::floats ? squared_growth<float>(joint.rest_length, alarm) : squared_growth(joint.rest_length, alarm);
     add(spring.a, spring.b, joint, growth, n);
     add(spring.b, spring.a, joint, growth, n);

@@ -16,7 +16,6 @@ struct Simulation::Parts {
   const Model& model;
   std::unique_ptr<Layout> layout;
   std::vector<Block> blocks;
-  std::vector<double> masses, alphas;   ///< of each material
   std::vector<double> particle_masses;  ///< kg; filled when first asked for
   int threads = 1;
 

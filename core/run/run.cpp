@@ -267,6 +267,7 @@ int run(Plan& plan, const RunOptions& options) {
     outcome.reason = std::move(reason);
   };
   {
+    for (const auto& [name, value] : body_lines(plan.body)) spdlog::info("{}: {}", name, value);
     for (const std::string& warning : plan.model->warnings) spdlog::warn("warning: {}", warning);
     Running running(plan, options);
     try {

@@ -57,11 +57,10 @@ bool SnapshotSource::compute(std::string_view name, Values& values) {
     simulation_.velocities(values.numbers);
   else if (name == "height")
     simulation_.heights(values.numbers);
-  else if (name == "material" && model_.material_of.empty())
-    values.numbers.assign(model_.body.particles, 0.0);
-  else if (name == "material")
-    values.numbers.assign(model_.material_of.begin(), model_.material_of.end());
-  else if (name == "source")
+  else if (name == "material") {
+    values.numbers.resize(model_.body.particles);
+    for (Particle particle = 0; particle < model_.body.particles; ++particle) values.numbers[particle] = model_.material(particle);
+  } else if (name == "source")
     values.numbers.assign(model_.body.listed.source.begin(), model_.body.listed.source.end());
   else if (name == "broken_open")
     count_broken(values.numbers, true);

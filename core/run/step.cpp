@@ -67,8 +67,8 @@ KernelRequest Simulation::Parts::request_for(Block& block, double back, double f
   request.material = block.material.get();
   request.neighbours = model.neighbours;
   request.springs = model.springs.data();
-  request.mass = masses.data();
-  request.alpha = alphas.data();
+  request.mass = model.masses.data();
+  request.alpha = model.alphas.data();
   request.materials = static_cast<std::uint32_t>(model.materials.size());
   request.spring_classes = model.body.grid.spring_classes;
   request.membrane_distance = model.body.grid.membrane_distance;

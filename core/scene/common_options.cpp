@@ -40,8 +40,10 @@ struct Common {
     if (family == Family::writers || family == Family::probes)
       declared
           .add<&Options::every>("every", "s",
-                                family == Family::writers ? "time between frames; 20 over the run if left out; 0: only the first and the last"
-                                                          : "time between samples; 200 over the run if left out; 0: only the first and the last")
+                                family == Family::writers
+                                    ? "time between frames; 20 over the run if left out; 0: only the first and the last"
+                                    : "time between samples; 200 over the run if left out; 0: only the first and the last. A sample is "
+                                      "of the step nearest to its time, which the table gives: times are even to within a step")
           .at_least(0)
           .add<&Options::first>("first", "", "whether the state before the first step is written")
           .fallback("true")

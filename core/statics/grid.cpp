@@ -56,7 +56,7 @@ void Statics::make_weights() {
   const auto places = static_cast<std::size_t>(problem_.grid.places);
   weight_.assign(body.neighbours.size() * places, 0);
   particle_weight_.assign(places, 0);
-  if (!model_.material_of.empty()) material_.assign(places, 0);
+  if (model_.materials.size() > 1) kind_.assign(places, 0);
   std::vector<std::uint16_t> alive;
   simulation_.alive(alive);
   for (const Run& run : body.runs)
@@ -65,7 +65,7 @@ void Statics::make_weights() {
       const Particle particle = run.first + static_cast<Particle>(i - run.begin);
       const auto place = static_cast<std::size_t>(problem_.grid.place(i - body.low.i, run.j - body.low.j, run.k - body.low.k));
       particle_weight_[place] = static_cast<float>(body.share(site));
-      if (!model_.material_of.empty()) material_[place] = model_.material_of[particle];
+      if (!kind_.empty()) kind_[place] = model_.kind(particle);
       for (std::size_t n = 0; n < body.neighbours.size(); ++n)
         if ((alive[particle] >> n & 1u) != 0) weight_[n * places + place] = static_cast<float>(body.share(site, body.neighbours[n]));
     }

@@ -15,7 +15,7 @@ void Statics::make_list() {
   free_.assign(body.particles, static_cast<std::uint8_t>((1u << grid.components) - 1));
   grid.free = free_.data();
   for (Particle p = 0; p < body.particles; ++p) particle_weight_.push_back(static_cast<float>(body.share(p)));
-  if (!model_.material_of.empty()) material_.assign(model_.material_of.begin(), model_.material_of.end());
+  if (!model_.material_of.empty()) kind_.assign(model_.material_of.begin(), model_.material_of.end());
   for (std::uint32_t n = 0; n < body.listed.springs.size(); ++n) {
     const ListedSpring& spring = body.listed.springs[n];
     const Joint joint = model_.joint(spring.a, spring.b, n);

@@ -56,10 +56,8 @@ double Statics::respond_plane(std::int32_t k, const double* u, double* force, co
       }
       for (std::size_t t = 0; t < padded; ++t) {
         buffer.weight[t] = t < count ? static_cast<double>(weight[t]) : 0.0;
-        const auto material = [&](std::int64_t place) {
-          return buffer.weight[t] == 0 || material_.empty() ? std::uint8_t{0} : material_[static_cast<std::size_t>(place) + t];
-        };
-        const SpringConstants& constants = model_.spring(material(first), material(first + step), neighbour.site.spring_class);
+        const auto kind = [&](std::int64_t place) { return buffer.weight[t] == 0 || kind_.empty() ? 0 : kind_[static_cast<std::size_t>(place) + t]; };
+        const SpringConstants& constants = model_.spring_to(static_cast<std::uint32_t>(n), kind(first), kind(first + step));
         buffer.stiffness[t] = constants.stiffness;
         buffer.cross_stiffness[t] = constants.cross_stiffness;
       }
@@ -87,7 +85,7 @@ double Statics::hold_heights(const double* u, double* force) const {
   for_runs([&](std::int64_t first, Particle, std::uint64_t count) {
     for (std::int64_t p = first; p < first + static_cast<std::int64_t>(count); ++p) {
       const auto place = static_cast<std::size_t>(p);
-      const double alpha = stiffness_of_alpha_[material_.empty() ? 0 : material_[place]] * static_cast<double>(particle_weight_[place]);
+      const double alpha = model_.alphas[kind_.empty() ? 0 : kind_[place]] * static_cast<double>(particle_weight_[place]);
       force[heights + p] -= 2 * alpha * u[heights + p];
       energy += alpha * u[heights + p] * u[heights + p];
     }
@@ -97,8 +95,7 @@ double Statics::hold_heights(const double* u, double* force) const {
 
 void Statics::fill_alpha(const SpringTangents& tangents) const {
   for (std::size_t place = 0; place < particle_weight_.size(); ++place)
-    tangents.alpha[place] =
-        static_cast<float>(2 * stiffness_of_alpha_[material_.empty() ? 0 : material_[place]] * static_cast<double>(particle_weight_[place]));
+    tangents.alpha[place] = static_cast<float>(2 * model_.alphas[kind_.empty() ? 0 : kind_[place]] * static_cast<double>(particle_weight_[place]));
 }
 
 }  // namespace hyperlattice

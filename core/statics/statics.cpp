@@ -7,8 +7,6 @@ namespace hyperlattice {
 
 Statics::Statics(const Model& model, Simulation& simulation, double start, double end, int threads)
     : model_(model), simulation_(simulation), start_(start), end_(end) {
-  for (const Material& material : model.materials)
-    stiffness_of_alpha_.push_back(material.constants.clamped ? 0 : material.constants.alpha_ratio * material.constants.base_stiffness);
   problem_.grid.listed = model.body.is_listed();
   if (problem_.grid.listed)
     make_list();

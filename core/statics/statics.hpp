@@ -68,10 +68,10 @@ class Statics {
   std::vector<StaticRow> rows_;
   std::vector<StaticSpring> springs_;                              ///< of a listed body
   std::vector<double> spring_stiffness_, spring_cross_stiffness_;  ///< N/m
-  std::vector<std::uint8_t> free_, material_;
+  std::vector<std::uint8_t> free_;
+  std::vector<std::uint32_t> kind_;                ///< Model::kind of each place; empty: one material
   std::vector<float, ArrayMemory<float>> weight_;  ///< of each spring, [n * places + place], or of each listed one; 0: none
   std::vector<float> particle_weight_;             ///< of each place, shares of a whole particle
-  std::vector<double> stiffness_of_alpha_;         ///< of each material, N/m
 
   Values state_;                                   ///< displacements
   double share_ = 0;                               ///< of the state

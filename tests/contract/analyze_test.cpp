@@ -116,12 +116,13 @@ TEST(Analyze, PeopleReadTheSame) {
 
 TEST(Analyze, RefusesPoissonRatiosOutOfReach) {
   expect_refused({"--membrane", "I-m", "--poisson", "0.3"},
-                 {"--poisson", "0.3", "within (-0.2, 0.25], the reach of membrane I-m", "0.3 is within the reach of IV"});
-  expect_refused({"--membrane", "I", "--poisson", "-0.3"}, {"within (-0.2119, 0.25], the reach of membrane I", "-0.3 is within the reach of II"});
-  expect_refused({"--membrane", "II", "--poisson", "0.26"}, {"within (-0.5, 0.25]", "within the reach of III, IV"});
-  expect_refused({"--membrane", "III", "--poisson", "0.27"}, {", 0.2667), the reach of membrane III", "within the reach of IV"});
+                 {"--poisson", "0.3", "within (-0.2, 0.25], the reach of membrane I-m", "0.3 is within the reach of IV (not isotropic)"});
+  expect_refused({"--membrane", "I", "--poisson", "-0.3"},
+                 {"within (-0.2119, 0.25], the reach of membrane I", "-0.3 is within the reach of II (not isotropic)"});
+  expect_refused({"--membrane", "II", "--poisson", "0.26"}, {"within (-0.5, 0.25]", "within the reach of III (not isotropic), IV (not isotropic)"});
+  expect_refused({"--membrane", "III", "--poisson", "0.27"}, {", 0.2667), the reach of membrane III", "within the reach of IV (not isotropic)"});
   expect_refused({"--membrane", "IV", "--poisson", "0.34"}, {", 0.3333), the reach of membrane IV", "no membrane of this lattice reaches it"});
-  expect_refused({"--membrane", "I-m", "--poisson", "-0.2"}, {"-0.2 is within the reach of I, II"});
+  expect_refused({"--membrane", "I-m", "--poisson", "-0.2"}, {"-0.2 is within the reach of I (not isotropic), II (not isotropic)"});
   expect_refused({"--membrane", "none", "--poisson", "0.2"}, {"--poisson", "none, or 0.25"});
   expect_refused({"--membrane", "free", "--k_beta", "1", "--k_alpha", "1", "--poisson", "0.2"}, {"--poisson", "that is what these springs have"});
   EXPECT_EQ(analyze({"--membrane", "I-m", "--poisson", "0.25"}).exit_code, 0);

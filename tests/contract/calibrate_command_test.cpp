@@ -97,10 +97,11 @@ TEST(CalibrateCommand, CentredLattices) {
 
 TEST(CalibrateCommand, RefusesWhatIsOutOfReach) {
   expect_refused({"--membrane", "I-m", "--poisson", "0.3"},
-                 {"--poisson", "0.3", "within (-0.2, 0.25], the reach of membrane I-m", "0.3 is within the reach of IV"});
-  expect_refused({"--membrane", "I", "--poisson", "-0.3"}, {"within (-0.2119, 0.25], the reach of membrane I", "-0.3 is within the reach of II"});
-  expect_refused({"--membrane", "II", "--poisson", "0.26"}, {"within (-0.5, 0.25]", "within the reach of III, IV"});
-  expect_refused({"--membrane", "III", "--poisson", "0.27"}, {", 0.2667), the reach of membrane III", "within the reach of IV"});
+                 {"--poisson", "0.3", "within (-0.2, 0.25], the reach of membrane I-m", "0.3 is within the reach of IV (not isotropic)"});
+  expect_refused({"--membrane", "I", "--poisson", "-0.3"},
+                 {"within (-0.2119, 0.25], the reach of membrane I", "-0.3 is within the reach of II (not isotropic)"});
+  expect_refused({"--membrane", "II", "--poisson", "0.26"}, {"within (-0.5, 0.25]", "within the reach of III (not isotropic), IV (not isotropic)"});
+  expect_refused({"--membrane", "III", "--poisson", "0.27"}, {", 0.2667), the reach of membrane III", "within the reach of IV (not isotropic)"});
   expect_refused({"--membrane", "IV", "--poisson", "0.34"}, {", 0.3333), the reach of membrane IV", "no membrane of this lattice reaches it"});
   expect_refused({"--membrane", "none", "--poisson", "0.2"}, {"--poisson", "none, or 0.25"});
   for (const char* membrane : {"I-m", "I", "II"})
@@ -123,7 +124,7 @@ TEST(CalibrateCommand, RefusesWhatThePolynomialsDoNotCover) {
   EXPECT_EQ(calibrate(with({"--membrane", "I-m", "--poisson", "0.04"})).exit_code, 0);
   EXPECT_EQ(calibrate(with({"--membrane", "I-m", "--lambda", "0"})).exit_code, 0);
   expect_refused(with({"--membrane", "I-m", "--poisson", "0.039"}), {"0.04 to 0.2464", "--parameters closed_form takes it"});
-  expect_refused(with({"--membrane", "I-m", "--poisson", "0.3"}), {"0.04 to 0.2464", "0.3 is within the reach of IV"});
+  expect_refused(with({"--membrane", "I-m", "--poisson", "0.3"}), {"0.04 to 0.2464", "0.3 is within the reach of IV (not isotropic)"});
   expect_refused(with({"--membrane", "I-m", "--lambda", "5"}), {"--lambda", "0 to 4.959", "--parameters closed_form takes it"});
   expect_refused(with({"--membrane", "I-m", "--lambda", "-1"}), {"0 to 4.959", "-1 is stable with III, IV"});
   expect_refused(with({"--membrane", "I", "--poisson", "0.1"}), {"--parameters", "closed_form", "membrane I-m"});

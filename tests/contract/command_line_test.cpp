@@ -45,6 +45,8 @@ TEST_F(CommandLine, WhatCannotBeUnderstoodIsExit2) {
                                                        {"schema", "cube.json"}};
   for (const auto& line : lines) EXPECT_EQ(run(line).exit_code, 2) << testing::PrintToString(line);
   EXPECT_NE(run({"frobnicate"}).err.find("frobnicate"), std::string::npos);
+  EXPECT_NE(run({"rum", "cube.json"}).err.find("Did you mean 'run'?"), std::string::npos);
+  EXPECT_EQ(run({"run", "cube.json", "cube.json"}).err.find("Did you mean"), std::string::npos);
 }
 
 TEST_F(CommandLine, HelpAndVersionAreExit0) {
@@ -86,6 +88,10 @@ TEST_F(CommandLine, BeginsAPluginOnlyWhereThereIsNothing) {
     EXPECT_NE(result.err.find("one of failures, lattices, loads, materials, writers"), std::string::npos) << result.err;
     EXPECT_FALSE(exists("project"));
   }
+  const test::Result taken = run({"plugins", "--new", "failures.strain", "--out", "project"});
+  EXPECT_EQ(taken.exit_code, 2);
+  EXPECT_NE(taken.err.find("a name that no component has yet"), std::string::npos) << taken.err;
+  EXPECT_FALSE(exists("project"));
   ASSERT_EQ(run({"plugins", "--new", "failures.tearing_up", "--out", "project"}).exit_code, 0);
   EXPECT_TRUE(exists("project/tearing_up.cpp"));
   const test::Result again = run({"plugins", "--new", "failures.tearing_up", "--out", "project"});
@@ -98,6 +104,10 @@ TEST_F(CommandLine, MachinesReadWhatPeopleRead) {
   const json plugins = json::parse(run({"plugins", "--json", "--why"}).out);
   EXPECT_GE(plugins.at("components").size(), 10u);
   EXPECT_EQ(plugins.at("searched").at(0).at("outcome"), "accepted");
+  const test::Result unknown = run({"plugins", "loads.fxied", "--why"});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_NE(unknown.out.find("\nsearched\n  accepted  "), std::string::npos) << unknown.out;
+  EXPECT_GE(json::parse(run({"plugins", "loads.fxied", "--why", "--json"}).out).at("searched").size(), 1u);
   EXPECT_EQ(json::parse(run({"plugins", "loads.fixed", "--json"}).out).at("components").size(), 1u);
   EXPECT_EQ(json::parse(run({"schema"}).out).at("type"), "object");
   EXPECT_NE(run({"plugins"}).out.find("\nloads\n  loads.actuation "), std::string::npos);

@@ -26,14 +26,20 @@ if(output MATCHES "${BUILD}" OR output MATCHES "refused" OR NOT output MATCHES "
   message(FATAL_ERROR "the installed program must find its own plugins and no others")
 endif()
 
+execute_process(COMMAND ${folder}/moved/bin/hyperlattice plugins --new loads.force --out ${folder}/taken RESULT_VARIABLE result ERROR_VARIABLE output)
+if(NOT result EQUAL 2 OR NOT output MATCHES "a name that no component has yet" OR EXISTS ${folder}/taken)
+  message(FATAL_ERROR "a built-in component's name must be refused: ${output}")
+endif()
+
 foreach(type failures.tearing materials.wearing_out lattices.dense loads.nudge writers.places)
   set(project ${folder}/${type})
   string(TIMESTAMP start "%s")
   must_work(${folder}/moved/bin/hyperlattice plugins --new ${type} --out ${project})
-  must_work(${CMAKE_COMMAND} -S ${project} -B ${project}/build -D CMAKE_PREFIX_PATH=${folder}/moved -D CMAKE_CXX_COMPILER=${COMPILER}
+  set(build "${project}/built anywhere")  # not the folder that scene.json names, and with a space in its name
+  must_work(${CMAKE_COMMAND} -S ${project} -B ${build} -D CMAKE_PREFIX_PATH=${folder}/moved -D CMAKE_CXX_COMPILER=${COMPILER}
             -D CMAKE_CXX_FLAGS=-Wall\ -Wextra\ -Wpedantic\ -Wconversion\ -Werror)
-  must_work(${CMAKE_COMMAND} --build ${project}/build --parallel)
-  must_work(${CMAKE_CTEST_COMMAND} --test-dir ${project}/build --output-on-failure --no-tests=error)
+  must_work(${CMAKE_COMMAND} --build ${build} --parallel)
+  must_work(${CMAKE_CTEST_COMMAND} --test-dir ${build} --output-on-failure --no-tests=error)
   string(TIMESTAMP end "%s")
   math(EXPR seconds "${end} - ${start}")
   message("${type}: ${seconds} s from --new to its passed tests")

@@ -1,5 +1,6 @@
 // Loads that answer to the motion: what they do to momentum and energy, against closed forms, and how they bound the step.
 #include <support/books.hpp>
+#include <support/cells.hpp>
 #include <support/models.hpp>
 #include <support/scenes.hpp>
 
@@ -320,6 +321,37 @@ TEST(AnsweringLoads, StaticSolversRefuseSuchLoads) {
     FAIL();
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("do not answer to the motion"), std::string::npos) << error.what();
+  }
+}
+
+// Base springs want to be longer by e, springs of the membrane do not: K0 / K of it is left, K0 of the base springs, K of the lattice.
+TEST(Actuation, AStrainOfAllSpringsGrowsAFreeBodyByTheRatioOfBulkModuli) {
+  constexpr double e = 1e-8, l = 1e-3;
+  for (const auto& [material, expected] : {std::pair{R"("poisson": 0.25)", 1.0},
+                                           {R"("membrane": "I-m", "poisson": 0.1)", 0.7576},
+                                           {R"("membrane": "I-m", "poisson": -0.1)", 0.30864},
+                                           {R"("membrane": "III", "lambda": 2)", 0.44118}}) {
+    const auto plan =
+        plan_of(scene(4, 3, 5, R"({ "type": "loads.actuation", "on": "all", "strain": 1e-8 })", 1e10, material, R"("boundary": "cells")"));
+    const Model& model = *plan->model;
+    const MaterialConstants& m = model.materials[0].constants;
+    const double kb = m.cross_ratio[0], kg = m.cross_ratio[1], C3 = m.alpha_ratio + 3 * kb + 4 * kg, C4 = kb + 8 * kg / 3;
+    const double relaxation = model.degrees_of_freedom == 4 ? C4 / C3 : 0;
+    const double unit = m.base_stiffness / (2 * l), c11 = unit * (6 + kb + 8 * kg / 3 - relaxation * C4),
+                 c12 = unit * (2 + 4 * kg / 3 - relaxation * C4);
+    const double K0 = 5 * m.base_stiffness / (3 * l), K = (c11 + 2 * c12) / 3, grown = e * K0 / K;
+    EXPECT_NEAR(grown / e, expected, 1e-4) << material;
+    std::vector<double> heights;
+    if (model.degrees_of_freedom == 4) heights.assign(model.body.particles, -relaxation * 3 * grown * l / 2);
+    for (const auto& [strain, still] : {std::pair{grown, true}, {1.01 * grown, false}}) {
+      std::vector<double> u;
+      for (Particle p = 0; p < model.body.particles; ++p)
+        for (const double x : {model.body.position(p).x, model.body.position(p).y, model.body.position(p).z}) u.push_back(strain * x);
+      double largest = 0;
+      for (const Force& force : forces(model, u, heights))
+        for (const double component : force) largest = std::max(largest, std::abs(component) / (m.base_stiffness * e * l));
+      EXPECT_EQ(largest < 1e-6, still) << material << ' ' << largest;
+    }
   }
 }
 

@@ -131,6 +131,7 @@ TEST(Loads, TwoPrescriptionsOfOneAxisAreAFaultThatNamesBoth) {
   for (const char* part : {"/pipeline/3", "/pipeline/2", "loads.fixed", "loads.velocity", "yz of 4 particles", "(0.5, 0.5, 0.5)"})
     EXPECT_NE(message.find(part), std::string::npos) << part << " in: " << message;
   EXPECT_EQ(box_faults(R"({ "type": "loads.fixed", "on": "x_min", "axes": "x" }, { "type": "loads.fixed", "on": "z_min", "axes": "yz" })"), "");
+  EXPECT_EQ(box_faults(R"({ "type": "loads.fixed", "on": "x_min" }, { "type": "loads.fixed", "on": "z_min", "axes": "yz" })"), "") << "they agree";
 }
 
 TEST(Loads, AnEmptyRegionSaysWhatItIs) {

@@ -90,6 +90,16 @@ TEST(Voxels, APhaseIsTheRegionOfItsValue) {
               0.005);
 }
 
+TEST(Voxels, CellsHaveThePhaseOfTheirOwnVoxel) {
+  const Image image(ball_image());
+  const BuiltScene built = build(lattice(image.region(""), 1, R"(, "boundary": "cells")") + ", " + elastic() + ", " +
+                                 elastic(R"("poisson": 0.25, "region": )" + image.region()));
+  double mass = 0;
+  for (Particle p = 0; p < built->body.particles; ++p) mass += built->mass(p);
+  EXPECT_NEAR(mass, 24 * 24 * 24 * built->materials[0].mass, 1e-9 * mass);
+  EXPECT_GT(built->mixtures.count(), 2u);
+}
+
 TEST(Voxels, ValuesLeftOutAreAllButZero) {
   const Image image(ball_image(0));
   EXPECT_EQ(places(build(lattice(image.region("")) + ", " + elastic())->body), places(build(lattice(image.region()) + ", " + elastic())->body));

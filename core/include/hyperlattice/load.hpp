@@ -91,6 +91,7 @@ struct LoadSink {
   void (*receive_start_velocity)(void* self, Particle particle, Vec3 velocity) = nullptr;
   void (*receive_corner)(void* self, double time) = nullptr;
   void (*receive_watched)(void* self, Particle particle, bool answered, const Reaction& reaction) = nullptr;
+  void (*receive_warning)(void* self, std::string_view sentence) = nullptr;
 
   void force(Particle particle, Vec3 amplitude) const { receive_force(self, particle, amplitude); }                                 ///< newton
   void displacement(Particle particle, Axes axes, Vec3 amplitude) const { receive_displacement(self, particle, axes, amplitude); }  ///< metres
@@ -104,6 +105,7 @@ struct LoadSink {
   void watch(Particle particle, const Reaction& reaction = {}) const { receive_watched(self, particle, true, reaction); }
   /// The particle is only looked at; it counts among the watched.
   void look_at(Particle particle) const { receive_watched(self, particle, false, {}); }
+  void warn(std::string_view sentence) const { receive_warning(self, sentence); }  ///< what is allowed, but hardly meant
 };
 
 struct LoadFunctions {

@@ -135,10 +135,14 @@ std::string text(const Parts&... parts) {
 
 /// Membranes, other than one, that give the lattice this Poisson ratio and are stable; for a message.
 inline std::string reached_by(const LatticeFacts& lattice, Membrane but, double poisson) {
-  const std::string names = others(but, [&](Membrane other) {
-    const double found = lambda(lattice, other, poisson);
-    return std::isfinite(found) && is_stable(lattice, other, found);
-  });
+  std::string names;
+  for (const Membrane other : with_lambda) {
+    const double found = other == but ? infinity : lambda(lattice, other, poisson);
+    if (!std::isfinite(found) || !is_stable(lattice, other, found)) continue;
+    const ElasticConstants c = elastic_constants(lattice, other, found);
+    const bool isotropic = std::abs(2 * c.C44 / (c.C11 - c.C12) - 1) < 0.01;
+    names += text(names.empty() ? "" : ", ", name(other), isotropic ? "" : " (not isotropic)");
+  }
   return names.empty() ? "no membrane of this lattice reaches it" : text(poisson, " is within the reach of ", names);
 }
 

@@ -38,6 +38,7 @@ inline Camera make_camera(std::span<const double> points, double edge, Vec3 view
   Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
   for (std::size_t n = 0; n < points.size(); n += 3) {
     const Vec3 p = camera.to_view({points[n], points[n + 1], points[n + 2]});
+    if (!std::isfinite(p.x + p.y + p.z)) continue;
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }

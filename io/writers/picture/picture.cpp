@@ -21,6 +21,8 @@ constexpr std::string_view colourings[] = {failure,    "displacement", "displace
                                            "material", "broken_open",  "broken_closed",  "damage"};
 constexpr std::string_view forms[] = {"cubes", "spheres"};
 constexpr std::string_view cameras[] = {"orthographic", "perspective"};
+constexpr std::string_view fits[] = {"rest", "frame"};
+enum class Fit : std::uint32_t { rest, frame };
 enum class Projector : std::uint32_t { orthographic, perspective };
 
 /// "displacement_y" is the component y of a field, "displacement" its magnitude.
@@ -47,6 +49,7 @@ class Picture {
     std::optional<std::vector<double>> range;
     Vec3 view;
     Projector camera = Projector::orthographic;
+    Fit fit = Fit::rest;
     Form particles = Form::cubes;
     double scale = 1;
     std::int64_t width = 0, height = 0;
@@ -69,6 +72,11 @@ class Picture {
         .add<&Options::camera>("camera", "", "whether far things look smaller")
         .choices(cameras)
         .fallback("\"orthographic\"")
+        .add<&Options::fit>("fit", "",
+                            "what fills the picture: rest: the body at rest, seen from one place in all frames, so that motion is seen as such; "
+                            "frame: the body as it is drawn in each frame, however far it has moved")
+        .choices(fits)
+        .fallback("\"rest\"")
         .add<&Options::particles>("particles", "", "how a particle is drawn")
         .choices(forms)
         .fallback("\"cubes\"")
@@ -113,9 +121,10 @@ class Picture {
     if (Field field; !options_.colour_by) options_.colour_by = snapshot.field("broken_open", field) ? failure : "displacement";
     Image image(static_cast<int>(options_.width), static_cast<int>(options_.height));
     std::vector<double> buffer;
-    if (!camera_) {  // seen from the same place in every frame: that which shows all of the body at rest
+    if (!camera_ || options_.fit == Fit::frame) {
+      const auto shown = options_.fit == Fit::frame ? whole_.positions(snapshot, options_.scale, buffer) : whole_.of(snapshot.positions, 3, buffer);
       const double border = 0.04 * image.width, foot = legend_height(image.width);
-      camera_ = make_camera(whole_.of(snapshot.positions, 3, buffer), snapshot.spacing, options_.view, options_.camera == Projector::perspective,
+      camera_ = make_camera(shown, snapshot.spacing, options_.view, options_.camera == Projector::perspective,
                             {border, border, image.width - 2 * border, image.height - border - foot});
     }
     const Colouring colouring = *options_.colour_by == failure ? colour_by_failure(snapshot) : colour_by_field(snapshot);

@@ -24,7 +24,10 @@ class Actuation {
         .source("Zhao 2017, section 3.3, figure 9: a pulse on the spring-linked particles of a robot's engine")
         .restrictions(
             "force and strain act in the three dimensions, along base springs with both ends in the region, which must not break; they stiffen "
-            "or soften a spring against turning by their force over its length, as its own elongation does, which the solver's safety is for")
+            "or soften a spring against turning by their force over its length, as its own elongation does, which the solver's safety is for. "
+            "Springs of the membrane keep their length: a free body whose base springs all get strain e grows by e K0 / K only, K0 = 5 k / (3 l) "
+            "the bulk modulus of a cubic lattice's base springs alone, K that of the lattice, E / (3 (1 - 2 nu)) if it is isotropic; by e without "
+            "a membrane, by 0.76 e with I-m at nu = 0.1, by 0.31 e at nu = -0.1")
         .add<&Options::on>("on", "", "the particles whose springs act, or the surface under pressure")
         .add<&Options::force>("force", "N", "of each base spring at f = 1; positive pushes its ends apart")
         .example("\"1 N\"")

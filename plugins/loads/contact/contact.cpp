@@ -31,7 +31,9 @@ class Contact {
             "Springs that are compressed by more than a tenth are pushed too: not for laws of large strains. The work of contacts is in the books as "
             "that of a "
             "load: what they store counts as taken from the body, and comes back. Particles that are deeper than half a spacing mean a contact too "
-            "soft.")
+            "soft. Bodies that are drawn less than an empty cell apart are joined by springs (plan counts bodies). With one empty cell between them "
+            "centres are two spacings apart, and they meet when the gap has closed to `reach` spacings between centres: later than their drawn faces "
+            "would by (1 - reach) spacings.")
         .add<&Options::on>("on", "", "the particles that may meet each other")
         .fallback("\"all\"")
         .add<&Options::reach>("reach", "", "distance below which particles push each other, in spacings")

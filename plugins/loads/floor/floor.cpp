@@ -63,11 +63,17 @@ class Floor {
   void declare(const LoadBody& body, const LoadSink& sink) {
     const double whole = contact_stiffness(body, o_.on, o_.stiffness);
     const bool rubs = o_.friction > 0 || o_.friction_back.value_or(0) > 0;
+    double deepest = 0;
     for (const Particle particle : body.particles(o_.on)) {
       const PenaltyContact law(whole * body.share(particle), body.mass(particle), o_.damping, o_.grip);
       sink.watch(particle, {law.stiffness, std::max(law.damping, rubs ? law.grip : 0)});
       contacts_.push_back({dot(body.position(particle) - o_.point, normal_) - body.rim, law});
+      deepest = std::max(deepest, -contacts_.back().height);
     }
+    constexpr double noticeable = 0.1;  // spacings
+    if (deepest > noticeable * body.spacing)
+      sink.warn("the body begins up to " + std::to_string(deepest / body.spacing) +
+                " spacings deep in the floor, which throws it out: expected a floor that it touches");
   }
   double factor(double) const { return 1; }
 

@@ -1,5 +1,5 @@
 # Runs SCENE: a mass of 2 * 2500 kg/m3 * 1 mm3 = 5e-6 kg takes the impulse of 10 mN * 100 us / 2 = 5e-7 N s, which is an energy of p^2 / 2 m = 2.5e-8 J.
-execute_process(COMMAND ${PROGRAM} run ${SCENE} --quiet --out ${OUT} COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${PROGRAM} run ${SCENE} --set "/plugins=[\"${PLUGINS}\"]" --quiet --out ${OUT} COMMAND_ERROR_IS_FATAL ANY)
 file(READ ${OUT}/summary.json summary)
 foreach(name kinetic injected)
   string(JSON got GET "${summary}" energy ${name})

@@ -1,6 +1,6 @@
 # Runs SCENE: six frames of 24 particles, the last of which have fallen by g t^2 / 2 = 5e-10 m.
 file(REMOVE_RECURSE ${OUT})
-execute_process(COMMAND ${PROGRAM} run ${SCENE} --quiet --out ${OUT} COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${PROGRAM} run ${SCENE} --set "/plugins=[\"${PLUGINS}\"]" --quiet --out ${OUT} COMMAND_ERROR_IS_FATAL ANY)
 file(GLOB files ${OUT}/particles_*.xyz)
 list(LENGTH files count)
 if(NOT count EQUAL 6)

@@ -50,26 +50,32 @@ class RowValues {
 
  public:
   RowValues(const KernelRequest& request, const Row& row)
-      : material_(Mixed && row.material < 0 ? request.material + row.start : nullptr),
+      : material_(Mixed && row.material < 0 && request.mixture == nullptr ? request.material + row.start : nullptr),
+        mixture_(Mixed && row.material < 0 && request.mixture != nullptr ? request.mixture + row.start : nullptr),
         uniform_(row.material < 0 ? 0 : row.material),
         weight_sets_(row.weights == no_weights ? nullptr : request.weight_sets + row.weights),
         weights_(request.weights) {}
 
-  /// `values`: of a whole particle of each material.
+  /// `values`: of a whole particle of each material, then of each mixture.
   Pack at(const double* values, int t) const {
     Pack pack = values[uniform_];
-    if (material_ != nullptr) {
-      Real of_lane[lanes_of<Real>];
-      for (int lane = 0; lane < lanes_of<Real>; ++lane) of_lane[lane] = static_cast<Real>(values[material_[t + lane]]);
-      pack = load(of_lane);
-    }
+    if (material_ != nullptr) pack = of_lanes(values, material_ + t);
+    if (mixture_ != nullptr) pack = of_lanes(values, mixture_ + t);
     return weight_sets_ == nullptr ? pack : pack * load_weights<Real>(weights_, weight_sets_ + t / lanes, 0);
   }
   /// Whether the values are the same along the row.
-  bool constant() const { return material_ == nullptr && weight_sets_ == nullptr; }
+  bool constant() const { return material_ == nullptr && mixture_ == nullptr && weight_sets_ == nullptr; }
 
  private:
+  template <class Number>
+  static Pack of_lanes(const double* values, const Number* numbers) {
+    Real of_lane[lanes_of<Real>];
+    for (int lane = 0; lane < lanes_of<Real>; ++lane) of_lane[lane] = static_cast<Real>(values[numbers[lane]]);
+    return load(of_lane);
+  }
+
   const std::uint8_t* material_;
+  const std::uint32_t* mixture_;
   std::int32_t uniform_;
   const std::uint32_t* weight_sets_;
   const double* weights_;

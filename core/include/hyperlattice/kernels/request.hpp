@@ -109,9 +109,12 @@ struct KernelRequest {
   void* displacement[4] = {};              ///< x y z and height over the mirror plane's rest, metres; last is null without a membrane. In the
   void* velocity[4] = {};                  ///< kernel's precision, as are velocities, m/s
   std::uint16_t* alive = nullptr;          ///< bit n: the spring to neighbour n exists; bit 15: the site holds a particle
-  const std::uint8_t* material = nullptr;  ///< of each site; null: one material
-  double* memory = nullptr;                ///< of laws that have one: [neighbour][base, cross][number][site]; without a membrane no cross springs
-  std::uint64_t memory_stride = 0;         ///< sites
+  const std::uint8_t* material = nullptr;  ///< of each site, if springs are between the materials of their ends; null: one material, or mixtures
+  /// If cells have materials: of each site, what the cells around it are of. Numbers below `materials` are of that material alone.
+  const std::uint32_t* mixture = nullptr;
+  const std::uint32_t* mixture_springs = nullptr;  ///< [mixture * neighbours + n] place in `springs` of the springs from such a site
+  double* memory = nullptr;         ///< of laws that have one: [neighbour][base, cross][number][site]; without a membrane no cross springs
+  std::uint64_t memory_stride = 0;  ///< sites
   /// Of rows that have weights, for each vector of sites the place in `weights` of its set: `lanes` shares of a whole particle (mass, alpha), then
   /// for each neighbour `lanes` shares of a whole spring (force and energy, cross springs' too). Sites without a particle weigh 1.
   const std::uint32_t* weight_sets = nullptr;
@@ -120,9 +123,9 @@ struct KernelRequest {
 
   // the body
   std::span<const NeighbourGeometry> neighbours;
-  const SpringConstants* springs = nullptr;  ///< [(material_i * materials + material_j) * spring_classes + class]
-  const double* mass = nullptr;              ///< of each material's particle, kg
-  const double* alpha = nullptr;             ///< k_alpha of each material, N/m
+  const SpringConstants* springs = nullptr;  ///< [(material_i * materials + material_j) * spring_classes + class], then those of mixtures
+  const double* mass = nullptr;              ///< of each material's particle, then of each mixture's, kg
+  const double* alpha = nullptr;             ///< k_alpha of the same, N/m
   std::uint32_t materials = 1, spring_classes = 1;
   double membrane_distance = 0;  ///< Delta, metres
 

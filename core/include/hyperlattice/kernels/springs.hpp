@@ -22,6 +22,7 @@ struct RowPair {
   Real* received[Components];  ///< forces on the neighbours' row
   const std::uint16_t* alive;
   const std::uint8_t *material_here, *material_there;
+  const std::uint32_t* mixture;      ///< of the row itself; null: springs are between the materials of their ends
   const std::uint32_t* weight_sets;  ///< of a row that has weights, for each vector
   const double* weights;             ///< what these places count from: the neighbour's in the sets
   double* memory;                    ///< of the row's springs to the neighbour, [base, cross][number][site]
@@ -147,6 +148,10 @@ class Springs {
   static void add_to(Real* target, Pack value) { store(target, load(target) + value); }
 
   static const SpringConstants& between(const KernelRequest& request, const Pair& pair, const NeighbourGeometry& neighbour, int t) {
+    if (pair.mixture != nullptr) {
+      const auto n = static_cast<std::size_t>(&neighbour - request.neighbours.data());
+      return request.springs[request.mixture_springs[pair.mixture[t] * request.neighbours.size() + n]];
+    }
     const std::uint32_t a = pair.material_here[t], b = pair.material_there[t];
     return request.springs[(a * request.materials + b) * request.spring_classes + neighbour.site.spring_class];
   }

@@ -183,8 +183,12 @@ class Sweep {
       pair.received[c] = received_row(c, j + to.dy, k + to.dz) + row.begin + to.dx;
     }
     pair.alive = request_.alive + here;
-    pair.material_here = Mixed ? request_.material + here : nullptr;
-    pair.material_there = Mixed ? request_.material + there : nullptr;
+    if (Mixed && request_.mixture != nullptr) {
+      pair.mixture = request_.mixture + here;
+    } else if (Mixed) {
+      pair.material_here = request_.material + here;
+      pair.material_there = request_.material + there;
+    }
     return pair;
   }
 

@@ -1,0 +1,101 @@
+// Which particles springs join. Most bodies are long rows of particles that springs along x join: those are joined as one, so that a body of many
+// millions of particles is counted by its rows.
+#include <model/body_figures.hpp>
+
+#include <algorithm>
+#include <numeric>
+
+namespace hyperlattice {
+
+namespace {
+
+class Sets {
+ public:
+  explicit Sets(std::size_t count) : parent_(count), sets_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+
+  void join(std::size_t a, std::size_t b) {
+    a = root(a);
+    b = root(b);
+    if (a == b) return;
+    parent_[std::max(a, b)] = std::min(a, b);
+    --sets_;
+  }
+  std::size_t count() const { return sets_; }
+
+ private:
+  std::size_t root(std::size_t n) {
+    while (parent_[n] != n) n = parent_[n] = parent_[parent_[n]];
+    return n;
+  }
+
+  std::vector<std::size_t> parent_;
+  std::size_t sets_;
+};
+
+/// Sites begin <= i < end of a row that springs along x join, or a site alone.
+struct Piece {
+  std::int32_t begin = 0, end = 0;
+};
+
+/// The pieces of all rows, in the order z, y, x.
+struct Pieces {
+  std::vector<Piece> all;
+  std::vector<std::size_t> rows;  ///< [k * ny + j] first piece of a row; one more entry at the end
+
+  explicit Pieces(const Body& body) {
+    const auto along_x =
+        std::find_if(body.neighbours.begin(), body.neighbours.end(), [](const Neighbour& n) { return n.dx == 1 && n.dy == 0 && n.dz == 0; });
+    for (std::int32_t k = 0; k < body.grid.sites[2]; ++k)
+      for (std::int32_t j = 0; j < body.grid.sites[1]; ++j) {
+        rows.push_back(all.size());
+        const std::vector<Range> springs = along_x == body.neighbours.end() ? std::vector<Range>{} : body.springs_of(j, k, *along_x);
+        auto spring = springs.begin();
+        for (const Run& run : body.row(j, k))
+          for (std::int32_t i = run.begin; i < run.end;) {
+            while (spring != springs.end() && spring->end <= i) ++spring;
+            const std::int32_t end = spring != springs.end() && spring->begin <= i ? spring->end + 1 : i + 1;
+            all.push_back({i, end});
+            i = end;
+          }
+      }
+    rows.push_back(all.size());
+  }
+
+  /// The first piece of a row that ends beyond the site.
+  std::size_t from(std::size_t row, std::int32_t site) const {
+    const auto first = all.begin() + static_cast<std::ptrdiff_t>(rows[row]), last = all.begin() + static_cast<std::ptrdiff_t>(rows[row + 1]);
+    return static_cast<std::size_t>(std::upper_bound(first, last, site, [](std::int32_t i, const Piece& piece) { return i < piece.end; }) -
+                                    all.begin());
+  }
+};
+
+}  // namespace
+
+std::uint64_t count_parts(const Body& body) {
+  if (body.is_listed()) {
+    Sets sets(body.particles);
+    for (const ListedSpring& spring : body.listed.springs) sets.join(spring.a, spring.b);
+    return sets.count();
+  }
+  const Pieces pieces(body);
+  const auto row_of = [&](std::int32_t j, std::int32_t k) {
+    return static_cast<std::size_t>(k) * static_cast<std::size_t>(body.grid.sites[1]) + static_cast<std::size_t>(j);
+  };
+  Sets sets(pieces.all.size());
+  for (std::int32_t k = 0; k < body.grid.sites[2]; ++k)
+    for (std::int32_t j = 0; j < body.grid.sites[1]; ++j)
+      for (const Neighbour& to : body.neighbours)
+        for (const Range& range : body.springs_of(j, k, to)) {
+          std::size_t here = pieces.from(row_of(j, k), range.begin), there = pieces.from(row_of(j + to.dy, k + to.dz), range.begin + to.dx);
+          for (std::int32_t i = range.begin; i < range.end;) {
+            sets.join(here, there);
+            const std::int32_t here_ends = pieces.all[here].end, there_ends = pieces.all[there].end - to.dx;
+            i = std::min(here_ends, there_ends);
+            if (here_ends <= i) ++here;
+            if (there_ends <= i) ++there;
+          }
+        }
+  return sets.count();
+}
+
+}  // namespace hyperlattice
