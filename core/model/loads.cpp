@@ -42,7 +42,7 @@ struct View {
     seen.particle_position = [](void* self, Particle particle) noexcept { return static_cast<View*>(self)->model.body.position(particle); };
     seen.particle_mass = [](void* self, Particle particle) noexcept {
       const Model& model = static_cast<View*>(self)->model;
-      return model.materials.empty() ? 0 : model.mass(particle);  // none only if the materials have faults, and then nothing runs
+      return model.masses.empty() ? 0 : model.mass(particle);  // none only if the materials have faults, and then nothing runs
     };
     seen.particle_share = [](void* self, Particle particle) noexcept { return static_cast<View*>(self)->model.body.share(particle); };
     seen.region_open_areas = [](void* self, RegionId region) noexcept {

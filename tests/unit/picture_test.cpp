@@ -196,6 +196,16 @@ TEST(Picture, RefusesWhatItCannotDraw) {
   EXPECT_EQ(scene.folder.names(), std::vector<std::string>{});
 }
 
+TEST(Picture, FollowsABodyThatMovesIfAsked) {
+  for (const char* fit : {"rest", "frame"}) {
+    Scene scene({4, 1, 1});
+    const Pixels pixels = scene.draw({{"view", {0, -1, 0}}, {"fit", fit}, {"width", 300}, {"height", 300}}, [](FakeBody& body) {
+      for (std::size_t n = 0; n < body.displacements.size(); n += 3) body.displacements[n] = 1;  // many times its own length
+    });
+    EXPECT_EQ(find(pixels, blue).count > 500, std::string(fit) == "frame") << fit;
+  }
+}
+
 TEST(Picture, SurvivesParticlesThatFlewAway) {
   Scene scene({3, 3, 3});
   for (const char* camera : {"orthographic", "perspective"})

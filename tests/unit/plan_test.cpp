@@ -135,6 +135,28 @@ TEST(Plan, refuses_floats_where_they_would_not_know_the_strain) {
   EXPECT_EQ(faults(4, 99 * 4 * known).size(), 1u);
 }
 
+TEST(Plan, floats_bear_a_small_body_that_spins) {  // it goes round in circles, no wider than it is
+  const auto accepted = [](double turns, double drift_in_spacings) {
+    auto scene = small_sphere();
+    const double spacing = plan_of(scene)->model->body.grid.spacing, end = 10e-6;
+    scene["precision"] = "float";
+    const nlohmann::json start = {{"type", "loads.start_velocity"},
+                                  {"linear", {drift_in_spacings * spacing / end, 0, 0}},
+                                  {"angular", {0, 0, turns * 2 * 3.14159265358979 / end}}};
+    scene["pipeline"].insert(scene["pipeline"].begin() + 3, start);
+    try {
+      plan_of(scene);
+    } catch (const InputError&) {
+      return false;
+    }
+    return true;
+  };
+  const double far = 1e-6 * std::ldexp(1, 24);  // spacings
+  EXPECT_TRUE(accepted(far, 0));
+  EXPECT_FALSE(accepted(far, 1.01 * far));
+  EXPECT_TRUE(accepted(0.01, 0.9 * far));
+}
+
 TEST(Plan, warns_of_floats_that_have_become_coarse) {
   auto scene = small_sphere();
   scene["precision"] = "float";
