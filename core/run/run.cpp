@@ -267,7 +267,9 @@ int run(Plan& plan, const RunOptions& options) {
     outcome.reason = std::move(reason);
   };
   {
-    for (const auto& [name, value] : body_lines(plan.body)) spdlog::info("{}: {}", name, value);
+    std::string body;
+    for (const auto& [name, value] : body_lines(plan.body)) body += fmt::format("{}{} {}", body.empty() ? "" : ", ", name, value);
+    spdlog::info("the body: {}", body);
     for (const std::string& warning : plan.model->warnings) spdlog::warn("warning: {}", warning);
     Running running(plan, options);
     try {
