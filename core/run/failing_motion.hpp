@@ -10,7 +10,8 @@ namespace hyperlattice {
 
 inline constexpr const char* failing_motion_file = "failing_motion.csv";
 
-/// motion: three numbers a particle. A motion of nothing leaves no file. Throws std::runtime_error with the system's reason.
-void write_failing_motion(const std::filesystem::path& directory, const Body& body, std::span<const double> motion);
+/// motion: three numbers a particle; heights: one, or none at all. A motion of nothing leaves no file. Throws std::runtime_error with the system's
+/// reason.
+void write_failing_motion(const std::filesystem::path& directory, const Body& body, std::span<const double> motion, std::span<const double> heights);
 
 }  // namespace hyperlattice

@@ -3,6 +3,7 @@
 #include <run/checkpoint.hpp>
 #include <run/failing_motion.hpp>
 #include <run/guard.hpp>
+#include <run/inside_out.hpp>
 #include <run/interrupt.hpp>
 #include <run/outputs.hpp>
 #include <run/progress.hpp>
@@ -47,6 +48,7 @@ class Running {
   void stepped(double time_step);
   void observe();
   void record();
+  void look_at_cells();
   template <class Output>
   void timed(Output&& output);
 
@@ -54,6 +56,7 @@ class Running {
   const RunOptions& options_;
   std::unique_ptr<Simulation> simulation_;
   std::unique_ptr<Guard> guard_;
+  std::unique_ptr<CellWatch> cells_;
   std::unique_ptr<History> history_;
   std::unique_ptr<FailureLog> failures_;
   std::unique_ptr<Outputs> outputs_;
@@ -91,6 +94,7 @@ void Running::start(Outcome& outcome) {
   write_file((options_.directory / "scene.resolved.json").string(), plan_.scene->resolved);
   simulation_ = std::make_unique<Simulation>(*plan_.model, plan_.threads);
   guard_ = std::make_unique<Guard>(*plan_.model, *simulation_);
+  cells_ = std::make_unique<CellWatch>(*plan_.model);
   if (goes_on)
     read_checkpoint(options_.directory, [this](Archive& archive) { visit(archive); });
   else
@@ -117,6 +121,7 @@ void Running::visit(Archive& archive) {
   archive(recorded_);
   archive(largest_relative_error_);
   archive(rest_);
+  archive(cells_->seen());
   archive(solve_seconds_);
   archive(output_seconds_);
   if (archive.restores()) {
@@ -175,8 +180,8 @@ void Running::solve_stage(const PlannedStage& stage) {
   hooks.stepped = [this](double time_step) { stepped(time_step); };
   hooks.observe = [this] { observe(); };
   hooks.report = [this](const RestReport& report) { rest_ = report; };
-  hooks.failing_motion = [this](const std::vector<double>& motion) {
-    write_failing_motion(options_.directory, plan_.model->body, motion);
+  hooks.failing_motion = [this](const std::vector<double>& motion, const std::vector<double>& heights) {
+    write_failing_motion(options_.directory, plan_.model->body, motion, heights);
     spdlog::info("how the body moves is in {}", (options_.directory / failing_motion_file).string());
   };
   hooks.must_stop = [] { return stop_requested(); };
@@ -187,6 +192,7 @@ void Running::solve_stage(const PlannedStage& stage) {
   }
   record();
   if (stage.plan.at_rest) {
+    look_at_cells();
     timed([&] { outputs_->show_now(); });  // at rest all instants are one
     simulation_->close_books();
   }
@@ -218,6 +224,7 @@ void Running::record() {
   last_ = record;
   recorded_ = true;
   largest_relative_error_ = std::max(largest_relative_error_, std::abs(record.balance.relative_error()));
+  if (cells_->is_due(record.step)) look_at_cells();
   timed([&] {
     history_->write(record);
     if (failures_) failures_->write_new(simulation_->breakages());
@@ -225,8 +232,15 @@ void Running::record() {
   if (!stage_->plan.at_rest) guard_->check_balance(record.balance, time_step_);
 }
 
+void Running::look_at_cells() {
+  timed([&] {
+    if (cells_->look(*simulation_)) spdlog::warn("{}", cells_->sentence());
+  });
+}
+
 void Running::finish() {
   progress_.reset();
+  look_at_cells();
   timed([&] {
     outputs_->show_last();
     outputs_->end();
@@ -244,6 +258,7 @@ void Running::note(Outcome& outcome) {
   outcome.time = simulation_->time();
   outcome.injected_by_load = simulation_->injected_by_load();
   outcome.state_hash = simulation_->hash();
+  if (std::string sentence = cells_->sentence(); !sentence.empty()) outcome.warnings.push_back(std::move(sentence));
   if (plan_.model->choice.precision == Precision::doubles) return;
   if (std::string warning = precision_warning(*plan_.model, simulation_->farthest()); !warning.empty())
     outcome.warnings.push_back(std::move(warning));

@@ -94,7 +94,10 @@ StageCalls::StageCalls(const Model& model, Simulation& simulation, const Planned
   host_.keep_motion = [](void* self, const double* motion) {
     auto& calls = *static_cast<StageCalls*>(self);
     return calls.guarded([&] {
-      if (calls.hooks_.failing_motion) calls.hooks_.failing_motion(calls.statics().of_particles(motion, 0, 3));
+      if (!calls.hooks_.failing_motion) return;
+      const Statics& statics = calls.statics();
+      const bool has_heights = statics.problem().grid.components == 4;
+      calls.hooks_.failing_motion(statics.of_particles(motion, 0, 3), has_heights ? statics.of_particles(motion, 3, 1) : std::vector<double>());
     });
   };
 }

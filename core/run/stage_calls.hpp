@@ -18,7 +18,8 @@ class StageCalls {
     std::function<void(double time_step)> stepped;
     std::function<void()> observe;
     std::function<void(const RestReport&)> report;
-    std::function<void(const std::vector<double>& motion)> failing_motion;  ///< three numbers a particle
+    /// Three numbers a particle, and one of the height where membranes can move.
+    std::function<void(const std::vector<double>& motion, const std::vector<double>& heights)> failing_motion;
     std::function<bool()> must_stop;
   };
   StageCalls(const Model& model, Simulation& simulation, const PlannedStage& stage, int threads, Hooks hooks, std::uint64_t steps_done = 0);

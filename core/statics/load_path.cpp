@@ -70,6 +70,8 @@ void Statics::make_loads() {
         if ((free_[static_cast<std::size_t>(p)] >> c & 1u) != 0) holding_[n] = -force_[n] - external[n];
       }
   });
+  add_loads(0, external.data());
+  force_scale(force_.data(), external.data());
 }
 
 std::vector<double> Statics::factors(double share) const {
@@ -96,24 +98,29 @@ void Statics::prescribe(double share, double* u) const {
       if ((held.axes >> c & 1u) != 0) u[c * problem_.grid.places + held.place] = (1 - share) * held.from[c] + share * held.to[c];
 }
 
-double Statics::force_scale(const double* internal, const double* external) const {
+double Statics::force_scale(const double* internal, const double* external) {
+  constexpr double share = 1e-6;  // of the largest so far: loads that end at zero leave nothing but round-off of it
   const std::int64_t places = problem_.grid.places;
+  const auto size = [](double x, double y, double z) { return x == 0 && y == 0 && z == 0 ? 0 : std::hypot(x, y, z); };  // squares may underflow
   double held = 0, loaded = 0;
   std::uint64_t number = 0;
   for (const Held& hold : held_) {
-    double square = 0;
+    double force[3] = {};
     for (int c = 0; c < 3; ++c)
-      if ((hold.axes >> c & 1u) != 0) square += std::pow(internal[c * places + hold.place] + external[c * places + hold.place], 2);
-    held += std::sqrt(square);
+      if ((hold.axes >> c & 1u) != 0) force[c] = internal[c * places + hold.place] + external[c * places + hold.place];
+    held += size(force[0], force[1], force[2]) / static_cast<double>(held_.size());
   }
   for_runs([&](std::int64_t first, Particle, std::uint64_t count) {
     for (std::int64_t p = first; p < first + static_cast<std::int64_t>(count); ++p) {
-      const double size = norm({external[p], external[places + p], external[2 * places + p]});
-      loaded += size;
-      if (size > 0) ++number;
+      const double force = size(external[p], external[places + p], external[2 * places + p]);
+      if (force == 0) continue;
+      ++number;
+      loaded += (force - loaded) / static_cast<double>(number);
     }
   });
-  return std::max(held_.empty() ? 0 : held / static_cast<double>(held_.size()), number == 0 ? 0 : loaded / static_cast<double>(number));
+  const double mean = std::max(held, loaded);
+  if (std::isfinite(mean)) largest_scale_ = std::max(largest_scale_, mean);
+  return std::max(mean, share * largest_scale_);
 }
 
 }  // namespace hyperlattice

@@ -40,6 +40,7 @@ RestReport Statics::rest() {
   });
   const bool first = !std::exchange(compared_, true);  // loads and held particles moved since the stage began
   if (!first && stiffness > 0 && inertia > 0) slowest_ = std::min(slowest_, stiffness / inertia);
+  if (std::isfinite(largest)) largest_scale_ = std::max(largest_scale_, largest);  // no load may act at all, on a body that moves
   RestReport report;
   report.residual = largest == 0 ? 0 : largest / force_scale(force_.data(), external.data());
   if (moved > 0 && (left == 0 || std::isfinite(slowest_))) report.displacement_error = left == 0 ? 0 : std::sqrt(left / moved) / slowest_;

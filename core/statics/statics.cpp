@@ -29,7 +29,7 @@ Statics::Statics(const Model& model, Simulation& simulation, double start, doubl
   problem_.load_at = [](void* self, double share, double* force) noexcept { static_cast<const Statics*>(self)->add_loads(share, force); };
   problem_.prescribe_at = [](void* self, double share, double* u) noexcept { static_cast<const Statics*>(self)->prescribe(share, u); };
   problem_.scale_of = [](void* self, const double* internal, const double* external) noexcept {
-    return static_cast<const Statics*>(self)->force_scale(internal, external);
+    return static_cast<Statics*>(self)->force_scale(internal, external);
   };
   problem_.position_of = [](void* self, std::int64_t place) noexcept {
     const auto& statics = *static_cast<const Statics*>(self);

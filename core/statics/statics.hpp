@@ -58,7 +58,7 @@ class Statics {
   void make_loads();
   void add_loads(double share, double* force) const;
   void prescribe(double share, double* u) const;
-  double force_scale(const double* internal, const double* external) const;
+  double force_scale(const double* internal, const double* external);
   std::vector<double> factors(double share) const;
 
   const Model& model_;
@@ -75,6 +75,7 @@ class Statics {
 
   Values state_;                                   ///< displacements
   double share_ = 0;                               ///< of the state
+  double largest_scale_ = 0;                       ///< N, that out-of-balance forces were compared with so far
   Values force_;                                   ///< of the springs at the state
   Values holding_;                                 ///< what else must act for the state at share 0 to be at rest
   std::vector<double> factor_start_, factor_end_;  ///< of each load

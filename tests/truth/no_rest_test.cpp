@@ -11,14 +11,17 @@ using namespace hyperlattice::test;
 struct Failure {
   std::string text;  ///< why a scene's first solver finds no rest; "" if it does
   std::unique_ptr<Plan> plan;
-  std::vector<double> motion;  ///< that it keeps
+  std::vector<double> motion, heights;  ///< that it keeps
 };
 Failure failing(const std::string& scene) {
   Failure failure;
   failure.plan = plan_of(scene, 1);
   Simulation simulation(*failure.plan->model, 1);
   StageCalls::Hooks hooks;
-  hooks.failing_motion = [&](const std::vector<double>& motion) { failure.motion = motion; };
+  hooks.failing_motion = [&](const std::vector<double>& motion, const std::vector<double>& heights) {
+    failure.motion = motion;
+    failure.heights = heights;
+  };
   try {
     StageCalls(*failure.plan->model, simulation, failure.plan->stages.front(), 1, std::move(hooks)).run();
   } catch (const RunError& error) {

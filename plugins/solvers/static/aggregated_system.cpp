@@ -1,4 +1,5 @@
 #include "aggregated_system.hpp"
+#include "height_change.hpp"
 
 namespace hyperlattice::statics {
 
@@ -12,8 +13,9 @@ double AggregatedSystem::linearise(const Field& displacement, Field& force) {
   return ListedSystem::linearise(displacement, force);
 }
 
-/// Whether no spring has been strained or turned much on the way from made_at_.
+/// Whether no spring has been strained or turned much on the way from made_at_, and heights are held as there.
 bool AggregatedSystem::is_near(const Field& displacement) const {
+  if (holds_heights_otherwise(largest_pull() + pull_made_at_, softest_height())) return false;
   constexpr double little = 0.02;
   const auto places = static_cast<std::size_t>(grid().places);
   for (const StaticSpring& spring : grid().springs) {
@@ -34,6 +36,7 @@ void AggregatedSystem::prepare() {
   below_.reset();
   below_.emplace(rows(), smoother_->blocks());
   made_at_ = present_;
+  pull_made_at_ = largest_pull();
 }
 
 /// What cannot move, or has no stiffness, has a row of its own; so each particle has as many rows.

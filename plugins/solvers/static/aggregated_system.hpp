@@ -20,6 +20,7 @@ class AggregatedSystem : public ListedSystem {
   bool is_near(const Field& displacement) const;
 
   Field present_, made_at_;  ///< displacements: of the tangent, and of the one that the levels were made for; empty: none
+  double pull_made_at_ = 0;  ///< largest_pull() there
   std::optional<BlockSmoother> smoother_;
   std::optional<Aggregation> below_;
   Field rest_;

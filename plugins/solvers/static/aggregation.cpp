@@ -1,8 +1,7 @@
 #include "aggregation.hpp"
 
+#include "block_inverse.hpp"
 #include "chebyshev.hpp"
-
-#include <Eigen/Dense>
 
 #include <numeric>
 
@@ -22,7 +21,19 @@ void for_entries(const SparseRows& K, int node, int components, const Visit& vis
       visit(static_cast<int>(entry.col()) / components, a, static_cast<int>(entry.col()) % components, entry.value());
 }
 
-/// How stiffly nodes are joined: the norm of the block between them, other than 0.
+std::vector<double> units_of_height(const SparseRows& K, int components) {
+  std::vector<double> units;
+  for (int node = 0; components == 4 && node < static_cast<int>(K.rows()) / components; ++node) {
+    double own[4] = {};
+    for_entries(K, node, components, [&](int there, int a, int b, double value) {
+      if (there == node && a == b) own[a] = value;
+    });
+    units.push_back(unit_of_height(std::max({own[0], own[1], own[2]}), own[3]));
+  }
+  return units;
+}
+
+/// How stiffly nodes are joined: the norm of the block between them, other than 0, with heights in each node's own unit.
 struct Graph {
   std::vector<int> first{0}, other;
   std::vector<double> norm, own;
@@ -31,9 +42,12 @@ struct Graph {
     const int nodes = static_cast<int>(K.rows()) / components;
     std::vector<double> sum(static_cast<std::size_t>(nodes), 0);
     std::vector<int> met;
+    const std::vector<double> height = units_of_height(K, components);
+    const auto unit = [&](int node, int component) { return component == 3 ? height[static_cast<std::size_t>(node)] : 1; };
     for (int node = 0; node < nodes; ++node) {
       met.clear();
-      for_entries(K, node, components, [&](int there, int, int, double value) {
+      for_entries(K, node, components, [&](int there, int a, int b, double value) {
+        value *= unit(node, a) * unit(there, b);
         double& square = sum[static_cast<std::size_t>(there)];
         if (square == 0 && value != 0) met.push_back(there);
         square += value * value;
@@ -115,11 +129,11 @@ NodeBlocks blocks_of(const SparseRows& K, std::size_t components) {
   NodeBlocks blocks{components, std::vector<double>(static_cast<std::size_t>(K.rows()) * components, 0)};
   const auto size = static_cast<Eigen::Index>(components);
   for (int node = 0; node < static_cast<int>(K.rows() / size); ++node) {
-    Eigen::MatrixXd block = Eigen::MatrixXd::Zero(size, size);
+    Eigen::Matrix4d block = Eigen::Matrix4d::Zero();
     for_entries(K, node, static_cast<int>(size), [&](int there, int a, int b, double value) {
       if (there == node) block(a, b) = value;
     });
-    const Eigen::MatrixXd inverse = block.inverse();
+    const Eigen::Matrix4d inverse = BlockInverse(block).inverse;
     for (Eigen::Index a = 0; a < size; ++a)
       for (Eigen::Index b = 0; b < size; ++b)
         blocks.inverse[(static_cast<std::size_t>(node) * components + static_cast<std::size_t>(a)) * components + static_cast<std::size_t>(b)] =
@@ -207,9 +221,7 @@ Aggregation::Aggregation(const SparseRows& finest, const NodeBlocks& finest_bloc
   } while (K->rows() > few_rows && levels_.size() < most_levels);
   if (levels_.empty()) return;
   constexpr double shift = 1e-9;  // where nothing holds the body
-  Eigen::SparseMatrix<double> last = levels_.back()->K;
-  for (Eigen::Index row = 0; row < last.rows(); ++row) last.coeffRef(row, row) *= 1 + shift;
-  coarsest_.compute(last);
+  coarsest_.compute(levels_.back()->K, shift);
 }
 
 Aggregation::~Aggregation() = default;

@@ -3,9 +3,8 @@
 // particles. Translations and heights alone: with rotations too, coarse levels would be four times as large, for few iterations less.
 #pragma once
 
+#include "factorisation.hpp"
 #include "fields.hpp"
-
-#include <Eigen/SparseCholesky>
 
 #include <memory>
 
@@ -35,7 +34,7 @@ class Aggregation {
   void cycle(std::size_t level);
 
   std::vector<std::unique_ptr<Level>> levels_;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> coarsest_;
+  Factorisation coarsest_;
 };
 
 }  // namespace hyperlattice::statics

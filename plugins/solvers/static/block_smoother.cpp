@@ -1,8 +1,7 @@
 #include "block_smoother.hpp"
 
+#include "block_inverse.hpp"
 #include "chebyshev.hpp"
-
-#include <Eigen/Eigenvalues>
 
 namespace hyperlattice::statics {
 
@@ -16,9 +15,7 @@ BlockSmoother::BlockSmoother(const ListedSystem& system)
   estimate_largest();
 }
 
-/// Of a particle that hangs on two springs the block has no stiffness in a direction, or a negative one if these are compressed.
 void BlockSmoother::invert_blocks() {
-  constexpr double softest = 1e-3;  // of the largest stiffness
   inverse_.assign(system_.numbers() * components_, 0);
   added_ = inverse_;
   in_pieces(places_, system_.threads(), [&](std::size_t first, std::size_t last) {
@@ -30,19 +27,13 @@ void BlockSmoother::invert_blocks() {
             if (number % places_ == p && system_.is_unknown(number))
               block(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(number / places_)) = value;
           });
-      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> modes(block);
-      const double largest = modes.eigenvalues()[3];
-      if (!(largest > 0)) continue;
-      const Eigen::Vector4d flexibility = modes.eigenvalues().cwiseMax(softest * largest).cwiseInverse();
-      const Eigen::Vector4d more = (softest * largest - modes.eigenvalues().array()).cwiseMax(0.0);
-      const Eigen::Matrix4d added = modes.eigenvectors() * more.asDiagonal() * modes.eigenvectors().transpose();
-      const Eigen::Matrix4d inverse = modes.eigenvectors() * flexibility.asDiagonal() * modes.eigenvectors().transpose();
+      const BlockInverse own(block);
       for (std::size_t a = 0; a < components_; ++a)
         for (std::size_t b = 0; b < components_; ++b)
           if (system_.is_unknown(a * places_ + p) && system_.is_unknown(b * places_ + p)) {
             const auto row = static_cast<Eigen::Index>(a), column = static_cast<Eigen::Index>(b);
-            inverse_[(p * components_ + a) * components_ + b] = inverse(row, column);
-            added_[(p * components_ + a) * components_ + b] = added(row, column);
+            inverse_[(p * components_ + a) * components_ + b] = own.inverse(row, column);
+            added_[(p * components_ + a) * components_ + b] = own.added(row, column);
           }
     }
   });

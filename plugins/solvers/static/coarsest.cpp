@@ -1,12 +1,12 @@
 #include "coarsest.hpp"
 
-#include <Eigen/SparseCholesky>
+#include "factorisation.hpp"
 
 namespace hyperlattice::statics {
 
 struct Coarsest::Factor {
   std::vector<std::size_t> numbers;  ///< of a field, that have stiffness
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> of;
+  Factorisation of;
 };
 
 Coarsest::Coarsest(const StencilLevel& level) : factor_(std::make_unique<Factor>()) {
@@ -28,16 +28,14 @@ Coarsest::Coarsest(const StencilLevel& level) : factor_(std::make_unique<Factor>
         for (std::size_t b = 0; b < 4; ++b) {
           const int row = row_of[4 * static_cast<std::size_t>(p) + a], column = row_of[4 * static_cast<std::size_t>(other) + b];
           if (row < 0 || column < 0 || block[4 * a + b] == 0 || (n == 0 && row < column)) continue;
-          double value = block[4 * a + b];
-          constexpr double shift = 1e-6;  // where interpolation has more freedom than the body
-          if (n == 0 && a == b) value *= 1 + shift;
-          entries.emplace_back(std::max(row, column), std::min(row, column), value);
+          entries.emplace_back(std::max(row, column), std::min(row, column), block[4 * a + b]);
         }
     }
   const auto size = static_cast<Eigen::Index>(factor_->numbers.size());
   Eigen::SparseMatrix<double> matrix(size, size);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  factor_->of.compute(matrix);
+  constexpr double shift = 1e-6;  // interpolation has more freedom than the body
+  factor_->of.compute(matrix, shift);
 }
 
 Coarsest::~Coarsest() = default;

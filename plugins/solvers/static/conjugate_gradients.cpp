@@ -8,6 +8,8 @@ void ConjugateGradients::start(const Field& b, const FreeMotions* without) {
   without_ = without;
   std::fill(x_.begin(), x_.end(), 0.0);
   r_ = b;
+  unit_ = power_of_two(largest(b));
+  for (double& value : r_) value /= unit_;
   if (without_ != nullptr) without_->remove_from(r_);
   first_ = true;
 }
@@ -28,6 +30,7 @@ bool ConjugateGradients::advance() {
   system_.multiply(p_.data(), q_.data());
   if (without_ != nullptr) without_->remove_from(q_);
   curvature_ = product(p_.data(), q_.data(), size_, threads);
+  sound_ = std::isfinite(rz) && std::isfinite(curvature_) && rz != 0;
   if (!(curvature_ > 0)) return false;
   last_step_ = product(r_.data(), p_.data(), size_, threads) / curvature_;
   in_pieces(size_, threads, [&](std::size_t first, std::size_t last) {

@@ -54,7 +54,7 @@ void diagonal_of(const RowOfSprings& s, const Triangles& blocks) {
   }
 }
 
-/// 1 / pivot; 0 for one that vanishes beside the largest, which belongs to nothing that has stiffness.
+/// 1 / pivot; 0 for one that vanishes beside the block's largest number of its kind, which belongs to nothing that has stiffness.
 [[gnu::always_inline]] inline double inverse_of(double pivot, double least) { return pivot > least ? 1 / pivot : 0.0; }
 
 [[gnu::always_inline]] inline double larger(double a, double b) { return a > b ? a : b; }
@@ -78,11 +78,12 @@ void invert_each(std::int64_t count, const std::uint8_t* free, const Triangles& 
       zh = fz * fh * double(n[at_zh][t]);
       hh = fh * double(n[at_hh][t]);
     }
-    const double least = 1e-7 * larger(larger(xx, yy), larger(zz, hh));
+    // Heights may be a billion times as stiff as space, or as soft: each kind is measured by itself.
+    const double least = 1e-7 * larger(larger(xx, yy), zz), least_height = 1e-7 * hh;
     const double dx = inverse_of(xx, least), lyx = xy * dx, lzx = xz * dx, lhx = xh * dx;
     const double dy = inverse_of(yy - lyx * xy, least), byz = yz - lyx * xz, byh = yh - lyx * xh, lzy = byz * dy, lhy = byh * dy;
     const double dz = inverse_of(zz - lzx * xz - lzy * byz, least), bzh = zh - lzx * xh - lzy * byh, lhz = bzh * dz;
-    const double dh = inverse_of(hh - lhx * xh - lhy * byh - lhz * bzh, least);
+    const double dh = inverse_of(hh - lhx * xh - lhy * byh - lhz * bzh, least_height);
     const double myx = -lyx, mzy = -lzy, mhz = -lhz, mzx = lzy * lyx - lzx, mhy = lhz * lzy - lhy, mhx = -(lhx + lhy * myx + lhz * mzx);
     n[at_xx][t] = static_cast<float>(dx + dy * myx * myx + dz * mzx * mzx + dh * mhx * mhx);
     n[at_xy][t] = static_cast<float>(dy * myx + dz * mzx * mzy + dh * mhx * mhy);

@@ -1,7 +1,8 @@
 #include "factorised_system.hpp"
 
+#include "factorisation.hpp"
+
 #include <Eigen/IterativeLinearSolvers>
-#include <Eigen/SparseCholesky>
 
 #include <stdexcept>
 
@@ -15,7 +16,7 @@ using Matrix = Eigen::SparseMatrix<double>;
 
 struct FactorisedSystem::Factors {
   bool whole = true;
-  Eigen::SimplicialLDLT<Matrix> ldlt;
+  Factorisation ldlt;
   Eigen::IncompleteCholesky<double> incomplete;
 };
 
@@ -38,21 +39,19 @@ void FactorisedSystem::prepare() {
   const auto size = static_cast<Eigen::Index>(unknowns_.size());
   Matrix lower(size, size);
   lower.reserve(static_cast<Eigen::Index>(blocks() * components * components / 2 + unknowns_.size()));
-  constexpr double shift = 1e-9;  // where nothing holds the body
   for (Eigen::Index column = 0; column < size; ++column) {
     lower.startVec(column);
     for_row(unknowns_[static_cast<std::size_t>(column)], [&](std::size_t number, double value) {  // the row is the column: K is symmetric
       const int row = row_of[number];
-      if (row >= column) lower.insertBack(row, column) = row == column ? value * (1 + shift) : value;
+      if (row >= column) lower.insertBack(row, column) = value;
     });
   }
   lower.finalize();
-  if (factors_->whole) {
-    factors_->ldlt.compute(lower);
-    if (factors_->ldlt.info() != Eigen::Success) throw std::runtime_error("the tangent cannot be factorised");
-  } else {
-    factors_->incomplete.compute(lower);
-  }
+  constexpr double shift = 1e-9;  // where nothing holds the body
+  if (factors_->whole) return factors_->ldlt.compute(lower, shift);
+  factors_->incomplete.compute(lower);  // it shifts the diagonal by itself
+  if (factors_->incomplete.info() != Eigen::Success)
+    throw std::runtime_error("the tangent has no incomplete factorisation: preconditioner \"multigrid\" or \"whole\" may do");
 }
 
 void FactorisedSystem::apply(const Field& r, Field& z) {

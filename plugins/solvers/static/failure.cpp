@@ -6,27 +6,52 @@ namespace hyperlattice::statics {
 namespace {
 
 /// Where a motion is largest, along what, and how much of the body takes part in it.
-std::string motion_text(const StaticProblem& problem, const Field& motion) {
-  const StaticGrid& grid = problem.grid;
-  const auto component = [&](std::int64_t c, std::int64_t p) { return motion[static_cast<std::size_t>(c * grid.places + p)]; };
-  const auto along = [&](std::int64_t p) { return Vec3{component(0, p), component(1, p), component(2, p)}; };
-  double largest = 0, height = 0;
-  std::int64_t place = grid.origin;
-  for (std::int64_t p = 0; p < grid.places; ++p) {
-    if (grid.components == 4) height = std::max(height, std::abs(component(3, p)));
-    if (norm(along(p)) <= largest) continue;
-    largest = norm(along(p));
-    place = p;
+class MotionText {
+ public:
+  MotionText(const StaticProblem& problem, const Field& motion) : problem_(problem), motion_(motion) {
+    const StaticGrid& grid = problem.grid;
+    for (std::int64_t p = 0; p < grid.places; ++p) {
+      take_larger(space_, norm(in_space(p)), p);
+      if (grid.components == 4) take_larger(height_, height(p), p);
+    }
   }
-  if (largest <= 0.1 * height) return "that motion is one of the fourth dimension, of the membranes";
-  std::uint64_t all = 0, many = 0;
-  for (std::int64_t p = 0; p < grid.places; ++p) {
-    if (grid.free[p] != 0) ++all;
-    if (norm(along(p)) >= 0.5 * largest) ++many;
+  bool is_nothing() const { return space_.size == 0 && height_.size == 0; }
+  bool wrinkles() const { return space_.size <= 0.1 * height_.size; }
+  std::string text() const {
+    if (wrinkles())
+      return "that motion is one of the fourth dimension, of the membrane, largest at " + place_text(height_) + ", and " +
+             part_text([&](std::int64_t p) { return height(p) >= 0.5 * height_.size; });
+    return "that motion is largest at " + place_text(space_) + ", along " + direction_text(in_space(space_.place)) + ", and " +
+           part_text([&](std::int64_t p) { return norm(in_space(p)) >= 0.5 * space_.size; });
   }
-  return "that motion is largest at " + short_vector(problem.position(place), 6) + " m, along " + direction_text(along(place)) + ", and " +
-         short_number(100 * static_cast<double>(many) / static_cast<double>(all), 2) + "% of the particles that are free move at least half as far";
-}
+
+ private:
+  struct Largest {
+    double size = 0;
+    std::int64_t place = 0;
+  };
+  static void take_larger(Largest& largest, double size, std::int64_t place) {
+    if (size > largest.size) largest = {size, place};
+  }
+  double component(std::int64_t c, std::int64_t p) const { return motion_[static_cast<std::size_t>(c * problem_.grid.places + p)]; }
+  Vec3 in_space(std::int64_t p) const { return {component(0, p), component(1, p), component(2, p)}; }
+  double height(std::int64_t p) const { return std::abs(component(3, p)); }
+  std::string place_text(const Largest& largest) const { return short_vector(problem_.position(largest.place), 6) + " m"; }
+  template <class TakesPart>
+  std::string part_text(const TakesPart& takes_part) const {
+    std::uint64_t all = 0, many = 0;
+    for (std::int64_t p = 0; p < problem_.grid.places; ++p) {
+      if (problem_.grid.free[p] != 0) ++all;
+      if (takes_part(p)) ++many;
+    }
+    return short_number(std::round(100 * static_cast<double>(many) / static_cast<double>(all))) +
+           "% of the particles that are free move at least half as far";
+  }
+
+  const StaticProblem& problem_;
+  const Field& motion_;
+  Largest space_, height_;
+};
 
 }  // namespace
 
@@ -35,10 +60,14 @@ std::string failure_text(const StaticProblem& problem, double share, double time
   text += share == 0 ? "under its loads" : "beyond " + short_number(100 * share) + "% of the load, at " + short_number(time) + " s";
   text += ": " + found.why;
   if (found.direction.empty() || found.rigid) return text;
-  return text + "; " + motion_text(problem, found.direction) +
-         (found.buckles ? ". There the body buckles."
-          : share == 0  ? ". Supports may be missing, or parts not joined."
-                        : ". The body may buckle there.");
+  const MotionText motion(problem, found.direction);
+  if (motion.is_nothing()) return text;
+  return text + "; " + motion.text() +
+         (motion.wrinkles() ? ". There the body wrinkles in the fourth dimension: a membrane this soft holds its heights no longer under such a "
+                              "compression (docs/theory/mirror.md)."
+          : found.buckles   ? ". There the body buckles."
+          : share == 0      ? ". Supports may be missing, or parts not joined."
+                            : ". The body may buckle there.");
 }
 
 }  // namespace hyperlattice::statics

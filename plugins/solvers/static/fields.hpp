@@ -58,4 +58,13 @@ inline double largest(const Field& a) {
   return found;
 }
 
+inline double largest_magnitude(const Floats& a) {
+  float found = 0;
+  for (const float value : a) found = std::max(found, std::abs(value));
+  return static_cast<double>(found);
+}
+
+/// The largest one up to a size; 1 of what is zero or not finite.
+inline double power_of_two(double size) { return size > 0 && std::isfinite(size) ? std::exp2(std::ilogb(size)) : 1; }
+
 }  // namespace hyperlattice::statics

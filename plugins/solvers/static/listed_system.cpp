@@ -104,11 +104,13 @@ bool ListedSystem::is_unknown(std::size_t number) const {
   return (grid_.free[p] >> c & 1u) != 0 && block(find(place, place))[c * (components_ + 1)] > 0;
 }
 
-double ListedSystem::stiffest() const {
-  float found = 0;
-  for (const auto* numbers : {&axial_, &cross_axial_})
-    for (const float value : *numbers) found = std::max(found, std::abs(value));
-  return static_cast<double>(found);
+double ListedSystem::stiffest() const { return std::max(largest_magnitude(axial_), largest_magnitude(cross_axial_)); }
+
+double ListedSystem::softest_height() const {
+  double softest = infinity;
+  for (std::int64_t p = 0; components_ == 4 && p < grid_.places; ++p)
+    if ((grid_.free[p] >> 3 & 1u) != 0) softest = std::min(softest, block(find(p, p))[15]);
+  return softest;
 }
 
 void ListedSystem::for_springs(const Join& join) const {

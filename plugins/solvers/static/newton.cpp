@@ -42,6 +42,8 @@ Found Newton::search(double share, Field& displacement) {
       case Step::stopped:
         stopped_ = true;
         return {};
+      case Step::unsolved:
+        return {.hopeless = n == 0, .why = unsolved_text()};
       case Step::lost:
         return give_up(u, n == 0, "it has no stiffness against a motion", gradients_.direction());
       case Step::useless:  // what they found by then is for the most part the motion that they cannot resist
@@ -51,11 +53,31 @@ Found Newton::search(double share, Field& displacement) {
     }
     std::fill(change.begin(), change.end(), 0.0);
   }
+  return careful_ ? blame(u) : Found{};
+}
+
+/// Why a careful search failed: a motion that the last state which it came to does not resist, or none that is known.
+Found Newton::blame(const Field& u) {
+  system_.linearise(u, force_);
+  system_.prepare();
+  if (Field motion = softening_motion(system_, gradients_, u); !motion.empty())
+    return {.why = "Newton's method comes to states whose stiffness against a motion is negative", .buckles = true, .direction = std::move(motion)};
   return {.why = "Newton's method does not converge"};
 }
 
+/// Why conjugate gradients found no direction.
+std::string Newton::unsolved_text() const {
+  const double stiffest = system_.stiffest();
+  if (!std::isfinite(stiffest)) return "springs are stiffer than 3e38 N/m, more than the tangent's numbers hold";
+  if (stiffest == 0) return "no spring has a stiffness of at least 1e-38 N/m, the least that the tangent's numbers hold";
+  return "the linear equations of the tangent could not be solved";
+}
+
 Found Newton::give_up(const Field& u, bool hopeless, const char* why, const Field& direction) const {
-  if (FreeMotions::Driven rigid = FreeMotions(system_, u).driven_by(right_); !rigid.sentence.empty())
+  Field driving = right_;
+  const double unit = power_of_two(largest(driving));
+  for (double& value : driving) value /= unit;
+  if (FreeMotions::Driven rigid = FreeMotions(system_, u).driven_by(driving); !rigid.sentence.empty())
     return {.hopeless = hopeless,
             .why = std::move(rigid.sentence) + ", which the loads drive and nothing resists",
             .rigid = true,
@@ -127,13 +149,13 @@ Newton::Step Newton::step(const Field& change, Field& u) {
   Field moved(u.size());
   double next_look = std::max(first_look * start, done * limits_.tolerance * scale_);
   for (int n = 0; n < system_.most_iterations(); ++n) {
-    if (!gradients_.advance()) return Step::lost;
+    if (!gradients_.advance()) return gradients_.is_sound() ? Step::lost : Step::unsolved;
     ++report_.iterations;
     if (!host_.report(report_)) return Step::stopped;
-    const double left = largest(gradients_.residual());
-    if (!std::isfinite(left)) return Step::lost;
+    const double unit = gradients_.unit(), left = unit * largest(gradients_.residual());
+    if (!std::isfinite(left)) return Step::unsolved;
     if (left > next_look) continue;
-    for (std::size_t m = 0; m < moved.size(); ++m) moved[m] = gradients_.x()[m] + change[m];
+    for (std::size_t m = 0; m < moved.size(); ++m) moved[m] = unit * gradients_.x()[m] + change[m];
     if (!look(u, moved)) return !moves && go_along(moved, u) ? Step::better : Step::wild;
     if (report_.residual <= limits_.tolerance) {
       u = trial_;
@@ -144,7 +166,7 @@ Newton::Step Newton::step(const Field& change, Field& u) {
       return host_.report(report_) ? Step::at_rest : Step::stopped;
     }
     double bent = 0;  // what the tangent does not know
-    for (std::size_t m = 0; m < rest_.size(); ++m) bent = std::max(bent, std::abs(rest_[m] - gradients_.residual()[m]));
+    for (std::size_t m = 0; m < rest_.size(); ++m) bent = std::max(bent, std::abs(rest_[m] - unit * gradients_.residual()[m]));
     if (bent > agreement * left) {
       if (!moves) return go_along(moved, u) ? Step::better : Step::wild;
       u = trial_;  // what is held has to go there

@@ -36,12 +36,14 @@ class Newton {
   bool stopped() const { return stopped_; }  ///< the host asked to
 
  private:
-  enum class Step { at_rest, better, stopped, lost, useless, wild };
+  enum class Step { at_rest, better, stopped, unsolved, lost, useless, wild };
   Found search(double share, Field& displacement);
   Step step(const Field& change_of_held, Field& u);
   bool look(const Field& u, const Field& moved, double part = 1);
   bool go_along(const Field& moved, Field& u);
   Found give_up(const Field& u, bool hopeless, const char* why, const Field& direction) const;
+  Found blame(const Field& u);
+  std::string unsolved_text() const;
   Found check(const Field& u);
 
   System& system_;

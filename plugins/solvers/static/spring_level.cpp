@@ -1,5 +1,7 @@
 #include "spring_level.hpp"
 
+#include "height_change.hpp"
+
 #include <bit>
 
 namespace hyperlattice::statics {
@@ -50,7 +52,8 @@ double SpringLevel::linearise(const Field& displacement, Field& force) {
   invert_diagonal();
   constexpr float little = 0.02F;
   constexpr double bound = 2.02, slack = 1 + little;  // 2 holds for any sum of springs that are not compressed, see StiffnessBound
-  new_ = moved_when_prepared_.empty() || largest_change() > little;
+  largest_pull_ = grid_.components == 4 && deformed_ ? largest_magnitude(pull_) : 0;
+  new_ = moved_when_prepared_.empty() || largest_change() > little || holds_heights_otherwise(largest_pull_ + pull_when_prepared_, softest_height_);
   if (new_)
     largest_eigenvalue_ = deformed_ ? std::max(bound, power_iteration()) : bound;
   else
@@ -60,6 +63,7 @@ double SpringLevel::linearise(const Field& displacement, Field& force) {
 
 void SpringLevel::prepared() {
   moved_when_prepared_ = moved_;
+  pull_when_prepared_ = largest_pull_;
   new_ = false;
 }
 
@@ -128,12 +132,7 @@ bool SpringLevel::has_spring(std::size_t neighbour, std::int64_t place) const {
   return there(axial_) || there(pull_) || there(cross_axial_) || there(cross_pull_);
 }
 
-double SpringLevel::stiffest() const {
-  float found = 0;
-  for (const auto* numbers : {&axial_, &cross_axial_})
-    for (const float value : *numbers) found = std::max(found, std::abs(value));
-  return static_cast<double>(found);
-}
+double SpringLevel::stiffest() const { return std::max(largest_magnitude(axial_), largest_magnitude(cross_axial_)); }
 
 bool SpringLevel::tangent(std::size_t neighbour, std::int64_t place, SpringBlocks& blocks) const {
   if (!has_spring(neighbour, place)) return false;
@@ -202,6 +201,9 @@ void SpringLevel::invert_diagonal() {
       row_kernels_->diagonal(springs, grid_.components, diagonal(static_cast<std::size_t>(first)));
     }
   });
+  softest_height_ = infinity;
+  for (std::size_t p = 0; grid_.components == 4 && p < places; ++p)
+    if ((grid_.free[p] >> 3 & 1u) != 0) softest_height_ = std::min(softest_height_, static_cast<double>(diagonal_[diagonal_.size() - places + p]));
   in_pieces(places, threads_, [&](std::size_t first, std::size_t last) {
     row_kernels_->invert(static_cast<std::int64_t>(last - first), grid_.components, grid_.free + first, diagonal(first));
   });

@@ -23,8 +23,8 @@ class SpringLevel : public Level {
   void mask(double* x) const override;
   double largest_eigenvalue() const override { return largest_eigenvalue_; }
 
-  /// Whether the tangents are still about those when this was last said to be new: since then no spring was strained or turned by more than a
-  /// little. What was prepared for those tangents then serves for these.
+  /// Whether the tangents are no longer about those when this was last said to be new: a spring was strained or turned by more than a little, or
+  /// heights are held otherwise. What was prepared for those tangents then serves for these.
   bool is_new() const { return new_; }
   void prepared();
 
@@ -48,7 +48,9 @@ class SpringLevel : public Level {
   std::vector<Direction> directions_;  ///< to each neighbour
   TangentRows rows_;
   Floats axial_, pull_, cross_axial_, cross_pull_, alpha_;
-  Floats moved_, moved_when_prepared_;  ///< displacements in lattice constants, by component and place
+  Floats moved_, moved_when_prepared_;                ///< displacements in lattice constants, by component and place
+  double largest_pull_ = 0, pull_when_prepared_ = 0;  ///< N/m, of base springs where heights can move
+  double softest_height_ = infinity;                  ///< N/m, least stiffness of a height
   bool new_ = true;
   bool deformed_ = false;
   double largest_eigenvalue_ = 2;

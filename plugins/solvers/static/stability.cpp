@@ -27,7 +27,7 @@ Field softening_motion(System& system, ConjugateGradients& gradients, const Fiel
   const FreeMotions free(system, displacement);
   const Field rough = rough_field(system);
   gradients.start(rough, &free);
-  for (int n = 0; n < system.most_iterations() && largest(gradients.residual()) > solved; ++n) {
+  for (int n = 0; n < system.most_iterations() && gradients.unit() * largest(gradients.residual()) > solved; ++n) {
     if (gradients.advance()) continue;
     const Field& p = gradients.direction();
     const double size = product(p.data(), p.data(), p.size(), system.threads());

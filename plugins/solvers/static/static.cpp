@@ -17,7 +17,8 @@ constexpr std::string_view preconditioner_names[] = {"automatic", "whole", "inco
 class Static {
  public:
   struct Options {
-    double tolerance = 1e-6, load_steps = 1, most_cutbacks = 10;
+    double tolerance = 1e-6;
+    std::int64_t load_steps = 1, most_cutbacks = 10;
     std::optional<bool> stability;
     Preconditioner preconditioner = Preconditioner::automatic;
     std::optional<double> end_time;
@@ -37,12 +38,18 @@ class Static {
             "tolerance", "", "residual at which the body is at rest: largest out-of-balance force over the mean force on held or loaded particles")
         .positive()
         .fallback("1e-6")
-        .add<&Options::load_steps>("load_steps", "",
-                                   "equal steps from the loads of the stage's start to those of its end; a step that fails is cut in halves")
+        .add<&Options::load_steps>(
+            "load_steps", "",
+            "equal steps from the loads of the stage's start to those of its end; a step that fails is cut in halves; each is a "
+            "state of rest of its own, so more than a million would outlast any run in steps of time")
         .at_least(1)
+        .at_most(1e6)
         .fallback("1")
-        .add<&Options::most_cutbacks>("most_cutbacks", "", "times that a load step may be halved before the run fails")
+        .add<&Options::most_cutbacks>(
+            "most_cutbacks", "",
+            "times that a load step may be halved before the run fails; after 20 it is a millionth, which tells no load from the next")
         .at_least(0)
+        .at_most(20)
         .fallback("10")
         .add<&Options::stability>(
             "stability", "",
@@ -76,7 +83,7 @@ class Static {
     const std::unique_ptr<statics::System> system = system_of(*problem);
     statics::Newton newton(*system, host, {.tolerance = o_.tolerance, .stable = o_.stability.value_or(!facts.listed)});
     statics::Field u(problem->state, problem->state + problem->grid.numbers());
-    const double whole = 1 / std::floor(o_.load_steps), shortest = whole * std::exp2(-o_.most_cutbacks);
+    const double whole = 1 / static_cast<double>(o_.load_steps), shortest = whole * std::exp2(-static_cast<double>(o_.most_cutbacks));
     double share = 0, length = whole;
     while (share < 1) {
       constexpr double nearly = 1e-9;

@@ -21,17 +21,17 @@ Layout layout_of(const std::array<std::int64_t, 3>& sites, std::int64_t reach) {
 /// The inverse of a symmetric block. Rows without stiffness get zeros.
 void invert_block(const double* block, double* inverse) {
   constexpr int size = 4;
-  // Gauss-Jordan of a symmetric positive block; a pivot that vanishes beside the largest belongs to nothing that has stiffness
+  // Gauss-Jordan of a symmetric positive block; a pivot that vanishes beside the largest of its kind belongs to nothing that has stiffness. Heights
+  // may be a billion times as stiff as space, or as soft: each kind is measured by itself.
   double a[4][8] = {};
-  double scale = 0;
+  const double in_space = std::max({block[0], block[5], block[10]}), of_heights = block[15];
   for (int i = 0; i < size; ++i) {
-    scale = std::max(scale, block[i * size + i]);
     for (int j = 0; j < size; ++j) a[i][j] = block[i * size + j];
     a[i][4 + i] = 1;
   }
   bool empty[4] = {};
   for (int p = 0; p < size; ++p) {
-    if (!(a[p][p] > 1e-7 * scale) || scale == 0) {
+    if (!(a[p][p] > 1e-7 * std::max(p < 3 ? in_space : of_heights, 0.0))) {
       empty[p] = true;
       continue;
     }
