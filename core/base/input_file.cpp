@@ -3,22 +3,77 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <cerrno>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 
 namespace hyperlattice {
 
+namespace {
+
+const std::string too_large = fmt::format("it is larger than {} GB, the most that is read", largest_input >> 30);
+
+std::string fault_of(const struct stat& file) {
+  if (S_ISDIR(file.st_mode)) return "it is a folder";
+  if (!S_ISREG(file.st_mode)) return "it is a device or a pipe, and only regular files are read";
+  return static_cast<std::uint64_t>(file.st_size) > largest_input ? too_large : "";
+}
+
+std::string fault_of_error(int error) {
+  return error == ENOENT || error == ENOTDIR || error == ELOOP || error == ENAMETOOLONG ? "there is no such file" : "";
+}
+
+class Descriptor {
+ public:
+  explicit Descriptor(const std::filesystem::path& file) : number_(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)) {}
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int number() const { return number_; }
+
+ private:
+  int number_;
+};
+
+}  // namespace
+
+std::string input_file_fault(const std::filesystem::path& file) {
+  struct stat status {};
+  return ::stat(file.c_str(), &status) == 0 ? fault_of(status) : fault_of_error(errno);
+}
+
 std::string read_input_file(const std::filesystem::path& file, const std::string& pointer, const std::string& what) {
-  std::error_code error;
-  if (!std::filesystem::exists(file, error) || std::filesystem::is_directory(file, error))
-    throw InputError({{pointer, fmt::format("\"{}\"", file.string()), what + "; there is no such file"}});
-  errno = 0;
-  std::ifstream stream(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream.is_open() || stream.bad())
-    throw OutsideError(fmt::format("{} cannot be read: {}", file.string(), std::generic_category().message(errno)));
+  const auto refuse = [&](const std::string& why) {
+    return why.empty() ? void() : throw InputError({{pointer, fmt::format("\"{}\"", file.string()), what + "; " + why}});
+  };
+  const auto fail = [&](int error) {
+    return OutsideError(fmt::format("{} cannot be read: {}", file.string(), std::generic_category().message(error)));
+  };
+  refuse(input_file_fault(file));  // before it is opened, which itself may act on a device
+  const Descriptor descriptor(file);
+  if (descriptor.number() < 0) throw fail(errno);
+  struct stat status {};
+  if (::fstat(descriptor.number(), &status) != 0) throw fail(errno);
+  refuse(fault_of(status));
+  std::string text;
+  std::size_t filled = 0;
+  text.resize(static_cast<std::size_t>(status.st_size) + 1);  // one more, to see the end without another block
+  for (;;) {
+    const ssize_t count = ::read(descriptor.number(), text.data() + filled, text.size() - filled);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throw fail(errno);
+    if (count == 0) break;
+    filled += static_cast<std::size_t>(count);
+    if (filled > largest_input) refuse(too_large);
+    if (filled == text.size()) text.resize(std::max<std::size_t>(2 * filled, 4096));  // it grows, or its size is not known, as in /proc
+  }
+  text.resize(filled);
   return text;
 }
 

@@ -1,4 +1,5 @@
 #include <base/errors.hpp>
+#include <scene/unit_text.hpp>
 #include <scene/units.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -6,6 +7,7 @@
 
 #include <locale.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -39,7 +41,14 @@ constexpr Known known[] = {{"", "a number", "0.5"},
                            {"N/m", "a stiffness", "1 kN/m"},
                            {"J/m2", "an energy per area", "1 J/m2"},
                            {"Pa s", "a viscosity", "1 Pa s"},
-                           {"kg/s", "a damping coefficient", "1 kg/s"}};
+                           {"kg/s", "a damping coefficient", "1 kg/s"},
+                           {"rad/s", "an angular velocity", "1 rad/s"}};
+
+/// What may stand before a unit's symbol or name, once.
+constexpr std::string_view prefixes[] = {"yotta", "zetta", "exa",    "peta",   "tera", "giga", "mega",  "kilo", "hecto", "deca",  "deka",
+                                         "deci",  "centi", "milli",  "micro",  "nano", "pico", "femto", "atto", "zepto", "yocto", "Y",
+                                         "Z",     "E",     "P",      "T",      "G",    "M",    "k",     "h",    "da",    "d",     "c",
+                                         "m",     "u",     "\u00B5", "\u03BC", "n",    "p",    "f",     "a",    "z",     "y"};
 
 using Unit = std::unique_ptr<ut_unit, void (*)(ut_unit*)>;
 using Converter = std::unique_ptr<cv_converter, void (*)(cv_converter*)>;
@@ -59,6 +68,14 @@ class PlainNumbers {
   locale_t plain_, before_;
 };
 
+/// A unit by the base units, radians among them: "1e+06 kg.m-1.s-2". Empty if it is longer than any that is meant.
+std::string definition(const ut_unit* unit) {
+  char text[256];
+  const PlainNumbers plain;
+  const int length = ut_format(unit, text, sizeof text, UT_ASCII | UT_DEFINITION);
+  return length > 0 && length < static_cast<int>(sizeof text) ? std::string(text, static_cast<std::size_t>(length)) : std::string();
+}
+
 /// The units database; UDUNITS keeps its state in globals, so every use holds the lock.
 class Database {
  public:
@@ -67,12 +84,30 @@ class Database {
     return database;
   }
   std::mutex& lock() { return lock_; }
-  /// Null if unknown, and for units with an origin of their own ("seconds since 2000-01-01").
+  /// The unit that the grammar allows and whose symbols are known; null, with the reason in `problem`, if it is none.
+  Unit parse(std::string_view text, std::string& problem) const {
+    const UnitText read = read_unit(text);
+    problem = read.problem;
+    Unit unit(ut_get_dimensionless_unit_one(system_), ut_free);
+    for (const UnitFactor& factor : read.factors) {
+      if (!problem.empty()) break;
+      const Unit symbol = known_symbol(factor.symbol);
+      if (!symbol) {
+        problem = fmt::format("unknown unit {}", visible(factor.symbol));
+      } else if (definition(symbol.get()).find_first_of("@(") != std::string::npos) {
+        problem = fmt::format("{} does not begin at zero, or is a logarithm", visible(factor.symbol));
+      } else {
+        const Unit power(ut_raise(symbol.get(), factor.power), ut_free);
+        unit.reset(power ? ut_multiply(unit.get(), power.get()) : nullptr);
+        if (!unit) problem = fmt::format("{} cannot be computed with", visible(text));
+      }
+    }
+    if (!problem.empty()) unit.reset();
+    return unit;
+  }
   Unit parse(std::string_view text) const {
-    bool sane = text.size() <= 100 && text.find('\0') == std::string_view::npos;
-    for (const std::string_view origin : {"@", "since", "after", "from", "ref"}) sane = sane && text.find(origin) == std::string_view::npos;
-    const PlainNumbers plain;
-    return {sane ? ut_parse(system_, std::string(text).c_str(), UT_UTF8) : nullptr, ut_free};
+    std::string problem;
+    return parse(text, problem);
   }
 
  private:
@@ -82,14 +117,30 @@ class Database {
     system_ = ut_read_xml(nullptr);
     if (system_ == nullptr) throw OutsideError("the units database of UDUNITS-2 cannot be read; UDUNITS2_XML_PATH may name its udunits2.xml");
   }
+  bool knows(std::string_view symbol) const {
+    const std::string text(symbol);
+    return Unit(ut_get_unit_by_symbol(system_, text.c_str()), ut_free) || Unit(ut_get_unit_by_name(system_, text.c_str()), ut_free);
+  }
+  /// UDUNITS takes any number of prefixes, so that "mmm" would be a micrometre; here it is at most one.
+  Unit known_symbol(std::string_view symbol) const {
+    const bool known = knows(symbol) || std::any_of(std::begin(prefixes), std::end(prefixes), [&](std::string_view prefix) {
+                         return symbol.size() > prefix.size() && symbol.starts_with(prefix) && knows(symbol.substr(prefix.size()));
+                       });
+    const PlainNumbers plain;
+    return {known ? ut_parse(system_, std::string(symbol).c_str(), UT_UTF8) : nullptr, ut_free};
+  }
+
   ut_system* system_ = nullptr;
   std::mutex lock_;
 };
 
-/// Exactly the same dimension; UDUNITS alone would also convert between a unit and its reciprocal.
+/// Exactly the same dimension. UDUNITS alone would convert between a unit and its reciprocal, and takes radians for plain numbers, so that 60 turns a
+/// minute would be 6.28 Hz.
 bool same_dimension(const ut_unit* a, const ut_unit* b) {
   const Unit ratio(ut_divide(a, b), ut_free);
-  return ratio && ut_is_dimensionless(ratio.get()) != 0;
+  if (!ratio) return false;
+  const std::string text = definition(ratio.get());
+  return !text.empty() && text.find_first_not_of("0123456789.+-e ") == std::string::npos;
 }
 
 Dimension dimension_of(std::string_view text, const ut_unit* unit, const Database& database) {
@@ -100,12 +151,6 @@ Dimension dimension_of(std::string_view text, const ut_unit* unit, const Databas
     if (unit != nullptr && other && same_dimension(unit, other.get())) return {entry.name, entry.example};
   }
   return {fmt::format("a quantity in {}", text), fmt::format("1 {}", text)};
-}
-
-std::string_view trim(std::string_view text) {
-  constexpr std::string_view blank = " \t\r\n";
-  const auto first = text.find_first_not_of(blank);
-  return first == std::string_view::npos ? std::string_view() : text.substr(first, text.find_last_not_of(blank) - first + 1);
 }
 
 double parse(std::string_view number) {
@@ -136,26 +181,28 @@ Dimension dimension_of(std::string_view unit) {
 
 Quantity read_quantity(std::string_view text, std::string_view unit) {
   const auto problem = [](std::string sentence) { return Quantity{0, std::move(sentence)}; };
-  std::string_view rest = trim(text);
+  std::string_view rest = trim_blanks(text);
   if (rest.size() > 1 && rest.front() == '+' && rest[1] != '-') rest.remove_prefix(1);
   double number = 0;
   const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
   if (error == std::errc::result_out_of_range) return problem("the number is too large or too small for double precision");
   if (error != std::errc()) return problem("it does not begin with a number");
   if (!std::isfinite(number)) return problem("it is not finite");
-  const std::string_view digits = rest.substr(0, static_cast<std::size_t>(end - rest.data())), given = trim(rest.substr(digits.size()));
+  const std::string_view digits = rest.substr(0, static_cast<std::size_t>(end - rest.data())), given = trim_blanks(rest.substr(digits.size()));
   if (given.empty())
     return problem(unit.empty() ? "write a plain number without quotation marks" : "it has no unit; a plain number without quotation marks is SI");
+  if (given.front() == ',' || given.front() == '\'')
+    return problem(fmt::format("{} stands in the number: it has a decimal point, and nothing between thousands", visible(given.substr(0, 1))));
 
   Database& database = Database::instance();
   const std::lock_guard hold(database.lock());
-  const bool begins_with_number = std::string_view("0123456789.+-").find(given.front()) != std::string_view::npos;
-  const Unit from = begins_with_number && given.substr(0, 2) != "1/" ? Unit(nullptr, ut_free) : database.parse(given), to = database.parse(unit);
-  if (!from) return problem(fmt::format("unknown unit \"{}\"", given));
+  std::string why;
+  const Unit from = database.parse(given, why), to = database.parse(unit);
+  if (!from) return problem(why);
   if (!to) return problem(fmt::format("the option's own unit \"{}\" is unknown", unit));
   if (!same_dimension(from.get(), to.get())) return problem(fmt::format("it is {}", dimension_of(given, from.get(), database).name));
   const Converter converter(ut_get_converter(from.get(), to.get()), cv_free);
-  if (!converter) return problem(fmt::format("\"{}\" cannot be converted", given));
+  if (!converter) return problem(fmt::format("{} cannot be converted", visible(given)));
   const double value = convert(digits, converter.get());
   if (!std::isfinite(value)) return problem("the number is too large or too small for double precision");
   return {value, ""};
