@@ -2,6 +2,7 @@
 #include "commands.hpp"
 
 #include <base/errors.hpp>
+#include <scene/scene_plugins.hpp>
 
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
@@ -32,10 +33,14 @@ int main(int count, char** words) {
   CLI::App program("Simulates solids with the four-dimensional lattice spring model.", "hyperlattice");
   program.set_version_flag("--version", "hyperlattice " HYPERLATTICE_VERSION);
   program.footer("Exit codes: 0 done, 2 wrong input, 3 the run failed, 4 the outside failed (disk, memory, plugin), 130 interrupted.");
+  program.fallthrough();  // an option of the program may stand behind a command
+  bool no_plugins = false;
+  program.add_flag("--no-plugins", no_plugins, "refuse scenes that name \"plugins\", whose code would run: for scenes from elsewhere");
   const Command commands[] = {run_command(program),     plan_command(program),      plugins_command(program), schema_command(program),
                               analyze_command(program), calibrate_command(program), study_command(program),   report_command(program)};
   try {
     program.parse(count, words);
+    if (no_plugins) refuse_scene_plugins();
     for (const Command& command : commands)
       if (command.arguments->parsed()) return command.act();
   } catch (const CLI::ParseError& error) {

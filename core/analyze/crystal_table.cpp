@@ -1,11 +1,14 @@
 #include <analyze/crystals.hpp>
 #include <base/csv.hpp>
+#include <base/input_file.hpp>
+
+#include <hyperlattice/tables.hpp>
 
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 #include <array>
-#include <fstream>
+#include <sstream>
 
 namespace hyperlattice {
 
@@ -17,19 +20,15 @@ struct Columns {
   std::optional<std::size_t> reliability;
 };
 
-std::optional<Columns> columns_of(const std::vector<std::string>& header, const std::string& file, Faults& faults) {
-  const auto find = [&](const std::string& name) -> std::optional<std::size_t> {
-    const auto found = std::find(header.begin(), header.end(), name);
-    return found == header.end() ? std::nullopt : std::optional<std::size_t>(found - header.begin());
-  };
+std::optional<Columns> columns_of(const TableColumns& header, const std::string& file, Faults& faults) {
   const std::size_t before = faults.size();
   Columns columns;
   for (std::size_t n = 0; n < columns.at.size(); ++n)
-    if (const auto place = find(Columns::names[n]))
+    if (const auto place = header.find(Columns::names[n]))
       columns.at[n] = *place;
     else
-      faults.add(file + ":1", "", fmt::format("a column {}, named in the first line", Columns::names[n]));
-  columns.reliability = find("reliability");
+      faults.add(file + ":1", header.text(), fmt::format("a column {}, named in the first line", Columns::names[n]));
+  columns.reliability = header.find("reliability");
   return faults.size() > before ? std::nullopt : std::optional(columns);
 }
 
@@ -60,18 +59,18 @@ std::optional<Crystal> crystal_of(const std::vector<std::string>& cells, const C
 }  // namespace
 
 std::vector<Crystal> read_crystals(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  if (!stream) throw InputError({{"--crystals", file.string(), "a file that can be read"}});
+  std::istringstream stream(read_input_file(file, "--crystals", "a table of crystals"));
   Faults faults;
   std::vector<Crystal> crystals;
+  std::optional<TableColumns> header;
   std::optional<Columns> columns;
   std::string line;
   for (int number = 1; std::getline(stream, line); ++number) {
-    if (number == 1) {
-      columns = columns_of(csv_cells(line), file.string(), faults);
+    if (!header) {
+      columns = columns_of(header.emplace(line), file.string(), faults);
       faults.throw_if_any();
-    } else if (!line.empty() && line != "\r") {
-      if (auto crystal = crystal_of(csv_cells(line), *columns, fmt::format("{}:{}", file.string(), number), faults)) crystals.push_back(*crystal);
+    } else if (!TableColumns::is_empty(line)) {
+      if (auto crystal = crystal_of(header->cells(line), *columns, fmt::format("{}:{}", file.string(), number), faults)) crystals.push_back(*crystal);
     }
   }
   if (crystals.empty() && faults.empty()) faults.add(file.string(), "", "at least one crystal");

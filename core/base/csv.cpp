@@ -1,43 +1,26 @@
 #include <base/csv.hpp>
 
-#include <algorithm>
-#include <charconv>
-#include <cmath>
+#include <hyperlattice/tables.hpp>
 
 namespace hyperlattice {
 
-std::vector<std::string> csv_cells(std::string_view line) {
-  std::vector<std::string> cells(1);
-  for (const char c : line)
-    if (c == ',')
-      cells.emplace_back();
-    else if (c != '\r')
-      cells.back() += c;
-  return cells;
-}
+std::vector<std::string> csv_cells(std::string_view line) { return TableColumns(line).names(); }
 
-std::optional<double> csv_number(std::string_view cell) {
-  double number = 0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
-  if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(number)) return std::nullopt;
-  return number;
-}
+std::optional<double> csv_number(std::string_view cell) { return table_number(cell); }
 
-std::optional<std::size_t> CsvTable::column(std::string_view name) const {
-  const auto found = std::find(columns.begin(), columns.end(), name);
-  return found == columns.end() ? std::nullopt : std::optional<std::size_t>(found - columns.begin());
-}
+std::optional<std::size_t> CsvTable::column(std::string_view name) const { return find_column(columns, name); }
 
 CsvTable parse_csv(std::string_view text) {
   CsvTable table;
+  std::optional<TableColumns> columns;
   for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end + 1) {
     end = std::min(text.find('\n', begin), text.size());
     const std::string_view line = text.substr(begin, end - begin);
-    if (line.empty() || line == "\r") continue;
-    if (table.columns.empty()) {
-      table.columns = csv_cells(line);
-    } else {
-      table.rows.push_back(csv_cells(line));
+    if (!columns) {
+      if (TableColumns::is_blank(line)) continue;
+      table.columns = columns.emplace(line).names();
+    } else if (!TableColumns::is_empty(line)) {
+      table.rows.push_back(columns->cells(line));
       table.rows.back().resize(table.columns.size());
     }
   }

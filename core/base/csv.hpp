@@ -1,4 +1,4 @@
-// Tables as text: cells between commas, the first line names the columns. No quotation marks: no table here has a comma within a cell.
+// Tables as text: the first line names the columns. How lines are cut into cells is the SDK's <hyperlattice/tables.hpp>.
 #pragma once
 
 #include <optional>
@@ -8,6 +8,7 @@
 
 namespace hyperlattice {
 
+/// The cells of a line that stands alone, such as a table's first.
 std::vector<std::string> csv_cells(std::string_view line);
 
 /// The cell's number; nothing if it is none, or not finite.
@@ -17,10 +18,11 @@ struct CsvTable {
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;  ///< each as long as the columns; short lines are filled with empty cells, what is too long is cut
 
+  /// The place of a column of that name, or else of one that differs in capital letters only.
   std::optional<std::size_t> column(std::string_view name) const;
 };
 
-/// Empty lines count for nothing.
+/// Blank lines and lines that begin with "#" count for nothing.
 CsvTable parse_csv(std::string_view text);
 
 }  // namespace hyperlattice

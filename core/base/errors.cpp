@@ -1,4 +1,5 @@
 #include <base/errors.hpp>
+#include <base/visible.hpp>
 
 #include <algorithm>
 #include <utility>
@@ -7,14 +8,19 @@ namespace hyperlattice {
 
 namespace {
 
+constexpr std::size_t longest_place = 200, longest_value = 300, longest_expectation = 2000;  // bytes: an input may be 4 GB of one name
+constexpr std::size_t most_lines = 100;
+
 std::string lines(const std::vector<Fault>& faults) {
   std::string text;
-  for (const Fault& fault : faults) {
+  for (std::size_t n = 0; n < std::min(faults.size(), most_lines); ++n) {
+    const Fault& fault = faults[n];
     if (!text.empty()) text += '\n';
-    text += fault.pointer.empty() ? "scene" : fault.pointer;
-    if (!fault.value.empty()) text += ": " + fault.value;
-    text += ": expected " + fault.expected;
+    text += fault.pointer.empty() ? "scene" : visible(fault.pointer, longest_place);
+    if (!fault.value.empty()) text += ": " + visible(fault.value, longest_value);
+    text += ": expected " + visible(fault.expected, longest_expectation);
   }
+  if (faults.size() > most_lines) text += "\n... and " + std::to_string(faults.size() - most_lines) + " faults more";
   return text;
 }
 
@@ -46,9 +52,13 @@ void Faults::throw_if_any() const {
 }
 
 std::string nearest(std::string_view name, const std::vector<std::string>& candidates) {
+  constexpr std::size_t longest = 100, most = 1000;  // comparing takes the product of both lengths, for each candidate
+  if (name.size() > longest || candidates.size() > most) return "";
   std::string best;
   std::size_t fewest = 2 + name.size() / 3;  // one more than what still counts as near
   for (const std::string& candidate : candidates) {
+    const std::size_t apart = std::max(name.size(), candidate.size()) - std::min(name.size(), candidate.size());
+    if (apart >= fewest) continue;
     const std::size_t count = edits(name, candidate);
     if (count < fewest && count < candidate.size()) {  // not if every letter would have to change
       fewest = count;

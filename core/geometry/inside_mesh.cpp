@@ -53,8 +53,8 @@ std::size_t InsideTest::row_of(double z) const {
   return std::min(static_cast<std::size_t>(std::max(0.0, share) * static_cast<double>(side_)), side_ - 1);
 }
 
-bool InsideTest::operator()(Vec3 p) const {
-  if (!(p.y >= low_.y && p.y <= high_.y && p.z >= low_.z && p.z <= high_.z && p.x >= low_.x && p.x <= high_.x)) return false;
+int InsideTest::winding(Vec3 p) const {
+  if (!(p.y >= low_.y && p.y <= high_.y && p.z >= low_.z && p.z <= high_.z && p.x >= low_.x && p.x <= high_.x)) return 0;
   int winding = 0;
   for (const std::uint32_t f : bins_[row_of(p.z) * side_ + column_of(p.y)]) {
     const Facet& facet = mesh_.facets[f];
@@ -72,7 +72,7 @@ bool InsideTest::operator()(Vec3 p) const {
     const double share = (p.y - up.y) / (down.y - up.y), x = up.x + share * (down.x - up.x);
     if (x >= p.x) winding += rises ? 1 : -1;
   }
-  return winding != 0;
+  return winding;
 }
 
 }  // namespace hyperlattice

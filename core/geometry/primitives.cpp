@@ -188,9 +188,11 @@ struct Stl {
   }
   static Region make(const Options& stl) {
     TriangleMesh mesh = read_stl(read_input_file(stl.file, "", "an STL file"), stl.scale);
-    if (const std::string fault = solid_fault(mesh); !fault.empty()) throw std::runtime_error(fault);
-    const SurfaceAreas areas = surface_areas(mesh);
+    const std::string fault = solid_fault(mesh);
+    if (!fault.empty() && !sections_are_solids(mesh)) throw std::runtime_error(fault);
+    const SurfaceAreas areas = fault.empty() ? surface_areas(mesh) : SurfaceAreas();  // unknown where solids touch
     const auto inside = std::make_shared<const InsideTest>(std::move(mesh));
+    if (const std::string turned = orientation_fault(*inside); !turned.empty()) throw std::runtime_error(turned);
     const Vec3 low = inside->low(), high = inside->high();
     Region region = solid(low, high, low, 0.5 * (low + high), [inside](Vec3 p) { return (*inside)(p); });
     region.outer_area = areas.outer;

@@ -3,11 +3,13 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <optional>
 #include <stdexcept>
 
 namespace hyperlattice {
@@ -26,8 +28,12 @@ class MeshBuilder {
     facet_[corners_++] = found->second;
     if (corners_ < 3) return;
     corners_ = 0;
-    if (facet_[0] != facet_[1] && facet_[1] != facet_[2] && facet_[2] != facet_[0]) mesh_.facets.push_back(facet_);
+    ++count_;
+    if (facet_[0] == facet_[1] || facet_[1] == facet_[2] || facet_[2] == facet_[0]) return;
+    mesh_.facets.push_back(facet_);
+    mesh_.numbers.push_back(count_);
   }
+  void begin_section() { mesh_.sections.push_back(mesh_.facets.size()); }
 
   TriangleMesh take() {
     if (mesh_.facets.empty()) throw std::runtime_error("it has no facets");
@@ -40,6 +46,7 @@ class MeshBuilder {
   std::map<std::array<double, 3>, std::uint32_t> known_;
   std::array<std::uint32_t, 3> facet_{};
   std::size_t corners_ = 0;
+  std::uint32_t count_ = 0;  // facets, those without area too
 };
 
 constexpr std::size_t header_bytes = 80, facet_bytes = 50;
@@ -52,13 +59,23 @@ Number little_endian(const char* bytes) {
   return number;
 }
 
+/// No byte of a text is 0, while the count behind a binary file's header has one up to 16 million facets.
+bool looks_like_text(std::string_view bytes) { return bytes.substr(0, header_bytes + 4).find('\0') == std::string_view::npos; }
+
 TriangleMesh read_binary(std::string_view bytes, double scale) {
+  if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) throw std::runtime_error("it is a text in UTF-16: save it in ASCII or UTF-8");
   if (bytes.size() < header_bytes + 4)
     throw std::runtime_error(fmt::format("it is cut short: {} bytes are less than the header of a binary STL", bytes.size()));
   const std::size_t facets = little_endian<std::uint32_t>(bytes.data() + header_bytes), needed = header_bytes + 4 + facets * facet_bytes;
   if (bytes.size() < needed)
-    throw std::runtime_error(fmt::format("it is cut short: {} facets need {} bytes, and it has {}", facets, needed, bytes.size()));
+    throw std::runtime_error(fmt::format("it is cut short: {} facets need {} bytes, and it has {}{}", facets, needed, bytes.size(),
+                                         looks_like_text(bytes) ? "; a text would begin with \"solid\"" : ""));
+  const std::string_view behind = bytes.substr(needed);  // some programs fill the file up
+  if (behind.find_first_not_of(std::string_view(" \t\r\n\0", 5)) != std::string_view::npos)
+    throw std::runtime_error(
+        fmt::format("it counts {} facets, and {} bytes stand behind them: are these several solids, or is the count wrong?", facets, behind.size()));
   MeshBuilder builder(scale);
+  builder.begin_section();
   for (std::size_t facet = 0; facet < facets; ++facet)
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const char* at = bytes.data() + header_bytes + 4 + facet * facet_bytes + 12 * (corner + 1);  // after the normal
@@ -67,20 +84,27 @@ TriangleMesh read_binary(std::string_view bytes, double scale) {
   return builder.take();
 }
 
-/// Words between blanks, with the line that they stand in.
+/// Words between blanks, with the line that they stand in. Capital letters are as good as small ones; lines end with LF, CR or both.
 class Words {
  public:
   explicit Words(std::string_view text) : text_(text) {}
 
   std::string_view next() {
-    while (at_ < text_.size() && is_blank(text_[at_])) line_ += text_[at_++] == '\n' ? 1u : 0u;
+    for (; at_ < text_.size() && is_blank(text_[at_]); ++at_) line_ += ends_line() ? 1U : 0U;
     const std::size_t begin = at_;
     while (at_ < text_.size() && !is_blank(text_[at_])) ++at_;
     return text_.substr(begin, at_ - begin);
   }
-  void skip_line() { at_ = std::min(text_.find('\n', at_), text_.size()); }
+  void skip_line() { at_ = std::min(text_.find_first_of("\r\n", at_), text_.size()); }
   void expect(std::string_view word) {
-    if (const auto found = next(); found != word) fail(fmt::format("\"{}\"", word), found);
+    if (const auto found = next(); !is(found, word)) fail(fmt::format("\"{}\"", word), found);
+  }
+  /// "endloop", or as some programs write it, "end loop".
+  void expect_end(std::string_view of) {
+    if (const auto found = next(); is(found, "end"))
+      expect(of);
+    else if (!is(found.substr(0, 3), "end") || !is(found.substr(3), of))
+      fail(fmt::format("\"end{}\"", of), found);
   }
   double number() {
     const auto word = next();
@@ -96,44 +120,72 @@ class Words {
   }
   std::string place() const { return fmt::format("line {}", line_); }
 
+  static bool is(std::string_view found, std::string_view word) {
+    const auto same = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b; };
+    return std::equal(found.begin(), found.end(), word.begin(), word.end(), same);
+  }
+  static bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
  private:
-  static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+  bool ends_line() const { return text_[at_] == '\n' || (text_[at_] == '\r' && text_.substr(at_ + 1, 1) != "\n"); }
+
   std::string_view text_;
   std::size_t at_ = 0, line_ = 1;
 };
 
+void read_facet(Words& words, MeshBuilder& builder) {
+  words.expect("normal");
+  for (int n = 0; n < 3; ++n) words.next();  // the order of the corners says it too
+  words.expect("outer");
+  words.expect("loop");
+  for (int corner = 0; corner < 3; ++corner) {
+    words.expect("vertex");
+    const double x = words.number(), y = words.number(), z = words.number();
+    builder.corner(x, y, z, words.place());
+  }
+  words.expect_end("loop");
+  words.expect_end("facet");
+}
+
+/// Sections from "solid" to "endsolid", one after the other: several solids, or patches of one surface.
 TriangleMesh read_text(std::string_view text, double scale) {
   MeshBuilder builder(scale);
   Words words(text);
-  words.expect("solid");
-  words.skip_line();  // its name
-  for (std::string_view word = words.next(); word != "endsolid"; word = words.next()) {
-    if (word != "facet") words.fail("\"facet\" or \"endsolid\"", word);
-    words.expect("normal");
-    for (int n = 0; n < 3; ++n) words.next();  // the order of the corners says it too
-    words.expect("outer");
-    words.expect("loop");
-    for (int corner = 0; corner < 3; ++corner) {
-      words.expect("vertex");
-      const double x = words.number(), y = words.number(), z = words.number();
-      builder.corner(x, y, z, words.place());
+  for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+    if (!Words::is(word, "solid")) words.fail("\"solid\" or the end", word);
+    words.skip_line();  // its name
+    builder.begin_section();
+    for (word = words.next(); !Words::is(word, "endsolid"); word = words.next()) {
+      if (Words::is(word, "end")) {
+        words.expect("solid");
+        break;
+      }
+      if (!Words::is(word, "facet")) words.fail("\"facet\" or \"endsolid\"", word);
+      read_facet(words, builder);
     }
-    words.expect("endloop");
-    words.expect("endfacet");
+    words.skip_line();
   }
   return builder.take();
 }
 
-/// Binary files may begin with "solid" too: their length tells.
-bool is_text(std::string_view bytes) {
-  if (!bytes.starts_with("solid")) return false;
-  if (bytes.size() < header_bytes + 4) return true;
+/// The text behind a byte order mark and blanks, if the file is one. Binary files may begin with "solid" too: their length and their count tell.
+std::optional<std::string_view> text_in(std::string_view bytes) {
+  constexpr std::string_view mark = "\xEF\xBB\xBF", solid = "solid";
+  const std::string_view whole = bytes.substr(bytes.starts_with(mark) ? mark.size() : 0);  // lines are counted from here
+  std::string_view text = whole;
+  while (!text.empty() && Words::is_blank(text.front())) text.remove_prefix(1);
+  if (!Words::is(text.substr(0, solid.size()), solid)) return std::nullopt;
+  if (bytes.size() < header_bytes + 4) return whole;
   const std::size_t facets = little_endian<std::uint32_t>(bytes.data() + header_bytes);
-  return bytes.size() != header_bytes + 4 + facets * facet_bytes;
+  const bool is_binary = bytes.size() == header_bytes + 4 + facets * facet_bytes || !looks_like_text(bytes);
+  return is_binary ? std::nullopt : std::optional(whole);
 }
 
 }  // namespace
 
-TriangleMesh read_stl(std::string_view bytes, double scale) { return is_text(bytes) ? read_text(bytes, scale) : read_binary(bytes, scale); }
+TriangleMesh read_stl(std::string_view bytes, double scale) {
+  const auto text = text_in(bytes);
+  return text ? read_text(*text, scale) : read_binary(bytes, scale);
+}
 
 }  // namespace hyperlattice

@@ -32,14 +32,23 @@ std::string values_text(const std::vector<std::uint64_t>& voxels_of) {
   return text;
 }
 
+/// What an image of the wrong size may be.
+std::string hint(std::size_t bytes, std::size_t voxels, VoxelType type) {
+  const bool is_short = type == VoxelType::uint8;
+  const std::size_t needed = voxels * bytes_of(type);
+  if (bytes == voxels * bytes_of(is_short ? VoxelType::uint16 : VoxelType::uint8))
+    return fmt::format("; its size is that of {}", is_short ? "uint16" : "uint8");
+  return bytes > needed && bytes - needed <= 65536 ? fmt::format("; if it begins with a header of {} bytes, cut that off", bytes - needed) : "";
+}
+
 }  // namespace
 
 VoxelSet::VoxelSet(std::string_view bytes, const Index& counts, VoxelType type, const std::vector<double>& values, Vec3 low, double edge)
     : counts_(counts), low_(low), edge_(edge) {
   const auto voxels = static_cast<std::size_t>(counts[0] * counts[1] * counts[2]), needed = voxels * bytes_of(type);
   if (bytes.size() != needed)
-    throw std::runtime_error(fmt::format("{} x {} x {} voxels of {} need {} bytes, and it has {}", counts[0], counts[1], counts[2],
-                                         type == VoxelType::uint8 ? "1 byte" : "2 bytes", needed, bytes.size()));
+    throw std::runtime_error(fmt::format("{} x {} x {} voxels of {} need {} bytes, and it has {}{}", counts[0], counts[1], counts[2],
+                                         type == VoxelType::uint8 ? "1 byte" : "2 bytes", needed, bytes.size(), hint(bytes.size(), voxels, type)));
   std::vector<bool> wanted(different, values.empty());
   wanted[0] = false;
   for (const double value : values) wanted[static_cast<std::size_t>(value)] = true;

@@ -1,3 +1,4 @@
+#include <base/visible.hpp>
 #include <scene/json.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -7,8 +8,10 @@ namespace hyperlattice {
 
 namespace {
 
-constexpr std::size_t deepest = 64;   // levels of nesting; far more than a scene needs, far less than the stack bears
-constexpr std::size_t longest = 100;  // bytes of a value in a message
+constexpr std::size_t largest = 64;     // MB of a document
+constexpr std::size_t deepest = 64;     // levels of nesting; far more than a scene needs, far less than the stack bears
+constexpr std::size_t longest = 100;    // bytes of a value in a message
+constexpr std::size_t widest = 10'000;  // keys of an object, which are searched one by one
 
 /// "line 3, column 7" of the byte at `offset`; columns count characters, not bytes.
 std::string place(std::string_view text, std::size_t offset) {
@@ -51,6 +54,10 @@ class Builder {
 
   bool key(std::string& name) {
     const Level& top = levels_.back();
+    if (top.container->size() == widest) {
+      faults_.add(top.pointer, "", fmt::format("at most {} keys in an object", widest));
+      return false;
+    }
     if (top.container->contains(name)) faults_.add(member(top.pointer, name), "", fmt::format("the key \"{}\" only once", name));
     key_ = std::move(name);
     return true;
@@ -115,6 +122,10 @@ class Builder {
 }  // namespace
 
 bool parse_json(std::string_view text, Json& json, Faults& faults) {
+  if (text.size() > largest << 20) {
+    faults.add("", "", fmt::format("JSON of at most {} MB", largest));
+    return false;
+  }
   Builder builder(text, json, faults);
   return Json::sax_parse(text.begin(), text.end(), &builder, nlohmann::detail::input_format_t::json, true, true);
 }
@@ -139,12 +150,6 @@ std::string word_in(const Json& object, const char* key) {
   return found != object.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
-std::string shown(const Json& value) {
-  std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
-  if (text.size() <= longest) return text;
-  std::size_t cut = longest;
-  while ((static_cast<unsigned char>(text[cut]) & 0xC0) == 0x80) --cut;  // not within a character
-  return text.substr(0, cut) + "...";
-}
+std::string shown(const Json& value) { return visible(value.dump(-1, ' ', false, Json::error_handler_t::replace), longest); }
 
 }  // namespace hyperlattice

@@ -7,10 +7,14 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <utility>
 
 namespace hyperlattice {
 
 namespace {
+
+constexpr std::size_t deepest = 64;      // sets within sets, which are followed level by level for every particle
+constexpr std::size_t largest = 10'000;  // regions of one set, all names written out, which may all be asked about every particle
 
 const std::string expected_region =
     "a region: a name, or an object with one key out of box, sphere, hollow_sphere, cylinder, half_space, stl, voxels, union, intersection, "
@@ -33,7 +37,9 @@ bool inverted(const Region& region) { return region.low.x > region.high.x || reg
 }  // namespace
 
 RegionReader::RegionReader(const Json& named, Regions& regions, Faults& faults, std::deque<std::string>& texts, std::filesystem::path folder)
-    : named_(named), regions_(regions), faults_(faults), texts_(texts), folder_(std::move(folder)) {}
+    : named_(named), regions_(regions), faults_(faults), texts_(texts), folder_(std::move(folder)) {
+  if (const auto all = regions_.find("all")) ids_.emplace("all", *all);
+}
 
 void RegionReader::read_named(Json& resolved) {
   for (const auto& item : named_.items()) {
@@ -60,14 +66,35 @@ std::shared_ptr<const Region> RegionReader::read_name(const std::string& name, c
     faults_.add(pointer, shown(name), "a region that does not refer to itself");
     return nullptr;
   }
+  if (!can_nest(member("/regions", name), level_ + 1)) return nullptr;
   under_way_.push_back(name);
+  ++level_;
   Json resolved;
   auto region = read(*expression, member("/regions", name), resolved);
+  --level_;
   under_way_.pop_back();
   done_[name] = region;
   resolved_[name] = resolved.dump();
-  if (region) regions_.add(region, name);
+  if (region) add(region, name);
   return region;
+}
+
+RegionReader::Extent RegionReader::extent_of(const std::shared_ptr<const Region>& region) const {
+  const auto found = extents_.find(region);
+  return found == extents_.end() ? Extent() : found->second;
+}
+
+RegionId RegionReader::add(const std::shared_ptr<const Region>& region, const std::string& name) {
+  const RegionId id = regions_.add(region, name);
+  ids_.emplace(name, id);
+  return id;
+}
+
+/// One fault, however many regions are too deep.
+bool RegionReader::can_nest(const std::string& pointer, std::size_t depth) {
+  if (depth <= deepest) return true;
+  if (!std::exchange(too_deep_, true)) faults_.add(pointer, "", fmt::format("at most {} levels of regions within regions", deepest));
+  return false;
 }
 
 std::shared_ptr<const Region> RegionReader::read(const Json& expression, const std::string& pointer, Json& resolved) {
@@ -121,7 +148,19 @@ std::shared_ptr<const Region> RegionReader::read_set(const SetOperation& operati
   for (std::size_t n = 0; n < parts.size(); ++n)
     if (auto region = read(parts[n], member(pointer, n), resolved[n])) regions.push_back(std::move(region));
   if (regions.size() != parts.size()) return nullptr;
+  Extent whole;
+  for (const auto& region : regions) {
+    const Extent part = extent_of(region);
+    whole.size += part.size;
+    whole.depth = std::max(whole.depth, part.depth + 1);
+  }
+  if (!can_nest(pointer, whole.depth)) return nullptr;
+  if (whole.size > largest) {
+    faults_.add(pointer, "", fmt::format("a set of at most {} regions; with all names written out it has {}", largest, whole.size));
+    return nullptr;
+  }
   auto set = make_set(operation.kind, std::move(regions));
+  extents_[set] = whole;
   if (set->is_solid() && inverted(*set)) {
     faults_.add(pointer, shown(parts), "parts that overlap");
     return nullptr;
@@ -133,8 +172,8 @@ std::optional<RegionId> RegionReader::read_id(const Json& expression, const std:
   auto region = read(expression, pointer, resolved);
   if (!region) return std::nullopt;
   const std::string name = resolved.is_string() ? resolved.get<std::string>() : resolved.dump();
-  if (const auto known = regions_.find(name)) return known;
-  return regions_.add(std::move(region), name);
+  if (const auto known = ids_.find(name); known != ids_.end()) return known->second;
+  return add(region, name);
 }
 
 const Shape* RegionReader::read_shape(const Json& expression, const std::string& pointer, Json& resolved) {

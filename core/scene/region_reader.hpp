@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <unordered_map>
 
 namespace hyperlattice {
 
@@ -40,6 +41,12 @@ class RegionReader {
  private:
   std::shared_ptr<const Region> read_name(const std::string& name, const std::string& pointer);
   std::shared_ptr<const Region> read_primitive(const std::string& key, const Json& parameters, const std::string& pointer, Json& resolved);
+  struct Extent {
+    std::size_t depth = 1, size = 1;  ///< levels of sets within sets; regions it is made of, all names written out; itself counted
+  };
+  bool can_nest(const std::string& pointer, std::size_t depth);
+  Extent extent_of(const std::shared_ptr<const Region>& region) const;
+  RegionId add(const std::shared_ptr<const Region>& region, const std::string& name);
   std::shared_ptr<const Region> read_set(const SetOperation& operation, const Json& parts, const std::string& pointer, Json& resolved);
 
   const Json& named_;
@@ -50,6 +57,10 @@ class RegionReader {
   std::map<std::string, std::shared_ptr<const Region>> done_;
   std::map<std::string, std::string> resolved_;  // JSON text of the named regions that are done
   std::vector<std::string> under_way_;
+  std::map<std::shared_ptr<const Region>, Extent> extents_;  // of sets
+  std::unordered_map<std::string, RegionId> ids_;            // of regions by name or expression
+  std::size_t level_ = 0;                                    // of sets within sets and names, where the reader is
+  bool too_deep_ = false;
 };
 
 }  // namespace hyperlattice

@@ -1,4 +1,5 @@
 #include <base/input_file.hpp>
+#include <scene/scene_plugins.hpp>
 #include <scene/scene_reader.hpp>
 
 namespace hyperlattice {
@@ -12,6 +13,7 @@ class HostCatalogue final : public Catalogue {
   std::string why_not(const std::string& type) const override { return host_.why_not(type); }
   bool refused(const std::string& type) const override { return host_.refused(type); }
   std::vector<std::string> known_types() const override { return host_.known_types(); }
+  bool allows_scene_plugins() const override { return !refuses_scene_plugins(); }
   std::vector<SearchOutcome> add_scene_paths(const std::vector<std::string>& entries, const std::filesystem::path& scene_folder) override {
     return host_.add_scene_paths(entries, scene_folder);
   }

@@ -54,7 +54,9 @@ class SceneReader {
   void read() {
     if (!given_.is_object()) return faults_.add("", shown(given_), "an object with format and pipeline");
     Json resolved;
-    OptionReader reader(given_, "", reading(), {"regions", "pipeline"});
+    OptionReader reader(given_, "", reading(), {"$schema", "regions", "pipeline"});
+    if (const auto schema = given_.find("$schema"); schema != given_.end() && !schema->is_string())
+      faults_.add("/$schema", shown(*schema), "the place of the JSON Schema that editors check the scene by");
     const OptionsPointer heading = reader.fill(option_set<HeadingSchema>(), resolved);
     if (heading) {
       const auto& given = *static_cast<const Heading*>(heading.get());
@@ -87,6 +89,8 @@ class SceneReader {
   void read_plugins(Json& resolved) {
     if (!given_.contains("plugins") || !given_["plugins"].is_array()) return;
     const Json& entries = given_["plugins"];
+    if (!catalogue_.allows_scene_plugins() && !entries.empty())
+      return faults_.add("/plugins", shown(entries), "no plugins of the scene's own, since --no-plugins was given");
     for (std::size_t n = 0; n < entries.size(); ++n) {
       if (!entries[n].is_string()) continue;
       const auto outcomes = catalogue_.add_scene_paths({entries[n].get<std::string>()}, scene_.file.parent_path());

@@ -13,6 +13,8 @@ class Catalogue {
   virtual std::string why_not(const std::string& type) const = 0;
   virtual bool refused(const std::string& type) const = 0;
   virtual std::vector<std::string> known_types() const = 0;
+  /// Whether a scene may name plugins of its own.
+  virtual bool allows_scene_plugins() const { return true; }
   /// Adds the scene's "plugins"; one outcome an entry.
   virtual std::vector<SearchOutcome> add_scene_paths(const std::vector<std::string>& entries, const std::filesystem::path& scene_folder) = 0;
 };

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 namespace hyperlattice {
 
@@ -163,14 +165,13 @@ void StageReader::check_order(const std::vector<std::optional<Family>>& families
 }
 
 void StageReader::give_names(std::vector<Stage>& stages, Json& resolved) {
-  std::map<Family, std::vector<std::string>> taken;
+  std::map<Family, std::set<std::string>> taken;
+  std::map<std::string, int> last_number;  // by type
   for (const Stage& stage : stages) {
     if (stage.name.empty()) continue;
-    auto& names = taken[stage.family()];
-    if (std::find(names.begin(), names.end(), stage.name) != names.end())
+    if (!taken[stage.family()].insert(stage.name).second)
       reading_.faults.add(member(stage.pointer, "name"), shown(stage.name),
                           fmt::format("a label of its own among the {}", family_name(stage.family())));
-    names.push_back(stage.name);
   }
   for (std::size_t n = 0; n < stages.size(); ++n) {
     Stage& stage = stages[n];
@@ -178,9 +179,8 @@ void StageReader::give_names(std::vector<Stage>& stages, Json& resolved) {
     const std::string type = stage.component->type(), label = type.substr(type.rfind('.') + 1);
     if (stage.name.empty()) {
       stage.name = label;
-      for (int number = 2; std::find(names.begin(), names.end(), stage.name) != names.end(); ++number)
-        stage.name = fmt::format("{}_{}", label, number);
-      names.push_back(stage.name);
+      for (int& number = last_number[type]; !names.insert(stage.name).second;)
+        stage.name = fmt::format("{}_{}", label, number = std::max(number, 1) + 1);
     }
     resolved[n]["name"] = stage.name;
   }

@@ -1,3 +1,4 @@
+#include <base/visible.hpp>
 #include <scene/unit_text.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -18,25 +19,6 @@ constexpr std::string_view symbols[] = {"%",      "_",      "\u00B5", "\u03BC",
 constexpr std::string_view raised[] = {"\u2070", "\u00B9", "\u00B2", "\u00B3", "\u2074", "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
 constexpr std::string_view raised_minus = "\u207B";
 
-/// Bytes of the character at the text's start: at least 1, at most what is there.
-std::size_t length_of_character(std::string_view text) {
-  std::size_t length = 1;
-  while (length < text.size() && (static_cast<unsigned char>(text[length]) & 0xC0) == 0x80) ++length;
-  return length;
-}
-
-std::uint32_t code_of(std::string_view character) {
-  const auto lead = static_cast<unsigned char>(character.front());
-  std::uint32_t code = character.size() == 1 ? lead : lead & (0x7FU >> character.size());
-  for (const char c : character.substr(1)) code = code << 6 | (static_cast<unsigned char>(c) & 0x3FU);
-  return code;
-}
-
-bool is_unseen(std::uint32_t code) {
-  return code < 0x20 || (code >= 0x7F && code <= 0xA0) || code == 0xAD || (code >= 0x2000 && code <= 0x200F) || (code >= 0x2028 && code <= 0x202F) ||
-         (code >= 0x205F && code <= 0x206F) || code == 0x3000 || code == 0xFEFF;
-}
-
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 class UnitReader {
@@ -46,9 +28,9 @@ class UnitReader {
   UnitText read() {
     if (take("1")) {
       skip_blanks();
-      if (!rest_.starts_with('/')) fail(fmt::format("a number stands where the unit should be: {}", visible(given_)));
+      if (!rest_.starts_with('/')) fail(fmt::format("a number stands where the unit should be: {}", quoted(given_)));
     } else if (!rest_.empty() && is_digit(rest_.front())) {
-      fail(fmt::format("a number stands where the unit should be: {}", visible(given_)));
+      fail(fmt::format("a number stands where the unit should be: {}", quoted(given_)));
     } else {
       read_product(1);
     }
@@ -78,11 +60,11 @@ class UnitReader {
     const std::string_view character = rest_.substr(0, length_of_character(rest_));
     const bool is_number = is_digit(character.front()) || ((character == "+" || character == "-") && rest_.size() > 1 && is_digit(rest_[1]));
     if (is_number)
-      fail(fmt::format("a number stands after the unit: {}", visible(rest_)));
+      fail(fmt::format("a number stands after the unit: {}", quoted(rest_)));
     else if (!problem.empty() && (is_symbol(rest_) > 0 || character == "("))
       fail(std::move(problem));
     else
-      fail(fmt::format("{} is no part of a unit", visible(character)));
+      fail(fmt::format("{} is no part of a unit", quoted(character)));
   }
 
   bool take(std::string_view token) {
@@ -183,7 +165,7 @@ class UnitReader {
 UnitText read_unit(std::string_view text) {
   text = trim_blanks(text);
   if (text.empty()) return {};
-  if (text.size() > longest_unit) return {{}, fmt::format("the unit is longer than {} bytes: {}", longest_unit, visible(text))};
+  if (text.size() > longest_unit) return {{}, fmt::format("the unit is longer than {} bytes: {}", longest_unit, quoted(text))};
   return UnitReader(text).read();
 }
 
@@ -197,17 +179,9 @@ std::string_view trim_blanks(std::string_view text) {
   return text;
 }
 
-std::string visible(std::string_view text) {
+std::string quoted(std::string_view text) {
   constexpr std::size_t most = 60;  // bytes
-  std::string shown = "\"";
-  for (std::size_t at = 0; at < text.size();) {
-    if (at >= most) return shown + "...\"";
-    const std::string_view character = text.substr(at, length_of_character(text.substr(at)));
-    const std::uint32_t code = code_of(character);
-    shown += is_unseen(code) ? fmt::format("U+{:04X}", code) : std::string(character);
-    at += character.size();
-  }
-  return shown + '"';
+  return '"' + visible(text, most) + '"';
 }
 
 }  // namespace hyperlattice

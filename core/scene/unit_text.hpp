@@ -27,7 +27,7 @@ UnitText read_unit(std::string_view text);
 /// The text without blanks at its ends, no-break spaces among them.
 std::string_view trim_blanks(std::string_view text);
 
-/// The text for a message: in quotation marks, cut if it is long, blanks and marks that nobody sees as "U+00A0".
-std::string visible(std::string_view text);
+/// The text for a message: in quotation marks, cut if it is long.
+std::string quoted(std::string_view text);
 
 }  // namespace hyperlattice

@@ -93,13 +93,13 @@ class Database {
       if (!problem.empty()) break;
       const Unit symbol = known_symbol(factor.symbol);
       if (!symbol) {
-        problem = fmt::format("unknown unit {}", visible(factor.symbol));
+        problem = fmt::format("unknown unit {}", quoted(factor.symbol));
       } else if (definition(symbol.get()).find_first_of("@(") != std::string::npos) {
-        problem = fmt::format("{} does not begin at zero, or is a logarithm", visible(factor.symbol));
+        problem = fmt::format("{} does not begin at zero, or is a logarithm", quoted(factor.symbol));
       } else {
         const Unit power(ut_raise(symbol.get(), factor.power), ut_free);
         unit.reset(power ? ut_multiply(unit.get(), power.get()) : nullptr);
-        if (!unit) problem = fmt::format("{} cannot be computed with", visible(text));
+        if (!unit) problem = fmt::format("{} cannot be computed with", quoted(text));
       }
     }
     if (!problem.empty()) unit.reset();
@@ -192,7 +192,7 @@ Quantity read_quantity(std::string_view text, std::string_view unit) {
   if (given.empty())
     return problem(unit.empty() ? "write a plain number without quotation marks" : "it has no unit; a plain number without quotation marks is SI");
   if (given.front() == ',' || given.front() == '\'')
-    return problem(fmt::format("{} stands in the number: it has a decimal point, and nothing between thousands", visible(given.substr(0, 1))));
+    return problem(fmt::format("{} stands in the number: it has a decimal point, and nothing between thousands", quoted(given.substr(0, 1))));
 
   Database& database = Database::instance();
   const std::lock_guard hold(database.lock());
@@ -202,7 +202,7 @@ Quantity read_quantity(std::string_view text, std::string_view unit) {
   if (!to) return problem(fmt::format("the option's own unit \"{}\" is unknown", unit));
   if (!same_dimension(from.get(), to.get())) return problem(fmt::format("it is {}", dimension_of(given, from.get(), database).name));
   const Converter converter(ut_get_converter(from.get(), to.get()), cv_free);
-  if (!converter) return problem(fmt::format("{} cannot be converted", visible(given)));
+  if (!converter) return problem(fmt::format("{} cannot be converted", quoted(given)));
   const double value = convert(digits, converter.get());
   if (!std::isfinite(value)) return problem("the number is too large or too small for double precision");
   return {value, ""};

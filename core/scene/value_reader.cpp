@@ -1,3 +1,4 @@
+#include <base/input_file.hpp>
 #include <scene/expectation.hpp>
 #include <scene/units.hpp>
 #include <scene/value_reader.hpp>
@@ -112,8 +113,7 @@ bool read_value(const Option& option, const Json& given, const std::string& poin
     case OptionKind::file: {
       if (!given.is_string()) return wrong();
       const std::filesystem::path file = std::filesystem::absolute(reading.regions.folder() / given.get<std::string>()).lexically_normal();
-      std::error_code error;
-      if (!std::filesystem::is_regular_file(file, error)) return wrong("; there is no such file as " + file.string());
+      if (const std::string fault = input_file_fault(file); !fault.empty()) return wrong(fmt::format("; {}: {}", fault, file.string()));
       plain.text = reading.texts.emplace_back(file.string());
       resolved = file.string();
       return true;

@@ -6,6 +6,8 @@
 #include <hyperlattice/neighbourhood.hpp>
 #include <hyperlattice/tables.hpp>
 
+#include <locale>
+#include <sstream>
 #include <stdexcept>
 
 namespace {
@@ -73,13 +75,27 @@ class Points {
     list.positions = positions;
     list.volumes = volumes;
     list.springs = springs;
-    list.spacing = list.membrane_distance = o_.spacing.value_or(mean_length(positions, springs));
+    const double length = mean_length(positions, springs);
+    list.spacing = list.membrane_distance = o_.spacing.value_or(length);
+    if (!(list.spacing >= length / most_apart && list.spacing <= length * most_apart))
+      throw std::invalid_argument("spacing is " + text(list.spacing) + " m, while the springs are " + text(length) +
+                                  " m long in the mean: expected a spacing between " + text(length / most_apart) + " and " +
+                                  text(length * most_apart) + " m");
     list.site_volume = o_.particle_volume.value_or(volumes.empty() ? std::pow(list.spacing, 3) : mean(volumes));
     list.shape = o_.shape.value_or(nullptr);
     sink.points(list);
   }
 
  private:
+  static constexpr double most_apart = 20;  // the surface is made of cubes of half a spacing
+
+  static std::string text(double length) {
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out << length;
+    return out.str();
+  }
+
   std::vector<ListedSpring> springs_of_file(std::size_t particles) const {
     static constexpr std::string_view ends[] = {"a", "b"}, more[] = {"stiffness"};
     const NumberTable table(*o_.springs, ends, more);

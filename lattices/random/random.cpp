@@ -32,7 +32,7 @@ class Dice {
 template <class Inside>
 std::vector<Vec3> throw_points(std::size_t count, Vec3 low, Vec3 high, double distance, bool periodic, Dice dice, const Inside& inside) {
   constexpr std::size_t most_misses = 2000000;  // in a row: then there is no room for another
-  Neighbourhood thrown(low, high, distance, periodic);
+  Neighbourhood thrown(low, high, distance, count, periodic);
   for (std::size_t misses = 0; thrown.points().size() < count;) {
     const Vec3 point = dice.point(low, high);
     bool free = inside(point);

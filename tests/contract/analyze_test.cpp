@@ -200,7 +200,7 @@ TEST(Analyze, CountsTheCrystals) {
 TEST(Analyze, RefusesBadTablesLineByLine) {
   const test::Folder folder("crystals");
   const std::string file = folder.file("table.csv");
-  expect_refused({"--crystals", folder.file("none.csv")}, {"none.csv", "a file that can be read"});
+  expect_refused({"--crystals", folder.file("none.csv")}, {"none.csv", "there is no such file"});
   std::ofstream(file) << "name,C11_GPa,C44_GPa\nX,3,1\n";
   expect_refused({"--crystals", file}, {"table.csv:1", "a column C12_GPa"});
   std::ofstream(file) << "name,C11_GPa,C12_GPa,C44_GPa\nX,3,one,1\nY,3\nZ,1,2,1\n";

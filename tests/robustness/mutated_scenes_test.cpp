@@ -1,11 +1,10 @@
 // Scenes damaged at random: the reader accepts them or says what is wrong; nothing else ever happens.
 #include "support/fake_components.hpp"
+#include "support/mutations.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <gtest/gtest.h>
-
-#include <random>
 
 using namespace hyperlattice;
 using Json = nlohmann::ordered_json;
@@ -44,43 +43,38 @@ void collect(const Json& value, const Json::json_pointer& at, std::vector<Json::
     for (std::size_t n = 0; n < value.size(); ++n) collect(value[n], at / n, places);
 }
 
-}  // namespace
+constexpr int quick = 5'000, thorough = 20'000;
 
-TEST(MutatedScenes, DamagedBytes) {
-  std::mt19937 random(11);
-  const auto below = [&](std::size_t n) { return std::uniform_int_distribution<std::size_t>(0, n - 1)(random); };
-  const std::string bytes = "{}[]\",:/\\0123456789.eE+- tnfu\n\x01\xC3\xFF";
+void damage_bytes(int usual) {
+  test::Damage damage(11);
   int count = 0;
-  for (int n = 0; n < 5'000; ++n) {
-    std::string text = good;
-    for (std::size_t changes = 1 + below(3); changes > 0; --changes) {
-      const std::size_t at = below(text.size());
-      if (below(3) == 0)
-        text.erase(at, 1 + below(5));
-      else if (below(2) == 0)
-        text.insert(at, 1, bytes[below(bytes.size())]);
-      else
-        text[at] = bytes[below(bytes.size())];
-    }
-    count += accepted(text);
-  }
+  const int tries = test::mutations(usual);
+  for (int n = 0; n < tries; ++n) count += accepted(damage(good, "{}[]\",:/\\0123456789.eE+- tnfu\n\x01\xC3\xFF"));
   EXPECT_GT(count, 0);
-  EXPECT_LT(count, 5'000);
+  EXPECT_LT(count, tries);
 }
 
-TEST(MutatedScenes, MisplacedValues) {
-  std::mt19937 random(13);
+void misplace_values(int usual) {
+  test::Damage damage(13);
   const Json scene = Json::parse(good);
   std::vector<Json::json_pointer> places;
   collect(scene, Json::json_pointer(), places);
-  const auto pick = [&]() -> const Json::json_pointer& { return places[std::uniform_int_distribution<std::size_t>(0, places.size() - 1)(random)]; };
   int count = 0;
-  for (int n = 0; n < 5'000; ++n) {
+  const int tries = test::mutations(usual);
+  for (int n = 0; n < tries; ++n) {
     Json mixed = scene;
-    const Json value = scene[pick()];
-    mixed[pick()] = value;
+    const Json value = scene[places[damage.below(places.size())]];
+    mixed[places[damage.below(places.size())]] = value;
     count += accepted(mixed.dump());
   }
   EXPECT_GT(count, 0);
-  EXPECT_LT(count, 5'000);
+  EXPECT_LT(count, tries);
 }
+
+TEST(MutatedScenes, DamagedBytes) { damage_bytes(quick); }
+TEST(MutatedScenes, MisplacedValues) { misplace_values(quick); }
+
+TEST(LongMutatedScenes, DamagedBytes) { damage_bytes(thorough); }
+TEST(LongMutatedScenes, MisplacedValues) { misplace_values(thorough); }
+
+}  // namespace

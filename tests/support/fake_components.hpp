@@ -170,11 +170,13 @@ class Catalogue final : public hyperlattice::Catalogue {
     for (const auto& [type, component] : components_) found.push_back(&component);
     return found;
   }
+  bool scene_plugins = true;
   std::string refused_type;  ///< pretends that a library of this name is there and bad
 
   const Component* find(const std::string& type) override { return components_.count(type) == 0 ? nullptr : &components_.at(type); }
   std::string why_not(const std::string& type) const override { return refused(type) ? "wrong interface version" : "no library " + type + ".so"; }
   bool refused(const std::string& type) const override { return type == refused_type; }
+  bool allows_scene_plugins() const override { return scene_plugins; }
   std::vector<std::string> known_types() const override {
     std::vector<std::string> types;
     for (const auto& [type, component] : components_) types.push_back(type);

@@ -13,7 +13,7 @@ namespace {
 using namespace hyperlattice;
 using Facets = std::vector<std::array<Vec3, 3>>;
 
-std::string text_stl(const Facets& facets) {
+std::string text_stl(const Facets& facets) {  // at y + 10, with a sign
   std::string text = "solid a name\n";
   for (const auto& facet : facets) {
     text += "  facet normal 0 0 0\n    outer loop\n";
@@ -157,6 +157,88 @@ TEST(Stl, SaysWhereAFileIsBroken) {
   EXPECT_EQ(refusal([&] { read_stl("solid x\nfacet normal 0 0 1 outer loop\nvertex 0 0 O\n", 1); }), "line 3: a number was expected, not \"O\"");
   EXPECT_EQ(refusal([&] { read_stl("solid x\nendsolid x\n", 1); }), "it has no facets");
   EXPECT_EQ(refusal([&] { read_stl("solid x\nfacet normal 0 0 1 outer loop\nvertex 0 0 nan", 1); }), "line 3: a coordinate is not finite");
+}
+
+TEST(Stl, SectionsAreSolidsOrPatches) {
+  Facets far = l_bracket(), patch = l_bracket();
+  for (auto& facet : far)
+    for (Vec3& p : facet) p.x += 5;
+  const TriangleMesh two = read_stl(text_stl(l_bracket()) + text_stl(far), 1);
+  EXPECT_EQ(two.facets.size(), 40u);
+  EXPECT_EQ(two.sections, (std::vector<std::size_t>{0, 20}));
+  EXPECT_EQ(solid_fault(two), "");
+  EXPECT_TRUE(InsideTest(two)({0.5, 10.5, 0.5}));
+  EXPECT_TRUE(InsideTest(two)({5.5, 10.5, 0.5}));
+
+  const Facets first(patch.begin(), patch.begin() + 7), second(patch.begin() + 7, patch.end());
+  EXPECT_EQ(solid_fault(read_stl(text_stl(first) + text_stl(second), 1)), "");
+
+  for (auto& facet : far)
+    for (Vec3& p : facet) p.x -= 3;  // it touches the other's face
+  const TriangleMesh touching = read_stl(text_stl(l_bracket()) + text_stl(far), 1);
+  EXPECT_NE(solid_fault(touching), "");
+  EXPECT_TRUE(sections_are_solids(touching));
+  EXPECT_TRUE(InsideTest(touching)({1.5, 10.5, 0.5}));
+  EXPECT_TRUE(InsideTest(touching)({2.5, 10.5, 0.5}));
+  EXPECT_FALSE(sections_are_solids(read_stl(text_stl(first) + text_stl(far), 1)));
+  EXPECT_EQ(refusal([] { read_stl(text_stl(l_bracket()) + "more", 1); }), "line 143: \"solid\" or the end was expected, not \"more\"");
+}
+
+TEST(Stl, ContentTellsTextFromBinary) {
+  const std::string text = text_stl(l_bracket());
+  const auto expected = read_stl(text, 1).facets;
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    std::string all = text;
+    for (std::size_t at = 0; (at = all.find(from, at)) != std::string::npos; at += to.size()) all.replace(at, from.size(), to);
+    return all;
+  };
+  std::string upper = text;
+  for (char& c : upper) c = static_cast<char>(std::toupper(c));
+  for (const std::string& same :
+       {upper, " \r\n" + text, "\xEF\xBB\xBF" + text, "\xEF\xBB\xBF\n" + text, changed("\n", "\r"), changed("\n", "\r\n"),
+        changed("endsolid", "end solid"), changed("endloop", "end loop"), changed("endfacet", "EndFacet"), changed(" a name", ""), text + "\n \n"})
+    EXPECT_EQ(read_stl(same, 1).facets, expected) << same.substr(0, 40);
+  EXPECT_EQ(refusal([&] { read_stl(changed("\n", "\r").substr(0, 120), 1); }).substr(0, 7), "line 5:");
+  EXPECT_EQ(refusal([&] { read_stl("\xFF\xFEs\0o\0l\0", 1); }), "it is a text in UTF-16: save it in ASCII or UTF-8");
+  EXPECT_NE(refusal([&] { read_stl(std::string(100, 'x'), 1); }).find("a text would begin with \"solid\""), std::string::npos);
+
+  const std::string binary = binary_stl(l_bracket());
+  EXPECT_EQ(read_stl(binary + std::string(100, '\0'), 1).facets, expected);
+  EXPECT_EQ(refusal([&] { read_stl(binary + binary, 1); }),
+            "it counts 20 facets, and 1084 bytes stand behind them: are these several solids, or is the count wrong?");
+  std::string named = binary + "\n";
+  named.replace(0, 5, "solid");
+  EXPECT_EQ(read_stl(named, 1).facets, expected);
+}
+
+TEST(Stl, FacetsHaveTheirNumbersOfTheFile) {
+  Facets open = l_bracket();
+  open.pop_back();
+  open.insert(open.begin(), 3, {Vec3{0, 0, 0}, Vec3{0, 0, 0}, Vec3{1, 0, 0}});
+  EXPECT_EQ(solid_fault(mesh_of(open)), "the surface is open: no other facet shares the edge from (0, 2, 1) to (0, 0, 1) (metres) of facet 9");
+}
+
+TEST(Stl, CornersThatNearlyMeetAreTold) {
+  Facets seam = l_bracket();
+  seam[5][1].x += 1e-6;
+  const std::string fault = solid_fault(mesh_of(seam));
+  EXPECT_NE(fault.find("m from there: corners of neighbours must be the same to the last digit"), std::string::npos) << fault;
+}
+
+TEST(Stl, PartsThatFaceTheWrongWayAreTold) {
+  const auto fault = [](const Facets& facets) { return orientation_fault(InsideTest(mesh_of(facets))); };
+  EXPECT_EQ(fault(joined(ball(5, 20), inverted(ball(2, 20)))), "");
+  EXPECT_EQ(fault(joined(ball(5, 20), ball(2, 20))),
+            "the closed surface that facet 1601 belongs to lies within another and faces outwards: around a cavity facets point into it");
+  EXPECT_EQ(fault(joined(joined(ball(5, 20), inverted(ball(3, 20))), ball(1, 20))), "");  // a ball within the cavity
+  Facets far = inverted(ball(1, 20));
+  for (auto& facet : far)
+    for (Vec3& p : facet) p.x += 10;
+  EXPECT_NE(fault(joined(ball(5, 20), far)).find("lies within no other and points inwards"), std::string::npos);
+  Facets near = ball(2, 20);
+  for (auto& facet : near)
+    for (Vec3& p : facet) p.x += 4.5;
+  EXPECT_EQ(fault(joined(ball(5, 20), near)), "");  // they overlap: a union
 }
 
 TEST(Stl, KnowsInsideAtEdgesAndCornersToo) {

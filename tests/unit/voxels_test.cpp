@@ -127,7 +127,7 @@ TEST(Voxels, SaysWhatIsWrongWithAnImage) {
     EXPECT_NE(text.find(part), std::string::npos) << text;
   };
   expect(faults("", 25), "file", "25 x 25 x 25 voxels of 1 byte need 15625 bytes, and it has 13824");
-  expect(faults(R"("type": "uint16")"), "file", "need 27648 bytes");
+  expect(faults(R"("type": "uint16")"), "file", "need 27648 bytes, and it has 13824; its size is that of uint8");
   expect(faults(R"("values": [7, 9])"), "file", "no voxel has the value 9; there are 1 (10712 voxels), 7 (3112 voxels)");
   expect(faults(R"("values": [256])"), "values", "whole numbers from 0 to 255");
   expect(faults(R"("low": [0, 0])"), "low", "");
@@ -136,6 +136,12 @@ TEST(Voxels, SaysWhatIsWrongWithAnImage) {
   };
   expect(faults_of(scene_of("no_such.raw", "[2, 2, 2]")), "file", "there is no such file");
   expect(faults_of(scene_of(image.file(), "[2, 2.5, 2]")), "counts", "whole numbers of voxels");
+}
+
+TEST(Voxels, SaysWhatAHeaderMayBe) {
+  const Image image(std::string(352, '\0') + ball_image());
+  const std::string why = faults_of(lattice(image.region()) + ", " + elastic());
+  EXPECT_NE(why.find("it has 14176; if it begins with a header of 352 bytes, cut that off"), std::string::npos) << why;
 }
 
 }  // namespace

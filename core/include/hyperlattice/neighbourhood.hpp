@@ -11,19 +11,23 @@ namespace hyperlattice {
 
 class Neighbourhood {
  public:
-  /// For points between `low` and `high` and distances up to `reach`, metres. Periodic: the box repeats in all directions, and is at least three
-  /// times as wide as `reach`, or std::invalid_argument is thrown.
-  Neighbourhood(Vec3 low, Vec3 high, double reach, bool periodic = false) : low_(low), size_(high - low), reach_(reach), periodic_(periodic) {
-    const double extents[3] = {size_.x, size_.y, size_.z};
-    std::size_t cells = 1;
+  /// For about `points` points between `low` and `high` and distances up to `reach`, metres. Periodic: the box repeats in all directions, and is at
+  /// least three times as wide as `reach`, or std::invalid_argument is thrown.
+  Neighbourhood(Vec3 low, Vec3 high, double reach, std::size_t points, bool periodic = false)
+      : low_(low), size_(high - low), reach_(reach), periodic_(periodic) {
+    const double extents[3] = {size_.x, size_.y, size_.z}, most_along = 1e6, most_cells = 8 * static_cast<double>(points) + 4096;
+    double count[3];
     for (int axis = 0; axis < 3; ++axis) {
-      const double most = 1000;  // cells may be wider than `reach`, never narrower
-      count_[axis] = static_cast<std::int64_t>(std::clamp(std::floor(extents[axis] / reach), 1.0, most));
-      if (periodic && count_[axis] < 3)
+      count[axis] = std::clamp(std::floor(extents[axis] / reach), 1.0, most_along);
+      if (periodic && count[axis] < 3)
         throw std::invalid_argument("a periodic box of points must be at least three times as wide as their neighbours' distance");
-      cells *= static_cast<std::size_t>(count_[axis]);
     }
-    head_.assign(cells, none);
+    while (count[0] * count[1] * count[2] > most_cells) {  // cells may be wider than `reach`, never narrower
+      double& largest = *std::max_element(count, count + 3);
+      largest = std::floor(largest / 2);
+    }
+    for (int axis = 0; axis < 3; ++axis) count_[axis] = static_cast<std::int64_t>(count[axis]);
+    head_.assign(static_cast<std::size_t>(count[0] * count[1] * count[2]), none);
   }
 
   /// Points are numbered in the order in which they are added.
@@ -84,7 +88,7 @@ struct NearPair {
 
 /// All pairs of points up to a distance, metres, each once. Arguments as Neighbourhood's.
 inline std::vector<NearPair> near_pairs(std::span<const Vec3> points, Vec3 low, Vec3 high, double reach, bool periodic = false) {
-  Neighbourhood near(low, high, reach, periodic);
+  Neighbourhood near(low, high, reach, points.size(), periodic);
   std::vector<NearPair> pairs;
   for (std::uint32_t b = 0; b < points.size(); ++b) {
     near.for_near(points[b], [&](std::uint32_t a, Vec3 away) { pairs.push_back({a, b, -1.0 * away}); });

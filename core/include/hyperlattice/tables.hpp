@@ -1,9 +1,12 @@
-// Tables of numbers in files: comma-separated, the first line names the columns.
+// Tables in files: lines of cells, the first line names the columns. As spreadsheets and programs write them: a byte order mark, cells in quotation
+// marks, commas, semicolons, tabs or blanks between cells, blank lines, "+" before numbers, "#" before the names.
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -11,6 +14,111 @@
 #include <vector>
 
 namespace hyperlattice {
+
+/// The number of a cell; nothing if it holds none, or one that is not finite. Numbers have a decimal point.
+inline std::optional<double> table_number(std::string_view cell) {
+  if (cell.size() > 1 && cell.front() == '+' && cell[1] != '-') cell.remove_prefix(1);
+  double number = 0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
+  if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(number)) return std::nullopt;
+  return number;
+}
+
+/// The place of a column of that name, or else of one that differs in capital letters only.
+inline std::optional<std::size_t> find_column(std::span<const std::string> columns, std::string_view name) {
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  const auto alike = [&](char a, char b) { return lower(a) == lower(b); };
+  for (const bool exactly : {true, false})
+    for (std::size_t n = 0; n < columns.size(); ++n)
+      if (exactly ? columns[n] == name : std::equal(name.begin(), name.end(), columns[n].begin(), columns[n].end(), alike)) return n;
+  return std::nullopt;
+}
+
+/// The columns of a table, and how its lines are cut into cells: the separator is the first of tab, semicolon, comma and blank that its first line
+/// has.
+class TableColumns {
+ public:
+  explicit TableColumns(std::string_view first_line) {
+    constexpr std::string_view mark = "\xEF\xBB\xBF";
+    if (first_line.starts_with(mark)) first_line.remove_prefix(mark.size());
+    first_line = trimmed(first_line);
+    if (first_line.starts_with('#')) first_line = trimmed(first_line.substr(1));
+    for (const char candidate : {'\t', ';', ',', ' '})
+      if (first_line.find(candidate) != std::string_view::npos) {
+        separator_ = candidate;
+        break;
+      }
+    names_ = cells(first_line);
+  }
+
+  const std::vector<std::string>& names() const { return names_; }
+
+  std::optional<std::size_t> find(std::string_view name) const { return find_column(names_, name); }
+
+  /// The cells of a line, without blanks around them and without their quotation marks.
+  std::vector<std::string> cells(std::string_view line) const {
+    std::vector<std::string> found;
+    if (separator_ == '\t')
+      line = line.substr(0, std::min(line.find('\r'), line.size()));  // a tab at either end stands beside an empty cell
+    else
+      line = trimmed(line);
+    for (bool more = true; more;) {
+      std::string cell;
+      more = take_cell(line, cell);
+      found.push_back(std::move(cell));
+    }
+    return found;
+  }
+
+  static bool is_blank(std::string_view line) { return trimmed(line).empty(); }
+  /// Whether a line below the first holds no cells: it is blank, or a comment.
+  static bool is_empty(std::string_view line) { return is_blank(line) || trimmed(line).front() == '#'; }
+
+  /// The columns for a message: "x", "y", "z"; cut if they are many.
+  std::string text() const {
+    constexpr std::size_t most = 200;
+    std::string all;
+    for (const std::string& name : names_) {
+      all += (all.empty() ? "\"" : ", \"") + name.substr(0, most) + '"';
+      if (all.size() > most) return all + ", ...";
+    }
+    return all;
+  }
+
+ private:
+  static constexpr std::string_view blank_ = " \t\r\v\f";
+  static std::string_view trimmed(std::string_view text) {
+    const auto first = text.find_first_not_of(blank_);
+    return first == std::string_view::npos ? std::string_view() : text.substr(first, text.find_last_not_of(blank_) - first + 1);
+  }
+  /// Cuts the first cell off the line; whether there is another.
+  bool take_cell(std::string_view& line, std::string& cell) const {
+    const auto after_blanks = [&] { line.remove_prefix(std::min(line.find_first_not_of(separator_ == '\t' ? " " : " \t"), line.size())); };
+    after_blanks();
+    if (line.starts_with('"')) {
+      line.remove_prefix(1);
+      for (; !line.empty(); line.remove_prefix(1)) {
+        if (line.front() != '"') {
+          cell += line.front();
+        } else if (line.substr(1).starts_with('"')) {  // two stand for one
+          cell += '"';
+          line.remove_prefix(1);
+        } else {
+          line.remove_prefix(1);
+          break;
+        }
+      }
+    }
+    const std::size_t end = std::min(line.find(separator_), line.size());
+    cell += trimmed(line.substr(0, end));
+    const bool more = end < line.size();
+    line.remove_prefix(more ? end + 1 : end);
+    return more;
+  }
+
+  char separator_ = ',';
+  std::vector<std::string> names_;
+};
 
 /// The columns asked for, one vector each in their order; a missing one that may be missing is empty. Throws std::invalid_argument with the file, the
 /// line and what was expected there.
@@ -20,15 +128,18 @@ class NumberTable {
     std::ifstream in(file);
     if (!in) throw std::invalid_argument("file " + file + " cannot be read");
     std::string line;
-    std::getline(in, line);
-    const std::vector<std::string> header = cells_of(line);
+    std::size_t number = 1;
+    while (std::getline(in, line) && TableColumns::is_blank(line)) ++number;
+    const TableColumns header(line);
     for (const std::string_view name : required) {
-      columns_.emplace_back(name, place_of(header, name));
-      if (columns_.back().place == missing) complain(1, "a column \"" + std::string(name) + "\", named in the first line");
+      columns_.push_back({name, header.find(name), {}});
+      if (!columns_.back().place) complain(number, "a column \"" + std::string(name) + "\", named in the first line; it names " + header.text());
     }
-    for (const std::string_view name : optional) columns_.emplace_back(name, place_of(header, name));
-    for (std::size_t number = 2; std::getline(in, line); ++number)
-      if (!line.empty() && line != "\r") read_line(line, number);
+    for (const std::string_view name : optional) columns_.push_back({name, header.find(name), {}});
+    while (std::getline(in, line)) {
+      ++number;
+      if (!TableColumns::is_empty(line)) read_line(header.cells(line), number);
+    }
   }
 
   /// Of a column that was asked for.
@@ -39,41 +150,24 @@ class NumberTable {
   }
 
  private:
-  static constexpr std::size_t missing = ~std::size_t{0};
   struct Column {
-    Column(std::string_view n, std::size_t p) : name(n), place(p) {}
     std::string_view name;
-    std::size_t place;
+    std::optional<std::size_t> place;
     std::vector<double> numbers;
   };
 
-  static std::vector<std::string> cells_of(const std::string& line) {
-    std::vector<std::string> cells(1);
-    for (const char c : line)
-      if (c == ',')
-        cells.emplace_back();
-      else if (c != '\r' && c != ' ' && c != '\t')
-        cells.back() += c;
-    return cells;
-  }
-  static std::size_t place_of(const std::vector<std::string>& header, std::string_view name) {
-    for (std::size_t n = 0; n < header.size(); ++n)
-      if (header[n] == name) return n;
-    return missing;
-  }
   [[noreturn]] void complain(std::size_t line, const std::string& expected) const {
     throw std::invalid_argument("file " + file_ + ", line " + std::to_string(line) + ": expected " + expected);
   }
-  void read_line(const std::string& line, std::size_t number) {
-    const std::vector<std::string> cells = cells_of(line);
+  void read_line(const std::vector<std::string>& cells, std::size_t number) {
     for (Column& column : columns_) {
-      if (column.place == missing) continue;
-      const std::string cell = column.place < cells.size() ? cells[column.place] : "";
-      double value = 0;
-      const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-      if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
-        complain(number, "a number in column \"" + std::string(column.name) + "\", not \"" + cell + "\"");
-      column.numbers.push_back(value);
+      if (!column.place) continue;
+      const std::string cell = *column.place < cells.size() ? cells[*column.place] : "";
+      const auto value = table_number(cell);
+      if (!value)
+        complain(number, "a number in column \"" + std::string(column.name) + "\", not \"" + cell.substr(0, 40) + "\"" +
+                             (cell.find(',') == std::string::npos ? "" : "; numbers have a decimal point"));
+      column.numbers.push_back(*value);
     }
   }
 

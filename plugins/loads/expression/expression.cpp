@@ -49,14 +49,23 @@ class Expression {
   }
 
   explicit Expression(const Options& options) : o_(options), actuator_{options.force, options.strain, options.pressure, {}, {}} {
+    const auto refuse = [&](const std::string& why) {
+      constexpr std::size_t shown = 100;
+      const std::string text = o_.expression.size() > shown ? o_.expression.substr(0, shown) + "..." : o_.expression;
+      throw std::invalid_argument("an expression of t, not \"" + text + "\": " + why);
+    };
+    if (o_.expression.size() > most_characters) refuse("it is longer than " + std::to_string(most_characters) + " characters");
+    if (assigns(o_.expression)) refuse("\"=\" gives a variable another value; \"==\" compares");
+    int values = 0;
     try {
       parser_.DefineVar("t", &time_);
       parser_.DefineConst("pi", std::numbers::pi);
       parser_.SetExpr(o_.expression);
-      parser_.Eval();
+      parser_.Eval(values);  // muParser takes "1,5" for a list of two values, and would go on with the last
     } catch (const mu::Parser::exception_type& error) {
-      throw std::invalid_argument("an expression of t, not \"" + options.expression + "\": " + error.GetMsg());
+      refuse(error.GetMsg());
     }
+    if (values != 1) refuse("it is a list of " + std::to_string(values) + " values; numbers have a decimal point");
   }
 
   void declare(const LoadBody& body, const LoadSink& sink) {
@@ -79,6 +88,19 @@ class Expression {
   Vec3 answer(const WatchedMotion& motion, std::size_t n) const { return actuator_.answer(motion, n); }
 
  private:
+  static constexpr std::size_t most_characters = 4000;
+
+  static bool assigns(std::string_view text) {
+    for (std::size_t n = 0; n < text.size(); ++n) {
+      if (text[n] != '=') continue;
+      if (text.substr(n + 1, 1) == "=")
+        ++n;
+      else if (n == 0 || std::string_view("<>!").find(text[n - 1]) == std::string_view::npos)
+        return true;
+    }
+    return false;
+  }
+
   Options o_;
   Actuator actuator_;
   mutable double time_ = 0;

@@ -1,0 +1,51 @@
+// Inputs damaged at random, the same on every machine.
+#pragma once
+
+#include <cstdlib>
+#include <random>
+#include <string>
+#include <string_view>
+
+namespace hyperlattice::test {
+
+/// How many damaged inputs a test tries: HYPERLATTICE_MUTATIONS, or else `usual`.
+inline int mutations(int usual) {
+  const char* given = std::getenv("HYPERLATTICE_MUTATIONS");
+  return given == nullptr ? usual : std::atoi(given);
+}
+
+class Damage {
+ public:
+  explicit Damage(unsigned seed) : random_(seed) {}
+
+  std::size_t below(std::size_t n) { return std::uniform_int_distribution<std::size_t>(0, n - 1)(random_); }
+
+  /// The text with up to three bytes or stretches erased, doubled, inserted from `alphabet` or replaced by it.
+  std::string operator()(std::string text, std::string_view alphabet) {
+    for (std::size_t changes = 1 + below(3); changes > 0 && !text.empty(); --changes) {
+      const std::size_t at = below(text.size()), length = 1 + below(below(4) == 0 ? 80 : 5);
+      switch (below(5)) {
+        case 0:
+          text.erase(at, length);
+          break;
+        case 1:
+          text.insert(at, text.substr(below(text.size()), length));
+          break;
+        case 2:
+          text.insert(at, 1, alphabet[below(alphabet.size())]);
+          break;
+        case 3:
+          text.resize(below(8) == 0 ? at : text.size());
+          break;
+        default:
+          text[at] = alphabet[below(alphabet.size())];
+      }
+    }
+    return text;
+  }
+
+ private:
+  std::mt19937 random_;
+};
+
+}  // namespace hyperlattice::test
