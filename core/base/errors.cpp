@@ -9,7 +9,7 @@ namespace hyperlattice {
 namespace {
 
 constexpr std::size_t longest_place = 200, longest_value = 300, longest_expectation = 2000;  // bytes: an input may be 4 GB of one name
-constexpr std::size_t most_lines = 100;
+constexpr std::size_t most_lines = 100, most_kept = 1000;                                    // faults
 
 std::string lines(const std::vector<Fault>& faults) {
   std::string text;
@@ -44,7 +44,10 @@ std::size_t edits(std::string_view a, std::string_view b) {
 InputError::InputError(std::vector<Fault> faults) : std::runtime_error(lines(faults)), faults_(std::move(faults)) {}
 
 void Faults::add(std::string pointer, std::string value, std::string expected) {
-  faults_.push_back({std::move(pointer), std::move(value), std::move(expected)});
+  if (faults_.size() < most_kept)
+    faults_.push_back({std::move(pointer), std::move(value), std::move(expected)});
+  else
+    faults_.emplace_back();  // counted only
 }
 
 void Faults::throw_if_any() const {

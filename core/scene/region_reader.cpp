@@ -13,8 +13,9 @@ namespace hyperlattice {
 
 namespace {
 
-constexpr std::size_t deepest = 64;      // sets within sets, which are followed level by level for every particle
-constexpr std::size_t largest = 10'000;  // regions of one set, all names written out, which may all be asked about every particle
+constexpr std::size_t deepest = 64;            // sets within sets, which are followed level by level for every particle
+constexpr std::size_t most_suggestions = 100;  // faults whose name is compared with all others
+constexpr std::size_t largest = 10'000;        // regions of one set, all names written out, which may all be asked about every particle
 
 const std::string expected_region =
     "a region: a name, or an object with one key out of box, sphere, hollow_sphere, cylinder, half_space, stl, voxels, union, intersection, "
@@ -38,6 +39,7 @@ bool inverted(const Region& region) { return region.low.x > region.high.x || reg
 
 RegionReader::RegionReader(const Json& named, Regions& regions, Faults& faults, std::deque<std::string>& texts, std::filesystem::path folder)
     : named_(named), regions_(regions), faults_(faults), texts_(texts), folder_(std::move(folder)) {
+  for (const auto& item : named_.items()) expressions_.emplace(item.key(), &item.value());
   if (const auto all = regions_.find("all")) ids_.emplace("all", *all);
 }
 
@@ -55,10 +57,11 @@ void RegionReader::read_named(Json& resolved) {
 std::shared_ptr<const Region> RegionReader::read_name(const std::string& name, const std::string& pointer) {
   if (auto region = built_in_region(name)) return region;
   if (const auto found = done_.find(name); found != done_.end()) return found->second;
-  const auto expression = named_.find(name);
-  if (expression == named_.end()) {
+  const auto expression = expressions_.find(name);
+  if (expression == expressions_.end()) {
     std::vector<std::string> candidates = built_in_region_names();
-    for (const auto& item : named_.items()) candidates.push_back(item.key());
+    if (faults_.size() < most_suggestions)
+      for (const auto& item : named_.items()) candidates.push_back(item.key());
     faults_.add(pointer, shown(name), "the name of a region" + did_you_mean(name, candidates));
     return nullptr;
   }
@@ -70,7 +73,7 @@ std::shared_ptr<const Region> RegionReader::read_name(const std::string& name, c
   under_way_.push_back(name);
   ++level_;
   Json resolved;
-  auto region = read(*expression, member("/regions", name), resolved);
+  auto region = read(*expression->second, member("/regions", name), resolved);
   --level_;
   under_way_.pop_back();
   done_[name] = region;

@@ -50,6 +50,7 @@ class RegionReader {
   std::shared_ptr<const Region> read_set(const SetOperation& operation, const Json& parts, const std::string& pointer, Json& resolved);
 
   const Json& named_;
+  std::unordered_map<std::string, const Json*> expressions_;  // of named regions
   Regions& regions_;
   Faults& faults_;
   std::deque<std::string>& texts_;

@@ -13,6 +13,8 @@ namespace hyperlattice {
 
 namespace {
 
+constexpr std::size_t most_stages = 10'000;
+
 const std::vector<std::string> all_families(std::begin(family_names), std::end(family_names));
 
 void take_common(const CommonOptions& common, Stage& stage) {
@@ -44,6 +46,10 @@ Json StageReader::read(const Json& scene, std::vector<Stage>& stages) {
   if (pipeline == scene.end() || !pipeline->is_array() || pipeline->empty()) {
     reading_.faults.add("/pipeline", pipeline == scene.end() ? "" : shown(*pipeline),
                         "a list of stages: a lattice, materials, loads, solvers, writers, probes");
+    return resolved;
+  }
+  if (pipeline->size() > most_stages) {
+    reading_.faults.add("/pipeline", "", fmt::format("at most {} stages; there are {}", most_stages, pipeline->size()));
     return resolved;
   }
   std::vector<std::optional<Family>> families;

@@ -83,6 +83,9 @@ TEST(Limits, StagesKeysAndValues) {
   EXPECT_EQ(read_back->stages[10].name, "table_8");
   EXPECT_EQ(read_back->stages.back().name, "table_5000");
 
+  while (many["pipeline"].size() <= 10'000) many["pipeline"].push_back({{"type", "writers.table"}});
+  EXPECT_TRUE(has(refusal_of(many.dump()), "/pipeline: expected at most 10000 stages; there are 10001"));
+
   std::string keys = "{";
   for (int n = 0; n < 20'000; ++n) keys += "\"k" + std::to_string(n) + "\": 1, ";
   EXPECT_TRUE(has(refusal_of(keys + "\"format\": 1}"), "at most 10000 keys in an object"));
