@@ -53,7 +53,7 @@ Json example_value(const Option& option, std::size_t axis) {
     case OptionKind::number:
       return example_number(option);
     case OptionKind::integer:
-      return option.low != -infinity ? static_cast<std::int64_t>(std::ceil(option.low + (option.low_open ? 0.5 : 0))) : 1;
+      return in_range(option, 1) || option.low == -infinity ? 1 : static_cast<std::int64_t>(std::ceil(option.low + (option.low_open ? 0.5 : 0)));
     case OptionKind::boolean:
       return true;
     case OptionKind::text:

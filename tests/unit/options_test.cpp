@@ -38,7 +38,36 @@ Option make(OptionKind kind, std::string_view unit = "") {
   return option;
 }
 
+struct Whole {
+  std::int32_t narrow = 0;
+  std::uint32_t count = 0;
+  std::optional<std::int8_t> tiny;
+  std::int64_t wide = 0;
+};
+
 }  // namespace
+
+TEST(Options, IntegersStayWithinTheirType) {
+  const auto schema = Schema<Whole>("", "")
+                          .add<&Whole::narrow>("narrow", "", "")
+                          .add<&Whole::count>("count", "", "")
+                          .at_least(-5)
+                          .at_most(1e12)
+                          .add<&Whole::tiny>("tiny", "", "")
+                          .at_least(1)
+                          .add<&Whole::wide>("wide", "", "");
+  const auto of = [&](int n) { return schema.options()[static_cast<std::size_t>(n)]; };
+  EXPECT_EQ(read(of(0), "2147483647"), "2147483647");
+  EXPECT_EQ(read(of(0), "-2147483648"), "-2147483648");
+  EXPECT_EQ(read(of(0), "2147483648"), "/option: an integer from -2147483648 to 2147483647");
+  EXPECT_EQ(read(of(0), "4294967297"), "/option: an integer from -2147483648 to 2147483647");  // which would wrap to 1
+  EXPECT_EQ(read(of(1), "4294967295"), "4294967295");
+  EXPECT_EQ(read(of(1), "-1"), "/option: an integer from 0 to 4294967295");
+  EXPECT_EQ(read(of(2), "0"), "/option: an integer from 1 to 127");
+  EXPECT_EQ(read(of(2), "128"), "/option: an integer from 1 to 127");
+  EXPECT_EQ(read(of(3), "9223372036854775807"), "9223372036854775807");
+  EXPECT_EQ(example_value(of(0)), 1);
+}
 
 TEST(Options, Numbers) {
   Option length = make(OptionKind::number, "m");

@@ -12,6 +12,7 @@
 
 #include <hyperlattice/plain.hpp>
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -97,6 +98,15 @@ constexpr OptionKind kind_of() {
   }
 }
 
+/// Bounds of an option that holds whole numbers: those of its type, so that no value wraps. Values arrive as std::int64_t, whose own end is no bound.
+template <class T>
+constexpr void bound_by_type(Option& option) {
+  if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
+    if (std::is_unsigned_v<T> || sizeof(T) < sizeof(std::int64_t)) option.low = static_cast<double>(std::numeric_limits<T>::lowest());
+    if (sizeof(T) < sizeof(std::int64_t)) option.high = static_cast<double>(std::numeric_limits<T>::max());
+  }
+}
+
 template <class T>
 T convert(const OptionValue& value) {
   if constexpr (std::is_same_v<T, bool>)
@@ -167,11 +177,12 @@ class Schema {
     option.help = help;
     option.optional = detail::Unwrapped<Declared>::optional;
     option.kind = detail::kind_of<typename detail::Unwrapped<Declared>::type>();
+    detail::bound_by_type<typename detail::Unwrapped<Declared>::type>(option);
     option.set = &detail::assign<Member, Options>;
     options_.push_back(option);
     return *this;
   }
-  // Each of these says more about the option added last.
+  // Each of these says more about the option added last. Bounds only narrow those of an integer's type.
   Schema& fallback(std::string_view json) {
     last().fallback = json;
     return *this;
@@ -186,25 +197,27 @@ class Schema {
     last().example = json;
     return *this;
   }
-  Schema& positive() {
-    last().low = 0;
-    last().low_open = true;
-    return *this;
-  }
+  Schema& positive() { return above(0); }
   Schema& at_least(double low) {
+    if (low < last().low) return *this;
     last().low = low;
+    last().low_open = false;
     return *this;
   }
   Schema& at_most(double high) {
+    if (high > last().high) return *this;
     last().high = high;
+    last().high_open = false;
     return *this;
   }
   Schema& above(double low) {
+    if (low < last().low) return *this;
     last().low = low;
     last().low_open = true;
     return *this;
   }
   Schema& below(double high) {
+    if (high > last().high) return *this;
     last().high = high;
     last().high_open = true;
     return *this;
