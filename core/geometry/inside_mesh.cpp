@@ -70,7 +70,7 @@ int InsideTest::winding(Vec3 p) const {
     const bool rises = down.y >= p.y;
     if (up.y > down.y) std::swap(up, down);
     const double share = (p.y - up.y) / (down.y - up.y), x = up.x + share * (down.x - up.x);
-    if (x >= p.x) winding += rises ? 1 : -1;
+    if (x >= p.x) winding += rises ? -1 : 1;
   }
   return winding;
 }

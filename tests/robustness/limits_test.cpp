@@ -41,16 +41,13 @@ bool has(const std::string& text, const std::string& part) { return text.find(pa
 
 TEST(Limits, ChainsOfRegions) {
   for (const bool forwards : {true, false})
-    for (const int count : {60, 10'000}) {
+    for (const int count : {60, 9'000}) {
       Json given = scene();
       const auto name = [&](int n) { return "r" + std::to_string(forwards ? n : count - 1 - n); };
-      const Json box = {{"sphere", {{"radius", 1}}}};
-      for (int n = 0; n < std::min(count, 9'000); ++n) {
-        const std::string key = "r" + std::to_string(n);
-        const bool first = key == name(0);
-        given["regions"][key] = first ? box : Json{{"intersection", {"r" + std::to_string(forwards ? n - 1 : std::min(n + 1, count - 1)), "x_min"}}};
+      for (int n = 0; n < count; ++n) {  // in the file's order; each is made of the one before, or of the one behind
+        const int place = forwards ? n : count - 1 - n;
+        given["regions"][name(place)] = place == 0 ? Json{{"sphere", {{"radius", 1}}}} : Json{{"intersection", {name(place - 1), "x_min"}}};
       }
-      if (!forwards && count > 9'000) given["regions"]["r" + std::to_string(count - 1)] = box;
       const std::string why = refusal_of(given.dump());
       EXPECT_EQ(has(why, "at most 64 levels of regions within regions"), count > 60) << why.substr(0, 300);
       EXPECT_LT(why.size(), 1000u);
@@ -99,7 +96,7 @@ TEST(Limits, StagesKeysAndValues) {
 }
 
 TEST(Limits, MessagesAreShort) {
-  const std::string huge(5'000'000, 'x');
+  const std::string huge(200'000, 'x');
   for (const char* pointer : {"/title", "/format", "/pipeline/0/type", "/pipeline/0/spacing", "/pipeline/0/shape", "/pipeline/1/young", "/regions",
                               "/plugins", "/precision"}) {
     Json given = scene();

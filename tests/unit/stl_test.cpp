@@ -229,7 +229,7 @@ TEST(Stl, PartsThatFaceTheWrongWayAreTold) {
   const auto fault = [](const Facets& facets) { return orientation_fault(InsideTest(mesh_of(facets))); };
   EXPECT_EQ(fault(joined(ball(5, 20), inverted(ball(2, 20)))), "");
   EXPECT_EQ(fault(joined(ball(5, 20), ball(2, 20))),
-            "the closed surface that facet 1601 belongs to lies within another and faces outwards: around a cavity facets point into it");
+            "the closed surface that facet 1602 belongs to lies within another and faces outwards: around a cavity facets point into it");
   EXPECT_EQ(fault(joined(joined(ball(5, 20), inverted(ball(3, 20))), ball(1, 20))), "");  // a ball within the cavity
   Facets far = inverted(ball(1, 20));
   for (auto& facet : far)
@@ -274,6 +274,7 @@ TEST(Stl, AgreesWithBallAndTorus) {
       EXPECT_EQ(in_torus(p), tube < 1) << tube;
     }
   }
+  EXPECT_EQ(in_ball.winding({3, 0, 0}), 1);
   EXPECT_FALSE(in_ball({0, 0, 0}));
   EXPECT_TRUE(in_ball({3, 0, 0}));
 }

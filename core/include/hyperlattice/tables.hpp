@@ -41,10 +41,9 @@ class TableColumns {
   explicit TableColumns(std::string_view first_line) {
     constexpr std::string_view mark = "\xEF\xBB\xBF";
     if (first_line.starts_with(mark)) first_line.remove_prefix(mark.size());
-    first_line = trimmed(first_line);
-    if (first_line.starts_with('#')) first_line = trimmed(first_line.substr(1));
+    if (trimmed(first_line).starts_with('#')) first_line = trimmed(trimmed(first_line).substr(1));
     for (const char candidate : {'\t', ';', ',', ' '})
-      if (first_line.find(candidate) != std::string_view::npos) {
+      if (trimmed(first_line).find(candidate) != std::string_view::npos) {
         separator_ = candidate;
         break;
       }
