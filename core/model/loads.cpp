@@ -70,6 +70,7 @@ struct Collector {
   std::set<Particle> watching;
   std::map<Particle, Vec3> start_velocities;
   std::vector<double> corners;
+  double frequency = 0;
   Vec3 acceleration;
   std::vector<std::string> warnings;
 
@@ -127,6 +128,11 @@ struct Collector {
     to.receive_corner = [](void* self, double time) {
       if (time > 0 && std::isfinite(time)) static_cast<Collector*>(self)->corners.push_back(time);
     };
+    to.receive_frequency = [](void* self, double hertz) {
+      if (!(hertz >= 0 && std::isfinite(hertz))) throw std::range_error("it gives a frequency that is negative or not finite");
+      double& highest = static_cast<Collector*>(self)->frequency;
+      highest = std::max(highest, hertz);
+    };
     return to;
   }
 };
@@ -137,6 +143,11 @@ std::vector<LoadedParticle> in_order(const std::unordered_map<Particle, LoadedPa
   for (const auto& entry : particles) all.push_back(entry.second);
   std::sort(all.begin(), all.end(), [](const LoadedParticle& a, const LoadedParticle& b) { return a.particle < b.particle; });
   return all;
+}
+
+void sort_once(std::vector<double>& times) {
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
 }
 
 /// Whether both loads hold the particle where it is, along all of these axes: they agree at all times, whatever their factors are.
@@ -204,7 +215,7 @@ void add_loads(Model& model, RegionIndex& regions, Faults& faults) {
       load.stage = stage;
       load.component = make_component(*stage);
       View view{model, regions, std::nullopt, {}, false};
-      Collector collector{model.body, {}, {}, {}, {}, {}, {}, {}};
+      Collector collector{model.body, {}, {}, {}, {}, {}, 0, {}, {}};
       Objection refused;
       const bool accepted = stage->functions<LoadFunctions>().declare(load.component.get(), view.body(), collector.sink(), refused.why);
       if (view.empty) {
@@ -223,15 +234,17 @@ void add_loads(Model& model, RegionIndex& regions, Faults& faults) {
       for (const auto& [particle, velocity] : collector.start_velocities) start_velocities[particle] = start_velocities[particle] + velocity;
       for (const std::string& warning : collector.warnings)
         model.warnings.push_back(fmt::format("{} ({}): {}", stage->name, stage->pointer, warning));
-      model.corners.insert(model.corners.end(), collector.corners.begin(), collector.corners.end());
+      load.corners = std::move(collector.corners);
+      sort_once(load.corners);
+      load.frequency = collector.frequency;
+      model.corners.insert(model.corners.end(), load.corners.begin(), load.corners.end());
       model.loads.push_back(std::move(load));
     } catch (const InputError& error) {
       add_all(faults, error);
     }
   check_conflicts(model, faults);
   model.start_velocities.assign(start_velocities.begin(), start_velocities.end());
-  std::sort(model.corners.begin(), model.corners.end());
-  model.corners.erase(std::unique(model.corners.begin(), model.corners.end()), model.corners.end());
+  sort_once(model.corners);
 }
 
 }  // namespace hyperlattice

@@ -5,6 +5,7 @@
 #include <plan/plan.hpp>
 #include <plan/precision.hpp>
 #include <plan/rehearsal.hpp>
+#include <plan/resolution.hpp>
 #include <run/layout.hpp>
 #include <run/stage_calls.hpp>
 
@@ -165,6 +166,7 @@ std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, int threads) {
   plan_stages(*plan, faults);
   check_fields(*plan, faults);
   if (faults.empty()) check_precision(*plan, faults);
+  if (faults.empty()) check_resolution(*plan, faults);
   if (faults.empty()) rehearse_outputs(*plan, faults);
   faults.throw_if_any();
   estimate_memory(*plan);

@@ -9,7 +9,7 @@
 
 namespace hyperlattice {
 
-inline constexpr std::uint32_t not_watched = ~std::uint32_t{0};
+inline constexpr std::uint32_t not_watched = ~std::uint32_t{0}, no_load = ~std::uint32_t{0};
 
 /// A load's part in a support.
 struct Contribution {
@@ -18,8 +18,9 @@ struct Contribution {
   std::uint32_t watched = not_watched;  ///< which of the load's watched particles: the force is its answer, not an amplitude
   Vec3 force, displacement, velocity;   ///< amplitudes
   Axes displaced = 0, driven = 0;
-  double factor = 0;  ///< of the present step
-  double work = 0;    ///< of the force since the start, J
+  double factor = 0;     ///< of the present step
+  double work = 0;       ///< of the force since the start, J
+  double held_work = 0;  ///< its part along prescribed axes, which whatever holds the particle takes back, J
 };
 
 /// What a block of a listed body has besides; see ListedSlots.
@@ -42,7 +43,8 @@ struct Block {
   ListedArrays listed;
   std::vector<double> damped_work;  ///< a row
   std::vector<RowSums> sums;        ///< a row
-  std::vector<Support> supports;    ///< in the rows' order
+  std::vector<Support> supports;    ///< in the rows' order; their forces leave out prescribed axes
+  std::vector<Vec3> held_force;     ///< of each support, N: the external force along prescribed axes
   std::vector<Contribution> contributions;
 
   /// A particle that a load watches.
@@ -58,8 +60,9 @@ struct Block {
     std::uint32_t row, neighbour;  ///< where the kernel found it, see AlarmRow
     std::int32_t site;
   };
-  std::vector<Broken> broken;         ///< in this step, by row, neighbour, site
-  std::vector<std::uint8_t> answers;  ///< of the failure criterion, for one batch
+  std::vector<Broken> broken;          ///< in this step, by row, neighbour, site
+  std::vector<std::uint8_t> answers;   ///< of the failure criterion, for one batch
+  std::uint32_t bad_answer = no_load;  ///< a load whose answer was not finite in the present sweep
 };
 
 }  // namespace hyperlattice

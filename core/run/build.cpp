@@ -23,6 +23,7 @@ Simulation::Parts::Parts(const Model& m, int wanted) : model(m), layout(make_lay
     acting[l].displacement.resize(model.loads[l].watched.size());
     acting[l].velocity.resize(model.loads[l].watched.size());
     prepares = prepares || model.loads[l].prepares();
+    for (const LoadedParticle& loaded : model.loads[l].particles) acting[l].moves |= (loaded.displaced | loaded.driven) != 0;
   }
   for (const auto& [particle, velocity] : model.start_velocities) {
     const auto [block, place] = at(particle);
@@ -90,6 +91,7 @@ void Simulation::Parts::add_supports(Block& block) const {
     block.supports.back().axes |= part.displaced | part.driven;
     block.contributions.push_back(part);
   }
+  block.held_force.resize(block.supports.size());
   std::uint32_t next = 0;
   for (std::size_t r = 0; r < block.rows.size(); ++r) {
     block.rows[r].first_support = next;

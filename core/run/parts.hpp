@@ -1,5 +1,5 @@
-// The inside of a Simulation: its blocks and its books. Split by concern: build.cpp, step.cpp, settle.cpp, breakage.cpp, balance.cpp,
-// restart.cpp.
+// The inside of a Simulation: its blocks and its books. Split by concern: build.cpp, acting.cpp, step.cpp, start.cpp, settle.cpp, breakage.cpp,
+// balance.cpp, restart.cpp.
 #pragma once
 
 #include <run/block.hpp>
@@ -12,6 +12,18 @@ namespace hyperlattice {
 
 inline double component(Vec3 v, int c) { return c == 0 ? v.x : c == 1 ? v.y : v.z; }
 
+inline void set_component(Vec3& v, int c, double value) { (c == 0 ? v.x : c == 1 ? v.y : v.z) = value; }
+
+/// The components of a vector along some axes, the others zero.
+inline Vec3 along(Axes axes, Vec3 v) { return {(axes & 1u) != 0 ? v.x : 0, (axes & 2u) != 0 ? v.y : 0, (axes & 4u) != 0 ? v.z : 0}; }
+
+/// One evaluation of all forces at the present instant, and what is done with them.
+struct Sweep {
+  double before = 0, after = 0;  ///< s: the interval around the instant over which the forces act; loads act by their mean over it
+  double step = 0;               ///< s, of the step in which prescribed particles move; 0: their motion at the instant, as seen from before it
+  double measured = 0;           ///< s, half of the kick that a measurement makes of the acceleration
+};
+
 struct Simulation::Parts {
   const Model& model;
   std::unique_ptr<Layout> layout;
@@ -19,9 +31,13 @@ struct Simulation::Parts {
   std::vector<double> particle_masses;  ///< kg; filled when first asked for
   int threads = 1;
 
-  /// What a load is at the present time, at the end of the step, and what it sees.
+  /// What a load is during a sweep, and what it sees.
   struct Acting {
-    double now = 0, next = 0;  ///< factors
+    double mean = 0;          ///< of the factor, over the sweep's interval
+    double next = 0;          ///< factor at the step's end
+    double mean_of_step = 0;  ///< of the factor, from the present instant to the step's end
+    Load::Limit now;          ///< of the factor
+    bool moves = false;       ///< it prescribes motion
     std::vector<Vec3> displacement, velocity;
     WatchedMotion motion;
   };
@@ -50,14 +66,23 @@ struct Simulation::Parts {
   void allocate(Block& block, std::size_t number) const;
   void add_supports(Block& block) const;
 
+  // acting.cpp
+  void prepare_loads(const Sweep& sweep);
+  void watch(const Block& block);
+  void prepare_answers();
+  void prepare_supports(Block& block, const Sweep& sweep) const;
+  void apply_forces(Block& block) const;
+  double prescribed_velocity(const Block& block, const Contribution& part, int axis, const Sweep& sweep) const;
+  void check_factors() const;
+  void check_answers() const;
+
   // step.cpp
   void step(double dt);
   KernelRequest request_for(Block& block, double back, double forward) const;
-  void prepare_loads(double step);
-  void watch(const Block& block);
-  void prepare_answers();
-  void prepare_supports(Block& block, double step) const;
-  void start(double step);
+
+  // start.cpp
+  void start_prescribed(double dt);
+  void change_step(double dt);
 
   // breakage.cpp
   const std::uint8_t* review(Block& block, const AlarmRow& alarm) const;
@@ -68,9 +93,11 @@ struct Simulation::Parts {
   double elongation_now(std::size_t breakage) const;
 
   // balance.cpp
-  RowSums measure(double back);
+  RowSums measure(const Sweep& sweep);
+  RowSums measure_now() { return measure({last_step / 2, 0, 0, last_step / 2}); }
   void find_start();
   std::vector<double> work_by_load(double potential) const;
+  double gross_work(double potential) const;
   Balance balance();
 
   // Where things are.

@@ -8,8 +8,7 @@ namespace hyperlattice {
 
 void Simulation::hold_time(double time) {
   parts_->time_held = true;
-  parts_->time = time;
-  parts_->time_rest = 0;
+  set_time(time);
 }
 void Simulation::release_time() { parts_->time_held = false; }
 
@@ -65,8 +64,8 @@ void Simulation::settle(const Settling& to) {
   halt();
   const Model& model = parts_->model;
   const auto moved_of = [&](const Block& block, const Support& support, Particle particle) {
-    const auto along = [&](std::size_t c) { return to.xyz[3 * particle + c] - block.displacement[c][support.index]; };
-    return Vec3{along(0), along(1), along(2)};
+    const auto way = [&](std::size_t c) { return to.xyz[3 * particle + c] - block.displacement[c][support.index]; };
+    return Vec3{way(0), way(1), way(2)};
   };
   for (std::size_t l = 0; l < model.loads.size(); ++l) {
     const double mean = 0.5 * (to.factor_before[l] + to.factor[l]);
@@ -77,10 +76,11 @@ void Simulation::settle(const Settling& to) {
         const Particle particle = part.particle;
         const Vec3 moved = moved_of(block, support, particle);
         part.work += mean * dot(part.force, moved);
+        part.held_work += mean * dot(part.force, along(support.axes, moved));
         for (int c = 0; c < 3; ++c) {
           const std::size_t n = 3 * particle + static_cast<std::size_t>(c);
           if (((part.displaced | part.driven) >> c & 1u) != 0)
-            support.reaction_work -= (0.5 * (to.force[n] + to.force_before[n]) + mean * component(part.force, c)) * component(moved, c);
+            support.reaction_work -= 0.5 * (to.force[n] + to.force_before[n]) * component(moved, c);
         }
       }
   }
@@ -97,8 +97,7 @@ void Simulation::settle(const Settling& to) {
   set({false, 0, 3}, to.xyz);
   if (!to.heights.empty()) set({false, 3, 1}, to.heights);
   parts_->start_known = true;  // known since halt(), and the way from there is in the books
-  parts_->time = to.time;
-  parts_->time_rest = 0;
+  set_time(to.time);
   ++parts_->steps;
 }
 

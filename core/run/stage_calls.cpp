@@ -4,16 +4,22 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace hyperlattice {
 
 SolverFacts solver_facts(const Model& model, double start_time) {
   const Site low = model.body.low, high = model.body.high;
-  SolverFacts facts{start_time, model.critical_time_step, model.corners, 1 + std::max({high.i - low.i, high.j - low.j, high.k - low.k})};
+  const double most = std::numeric_limits<std::int32_t>::max() - 1.0;
+  const auto count = [most](double sites) { return 1 + static_cast<std::int32_t>(std::min(sites, most)); };
+  const auto sites = [](std::int32_t from, std::int32_t to) { return static_cast<double>(to) - from; };
+  SolverFacts facts{start_time, model.critical_time_step, model.corners,
+                    count(std::max({sites(low.i, high.i), sites(low.j, high.j), sites(low.k, high.k)}))};
   facts.listed = model.body.is_listed();
   if (facts.listed) {
     const Vec3 size = model.body.highest - model.body.lowest;
-    facts.sites_across = 1 + static_cast<std::int32_t>(std::max({size.x, size.y, size.z}) / model.body.grid.spacing);
+    facts.sites_across = count(std::max({size.x, size.y, size.z}) / model.body.grid.spacing);
   }
   facts.tangents = model.kernels.linearise != nullptr;
   facts.answering = model.answering;
@@ -45,6 +51,7 @@ StageCalls::StageCalls(const Model& model, Simulation& simulation, const Planned
     auto& calls = *static_cast<StageCalls*>(self);
     return calls.guarded([&] {
       calls.simulation_.step(time_step);
+      calls.meet_end(time_step);
       calls.host_.time = calls.simulation_.time();
       if (calls.hooks_.stepped) calls.hooks_.stepped(time_step);
     });
@@ -100,6 +107,13 @@ StageCalls::StageCalls(const Model& model, Simulation& simulation, const Planned
       calls.hooks_.failing_motion(statics.of_particles(motion, 0, 3), has_heights ? statics.of_particles(motion, 3, 1) : std::vector<double>());
     });
   };
+}
+
+/// A sum of equal steps ends at the stage's end but for round-off.
+void StageCalls::meet_end(double time_step) {
+  constexpr double nearby = 1e-3;  // of a step
+  const double end = stage_.plan.end_time;
+  if (std::abs(simulation_.time() - end) < nearby * time_step) simulation_.set_time(end);
 }
 
 void StageCalls::run() {

@@ -33,6 +33,7 @@ class StageCalls {
   template <class Code>
   bool guarded(Code&& code) noexcept;
   Statics& statics();  ///< built when first asked for
+  void meet_end(double time_step);
 
   const Model& model_;
   Simulation& simulation_;

@@ -15,23 +15,27 @@ void Simulation::set_damping(double alpha, double rate) {
   parts_->damping_rate = rate;
 }
 void Simulation::step(double time_step) { parts_->step(time_step); }
+void Simulation::set_time(double time) {
+  parts_->time = time;
+  parts_->time_rest = 0;
+}
 double Simulation::time() const { return parts_->time; }
 std::uint64_t Simulation::steps() const { return parts_->steps; }
 Balance Simulation::balance() { return parts_->balance(); }
 
 std::vector<double> Simulation::injected_by_load() {
-  const RowSums sums = parts_->measure(parts_->last_step / 2);
+  const RowSums sums = parts_->measure_now();
   return parts_->work_by_load(sums.potential - parts_->start_potential);
 }
 
 std::vector<Vec3> Simulation::force_on_load() {
-  parts_->measure(parts_->last_step / 2);
+  parts_->measure_now();
   std::vector<Vec3> forces(parts_->model.loads.size());
   for (const Block& block : parts_->blocks)
     for (const Contribution& part : block.contributions) {
       const double* sum = block.supports[part.support].sum;
-      const auto along = [&](unsigned axis) { return ((part.displaced | part.driven) >> axis & 1u) != 0 ? sum[axis] : 0; };
-      forces[part.load] = forces[part.load] + Vec3{along(0), along(1), along(2)};
+      const Vec3 force = Vec3{sum[0], sum[1], sum[2]} + block.held_force[part.support];
+      forces[part.load] = forces[part.load] + along(part.displaced | part.driven, force);
     }
   return forces;
 }

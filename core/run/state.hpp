@@ -25,7 +25,7 @@ struct Balance {
   Vec3 momentum;                                                                                                   ///< N s
   double dissipated() const { return dissipated_failure + dissipated_damping; }
   double error = 0;  ///< J: kinetic + stored + dissipated - injected - what the start had
-  double scale = 0;  ///< J: the largest energy seen so far
+  double scale = 0;  ///< J: the largest so far of each kind of energy, and of the works without their signs
   double relative_error() const { return scale > 0 ? error / scale : 0; }
 };
 
@@ -49,8 +49,10 @@ class Simulation {
 
   /// Of the steps that follow: alpha of local damping, and the rate of damping in proportion to mass, 1/s.
   void set_damping(double alpha, double rate = 0);
-  void step(double time_step);  ///< advances time; RunError if a law or criterion fails
+  /// Advances time. A step of another length than the one before costs an evaluation of all springs more. RunError if a load is not a number.
+  void step(double time_step);
   double time() const;
+  void set_time(double time);
   /// While held, steps do not advance time and loads act as they do at that time.
   void hold_time(double time);
   void release_time();

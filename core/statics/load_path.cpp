@@ -12,19 +12,6 @@ namespace {
 
 double component(Vec3 v, int c) { return c == 0 ? v.x : c == 1 ? v.y : v.z; }
 
-/// Of a load's factor over time, which is straight between corners.
-double integral(const Load& load, const std::vector<double>& corners, double start, double end) {
-  double sum = 0, from = start;
-  const auto reach = [&](double to) {
-    sum += 0.5 * (load.factor(from) + load.factor(to)) * (to - from);
-    from = to;
-  };
-  for (const double corner : corners)
-    if (corner > from && corner < end) reach(corner);
-  if (end > from) reach(end);
-  return sum;
-}
-
 }  // namespace
 
 void Statics::make_loads() {
@@ -36,7 +23,7 @@ void Statics::make_loads() {
     const Load& load = model_.loads[l];
     factor_start_.push_back(fresh ? 0 : load.factor(start_));
     factor_end_.push_back(load.factor(end_));
-    const double way = integral(load, model_.corners, start_, end_);
+    const double way = load.integral(start_, end_);
     for (const LoadedParticle& loaded : load.particles) {
       const std::int64_t place = place_of(loaded.particle);
       if (!(loaded.force == Vec3{})) loaded_.push_back({place, l, loaded.force});

@@ -1,6 +1,6 @@
 // A load: forces, prescribed motion or a body acceleration, all following one function of time. It is declared once, before the run;
-// the core applies it, accounts for its work, and lands time steps on its corners. A load whose forces depend on the motion also answers: it names
-// the particles that it watches, and once a step is asked for the force on each.
+// the core applies its mean over each time step, and accounts for its work. A load whose forces depend on the motion also answers: it names the
+// particles that it watches, and once a step is asked for the force on each.
 #pragma once
 
 #include <hyperlattice/component.hpp>
@@ -70,7 +70,7 @@ constexpr double ramp(double time, double rise) { return time >= rise ? 1 : time
 /// What a load that answers sees at a step's start: the particles that it watches, in the order in which it named them.
 struct WatchedMotion {
   double time = 0;                     ///< seconds
-  double factor = 1;                   ///< the load's, at that time
+  double factor = 1;                   ///< the load's, its mean over the step around that time
   std::span<const Vec3> displacement;  ///< metres
   std::span<const Vec3> velocity;      ///< m/s, half a step before: forces that depend on it are true to the first power of the step
 };
@@ -92,6 +92,7 @@ struct LoadSink {
   void (*receive_corner)(void* self, double time) = nullptr;
   void (*receive_watched)(void* self, Particle particle, bool answered, const Reaction& reaction) = nullptr;
   void (*receive_warning)(void* self, std::string_view sentence) = nullptr;
+  void (*receive_frequency)(void* self, double hertz) = nullptr;
 
   void force(Particle particle, Vec3 amplitude) const { receive_force(self, particle, amplitude); }                                 ///< newton
   void displacement(Particle particle, Axes axes, Vec3 amplitude) const { receive_displacement(self, particle, axes, amplitude); }  ///< metres
@@ -100,7 +101,9 @@ struct LoadSink {
   void acceleration(Vec3 value) const { receive_acceleration(self, value); }
   /// Velocity at time 0, before the first step: m/s; factor(t) does not apply.
   void start_velocity(Particle particle, Vec3 value) const { receive_start_velocity(self, particle, value); }
-  void corner(double time) const { receive_corner(self, time); }  ///< a time where factor(t) has a kink or jump
+  void corner(double time) const { receive_corner(self, time); }  ///< a time where factor(t) has a kink or jump: means over steps are then exact
+  /// factor(t) oscillates, at most that often in a second: steps that are too long for it are refused or warned of.
+  void frequency(double hertz) const { receive_frequency(self, hertz); }
   /// The load will answer for the particle; those that are watched count from 0, each is named once.
   void watch(Particle particle, const Reaction& reaction = {}) const { receive_watched(self, particle, true, reaction); }
   /// The particle is only looked at; it counts among the watched.

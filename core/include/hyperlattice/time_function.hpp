@@ -116,8 +116,9 @@ class TimeFunction {
     return size;
   }
 
-  /// Declares its kinks and jumps.
+  /// Declares its kinks and jumps, and how fast it oscillates.
   void corners(const LoadSink& sink) const {
+    if (o_.frequency) sink.frequency(*o_.frequency);
     for (int pulse = 0; pulse < o_.pulses; ++pulse) {
       const double from = o_.start + pulse * o_.period.value_or(0);
       sink.corner(from);

@@ -28,8 +28,9 @@ class Expression {
         .equation("f(t) times total, each, force, strain or pressure")
         .source("expressions: muParser (BSD licence), operators + - * / ^ ?: and or, functions sin, exp, sqrt, abs, min, if ... of its manual")
         .restrictions(
-            "steps do not land on the expression's kinks unless `corners` says where they are; loads.actuation knows its own. Along springs the "
-            "restrictions of loads.actuation hold")
+            "the impulse is exact over the expression's kinks and jumps if `corners` says where they are; loads.actuation knows its own. f(t) must "
+            "be "
+            "a finite number at every step. Along springs the restrictions of loads.actuation hold")
         .add<&Options::on>("on", "", "the loaded particles, springs or surface")
         .add<&Options::expression>("expression", "", "f(t): t is the time in seconds, counted from the start of the run")
         .example("\"sin(2e5 * t)\"")

@@ -3,7 +3,7 @@
 //   v(n+1/2) = v(n-1/2) + dt F(u(n)) / m        u(n+1) = u(n) + dt v(n+1/2)
 //
 // stable for dt < dt_c = 2 / omega_max. With Cundall's local damping F becomes F - alpha |F| sign(v), and the limit dt_c / sqrt(1 + alpha).
-// Steps land exactly on the corners of the loads and on the end: between two of these instants all steps are equal.
+// All steps of a stage are equal: steps that change lose or make energy. Loads act by their mean over each step, so that none need end at a corner.
 #include <hyperlattice/files.hpp>
 #include <hyperlattice/solver.hpp>
 
@@ -12,35 +12,8 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 namespace hyperlattice {
-
-/// Equal steps up to an instant on which one must land.
-struct Segment {
-  double end = 0;  ///< s
-  std::uint64_t steps = 0;
-  double time_step = 0;  ///< s
-};
-
-/// Cuts [start, end] at the corners and each part into equal steps no longer than `longest`.
-inline std::vector<Segment> land(double start, double end, std::span<const double> corners, double longest) {
-  const double nearby = 1e-9 * longest;  // instants nearer than this are one
-  const double round_off = 1 - 1e-12;    // so that a step which divides the length is taken as it is
-  std::vector<Segment> segments;
-  double from = start;
-  const auto reach = [&](double to) {
-    const double parts = std::ceil((to - from) / longest * round_off);
-    if (!(parts < 1e15)) throw std::runtime_error("a longer time step or an earlier end: this would take more than 1e15 steps");
-    const auto steps = static_cast<std::uint64_t>(std::max(1.0, parts));
-    segments.push_back({to, steps, (to - from) / static_cast<double>(steps)});
-    from = to;
-  };
-  for (const double corner : corners)
-    if (corner > from + nearby && corner < end - nearby) reach(corner);
-  if (end > from) reach(end);
-  return segments;
-}
 
 class Explicit {
  public:
@@ -55,7 +28,9 @@ class Explicit {
     return Schema<Options>("solvers.explicit", "Explicit dynamics by central differences, up to an instant")
         .equation("v(n+1/2) = v(n-1/2) + dt (F - damping |F| sign(v)) / m,  u(n+1) = u(n) + dt v(n+1/2);  dt < dt_c / sqrt(1 + damping)")
         .source("Zhao 2017, section 2.2 (central differences, local damping); limit: 2 / omega_max of the lattice by Bloch analysis")
-        .restrictions("Steps land on the corners of the loads and on end_time, so they may be a little shorter than time_step.")
+        .restrictions(
+            "All steps of a stage are equal and the last ends at end_time, so they may be a little shorter than time_step. Loads act by the mean of "
+            "their factor over each step: the impulse is exact whatever the step.")
         .add<&Options::end_time>("end_time", "s", "instant at which the stage ends, counted from the start of the whole run, not of the stage")
         .example("\"20 us\"")
         .positive()
@@ -82,28 +57,24 @@ class Explicit {
     plan.damping = options_.damping;
     plan.resumes = true;
     plan.stable_time_step = facts.critical_time_step / std::sqrt(1 + options_.damping);
-    for (const Segment& segment : segments(facts)) {
-      plan.steps += segment.steps;
-      plan.time_step = std::max(plan.time_step, segment.time_step);
-    }
+    const double longest = longest_step(facts), length = options_.end_time - facts.start_time;
+    constexpr double round_off = 1 - 1e-12;  // so that a step which divides the length is taken as it is
+    const double parts = std::ceil(length / longest * round_off);
+    if (!(parts < 1e15)) throw std::runtime_error("a longer time step or an earlier end: this would take more than 1e15 steps");
+    plan.steps = static_cast<std::uint64_t>(std::max(1.0, parts));
+    plan.time_step = length / static_cast<double>(plan.steps);
     return plan;
   }
 
   void run(const SolverFacts& facts, SolverHost& host) const {
-    std::uint64_t before = host.steps_done;
-    if (before == 0 && !host.observe()) return;
-    for (const Segment& segment : segments(facts)) {
-      const std::uint64_t done = std::min(before, segment.steps);
-      before -= done;
-      for (std::uint64_t n = done + 1; n <= segment.steps; ++n) {
-        const bool last = n == segment.steps;  // takes what round-off left, to land exactly
-        if (!host.step(last ? segment.end - host.time : segment.time_step) || !host.observe()) return;
-      }
-    }
+    const SolverPlan planned = plan(facts);
+    if (host.steps_done == 0 && !host.observe()) return;
+    for (std::uint64_t n = host.steps_done; n < planned.steps; ++n)
+      if (!host.step(planned.time_step) || !host.observe()) return;
   }
 
  private:
-  std::vector<Segment> segments(const SolverFacts& facts) const {
+  double longest_step(const SolverFacts& facts) const {
     if (!(options_.end_time > facts.start_time))
       throw std::runtime_error("end_time after " + short_number(facts.start_time) +
                                " s, where the stage starts: it counts from the start of the whole run");
@@ -114,7 +85,7 @@ class Explicit {
           "time_step of at most " + short_number(stable) + " s, the stable limit" +
           (options_.damping > 0 ? " (the critical step " + short_number(facts.critical_time_step) + " s over sqrt(1 + damping))" : "") +
           "; \"auto\" takes " + short_number(options_.safety * stable) + " s");
-    return land(facts.start_time, options_.end_time, facts.corners, longest);
+    return longest;
   }
 
   Options options_;

@@ -30,7 +30,7 @@ class MyLoad {
 
   explicit MyLoad(const Options& options) : o_(options) {}
 
-  // Called once, before the run: what acts on which particle, and the instants on which steps should land.
+  // Called once, before the run: what acts on which particle, and where factor(time) has a kink or jump.
   void declare(const LoadBody& body, const LoadSink& sink) const {
     const std::span<const Particle> particles = body.particles(o_.on);
     for (const Particle particle : particles) sink.force(particle, (1 / static_cast<double>(particles.size())) * o_.total);
