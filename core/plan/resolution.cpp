@@ -31,7 +31,8 @@ ShortPiece shortest(const Load& load, const PlannedStage& stage) {
   ShortPiece shortest{0, enough_steps * step * (1 - round_off), false};
   for (std::size_t n = 0; n + 1 < ends.size(); ++n) {
     const double from = ends[n], to = ends[n + 1], length = to - from;
-    if (to < stage.start_time || from > stage.plan.end_time || !(length > nearby) || !(length < shortest.to - shortest.from)) continue;
+    if (to < stage.start_time || from > stage.plan.end_time || !(length > nearby) || !(length < (1 - round_off) * (shortest.to - shortest.from)))
+      continue;
     const double edge = 1e-3 * length;
     double least = infinity, most = -infinity;
     for (const double time : {from - edge, from + edge, 0.5 * (from + to), to - edge, to + edge}) {

@@ -246,8 +246,7 @@ TEST(LoadsThatAreNoNumbers, AreNamedWithTheirText) {
       FAIL() << expression;
     } catch (const RunError& error) {
       const std::string sentence = error.what();
-      for (const std::string part : {std::string("loads.expression (/pipeline/3)"), std::string(expression), std::string("t = ")})
-        EXPECT_NE(sentence.find(part), std::string::npos) << sentence;
+      for (const char* part : {"loads.expression (/pipeline/3)", expression, "t = "}) EXPECT_NE(sentence.find(part), std::string::npos) << sentence;
     }
   }
 }
@@ -266,7 +265,7 @@ TEST(Resolution, OfLoadsIsToldByThePlan) {
     return scene(R"({ "type": "loads.actuation", "on": "z_min", "pressure": 1, )" + keys + " }", explicit_to(10e-6, step));
   };
   const auto warnings = [&](const std::string& keys) { return plan_of(with(keys, 1e-7))->model->warnings; };
-  EXPECT_NE(faults_of_scene(with(R"("form": "harmonic", "frequency": 6e6)", 1e-7)).find("/pipeline/2: \"6000000 Hz\": expected at most"),
+  EXPECT_NE(faults_of_scene(with(R"("form": "harmonic", "frequency": 6e6)", 1e-7)).find("/pipeline/2: 6e+06 Hz: expected at most 5e+06 Hz"),
             std::string::npos)
       << faults_of_scene(with(R"("form": "harmonic", "frequency": 6e6)", 1e-7));
   EXPECT_EQ(faults_of_scene(with(R"("form": "harmonic", "frequency": 5e6)", 1e-7)), "");
