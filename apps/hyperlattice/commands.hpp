@@ -36,7 +36,8 @@ int test_plugins(Host& host, const std::vector<const Component*>& components, co
 /// The folder of the results: <input>_out here, if none was given. InputError if something else stands there.
 void choose_directory(std::filesystem::path& directory, const std::filesystem::path& input);
 
-/// The first interruption stops the run after its present step; a second one ends the program at once.
+/// A signal that would end the program stops the run after its present step instead: an interruption, the end of a terminal or a batch system's
+/// time, a closed pipe. A second interruption ends the program at once.
 void stop_gently_when_interrupted();
 
 /// --threads.

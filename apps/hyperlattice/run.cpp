@@ -6,7 +6,8 @@
 namespace hyperlattice {
 void choose_directory(std::filesystem::path& directory, const std::filesystem::path& input) {
   if (directory.empty()) directory = input.stem().string() + "_out";
-  if (std::filesystem::exists(directory) && !std::filesystem::is_directory(directory))
+  std::error_code unknown;  // of a folder that cannot be looked at, its use will tell
+  if (std::filesystem::exists(directory, unknown) && !std::filesystem::is_directory(directory, unknown) && !unknown)
     throw InputError({{"--out", directory.string(), "a folder, or a name that is free"}});
 }
 
@@ -19,16 +20,19 @@ Command run_command(CLI::App& program) {
   arguments->declare(*command);
   command->add_option("--out", arguments->options.directory, "folder for the results (default: <scene>_out here)")->type_name("DIR");
   command->add_flag("--resume", arguments->options.resume, "go on with a run that was interrupted or cut off, from the checkpoint in its folder");
+  command->add_flag("--overwrite", arguments->options.overwrite,
+                    "give up an interrupted run in the folder, and replace files there that no run's list names");
   command
       ->add_option("--checkpoint-every", arguments->options.checkpoint_every, "seconds between checkpoints (default: 600; 0: only when interrupted)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0.0, 1e12));  // no nan
   command->add_flag("--quiet", arguments->options.quiet, "no progress lines");
   return {command, [arguments] {
             RunOptions& options = arguments->options;
+            if (options.resume && options.overwrite)
+              throw InputError({{"--overwrite", "", "either --resume or --overwrite: one keeps the run in the folder, the other gives it up"}});
             choose_directory(options.directory, arguments->scene);
             Host host;
             const auto plan = arguments->plan(host);
-            if (options.resume) prepare_to_resume(*plan, options.directory);
             stop_gently_when_interrupted();
             return run(*plan, options);
           }};

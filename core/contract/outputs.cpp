@@ -40,7 +40,7 @@ class Folder {
   std::map<std::string, std::string> files() const {
     std::map<std::string, std::string> all;
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(path_)) {
-      if (!entry.is_regular_file()) continue;
+      if (!entry.is_regular_file() || entry.path().filename() == own_files_list) continue;
       std::ostringstream text;
       text << std::ifstream(entry.path(), std::ios::binary).rdbuf();
       all[fs::relative(entry.path(), path_).string()] = text.str();
@@ -59,7 +59,9 @@ class Watched {
       : plan_(plan), folder_(folder), model_(*plan.model), simulation_(std::make_unique<Simulation>(model_, plan.threads)) {
     const std::size_t particles = model_.body.particles;
     simulation_->set_velocities(noise(3 * particles, 1), std::vector<double>(particles, 0.0));
-    outputs_ = std::make_unique<Outputs>(model_, *simulation_, folder.path(), 1e-4);
+    run_folder_ = std::make_unique<RunFolder>(folder.path(), true);
+    run_folder_->begin(false);
+    outputs_ = std::make_unique<Outputs>(model_, *simulation_, *run_folder_, 1e-4);
   }
   void show() { outputs_->show_now(); }
   void move() { simulation_->step(0.5 * model_.critical_time_step); }
@@ -68,9 +70,13 @@ class Watched {
   /// As if the program had ended here, and another went on.
   void restart() {
     const std::string shown = saved([&](Archive& archive) { outputs_->save(archive); });
+    const auto marks = run_folder_->sync();
     outputs_.reset();
+    run_folder_.reset();
+    run_folder_ = std::make_unique<RunFolder>(folder_.path(), false);
+    run_folder_->go_on(marks);
     simulation_ = restarted(*simulation_, model_, plan_.threads);
-    restore(shown, [&](Archive& archive) { outputs_ = std::make_unique<Outputs>(model_, *simulation_, folder_.path(), 1e-4, &archive); });
+    restore(shown, [&](Archive& archive) { outputs_ = std::make_unique<Outputs>(model_, *simulation_, *run_folder_, 1e-4, &archive); });
   }
 
  private:
@@ -78,6 +84,7 @@ class Watched {
   const Folder& folder_;
   const Model& model_;
   std::unique_ptr<Simulation> simulation_;
+  std::unique_ptr<RunFolder> run_folder_;
   std::unique_ptr<Outputs> outputs_;
 };
 
@@ -88,7 +95,7 @@ std::unique_ptr<Plan> plan_with(Trial& trial, int threads = 1) {
 }
 
 /// What three frames leave.
-std::map<std::string, std::string> written(const Plan& plan, bool cut_off = false) {
+std::map<std::string, std::string> written(const Plan& plan, bool cut_off = false, std::string* unannounced = nullptr) {
   const Folder folder;
   Watched watched(plan, folder);
   for (int n = 0; n < 3; ++n) {
@@ -97,7 +104,11 @@ std::map<std::string, std::string> written(const Plan& plan, bool cut_off = fals
     if (n == 1 && cut_off) watched.restart();
   }
   watched.end();
-  return folder.files();
+  auto files = folder.files();
+  const auto own = read_own_files(folder.path());
+  for (const auto& [name, bytes] : files)
+    if (unannounced != nullptr && own->find(name) == own->end()) *unannounced = name;
+  return files;
 }
 
 std::string partial(const std::map<std::string, std::string>& files) {
@@ -107,7 +118,9 @@ std::string partial(const std::map<std::string, std::string>& files) {
 }
 
 Finding finishes_files(const Plan& plan) {
-  const auto files = written(plan);
+  std::string unannounced;
+  const auto files = written(plan, false, &unannounced);
+  if (!unannounced.empty()) return passes_if(false, unannounced + " was not announced to the context");
   std::size_t bytes = 0;
   for (const auto& [name, content] : files) bytes += content.size();
   if (const std::string name = partial(files); !name.empty()) return passes_if(false, name + " is empty, or was not finished");

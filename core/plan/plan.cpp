@@ -1,6 +1,7 @@
 #include <base/errors.hpp>
 #include <model/build.hpp>
 #include <plan/fields.hpp>
+#include <plan/file_names.hpp>
 #include <plan/left_out.hpp>
 #include <plan/plan.hpp>
 #include <plan/precision.hpp>
@@ -165,6 +166,7 @@ std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, int threads) {
   Faults faults;
   plan_stages(*plan, faults);
   check_fields(*plan, faults);
+  check_file_names(*plan->scene, faults);
   if (faults.empty()) check_precision(*plan, faults);
   if (faults.empty()) check_resolution(*plan, faults);
   if (faults.empty()) rehearse_outputs(*plan, faults);

@@ -1,6 +1,7 @@
 // One description of a state for both ways: what visits an archive is saved in it, or restored from it.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -27,14 +28,19 @@ class Archive {
   void operator()(std::vector<T>& values) {
     std::uint64_t size = values.size();
     (*this)(size);
-    values.resize(size);
-    bytes(values.data(), size * sizeof(T));
+    constexpr std::uint64_t piece = std::max<std::size_t>(1, (1 << 20) / sizeof(T));  // no more memory than the archive has values
+    for (std::uint64_t done = 0; done < size; done += piece) {
+      const std::uint64_t count = std::min(piece, size - done);
+      if (restores_) values.resize(done + count);
+      bytes(&values[done], count * sizeof(T));
+    }
+    if (restores_) values.resize(size);
   }
   template <class T>
   void operator()(std::span<T> values) {
     bytes(values.data(), values.size_bytes());
   }
-  /// Of what is never another: std::runtime_error if it is.
+  /// Reads a value that must equal `value`. Throws std::runtime_error if the archive holds another one.
   template <class T>
   void same(const T& value, const char* what) {
     T there = value;
@@ -42,14 +48,13 @@ class Archive {
     if (there != value) throw std::runtime_error(std::string("the checkpoint is of another run: ") + what);
   }
 
-  std::uint64_t sum() const { return sum_; }  ///< of all bytes so far
-
  private:
-  void bytes(void* data, std::size_t size);
+  void bytes(void* data, std::size_t size) {
+    if (size > 0) transfer_(data, size);
+  }
 
   Transfer transfer_;
   bool restores_;
-  std::uint64_t sum_ = 0;
 };
 
 }  // namespace hyperlattice

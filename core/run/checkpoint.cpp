@@ -1,20 +1,28 @@
+#include <base/descriptor.hpp>
 #include <base/errors.hpp>
 #include <run/checkpoint.hpp>
+#include <run/records.hpp>
 #include <run/summary.hpp>
 
 #include <hyperlattice/chance.hpp>
 #include <hyperlattice/files.hpp>
 
+#include <spdlog/spdlog.h>
 #include <nlohmann/json.hpp>
 
-#include <cstring>
-#include <fstream>
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <cstdio>
 
 namespace hyperlattice {
 
 namespace {
 
-constexpr std::uint64_t mark = 0x31746e696f706b63;  // "ckpoint1"
+namespace fs = std::filesystem;
+
+constexpr std::string_view head_tag = "head", state_tag = "stat";
+constexpr int version = 2;  // of what a checkpoint holds
 
 std::uint64_t identity_of(const Plan& plan) {
   const nlohmann::json planned = plan_json(plan);
@@ -24,63 +32,117 @@ std::uint64_t identity_of(const Plan& plan) {
   return sum;
 }
 
-void visit_head(Archive& archive, CheckpointHead& head) {
-  archive.same(mark, "it is no checkpoint of this version");
-  archive(head.identity);
-  archive(head.threads);
-  archive(head.at_start);
+std::string text_of(const CheckpointHead& head) {
+  nlohmann::json json{{"version", version}, {"identity", head.identity}, {"threads", head.threads}, {"at_start", head.at_start}};
+  auto& tables = json["tables"] = nlohmann::json::array();
+  for (const TableMark& table : head.tables) tables.push_back({{"name", table.name}, {"bytes", table.extent.bytes}, {"hash", table.extent.hash}});
+  return json.dump();
 }
 
-Archive from(std::ifstream& file, const std::filesystem::path& path) {
-  return {[&file, path](void* data, std::size_t size) {
-            if (!file.read(static_cast<char*>(data), static_cast<std::streamsize>(size)))
-              throw std::runtime_error(path.string() + ": the checkpoint is cut off");
-          },
-          true};
+CheckpointHead read_head(RecordReader& records, const fs::path& file) {
+  try {
+    const auto json = nlohmann::json::parse(records.take_all(head_tag));
+    if (json.at("version") != version) throw std::runtime_error(file.string() + ": a checkpoint of another version of the program");
+    CheckpointHead head;
+    head.identity = json.at("identity").get<std::uint64_t>();
+    head.threads = json.at("threads").get<std::int32_t>();
+    head.at_start = json.at("at_start").get<bool>();
+    for (const auto& table : json.at("tables"))
+      head.tables.push_back({table.at("name").get<std::string>(), {table.at("bytes").get<std::uint64_t>(), table.at("hash").get<std::string>()}});
+    return head;
+  } catch (const nlohmann::json::exception&) {
+    throw std::runtime_error(file.string() + ": no checkpoint of this version of the program");
+  }
+}
+
+/// A checkpoint of which every byte is as it was written. std::runtime_error if it is not.
+Checkpoint verified(const fs::path& file) {
+  RecordReader::verify(file);
+  RecordReader records(file);
+  return {file, read_head(records, file)};
+}
+
+bool is_there(const fs::path& file) {
+  struct stat status {};
+  return ::lstat(file.c_str(), &status) == 0;
+}
+
+Checkpoint newest(const fs::path& directory) {
+  std::vector<Fault> faults;
+  for (const char* name : {checkpoint_file, earlier_checkpoint_file}) {
+    const fs::path file = directory / name;
+    if (!is_there(file)) continue;
+    try {
+      Checkpoint found = verified(file);
+      if (!faults.empty()) spdlog::warn("warning: {}; the run goes on from the checkpoint before it", faults.front().expected);
+      return found;
+    } catch (const std::runtime_error& error) {
+      faults.push_back({"--resume", file.string(), error.what()});
+    }
+  }
+  for (Fault& fault : faults) fault.expected = "a checkpoint that is whole; " + fault.expected;
+  throw InputError(std::move(faults));
 }
 
 }  // namespace
 
-CheckpointHead checkpoint_head(const Plan& plan, bool at_start) { return {identity_of(plan), plan.threads, at_start}; }
+CheckpointHead checkpoint_head(const Plan& plan, bool at_start) { return {identity_of(plan), plan.threads, at_start, {}}; }
 
-CheckpointHead read_checkpoint_head(const Plan& plan, const std::filesystem::path& directory) {
-  const std::filesystem::path path = directory / checkpoint_file;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError({{"--resume", path.string(), "the checkpoint of a run that was cut off; there is none"}});
-  CheckpointHead head;
-  try {
-    Archive archive = from(file, path);
-    visit_head(archive, head);
-  } catch (const std::runtime_error& error) {
-    throw InputError({{"--resume", path.string(), error.what()}});
+Checkpoint find_checkpoint(const Plan& plan, const fs::path& directory) {
+  Checkpoint found = newest(directory);
+  if (found.head.identity != identity_of(plan))
+    throw InputError({{"--resume", found.file.string(), "a checkpoint of this scene, made by this version of the program and of its plugins"}});
+  return found;
+}
+
+void must_be_resumable(const fs::path& directory) {
+  if (!is_there(directory / checkpoint_file) && !is_there(directory / earlier_checkpoint_file))
+    throw InputError({{"--resume", (directory / checkpoint_file).string(), "the checkpoint of a run that was cut off; there is none"}});
+  if (!is_there(directory / own_files_list))
+    throw InputError({{"--resume", (directory / own_files_list).string(), "the list of the run's files; it was removed"}});
+}
+
+bool holds_progress(const fs::path& directory) {
+  for (const char* name : {checkpoint_file, earlier_checkpoint_file}) {
+    const fs::path file = directory / name;
+    if (!is_there(file)) continue;
+    try {
+      RecordReader records(file);
+      if (!read_head(records, file).at_start) return true;
+    } catch (const std::runtime_error&) {
+      return true;
+    }
   }
-  if (head.identity != identity_of(plan))
-    throw InputError({{"--resume", path.string(), "a checkpoint of this scene, made by this version of the program and of its plugins"}});
-  return head;
+  return false;
 }
 
-void write_checkpoint(const std::filesystem::path& directory, const CheckpointHead& head, const Visit& state) {
-  AtomicFile file((directory / checkpoint_file).string());
-  Archive archive([&](void* data, std::size_t size) { file.write({static_cast<const char*>(data), size}); }, false);
-  CheckpointHead own = head;
-  visit_head(archive, own);
+void write_checkpoint(const fs::path& directory, const CheckpointHead& head, const Visit& state) {
+  const fs::path path = directory / checkpoint_file;
+  AtomicFile file(path.string());
+  RecordWriter records(file);
+  const std::string text = text_of(head);
+  records.put(head_tag, text.data(), text.size());
+  Archive archive([&](void* data, std::size_t size) { records.put(state_tag, data, size); }, false);
   if (!head.at_start) state(archive);
-  std::uint64_t sum = archive.sum();
-  archive(sum);
+  records.end();
+  file.sync();
+  if (std::rename(path.c_str(), (directory / earlier_checkpoint_file).c_str()) != 0 && errno != ENOENT)
+    throw std::runtime_error(fmt::format("cannot rename {}: {}", path.string(), std::generic_category().message(errno)));
   file.commit();
+  sync_directory(directory);
 }
 
-void read_checkpoint(const std::filesystem::path& directory, const Visit& state) {
-  const std::filesystem::path path = directory / checkpoint_file;
-  std::ifstream file(path, std::ios::binary);
-  Archive archive = from(file, path);
-  CheckpointHead head;
-  visit_head(archive, head);
-  if (!head.at_start) state(archive);
-  const std::uint64_t sum = archive.sum();
-  std::uint64_t there = 0;
-  archive(there);
-  if (there != sum) throw std::runtime_error(path.string() + ": the checkpoint is damaged");
+void read_checkpoint(const Checkpoint& checkpoint, const Visit& state) {
+  RecordReader records(checkpoint.file);
+  read_head(records, checkpoint.file);
+  Archive archive([&](void* data, std::size_t size) { records.take(state_tag, data, size); }, true);
+  state(archive);
+}
+
+void remove_checkpoints(const fs::path& directory) {
+  for (const char* name : {earlier_checkpoint_file, checkpoint_file})
+    if (::unlink((directory / name).c_str()) != 0 && errno != ENOENT)
+      throw OutsideError(fmt::format("cannot remove {}: {}", (directory / name).string(), std::generic_category().message(errno)));
 }
 
 }  // namespace hyperlattice

@@ -7,19 +7,10 @@
 
 namespace hyperlattice {
 
-namespace {
-
-Table open(const std::filesystem::path& file, const std::vector<std::string>& columns, Archive* resumed) {
-  return resumed != nullptr ? Table::resumed(file, *resumed) : Table(file, columns);
-}
-
-}  // namespace
-
-History::History(const std::filesystem::path& directory, Archive* resumed)
-    : table_(open(directory / "history.csv",
-                  {"time", "step", "kinetic", "kinetic_mean", "stored", "dissipated", "dissipated_failure", "dissipated_damping", "injected",
-                   "balance_error", "relative_error", "momentum_x", "momentum_y", "momentum_z", "broken_open", "broken_closed"},
-                  resumed)) {}
+History::History(RunFolder& folder)
+    : table_(folder.table("history.csv",
+                          {"time", "step", "kinetic", "kinetic_mean", "stored", "dissipated", "dissipated_failure", "dissipated_damping", "injected",
+                           "balance_error", "relative_error", "momentum_x", "momentum_y", "momentum_z", "broken_open", "broken_closed"})) {}
 
 void History::write(const Record& record) {
   const Balance& b = record.balance;
@@ -42,15 +33,12 @@ void History::write(const Record& record) {
   table_.row(values);
 }
 
-FailureLog::FailureLog(const std::filesystem::path& directory, Archive* resumed)
-    : table_(open(directory / "failures.csv", {"step", "time", "particle_a", "particle_b", "elongation"}, resumed)) {
+FailureLog::FailureLog(RunFolder& folder, Archive* resumed)
+    : table_(folder.table("failures.csv", {"step", "time", "particle_a", "particle_b", "elongation"})) {
   if (resumed != nullptr) (*resumed)(written_);
 }
 
-void FailureLog::save(Archive& archive) {
-  table_.save(archive);
-  archive(written_);
-}
+void FailureLog::save(Archive& archive) { archive(written_); }
 
 void FailureLog::write_new(const std::vector<Breakage>& breakages) {
   if (written_ == breakages.size()) return;

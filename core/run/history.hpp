@@ -1,8 +1,8 @@
 // history.csv: the energy books, the momentum and the broken springs at every record; failures.csv: every spring that broke.
 #pragma once
 
+#include <run/folder.hpp>
 #include <run/state.hpp>
-#include <run/table.hpp>
 
 namespace hyperlattice {
 
@@ -16,23 +16,22 @@ struct Record {
 
 class History {
  public:
-  explicit History(const std::filesystem::path& directory, Archive* resumed = nullptr);
-  void save(Archive& archive) { table_.save(archive); }
+  explicit History(RunFolder& folder);
   void write(const Record& record);
 
  private:
-  Table table_;
+  Table& table_;
 };
 
 /// Only for runs with a failure criterion.
 class FailureLog {
  public:
-  explicit FailureLog(const std::filesystem::path& directory, Archive* resumed = nullptr);
+  explicit FailureLog(RunFolder& folder, Archive* resumed = nullptr);
   void save(Archive& archive);
   void write_new(const std::vector<Breakage>& breakages);  ///< those that came since the last call
 
  private:
-  Table table_;
+  Table& table_;
   std::uint64_t written_ = 0;
 };
 

@@ -5,6 +5,8 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <utility>
+
 namespace hyperlattice {
 
 namespace {
@@ -19,8 +21,8 @@ void call(const Stage& stage, Call&& function) {
 
 }  // namespace
 
-Outputs::Outputs(const Model& model, const Simulation& simulation, const std::filesystem::path& directory, double end_time, Archive* resumed)
-    : model_(model), simulation_(simulation), source_(model, simulation), directory_(directory), regions_(model.body, model.scene->regions) {
+Outputs::Outputs(const Model& model, const Simulation& simulation, RunFolder& folder, double end_time, Archive* resumed)
+    : model_(model), simulation_(simulation), source_(model, simulation), folder_(folder), regions_(model.body, model.scene->regions) {
   for (const std::string_view name : field_names)
     if (has_field(model, name)) fields_.push_back(name);
   for (const Family family : {Family::writers, Family::probes})
@@ -30,7 +32,7 @@ Outputs::Outputs(const Model& model, const Simulation& simulation, const std::fi
       output.component = make_component(*stage);
       output.schedule = Schedule(0, output_interval(*stage, end_time), stage->cadence.first);
       if (resumed != nullptr) visit(*resumed, output);
-      begin(output, resumed);
+      begin(output);
     }
 }
 
@@ -40,19 +42,16 @@ void Outputs::visit(Archive& archive, Output& output) {
 }
 
 void Outputs::save(Archive& archive) {
-  for (Output& output : outputs_) {
-    visit(archive, output);
-    if (output.table) output.table->save(archive);
-  }
+  for (Output& output : outputs_) visit(archive, output);
 }
 
-void Outputs::begin(Output& output, Archive* resumed) {
+void Outputs::begin(Output& output) {
   const Stage& stage = *output.stage;
   const bool is_probe = stage.family() == Family::probes;
   const std::string type = stage.component->type();
   const bool is_labelled = stage.name != type.substr(type.find('.') + 1);  // two writers of a type must not share their files
-  output.directory = (is_probe ? directory_ / "probes" : is_labelled ? directory_ / stage.name : directory_).string();
-  std::filesystem::create_directories(output.directory);
+  output.name = is_probe ? "probes" : is_labelled ? stage.name : "";
+  output.directory = (output.name.empty() ? folder_.directory() : folder_.subfolder(output.name)).string();
   OutputContext context;
   context.directory = output.directory;
   context.title = model_.scene->title;
@@ -60,6 +59,7 @@ void Outputs::begin(Output& output, Archive* resumed) {
   context.earlier = output.shown;
   context.self = this;
   context.region_particles = [](void* self, RegionId region) noexcept { return static_cast<Outputs*>(self)->regions_.particles(region); };
+  context.announce_file = [](void* self, std::string_view file, bool rewritten) noexcept { static_cast<Outputs*>(self)->announce(file, rewritten); };
   if (!is_probe) {
     call(stage, [&](const Complaint& why) { return stage.functions<WriterFunctions>().begin(output.component.get(), context, why); });
     return;
@@ -70,8 +70,16 @@ void Outputs::begin(Output& output, Archive* resumed) {
        [&](const Complaint& why) { return stage.functions<ProbeFunctions>().begin(output.component.get(), context, source_.take(), sink, why); });
   source_.rethrow();
   output.row.resize(columns.size());
-  const std::filesystem::path file = directory_ / "probes" / (stage.name + ".csv");
-  output.table.emplace(resumed != nullptr ? Table::resumed(file, *resumed) : Table(file, columns));
+  output.table = &folder_.table("probes/" + stage.name + ".csv", columns);
+}
+
+void Outputs::announce(std::string_view file, bool rewritten) noexcept {
+  try {
+    if (writing_ == nullptr) throw OutsideError("a writer announced a file when it was not asked to write");
+    folder_.claim(writing_->name.empty() ? std::string(file) : fmt::format("{}/{}", writing_->name, file), rewritten);
+  } catch (...) {
+    unannounced_ = std::current_exception();
+  }
 }
 
 void Outputs::show(double time_step) {
@@ -92,22 +100,27 @@ void Outputs::show_last() {
 void Outputs::show_to(Output& output) {
   const Snapshot& snapshot = source_.take();
   const Stage& stage = *output.stage;
+  writing_ = &output;
   call(stage, [&](const Complaint& why) {
-    return output.table ? stage.functions<ProbeFunctions>().sample(output.component.get(), snapshot, output.row.data() + 1, why)
-                        : stage.functions<WriterFunctions>().frame(output.component.get(), snapshot, why);
+    return output.table != nullptr ? stage.functions<ProbeFunctions>().sample(output.component.get(), snapshot, output.row.data() + 1, why)
+                                   : stage.functions<WriterFunctions>().frame(output.component.get(), snapshot, why);
   });
   source_.rethrow();
-  if (output.table) output.shown.clear();
+  if (unannounced_) std::rethrow_exception(std::exchange(unannounced_, nullptr));
+  if (output.table != nullptr) output.shown.clear();
   output.shown.push_back({snapshot.step, snapshot.time});
-  if (!output.table) return;
+  if (output.table == nullptr) return;
   output.row[0] = snapshot.time;
   output.table->row(output.row);
 }
 
 void Outputs::end() {
-  for (Output& output : outputs_)
-    if (!output.table)
-      call(*output.stage, [&](const Complaint& why) { return output.stage->functions<WriterFunctions>().end(output.component.get(), why); });
+  for (Output& output : outputs_) {
+    if (output.table != nullptr) continue;
+    writing_ = &output;
+    call(*output.stage, [&](const Complaint& why) { return output.stage->functions<WriterFunctions>().end(output.component.get(), why); });
+    if (unannounced_) std::rethrow_exception(std::exchange(unannounced_, nullptr));
+  }
 }
 
 }  // namespace hyperlattice

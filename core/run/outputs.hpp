@@ -2,13 +2,12 @@
 #pragma once
 
 #include <model/region_index.hpp>
+#include <run/folder.hpp>
 #include <run/schedule.hpp>
 #include <run/snapshot.hpp>
-#include <run/table.hpp>
 
-#include <filesystem>
+#include <exception>
 #include <list>
-#include <optional>
 
 namespace hyperlattice {
 
@@ -16,7 +15,7 @@ namespace hyperlattice {
 class Outputs {
  public:
   /// Begins every writer and probe, or goes on with them. `end_time` is the run's, for those that do not say how often.
-  Outputs(const Model& model, const Simulation& simulation, const std::filesystem::path& directory, double end_time, Archive* resumed = nullptr);
+  Outputs(const Model& model, const Simulation& simulation, RunFolder& folder, double end_time, Archive* resumed = nullptr);
   void save(Archive& archive);
 
   void show(double time_step);  ///< to those that are due, at the present state
@@ -28,13 +27,15 @@ class Outputs {
   struct Output {
     const Stage* stage = nullptr;
     ComponentPointer component{nullptr, [](void*) {}};
-    std::string directory;
+    std::string name;       ///< of its folder in the run's; empty: the run's itself
+    std::string directory;  ///< of its files
     Schedule schedule;
     std::vector<FrameMark> shown;  ///< all that it was shown; of a probe, the latest
-    std::optional<Table> table;    ///< of a probe
+    Table* table = nullptr;        ///< of a probe
     std::vector<double> row;
   };
-  void begin(Output& output, Archive* resumed);
+  void begin(Output& output);
+  void announce(std::string_view file, bool rewritten) noexcept;
   static void visit(Archive& archive, Output& output);
   bool has_seen_this(const Output& output) const { return !output.shown.empty() && output.shown.back().step == simulation_.steps(); }
   void show_to(Output& output);
@@ -42,7 +43,9 @@ class Outputs {
   const Model& model_;
   const Simulation& simulation_;
   SnapshotSource source_;
-  std::filesystem::path directory_;
+  RunFolder& folder_;
+  const Output* writing_ = nullptr;       ///< the one that is at work
+  std::exception_ptr unannounced_;        ///< why a file could not be announced
   std::vector<std::string_view> fields_;  ///< that this run has
   std::list<Output> outputs_;
   RegionIndex regions_;

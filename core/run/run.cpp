@@ -1,7 +1,9 @@
 // The run: planned solver stages one after the other. Each step belongs to the solver; records, outputs, guards and the end are here.
+#include <base/descriptor.hpp>
 #include <plan/precision.hpp>
 #include <run/checkpoint.hpp>
 #include <run/failing_motion.hpp>
+#include <run/folder.hpp>
 #include <run/guard.hpp>
 #include <run/inside_out.hpp>
 #include <run/interrupt.hpp>
@@ -29,9 +31,10 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 class Running {
  public:
-  Running(Plan& plan, const RunOptions& options) : plan_(plan), options_(options) {}
+  Running(Plan& plan, const RunOptions& options, RunFolder& folder) : plan_(plan), options_(options), folder_(folder) {}
 
-  void start(Outcome& outcome);
+  /// `resumed`: where an earlier run had come to.
+  void start(Outcome& outcome, const std::optional<Checkpoint>& resumed);
   void solve();
   void finish();
   std::uint64_t steps() const { return simulation_->steps(); }
@@ -54,6 +57,7 @@ class Running {
 
   Plan& plan_;
   const RunOptions& options_;
+  RunFolder& folder_;
   std::unique_ptr<Simulation> simulation_;
   std::unique_ptr<Guard> guard_;
   std::unique_ptr<CellWatch> cells_;
@@ -83,20 +87,14 @@ void Running::timed(Output&& output) {
   output_seconds_ += seconds_since(start);
 }
 
-void Running::start(Outcome& outcome) {
+void Running::start(Outcome& outcome, const std::optional<Checkpoint>& resumed) {
   const auto start = Clock::now();
-  namespace fs = std::filesystem;
-  const bool goes_on = options_.resume && !read_checkpoint_head(plan_, options_.directory).at_start;
-  fs::create_directories(options_.directory);
-  for (const char* stale : {"summary.json", failing_motion_file}) fs::remove(options_.directory / stale);
-  if (!goes_on)
-    for (const char* stale : {"failures.csv", checkpoint_file}) fs::remove(options_.directory / stale);
-  write_file((options_.directory / "scene.resolved.json").string(), plan_.scene->resolved);
+  if (!resumed) folder_.write("scene.resolved.json", plan_.scene->resolved);
   simulation_ = std::make_unique<Simulation>(*plan_.model, plan_.threads);
   guard_ = std::make_unique<Guard>(*plan_.model, *simulation_);
   cells_ = std::make_unique<CellWatch>(*plan_.model);
-  if (goes_on)
-    read_checkpoint(options_.directory, [this](Archive& archive) { visit(archive); });
+  if (resumed)
+    read_checkpoint(*resumed, [this](Archive& archive) { visit(archive); });
   else
     open(nullptr);
   progress_ = std::make_unique<Progress>(plan_.steps(), options_.quiet);
@@ -105,9 +103,9 @@ void Running::start(Outcome& outcome) {
 
 /// The files that grow: begun, or gone on with.
 void Running::open(Archive* resumed) {
-  history_ = std::make_unique<History>(options_.directory, resumed);
-  if (plan_.model->choice.breakable) failures_ = std::make_unique<FailureLog>(options_.directory, resumed);
-  outputs_ = std::make_unique<Outputs>(*plan_.model, *simulation_, options_.directory, plan_.end_time(), resumed);
+  history_ = std::make_unique<History>(folder_);
+  if (plan_.model->choice.breakable) failures_ = std::make_unique<FailureLog>(folder_, resumed);
+  outputs_ = std::make_unique<Outputs>(*plan_.model, *simulation_, folder_, plan_.end_time(), resumed);
 }
 
 /// All that a run is, at a point from which it can go on.
@@ -130,14 +128,16 @@ void Running::visit(Archive& archive) {
     open(&archive);
     return;
   }
-  history_->save(archive);
   if (failures_) failures_->save(archive);
   outputs_->save(archive);
 }
 
 void Running::save() {
-  timed(
-      [&] { write_checkpoint(options_.directory, checkpoint_head(plan_, simulation_->steps() == 0), [this](Archive& archive) { visit(archive); }); });
+  timed([&] {
+    CheckpointHead head = checkpoint_head(plan_, simulation_->steps() == 0);
+    if (!head.at_start) head.tables = folder_.sync();  // what the checkpoint counts on is on the disk before it
+    write_checkpoint(folder_.directory(), head, [this](Archive& archive) { visit(archive); });
+  });
   saved_ = Clock::now();
 }
 
@@ -181,6 +181,7 @@ void Running::solve_stage(const PlannedStage& stage) {
   hooks.observe = [this] { observe(); };
   hooks.report = [this](const RestReport& report) { rest_ = report; };
   hooks.failing_motion = [this](const std::vector<double>& motion, const std::vector<double>& heights) {
+    folder_.claim(failing_motion_file, false);
     write_failing_motion(options_.directory, plan_.model->body, motion, heights);
     spdlog::info("how the body moves is in {}", (options_.directory / failing_motion_file).string());
   };
@@ -258,65 +259,100 @@ void Running::note(Outcome& outcome) {
   outcome.time = simulation_->time();
   outcome.injected_by_load = simulation_->injected_by_load();
   outcome.state_hash = simulation_->hash();
-  if (std::string sentence = cells_->sentence(); !sentence.empty()) outcome.warnings.push_back(std::move(sentence));
+  if (std::string sentence = cells_ ? cells_->sentence() : ""; !sentence.empty()) outcome.warnings.push_back(std::move(sentence));
   if (plan_.model->choice.precision == Precision::doubles) return;
   if (std::string warning = precision_warning(*plan_.model, simulation_->farthest()); !warning.empty())
     outcome.warnings.push_back(std::move(warning));
 }
 
-}  // namespace
-
-void prepare_to_resume(Plan& plan, const std::filesystem::path& directory) {
-  const int threads = read_checkpoint_head(plan, directory).threads;
-  if (threads != plan.threads) spdlog::info("the run goes on with {} threads, as it began", threads);
-  plan.threads = threads;
+/// Makes the folder ready, and says where the run goes on; nowhere if it begins.
+std::optional<Checkpoint> prepare(RunFolder& folder, Plan& plan, const RunOptions& options) {
+  std::optional<Checkpoint> resumed;
+  if (options.resume) resumed = find_checkpoint(plan, options.directory);
+  if (resumed && resumed->head.threads != plan.threads) {
+    spdlog::info("the run goes on with {} threads, as it began", resumed->head.threads);
+    plan.threads = resumed->head.threads;
+  }
+  if (resumed && !resumed->head.at_start)
+    folder.go_on(resumed->head.tables);
+  else
+    folder.begin(options.overwrite || resumed);
+  if (resumed && resumed->head.at_start) resumed.reset();
+  return resumed;
 }
+
+/// Solves the plan; what went wrong is in the outcome.
+void carry_out(Plan& plan, const RunOptions& options, RunFolder& folder, const std::optional<Checkpoint>& resumed, Outcome& outcome) {
+  Running running(plan, options, folder);
+  const auto attempt = [&](const std::function<void()>& work) {
+    try {
+      work();
+    } catch (const RunError& error) {
+      outcome.end("failed", exit_run, error.what());
+    } catch (const std::bad_alloc&) {
+      outcome.end("failed", exit_outside, fmt::format("out of memory: this run needs about {:.0f} MB", plan.memory_bytes / 1e6));
+    } catch (const std::exception& error) {
+      outcome.end("failed", exit_outside, error.what());
+    }
+  };
+  attempt([&] {
+    running.start(outcome, resumed);
+    running.solve();
+    running.finish();
+    // how many steps a search for rest takes is not known before
+    const bool short_of = running.steps() < plan.steps() ||
+                          std::any_of(plan.stages.begin(), plan.stages.end(), [](const PlannedStage& stage) { return stage.plan.at_rest; });
+    if (stop_requested() && short_of) outcome.end("interrupted", exit_interrupted, "asked to stop by a signal");
+  });
+  attempt([&] { running.note(outcome); });
+}
+
+/// Leaves the summary. A checkpoint goes when the run is done and this is on the disk; that of a run that failed is kept.
+void conclude(const Plan& plan, RunFolder& folder, Outcome& outcome) {
+  const std::filesystem::path& directory = folder.directory();
+  const bool has_checkpoint = holds_progress(directory);
+  try {
+    if (outcome.exit_code == exit_done && has_checkpoint) folder.sync();
+    try {
+      folder.claim("summary.json", true);
+    } catch (const OutsideError& error) {  // on a full disk there may be room for the summary yet
+      spdlog::error("{}", error.what());
+    }
+    AtomicFile summary((directory / "summary.json").string());
+    summary.write(summary_json(plan, outcome).dump(2) + "\n");
+    if (has_checkpoint) summary.sync();
+    summary.commit();
+    folder.finish();
+    if (has_checkpoint) sync_directory(directory);
+    if (outcome.exit_code == exit_done || (outcome.exit_code == exit_run && !has_checkpoint)) remove_checkpoints(directory);
+  } catch (const std::exception& error) {
+    spdlog::error("{}", error.what());
+    if (outcome.exit_code == exit_done) outcome.end("failed", exit_outside, error.what());
+  }
+  if (outcome.exit_code == exit_done)
+    spdlog::info("done: {} steps in {:.3g} s, results in {}", outcome.steps, outcome.solve_seconds, directory.string());
+  else
+    spdlog::error("{}: {}", outcome.status, outcome.reason);
+  if (outcome.exit_code != exit_done && has_checkpoint)
+    spdlog::info("a checkpoint is in {}: --resume goes on from it, --overwrite gives it up", directory.string());
+}
+
+}  // namespace
 
 int run(Plan& plan, const RunOptions& options) {
   const FileLimitGuard file_limit;
+  if (options.resume) must_be_resumable(options.directory);
+  RunFolder folder(options.directory, !options.resume);
+  const std::optional<Checkpoint> resumed = prepare(folder, plan, options);
   Outcome outcome;
   outcome.setup_seconds = plan.setup_seconds;
-  const auto end = [&](const char* status, int exit_code, std::string reason) {
-    outcome.status = status;
-    outcome.exit_code = exit_code;
-    outcome.reason = std::move(reason);
-  };
-  {
-    std::string body;
-    for (const auto& [name, value] : body_lines(plan.body)) body += fmt::format("{}{} {}", body.empty() ? "" : ", ", name, value);
-    spdlog::info("the body: {}", body);
-    for (const std::string& warning : plan.model->warnings) spdlog::warn("warning: {}", warning);
-    Running running(plan, options);
-    try {
-      running.start(outcome);
-      running.solve();
-      running.finish();
-      // how many steps a search for rest takes is not known before
-      const bool short_of = running.steps() < plan.steps() ||
-                            std::any_of(plan.stages.begin(), plan.stages.end(), [](const PlannedStage& stage) { return stage.plan.at_rest; });
-      if (stop_requested() && short_of) end("interrupted", exit_interrupted, "asked to stop by a signal");
-    } catch (const RunError& error) {
-      end("failed", exit_run, error.what());
-    } catch (const std::bad_alloc&) {
-      end("failed", exit_outside, fmt::format("out of memory: this run needs about {:.0f} MB", plan.memory_bytes / 1e6));
-    } catch (const std::exception& error) {
-      end("failed", exit_outside, error.what());
-    }
-    running.note(outcome);
-  }
+  std::string body;
+  for (const auto& [name, value] : body_lines(plan.body)) body += fmt::format("{}{} {}", body.empty() ? "" : ", ", name, value);
+  spdlog::info("the body: {}", body);
+  for (const std::string& warning : plan.model->warnings) spdlog::warn("warning: {}", warning);
+  carry_out(plan, options, folder, resumed, outcome);
   forget_stop();
-  try {
-    // a run that failed by itself would fail again
-    if (outcome.exit_code == exit_done || outcome.exit_code == exit_run) std::filesystem::remove(options.directory / checkpoint_file);
-    write_file((options.directory / "summary.json").string(), summary_json(plan, outcome).dump(2) + "\n");
-  } catch (const std::exception& error) {
-    spdlog::error("{}", error.what());
-    if (outcome.exit_code == exit_done) end("failed", exit_outside, error.what());
-  }
-  if (outcome.exit_code == exit_done)
-    spdlog::info("done: {} steps in {:.3g} s, results in {}", outcome.steps, outcome.solve_seconds, options.directory.string());
-  else
-    spdlog::error("{}: {}", outcome.status, outcome.reason);
+  conclude(plan, folder, outcome);
   return outcome.exit_code;
 }
 

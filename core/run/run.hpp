@@ -11,15 +11,15 @@ namespace hyperlattice {
 struct RunOptions {
   std::filesystem::path directory;
   bool quiet = false;             ///< no progress lines
-  bool resume = false;            ///< go on from the checkpoint in the folder
+  bool resume = false;            ///< go on from the checkpoint in the folder, with as many threads as the run there began with
+  bool overwrite = false;         ///< give up an interrupted run in the folder, and replace files that are not the run's own
   double checkpoint_every = 600;  ///< s between checkpoints; 0: only where the run is interrupted
 };
 
-/// Runs a plan. Returns the exit code and leaves summary.json in any case but a failure to write it. Messages go to the log.
+/// Runs a plan. Returns the exit code and leaves summary.json in any case but a failure to write it. Messages go to the log. InputError or
+/// OutsideError, with nothing touched, if the folder is not fit for it: another run is writing there, an interrupted one waits to be resumed, or what
+/// is to be resumed is not there or not as it was.
 int run(Plan& plan, const RunOptions& options);
-
-/// Makes ready a plan for going on in a folder, with as many threads as the run there began with. InputError if it cannot.
-void prepare_to_resume(Plan& plan, const std::filesystem::path& directory);
 
 /// Asks a running simulation to stop after the present step; safe in a signal handler.
 void request_stop() noexcept;

@@ -22,6 +22,14 @@ struct Outcome {
   double time = 0;                       ///< reached, s
   std::vector<std::string> warnings;     ///< beside the model's
   std::uint64_t state_hash = 0;
+
+  /// The first reason not to be done is the one that counts.
+  void end(const char* new_status, int code, std::string why) {
+    if (exit_code != 0) return;
+    status = new_status;
+    exit_code = code;
+    reason = std::move(why);
+  }
 };
 
 /// The keys that product.md names, and a few more.

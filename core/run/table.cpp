@@ -1,19 +1,38 @@
 // Tables: appended through the system's own calls, because they alone say how much of a line reached the disk.
 #include <base/errors.hpp>
-#include <run/archive.hpp>
 #include <run/table.hpp>
+
+#include <hyperlattice/files.hpp>
 
 #include <spdlog/fmt/fmt.h>
 
 #include <fcntl.h>
-#include <unistd.h>
+#include <sys/stat.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <iterator>
 #include <system_error>
-#include <utility>
 
 namespace hyperlattice {
+
+namespace {
+
+/// Adds a file's first bytes to a hash. Returns 0 or the system's error; EIO if the file is shorter.
+int add_bytes(ContentHash& hash, const Descriptor& file, std::uint64_t bytes) {
+  constexpr std::uint64_t piece = 1 << 18;
+  std::vector<char> buffer(std::min(piece, bytes));
+  for (std::uint64_t done = 0; done < bytes;) {
+    const ssize_t count = ::pread(file.number(), buffer.data(), std::min(piece, bytes - done), static_cast<off_t>(done));
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return count < 0 ? errno : EIO;
+    hash.add({buffer.data(), static_cast<std::size_t>(count)});
+    done += static_cast<std::uint64_t>(count);
+  }
+  return 0;
+}
+
+}  // namespace
 
 void append_row(std::string& text, std::span<const double> values) {
   const char* separator = "";
@@ -24,35 +43,35 @@ void append_row(std::string& text, std::span<const double> values) {
   text += '\n';
 }
 
+bool has_extent(const std::filesystem::path& file, const Extent& extent) {
+  const Descriptor there(::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+  struct stat status {};
+  if (!there || ::fstat(there.number(), &status) != 0 || !S_ISREG(status.st_mode)) return false;
+  if (static_cast<std::uint64_t>(status.st_size) < extent.bytes) return false;
+  ContentHash hash;
+  return add_bytes(hash, there, extent.bytes) == 0 && hash.text() == extent.hash;
+}
+
 Table::Table(std::filesystem::path file, const std::vector<std::string>& columns) : file_(std::move(file)) {
-  descriptor_ = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) fail(errno);
-  lines(fmt::format("{}\n", fmt::join(columns, ",")));
+  const std::string header = fmt::format("{}\n", fmt::join(columns, ","));
+  try {
+    write_file(file_.string(), header);
+  } catch (const std::runtime_error& error) {
+    throw OutsideError(error.what());
+  }
+  *this = resumed(std::move(file_), header.size());
 }
 
-void Table::save(Archive& archive) {
-  std::uint64_t now = bytes();
-  archive(now);
-}
-
-Table Table::resumed(std::filesystem::path file, Archive& archive) {
-  std::uint64_t saved = 0;
-  archive(saved);
-  Table table(std::move(file));
-  table.descriptor_ = ::open(table.file_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
-  if (table.descriptor_ < 0) table.fail(errno);
-  if (table.bytes() < saved) throw OutsideError(fmt::format("{}: shorter than when the checkpoint was made", table.file_.string()));
-  if (::ftruncate(table.descriptor_, static_cast<off_t>(saved)) != 0) table.fail(errno);
+Table Table::resumed(std::filesystem::path file, std::uint64_t bytes) {
+  Descriptor descriptor(::open(file.c_str(), O_RDWR | O_APPEND | O_NOFOLLOW | O_CLOEXEC));
+  Table table(std::move(file), std::move(descriptor), bytes);
+  table.cut(bytes);
   return table;
 }
 
-std::uint64_t Table::bytes() const { return static_cast<std::uint64_t>(::lseek(descriptor_, 0, SEEK_END)); }
-
-Table::Table(Table&& other) noexcept
-    : file_(std::move(other.file_)), descriptor_(std::exchange(other.descriptor_, -1)), buffer_(std::move(other.buffer_)) {}
-
-Table::~Table() {
-  if (descriptor_ >= 0) ::close(descriptor_);
+Table::Table(std::filesystem::path file, Descriptor descriptor, std::uint64_t bytes) : file_(std::move(file)), descriptor_(std::move(descriptor)) {
+  if (!descriptor_) fail(errno);
+  read(bytes);
 }
 
 void Table::row(std::span<const double> values) {
@@ -62,23 +81,41 @@ void Table::row(std::span<const double> values) {
 }
 
 void Table::lines(std::string_view text) {
-  const off_t before = ::lseek(descriptor_, 0, SEEK_END);
   std::size_t written = 0;
-  while (written < text.size()) {
-    const ssize_t count = ::write(descriptor_, text.data() + written, text.size() - written);
-    if (count >= 0) {
+  int error = 0;
+  while (written < text.size() && error == 0) {
+    const ssize_t count = ::write(descriptor_.number(), text.data() + written, text.size() - written);
+    if (count >= 0)
       written += static_cast<std::size_t>(count);
-    } else if (errno != EINTR) {
-      const int error = errno;
-      const auto last = text.substr(0, written).rfind('\n');
-      const std::size_t whole = last == std::string_view::npos ? 0 : last + 1;
-      if (::ftruncate(descriptor_, before + static_cast<off_t>(whole)) != 0) {  // nothing left to save with: the message stays the first error's
-      }
-      fail(error);
-    }
+    else if (errno != EINTR)
+      error = errno;
   }
+  const auto last = text.substr(0, written).rfind('\n');
+  const std::string_view whole = text.substr(0, last == std::string_view::npos ? 0 : last + 1);
+  hash_.add(whole);
+  bytes_ += whole.size();
+  if (error == 0) return;
+  if (::ftruncate(descriptor_.number(), static_cast<off_t>(bytes_)) != 0) {  // nothing left to save with: the message stays the first error's
+  }
+  fail(error);
 }
 
-void Table::fail(int error) { throw OutsideError(fmt::format("{}: cannot write: {}", file_.string(), std::system_category().message(error))); }
+void Table::sync() {
+  while (::fsync(descriptor_.number()) != 0)
+    if (errno != EINTR) fail(errno);
+}
+
+void Table::cut(std::uint64_t bytes) {
+  if (::ftruncate(descriptor_.number(), static_cast<off_t>(bytes)) != 0) fail(errno);
+  if (bytes != bytes_) read(bytes);
+}
+
+void Table::read(std::uint64_t bytes) {
+  hash_ = ContentHash();
+  bytes_ = bytes;
+  if (const int error = add_bytes(hash_, descriptor_, bytes); error != 0) fail(error);
+}
+
+void Table::fail(int error) const { throw OutsideError(fmt::format("{}: cannot write: {}", file_.string(), std::system_category().message(error))); }
 
 }  // namespace hyperlattice

@@ -1,6 +1,10 @@
-// A CSV file that grows by whole lines: history, probes, failures.
+// A CSV file that grows by whole lines: history, probes, failures, the list of the run's files.
 #pragma once
 
+#include <base/content_hash.hpp>
+#include <base/descriptor.hpp>
+
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -9,30 +13,42 @@
 
 namespace hyperlattice {
 
-class Archive;
+/// How far a file has come: its first bytes and their hash.
+struct Extent {
+  std::uint64_t bytes = 0;
+  std::string hash;
+};
 
 /// Each append is one write; what a full disk cuts off is taken back to the last whole line. Every member throws OutsideError.
 class Table {
  public:
+  /// Begins a table. The file stands under its name only when its header is in it.
   Table(std::filesystem::path file, const std::vector<std::string>& columns);
-  Table(Table&& other) noexcept;
-  ~Table();
+  /// Goes on with a table that is there, and cuts off what lies beyond `bytes`.
+  static Table resumed(std::filesystem::path file, std::uint64_t bytes);
+  /// Goes on with a file that is open for appending and holds `bytes` bytes.
+  Table(std::filesystem::path file, Descriptor descriptor, std::uint64_t bytes);
 
   void row(std::span<const double> values);
-  void save(Archive& archive);  ///< how far it has come
-  /// Goes on with a table that is there, from where it had come.
-  static Table resumed(std::filesystem::path file, Archive& archive);
   void lines(std::string_view whole_lines);  ///< each ends with a newline
+  void cut(std::uint64_t bytes);             ///< takes back all but the first bytes
+  void sync();                               ///< waits until all lines are on the disk
+  Extent extent() const { return {bytes_, hash_.text()}; }
+  const std::filesystem::path& file() const { return file_; }
 
  private:
-  explicit Table(std::filesystem::path file) : file_(std::move(file)) {}
-  std::uint64_t bytes() const;
-  [[noreturn]] void fail(int error);
+  void read(std::uint64_t bytes);
+  [[noreturn]] void fail(int error) const;
 
   std::filesystem::path file_;
-  int descriptor_ = -1;
+  Descriptor descriptor_;
+  std::uint64_t bytes_ = 0;
+  ContentHash hash_;  ///< of all lines
   std::string buffer_;
 };
+
+/// Whether a regular file begins with these bytes.
+bool has_extent(const std::filesystem::path& file, const Extent& extent);
 
 /// "a,b,c\n", numbers with all their digits, whatever the locale.
 void append_row(std::string& text, std::span<const double> values);

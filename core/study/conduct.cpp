@@ -132,6 +132,7 @@ class Conductor {
 
   void run_one(const Point& point, Row& row, std::int64_t repeat, const std::string& title) {
     RunOptions run_options{run_directory(options_.directory, row.run, repeat), true};
+    run_options.overwrite = true;  // the folder is the study's
     auto scene = read(point);
     Json summary = options_.fresh ? Json() : finished(run_options.directory, *scene, threads(point));
     const bool there = !summary.is_null();

@@ -40,9 +40,24 @@ TEST(AtomicFile, SaysWhyTheSystemRefuses) {
   Folder folder("atomic_full");
   EXPECT_EQ(message_of([&] { write_file(folder.file("no/such/a"), "x"); }),
             "cannot create " + folder.file("no/such/a") + ": No such file or directory");
-  std::filesystem::create_symlink("/dev/full", folder.file("a.part"));  // every write there fails: no space left
-  EXPECT_EQ(message_of([&] { write_file(folder.file("a"), "x"); }), "cannot write " + folder.file("a") + ": No space left on device");
+  const SmallDisk full(0);
+  EXPECT_EQ(message_of([&] { write_file(folder.file("a"), "x"); }), "cannot write " + folder.file("a") + ": File too large");
   EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(AtomicFile, FollowsNoLinkAndReplacesOnlyRegularFiles) {
+  Folder folder("atomic_link");
+  write_file(folder.file("victim"), "precious");
+  std::filesystem::create_symlink(folder.file("victim"), folder.file("a.part"));  // the temporary name that could once be guessed
+  std::filesystem::create_symlink(folder.file("victim"), folder.file("link"));
+  std::filesystem::create_directory(folder.file("folder"));
+  ASSERT_EQ(mkfifo(folder.file("pipe").c_str(), 0600), 0);
+  write_file(folder.file("a"), "x");
+  EXPECT_EQ(contents(folder.file("a")), "x");
+  for (const char* name : {"link", "folder", "pipe"})
+    EXPECT_NE(message_of([&] { write_file(folder.file(name), "x"); }).find("cannot create " + folder.file(name)), std::string::npos) << name;
+  EXPECT_EQ(contents(folder.file("victim")), "precious");
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"a", "a.part", "folder", "link", "pipe", "victim"}));
 }
 
 class FullDisk : public testing::TestWithParam<const char*> {};

@@ -80,7 +80,9 @@ TEST(Table, a_folder_that_is_not_there_is_an_outside_fault) { EXPECT_THROW(Table
 
 TEST(FailureLog, writes_each_breakage_once) {
   const auto folder = fresh_folder("log");
-  FailureLog log(folder);
+  RunFolder run(folder, true);
+  run.begin(false);
+  FailureLog log(run);
   std::vector<Breakage> breakages{{3, 0.5, 7, 8, 0, 1e-6}};
   log.write_new(breakages);
   breakages.push_back({4, 0.75, 1, 2, 1, 2e-6});

@@ -1,9 +1,14 @@
 // Files that are whole or not there, and numbers as text that no locale changes.
 #pragma once
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <charconv>
 #include <cstdio>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -12,12 +17,28 @@
 
 namespace hyperlattice {
 
-/// A file written as `<path>.part` and renamed when it is complete, so that no half-written file ever stands under its final name.
-/// Every member throws std::runtime_error with the system's reason; an uncommitted file vanishes with the object.
+/// A file written under a temporary name, which nobody can guess, and renamed when it is complete, so that no half-written file ever stands under its
+/// final name. No link is followed, and only a regular file is replaced. Every member throws std::runtime_error with the system's reason; an
+/// uncommitted file vanishes with the object.
 class AtomicFile {
  public:
-  explicit AtomicFile(std::string path) : path_(std::move(path)), part_(path_ + ".part"), file_(std::fopen(part_.c_str(), "wb")) {
-    if (file_ == nullptr) fail("create");
+  explicit AtomicFile(std::string path) : path_(std::move(path)) {
+    struct stat there {};
+    if (::lstat(path_.c_str(), &there) == 0 && !S_ISREG(there.st_mode))
+      throw std::runtime_error("cannot create " + path_ + ": a folder, link, pipe or device of that name is there");
+    for (int tries = 0; file_ == nullptr; ++tries) {
+      part_ = path_ + "." + random_digits() + ".part";
+      const int descriptor = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+      if (descriptor < 0 && errno == EEXIST && tries < 100) continue;
+      if (descriptor < 0) fail("create");
+      file_ = ::fdopen(descriptor, "wb");
+      if (file_ != nullptr) return;
+      const int error = errno;
+      ::close(descriptor);
+      std::remove(part_.c_str());
+      errno = error;
+      fail("create");
+    }
   }
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
@@ -31,6 +52,11 @@ class AtomicFile {
     if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail("write");
   }
 
+  /// Waits until all bytes are on the disk, so that a power cut after commit() does not lose them.
+  void sync() {
+    if (std::fflush(file_) != 0 || ::fsync(::fileno(file_)) != 0) fail("write");
+  }
+
   /// Gives the file its name; an older file of that name is replaced in one go.
   void commit() {
     if (std::fclose(std::exchange(file_, nullptr)) != 0) fail("write");  // the last bytes leave the buffer here
@@ -39,12 +65,19 @@ class AtomicFile {
   }
 
  private:
+  static std::string random_digits() {
+    constexpr char digits[] = "0123456789abcdef";
+    std::random_device source;
+    std::string text;
+    for (int n = 0; n < 16; ++n) text += digits[source() % 16];
+    return text;
+  }
   [[noreturn]] void fail(const char* what) const {
     throw std::runtime_error(std::string("cannot ") + what + " " + path_ + ": " + std::generic_category().message(errno));
   }
 
   std::string path_, part_;
-  std::FILE* file_;
+  std::FILE* file_ = nullptr;
   bool committed_ = false;
 };
 

@@ -37,8 +37,9 @@ inline void check_file_name(const std::string& file, const FaultSink& faults) {
   const auto plain = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.';
   };
-  if (file.empty() || file.front() == '.' || !std::all_of(file.begin(), file.end(), plain))
-    faults.fault("file", "a name of letters, digits, '_', '-' and '.', without folders");
+  constexpr std::size_t longest = 80;
+  if (file.empty() || file.size() > longest || file.front() == '.' || !std::all_of(file.begin(), file.end(), plain))
+    faults.fault("file", "a name of letters, digits, '_', '-' and '.', without folders, of at most 80 characters");
 }
 
 /// The cross-field check of the options above.
@@ -49,12 +50,18 @@ void check_frame_options(const Options& options, const FaultSink& faults) {
     if (std::find(options.fields.begin(), name, *name) != name) faults.fault("fields", "each field once; \"" + *name + "\" is there twice");
 }
 
-/// The numbered files of one writer: `<directory>/<file>_000000<extension>` and so on.
+/// The numbered files of one writer: `<directory>/<file>_000000<extension>` and so on. Who asks for a path is about to write the file, so the run is
+/// told that the file is its own.
 class FrameFiles {
  public:
   FrameFiles() = default;
   FrameFiles(const OutputContext& context, std::string_view file, std::string_view extension)
-      : base_(std::string(context.directory) + "/"), file_(file), extension_(extension), frame_(context.earlier.size()) {}
+      : base_(std::string(context.directory) + "/"),
+        file_(file),
+        extension_(extension),
+        frame_(context.earlier.size()),
+        run_(context.self),
+        announce_(context.announce_file) {}
 
   /// Name of the present frame, without its folder.
   std::string name() const { return name(frame_); }
@@ -63,14 +70,21 @@ class FrameFiles {
     if (number.size() < 6) number.insert(0, 6 - number.size(), '0');
     return file_ + "_" + number + extension_;
   }
-  std::string path() const { return base_ + name(); }
-  /// Path of a file that belongs to the whole series: `<directory>/<file><suffix>`.
-  std::string path_of_series(std::string_view suffix) const { return base_ + file_ + std::string(suffix); }
+  std::string path() const { return announced(name(), false); }
+  /// Path of a file that belongs to the whole series and is rewritten with it: `<directory>/<file><suffix>`.
+  std::string path_of_series(std::string_view suffix) const { return announced(file_ + std::string(suffix), true); }
   void next() { ++frame_; }
 
  private:
+  std::string announced(const std::string& name, bool rewritten) const {
+    if (announce_ != nullptr) announce_(run_, name, rewritten);
+    return base_ + name;
+  }
+
   std::string base_, file_, extension_;
   std::uint64_t frame_ = 0;
+  void* run_ = nullptr;
+  void (*announce_)(void* run, std::string_view name, bool rewritten) noexcept = nullptr;
 };
 
 /// The particles of a region, and their part of any field. A region that is the whole body costs nothing.

@@ -47,7 +47,14 @@ struct OutputContext {
   void* self = nullptr;
   std::span<const Particle> (*region_particles)(void* self, RegionId region) noexcept = nullptr;
 
+  /// Told the name of each file, relative to `directory`, before it is written. `rewritten`: a later frame writes the file again. FrameFiles tells
+  /// it.
+  void (*announce_file)(void* self, std::string_view name, bool rewritten) noexcept = nullptr;
+
   std::span<const Particle> particles(RegionId region) const { return region_particles(self, region); }  ///< ascending
+  void announce(std::string_view name, bool rewritten = false) const {
+    if (announce_file != nullptr) announce_file(self, name, rewritten);
+  }
 };
 
 struct WriterFunctions {
@@ -59,7 +66,7 @@ struct WriterFunctions {
 /// begin() writes nothing: the plan calls it too, with no directory, to find what does not fit before a run is begun.
 /// A writer class has begin(const OutputContext&), frame(const Snapshot&), end(); each throws std::runtime_error when the disk refuses.
 /// It writes under a temporary name and renames, so that no half-written file stands under a final name; after each frame what is on disk is
-/// complete.
+/// complete. It announces each file to the context, as FrameFiles does: only announced files are the run's own.
 template <class T>
 concept WriterComponent = requires(T& writer, const OutputContext& context, const Snapshot& snapshot) {
   writer.begin(context);

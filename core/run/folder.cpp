@@ -1,0 +1,278 @@
+#include <plan/file_names.hpp>
+#include <run/checkpoint.hpp>
+#include <run/failing_motion.hpp>
+#include <run/folder.hpp>
+
+#include <hyperlattice/files.hpp>
+
+#include <spdlog/spdlog.h>
+#include <nlohmann/json.hpp>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+namespace hyperlattice {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string reason(int error) { return std::generic_category().message(error); }
+
+/// Whether something of that name is there; a link is, wherever it leads.
+bool is_there(const fs::path& path) {
+  struct stat status {};
+  return ::lstat(path.c_str(), &status) == 0;
+}
+
+/// Whether a name leads to a regular file over real folders only.
+bool is_real(const fs::path& directory, const std::string& name, struct stat& status) {
+  fs::path path = directory;
+  for (const fs::path& part : fs::path(name)) {
+    if (path != directory && !S_ISDIR(status.st_mode)) return false;
+    path /= part;
+    if (::lstat(path.c_str(), &status) != 0) return false;
+  }
+  return S_ISREG(status.st_mode);
+}
+
+bool is_later(const timespec& a, const timespec& b) { return a.tv_sec != b.tv_sec ? a.tv_sec > b.tv_sec : a.tv_nsec > b.tv_nsec; }
+
+/// Whether the run in a folder has said that it is done.
+bool is_done(const fs::path& directory) {
+  std::ifstream file(directory / "summary.json", std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const auto summary = nlohmann::json::parse(text, nullptr, false);
+  return summary.is_object() && summary.contains("status") && summary["status"] == "done";
+}
+
+/// The name of a temporary file of AtomicFile: "<name>.<16 hexadecimal digits>.part".
+bool is_part(const std::string& name) {
+  constexpr std::size_t digits = 16, ending = 5;
+  if (!name.ends_with(".part") || name.size() < digits + ending + 2) return false;
+  const std::string number = name.substr(name.size() - digits - ending, digits);
+  return name[name.size() - digits - ending - 1] == '.' && number.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
+constexpr const char* ends[] = {"summary.json", failing_motion_file};
+
+/// Whether a file says how the run ended; a run that goes on begins without it.
+bool tells_the_end(const std::string& name) { return std::find(std::begin(ends), std::end(ends), name) != std::end(ends); }
+
+OutsideError cannot(const char* what, const fs::path& path, int error) {
+  return OutsideError(fmt::format("cannot {} {}: {}", what, path.string(), reason(error)));
+}
+
+void make_folder(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) throw OutsideError(fmt::format("cannot create {}: {}", path.string(), error.message()));
+}
+
+}  // namespace
+
+RunFolder::RunFolder(fs::path directory, bool is_new) : directory_(std::move(directory)) {
+  if (is_new) make_folder(directory_);
+  constexpr int flags = O_RDWR | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
+  Descriptor list(::open(list_path().c_str(), flags | (is_new ? O_CREAT : 0), 0666));
+  if (!list) throw cannot("write", list_path(), errno);
+  if (::flock(list.number(), LOCK_EX | LOCK_NB) != 0) {
+    if (errno == EWOULDBLOCK)
+      throw OutsideError(
+          fmt::format("{} is in use: another run is writing there; wait until it ends, or choose another folder", directory_.string()));
+    spdlog::warn("warning: {} cannot be locked ({}): let no other run write there", directory_.string(), reason(errno));
+  }
+  struct stat status {};
+  if (::fstat(list.number(), &status) != 0) throw cannot("read", list_path(), errno);
+  if (!S_ISREG(status.st_mode)) throw OutsideError(fmt::format("{} is no regular file", list_path().string()));
+  if (auto files = read_own_files(directory_)) earlier_ = std::move(*files);
+  list_ = std::make_unique<Table>(list_path(), std::move(list), static_cast<std::uint64_t>(status.st_size));
+}
+
+void RunFolder::begin(bool overwrite) {
+  may_replace_ = overwrite;
+  Faults faults;
+  if (!overwrite && holds_progress(directory_) && !is_done(directory_))
+    faults.add("--out", directory_.string(), "a folder without an interrupted run; go on with it by --resume, or give up its results by --overwrite");
+  if (!overwrite)
+    for (const std::string_view name : run_file_names)
+      if (name != own_files_list && name != "probes" && name != "report.html" && name != checkpoint_file && name != earlier_checkpoint_file &&
+          earlier_.find(name) == earlier_.end() && is_there(directory_ / name))
+        faults.add(
+            "--out", path_of(std::string(name)).string(),
+            fmt::format("a folder where no such file is, for its list of a run's own files ({}) does not name it; move the file, or replace it "
+                        "by --overwrite",
+                        own_files_list));
+  try {
+    remove_leavings(earlier_, overwrite, faults);
+  } catch (const InputError&) {
+    if (list_->extent().bytes == 0) ::unlink(list_path().c_str());  // it was made for nothing
+    throw;
+  }
+  list_->cut(0);
+  list_->lines("bytes,hash,name\n");
+  earlier_.clear();
+}
+
+void RunFolder::remove_leavings(const OwnFiles& files, bool overwrite, Faults& faults) {
+  struct stat list {};
+  ::lstat(list_path().c_str(), &list);
+  std::vector<fs::path> old;
+  std::set<fs::path> folders{directory_};
+  for (const auto& [name, file] : files) {
+    struct stat status {};
+    if (!is_real(directory_, name, status)) continue;
+    const fs::path path = path_of(name);
+    folders.insert(path.parent_path());
+    // what has not changed since the list was written needs no reading; nobody can set the time of the last change
+    const bool is_known = file.hash.empty() || (static_cast<std::uint64_t>(status.st_size) == file.bytes &&
+                                                (!is_later(status.st_ctim, list.st_ctim) || has_extent(path, {file.bytes, file.hash})));
+    if (is_known || overwrite)
+      old.push_back(path);
+    else if (std::find(std::begin(run_file_names), std::end(run_file_names), name) != std::end(run_file_names))
+      faults.add("--out", path.string(), "as the earlier run left it, but it has changed; move it, or replace it by --overwrite");
+    else
+      spdlog::warn("warning: {} has changed since the earlier run wrote it, and stays", path.string());
+  }
+  faults.throw_if_any();
+  for (const char* name : {checkpoint_file, earlier_checkpoint_file}) old.push_back(directory_ / name);
+  for (const fs::path& path : old)
+    if (::unlink(path.c_str()) != 0 && errno != ENOENT) throw cannot("remove", path, errno);
+  for (auto folder = folders.rbegin(); folder != folders.rend(); ++folder) {  // the innermost first
+    remove_parts(*folder);
+    if (*folder != directory_) ::rmdir(folder->c_str());  // unless other files are there
+  }
+}
+
+void RunFolder::remove_parts(const fs::path& folder) const {
+  std::error_code error;
+  std::vector<fs::path> parts;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+    if (is_part(entry->path().filename().string())) parts.push_back(entry->path());
+  for (const fs::path& part : parts) ::unlink(part.c_str());
+}
+
+void RunFolder::go_on(std::vector<TableMark> marks) {
+  may_replace_ = true;  // frames from after the checkpoint are written again
+  Faults faults;
+  std::uint64_t listed = 0;
+  std::set<std::string, std::less<>> tables;
+  for (const TableMark& mark : marks) {
+    const bool is_list = mark.name == own_files_list;
+    struct stat status {};
+    tables.insert(mark.name);
+    if ((is_list || is_own_name(mark.name)) && is_real(directory_, mark.name, status) && has_extent(path_of(mark.name), mark.extent)) {
+      if (is_list) listed = mark.extent.bytes;
+      continue;
+    }
+    faults.add("--resume", path_of(mark.name).string(), "a table that begins as it did when the checkpoint was made; it was cut, changed or removed");
+  }
+  std::ifstream list(list_path(), std::ios::binary);
+  std::string text(listed, '\0');
+  list.read(text.data(), static_cast<std::streamsize>(text.size()));
+  for (const auto& [name, file] : parse_own_files(text)) {
+    if (tables.count(name) > 0 || tells_the_end(name)) continue;
+    struct stat status {};
+    const bool is_same =
+        is_real(directory_, name, status) &&
+        (file.hash.empty() || (static_cast<std::uint64_t>(status.st_size) == file.bytes && has_extent(path_of(name), {file.bytes, file.hash})));
+    mine_[name] = {file.hash.empty(), !file.hash.empty()};
+    if (!is_same) faults.add("--resume", path_of(name).string(), "a file as it was when the checkpoint was made; it was changed or removed");
+  }
+  faults.throw_if_any();
+  marks_ = std::move(marks);
+  for (const char* name : ends)  // how the run was when it ended before
+    if (::unlink(path_of(name).c_str()) != 0 && errno != ENOENT) throw cannot("remove", path_of(name), errno);
+  std::set<fs::path> folders{directory_};
+  for (const auto& [name, file] : mine_) folders.insert(path_of(name).parent_path());
+  for (const fs::path& folder : folders) remove_parts(folder);
+  list_->cut(listed);
+  for (const auto& [name, file] : earlier_) {  // what was written after the checkpoint is the run's, but not yet what it will be
+    if (mine_.count(name) > 0 || tables.count(name) > 0) continue;
+    list_->lines(own_file_line(name, {}));
+    mine_[name] = {true, false};
+  }
+}
+
+fs::path RunFolder::subfolder(const std::string& name) {
+  const fs::path path = path_of(name);
+  struct stat status {};
+  if (::mkdir(path.c_str(), 0777) != 0 && errno != EEXIST) throw cannot("create", path, errno);
+  if (::lstat(path.c_str(), &status) != 0) throw cannot("create", path, errno);
+  if (!S_ISDIR(status.st_mode)) throw OutsideError(fmt::format("cannot create the folder {}: a file or link of that name is there", path.string()));
+  return path;
+}
+
+Table& RunFolder::table(const std::string& name, const std::vector<std::string>& columns) {
+  const auto mark = std::find_if(marks_.begin(), marks_.end(), [&](const TableMark& one) { return one.name == name; });
+  claim(name, true);
+  return tables_.emplace_back(name, mark == marks_.end() ? Table(path_of(name), columns) : Table::resumed(path_of(name), mark->extent.bytes)).second;
+}
+
+void RunFolder::write(const std::string& name, std::string_view text) {
+  claim(name, false);
+  try {
+    write_file(path_of(name).string(), text);
+  } catch (const std::runtime_error& error) {
+    throw OutsideError(error.what());
+  }
+}
+
+void RunFolder::claim(const std::string& name, bool rewritten) {
+  if (!is_own_name(name)) throw OutsideError(fmt::format("\"{}\" cannot be the name of a file of the run", name));
+  const auto found = mine_.find(name);
+  if (found != mine_.end() && !found->second.noted) {
+    found->second.rewritten = rewritten;
+    return;
+  }
+  if (found == mine_.end() && !may_replace_ && is_there(path_of(name)))
+    throw OutsideError(fmt::format("{} is there already and is not this run's: move it, or replace it by --overwrite", path_of(name).string()));
+  list_->lines(own_file_line(name, {}));
+  mine_[name] = {rewritten, false};
+}
+
+void RunFolder::note(const std::string& name, Mine& file, bool to_the_disk) {
+  const fs::path path = path_of(name);
+  const Descriptor there(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+  struct stat status {};
+  if (!there || ::fstat(there.number(), &status) != 0) return;  // claimed, but never written
+  if (to_the_disk && ::fsync(there.number()) != 0) throw cannot("write", path, errno);
+  if (to_the_disk && file.rewritten) return;
+  list_->lines(own_file_line(name, {static_cast<std::uint64_t>(status.st_size), hash_of_file(path)}));
+  file.noted = true;
+}
+
+std::vector<TableMark> RunFolder::sync() {
+  std::vector<TableMark> marks;
+  std::set<fs::path> folders{directory_};
+  for (auto& [name, table] : tables_) {
+    table.sync();
+    marks.push_back({name, table.extent()});
+    folders.insert(path_of(name).parent_path());
+  }
+  const auto is_table = [&](const std::string& name) {
+    return std::any_of(tables_.begin(), tables_.end(), [&](const auto& one) { return one.first == name; });
+  };
+  for (auto& [name, file] : mine_) {
+    if (file.noted || is_table(name)) continue;
+    note(name, file, true);
+    folders.insert(path_of(name).parent_path());
+  }
+  list_->sync();
+  for (const fs::path& folder : folders) sync_directory(folder);
+  marks.push_back({own_files_list, list_->extent()});
+  return marks;
+}
+
+void RunFolder::finish() {
+  for (auto& [name, file] : mine_)
+    if (!file.noted) note(name, file, false);
+}
+
+}  // namespace hyperlattice
