@@ -2,6 +2,7 @@
 #include "commands.hpp"
 
 #include <base/errors.hpp>
+#include <host/crash.hpp>
 #include <scene/scene_plugins.hpp>
 
 #include <spdlog/sinks/stdout_sinks.h>
@@ -28,6 +29,7 @@ void suggest(const CLI::App& program, const std::string& word) {
 
 int main(int count, char** words) {
   using namespace hyperlattice;
+  report_crashes();
   spdlog::set_default_logger(spdlog::stderr_logger_mt("hyperlattice"));  // standard output is for what a command prints
   spdlog::set_pattern("hyperlattice: %v");
   CLI::App program("Simulates solids with the four-dimensional lattice spring model.", "hyperlattice");

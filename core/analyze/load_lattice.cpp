@@ -46,14 +46,14 @@ LatticeGeometry load_lattice(Host& host, const std::string& type, const std::vec
   RegionReader region_reader(named, regions, faults, texts);
   Json resolved;
   OptionReader reader(options, where, {faults, region_reader, texts});
-  stage.options = reader.fill(option_set(stage.component->info), resolved);
+  stage.options = reader.fill(option_set(stage.component->info, stage.component->path.c_str()), resolved);
   reader.reject_unknown();
   if (!faults.empty() && !more.empty()) faults.throw_if_any();
   if (!faults.empty()) throw InputError({{where, type, "a lattice that is described by a spacing and a shape, and by --option"}});
 
   const ComponentPointer lattice = make_component(stage);
   try {
-    const auto body = std::make_shared<const Body>(build_body(stage.functions<LatticeFunctions>(), lattice.get(), true));
+    const auto body = std::make_shared<const Body>(build_body(stage.functions<LatticeFunctions>(), lattice.get(), true, stage.component));
     LatticeGeometry geometry = geometry_from(*body);
     if (geometry.listed) geometry.listed = {body, &body->listed};  // which it now owns
     return geometry;

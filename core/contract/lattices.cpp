@@ -54,7 +54,7 @@ Finding patch(const Model& model) {
     ++springs[a];
     ++springs[b];
     const Vec3 r = body.position(b) - body.position(a), d{u[3 * b] - u[3 * a], u[3 * b + 1] - u[3 * a + 1], u[3 * b + 2] - u[3 * a + 2]};
-    strongest = std::max(strongest, std::abs(model.spring(0, 0, spring_class).stiffness * dot(r, d) / norm(r)));
+    take_largest(strongest, model.spring(0, 0, spring_class).stiffness * dot(r, d) / norm(r));
   });
   const std::vector<double> forces = Led(model).forces(u, 0.1 * model.critical_time_step);
   double worst = 0;
@@ -62,10 +62,10 @@ Finding patch(const Model& model) {
   for (Particle p = 0; p < body.particles; ++p) {
     if (springs[p] != 2 * body.neighbours.size()) continue;
     ++inner;
-    worst = std::max({worst, std::abs(forces[3 * p]), std::abs(forces[3 * p + 1]), std::abs(forces[3 * p + 2])});
+    for (std::size_t c = 0; c < 3; ++c) take_largest(worst, forces[3 * p + c]);
   }
   if (inner == 0) return not_applicable("the example has no particle with all its springs");
-  return passes_if(worst < 1e-9 * strongest,
+  return passes_if(std::isfinite(strongest) && worst < 1e-9 * strongest,
                    fmt::format("strained evenly, {} inner particles feel {:.1e} of the force of a spring", inner, worst / strongest));
 }
 
@@ -87,7 +87,8 @@ void check_lattice(Trial& trial) {
   trial.check("patch test", [&] { return patch(model); });
   trial.check("books of energy", [&] { return books(model); });
   trial.check("same bits", [&] {
-    return passes_if(shake(model, {1, 0.4, 40, 1}).hash == shake(model, {1, 0.4, 40, 3}).hash, "with 1 and 3 threads");
+    const Shaken one = shake(model, {1, 0.4, 40, 1}), three = shake(model, {1, 0.4, 40, 3});
+    return passes_if(one.is_finite() && one.hash == three.hash, "with 1 and 3 threads");
   });
 }
 

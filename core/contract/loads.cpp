@@ -41,11 +41,12 @@ void check_load(Trial& trial) {
   trial.check("factor", [&] { return factor(model); });
   trial.check("work accounting", [&] { return work(model); });
   trial.check("same bits", [&] {
-    return passes_if(shake(model, {0.5, 0.4, 40, 1}).hash == shake(model, {0.5, 0.4, 40, 3}).hash, "with 1 and 3 threads");
+    const Shaken one = shake(model, {0.5, 0.4, 40, 1}), three = shake(model, {0.5, 0.4, 40, 3});
+    return passes_if(one.is_finite() && one.hash == three.hash, "with 1 and 3 threads");
   });
   trial.check("restart", [&] {
     const Shaken whole = shake(model, {0.5}), cut_off = shake(model, {.speed = 0.5, .cut_off = true});
-    return passes_if(cut_off.hash == whole.hash && cut_off.balance.injected == whole.balance.injected,
+    return passes_if(whole.is_finite() && cut_off.hash == whole.hash && cut_off.balance.injected == whole.balance.injected,
                      "the same motion and work when it is cut off half-way and goes on");
   });
 }

@@ -23,7 +23,7 @@ class LoneSpring {
   double reach() const;
 
  private:
-  KernelSet kernels_;
+  const Model* model_;
   OneSpring spring_;
   double period_;
   std::vector<double> memory_;

@@ -70,9 +70,7 @@ Shaken shake(const Model& model, const Shaking& how) {
     if (how.cut_off && n == steps / 2) simulation = restarted(*simulation, model, how.threads);
     simulation->step(how.duration / steps * model.critical_time_step);
     shaken.balance = simulation->balance();
-    const double error = std::abs(shaken.balance.relative_error());
-    if (std::isnan(error)) shaken.largest_error = infinity;
-    shaken.largest_error = std::max(shaken.largest_error, error);
+    take_largest(shaken.largest_error, shaken.balance.relative_error());
   }
   shaken.hash = simulation->hash();
   return shaken;
@@ -91,12 +89,13 @@ std::vector<double> Led::forces(const std::vector<double>& displacements, double
   return forces;
 }
 
+void take_largest(double& largest, double value) {
+  if (!(std::abs(value) <= largest)) largest = std::isnan(value) ? infinity : std::abs(value);
+}
+
 double largest(const std::vector<double>& values) {
   double found = 0;
-  for (const double value : values) {
-    if (std::isnan(value)) found = infinity;
-    found = std::max(found, std::abs(value));
-  }
+  for (const double value : values) take_largest(found, value);
   return found;
 }
 

@@ -6,6 +6,7 @@
 #include <run/state.hpp>
 #include <scene/json.hpp>
 
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -34,6 +35,7 @@ struct Shaken {
   double largest_error = 0;  ///< of the energy balance, relative
   Balance balance;
   std::uint64_t hash = 0;
+  bool is_finite() const { return std::isfinite(largest_error); }  ///< equal bits of what is no number prove nothing
 };
 struct Shaking {
   double speed = 1;      ///< largest component of a velocity at the start, m/s
@@ -66,6 +68,8 @@ class Led {
   double last_step_ = 0;
 };
 
+/// Makes `largest` the larger of itself and a number's size; infinite for ever after a value that is no number, so that it passes no comparison.
+void take_largest(double& largest, double value);
 double largest(const std::vector<double>& values);  ///< size; infinite if one is no number
 double distance(const std::vector<double>& a, const std::vector<double>& b);
 

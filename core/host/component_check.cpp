@@ -1,14 +1,12 @@
 #include <host/component_check.hpp>
 
-#include <hyperlattice/failure.hpp>
-#include <hyperlattice/lattice.hpp>
-#include <hyperlattice/load.hpp>
-#include <hyperlattice/material.hpp>
-#include <hyperlattice/output.hpp>
-#include <hyperlattice/solver.hpp>
+#include <hyperlattice/boundary.hpp>
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 namespace hyperlattice {
 namespace {
@@ -54,12 +52,22 @@ bool has_functions(const ComponentInfo& info) {
   return false;
 }
 
+// Texts that a plugin hands over are shown to people; longer ones are an error, most likely a length that was never set.
+constexpr std::size_t longest_name = 200, longest_text = 1 << 16;
+
+bool is_text(std::string_view text) { return text.size() <= longest_text && (text.empty() || text.data() != nullptr); }
+
 std::string option_fault(const Option& option) {
+  for (const std::string_view text : {option.unit, option.help, option.fallback, option.word, option.example})
+    if (!is_text(text)) return "one of its texts is no text";
   if (!is_identifier(option.name)) return "its name must be small letters, digits and underscores, a letter first";
   if (option.name == "type" || option.name == "name") return "a stage has that key already";
   if (option.kind > OptionKind::file || !option.set) return "it cannot be set";
   if (option.kind == OptionKind::choice && option.choices.empty()) return "it has no choices";
   if (!(option.low <= option.high)) return "its range is empty";
+  for (const auto& [what, text] : {std::pair("example", option.example), std::pair("fallback", option.fallback)})
+    if (!text.empty() && !nlohmann::json::accept(text))
+      return std::string("its ") + what + ", " + std::string(text.substr(0, longest_name)) + ", is not JSON: a text needs quotes, as in \"1 mm\"";
   return "";
 }
 
@@ -72,7 +80,9 @@ bool is_type_name(std::string_view text) {
 }
 
 std::string component_fault(const ComponentInfo& info) {
-  const std::string name = std::string("'").append(info.name) + "'";
+  for (const std::string_view text : {info.name, info.summary, info.equation, info.source, info.restrictions})
+    if (!is_text(text)) return "registers a component of which one of the texts is no text";
+  const std::string name = std::string("'").append(info.name.substr(0, longest_name)) + "'";
   if (!is_type_name(info.name)) return "registers the name " + name + ", which is not of the form <family>.<name> in small letters";
   const auto family = static_cast<std::size_t>(info.family);
   if (family >= std::size(family_names) || !info.name.starts_with(family_names[family]) || info.name[family_names[family].size()] != '.')
@@ -81,6 +91,7 @@ std::string component_fault(const ComponentInfo& info) {
   if (!has_functions(info)) return "registers " + name + " with a function missing: rebuild it against these headers";
   std::set<std::string_view> names;
   for (const Option& option : info.options) {
+    if (option.name.size() > longest_name || !is_text(option.name)) return "registers " + name + " with an option whose name is no text";
     std::string fault = option_fault(option);
     if (!names.insert(option.name).second) fault = "it is declared twice";
     if (!fault.empty()) return "registers " + name + " with a bad option '" + std::string(option.name) + "': " + fault;

@@ -16,7 +16,9 @@ namespace {
 // table comes last in the file. The dynamic symbols are what the loader itself goes by, so they are read here, every offset checked.
 class ElfFile {
  public:
-  explicit ElfFile(const std::filesystem::path& path) : file_(path, std::ios::binary) {
+  explicit ElfFile(const std::filesystem::path& path) {
+    if (!std::filesystem::is_regular_file(path)) throw Refusal("is not a regular file");  // to open a pipe would be to wait for its writer
+    file_.open(path, std::ios::binary);
     if (!file_) throw Refusal("cannot be read: check its permissions");
     size_ = std::filesystem::file_size(path);
     if (size_ == 0) throw Refusal("is an empty file: build it again");
@@ -87,9 +89,9 @@ std::optional<std::vector<unsigned>> marker_numbers(std::string_view symbol) {
   return numbers;
 }
 
-template <unsigned A, unsigned B, unsigned C, unsigned D, unsigned E, unsigned F, unsigned G>
-constexpr GateNumbers numbers_of(Gate<A, B, C, D, E, F, G>*) {
-  return {A, B, C, D, E, F, G};
+template <unsigned A, unsigned B, unsigned C, unsigned D, unsigned E>
+constexpr GateNumbers numbers_of(Gate<A, B, C, D, E>*) {
+  return {A, B, C, D, E};
 }
 
 std::string differs(const std::string& what, unsigned library, unsigned own, const std::string& remedy) {
@@ -105,8 +107,8 @@ GateNumbers read_gate(const std::filesystem::path& library) {
     const auto numbers = marker_numbers(symbol);
     if (!numbers || numbers->empty()) continue;
     const auto& n = *numbers;
-    if (n.size() != 7) return {.interface_version = n[0]};  // another version's gate; a gate of this version has seven numbers
-    return {n[0], n[1], n[2], n[3], n[4], n[5], n[6]};
+    if (n.size() != 5) return {.interface_version = n[0]};  // another version's gate; a gate of this version has five numbers
+    return {n[0], n[1], n[2], n[3], n[4]};
   }
   throw Refusal("is no plugin of Hyperlattice (it has no gate): build it with hyperlattice_add_plugin and HYPERLATTICE_PLUGIN");
 }
@@ -127,9 +129,8 @@ std::string gate_mismatch(const GateNumbers& library, const GateNumbers& own) {
   compare("Eigen alignment", &GateNumbers::eigen_alignment,
           library.eigen_alignment > own.eigen_alignment ? "rebuild it without -march=native (or -mavx, -mavx512f)"
                                                         : "rebuild it for the instruction set that this Hyperlattice was built for");
-  compare("size of ComponentInfo", &GateNumbers::component_size, headers);
-  compare("size of Option", &GateNumbers::option_size, headers);
-  compare("size of OptionValue", &GateNumbers::value_size, headers);
+  if (sentence.empty() && library.boundary != own.boundary)
+    return "was built against headers in which what crosses to a plugin is laid out otherwise: " + headers;
   return sentence;
 }
 

@@ -1,7 +1,7 @@
 // The gate: the numbers that decide whether a library may share objects with this program, read from its file before any of its code runs.
 #pragma once
 
-#include <hyperlattice/component.hpp>
+#include <hyperlattice/boundary.hpp>
 
 #include <filesystem>
 #include <stdexcept>
@@ -14,10 +14,10 @@ class Refusal : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The numbers in the name of Gate<...>::marker, in its order (component.hpp).
+/// The numbers in the name of Gate<...>::marker, in its order (boundary.hpp).
 struct GateNumbers {
   unsigned interface_version = 0, compiler_abi = 0, library_abi = 0, eigen_alignment = 0;
-  unsigned component_size = 0, option_size = 0, value_size = 0;  ///< bytes of ComponentInfo, Option, OptionValue
+  unsigned boundary = 0;  ///< of the layout of all that crosses
 };
 
 /// Those that this program was compiled with.

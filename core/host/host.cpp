@@ -1,6 +1,8 @@
 #include <host/component_check.hpp>
+#include <host/crash.hpp>
 #include <host/gate.hpp>
 #include <host/host.hpp>
+#include <host/plugin_call.hpp>
 
 #include <boost/core/demangle.hpp>
 #include <boost/dll/runtime_symbol_info.hpp>
@@ -78,15 +80,19 @@ const Component* keep(Component component) {
 /// What a library registers, in the order of its registration. Each is sound by itself and none comes twice.
 std::vector<Component> registered(const fs::path& path) {
   if (const std::string mismatch = gate_mismatch(read_gate(path), own_gate()); !mismatch.empty()) throw Refusal(mismatch);
+  const LoadWatch watch(path.c_str());
+  const std::string name = path.stem().string();
+  PluginCall call(name, path.c_str(), "load");
   const auto& library = open(path);
   if (!library.has("hyperlattice_plugin")) throw Refusal("has a gate but no plugin behind it: write HYPERLATTICE_PLUGIN in it");
   const auto& plugin = library.get<const PluginInfo>("hyperlattice_plugin");
 
   std::vector<ComponentInfo> infos;
-  Registrar registrar(&infos, [](void* self, const ComponentInfo& info) { static_cast<std::vector<ComponentInfo>*>(self)->push_back(info); });
-  std::string complaint = "it does not say why";
-  const Complaint why{&complaint, [](void* self, std::string_view sentence) noexcept { *static_cast<std::string*>(self) = sentence; }};
-  if (!plugin.register_components(registrar, why)) throw Refusal("its registration failed: " + complaint);
+  Registrar registrar(&infos, [](void* self, const ComponentInfo& info) noexcept {
+    PluginCall::answer([&] { static_cast<std::vector<ComponentInfo>*>(self)->push_back(info); });
+  });
+  if (const std::string* sentence = call.failure(plugin.register_components(registrar, call.why())))
+    throw Refusal("its registration failed: " + *sentence);
   if (infos.empty()) throw Refusal("registers nothing");
 
   std::vector<Component> components;
@@ -162,7 +168,10 @@ const Component* Host::find(const std::string& type) {
   if (known != components_.end()) return known->second;
   if (libraries.empty()) return nullptr;
   const SearchOutcome& outcome = load(libraries.front(), type);
-  return outcome.accepted ? components_.at(type) : refuse(type, outcome.reason);
+  if (!outcome.accepted) return refuse(type, outcome.reason);
+  const auto given = components_.find(type);  // a library that was named directly may have been loaded before, for other types
+  return given != components_.end() ? given->second
+                                    : refuse(type, outcome.path.filename().string() + ": " + outcome.reason + ", not the type it is named after");
 }
 
 std::string Host::why_not(const std::string& type) const {

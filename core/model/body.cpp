@@ -1,3 +1,5 @@
+#include <host/host.hpp>
+#include <host/plugin_call.hpp>
 #include <model/body.hpp>
 
 #include <algorithm>
@@ -18,6 +20,9 @@ Site site_in(std::span<const Run> runs, Particle particle) {
 /// Follows (dx, dy, dz) in the order z, y, x.
 bool is_forward(const Neighbour& n) { return n.dz != 0 ? n.dz > 0 : n.dy != 0 ? n.dy > 0 : n.dx > 0; }
 
+/// Positive and finite.
+bool is_size(double value) { return value > 0 && std::isfinite(value); }
+
 /// Takes what a lattice component describes, and refuses what would break the order or the box.
 struct Builder {
   Body body;
@@ -25,12 +30,14 @@ struct Builder {
 
   void grid(const Grid& grid) {
     if (has_grid || body.is_listed()) throw std::invalid_argument("the lattice gave two grids, or a grid and a list");
-    if (!(grid.spacing > 0 && grid.site_volume > 0 && grid.membrane_distance > 0) || *std::min_element(grid.sites.begin(), grid.sites.end()) < 1)
+    if (!(is_size(grid.spacing) && is_size(grid.site_volume) && is_size(grid.membrane_distance)) ||
+        *std::min_element(grid.sites.begin(), grid.sites.end()) < 1)
       throw std::invalid_argument("the lattice's box has no sites");
     if (grid.neighbours.size() > max_neighbours || grid.spring_classes < 1 || grid.spring_classes > max_spring_classes)
       throw std::invalid_argument("the lattice has more neighbours or spring classes than a kernel can hold");
     if (!(std::abs(dot(grid.basis[0], cross(grid.basis[1], grid.basis[2]))) > 1e-9))
       throw std::invalid_argument("the lattice's basis does not span space");
+    if (!std::isfinite(grid.origin.x + grid.origin.y + grid.origin.z)) throw std::invalid_argument("the lattice's origin is not finite");
     if (grid.boundary == Boundary::cells && grid.basis != cubic_basis) throw std::invalid_argument("the lattice has boundary cells and is not cubic");
     for (std::uint32_t c = 0; c < grid.spring_classes; ++c)
       if (!(grid.class_stiffness[c] > 0 && std::isfinite(grid.class_stiffness[c])))
@@ -160,18 +167,20 @@ std::vector<Range> Body::springs_of(std::int32_t j, std::int32_t k, const Neighb
   return found;
 }
 
-Body build_body(const LatticeFunctions& functions, const void* lattice, bool for_analysis) {
+Body build_body(const LatticeFunctions& functions, const void* lattice, bool for_analysis, const Component* component) {
   Builder builder;
   const LatticeSink sink{
       &builder,
       for_analysis,
-      [](void* self, const Grid& grid) { static_cast<Builder*>(self)->grid(grid); },
-      [](void* self, std::int32_t j, std::int32_t k, std::int32_t begin, std::int32_t end) { static_cast<Builder*>(self)->run(j, k, begin, end); },
-      [](void* self, const PointList& points) { static_cast<Builder*>(self)->points(points); },
-      [](void* self, const PeriodicSample& sample) { static_cast<Builder*>(self)->sample(sample); }};
-  std::string sentence;
-  const Complaint why{&sentence, [](void* self, std::string_view text) noexcept { *static_cast<std::string*>(self) = text; }};
-  if (!functions.build(lattice, sink, why)) throw std::invalid_argument(sentence);
+      [](void* self, const Grid& grid) noexcept { PluginCall::answer([&] { static_cast<Builder*>(self)->grid(grid); }); },
+      [](void* self, std::int32_t j, std::int32_t k, std::int32_t begin, std::int32_t end) noexcept {
+        PluginCall::answer([&] { static_cast<Builder*>(self)->run(j, k, begin, end); });
+      },
+      [](void* self, const PointList& points) noexcept { PluginCall::answer([&] { static_cast<Builder*>(self)->points(points); }); },
+      [](void* self, const PeriodicSample& sample) noexcept { PluginCall::answer([&] { static_cast<Builder*>(self)->sample(sample); }); }};
+  const bool named = component != nullptr;
+  PluginCall call(named ? component->info.name : std::string_view(), named ? component->path.c_str() : "", "build");
+  if (const std::string* sentence = call.failure(functions.build(lattice, sink, call.why()))) throw std::invalid_argument(*sentence);
   builder.finish();
   return std::move(builder.body);
 }

@@ -13,6 +13,8 @@
 
 namespace hyperlattice {
 
+struct Component;  // host/host.hpp
+
 struct Body {
   Grid grid;  ///< its neighbours point into `neighbours`; of a listed body spacing, volume, membrane distance and shape only
   std::vector<Neighbour> neighbours;
@@ -69,7 +71,7 @@ void Body::for_springs(const Visit& visit) const {
 }
 
 /// Builds the body that a lattice component describes. Throws std::invalid_argument with the component's sentence if it refuses. `for_analysis`: only
-/// what stands behind it is wanted, see LatticeSink.
-Body build_body(const LatticeFunctions& functions, const void* lattice, bool for_analysis = false);
+/// what stands behind it is wanted, see LatticeSink. `component`: whose functions they are; null: the host's own.
+Body build_body(const LatticeFunctions& functions, const void* lattice, bool for_analysis = false, const Component* component = nullptr);
 
 }  // namespace hyperlattice

@@ -3,6 +3,7 @@
 
 #include <model/model.hpp>
 #include <model/region_index.hpp>
+#include <scene/stage_call.hpp>
 
 namespace hyperlattice {
 
@@ -17,12 +18,6 @@ InputError objection(const Scene& scene, const Stage& stage, const std::string& 
 inline void add_all(Faults& faults, const InputError& error) {
   for (const Fault& fault : error.faults()) faults.add(fault.pointer, fault.value, fault.expected);
 }
-
-/// Takes the sentence with which a component refuses.
-struct Objection {
-  std::string sentence;
-  Complaint why{this, [](void* self, std::string_view text) noexcept { static_cast<Objection*>(self)->sentence = text; }};
-};
 
 // The steps, in their order. Each adds its faults and leaves the model usable for the next where it can.
 

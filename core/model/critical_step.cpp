@@ -1,5 +1,6 @@
 #include <model/critical_step.hpp>
 #include <model/stability.hpp>
+#include <scene/stage_call.hpp>
 
 #include <spdlog/fmt/fmt.h>
 
@@ -110,7 +111,9 @@ void limit_by_laws(Model& model) {
   for (const Material& material : model.materials) {
     const auto stable_step = material.stage->functions<MaterialFunctions>().stable_step;
     if (stable_step == nullptr) continue;
-    const double step = stable_step(material.component.get(), elastic);
+    double step = 0;
+    call(*material.stage, "stable_time_step", [&](const Complaint& why) { return stable_step(material.component.get(), elastic, step, why); });
+    if (!(step > 0)) throw plugin_error(*material.stage, "stable_time_step", fmt::format("it gives a time step of {} s", step));
     if (!(step < model.critical_time_step)) continue;
     model.critical_time_step = step;
     model.critical_because +=

@@ -33,30 +33,53 @@ struct View {
     return found;
   }
 
+  Particle existing(Particle particle) const {
+    if (particle >= model.body.particles) throw PluginMistake("it asks about a particle that does not exist");
+    return particle;
+  }
+
+  /// Answers the load, which gets `otherwise` if the answer fails.
+  template <class Result, class Code>
+  static Result answer(void* self, Result otherwise, Code&& code) noexcept {
+    return PluginCall::answer(otherwise, [&]() -> Result { return code(*static_cast<View*>(self)); });
+  }
+
   LoadBody body() {
     LoadBody seen;
     seen.self = this;
     seen.spacing = model.body.grid.spacing;
     seen.rim = model.body.cells.empty() ? 0.5 * model.body.grid.spacing : 0;
-    seen.region_particles = [](void* self, RegionId region) noexcept { return static_cast<View*>(self)->particles(region); };
-    seen.particle_position = [](void* self, Particle particle) noexcept { return static_cast<View*>(self)->model.body.position(particle); };
+    seen.region_particles = [](void* self, RegionId region) noexcept {
+      return answer(self, std::span<const Particle>(), [&](View& view) { return view.particles(region); });
+    };
+    seen.particle_position = [](void* self, Particle particle) noexcept {
+      return answer(self, Vec3(), [&](View& view) { return view.model.body.position(view.existing(particle)); });
+    };
     seen.particle_mass = [](void* self, Particle particle) noexcept {
-      const Model& model = static_cast<View*>(self)->model;
-      return model.masses.empty() ? 0 : model.mass(particle);  // none only if the materials have faults, and then nothing runs
+      return answer(self, 0.0, [&](View& view) {
+        return view.model.masses.empty() ? 0 : view.model.mass(view.existing(particle));  // none only if the materials have faults: nothing runs
+      });
     };
-    seen.particle_share = [](void* self, Particle particle) noexcept { return static_cast<View*>(self)->model.body.share(particle); };
+    seen.particle_share = [](void* self, Particle particle) noexcept {
+      return answer(self, 1.0, [&](View& view) { return view.model.body.share(view.existing(particle)); });
+    };
     seen.region_open_areas = [](void* self, RegionId region) noexcept {
-      View& view = *static_cast<View*>(self);
-      return view.particles(region).empty() ? std::span<const OpenArea>() : view.regions.open_areas(region);
+      return answer(self, std::span<const OpenArea>(),
+                    [&](View& view) { return view.particles(region).empty() ? std::span<const OpenArea>() : view.regions.open_areas(region); });
     };
-    seen.region_true_area = [](void* self, RegionId region) noexcept { return static_cast<View*>(self)->regions.true_area(region); };
-    seen.region_centre = [](void* self, RegionId region) noexcept { return static_cast<View*>(self)->regions.centre(region); };
-    seen.region_springs = [](void* self, RegionId region) noexcept -> std::span<const RestSpring> {
-      View& view = *static_cast<View*>(self);
-      const auto [found, fresh] = view.springs.try_emplace(region.index);
-      view.springs_unknown |= view.model.springs.empty();
-      if (fresh && !view.springs_unknown) found->second = springs_at(view.model, view.particles(region));
-      return found->second;
+    seen.region_true_area = [](void* self, RegionId region) noexcept {
+      return answer(self, 0.0, [&](View& view) { return view.regions.true_area(region); });
+    };
+    seen.region_centre = [](void* self, RegionId region) noexcept {
+      return answer(self, Vec3(), [&](View& view) { return view.regions.centre(region); });
+    };
+    seen.region_springs = [](void* self, RegionId region) noexcept {
+      return answer(self, std::span<const RestSpring>(), [&](View& view) -> std::span<const RestSpring> {
+        const auto [found, fresh] = view.springs.try_emplace(region.index);
+        view.springs_unknown |= view.model.springs.empty();
+        if (fresh && !view.springs_unknown) found->second = springs_at(view.model, view.particles(region));
+        return found->second;
+      });
     };
     return seen;
   }
@@ -73,6 +96,7 @@ struct Collector {
   double frequency = 0;
   Vec3 acceleration;
   std::vector<std::string> warnings;
+  std::string fault;  ///< of what the load handed over
 
   LoadedParticle& at(Particle particle, Vec3 amplitude) {
     if (particle >= body.particles) throw std::out_of_range("it loads a particle that does not exist");
@@ -83,7 +107,7 @@ struct Collector {
   }
 
   static void prescribe(LoadedParticle& loaded, Axes axes, Axes& kind, Vec3& value, Vec3 amplitude) {
-    if ((axes & ~all_axes) != 0) throw std::out_of_range("it prescribes an axis that does not exist");
+    if (axes == 0 || (axes & ~all_axes) != 0) throw std::out_of_range("it prescribes an axis that does not exist, or none");
     if (((loaded.displaced | loaded.driven) & axes) != 0) throw std::invalid_argument("it prescribes an axis of a particle twice");
     kind |= axes;
     if (axes & 1U) value.x = amplitude.x;
@@ -91,47 +115,79 @@ struct Collector {
     if (axes & 4U) value.z = amplitude.z;
   }
 
+  /// What the load hands over that cannot be used is its fault: the first one is told, and what follows is not taken.
+  template <class Code>
+  static void take(void* self, Code&& code) noexcept {
+    auto& collector = *static_cast<Collector*>(self);
+    if (!collector.fault.empty()) return;
+    PluginCall::answer([&] {
+      try {
+        code(collector);
+      } catch (const std::logic_error& wrong) {
+        collector.fault = wrong.what();
+      } catch (const std::range_error& wrong) {
+        collector.fault = wrong.what();
+      }
+    });
+  }
+
   LoadSink sink() {
     LoadSink to;
     to.self = this;
-    to.receive_force = [](void* self, Particle particle, Vec3 amplitude) {
-      LoadedParticle& loaded = static_cast<Collector*>(self)->at(particle, amplitude);
-      loaded.force = loaded.force + amplitude;
+    to.receive_force = [](void* self, Particle particle, Vec3 amplitude) noexcept {
+      take(self, [&](Collector& c) {
+        LoadedParticle& loaded = c.at(particle, amplitude);
+        loaded.force = loaded.force + amplitude;
+      });
     };
-    to.receive_displacement = [](void* self, Particle particle, Axes axes, Vec3 amplitude) {
-      LoadedParticle& loaded = static_cast<Collector*>(self)->at(particle, amplitude);
-      prescribe(loaded, axes, loaded.displaced, loaded.displacement, amplitude);
+    to.receive_displacement = [](void* self, Particle particle, Axes axes, Vec3 amplitude) noexcept {
+      take(self, [&](Collector& c) {
+        LoadedParticle& loaded = c.at(particle, amplitude);
+        prescribe(loaded, axes, loaded.displaced, loaded.displacement, amplitude);
+      });
     };
-    to.receive_velocity = [](void* self, Particle particle, Axes axes, Vec3 amplitude) {
-      LoadedParticle& loaded = static_cast<Collector*>(self)->at(particle, amplitude);
-      prescribe(loaded, axes, loaded.driven, loaded.velocity, amplitude);
+    to.receive_velocity = [](void* self, Particle particle, Axes axes, Vec3 amplitude) noexcept {
+      take(self, [&](Collector& c) {
+        LoadedParticle& loaded = c.at(particle, amplitude);
+        prescribe(loaded, axes, loaded.driven, loaded.velocity, amplitude);
+      });
     };
-    to.receive_acceleration = [](void* self, Vec3 value) {
-      Collector& c = *static_cast<Collector*>(self);
-      c.acceleration = c.acceleration + value;
+    to.receive_acceleration = [](void* self, Vec3 value) noexcept {
+      take(self, [&](Collector& c) {
+        if (!is_finite(value)) throw std::range_error("it gives an acceleration that is not finite");
+        c.acceleration = c.acceleration + value;
+      });
     };
-    to.receive_start_velocity = [](void* self, Particle particle, Vec3 velocity) {
-      Collector& c = *static_cast<Collector*>(self);
-      if (particle >= c.body.particles || !is_finite(velocity))
-        throw std::range_error("it gives a start velocity that is not finite, or to no particle");
-      c.start_velocities[particle] = c.start_velocities[particle] + velocity;
+    to.receive_start_velocity = [](void* self, Particle particle, Vec3 velocity) noexcept {
+      take(self, [&](Collector& c) {
+        if (particle >= c.body.particles || !is_finite(velocity))
+          throw std::range_error("it gives a start velocity that is not finite, or to no particle");
+        c.start_velocities[particle] = c.start_velocities[particle] + velocity;
+      });
     };
-    to.receive_watched = [](void* self, Particle particle, bool answered, const Reaction& reaction) {
-      Collector& c = *static_cast<Collector*>(self);
-      if (particle >= c.body.particles) throw std::out_of_range("it watches a particle that does not exist");
-      if (!c.watching.insert(particle).second) throw std::invalid_argument("it watches a particle twice");
-      if (!(reaction.stiffness >= 0 && reaction.viscosity >= 0 && std::isfinite(reaction.stiffness + reaction.viscosity)))
-        throw std::range_error("it gives a reaction that is negative or not finite");
-      c.watched.push_back({particle, answered, reaction});
+    to.receive_watched = [](void* self, Particle particle, bool answered, const Reaction& reaction) noexcept {
+      take(self, [&](Collector& c) {
+        if (particle >= c.body.particles) throw std::out_of_range("it watches a particle that does not exist");
+        if (!c.watching.insert(particle).second) throw std::invalid_argument("it watches a particle twice");
+        if (!(reaction.stiffness >= 0 && reaction.viscosity >= 0 && std::isfinite(reaction.stiffness + reaction.viscosity)))
+          throw std::range_error("it gives a reaction that is negative or not finite");
+        c.watched.push_back({particle, answered, reaction});
+      });
     };
-    to.receive_warning = [](void* self, std::string_view sentence) { static_cast<Collector*>(self)->warnings.emplace_back(sentence); };
-    to.receive_corner = [](void* self, double time) {
-      if (time > 0 && std::isfinite(time)) static_cast<Collector*>(self)->corners.push_back(time);
+    to.receive_warning = [](void* self, std::string_view sentence) noexcept {
+      take(self, [&](Collector& c) { c.warnings.emplace_back(sentence.substr(0, 4096)); });
     };
-    to.receive_frequency = [](void* self, double hertz) {
-      if (!(hertz >= 0 && std::isfinite(hertz))) throw std::range_error("it gives a frequency that is negative or not finite");
-      double& highest = static_cast<Collector*>(self)->frequency;
-      highest = std::max(highest, hertz);
+    to.receive_corner = [](void* self, double time) noexcept {
+      take(self, [&](Collector& c) {
+        if (std::isnan(time)) throw std::range_error("it gives a corner at a time that is no number");
+        if (time > 0 && std::isfinite(time)) c.corners.push_back(time);
+      });
+    };
+    to.receive_frequency = [](void* self, double hertz) noexcept {
+      take(self, [&](Collector& c) {
+        if (!(hertz >= 0 && std::isfinite(hertz))) throw std::range_error("it gives a frequency that is negative or not finite");
+        c.frequency = std::max(c.frequency, hertz);
+      });
     };
     return to;
   }
@@ -208,6 +264,22 @@ void check_conflicts(Model& model, Faults& faults) {
 
 }  // namespace
 
+double Load::factor(double time) const {
+  double factor = 0;
+  call(*stage, "factor", [&](const Complaint& why) { return stage->functions<LoadFunctions>().factor(component.get(), time, factor, why); });
+  return factor;
+}
+
+void Load::prepare(const WatchedMotion& motion) const {
+  call(*stage, "prepare", [&](const Complaint& why) { return stage->functions<LoadFunctions>().prepare(component.get(), motion, why); });
+}
+
+Vec3 Load::answer(const WatchedMotion& motion, std::size_t n) const {
+  Vec3 force;
+  call(*stage, "answer", [&](const Complaint& why) { return stage->functions<LoadFunctions>().answer(component.get(), motion, n, force, why); });
+  return force;
+}
+
 void add_loads(Model& model, RegionIndex& regions, Faults& faults) {
   std::map<Particle, Vec3> start_velocities;
   for (const Stage* stage : model.scene->of(Family::loads)) try {
@@ -215,15 +287,17 @@ void add_loads(Model& model, RegionIndex& regions, Faults& faults) {
       load.stage = stage;
       load.component = make_component(*stage);
       View view{model, regions, std::nullopt, {}, false};
-      Collector collector{model.body, {}, {}, {}, {}, {}, 0, {}, {}};
-      Objection refused;
-      const bool accepted = stage->functions<LoadFunctions>().declare(load.component.get(), view.body(), collector.sink(), refused.why);
+      Collector collector{model.body, {}, {}, {}, {}, {}, 0, {}, {}, {}};
+      const auto refused = refusal_of(*stage, "declare", [&](const Complaint& why) {
+        return stage->functions<LoadFunctions>().declare(load.component.get(), view.body(), collector.sink(), why);
+      });
       if (view.empty) {
         faults.add(stage->pointer, stage->component->type(), regions.expected_particles(*view.empty));
         continue;
       }
       if (view.springs_unknown) continue;
-      if (!accepted) throw objection(*model.scene, *stage, refused.sentence);
+      if (!collector.fault.empty()) throw refusal(*stage, collector.fault);
+      if (refused) throw objection(*model.scene, *stage, *refused);
       if (!collector.watched.empty() && stage->functions<LoadFunctions>().answer == nullptr)
         throw refusal(*stage, "it watches particles but has no answer");
       load.watched = std::move(collector.watched);

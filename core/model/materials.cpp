@@ -42,6 +42,19 @@ LatticeFacts facts_of(const Model& model, const LatticeGeometry& geometry) {
   return facts;
 }
 
+/// What the core counts on. A law's own constants may be infinite: a limit that is never reached.
+void check_constants(const Stage& stage, const MaterialConstants& constants) {
+  if (!(constants.density > 0 && constants.base_stiffness > 0 && std::isfinite(constants.density) && std::isfinite(constants.base_stiffness)))
+    throw refusal(stage, "its density or its stiffness came out as not positive or not finite");
+  bool good = constants.clamped || std::isfinite(constants.alpha_ratio);
+  for (std::uint32_t c = 0; c < max_spring_classes; ++c) {
+    good = good && std::isfinite(constants.cross_ratio[c]);
+    for (const auto& of_law : constants.law[c])
+      for (const double number : of_law) good = good && !std::isnan(number);
+  }
+  if (!good) throw refusal(stage, "the stiffness of its cross springs or a constant of its law came out as no number");
+}
+
 Material make_material(const Model& model, const Stage& stage, const LatticeFacts& facts) {
   Material material;
   material.stage = &stage;
@@ -50,12 +63,12 @@ Material make_material(const Model& model, const Stage& stage, const LatticeFact
     material.failure_stage = stage.failure.get();
     material.failure = make_component(*stage.failure);
   }
-  Objection refused;
-  if (!stage.functions<MaterialFunctions>().constants(material.component.get(), facts, material.constants, refused.why))
-    throw objection(*model.scene, stage, refused.sentence);
+  const auto refused = refusal_of(stage, "constants", [&](const Complaint& why) {
+    return stage.functions<MaterialFunctions>().constants(material.component.get(), facts, material.constants, why);
+  });
+  if (refused) throw objection(*model.scene, stage, *refused);
+  check_constants(stage, material.constants);
   const MaterialConstants& constants = material.constants;
-  if (!(constants.density > 0 && constants.base_stiffness > 0 && std::isfinite(constants.density) && std::isfinite(constants.base_stiffness)))
-    throw refusal(stage, "its density or its stiffness came out as not positive or not finite");
   material.mass = constants.density * facts.site_volume;
   return material;
 }

@@ -4,9 +4,12 @@
 namespace hyperlattice {
 
 ComponentPointer make_component(const Stage& stage) {
-  Objection refused;
-  ComponentPointer made{stage.component->info.create(stage.options.get(), refused.why), stage.component->info.destroy};
-  if (!made) throw refusal(stage, refused.sentence);
+  ComponentPointer made{nullptr, stage.component->info.destroy};
+  const auto refused = refusal_of(stage, "constructor", [&](const Complaint& why) {
+    made.reset(stage.component->info.create(stage.options.get(), why));
+    return made != nullptr;
+  });
+  if (refused) throw refusal(stage, *refused);
   return made;
 }
 
@@ -20,7 +23,7 @@ Body make_body(const Scene& scene) {
   faults.throw_if_any();
   const ComponentPointer lattice = make_component(*lattices[0]);
   try {
-    return build_body(lattices[0]->functions<LatticeFunctions>(), lattice.get());
+    return build_body(lattices[0]->functions<LatticeFunctions>(), lattice.get(), false, lattices[0]->component);
   } catch (const std::invalid_argument& refused) {
     throw refusal(*lattices[0], refused.what());
   }

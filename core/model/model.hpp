@@ -49,7 +49,8 @@ struct Load {
   std::vector<double> corners;            ///< s, ascending, each once: where the factor has a kink or jump
   double frequency = 0;                   ///< Hz, the highest at which the factor oscillates; 0: none declared
   Vec3 acceleration;
-  double factor(double time) const { return stage->functions<LoadFunctions>().factor(component.get(), time); }
+  // Each throws OutsideError if the load throws. What is no number is found by the run.
+  double factor(double time) const;
   double mean(double from, double to) const;      ///< of the factor in [from, to]; exact between corners for polynomials up to degree 9
   double integral(double from, double to) const;  ///< s, of the factor over any length of time, to about 1e-12
   /// Value and slope, 1/s, of the factor just after `time`, or just before if `reach` is negative; seen over |reach| seconds, up to a corner.
@@ -58,9 +59,8 @@ struct Load {
   };
   Limit limit(double time, double reach) const;
   bool prepares() const { return !watched.empty() && stage->functions<LoadFunctions>().prepare != nullptr; }
-  void prepare(const WatchedMotion& motion) const { stage->functions<LoadFunctions>().prepare(component.get(), motion); }
-  /// Force on the n-th watched particle, N.
-  Vec3 answer(const WatchedMotion& motion, std::size_t n) const { return stage->functions<LoadFunctions>().answer(component.get(), motion, n); }
+  void prepare(const WatchedMotion& motion) const;
+  Vec3 answer(const WatchedMotion& motion, std::size_t n) const;  ///< force on the n-th watched particle, N
 };
 
 /// One base spring with the cross springs beside it, wherever it stands.

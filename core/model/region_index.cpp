@@ -1,3 +1,4 @@
+#include <host/plugin_call.hpp>
 #include <model/region_index.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -39,6 +40,11 @@ std::string what(const Region& region) {
 
 }  // namespace
 
+const Region& RegionIndex::existing(RegionId region) const {
+  if (region.index >= regions_.size()) throw PluginMistake(fmt::format("it asks about region {}; there are {}", region.index, regions_.size()));
+  return regions_[region];
+}
+
 const Surfaces& RegionIndex::surfaces() {
   if (!surfaces_) surfaces_ = std::make_unique<Surfaces>(body_);
   return *surfaces_;
@@ -54,29 +60,31 @@ const Region* RegionIndex::filled() const {
 }
 
 std::span<const Particle> RegionIndex::particles(RegionId region) {
+  const Region& wanted = existing(region);  // before an entry stands for it
   const auto [entry, is_new] = particles_.try_emplace(region.index);
   if (is_new)
-    entry->second = body_.is_cubic() ? particles_in(body_, surfaces(), regions_[region])
+    entry->second = body_.is_cubic() ? particles_in(body_, surfaces(), wanted)
                                      : particles_in(
-                                           body_, [this]() -> const Skin& { return skin(); }, regions_[region]);
+                                           body_, [this]() -> const Skin& { return skin(); }, wanted);
   return entry->second;
 }
 
 std::vector<Particle> RegionIndex::cells(RegionId region) { return cells_in(body_, surfaces(), regions_[region]); }
 
 std::span<const OpenArea> RegionIndex::open_areas(RegionId region) {
+  const Region& wanted = existing(region);
   const auto [entry, is_new] = open_areas_.try_emplace(region.index);
   if (is_new)
-    entry->second = body_.is_cubic() ? hyperlattice::open_areas(body_, surfaces(), regions_[region])
+    entry->second = body_.is_cubic() ? hyperlattice::open_areas(body_, surfaces(), wanted)
                                      : hyperlattice::open_areas(
-                                           body_, [this]() -> const Skin& { return skin(); }, regions_[region]);
+                                           body_, [this]() -> const Skin& { return skin(); }, wanted);
   return entry->second;
 }
 
 double RegionIndex::true_area(RegionId region) const {
   const Region* shape = filled();
   if (shape == nullptr) return 0;
-  switch (regions_[region].kind) {
+  switch (existing(region).kind) {
     case Region::Kind::inner_surface:
       return shape->inner_area;
     case Region::Kind::outer_surface:
@@ -89,7 +97,7 @@ double RegionIndex::true_area(RegionId region) const {
 }
 
 Vec3 RegionIndex::centre(RegionId region) {
-  const Region* of = &regions_[region];
+  const Region* of = &existing(region);
   while (is_set(*of)) of = of->parts.front().get();
   if (is_surface(*of) || of->kind == Region::Kind::all) of = filled();
   if (of != nullptr && of->is_solid() && std::isfinite(norm(of->high - of->low))) return of->centre;

@@ -25,6 +25,7 @@ class RegionIndex {
   std::string expected_cells(RegionId region) const;
 
  private:
+  const Region& existing(RegionId region) const;  ///< the ids that plugins hand over are checked
   const Surfaces& surfaces();
   const Skin& skin();
   std::string expected(RegionId region, const char* members, const char* held) const;

@@ -1,3 +1,4 @@
+#include <host/plugin_call.hpp>
 #include <model/build.hpp>
 #include <model/homogenise.hpp>
 #include <model/spring_lattice.hpp>
@@ -58,15 +59,19 @@ LatticeFacts facts_of(const LatticeGeometry& geometry) {
   facts.spring_classes = geometry.spring_classes;
   facts.class_stiffness = geometry.class_stiffness;
   facts.self = const_cast<LatticeGeometry*>(&geometry);  // only read
-  facts.get_elastic_constants = [](void* self, const MaterialConstants& constants) {
-    const auto& of = *static_cast<const LatticeGeometry*>(self);
-    if (of.listed) return list_constants(of, constants);
-    return mean_constants(layer_stiffness(SpringLattice(of, constants).endless(), of.site_volume));
+  facts.get_elastic_constants = [](void* self, const MaterialConstants& constants) noexcept {
+    return PluginCall::answer(ElasticConstants(), [&] {
+      const auto& of = *static_cast<const LatticeGeometry*>(self);
+      if (of.listed) return list_constants(of, constants);
+      return mean_constants(layer_stiffness(SpringLattice(of, constants).endless(), of.site_volume));
+    });
   };
-  facts.get_stable = [](void* self, const MaterialConstants& constants) {
-    const auto& of = *static_cast<const LatticeGeometry*>(self);
-    if (of.listed) return constants.cross_ratio[0] >= 0 && (constants.clamped || constants.alpha_ratio >= 0);  // no more is known
-    return !find_instability(SpringLattice(of, constants).endless(), Sector::mirrored);
+  facts.get_stable = [](void* self, const MaterialConstants& constants) noexcept {
+    return PluginCall::answer(false, [&] {
+      const auto& of = *static_cast<const LatticeGeometry*>(self);
+      if (of.listed) return constants.cross_ratio[0] >= 0 && (constants.clamped || constants.alpha_ratio >= 0);  // no more is known
+      return !find_instability(SpringLattice(of, constants).endless(), Sector::mirrored);
+    });
   };
   return facts;
 }

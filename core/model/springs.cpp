@@ -8,6 +8,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace hyperlattice {
 
@@ -28,8 +29,23 @@ double rest_length(const Model& model, std::uint32_t spring_class) {
   return found == model.neighbours.end() ? 0 : found->rest_length;
 }
 
+/// A spring whose alarm is no number would never break, without a word.
 double alarm_of(const Material& material, const SpringFacts& facts) {
-  return material.failure ? material.failure_stage->functions<FailureFunctions>().alarm(material.failure.get(), facts) : infinity;
+  if (!material.failure) return infinity;
+  const Stage& stage = *material.failure_stage;
+  double alarm = 0;
+  call(stage, "alarm", [&](const Complaint& why) { return stage.functions<FailureFunctions>().alarm(material.failure.get(), facts, alarm, why); });
+  if (std::isnan(alarm)) throw plugin_error(stage, "alarm", "it gives an elongation that is no number (nan)");
+  return alarm;
+}
+
+KernelSet kernels_of(const Stage& stage, const KernelChoice& choice) {
+  KernelSet kernels;
+  call(stage, "kernels", [&](const Complaint& why) { return stage.functions<MaterialFunctions>().kernels(choice, kernels, why); });
+  const bool remembers = kernels.memory > 0;
+  if (kernels.ask == nullptr || kernels.take == nullptr || kernels.memory > max_law_memory + 2 || (kernels.start != nullptr && !remembers))
+    throw plugin_error(stage, "kernels", "it lacks the functions of one spring, or its springs keep more numbers than they may");
+  return kernels;
 }
 
 SpringConstants spring_between(const Model& model, const Material& a, const Material& b, std::uint32_t spring_class) {
@@ -151,11 +167,10 @@ void set_springs(Model& model, Faults& faults) {
       faults.add(material.failure_stage->pointer, material.failure_stage->component->type(),
                  "a criterion that does not ask for the rate, for a listed lattice");
   }
-  const MaterialFunctions& functions = model.materials[0].stage->functions<MaterialFunctions>();
-  model.kernels = functions.kernels(model.choice);
+  model.kernels = kernels_of(*model.materials[0].stage, model.choice);
   KernelChoice row = model.choice;  // a listed spring is a row of one
   row.listed = false;
-  if (model.choice.listed) model.kernels.linearise = functions.kernels(row).linearise;
+  if (model.choice.listed) model.kernels.linearise = kernels_of(*model.materials[0].stage, row).linearise;
   if (model.kernels.step == nullptr || model.kernels.step_damped == nullptr || model.kernels.measure == nullptr) {
     if (model.choice.precision == Precision::floats)
       throw InputError({{"/precision", "float",

@@ -9,6 +9,7 @@
 #include <plan/resolution.hpp>
 #include <run/layout.hpp>
 #include <run/stage_calls.hpp>
+#include <scene/stage_call.hpp>
 
 #include <hyperlattice/output.hpp>
 
@@ -24,6 +25,17 @@ namespace hyperlattice {
 
 namespace {
 
+/// The core counts steps and bytes by these numbers.
+void check_plan(const Stage& stage, const PlannedStage& planned) {
+  const SolverPlan& plan = planned.plan;
+  const auto counts = [](double number) { return std::isfinite(number) && number >= 0; };
+  if (!std::isfinite(plan.end_time) || plan.end_time < planned.start_time)
+    throw plugin_error(stage, "plan", fmt::format("it ends at {} s and starts at {} s", plan.end_time, planned.start_time));
+  if (!counts(plan.time_step) || (plan.time_step == 0 && !plan.at_rest) || !counts(plan.damping) || !counts(plan.bytes_per_site) ||
+      !counts(plan.sweeps_per_step) || std::isnan(plan.stable_time_step))
+    throw plugin_error(stage, "plan", fmt::format("it gives a time step of {} s, or another number that is negative or not finite", plan.time_step));
+}
+
 /// Each stage starts where the one before ends.
 void plan_stages(Plan& plan, Faults& faults) {
   double start = 0;
@@ -32,13 +44,15 @@ void plan_stages(Plan& plan, Faults& faults) {
     planned.stage = stage;
     planned.component = make_component(*stage);
     planned.start_time = start;
-    std::string sentence;
-    const Complaint why{&sentence, [](void* self, std::string_view text) noexcept { static_cast<std::string*>(self)->assign(text); }};
     const SolverFacts facts = solver_facts(*plan.model, start);
-    if (stage->functions<SolverFunctions>().plan(planned.component.get(), facts, planned.plan, why))
-      start = planned.plan.end_time;
+    const auto refused = refusal_of(*stage, "plan", [&](const Complaint& why) {
+      return stage->functions<SolverFunctions>().plan(planned.component.get(), facts, planned.plan, why);
+    });
+    if (refused)
+      add_all(faults, objection(*plan.scene, *stage, *refused));
     else
-      add_all(faults, objection(*plan.scene, *stage, sentence));
+      check_plan(*stage, planned);
+    if (!refused) start = planned.plan.end_time;
     plan.stages.push_back(std::move(planned));
   }
 }

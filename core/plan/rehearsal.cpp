@@ -1,6 +1,8 @@
 #include <model/region_index.hpp>
+#include <plan/columns.hpp>
 #include <plan/fields.hpp>
 #include <plan/rehearsal.hpp>
+#include <scene/stage_call.hpp>
 
 #include <hyperlattice/output.hpp>
 
@@ -25,7 +27,9 @@ class AtRest {
     context.title = model_.scene->title;
     context.fields = fields_;
     context.self = this;
-    context.region_particles = [](void* self, RegionId region) noexcept { return static_cast<AtRest*>(self)->regions_.particles(region); };
+    context.region_particles = [](void* self, RegionId region) noexcept {
+      return PluginCall::answer(std::span<const Particle>(), [&] { return static_cast<AtRest*>(self)->regions_.particles(region); });
+    };
     return context;
   }
 
@@ -59,19 +63,19 @@ void rehearse_outputs(Plan& plan, Faults& faults) {
   AtRest rest(*plan.model);
   const OutputContext context = rest.context();
   const Snapshot snapshot = rest.snapshot();
-  std::string sentence;
-  const Complaint why{&sentence, [](void* self, std::string_view text) noexcept { static_cast<std::string*>(self)->assign(text); }};
   for (const Stage* stage : writers) {
     const ComponentPointer writer = make_component(*stage);
-    if (!stage->functions<WriterFunctions>().begin(writer.get(), context, why))
-      faults.add(stage->pointer, stage->component->type(), "an output that fits the body: " + sentence);
+    const auto refused =
+        refusal_of(*stage, "begin", [&](const Complaint& why) { return stage->functions<WriterFunctions>().begin(writer.get(), context, why); });
+    if (refused) faults.add(stage->pointer, stage->component->type(), "an output that fits the body: " + *refused);
   }
   for (const Stage* stage : probes) {
     const ComponentPointer probe = make_component(*stage);
     std::vector<std::string>& names = plan.tables.emplace_back(PlannedTable{stage->name, {"time"}}).columns;
-    const ColumnSink columns{&names, [](void* self, std::string_view name) { static_cast<std::vector<std::string>*>(self)->emplace_back(name); }};
-    if (!stage->functions<ProbeFunctions>().begin(probe.get(), context, snapshot, columns, why))
-      faults.add(stage->pointer, stage->component->type(), "an output that fits the body: " + sentence);
+    const auto refused = refusal_of(*stage, "begin", [&](const Complaint& why) {
+      return stage->functions<ProbeFunctions>().begin(probe.get(), context, snapshot, columns_into(names), why);
+    });
+    if (refused) faults.add(stage->pointer, stage->component->type(), "an output that fits the body: " + *refused);
   }
 }
 

@@ -1,4 +1,5 @@
 // Broken springs: the criterion's answer, the event, and the energy that went with it.
+#include <model/kernel_calls.hpp>
 #include <run/parts.hpp>
 
 #include <hyperlattice/failure.hpp>
@@ -36,7 +37,8 @@ const std::uint8_t* Simulation::Parts::review(Block& block, const AlarmRow& alar
   const auto ends = [&](std::size_t n) { return layout->spring(block, alarm.row, alarm.neighbour, alarm.sites[n]); };
   const auto ask = [&](const Material& material, const SpringFacts& facts, std::size_t first, std::size_t count) {
     if (material.failure_stage == nullptr) return;
-    const auto& functions = material.failure_stage->functions<FailureFunctions>();
+    const Stage& stage = *material.failure_stage;
+    const auto& functions = stage.functions<FailureFunctions>();
     std::vector<std::uint8_t> answers(count, 0);
     std::vector<Particle> a, b;
     std::vector<double> rates;
@@ -46,7 +48,8 @@ const std::uint8_t* Simulation::Parts::review(Block& block, const AlarmRow& alar
       a.push_back(std::min(spring.a, spring.b));
       b.push_back(std::max(spring.a, spring.b));
     }
-    functions.review(material.failure.get(), {time, facts, alarm.elongation.subspan(first, count), a, b, rates}, answers.data());
+    const SpringBatch batch{time, facts, alarm.elongation.subspan(first, count), a, b, rates};
+    call(stage, "breaks", [&](const Complaint& why) { return functions.review(material.failure.get(), batch, answers.data(), why); });
     for (std::size_t n = 0; n < count; ++n) block.answers[first + n] |= answers[n];
   };
   if (model.materials.size() == 1 && !model.body.is_listed()) {  // the same springs all
@@ -129,7 +132,7 @@ double Simulation::Parts::energy_of(std::size_t index, const Block& block, const
       for (std::uint32_t n = 0; n < model.kernels.memory; ++n) memory[n] = kept.first[n * kept.stride];
     }
     spring.memory = memory;
-    const SpringAnswer answer = model.kernels.ask(spring);
+    const SpringAnswer answer = ask_spring(model, spring);
     return answer.energy + 0.5 * answer.force * rate / (2 * length);
   };
   const double difference = b.height - a.height, total = b.height + a.height, delta = model.body.grid.membrane_distance;

@@ -1,3 +1,4 @@
+#include <model/kernel_calls.hpp>
 #include <run/grid_layout.hpp>
 #include <run/listed_layout.hpp>
 
@@ -19,7 +20,7 @@ void Layout::start_memory(const Block& block, std::uint32_t row, std::uint32_t n
   }
   for (std::size_t cross = 0; cross < kept_numbers() / model_.kernels.memory; ++cross) {
     double kept[max_law_memory + 2] = {};
-    model_.kernels.start(cross == 0 ? joint.law : joint.cross_law, {std::min(a, b), std::max(a, b)}, kept);
+    start_spring(model_, cross == 0 ? joint.law : joint.cross_law, {std::min(a, b), std::max(a, b)}, kept);
     const Memory memory = this->memory(block, row, neighbour, site, cross != 0);
     for (std::uint32_t n = 0; n < model_.kernels.memory; ++n) memory.first[n * memory.stride] = kept[n];
   }

@@ -1,25 +1,13 @@
+#include <plan/columns.hpp>
 #include <plan/fields.hpp>
 #include <plan/plan.hpp>
 #include <run/archive.hpp>
 #include <run/outputs.hpp>
+#include <scene/stage_call.hpp>
 
 #include <spdlog/fmt/fmt.h>
 
-#include <utility>
-
 namespace hyperlattice {
-
-namespace {
-
-/// A function of a plugin that may complain: runs it, and throws its complaint.
-template <class Call>
-void call(const Stage& stage, Call&& function) {
-  std::string sentence;
-  const Complaint why{&sentence, [](void* self, std::string_view text) noexcept { static_cast<std::string*>(self)->assign(text); }};
-  if (!function(why)) throw OutsideError(fmt::format("{} ({}) failed: {}", stage.component->type(), stage.pointer, sentence));
-}
-
-}  // namespace
 
 Outputs::Outputs(const Model& model, const Simulation& simulation, RunFolder& folder, double end_time, Archive* resumed)
     : model_(model), simulation_(simulation), source_(model, simulation), folder_(folder), regions_(model.body, model.scene->regions) {
@@ -58,28 +46,27 @@ void Outputs::begin(Output& output) {
   context.fields = fields_;
   context.earlier = output.shown;
   context.self = this;
-  context.region_particles = [](void* self, RegionId region) noexcept { return static_cast<Outputs*>(self)->regions_.particles(region); };
-  context.announce_file = [](void* self, std::string_view file, bool rewritten) noexcept { static_cast<Outputs*>(self)->announce(file, rewritten); };
+  context.region_particles = [](void* self, RegionId region) noexcept {
+    return PluginCall::answer(std::span<const Particle>(), [&] { return static_cast<Outputs*>(self)->regions_.particles(region); });
+  };
+  context.announce_file = [](void* self, std::string_view file, bool rewritten) noexcept {
+    PluginCall::answer([&] { static_cast<Outputs*>(self)->announce(file, rewritten); });
+  };
   if (!is_probe) {
-    call(stage, [&](const Complaint& why) { return stage.functions<WriterFunctions>().begin(output.component.get(), context, why); });
+    call(stage, "begin", [&](const Complaint& why) { return stage.functions<WriterFunctions>().begin(output.component.get(), context, why); });
     return;
   }
   std::vector<std::string> columns{"time"};
-  const ColumnSink sink{&columns, [](void* self, std::string_view name) { static_cast<std::vector<std::string>*>(self)->emplace_back(name); }};
-  call(stage,
+  const ColumnSink sink = columns_into(columns);
+  call(stage, "begin",
        [&](const Complaint& why) { return stage.functions<ProbeFunctions>().begin(output.component.get(), context, source_.take(), sink, why); });
-  source_.rethrow();
   output.row.resize(columns.size());
   output.table = &folder_.table("probes/" + stage.name + ".csv", columns);
 }
 
-void Outputs::announce(std::string_view file, bool rewritten) noexcept {
-  try {
-    if (writing_ == nullptr) throw OutsideError("a writer announced a file when it was not asked to write");
-    folder_.claim(writing_->name.empty() ? std::string(file) : fmt::format("{}/{}", writing_->name, file), rewritten);
-  } catch (...) {
-    unannounced_ = std::current_exception();
-  }
+void Outputs::announce(std::string_view file, bool rewritten) {
+  if (writing_ == nullptr) throw PluginMistake("it announced a file when it was not asked to write");
+  folder_.claim(writing_->name.empty() ? std::string(file) : fmt::format("{}/{}", writing_->name, file), rewritten);
 }
 
 void Outputs::show(double time_step) {
@@ -101,12 +88,10 @@ void Outputs::show_to(Output& output) {
   const Snapshot& snapshot = source_.take();
   const Stage& stage = *output.stage;
   writing_ = &output;
-  call(stage, [&](const Complaint& why) {
+  call(stage, output.table != nullptr ? "sample" : "frame", [&](const Complaint& why) {
     return output.table != nullptr ? stage.functions<ProbeFunctions>().sample(output.component.get(), snapshot, output.row.data() + 1, why)
                                    : stage.functions<WriterFunctions>().frame(output.component.get(), snapshot, why);
   });
-  source_.rethrow();
-  if (unannounced_) std::rethrow_exception(std::exchange(unannounced_, nullptr));
   if (output.table != nullptr) output.shown.clear();
   output.shown.push_back({snapshot.step, snapshot.time});
   if (output.table == nullptr) return;
@@ -118,8 +103,7 @@ void Outputs::end() {
   for (Output& output : outputs_) {
     if (output.table != nullptr) continue;
     writing_ = &output;
-    call(*output.stage, [&](const Complaint& why) { return output.stage->functions<WriterFunctions>().end(output.component.get(), why); });
-    if (unannounced_) std::rethrow_exception(std::exchange(unannounced_, nullptr));
+    call(*output.stage, "end", [&](const Complaint& why) { return output.stage->functions<WriterFunctions>().end(output.component.get(), why); });
   }
 }
 

@@ -6,7 +6,6 @@
 #include <run/schedule.hpp>
 #include <run/snapshot.hpp>
 
-#include <exception>
 #include <list>
 
 namespace hyperlattice {
@@ -35,7 +34,7 @@ class Outputs {
     std::vector<double> row;
   };
   void begin(Output& output);
-  void announce(std::string_view file, bool rewritten) noexcept;
+  void announce(std::string_view file, bool rewritten);
   static void visit(Archive& archive, Output& output);
   bool has_seen_this(const Output& output) const { return !output.shown.empty() && output.shown.back().step == simulation_.steps(); }
   void show_to(Output& output);
@@ -45,7 +44,6 @@ class Outputs {
   SnapshotSource source_;
   RunFolder& folder_;
   const Output* writing_ = nullptr;       ///< the one that is at work
-  std::exception_ptr unannounced_;        ///< why a file could not be announced
   std::vector<std::string_view> fields_;  ///< that this run has
   std::list<Output> outputs_;
   RegionIndex regions_;

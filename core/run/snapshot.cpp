@@ -1,8 +1,8 @@
+#include <host/plugin_call.hpp>
 #include <plan/fields.hpp>
 #include <run/snapshot.hpp>
 
 #include <algorithm>
-#include <utility>
 
 namespace hyperlattice {
 
@@ -11,13 +11,7 @@ SnapshotSource::SnapshotSource(const Model& model, const Simulation& simulation)
   snapshot_.spacing = model.body.grid.spacing;
   snapshot_.self = this;
   snapshot_.get_field = [](void* self, std::string_view name, Field& out) noexcept {
-    auto& source = *static_cast<SnapshotSource*>(self);
-    try {
-      return source.field(name, out);
-    } catch (...) {
-      source.thrown_ = std::current_exception();
-      return false;
-    }
+    return PluginCall::answer(false, [&] { return static_cast<SnapshotSource*>(self)->field(name, out); });
   };
 }
 
@@ -34,10 +28,6 @@ const Snapshot& SnapshotSource::take() {
   snapshot_.time = simulation_.time();
   snapshot_.step = simulation_.steps();
   return snapshot_;
-}
-
-void SnapshotSource::rethrow() {
-  if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
 }
 
 bool SnapshotSource::field(std::string_view name, Field& out) {

@@ -18,10 +18,8 @@ class SnapshotSource {
   SnapshotSource(const SnapshotSource&) = delete;
   SnapshotSource& operator=(const SnapshotSource&) = delete;
 
-  /// The present state; valid until the next call, and while the simulation stands still.
+  /// The present state; valid until the next call, and while the simulation stands still. For a PluginCall, which keeps what its fields throw.
   const Snapshot& take();
-  /// Throws what went wrong while a field was computed inside a plugin's call, if anything did.
-  void rethrow();
 
  private:
   struct Values {
@@ -40,7 +38,6 @@ class SnapshotSource {
   std::vector<double> positions_;
   std::map<std::string, Values, std::less<>> fields_;
   std::vector<std::uint32_t> springs_of_;  ///< of each particle at the start; filled when damage is first asked for
-  std::exception_ptr thrown_;
 };
 
 }  // namespace hyperlattice

@@ -1,5 +1,6 @@
 #include <base/errors.hpp>
 #include <run/stage_calls.hpp>
+#include <scene/stage_call.hpp>
 
 #include <spdlog/fmt/fmt.h>
 
@@ -28,13 +29,10 @@ SolverFacts solver_facts(const Model& model, double start_time) {
 
 template <class Code>
 bool StageCalls::guarded(Code&& code) noexcept {
-  try {
+  return PluginCall::answer(false, [&] {
     code();
     return !hooks_.must_stop || !hooks_.must_stop();
-  } catch (...) {
-    thrown_ = std::current_exception();
-    return false;
-  }
+  });
 }
 
 Statics& StageCalls::statics() {
@@ -47,33 +45,34 @@ StageCalls::StageCalls(const Model& model, Simulation& simulation, const Planned
   host_.self = this;
   host_.time = simulation.time();
   host_.steps_done = steps_done;
-  host_.take_step = [](void* self, double time_step) {
+  host_.take_step = [](void* self, double time_step) noexcept {
     auto& calls = *static_cast<StageCalls*>(self);
     return calls.guarded([&] {
+      if (!(time_step > 0 && std::isfinite(time_step))) throw PluginMistake(fmt::format("it takes a step of {} s", time_step));
       calls.simulation_.step(time_step);
       calls.meet_end(time_step);
       calls.host_.time = calls.simulation_.time();
       if (calls.hooks_.stepped) calls.hooks_.stepped(time_step);
     });
   };
-  host_.show = [](void* self) {
+  host_.show = [](void* self) noexcept {
     auto& calls = *static_cast<StageCalls*>(self);
     return calls.guarded([&] {
       if (calls.hooks_.observe) calls.hooks_.observe();
     });
   };
-  host_.open = [](void* self) -> const StaticProblem* {
+  host_.open = [](void* self) noexcept -> const StaticProblem* {
     auto& calls = *static_cast<StageCalls*>(self);
     return calls.guarded([&] { calls.statics(); }) ? &calls.statics_->problem() : nullptr;
   };
-  host_.take = [](void* self, double share, const double* displacement) {
+  host_.take = [](void* self, double share, const double* displacement) noexcept {
     auto& calls = *static_cast<StageCalls*>(self);
     return calls.guarded([&] {
       calls.statics().accept(share, displacement);
       calls.host_.time = calls.simulation_.time();
     });
   };
-  host_.measure_rest = [](void* self, RestReport* report, double* kinetic) {
+  host_.measure_rest = [](void* self, RestReport* report, double* kinetic) noexcept {
     auto& calls = *static_cast<StageCalls*>(self);
     return calls.guarded([&] {
       if (report != nullptr) {
@@ -84,21 +83,24 @@ StageCalls::StageCalls(const Model& model, Simulation& simulation, const Planned
       if (kinetic != nullptr) *kinetic = calls.simulation_.kinetic();
     });
   };
-  host_.stop_motion = [](void* self) {
+  host_.stop_motion = [](void* self) noexcept {
     auto& calls = *static_cast<StageCalls*>(self);
     return calls.guarded([&] { calls.simulation_.halt(); });
   };
-  host_.set_damping_rate = [](void* self, double rate) {
-    const auto& calls = *static_cast<StageCalls*>(self);
-    calls.simulation_.set_damping(calls.stage_.plan.damping, rate);
+  host_.set_damping_rate = [](void* self, double rate) noexcept {
+    auto& calls = *static_cast<StageCalls*>(self);
+    calls.guarded([&] {
+      if (!(rate >= 0 && std::isfinite(rate))) throw PluginMistake(fmt::format("it damps at a rate of {} 1/s", rate));
+      calls.simulation_.set_damping(calls.stage_.plan.damping, rate);
+    });
   };
-  host_.show_rest = [](void* self, const RestReport& report) {
+  host_.show_rest = [](void* self, const RestReport& report) noexcept {
     auto& calls = *static_cast<StageCalls*>(self);
     return calls.guarded([&] {
       if (calls.hooks_.report) calls.hooks_.report(report);
     });
   };
-  host_.keep_motion = [](void* self, const double* motion) {
+  host_.keep_motion = [](void* self, const double* motion) noexcept {
     auto& calls = *static_cast<StageCalls*>(self);
     return calls.guarded([&] {
       if (!calls.hooks_.failing_motion) return;
@@ -117,15 +119,16 @@ void StageCalls::meet_end(double time_step) {
 }
 
 void StageCalls::run() {
-  std::string sentence;
-  const Complaint why{&sentence, [](void* self, std::string_view text) noexcept { static_cast<std::string*>(self)->assign(text); }};
   const Stage& stage = *stage_.stage;
   simulation_.set_damping(stage_.plan.damping);
   if (stage_.plan.at_rest && stage_.plan.time_step > 0) simulation_.hold_time(stage_.plan.end_time);  // else the solver says what time it is
-  const bool done = stage.functions<SolverFunctions>().run(stage_.component.get(), solver_facts(model_, stage_.start_time), host_, why);
-  simulation_.release_time();
-  if (thrown_) std::rethrow_exception(thrown_);
-  if (!done) throw RunError(fmt::format("{} ({}) failed: {}", stage.component->type(), stage.pointer, sentence));
+  const SolverFacts facts = solver_facts(model_, stage_.start_time);
+  const auto failed = refusal_of(stage, "run", [&](const Complaint& why) {
+    const bool done = stage.functions<SolverFunctions>().run(stage_.component.get(), facts, host_, why);
+    simulation_.release_time();
+    return done;
+  });
+  if (failed) throw RunError(fmt::format("{} ({}) failed: {}", stage.component->type(), stage.pointer, *failed));
 }
 
 RestReport bring_to_rest(const Plan& plan, Simulation& simulation) {

@@ -1,4 +1,5 @@
-// What a solver calls while its stage runs. The solver is a plugin's: an exception thrown below it waits here until its call has returned.
+// What a solver calls while its stage runs. The solver is a plugin's: an exception thrown below it waits until its call has returned
+// (plugin_call.hpp).
 #pragma once
 
 #include <plan/plan.hpp>
@@ -42,7 +43,6 @@ class StageCalls {
   Hooks hooks_;
   SolverHost host_;
   std::unique_ptr<Statics> statics_;
-  std::exception_ptr thrown_;
 };
 
 /// What a solver may know before its stage.

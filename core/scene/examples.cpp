@@ -34,7 +34,7 @@ std::vector<std::string> missing(const ComponentInfo& info, const Json& stage) {
   std::vector<Option> options(info.options.begin(), info.options.end());
   for (Option& option : options)
     if (option.kind == OptionKind::file) option.kind = OptionKind::text;  // the file need not be there
-  OptionSet set = option_set(info);
+  OptionSet set = option_set(info, "");
   set.options = options;
   Json resolved;
   OptionReader(stage, "", {faults, region_reader, texts}).fill(set, resolved);

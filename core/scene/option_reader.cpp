@@ -1,3 +1,4 @@
+#include <host/plugin_call.hpp>
 #include <scene/expectation.hpp>
 #include <scene/option_reader.hpp>
 #include <scene/value_reader.hpp>
@@ -8,22 +9,37 @@
 #include <algorithm>
 
 namespace hyperlattice {
+namespace {
+
+/// Calls a function of the set, which must not fail. Throws OutsideError if it does.
+template <class Code>
+void call(const OptionSet& set, const char* function, Code&& code) {
+  PluginCall call(set.name, set.library, function);
+  if (const std::string* sentence = call.failure(code(call.why())))
+    throw OutsideError(fmt::format("{} ({}) failed in {}(): {}", set.name, set.library, function, *sentence));
+}
+
+}  // namespace
 
 OptionReader::OptionReader(const Json& object, std::string pointer, Reading reading, std::vector<std::string> keys)
     : object_(object), pointer_(std::move(pointer)), reading_(reading), known_(std::move(keys)) {}
 
 OptionsPointer OptionReader::fill(const OptionSet& set, Json& resolved) {
-  OptionsPointer options(set.create(), set.destroy);
+  OptionsPointer options(nullptr, set.destroy);
+  call(set, "Options", [&](const Complaint& why) {
+    options.reset(set.create(why));
+    return options != nullptr;
+  });
   bool good = true;
   for (const Option& option : set.options) {
     known_.emplace_back(option.name);
-    good = fill_one(option, options.get(), resolved) && good;
+    good = fill_one(set, option, options.get(), resolved) && good;
   }
   if (!good || !check(set, options.get())) options.reset();
   return options;
 }
 
-bool OptionReader::fill_one(const Option& option, void* options, Json& resolved) {
+bool OptionReader::fill_one(const OptionSet& set, const Option& option, void* options, Json& resolved) {
   const std::string name(option.name), pointer = member(pointer_, option.name);
   ReadValue value;
   const auto given = object_.find(name);
@@ -38,19 +54,22 @@ bool OptionReader::fill_one(const Option& option, void* options, Json& resolved)
     if (!read_value(option, given != object_.end() ? *given : Json::parse(option.fallback), pointer, reading_, value, si)) return false;
     resolved[name] = std::move(si);
   }
-  option.set(options, value.plain);
+  call(set, "Options", [&](const Complaint& why) { return option.set(options, value.plain, why); });
   return true;
 }
 
 bool OptionReader::check(const OptionSet& set, const void* options) {
   if (set.check == nullptr) return true;
   const std::size_t before = reading_.faults.size();
-  set.check(options, {this, [](void* self, std::string_view option, std::string_view expected) noexcept {
-                        const OptionReader& reader = *static_cast<OptionReader*>(self);
-                        const auto given = option.empty() ? reader.object_.end() : reader.object_.find(std::string(option));
-                        reader.reading_.faults.add(option.empty() ? reader.pointer_ : member(reader.pointer_, option),
-                                                   given == reader.object_.end() ? "" : shown(*given), std::string(expected));
-                      }});
+  const FaultSink sink{this, [](void* self, std::string_view option, std::string_view expected) noexcept {
+                         PluginCall::answer([&] {
+                           const OptionReader& reader = *static_cast<OptionReader*>(self);
+                           const auto given = option.empty() ? reader.object_.end() : reader.object_.find(std::string(option));
+                           reader.reading_.faults.add(option.empty() ? reader.pointer_ : member(reader.pointer_, option),
+                                                      given == reader.object_.end() ? "" : shown(*given), std::string(expected));
+                         });
+                       }};
+  call(set, "check", [&](const Complaint& why) { return set.check(options, sink, why); });
   return reading_.faults.size() == before;
 }
 

@@ -26,7 +26,7 @@ class OptionReader {
   void reject_unknown();
 
  private:
-  bool fill_one(const Option& option, void* options, Json& resolved);
+  bool fill_one(const OptionSet& set, const Option& option, void* options, Json& resolved);
   bool check(const OptionSet& set, const void* options);
 
   const Json& object_;

@@ -127,7 +127,7 @@ std::optional<Stage> StageReader::read_stage(const Json& given, const std::strin
   if (family == Family::materials) keys.emplace_back("failure");
   OptionReader reader(given, pointer, reading_, std::move(keys));
   const OptionsPointer common = reader.fill(common_options(family), resolved);
-  stage.options = reader.fill(option_set(stage.component->info), resolved);
+  stage.options = reader.fill(option_set(stage.component->info, stage.component->path.c_str()), resolved);
   reader.reject_unknown();
   if (!common || !stage.options || (failure != given.end() && !stage.failure)) return std::nullopt;
   if (stage.failure) resolved["failure"] = std::move(failure_resolved);
@@ -150,7 +150,7 @@ std::unique_ptr<Stage> StageReader::read_failure(const Json& given, const std::s
   stage->name = type.substr(type.rfind('.') + 1);
   resolved = {{"type", given["type"]}};
   OptionReader reader(given, pointer, reading_, {"type"});
-  stage->options = reader.fill(option_set(stage->component->info), resolved);
+  stage->options = reader.fill(option_set(stage->component->info, stage->component->path.c_str()), resolved);
   reader.reject_unknown();
   return stage->options ? std::move(stage) : nullptr;
 }

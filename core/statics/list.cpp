@@ -1,5 +1,7 @@
 // A listed body: every spring is a row of one. Springs are answered in parallel and added to their ends in the order of the list, so that sums have
 // one order for any number of threads.
+#include <base/thread_errors.hpp>
+#include <scene/stage_call.hpp>
 #include <statics/spring_rows.hpp>
 #include <statics/statics.hpp>
 
@@ -33,8 +35,7 @@ double Statics::respond_list(const double* u, double* force, const SpringTangent
   const StaticGrid& grid = problem_.grid;
   const std::size_t springs = springs_.size(), pieces = (springs + piece - 1) / piece, of_spring = 2 * static_cast<std::size_t>(grid.components);
   std::vector<double> pulls(of_spring * springs, 0), energies(pieces, 0);  // at both ends of each spring, by component and end
-#pragma omp parallel for num_threads(grid.threads) schedule(static)
-  for (std::size_t n = 0; n < pieces; ++n) {
+  const auto respond_piece = [&](std::size_t n, const Complaint& why) {
     RowBuffers buffer(grid, 1);
     SpringRow& row = buffer.springs;
     row.count = 1;
@@ -55,11 +56,19 @@ double Statics::respond_list(const double* u, double* force, const SpringTangent
         here[c][0] = u[c * grid.places + spring.a];
         there[c][0] = u[c * grid.places + spring.b];
       }
-      energies[n] += model_.kernels.linearise(row);
+      double energy = 0;
+      if (!model_.kernels.linearise(row, energy, why)) return false;
+      energies[n] += energy;
       add_forces(buffer, grid, 2, 1, pulls.data() + of_spring * s);
       if (tangents != nullptr) keep_tangents(buffer, grid.components == 4, s, *tangents);
     }
-  }
+    return true;
+  };
+  ThreadErrors errors;
+#pragma omp parallel for num_threads(grid.threads) schedule(static)
+  for (std::size_t n = 0; n < pieces; ++n)  // one call of the plugin for a piece: what stands around a call would cost as much as a spring
+    errors.run(n, [&] { call(*model_.materials.front().stage, "force", [&](const Complaint& why) { return respond_piece(n, why); }); });
+  errors.rethrow();
   for (std::size_t s = 0; s < springs; ++s)
     for (int c = 0; c < grid.components; ++c) {
       const double* pull = pulls.data() + of_spring * s + 2 * c;

@@ -1,5 +1,7 @@
 // Forces, energy and tangents of all springs, by the material's own kernels; on a grid a row and a neighbour at a time. A plane's springs pull at it
 // and at planes after it: planes that share none are summed at once, so that sums have one order for any number of threads.
+#include <base/thread_errors.hpp>
+#include <model/kernel_calls.hpp>
 #include <statics/spring_rows.hpp>
 #include <statics/statics.hpp>
 
@@ -28,8 +30,13 @@ double Statics::respond_grid(const double* u, double* force, const SpringTangent
   const std::int32_t planes = grid.sites[2], colours = model_.body.reach + 1;
   std::vector<double> energies(static_cast<std::size_t>(planes), 0);
   for (std::int32_t colour = 0; colour < colours; ++colour) {
+    ThreadErrors errors;
 #pragma omp parallel for num_threads(grid.threads) schedule(static)
-    for (std::int32_t k = colour; k < planes; k += colours) energies[static_cast<std::size_t>(k)] = respond_plane(k, u, force, tangents);
+    for (std::int32_t k = colour; k < planes; k += colours) {
+      const auto plane = static_cast<std::size_t>(k);
+      errors.run(plane, [&] { energies[plane] = respond_plane(k, u, force, tangents); });
+    }
+    errors.rethrow();
   }
   double energy = 0;
   for (const double of_plane : energies) energy += of_plane;
@@ -69,7 +76,7 @@ double Statics::respond_plane(std::int32_t k, const double* u, double* force, co
         springs.here[c] = u + c * grid.places + first;
         springs.there[c] = springs.here[c] + step;
       }
-      energy += model_.kernels.linearise(springs);
+      energy += linearise_springs(model_, springs);
       add_forces(buffer, grid, grid.places, step, force + first);
       if (tangents != nullptr) keep_tangents(buffer, grid.components == 4, at, *tangents);
     }

@@ -1,3 +1,4 @@
+#include <host/plugin_call.hpp>
 #include <statics/statics.hpp>
 
 #include <algorithm>
@@ -24,12 +25,16 @@ Statics::Statics(const Model& model, Simulation& simulation, double start, doubl
   problem_.self = this;
   problem_.state = state_.data();
   problem_.respond_to = [](void* self, const double* u, double* force, const SpringTangents* tangents) noexcept {
-    return static_cast<const Statics*>(self)->respond(u, force, tangents);
+    return PluginCall::answer(0.0, [&] { return static_cast<const Statics*>(self)->respond(u, force, tangents); });
   };
-  problem_.load_at = [](void* self, double share, double* force) noexcept { static_cast<const Statics*>(self)->add_loads(share, force); };
-  problem_.prescribe_at = [](void* self, double share, double* u) noexcept { static_cast<const Statics*>(self)->prescribe(share, u); };
+  problem_.load_at = [](void* self, double share, double* force) noexcept {
+    PluginCall::answer([&] { static_cast<const Statics*>(self)->add_loads(share, force); });
+  };
+  problem_.prescribe_at = [](void* self, double share, double* u) noexcept {
+    PluginCall::answer([&] { static_cast<const Statics*>(self)->prescribe(share, u); });
+  };
   problem_.scale_of = [](void* self, const double* internal, const double* external) noexcept {
-    return static_cast<Statics*>(self)->force_scale(internal, external);
+    return PluginCall::answer(0.0, [&] { return static_cast<Statics*>(self)->force_scale(internal, external); });
   };
   problem_.position_of = [](void* self, std::int64_t place) noexcept {
     const auto& statics = *static_cast<const Statics*>(self);

@@ -44,9 +44,13 @@ struct BadPlugin {
 const BadPlugin bad_plugins[] = {
     {"failures.empty", "failures.empty.so: is an empty file"},
     {"failures.cut_short", "failures.cut_short.so: is damaged or cut short"},
-    {"failures.old_interface", "failures.old_interface.so: interface version 999, this Hyperlattice has 1: rebuild it against these headers"},
+    {"failures.old_interface", "failures.old_interface.so: interface version 999, this Hyperlattice has 2: rebuild it against these headers"},
     {"failures.old_strings", "failures.old_strings.so: C++ library ABI (_GLIBCXX_USE_CXX11_ABI) 0, this Hyperlattice has 1: rebuild it with"},
-    {"failures.packed", "failures.packed.so: size of ComponentInfo 156, this Hyperlattice has 160: rebuild it against these headers"},
+    {"failures.later_headers",
+     "failures.later_headers.so: was built against headers in which what crosses to a plugin is laid out otherwise: rebuild it against these "
+     "headers"},
+    {"failures.packed",
+     "failures.packed.so: was built against headers in which what crosses to a plugin is laid out otherwise: rebuild it against these headers"},
 #if defined(__x86_64__)
     {"failures.wide", "failures.wide.so: Eigen alignment 64, this Hyperlattice has 16: rebuild it without -march=native"},
 #endif
@@ -93,7 +97,8 @@ INSTANTIATE_TEST_SUITE_P(BadPlugins, Refused, testing::ValuesIn(bad_plugins), []
 TEST(BadPlugins, NoCodeRunsBeforeTheGate) {
   unsetenv("HYPERLATTICE_CONSTRUCTED");
   Host host({folder});
-  for (const char* type : {"failures.old_interface", "failures.old_strings", "failures.packed", "failures.wide", "failures.cut_short"})
+  for (const char* type :
+       {"failures.old_interface", "failures.old_strings", "failures.packed", "failures.later_headers", "failures.wide", "failures.cut_short"})
     host.find(type);
   EXPECT_EQ(std::getenv("HYPERLATTICE_CONSTRUCTED"), nullptr);
   ASSERT_NE(host.find("failures.sound"), nullptr) << host.why_not("failures.sound");  // the same source, and it leaves its trace
@@ -113,6 +118,15 @@ TEST(BadPlugins, FindingOneOpensNoOther) {
     if (outcome.path.extension() == ".so") {
       EXPECT_EQ(outcome.path.stem(), "failures.stripped");
     }
+}
+
+TEST(BadPlugins, ALibraryNamedDirectlyThatLacksTheTypeOfItsNameIsRefusedForIt) {
+  Host host({folder});
+  const std::string other = (folder / "failures.other_name.so").string();
+  host.add_scene_paths({other}, folder);
+  EXPECT_NE(host.find("failures.another"), nullptr);
+  EXPECT_EQ(host.find("failures.other_name"), nullptr);
+  EXPECT_EQ(host.why_not("failures.other_name"), "failures.other_name.so: gives failures.another, not the type it is named after");
 }
 
 TEST(BadPlugins, TwoLibrariesOfOneTypeAreBothNamed) {
@@ -218,12 +232,15 @@ TEST(Gate, NamesEachNumberThatDiffers) {
   EXPECT_EQ(gate_mismatch(own, own), "");
   GateNumbers other = own;
   other.eigen_alignment = own.eigen_alignment / 2;
-  other.value_size += 8;
+  other.library_abi += 1;
   const std::string why = gate_mismatch(other, own);
   EXPECT_NE(why.find("Eigen alignment 8, this Hyperlattice has 16: rebuild it for the instruction set"), std::string::npos) << why;
-  EXPECT_NE(why.find("; size of OptionValue 96, this Hyperlattice has 88"), std::string::npos) << why;
+  EXPECT_NE(why.find("C++ library ABI (_GLIBCXX_USE_CXX11_ABI) 2, this Hyperlattice has 1: rebuild it"), std::string::npos) << why;
   other.compiler_abi = 2;
   EXPECT_NE(gate_mismatch(other, own).find("C++ compiler ABI 2"), std::string::npos);
+  other = own;
+  other.boundary += 1;
+  EXPECT_NE(gate_mismatch(other, own).find("laid out otherwise: rebuild it against these headers"), std::string::npos);
 }
 
 /// Refusal of the sound plugin when one byte of its file is changed.

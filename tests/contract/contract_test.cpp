@@ -1,9 +1,12 @@
 // Every component of the project keeps its family's contract; plugins that break theirs are told so, in a line that says what is wrong.
 #include <contract/contract.hpp>
 #include <contract/lone_spring.hpp>
+#include <contract/scenes.hpp>
 #include <support/program.hpp>
 
 #include <gtest/gtest.h>
+
+#include <limits>
 
 namespace hyperlattice::test {
 namespace {
@@ -54,6 +57,20 @@ TEST_P(WrongPlugin, IsToldWhatIsWrong) {
   ASSERT_NE(line, std::string::npos) << result.out;
   EXPECT_NE(result.out.substr(line, result.out.find('\n', line) - line).find(detail), std::string::npos) << result.out;
   EXPECT_EQ(result.out.find(", 0 failed, "), std::string::npos);
+}
+
+// A law, load or criterion that gives no number must not pass because comparisons with it are false.
+TEST(Numbers, WhatIsNoNumberIsLargerThanAll) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  double worst = 0;
+  for (const double value : {1.0, none, -2.0, none, 3.0}) contract::take_largest(worst, value);
+  EXPECT_EQ(worst, infinity);
+  EXPECT_EQ(contract::largest({1, none, 2}), infinity);
+  EXPECT_EQ(contract::distance({1, none}, {1, 0}), infinity);
+  EXPECT_EQ(contract::largest({1, -3, 2}), 3);
+  contract::Shaken shaken;
+  contract::take_largest(shaken.largest_error, none);
+  EXPECT_FALSE(shaken.is_finite());
 }
 
 TEST(ContractCommand, CountsWhatItFound) {

@@ -39,16 +39,16 @@ inline Body cubic_body(const Region& region, double spacing, Boundary boundary =
   if (cubic == nullptr) throw std::runtime_error(host.why_not("lattices.cubic"));
   const Shape shape{&region, [](const void* self, Vec3 point) noexcept { return static_cast<const Region*>(self)->inside(point); }, region.low,
                     region.high, region.anchor};
-  const std::unique_ptr<void, void (*)(void*)> options(cubic->info.create_options(), cubic->info.destroy_options);
+  const Complaint silent{nullptr, [](void*, std::string_view) noexcept {}};
+  const std::unique_ptr<void, void (*)(void*)> options(cubic->info.create_options(silent), cubic->info.destroy_options);
   for (const Option& option : cubic->info.options) {
     OptionValue value;
     value.number = spacing;
     value.integer = static_cast<std::int64_t>(boundary);  // the only choice
     value.shape = &shape;
     value.absent = option.optional;
-    option.set(options.get(), value);
+    option.set(options.get(), value, silent);
   }
-  const Complaint silent{nullptr, [](void*, std::string_view) noexcept {}};
   const std::unique_ptr<void, void (*)(void*)> lattice(cubic->info.create(options.get(), silent), cubic->info.destroy);
   Body body = build_body(*static_cast<const LatticeFunctions*>(cubic->info.functions), lattice.get());
   body.grid.shape = nullptr;  // it ends here

@@ -33,14 +33,14 @@ class Plugin {
     if (library == nullptr) throw std::runtime_error(dlerror());
     const auto* plugin = static_cast<const PluginInfo*>(dlsym(library, "hyperlattice_plugin"));
     if (plugin == nullptr) throw std::runtime_error(path + " is no plugin");
-    Registrar registrar(this, [](void* self, const ComponentInfo& info) { static_cast<Plugin*>(self)->info_ = info; });
+    Registrar registrar(this, [](void* self, const ComponentInfo& info) noexcept { static_cast<Plugin*>(self)->info_ = info; });
     call([&](const Complaint& why) { return plugin->register_components(registrar, why); });
-    options_ = info_.create_options();
+    call([&](const Complaint& why) { return (options_ = info_.create_options(why)) != nullptr; });
     for (const Option& option : info_.options) set(option, settings);
-    if (info_.check_options != nullptr)
-      info_.check_options(options_, {this, [](void* self, std::string_view option, std::string_view expected) noexcept {
-                                       static_cast<Plugin*>(self)->faults_.push_back(std::string(option) + ": " + std::string(expected));
-                                     }});
+    const FaultSink sink{this, [](void* self, std::string_view option, std::string_view expected) noexcept {
+                           static_cast<Plugin*>(self)->faults_.push_back(std::string(option) + ": " + std::string(expected));
+                         }};
+    if (info_.check_options != nullptr) call([&](const Complaint& why) { return info_.check_options(options_, sink, why); });
     if (faults_.empty()) call([&](const Complaint& why) { return (component_ = info_.create(options_, why)) != nullptr; });
   }
   Plugin(const Plugin&) = delete;
@@ -63,7 +63,8 @@ class Plugin {
   }
   std::vector<std::string> begin_probe(const OutputContext& context, const Snapshot& first) {
     std::vector<std::string> columns;
-    const ColumnSink sink{&columns, [](void* self, std::string_view name) { static_cast<std::vector<std::string>*>(self)->emplace_back(name); }};
+    const ColumnSink sink{&columns,
+                          [](void* self, std::string_view name) noexcept { static_cast<std::vector<std::string>*>(self)->emplace_back(name); }};
     call([&](const Complaint& why) { return functions<ProbeFunctions>().begin(component_, context, first, sink, why); });
     return columns;
   }
@@ -109,7 +110,7 @@ class Plugin {
     } else if (value.is_array()) {
       out.numbers = numbers_.emplace_back(value.get<std::vector<double>>());
     }
-    option.set(options_, out);
+    call([&](const Complaint& why) { return option.set(options_, out, why); });
   }
 
   ComponentInfo info_;

@@ -1,4 +1,5 @@
 // Stiffness that scatters from spring to spring: its numbers are Weibull's, and bodies of such springs are as stiff as theory says.
+#include <model/kernel_calls.hpp>
 #include <support/laws.hpp>
 
 #include <gtest/gtest.h>
@@ -25,8 +26,8 @@ std::vector<double> shares(const Model& model) {
   model.body.for_springs([&](Particle a, Particle b, std::uint32_t n) {
     const Joint joint = model.joint(a, b, n);
     double kept[max_law_memory + 2] = {};
-    model.kernels.start(joint.law, {std::min(a, b), std::max(a, b)}, kept);
-    found.push_back(model.kernels.take({joint.stiffness, joint.rest_length, 1e-7, joint.law, nullptr}, 0, kept).force / (joint.stiffness * 1e-7));
+    start_spring(model, joint.law, {std::min(a, b), std::max(a, b)}, kept);
+    found.push_back(take_spring(model, {joint.stiffness, joint.rest_length, 1e-7, joint.law, nullptr}, 0, kept).force / (joint.stiffness * 1e-7));
   });
   return found;
 }

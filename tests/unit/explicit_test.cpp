@@ -18,14 +18,14 @@ struct Notebook {
   explicit Notebook(double start) {
     host.self = this;
     host.time = start;
-    host.take_step = [](void* self, double step) {
+    host.take_step = [](void* self, double step) noexcept {
       auto& notebook = *static_cast<Notebook*>(self);
       notebook.host.time += step;
       notebook.times.push_back(notebook.host.time);
       notebook.steps.push_back(step);
       return notebook.steps.size() < notebook.stop_after;
     };
-    host.show = [](void* self) {
+    host.show = [](void* self) noexcept {
       ++static_cast<Notebook*>(self)->observed;
       return true;
     };

@@ -18,14 +18,15 @@ template <class Use>
 auto with_options(std::string_view name, Values values, Use use) {
   for (const Primitive& primitive : primitives()) {
     if (primitive.name != name) continue;
-    const std::unique_ptr<void, void (*)(void*)> options(primitive.options.create(), primitive.options.destroy);
+    const Complaint silent{nullptr, [](void*, std::string_view) noexcept {}};
+    const std::unique_ptr<void, void (*)(void*)> options(primitive.options.create(silent), primitive.options.destroy);
     for (const auto& [key, numbers] : values)
       for (const Option& option : primitive.options.options)
         if (option.name == key) {
           OptionValue value;
           value.number = numbers[0];
           value.numbers = numbers;
-          option.set(options.get(), value);
+          option.set(options.get(), value, silent);
         }
     return use(primitive, options.get());
   }

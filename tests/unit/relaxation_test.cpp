@@ -19,10 +19,10 @@ struct Host {
 
   Host() {
     host.self = this;
-    host.take_step = [](void* self, double) { return ++static_cast<Host*>(self)->steps > 0; };
-    host.show = [](void*) { return true; };
-    host.stop_motion = [](void* self) { return ++static_cast<Host*>(self)->halts > 0; };
-    host.measure_rest = [](void* self, RestReport* report, double* kinetic) {
+    host.take_step = [](void* self, double) noexcept { return ++static_cast<Host*>(self)->steps > 0; };
+    host.show = [](void*) noexcept { return true; };
+    host.stop_motion = [](void* self) noexcept { return ++static_cast<Host*>(self)->halts > 0; };
+    host.measure_rest = [](void* self, RestReport* report, double* kinetic) noexcept {
       Host& h = *static_cast<Host*>(self);
       if (kinetic != nullptr) *kinetic = h.steps % 12 == 0 ? 0.5 : 1 + static_cast<double>(h.steps % 12);
       if (report == nullptr) return true;
@@ -31,8 +31,8 @@ struct Host {
       if (h.measurements > 2) report->displacement_error = h.error_over_residual * h.residual;
       return true;
     };
-    host.set_damping_rate = [](void* self, double rate) { static_cast<Host*>(self)->rates.push_back(rate); };
-    host.show_rest = [](void* self, const RestReport& report) {
+    host.set_damping_rate = [](void* self, double rate) noexcept { static_cast<Host*>(self)->rates.push_back(rate); };
+    host.show_rest = [](void* self, const RestReport& report) noexcept {
       static_cast<Host*>(self)->last = report;
       return true;
     };

@@ -33,8 +33,8 @@ struct SpringBatch {
 };
 
 struct FailureFunctions {
-  double (*alarm)(const void* failure, const SpringFacts& spring) noexcept;
-  void (*review)(const void* failure, const SpringBatch& batch, std::uint8_t* broken) noexcept;
+  bool (*alarm)(const void* failure, const SpringFacts& spring, double& elongation, const Complaint& why) noexcept;
+  bool (*review)(const void* failure, const SpringBatch& batch, std::uint8_t* broken, const Complaint& why) noexcept;
   bool asks_ends, asks_rate;  ///< review wants SpringBatch::a and b, rate
 };
 
@@ -49,8 +49,8 @@ concept AsksState = requires(const T& failure, const SpringFacts& spring, const 
 
 /// A failure class has: double alarm(const SpringFacts&) const, in metres; and
 /// bool breaks(const SpringFacts&, double elongation) const, or with an AlarmedSpring in place of the elongation if it must know which spring it is;
-/// asked for springs above the alarm only. Both must not throw. One that needs the state's rate says static constexpr bool asks_rate = true; it is
-/// for structured lattices.
+/// asked for springs above the alarm only. What either throws ends the run. A criterion that needs the state's rate says
+/// static constexpr bool asks_rate = true; it is for structured lattices.
 template <class T>
 concept FailureComponent = requires(const T& failure, const SpringFacts& spring) {
   { failure.alarm(spring) } -> std::convertible_to<double>;
@@ -74,16 +74,21 @@ AlarmedSpring state_in(const SpringBatch& batch, std::size_t n) {
 template <FailureComponent T>
 struct FunctionsOf<T> {
   static constexpr Family family = Family::failures;
-  static constexpr FailureFunctions table{
-      [](const void* failure, const SpringFacts& spring) noexcept { return static_cast<double>(static_cast<const T*>(failure)->alarm(spring)); },
-      [](const void* failure, const SpringBatch& batch, std::uint8_t* broken) noexcept {
-        for (std::size_t n = 0; n < batch.elongation.size(); ++n)
-          if constexpr (AsksElongation<T>)
-            broken[n] = static_cast<const T*>(failure)->breaks(batch.spring, batch.elongation[n]) ? 1 : 0;
-          else
-            broken[n] = static_cast<const T*>(failure)->breaks(batch.spring, state_in<T>(batch, n)) ? 1 : 0;
-      },
-      !AsksElongation<T>, asks_rate<T>()};
+  static constexpr FailureFunctions table{[](const void* failure, const SpringFacts& spring, double& elongation, const Complaint& why) noexcept {
+                                            return guarded(why, [&] { elongation = static_cast<const T*>(failure)->alarm(spring); });
+                                          },
+                                          [](const void* failure, const SpringBatch& batch, std::uint8_t* broken, const Complaint& why) noexcept {
+                                            return guarded(why, [&] {
+                                              for (std::size_t n = 0; n < batch.elongation.size(); ++n)
+                                                if constexpr (AsksElongation<T>)
+                                                  broken[n] = static_cast<const T*>(failure)->breaks(batch.spring, batch.elongation[n]) ? 1 : 0;
+                                                else
+                                                  broken[n] = static_cast<const T*>(failure)->breaks(batch.spring, state_in<T>(batch, n)) ? 1 : 0;
+                                            });
+                                          },
+                                          !AsksElongation<T>, asks_rate<T>()};
 };
 }  // namespace detail
 }  // namespace hyperlattice
+
+#include <hyperlattice/boundary.hpp>  // the gate, once all that a family hands over is known

@@ -3,30 +3,9 @@
 #pragma once
 
 #include <hyperlattice/component.hpp>
-
-#include <array>
+#include <hyperlattice/sites.hpp>
 
 namespace hyperlattice {
-
-inline constexpr std::size_t max_spring_classes = 4;
-inline constexpr std::size_t max_neighbours = 15;  ///< forward neighbours; one bit each in a site's alive bits
-
-/// A forward neighbour: the site that follows in the order z, y, x, so that each pair stands once.
-struct Neighbour {
-  std::int32_t dx = 0, dy = 0, dz = 0;  ///< in sites
-  std::uint32_t spring_class = 0;       ///< which stiffness: cubic has 0 orthogonal, 1 diagonal
-};
-
-/// How a body ends. particles: where its last particles are, each a whole one, with whole springs. cells: it is a union of cells, each spanning the
-/// sites (i, j, k) to (i + 1, j + 1, k + 1), with particles at their corners; particles and springs at its surface count by the share of their
-/// cells that are there.
-enum class Boundary : std::uint32_t { particles, cells };
-
-/// Three steps from site to site, in units of the spacing; rows of sites run along the first.
-using Basis = std::array<Vec3, 3>;
-inline constexpr Basis cubic_basis{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
-
-constexpr Vec3 combined(const Basis& basis, double i, double j, double k) { return i * basis[0] + j * basis[1] + k * basis[2]; }
 
 /// The fixed part of a structured lattice. Site (i, j, k) stands at origin + spacing * (i a1 + j a2 + k a3).
 struct Grid {
@@ -79,10 +58,10 @@ struct PeriodicSample {
 struct LatticeSink {
   void* self = nullptr;
   bool for_analysis = false;  ///< no body is wanted: neighbours, or the sample by itself, and a body as small as may be
-  void (*receive_grid)(void* self, const Grid& grid) = nullptr;
-  void (*receive_run)(void* self, std::int32_t j, std::int32_t k, std::int32_t begin, std::int32_t end) = nullptr;
-  void (*receive_points)(void* self, const PointList& points) = nullptr;
-  void (*receive_sample)(void* self, const PeriodicSample& sample) = nullptr;
+  void (*receive_grid)(void* self, const Grid& grid) noexcept = nullptr;
+  void (*receive_run)(void* self, std::int32_t j, std::int32_t k, std::int32_t begin, std::int32_t end) noexcept = nullptr;
+  void (*receive_points)(void* self, const PointList& points) noexcept = nullptr;
+  void (*receive_sample)(void* self, const PeriodicSample& sample) noexcept = nullptr;
 
   void grid(const Grid& g) const { receive_grid(self, g); }
   void points(const PointList& list) const { receive_points(self, list); }
@@ -111,3 +90,5 @@ struct FunctionsOf<T> {
 };
 }  // namespace detail
 }  // namespace hyperlattice
+
+#include <hyperlattice/boundary.hpp>  // the gate, once all that a family hands over is known

@@ -84,15 +84,15 @@ struct Reaction {
 /// Receives what a load does. Each amplitude is multiplied by the load's factor(t).
 struct LoadSink {
   void* self = nullptr;
-  void (*receive_force)(void* self, Particle particle, Vec3 amplitude) = nullptr;
-  void (*receive_displacement)(void* self, Particle particle, Axes axes, Vec3 amplitude) = nullptr;
-  void (*receive_velocity)(void* self, Particle particle, Axes axes, Vec3 amplitude) = nullptr;
-  void (*receive_acceleration)(void* self, Vec3 acceleration) = nullptr;
-  void (*receive_start_velocity)(void* self, Particle particle, Vec3 velocity) = nullptr;
-  void (*receive_corner)(void* self, double time) = nullptr;
-  void (*receive_watched)(void* self, Particle particle, bool answered, const Reaction& reaction) = nullptr;
-  void (*receive_warning)(void* self, std::string_view sentence) = nullptr;
-  void (*receive_frequency)(void* self, double hertz) = nullptr;
+  void (*receive_force)(void* self, Particle particle, Vec3 amplitude) noexcept = nullptr;
+  void (*receive_displacement)(void* self, Particle particle, Axes axes, Vec3 amplitude) noexcept = nullptr;
+  void (*receive_velocity)(void* self, Particle particle, Axes axes, Vec3 amplitude) noexcept = nullptr;
+  void (*receive_acceleration)(void* self, Vec3 acceleration) noexcept = nullptr;
+  void (*receive_start_velocity)(void* self, Particle particle, Vec3 velocity) noexcept = nullptr;
+  void (*receive_corner)(void* self, double time) noexcept = nullptr;
+  void (*receive_watched)(void* self, Particle particle, bool answered, const Reaction& reaction) noexcept = nullptr;
+  void (*receive_warning)(void* self, std::string_view sentence) noexcept = nullptr;
+  void (*receive_frequency)(void* self, double hertz) noexcept = nullptr;
 
   void force(Particle particle, Vec3 amplitude) const { receive_force(self, particle, amplitude); }                                 ///< newton
   void displacement(Particle particle, Axes axes, Vec3 amplitude) const { receive_displacement(self, particle, axes, amplitude); }  ///< metres
@@ -113,21 +113,22 @@ struct LoadSink {
 
 struct LoadFunctions {
   bool (*declare)(void* load, const LoadBody& body, const LoadSink& sink, const Complaint& why) noexcept;
-  double (*factor)(const void* load, double time) noexcept;
-  Vec3 (*answer)(const void* load, const WatchedMotion& motion, std::size_t n) noexcept;  ///< null: the load does not answer
-  void (*prepare)(void* load, const WatchedMotion& motion) noexcept;                      ///< before answers; null: nothing to prepare
+  bool (*factor)(const void* load, double time, double& factor, const Complaint& why) noexcept;
+  /// Null: the load does not answer.
+  bool (*answer)(const void* load, const WatchedMotion& motion, std::size_t n, Vec3& force, const Complaint& why) noexcept;
+  bool (*prepare)(void* load, const WatchedMotion& motion, const Complaint& why) noexcept;  ///< before answers; null: nothing to prepare
 };
 
 /// A load class has: void declare(const LoadBody&, const LoadSink&), which throws when its region is unsuitable, and is called once;
-/// and double factor(double time) const, which must not throw.
+/// and double factor(double time) const. What factor throws ends the run.
 template <class T>
 concept LoadComponent = requires(T& load, const LoadBody& body, const LoadSink& sink) {
   load.declare(body, sink);
   { std::as_const(load).factor(0.0) } -> std::convertible_to<double>;
 };
 
-/// One that answers also has: Vec3 answer(const WatchedMotion&, std::size_t n) const, the force on the n-th watched particle in newton. It must not
-/// throw, may be called by several threads at once, and depends on nothing but its arguments. factor(t) does not apply by itself. It may have
+/// One that answers also has: Vec3 answer(const WatchedMotion&, std::size_t n) const, the force on the n-th watched particle in newton. It may be
+/// called by several threads at once, and depends on nothing but its arguments. factor(t) does not apply by itself. It may have
 /// void prepare(const WatchedMotion&), called once by one thread before it answers for a motion; what answers are must not depend on earlier ones.
 template <class T>
 concept AnsweringLoad = LoadComponent<T> && requires(const T& load, const WatchedMotion& motion) {
@@ -138,7 +139,9 @@ namespace detail {
 template <LoadComponent T>
 constexpr auto answer_of() -> decltype(LoadFunctions::answer) {
   if constexpr (AnsweringLoad<T>)
-    return [](const void* load, const WatchedMotion& motion, std::size_t n) noexcept { return static_cast<const T*>(load)->answer(motion, n); };
+    return [](const void* load, const WatchedMotion& motion, std::size_t n, Vec3& force, const Complaint& why) noexcept {
+      return guarded(why, [&] { force = static_cast<const T*>(load)->answer(motion, n); });
+    };
   else
     return nullptr;
 }
@@ -146,7 +149,9 @@ constexpr auto answer_of() -> decltype(LoadFunctions::answer) {
 template <LoadComponent T>
 constexpr auto prepare_of() -> decltype(LoadFunctions::prepare) {
   if constexpr (requires(T & load, const WatchedMotion& motion) { load.prepare(motion); })
-    return [](void* load, const WatchedMotion& motion) noexcept { static_cast<T*>(load)->prepare(motion); };
+    return [](void* load, const WatchedMotion& motion, const Complaint& why) noexcept {
+      return guarded(why, [&] { static_cast<T*>(load)->prepare(motion); });
+    };
   else
     return nullptr;
 }
@@ -154,12 +159,15 @@ constexpr auto prepare_of() -> decltype(LoadFunctions::prepare) {
 template <LoadComponent T>
 struct FunctionsOf<T> {
   static constexpr Family family = Family::loads;
-  static constexpr LoadFunctions table{
-      [](void* load, const LoadBody& body, const LoadSink& sink, const Complaint& why) noexcept {
-        return guarded(why, [&] { static_cast<T*>(load)->declare(body, sink); });
-      },
-      [](const void* load, double time) noexcept { return static_cast<double>(static_cast<const T*>(load)->factor(time)); }, answer_of<T>(),
-      prepare_of<T>()};
+  static constexpr LoadFunctions table{[](void* load, const LoadBody& body, const LoadSink& sink, const Complaint& why) noexcept {
+                                         return guarded(why, [&] { static_cast<T*>(load)->declare(body, sink); });
+                                       },
+                                       [](const void* load, double time, double& factor, const Complaint& why) noexcept {
+                                         return guarded(why, [&] { factor = static_cast<const T*>(load)->factor(time); });
+                                       },
+                                       answer_of<T>(), prepare_of<T>()};
 };
 }  // namespace detail
 }  // namespace hyperlattice
+
+#include <hyperlattice/boundary.hpp>  // the gate, once all that a family hands over is known

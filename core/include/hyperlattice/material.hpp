@@ -3,8 +3,8 @@
 #pragma once
 
 #include <hyperlattice/component.hpp>
-#include <hyperlattice/lattice.hpp>
 #include <hyperlattice/law.hpp>
+#include <hyperlattice/sites.hpp>
 
 #include <cstring>
 #include <string>
@@ -67,8 +67,8 @@ struct LatticeFacts {
   bool allow_unstable = false;            ///< the scene wants unstable lattices to run: nothing is refused for that
 
   void* self = nullptr;
-  ElasticConstants (*get_elastic_constants)(void* self, const MaterialConstants& constants) = nullptr;
-  bool (*get_stable)(void* self, const MaterialConstants& constants) = nullptr;  ///< null: not known
+  ElasticConstants (*get_elastic_constants)(void* self, const MaterialConstants& constants) noexcept = nullptr;
+  bool (*get_stable)(void* self, const MaterialConstants& constants) noexcept = nullptr;  ///< null: not known
 
   /// Of the endless lattice with these springs.
   ElasticConstants elastic_constants(const MaterialConstants& constants) const { return get_elastic_constants(self, constants); }
@@ -102,24 +102,26 @@ struct SpringAnswer {
 
 /// Moves a block of particles by one step, or measures it. Null members: this library has no such kernel.
 struct KernelSet {
-  void (*step)(const KernelRequest& request) noexcept = nullptr;
-  void (*step_damped)(const KernelRequest& request) noexcept = nullptr;
-  void (*measure)(const KernelRequest& request) noexcept = nullptr;
-  double (*linearise)(const SpringRow& row) noexcept = nullptr;  ///< forces and tangents of a row of springs; returns their energy, J
-  SpringAnswer (*ask)(const OneSpring& spring) noexcept = nullptr;
+  bool (*step)(const KernelRequest& request, const Complaint& why) noexcept = nullptr;
+  bool (*step_damped)(const KernelRequest& request, const Complaint& why) noexcept = nullptr;
+  bool (*measure)(const KernelRequest& request, const Complaint& why) noexcept = nullptr;
+  /// Forces and tangents of a row of springs, and their energy, J.
+  bool (*linearise)(const SpringRow& row, double& energy, const Complaint& why) noexcept = nullptr;
+  bool (*ask)(const OneSpring& spring, SpringAnswer& answer, const Complaint& why) noexcept = nullptr;
   /// Takes one spring a step of that many seconds further, to the elongation given; `kept`: its memory, which becomes that of now.
-  SpringAnswer (*take)(const OneSpring& spring, double time_step, double* kept) noexcept = nullptr;
+  bool (*take)(const OneSpring& spring, double time_step, double* kept, SpringAnswer& answer, const Complaint& why) noexcept = nullptr;
   /// Sets what a spring keeps at first, where all is zero; null: that is right.
-  void (*start)(const double* law, const SpringIdentity& spring, double* kept) noexcept = nullptr;
+  bool (*start)(const double* law, const SpringIdentity& spring, double* kept, const Complaint& why) noexcept = nullptr;
   std::uint32_t memory = 0;       ///< numbers that each spring keeps, base or cross
   const char* instructions = "";  ///< "avx512", "avx2", "baseline": what this processor was given
 };
 
 struct MaterialFunctions {
   bool (*constants)(const void* material, const LatticeFacts& lattice, MaterialConstants& constants, const Complaint& why) noexcept;
-  KernelSet (*kernels)(const KernelChoice& choice) noexcept;
-  std::string_view law;                                                       ///< materials with the same law share kernels and may stand in one body
-  double (*stable_step)(const void* material, double elastic_step) noexcept;  ///< null: that of the elastic springs
+  bool (*kernels)(const KernelChoice& choice, KernelSet& kernels, const Complaint& why) noexcept;
+  std::string_view law;  ///< materials with the same law share kernels and may stand in one body
+  /// Null: that of the elastic springs.
+  bool (*stable_step)(const void* material, double elastic_step, double& step, const Complaint& why) noexcept;
 };
 
 /// A material class has: MaterialConstants constants(const LatticeFacts&) const, which throws when E, nu and membrane do not fit (a sentence whose
@@ -135,10 +137,11 @@ concept MaterialComponent = requires(const T& material, const LatticeFacts& latt
 
 namespace detail {
 template <class T>
-constexpr auto stable_step_of() -> double (*)(const void*, double) noexcept {
+constexpr auto stable_step_of() -> decltype(MaterialFunctions::stable_step) {
   if constexpr (requires(const T& material) { material.stable_time_step(1.0); })
-    return
-        [](const void* material, double elastic_step) noexcept -> double { return static_cast<const T*>(material)->stable_time_step(elastic_step); };
+    return [](const void* material, double elastic_step, double& step, const Complaint& why) noexcept {
+      return guarded(why, [&] { step = static_cast<const T*>(material)->stable_time_step(elastic_step); });
+    };
   else
     return nullptr;
 }
@@ -150,7 +153,12 @@ struct FunctionsOf<T> {
       [](const void* material, const LatticeFacts& lattice, MaterialConstants& constants, const Complaint& why) noexcept {
         return guarded(why, [&] { constants = static_cast<const T*>(material)->constants(lattice); });
       },
-      [](const KernelChoice& choice) noexcept { return T::kernels(choice); }, T::law, stable_step_of<T>()};
+      [](const KernelChoice& choice, KernelSet& kernels, const Complaint& why) noexcept {
+        return guarded(why, [&] { kernels = T::kernels(choice); });
+      },
+      T::law, stable_step_of<T>()};
 };
 }  // namespace detail
 }  // namespace hyperlattice
+
+#include <hyperlattice/boundary.hpp>  // the gate, once all that a family hands over is known

@@ -48,7 +48,7 @@ struct Option {
   bool low_open = false, high_open = false;  ///< whether the bound itself is outside the range
   bool optional = false;
   OptionKind kind = OptionKind::number;
-  void (*set)(void* options, const OptionValue& value) = nullptr;
+  bool (*set)(void* options, const OptionValue& value, const Complaint& why) noexcept = nullptr;
 };
 
 /// A fault that a cross-field check found: which option, and what was expected of it.
@@ -133,17 +133,19 @@ template <class Class, class T>
 T member_type(T Class::*);
 
 template <auto Member, class Options>
-void assign(void* options, const OptionValue& value) {
-  using Declared = decltype(member_type(Member));
-  auto& target = static_cast<Options*>(options)->*Member;
-  if constexpr (Unwrapped<Declared>::optional) {
-    if (value.absent)
-      target.reset();
-    else
-      target = convert<typename Unwrapped<Declared>::type>(value);
-  } else {
-    target = convert<Declared>(value);
-  }
+bool assign(void* options, const OptionValue& value, const Complaint& why) noexcept {
+  return guarded(why, [&] {
+    using Declared = decltype(member_type(Member));
+    auto& target = static_cast<Options*>(options)->*Member;
+    if constexpr (Unwrapped<Declared>::optional) {
+      if (value.absent)
+        target.reset();
+      else
+        target = convert<typename Unwrapped<Declared>::type>(value);
+    } else {
+      target = convert<Declared>(value);
+    }
+  });
 }
 
 }  // namespace detail

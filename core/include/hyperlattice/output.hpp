@@ -77,7 +77,7 @@ concept WriterComponent = requires(T& writer, const OutputContext& context, cons
 /// Receives the columns of a probe's table.
 struct ColumnSink {
   void* self = nullptr;
-  void (*receive)(void* self, std::string_view name) = nullptr;
+  void (*receive)(void* self, std::string_view name) noexcept = nullptr;
 
   void column(std::string_view name) const { receive(self, name); }
 };
@@ -122,3 +122,5 @@ struct FunctionsOf<T> {
 };
 }  // namespace detail
 }  // namespace hyperlattice
+
+#include <hyperlattice/boundary.hpp>  // the gate, once all that a family hands over is known

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <limits>
+#include <new>
 #include <span>
 #include <string_view>
 
@@ -50,6 +52,33 @@ struct Complaint {
 
   void say(std::string_view sentence) const { receive(self, sentence); }
 };
+
+/// The sentence of a function that got no memory. The host tells it from any other.
+inline constexpr std::string_view out_of_memory = "std::bad_alloc";
+
+// Errors, in both directions. Every function of a plugin that the host calls returns whether it did its work and takes a Complaint; an exception
+// becomes the complaint's sentence. Functions of the host that a plugin calls throw nothing: the host keeps its error until the plugin's function has
+// returned. They are called on the thread on which the plugin's function was called.
+
+namespace detail {
+
+/// Runs code of a plugin; an exception becomes a sentence, so that none crosses the boundary.
+template <class Code>
+bool guarded(const Complaint& why, Code&& code) noexcept {
+  try {
+    code();
+    return true;
+  } catch (const std::bad_alloc&) {
+    why.say(out_of_memory);
+  } catch (const std::exception& error) {
+    why.say(error.what());
+  } catch (...) {
+    why.say("an exception of unknown type");
+  }
+  return false;
+}
+
+}  // namespace detail
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 

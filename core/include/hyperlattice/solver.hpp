@@ -2,6 +2,7 @@
 // are due is the core's.
 #pragma once
 
+#include <hyperlattice/component.hpp>
 #include <hyperlattice/statics.hpp>
 
 namespace hyperlattice {
@@ -36,8 +37,8 @@ struct SolverHost {
   void* self = nullptr;
   double time = 0;               ///< seconds; advanced by step()
   std::uint64_t steps_done = 0;  ///< of this stage, by the run that this one goes on with; that state was observed
-  bool (*take_step)(void* self, double time_step) = nullptr;
-  bool (*show)(void* self) = nullptr;
+  bool (*take_step)(void* self, double time_step) noexcept = nullptr;
+  bool (*show)(void* self) noexcept = nullptr;
 
   /// One step of central differences: v(n+1/2) = v(n-1/2) + dt a(n); u(n+1) = u(n) + dt v(n+1/2). False: the run must stop.
   bool step(double time_step) const { return take_step(self, time_step); }
@@ -45,13 +46,13 @@ struct SolverHost {
   bool observe() const { return show(self); }
 
   // For stages that look for a state of rest.
-  const StaticProblem* (*open)(void* self) = nullptr;
-  bool (*take)(void* self, double share, const double* displacement) = nullptr;
-  bool (*measure_rest)(void* self, RestReport* report, double* kinetic) = nullptr;
-  bool (*stop_motion)(void* self) = nullptr;
-  void (*set_damping_rate)(void* self, double rate) = nullptr;
-  bool (*show_rest)(void* self, const RestReport& report) = nullptr;
-  bool (*keep_motion)(void* self, const double* motion) = nullptr;
+  const StaticProblem* (*open)(void* self) noexcept = nullptr;
+  bool (*take)(void* self, double share, const double* displacement) noexcept = nullptr;
+  bool (*measure_rest)(void* self, RestReport* report, double* kinetic) noexcept = nullptr;
+  bool (*stop_motion)(void* self) noexcept = nullptr;
+  void (*set_damping_rate)(void* self, double rate) noexcept = nullptr;
+  bool (*show_rest)(void* self, const RestReport& report) noexcept = nullptr;
+  bool (*keep_motion)(void* self, const double* motion) noexcept = nullptr;
 
   /// The body for a static solver, built when first asked for; valid during the stage. Null: the run must stop.
   const StaticProblem* statics() const { return open(self); }
@@ -95,3 +96,5 @@ struct FunctionsOf<T> {
 };
 }  // namespace detail
 }  // namespace hyperlattice
+
+#include <hyperlattice/boundary.hpp>  // the gate, once all that a family hands over is known

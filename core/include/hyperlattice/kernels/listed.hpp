@@ -18,7 +18,7 @@ class ListedSweep {
   static constexpr bool measuring = task == Task::measure;
 
  public:
-  static void run(const KernelRequest& request) noexcept {
+  static void run(const KernelRequest& request) {
     const ListedSweep sweep(request);
     sweep.write_records();
     if (request.listed.stiffness != nullptr)
@@ -237,7 +237,7 @@ class ListedSweep {
       if (!(growth[lane] > alarm[lane]) || neighbour[lane] == own) continue;
       const double found = elongation[lane];
       const std::uint8_t* broken = request_.review(request_.self, {slot.row, slot.number, {&site, 1}, {&found, 1}});
-      if (*broken != 0) neighbour[lane] = own;
+      if (broken != nullptr && *broken != 0) neighbour[lane] = own;
     }
   }
 

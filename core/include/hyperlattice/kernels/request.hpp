@@ -1,8 +1,8 @@
 // What a kernel is given: one block of a body, and what to do with it. Plain data only.
 #pragma once
 
-#include <hyperlattice/lattice.hpp>
 #include <hyperlattice/law.hpp>
+#include <hyperlattice/sites.hpp>
 
 namespace hyperlattice {
 
@@ -137,7 +137,7 @@ struct KernelRequest {
   Vec3 acceleration;        ///< of every particle, m/s2
   Support* supports = nullptr;
   void* self = nullptr;
-  /// Asks the criterion about springs above their alarm; returns a flag a spring: 1 remove it.
+  /// Asks the criterion about springs above their alarm; returns a flag a spring: 1 remove it. Null: the criterion failed, the run ends.
   const std::uint8_t* (*review)(void* self, const AlarmRow& springs) noexcept = nullptr;
 
   // scratch and results

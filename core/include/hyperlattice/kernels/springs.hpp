@@ -112,7 +112,7 @@ class Springs {
     const auto ask = [&] {
       const auto number = static_cast<std::size_t>(found);
       const std::uint8_t* broken = request.review(request.self, {row_index, neighbour_index, {sites, number}, {elongations, number}});
-      for (int n = 0; n < found; ++n)
+      for (int n = 0; broken != nullptr && n < found; ++n)
         if (broken[n] != 0) request.alive[row.start + static_cast<std::uint64_t>(sites[n] - row.begin)] &= static_cast<std::uint16_t>(~bit);
       found = 0;
     };

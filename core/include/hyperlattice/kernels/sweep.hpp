@@ -21,7 +21,7 @@ class Sweep {
   static constexpr bool measuring = task == Task::measure;
 
  public:
-  static void run(const KernelRequest& request) noexcept { Sweep(request).all_rows(); }
+  static void run(const KernelRequest& request) { Sweep(request).all_rows(); }
 
  private:
   template <bool Several, bool Weighted>
@@ -207,29 +207,43 @@ class Kernels {
     KernelSet set = of_membrane(choice);
     set.memory = memory_of<Law>();
     if constexpr (LawWithStart<Law>)
-      set.start = [](const double* law, const SpringIdentity& spring, double* kept) noexcept { SpringStep<Law>::start(law, spring, kept); };
-    set.ask = [](const OneSpring& spring) noexcept -> SpringAnswer {
-      const double k = spring.stiffness, u = spring.elongation;
-      if constexpr (LawWithMemory<Law>)
-        return {spring.memory[SpringStep<Law>::own + 1], SpringStep<Law>::energy_of({k, spring.rest_length, u, 0, 0}, spring.law, spring.memory)};
-      else if constexpr (LawWithConstants<Law>) {
-        const auto step = SpringStep<Law>::take({k, spring.rest_length, u, 0, 0}, spring.law, nullptr);
-        return {step.force, step.energy};
-      } else
-        return {Law::force(k, u), Law::energy(k, u)};
+      set.start = [](const double* law, const SpringIdentity& spring, double* kept, const Complaint& why) noexcept {
+        return detail::guarded(why, [&] { SpringStep<Law>::start(law, spring, kept); });
+      };
+    set.ask = [](const OneSpring& spring, SpringAnswer& answer, const Complaint& why) noexcept {
+      return detail::guarded(why, [&] { answer = asked(spring); });
     };
-    set.take = [](const OneSpring& spring, double time_step, double* kept) noexcept -> SpringAnswer {
-      if constexpr (LawWithConstants<Law>) {
-        const auto step = SpringStep<Law>::take({spring.stiffness, spring.rest_length, spring.elongation, 0, time_step}, spring.law, kept);
-        return {step.force, step.energy};
-      } else
-        return {Law::force(spring.stiffness, spring.elongation), Law::energy(spring.stiffness, spring.elongation)};
+    set.take = [](const OneSpring& spring, double time_step, double* kept, SpringAnswer& answer, const Complaint& why) noexcept {
+      return detail::guarded(why, [&] { answer = taken(spring, time_step, kept); });
     };
     set.instructions = instructions;
     return set;
   }
 
  private:
+  static SpringAnswer asked(const OneSpring& spring) {
+    const double k = spring.stiffness, u = spring.elongation;
+    if constexpr (LawWithMemory<Law>)
+      return {spring.memory[SpringStep<Law>::own + 1], SpringStep<Law>::energy_of({k, spring.rest_length, u, 0, 0}, spring.law, spring.memory)};
+    else
+      return taken(spring, 0, nullptr);
+  }
+
+  static SpringAnswer taken(const OneSpring& spring, double time_step, double* kept) {
+    if constexpr (LawWithConstants<Law>) {
+      const auto step = SpringStep<Law>::take({spring.stiffness, spring.rest_length, spring.elongation, 0, time_step}, spring.law, kept);
+      return {step.force, step.energy};
+    } else {
+      return {Law::force(spring.stiffness, spring.elongation), Law::energy(spring.stiffness, spring.elongation)};
+    }
+  }
+
+  /// The try block stands outside of the kernel, so that the loops do not know of it.
+  template <class Kernel>
+  static bool run(const KernelRequest& request, const Complaint& why) noexcept {
+    return detail::guarded(why, [&] { Kernel::run(request); });
+  }
+
   static KernelSet of_membrane(const KernelChoice& choice) {
     switch (choice.membrane) {
       case Membrane::none:
@@ -256,15 +270,18 @@ class Kernels {
     if (choice.listed)
       return floats ? of_sweep<ListedSweep, membrane, Breakable, Mixed, float>() : of_sweep<ListedSweep, membrane, Breakable, Mixed, double>();
     KernelSet set = floats ? of_sweep<Sweep, membrane, Breakable, Mixed, float>() : of_sweep<Sweep, membrane, Breakable, Mixed, double>();
-    if constexpr (!LawWithConstants<Law>) set.linearise = &Tangent<Law, membrane>::run;
+    if constexpr (!LawWithConstants<Law>)
+      set.linearise = [](const SpringRow& row, double& energy, const Complaint& why) noexcept {
+        return detail::guarded(why, [&] { energy = Tangent<Law, membrane>::run(row); });
+      };
     return set;
   }
   template <template <class, Membrane, bool, bool, Task, class> class Of, Membrane membrane, bool Breakable, bool Mixed, class Stored>
   static KernelSet of_sweep() {
     KernelSet set;
-    set.step = &Of<Law, membrane, Breakable, Mixed, Task::step, Stored>::run;
-    set.step_damped = &Of<Law, membrane, Breakable, Mixed, Task::step_damped, Stored>::run;
-    set.measure = &Of<Law, membrane, false, Mixed, Task::measure, Stored>::run;
+    set.step = &run<Of<Law, membrane, Breakable, Mixed, Task::step, Stored>>;
+    set.step_damped = &run<Of<Law, membrane, Breakable, Mixed, Task::step_damped, Stored>>;
+    set.measure = &run<Of<Law, membrane, false, Mixed, Task::measure, Stored>>;
     return set;
   }
 };

@@ -26,7 +26,7 @@ inline Pack tangent_of(Pack stiffness, Pack elongation, double rest_length) {
 template <class Law, Membrane membrane>
 struct Tangent {
   /// Returns the energy that the springs store, J.
-  static double run(const SpringRow& row) noexcept {
+  static double run(const SpringRow& row) {
     Pack stored{};
     for (int t = 0; t < row.count; t += lanes) {
       const Pack weight = load(row.weight + t);

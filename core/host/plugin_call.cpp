@@ -1,0 +1,42 @@
+#include <host/plugin_call.hpp>
+
+#include <new>
+
+namespace hyperlattice {
+namespace {
+
+// Read by signal handlers: in memory that stands from the thread's beginning.
+[[gnu::tls_model("initial-exec")]] constinit thread_local PluginCall* current = nullptr;
+
+constexpr std::size_t longest_sentence = 4096;
+
+}  // namespace
+
+PluginCall::PluginCall(std::string_view name, const char* library, const char* function) noexcept
+    : name_(name), library_(library), function_(function), before_(current), why_{this, [](void* self, std::string_view sentence) noexcept {
+                                                                                    auto& call = *static_cast<PluginCall*>(self);
+                                                                                    try {
+                                                                                      call.sentence_.assign(sentence.substr(0, longest_sentence));
+                                                                                    } catch (...) {
+                                                                                      call.keep(std::current_exception());
+                                                                                    }
+                                                                                  }} {
+  current = this;
+}
+
+PluginCall::~PluginCall() { current = before_; }
+
+const std::string* PluginCall::failure(bool done) {
+  if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
+  if (done) return nullptr;
+  if (sentence_ == out_of_memory) throw std::bad_alloc();
+  if (sentence_.empty()) sentence_ = "it does not say why";
+  return &sentence_;
+}
+
+const PluginCall* PluginCall::running() noexcept { return current; }
+
+PluginCall::HostCode::HostCode() noexcept : caller(std::exchange(current, nullptr)) {}
+PluginCall::HostCode::~HostCode() { current = caller; }
+
+}  // namespace hyperlattice

@@ -1,0 +1,36 @@
+// Calls of a stage's component.
+#pragma once
+
+#include <host/plugin_call.hpp>
+#include <scene/scene.hpp>
+
+#include <optional>
+
+namespace hyperlattice {
+
+/// Why a component cannot be used, as an error of the outside: names the component, its place in the scene, its library and the function.
+inline OutsideError plugin_error(const Stage& stage, const std::string& function, const std::string& sentence) {
+  return OutsideError(stage.component->type() + " (" + stage.pointer + ", " + stage.component->path.string() + ") failed in " + function +
+                      "(): " + sentence);
+}
+
+/// Calls a function that may refuse: `code` gets the Complaint and returns whether it was done. Returns the sentence of a refusal. Throws
+/// OutsideError if what the component asked of the host was a mistake.
+template <class Code>
+std::optional<std::string> refusal_of(const Stage& stage, const char* function, Code&& code) {
+  PluginCall call(stage.component->info.name, stage.component->path.c_str(), function);
+  try {
+    const std::string* sentence = call.failure(code(call.why()));
+    return sentence == nullptr ? std::nullopt : std::optional(*sentence);
+  } catch (const PluginMistake& mistake) {
+    throw plugin_error(stage, function, mistake.what());
+  }
+}
+
+/// Calls a function that must not fail. Throws OutsideError if it does.
+template <class Code>
+void call(const Stage& stage, const char* function, Code&& code) {
+  if (const auto sentence = refusal_of(stage, function, code)) throw plugin_error(stage, function, *sentence);
+}
+
+}  // namespace hyperlattice

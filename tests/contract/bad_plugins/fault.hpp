@@ -1,0 +1,10 @@
+// What a misbehaving plugin is to do: the environment says it.
+#pragma once
+
+#include <cstdlib>
+#include <string_view>
+
+inline bool asked_for(std::string_view fault) {
+  const char* wish = std::getenv("HYPERLATTICE_TEST_FAULT");
+  return wish != nullptr && fault == wish;
+}

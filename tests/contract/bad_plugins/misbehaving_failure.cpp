@@ -1,0 +1,36 @@
+// A failure criterion that does what it is asked for, see fault.hpp.
+#include "fault.hpp"
+
+#include <hyperlattice/failure.hpp>
+
+#include <stdexcept>
+
+namespace {
+using namespace hyperlattice;
+
+struct BadCriterion {
+  struct Options {
+    double limit = 0;
+  };
+  static Schema<Options> schema() {
+    Schema<Options> schema("failures.misbehaving", "Misbehaves");
+    schema.add<&Options::limit>("limit", "", "strain").positive().example(asked_for("example") ? "1e-3 mm" : "1e-3");
+    return schema;
+  }
+  explicit BadCriterion(const Options& options) : limit(options.limit) {}
+
+  double alarm(const SpringFacts& spring) const {
+    if (asked_for("throw in alarm")) throw std::runtime_error("oops");
+    return asked_for("nan alarm") ? infinity - infinity : limit * spring.rest_length;
+  }
+  bool breaks(const SpringFacts& spring, double elongation) const {
+    if (asked_for("throw in breaks")) throw std::runtime_error("oops");
+    if (asked_for("null pointer in breaks")) return *static_cast<const volatile bool*>(nullptr);
+    return elongation > limit * spring.rest_length;
+  }
+
+  double limit;
+};
+}  // namespace
+
+HYPERLATTICE_PLUGIN("1.0") { plugin.add<BadCriterion>(); }

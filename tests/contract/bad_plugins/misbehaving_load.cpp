@@ -1,0 +1,60 @@
+// A load that does what it is asked for, see fault.hpp.
+#include "fault.hpp"
+
+#include <hyperlattice/load.hpp>
+
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+
+namespace {
+using namespace hyperlattice;
+
+/// Runs while the library is loaded.
+struct AtLoad {
+  AtLoad() {
+    if (asked_for("exit at load")) std::exit(0);
+    if (asked_for("hang at load")) std::this_thread::sleep_for(std::chrono::hours(1));
+    if (asked_for("throw at load")) throw std::runtime_error("boom");
+  }
+} at_load;
+
+class Misbehaves {
+ public:
+  struct Options {
+    RegionId on;
+  };
+  static Schema<Options> schema() {
+    return Schema<Options>("loads.misbehaving", "Misbehaves").add<&Options::on>("on", "", "where").example("\"z_max\"");
+  }
+  explicit Misbehaves(const Options& options) : options_(options) {
+    if (asked_for("throw an int")) throw 1;
+  }
+
+  void declare(const LoadBody& body, const LoadSink& sink) {
+    RegionId region = options_.on;
+    if (asked_for("region")) region.index = 1234567;
+    for (const Particle particle : body.particles(region)) sink.force(particle, {0, 0, 1});
+    if (asked_for("particle")) body.position(~Particle{0});
+    if (asked_for("axes")) sink.displacement(0, 0, {});
+    if (asked_for("amplitude")) sink.force(0, {0, infinity, 0});
+    if (asked_for("acceleration")) sink.acceleration({0, infinity - infinity, 0});
+    if (asked_for("exit in declare")) std::exit(0);
+  }
+
+  double factor(double time) const {
+    if (time < 1e-6) return 1;
+    if (asked_for("throw")) throw std::runtime_error("boom");
+    if (asked_for("nan")) return infinity - infinity;
+    if (asked_for("null pointer")) return *static_cast<const volatile double*>(nullptr);
+    if (asked_for("abort")) std::abort();
+    if (asked_for("exit")) std::exit(0);
+    return 1;
+  }
+
+ private:
+  Options options_;
+};
+}  // namespace
+
+HYPERLATTICE_PLUGIN("1.0") { plugin.add<Misbehaves>(); }

@@ -1,0 +1,154 @@
+// Plugins that pass the gate and then throw, crash, end the program, hang or hand over what cannot be used: the last line names them, the exit code
+// is 4, and what the run had written stays.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <support/program.hpp>
+
+#include <filesystem>
+
+namespace hyperlattice::test {
+namespace {
+
+const std::string folder = HYPERLATTICE_BUILD "/tests/bad_plugins/misbehaving";
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool sanitized = true;
+#else
+constexpr bool sanitized = false;
+#endif
+
+Launch launch_with(const std::string& fault) {
+  Launch launch;
+  launch.environment = {"HYPERLATTICE_TEST_FAULT=" + fault, "HYPERLATTICE_LOAD_SECONDS=1"};
+  return launch;
+}
+
+nlohmann::json scene() {
+  nlohmann::json scene = nlohmann::json::parse(R"({
+    "format": "hyperlattice/1",
+    "pipeline": [
+      { "type": "lattices.cubic", "spacing": "1 mm", "shape": { "box": { "low": [0, 0, 0], "high": ["4 mm", "4 mm", "6 mm"] } } },
+      { "type": "materials.elastic", "young": "10 GPa", "poisson": 0.25, "density": 2500, "membrane": "none" },
+      { "type": "loads.fixed", "on": "z_min" },
+      { "type": "solvers.explicit", "end_time": "5 us" } ] })");
+  scene["plugins"] = {folder};
+  return scene;
+}
+
+nlohmann::json scene_with_load() {
+  nlohmann::json loaded = scene();
+  const nlohmann::json load = {{"type", "loads.misbehaving"}, {"on", "z_max"}};
+  loaded["pipeline"].insert(loaded["pipeline"].end() - 1, load);
+  return loaded;
+}
+
+nlohmann::json scene_with_failure() {
+  nlohmann::json pulled = scene();
+  pulled["pipeline"][1]["failure"] = {{"type", "failures.misbehaving"}, {"limit", 1e-6}};
+  const nlohmann::json load = {{"type", "loads.displacement"}, {"on", "z_max"}, {"value", {0, 0, "1 um"}}, {"rise", "1 us"}};
+  pulled["pipeline"].insert(pulled["pipeline"].end() - 1, load);
+  return pulled;
+}
+
+std::string last_line(const std::string& text) {
+  const std::size_t end = text.find_last_not_of('\n'), begin = text.rfind('\n', end);
+  return end == text.npos ? "" : text.substr(begin == text.npos ? 0 : begin + 1, end - (begin == text.npos ? -1 : begin));
+}
+
+struct Fault {
+  const char *fault, *says;  ///< a part of the last line
+  bool signal = false;       ///< a sanitizer has the last word
+};
+void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.fault; }
+std::string name_of(const testing::TestParamInfo<Fault>& info) {
+  std::string name = info.param.fault;
+  for (char& c : name)
+    if (c == ' ') c = '_';
+  return name;
+}
+
+void expect_named(const nlohmann::json& scene, const Fault& fault, const std::string& library) {
+  if (sanitized && fault.signal) GTEST_SKIP() << "the sanitizer reports the signal";
+  const Folder here("misbehaving");
+  const Result result = run_program({"run", write_scene(here, scene), "--out", here.file("out")}, launch_with(fault.fault));
+  EXPECT_EQ(result.exit_code, 4) << result.out << result.err;
+  const std::string line = last_line(result.err);
+  EXPECT_NE(line.find(fault.says), std::string::npos) << result.err;
+  EXPECT_NE(line.find(folder + "/" + library + ".so"), std::string::npos) << result.err;
+}
+
+class MisbehavingLoad : public testing::TestWithParam<Fault> {};
+INSTANTIATE_TEST_SUITE_P(All, MisbehavingLoad,
+                         testing::Values(Fault{"exit at load", "ended the program in load(): it called exit"},
+                                         Fault{"hang at load", "is still loading: a plugin must load within HYPERLATTICE_LOAD_SECONDS"},
+                                         Fault{"region", "failed in declare(): it asks about region 1234567"},
+                                         Fault{"particle", "failed in declare(): it asks about a particle that does not exist"},
+                                         Fault{"exit in declare", "ended the program in declare(): it called exit"},
+                                         Fault{"null pointer", "ended the program in factor(): segmentation fault", true},
+                                         Fault{"abort", "ended the program in factor(): abort", true},
+                                         Fault{"exit", "ended the program in factor(): it called exit"}),
+                         name_of);
+TEST_P(MisbehavingLoad, IsNamedInTheLastLine) { expect_named(scene_with_load(), GetParam(), "loads.misbehaving"); }
+
+class MisbehavingFailure : public testing::TestWithParam<Fault> {};
+INSTANTIATE_TEST_SUITE_P(All, MisbehavingFailure,
+                         testing::Values(Fault{"throw in alarm", "failed in alarm(): oops"},
+                                         Fault{"nan alarm", "failed in alarm(): it gives an elongation that is no number"},
+                                         Fault{"throw in breaks", "failed in breaks(): oops"},
+                                         Fault{"null pointer in breaks", "ended the program in breaks(): segmentation fault", true}),
+                         name_of);
+TEST_P(MisbehavingFailure, IsNamedInTheLastLine) { expect_named(scene_with_failure(), GetParam(), "failures.misbehaving"); }
+
+/// What a load hands over is refused as the scene's fault, before anything is written.
+class WrongHandedOver : public testing::TestWithParam<Fault> {};
+INSTANTIATE_TEST_SUITE_P(All, WrongHandedOver,
+                         testing::Values(Fault{"axes", "it prescribes an axis that does not exist, or none"},
+                                         Fault{"amplitude", "it gives an amplitude that is not finite"},
+                                         Fault{"acceleration", "it gives an acceleration that is not finite"},
+                                         Fault{"throw an int", "an exception of unknown type"}),
+                         name_of);
+TEST_P(WrongHandedOver, IsRefused) {
+  const Folder here("misbehaving");
+  const Result result = run_program({"run", write_scene(here, scene_with_load()), "--out", here.file("out")}, launch_with(GetParam().fault));
+  EXPECT_EQ(result.exit_code, 2) << result.err;
+  EXPECT_NE(result.err.find(GetParam().says), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("loads.misbehaving"), std::string::npos) << result.err;
+  EXPECT_FALSE(std::filesystem::exists(here.file("out")));
+}
+
+TEST(MisbehavingPlugins, WhatTheRunHadWrittenStays) {
+  nlohmann::json watched = scene_with_load();
+  watched["pipeline"].push_back({{"type", "probes.region"}, {"region", "z_max"}, {"every", "0.2 us"}});
+  const Folder here("misbehaving");
+  const Result result = run_program({"run", write_scene(here, watched), "--out", here.file("out")}, launch_with("throw"));
+  EXPECT_EQ(result.exit_code, 4) << result.err;
+  EXPECT_NE(contents(here.file("out/probes/region.csv")).find('\n'), std::string::npos);
+  EXPECT_NE(contents(here.file("out/history.csv")).find('\n'), std::string::npos);
+}
+
+TEST(MisbehavingPlugins, TheSameErrorWithAnyNumberOfThreads) {
+  const Folder here("misbehaving");
+  const std::string file = write_scene(here, scene_with_failure());
+  const auto said = [&](const char* threads) {
+    return last_line(run_program({"run", file, "--threads", threads, "--out", here.file(threads)}, launch_with("throw in breaks")).err);
+  };
+  EXPECT_EQ(said("1"), said("3"));
+}
+
+TEST(MisbehavingPlugins, ABadExampleIsToldByComponentOptionAndExample) {
+  const Result result = run_program({"plugins", "--test", "failures.misbehaving", "--plugin-path", folder}, launch_with("example"));
+  EXPECT_EQ(result.exit_code, 4) << result.out << result.err;
+  EXPECT_NE(result.err.find("registers 'failures.misbehaving' with a bad option 'limit': its example, 1e-3 mm, is not JSON"), std::string::npos)
+      << result.err;
+}
+
+TEST(MisbehavingPlugins, APipeIsNoPlugin) {
+  const Folder here("pipe");
+  ASSERT_EQ(mkfifo(here.file("loads.pipe.so").c_str(), 0600), 0);
+  const Result result = run_program({"plugins", "loads.pipe", "--plugin-path", here.path()});
+  EXPECT_EQ(result.exit_code, 4) << result.err;
+  EXPECT_NE(result.err.find("loads.pipe.so: is not a regular file"), std::string::npos) << result.err;
+}
+
+}  // namespace
+}  // namespace hyperlattice::test
