@@ -6,8 +6,7 @@
 #include <analyze/dispersion.hpp>
 #include <analyze/load_lattice.hpp>
 #include <base/gnuplot.hpp>
-
-#include <hyperlattice/files.hpp>
+#include <base/named_file.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -51,7 +50,7 @@ int analyze(const Arguments& arguments) {
     json.update(chosen_json(chosen));
     json.update(analysis_json(analysis));
     text = analysis_text(analysis);
-    if (!arguments.dispersion.empty()) write_file(arguments.dispersion, dispersion_csv(lattice.endless(), lattice.base_stiffness()));
+    if (!arguments.dispersion.empty()) write_named_file(arguments.dispersion, dispersion_csv(lattice.endless(), lattice.base_stiffness()));
   }
   if (!crystals.empty()) {
     json.update(crystals_json(crystals));

@@ -1,17 +1,22 @@
 // hyperlattice: the four-dimensional lattice spring model from the command line.
 #include "commands.hpp"
+#include "environment.hpp"
 
 #include <base/errors.hpp>
 #include <host/crash.hpp>
+#include <process/descriptors.hpp>
+#include <process/lack_of_memory.hpp>
 #include <scene/scene_plugins.hpp>
 
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <cmath>
 #include <iostream>
 #include <new>
 
 namespace {
+using namespace hyperlattice;
 
 int complain(int code, const std::string& message) {
   std::cerr << "hyperlattice: " << message << '\n';
@@ -25,11 +30,22 @@ void suggest(const CLI::App& program, const std::string& word) {
   if (const std::string near = hyperlattice::nearest(word, names); !near.empty()) std::cerr << "Did you mean '" << near << "'?\n";
 }
 
-}  // namespace
+/// Input or a run that only lack of memory made fail is not at fault.
+int complain_of_scene(int code, const std::string& message) {
+  return memory_ran_out() ? complain(exit_outside, lack_of_memory() + "\n" + message) : complain(code, message);
+}
 
-int main(int count, char** words) {
-  using namespace hyperlattice;
-  report_crashes();
+/// CLI11 reads nan and inf as numbers.
+void refuse_infinite_numbers(CLI::App& command) {
+  const auto finite = [](const std::string& text) {
+    double number = 0;
+    return CLI::detail::lexical_cast(text, number) && !std::isfinite(number) ? text + " is not a finite number" : std::string();
+  };
+  for (CLI::Option* option : command.get_options())
+    if (option->get_type_name().find("FLOAT") != std::string::npos) option->check(finite);
+}
+
+int obey(int count, char** words) {
   spdlog::set_default_logger(spdlog::stderr_logger_mt("hyperlattice"));  // standard output is for what a command prints
   spdlog::set_pattern("hyperlattice: %v");
   CLI::App program("Simulates solids with the four-dimensional lattice spring model.", "hyperlattice");
@@ -40,9 +56,11 @@ int main(int count, char** words) {
   program.add_flag("--no-plugins", no_plugins, "refuse scenes that name \"plugins\", whose code would run: for scenes from elsewhere");
   const Command commands[] = {run_command(program),     plan_command(program),      plugins_command(program), schema_command(program),
                               analyze_command(program), calibrate_command(program), study_command(program),   report_command(program)};
+  for (const Command& command : commands) refuse_infinite_numbers(*command.arguments);
   try {
     program.parse(count, words);
     if (no_plugins) refuse_scene_plugins();
+    check_environment();
     for (const Command& command : commands)
       if (command.arguments->parsed()) return command.act();
   } catch (const CLI::ParseError& error) {
@@ -50,14 +68,26 @@ int main(int count, char** words) {
     if (code != 0 && program.get_subcommands().empty() && count > 1) suggest(program, words[1]);
     return code == 0 ? exit_done : exit_input;
   } catch (const InputError& error) {
-    return complain(exit_input, "wrong input, nothing was written\n" + std::string(error.what()));
+    return complain_of_scene(exit_input, "wrong input, nothing was written\n" + std::string(error.what()));
   } catch (const RunError& error) {
-    return complain(exit_run, error.what());
+    return complain_of_scene(exit_run, error.what());
   } catch (const std::bad_alloc&) {
-    return complain(exit_outside, "not enough memory; `hyperlattice plan SCENE` says how much a scene needs");
+    return complain(exit_outside, lack_of_memory() + "\n`hyperlattice plan SCENE` says how much a scene needs");
   } catch (const std::exception& error) {
     return complain(exit_outside, error.what());
   }
   std::cerr << program.help();
   return exit_input;
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  open_missing_streams();
+  watch_memory();
+  report_crashes();
+  const int code = obey(count, words);
+  if (std::cout.flush()) return code;
+  complain(exit_outside, "cannot write all of what was to be printed: the device behind standard output is full or gone");
+  return code == exit_done ? exit_outside : code;
 }

@@ -1,18 +1,41 @@
 // hyperlattice plan: what a run will load, allocate and compute, and what it leaves out; computes nothing.
 #include "commands.hpp"
+#include "patience.hpp"
+
+#include <plan/calibration.hpp>
+#include <plan/shortage.hpp>
+#include <process/processors.hpp>
 
 #include <nlohmann/json.hpp>
 
+#include <charconv>
+#include <cstdlib>
 #include <iostream>
-#include <thread>
 
 namespace hyperlattice {
 
-void ThreadArgument::declare(CLI::App& command) {
-  command.add_option("--threads", threads, "threads to run on; results do not depend on it (default: every processor)")->check(CLI::Range(1, 4096));
+namespace {
+constexpr int most_threads = 4096;
 }
 
-int ThreadArgument::count() const { return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+void ThreadArgument::declare(CLI::App& command) {
+  command
+      .add_option("--threads", threads,
+                  "threads to run on; results do not depend on it (default: OMP_NUM_THREADS, else every processor that it may use)")
+      ->check(CLI::Range(1, most_threads));
+}
+
+int ThreadArgument::count() const {
+  if (threads > 0) return threads;
+  const char* wish = std::getenv("OMP_NUM_THREADS");
+  if (wish == nullptr || *wish == '\0') return std::min(processors(), most_threads);
+  const std::string_view list = wish, first = list.substr(0, list.find(','));  // a number for each level of nesting
+  int number = 0;
+  const auto [end, error] = std::from_chars(first.data(), first.data() + first.size(), number);
+  if (error != std::errc() || end != first.data() + first.size() || number < 1 || number > most_threads)
+    throw InputError({{"OMP_NUM_THREADS", std::string(list), "in the environment, a number of threads from 1 to " + std::to_string(most_threads)}});
+  return number;
+}
 
 void SceneArguments::declare(CLI::App& command) {
   command.add_option("SCENE", scene, "the scene file (JSON)")->required();
@@ -22,7 +45,10 @@ void SceneArguments::declare(CLI::App& command) {
   threads.declare(command);
 }
 
-std::unique_ptr<Plan> SceneArguments::plan(Host& host) const { return make_plan(read_scene(scene, settings, host), threads.count()); }
+std::unique_ptr<Plan> SceneArguments::plan(Host& host) const {
+  const Patience patience;
+  return make_plan(read_scene(scene, settings, host), threads.count());
+}
 
 Command plan_command(CLI::App& program) {
   struct Arguments : SceneArguments {
@@ -35,6 +61,8 @@ Command plan_command(CLI::App& program) {
   return {command, [arguments] {
             Host host;
             const auto plan = arguments->plan(host);
+            for (std::string& missing : shortages(*plan, ".")) plan->model->warnings.push_back(std::move(missing));
+            calibrate_run_time(*plan);
             std::cout << (arguments->json ? plan_json(*plan).dump(2) + "\n" : plan_text(*plan)) << std::flush;
             return exit_done;
           }};

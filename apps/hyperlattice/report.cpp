@@ -2,9 +2,8 @@
 #include "commands.hpp"
 
 #include <base/errors.hpp>
+#include <base/named_file.hpp>
 #include <report/report.hpp>
-
-#include <hyperlattice/files.hpp>
 
 #include <spdlog/spdlog.h>
 
@@ -28,7 +27,7 @@ Command report_command(CLI::App& program) {
             if (file.empty()) file = (folders.size() == 1 ? folders.front() : std::filesystem::path()) / "report.html";
             if (std::filesystem::is_directory(file)) throw InputError({{"--out", file.string(), "a file; there is a folder of that name"}});
             const report::Report report = report::read_report(folders);
-            write_file(file.string(), report::report_page(report));
+            write_named_file(file, report::report_page(report));
             if (json) {
               Json found = report::report_json(report);
               found["file"] = file.string();

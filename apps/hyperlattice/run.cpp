@@ -6,9 +6,11 @@
 namespace hyperlattice {
 void choose_directory(std::filesystem::path& directory, const std::filesystem::path& input) {
   if (directory.empty()) directory = input.stem().string() + "_out";
-  std::error_code unknown;  // of a folder that cannot be looked at, its use will tell
-  if (std::filesystem::exists(directory, unknown) && !std::filesystem::is_directory(directory, unknown) && !unknown)
-    throw InputError({{"--out", directory.string(), "a folder, or a name that is free"}});
+  std::error_code unreadable;  // of a link to itself, of a folder above that is closed: creating the folder says why
+  const bool is_link = std::filesystem::is_symlink(directory, unreadable);
+  if ((is_link || std::filesystem::exists(directory, unreadable)) && !std::filesystem::is_directory(directory, unreadable))
+    throw InputError(
+        {{"--out", directory.string(), is_link ? "a folder, a link to one, or a name that is free" : "a folder, or a name that is free"}});
 }
 
 Command run_command(CLI::App& program) {

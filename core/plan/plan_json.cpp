@@ -1,4 +1,4 @@
-#include <plan/plan.hpp>
+#include <plan/estimates.hpp>
 #include <scene/common_options.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -106,6 +106,7 @@ nlohmann::json plan_json(const Plan& plan) {
           {"memory_bytes", plan.memory_bytes},
           {"output_bytes", plan.output_bytes},
           {"expected_seconds", plan.expected_seconds},
+          {"expected_seconds_at_most", plan.expected_seconds * slowest(model)},
           {"plugins", plugins_json(*plan.scene)},
           {"warnings", model.warnings},
           {"left_out", left_out}};

@@ -1,6 +1,6 @@
 // The plan as a page for people; every number comes from the JSON form, so that the two never differ.
 #include <base/figures.hpp>
-#include <plan/plan.hpp>
+#include <plan/estimates.hpp>
 #include <run/state.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -29,6 +29,16 @@ std::string stage_text(const PlannedStage& stage) {
                                         plan.time_step / plan.stable_time_step, plan.stable_time_step, damped);
   if (plan.at_rest) return fmt::format("to rest under the loads of {:.6g} s, in about {} {}", plan.end_time, count_text(plan.steps), steps);
   return fmt::format("{:.6g} s to {:.6g} s in {} {}", stage.start_time, plan.end_time, count_text(plan.steps), steps);
+}
+
+std::string run_time_text(const Plan& plan) {
+  const double most = plan.expected_seconds * slowest(*plan.model);
+  if (duration_text(most) == duration_text(plan.expected_seconds)) return duration_text(most);
+  return fmt::format("{} as long as nothing {}, up to {}", duration_text(plan.expected_seconds),
+                     plan.model->choice.breakable && plan.model->answering ? "breaks or touches"
+                     : plan.model->choice.breakable                        ? "breaks"
+                                                                           : "touches",
+                     duration_text(most));
 }
 
 class Page {
@@ -77,7 +87,7 @@ std::string plan_text(const Plan& plan) {
   for (const PlannedStage& stage : plan.stages) page.line(stage.stage->component->type(), stage_text(stage));
   page.line("steps", count("steps"));
   page.line("output", fmt::format("about {}", bytes_text(number("output_bytes"))));
-  page.line("run time", fmt::format("{} on a common processor", duration_text(number("expected_seconds"))));
+  page.line("run time", run_time_text(plan));
 
   if (!plan.model->warnings.empty()) page.section("Warnings");
   for (const std::string& warning : plan.model->warnings) page.line("warning", warning);

@@ -1,10 +1,15 @@
+#include <base/errors.hpp>
+#include <base/figures.hpp>
 #include <model/region_index.hpp>
 #include <plan/columns.hpp>
 #include <plan/fields.hpp>
 #include <plan/rehearsal.hpp>
+#include <process/room.hpp>
 #include <scene/stage_call.hpp>
 
 #include <hyperlattice/output.hpp>
+
+#include <spdlog/fmt/fmt.h>
 
 namespace hyperlattice {
 namespace {
@@ -15,11 +20,6 @@ class AtRest {
   explicit AtRest(const Model& model) : model_(model), regions_(model.body, model.scene->regions) {
     for (const std::string_view name : field_names)
       if (has_field(model, name)) fields_.push_back(name);
-    for (Particle particle = 0; particle < model.body.particles; ++particle) {
-      const Vec3 x = model.body.position(particle);
-      positions_.insert(positions_.end(), {x.x, x.y, x.z});
-    }
-    zeros_.assign(positions_.size(), 0.0);
   }
 
   OutputContext context() {
@@ -33,7 +33,15 @@ class AtRest {
     return context;
   }
 
+  /// What probes are shown; writers need none of it.
   Snapshot snapshot() {
+    check_room();
+    positions_.reserve(3 * model_.body.particles);
+    for (Particle particle = 0; particle < model_.body.particles; ++particle) {
+      const Vec3 x = model_.body.position(particle);
+      positions_.insert(positions_.end(), {x.x, x.y, x.z});
+    }
+    zeros_.assign(positions_.size(), 0.0);
     Snapshot snapshot;
     snapshot.particles = model_.body.particles;
     snapshot.spacing = model_.body.grid.spacing;
@@ -49,6 +57,13 @@ class AtRest {
   }
 
  private:
+  void check_room() const {
+    const double needed = 6.0 * sizeof(double) * static_cast<double>(model_.body.particles);
+    if (const Room room = memory_room(); needed > room.bytes)
+      throw OutsideError(
+          fmt::format("not enough memory to try the probes: {} are needed, {} left; {}", bytes_text(needed), bytes_text(room.bytes), room.bound));
+  }
+
   const Model& model_;
   RegionIndex regions_;
   std::vector<std::string_view> fields_;
@@ -62,13 +77,14 @@ void rehearse_outputs(Plan& plan, Faults& faults) {
   if (probes.empty() && writers.empty()) return;
   AtRest rest(*plan.model);
   const OutputContext context = rest.context();
-  const Snapshot snapshot = rest.snapshot();
   for (const Stage* stage : writers) {
     const ComponentPointer writer = make_component(*stage);
     const auto refused =
         refusal_of(*stage, "begin", [&](const Complaint& why) { return stage->functions<WriterFunctions>().begin(writer.get(), context, why); });
     if (refused) faults.add(stage->pointer, stage->component->type(), "an output that fits the body: " + *refused);
   }
+  if (probes.empty()) return;
+  const Snapshot snapshot = rest.snapshot();
   for (const Stage* stage : probes) {
     const ComponentPointer probe = make_component(*stage);
     std::vector<std::string>& names = plan.tables.emplace_back(PlannedTable{stage->name, {"time"}}).columns;

@@ -5,7 +5,6 @@
 // A measurement at n ends the step's kick half-way, with the loads' mean over the half step before n: velocity and momentum are then those of n, with
 // the exact impulse of the loads up to n, and nothing after n is asked for. The error does not depend on that choice: what another force would add to
 // the kinetic energy is its work over the same half step.
-#include <base/thread_errors.hpp>
 #include <model/kernel_calls.hpp>
 #include <run/parts.hpp>
 
@@ -17,29 +16,15 @@ namespace hyperlattice {
 /// Sums of the present state, in the rows' order whatever the blocks are. Changes nothing but the results in rows and supports.
 RowSums Simulation::Parts::measure(const Sweep& sweep) {
   prepare_loads(sweep);
-  ThreadErrors preparing, measuring;
-#pragma omp parallel num_threads(threads)
-  {
-#pragma omp for schedule(static, 1)
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-      layout->exchange(blocks, blocks[b]);
-      watch(blocks[b]);
-    }
-    if (prepares) {
-#pragma omp single
-      preparing.run(0, [&] { prepare_answers(); });
-    }
-#pragma omp for schedule(static, 1)
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-      if (preparing.any()) continue;
-      measuring.run(b, [&] {
-        prepare_supports(blocks[b], sweep);
-        call_kernel(model, model.kernels.measure, request_for(blocks[b], sweep.measured, 0));
-      });
-    }
-  }
-  preparing.rethrow();
-  measuring.rethrow();
+  team.for_each(blocks.size(), [&](std::size_t b) {
+    layout->exchange(blocks, blocks[b]);
+    watch(blocks[b]);
+  });
+  if (prepares) prepare_answers();
+  team.for_each(blocks.size(), [&](std::size_t b) {
+    prepare_supports(blocks[b], sweep);
+    call_kernel(model, model.kernels.measure, request_for(blocks[b], sweep.measured, 0));
+  });
   RowSums total;
   for (const Block& block : blocks)
     for (std::size_t r = block.layout->first_own; r < block.layout->last_own; ++r) {

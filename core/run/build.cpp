@@ -1,17 +1,12 @@
 // How a Simulation is built: arrays, alive springs, supports. Each block is first touched by the thread that will work on it.
-#include <base/thread_errors.hpp>
 #include <run/parts.hpp>
 
 #include <algorithm>
 
 namespace hyperlattice {
 
-Simulation::Parts::Parts(const Model& m, int wanted) : model(m), layout(make_layout(m, wanted)), blocks(layout->blocks.size()) {
-  threads = static_cast<int>(blocks.size());
-  ThreadErrors errors;  // most likely for want of memory
-#pragma omp parallel for num_threads(threads) schedule(static, 1)
-  for (std::size_t b = 0; b < blocks.size(); ++b) errors.run(b, [&] { allocate(blocks[b], b); });
-  errors.rethrow();
+Simulation::Parts::Parts(const Model& m, int wanted) : model(m), layout(make_layout(m, wanted)), blocks(layout->blocks.size()), team(wanted) {
+  team.for_each(blocks.size(), [&](std::size_t b) { allocate(blocks[b], b); });
   for (Block& block : blocks) add_supports(block);
   acting.resize(model.loads.size());
   for (std::size_t l = 0; l < acting.size(); ++l) {

@@ -1,7 +1,9 @@
+#include <base/errors.hpp>
 #include <run/block.hpp>
 #include <run/grid_layout.hpp>
 
 #include <algorithm>
+#include <limits>
 
 namespace hyperlattice {
 namespace {
@@ -42,11 +44,22 @@ void fill_alive(const Body& body, std::int32_t j, std::int32_t k, const Row& row
       for (std::int32_t i = range.begin; i < range.end; ++i) alive[i - row.begin] = static_cast<std::uint16_t>(alive[i - row.begin] | 1u << n);
 }
 
+/// Kernels count the rows of a block, and the places of a row with its margins, in 32 bits.
+void check_block(const Body& body, std::int32_t planes) {
+  constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+  const std::int64_t rows = (std::int64_t{planes} + 2 * body.reach) * body.grid.sites[1];
+  constexpr std::int64_t around = 4 * scratch_margin;  // more than the margins, rounded to whole vectors
+  if (rows > most || body.grid.sites[0] > most - around)
+    throw OutsideError(
+        "too many sites for a thread: at most 2^31 rows, of at most 2^31 sites with their margins; take more threads, or a body that is long in z");
+}
+
 }  // namespace
 
 GridLayout::GridLayout(const Model& model, int threads) : Layout(model) {
   const Body& body = model.body;
   const std::int32_t planes = body.grid.sites[2];
+  check_block(body, 1);
   const std::uint64_t wanted = static_cast<std::uint64_t>(std::clamp(threads, 1, planes));
   // A neighbour's row may begin left or right of any row: reading there must stay inside the array.
   const std::uint64_t padding = whole_vectors(body.grid.sites[0] + 2 * scratch_margin);
@@ -69,6 +82,7 @@ GridLayout::GridLayout(const Model& model, int threads) : Layout(model) {
 
 BlockLayout GridLayout::make_block(Planes planes, std::uint64_t padding) {
   const Body& body = model_.body;
+  check_block(body, planes.count);
   BlockLayout block;
   block.first_own = static_cast<std::uint32_t>(body.reach * body.grid.sites[1]);
   block.last_own = block.first_own + static_cast<std::uint32_t>(planes.count * body.grid.sites[1]);

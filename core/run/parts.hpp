@@ -2,6 +2,7 @@
 // balance.cpp, restart.cpp.
 #pragma once
 
+#include <process/team.hpp>
 #include <run/block.hpp>
 #include <run/state.hpp>
 
@@ -29,7 +30,7 @@ struct Simulation::Parts {
   std::unique_ptr<Layout> layout;
   std::vector<Block> blocks;
   std::vector<double> particle_masses;  ///< kg; filled when first asked for
-  int threads = 1;
+  Team team;
 
   /// What a load is during a sweep, and what it sees.
   struct Acting {

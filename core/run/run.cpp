@@ -1,6 +1,8 @@
 // The run: planned solver stages one after the other. Each step belongs to the solver; records, outputs, guards and the end are here.
 #include <base/descriptor.hpp>
 #include <plan/precision.hpp>
+#include <plan/shortage.hpp>
+#include <process/lack_of_memory.hpp>
 #include <run/checkpoint.hpp>
 #include <run/failing_motion.hpp>
 #include <run/folder.hpp>
@@ -284,13 +286,17 @@ std::optional<Checkpoint> prepare(RunFolder& folder, Plan& plan, const RunOption
 /// Solves the plan; what went wrong is in the outcome.
 void carry_out(Plan& plan, const RunOptions& options, RunFolder& folder, const std::optional<Checkpoint>& resumed, Outcome& outcome) {
   Running running(plan, options, folder);
+  const auto end_for_memory = [&] {
+    outcome.end("failed", exit_outside, fmt::format("this run needs about {:.0f} MB; {}", plan.memory_bytes / 1e6, lack_of_memory()));
+  };
   const auto attempt = [&](const std::function<void()>& work) {
     try {
       work();
     } catch (const RunError& error) {
       outcome.end("failed", exit_run, error.what());
+      if (memory_ran_out()) end_for_memory();  // the law, criterion or solver that failed met nothing else
     } catch (const std::bad_alloc&) {
-      outcome.end("failed", exit_outside, fmt::format("out of memory: this run needs about {:.0f} MB", plan.memory_bytes / 1e6));
+      end_for_memory();
     } catch (const std::exception& error) {
       outcome.end("failed", exit_outside, error.what());
     }
@@ -340,6 +346,7 @@ void conclude(const Plan& plan, RunFolder& folder, Outcome& outcome) {
 }  // namespace
 
 int run(Plan& plan, const RunOptions& options) {
+  refuse_shortage(plan, options.directory);
   const FileLimitGuard file_limit;
   if (options.resume) must_be_resumable(options.directory);
   RunFolder folder(options.directory, !options.resume);

@@ -35,8 +35,8 @@ double Simulation::kinetic() const {
     for (std::uint64_t n = 0; n < count; n += Listed::stretch)
       pieces.push_back({&block, place + n, std::min<std::uint64_t>(Listed::stretch, count - n), first + n, 0});
   });
-#pragma omp parallel for num_threads(parts_->threads) schedule(static)
-  for (Piece& piece : pieces)
+  parts_->team.for_each(pieces.size(), [&](std::size_t number) {
+    Piece& piece = pieces[number];
     for (std::uint64_t n = 0; n < piece.count; ++n) {
       double square = 0;
       for (int c = 0; c < model.degrees_of_freedom; ++c) {
@@ -45,6 +45,7 @@ double Simulation::kinetic() const {
       }
       piece.twice += masses[piece.first + n] * square;
     }
+  });
   double twice = 0;
   for (const Piece& piece : pieces) twice += piece.twice;
   return twice / 2;

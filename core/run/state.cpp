@@ -2,6 +2,7 @@
 #include <run/parts.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 
@@ -44,9 +45,14 @@ const std::vector<Breakage>& Simulation::breakages() const { return parts_->brea
 double Simulation::elongation_now(std::size_t breakage) const { return parts_->elongation_now(breakage); }
 
 std::uint64_t Simulation::broken_open() const {
-  std::uint64_t open = 0;
-#pragma omp parallel for num_threads(parts_->threads) reduction(+ : open)
-  for (std::size_t n = 0; n < parts_->breakages.size(); ++n) open += elongation_now(n) > 0 ? 1 : 0;
+  constexpr std::size_t piece = 1024;  // breakages
+  const std::size_t all = parts_->breakages.size();
+  std::atomic<std::uint64_t> open = 0;
+  parts_->team.for_each((all + piece - 1) / piece, [&](std::size_t number) {
+    std::uint64_t here = 0;
+    for (std::size_t n = number * piece; n < std::min(all, (number + 1) * piece); ++n) here += elongation_now(n) > 0 ? 1 : 0;
+    open += here;
+  });
   return open;
 }
 

@@ -1,5 +1,4 @@
 // One step: ghost planes, loads, the kernel on every block, then the books of what broke.
-#include <base/thread_errors.hpp>
 #include <model/kernel_calls.hpp>
 #include <run/parts.hpp>
 
@@ -15,44 +14,30 @@ void Simulation::Parts::step(double dt) {
     const Parts* parts;
     Block* block;
   };
-  ThreadErrors preparing, moving;
-#pragma omp parallel num_threads(threads)
-  {
-#pragma omp for schedule(static, 1)
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-      layout->exchange(blocks, blocks[b]);
-      watch(blocks[b]);
-    }
-    if (prepares) {
-#pragma omp single
-      preparing.run(0, [&] { prepare_answers(); });
-    }
-#pragma omp for schedule(static, 1)
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-      if (preparing.any()) continue;
-      moving.run(b, [&] {
-        Block& block = blocks[b];
-        prepare_supports(block, sweep);
-        Reviewer reviewer{this, &block};
-        KernelRequest request = request_for(block, sweep.before, sweep.after);
-        request.self = &reviewer;
-        request.review = [](void* self, const AlarmRow& alarm) noexcept {
-          return PluginCall::answer(static_cast<const std::uint8_t*>(nullptr), [&] {
-            const auto* asked = static_cast<const Reviewer*>(self);
-            return asked->parts->review(*asked->block, alarm);
-          });
-        };
-        call_kernel(model, kernel, request);
-        for (Contribution& part : block.contributions) {
-          const Support& support = block.supports[part.support];
-          part.work += part.factor * dot(part.force, support.path);
-          if (support.axes != 0) part.held_work += part.factor * dot(part.force, along(support.axes, support.path));
-        }
+  team.for_each(blocks.size(), [&](std::size_t b) {
+    layout->exchange(blocks, blocks[b]);
+    watch(blocks[b]);
+  });
+  if (prepares) prepare_answers();
+  team.for_each(blocks.size(), [&](std::size_t b) {
+    Block& block = blocks[b];
+    prepare_supports(block, sweep);
+    Reviewer reviewer{this, &block};
+    KernelRequest request = request_for(block, sweep.before, sweep.after);
+    request.self = &reviewer;
+    request.review = [](void* self, const AlarmRow& alarm) noexcept {
+      return PluginCall::answer(static_cast<const std::uint8_t*>(nullptr), [&] {
+        const auto* asked = static_cast<const Reviewer*>(self);
+        return asked->parts->review(*asked->block, alarm);
       });
+    };
+    call_kernel(model, kernel, request);
+    for (Contribution& part : block.contributions) {
+      const Support& support = block.supports[part.support];
+      part.work += part.factor * dot(part.force, support.path);
+      if (support.axes != 0) part.held_work += part.factor * dot(part.force, along(support.axes, support.path));
     }
-  }
-  preparing.rethrow();
-  moving.rethrow();
+  });
   check_answers();
   collect_breakages(dt);
   if (!time_held) {

@@ -1,8 +1,10 @@
 // The plan against what is then really built: bytes to the last one, steps, and what the kernel carries for each choice in a scene.
 #include "support/program.hpp"
 
+#include <plan/calibration.hpp>
 #include <plan/plan.hpp>
 #include <plan/precision.hpp>
+#include <plan/shortage.hpp>
 #include <run/layout.hpp>
 #include <run/state.hpp>
 
@@ -66,6 +68,37 @@ TEST(Plan, cells_cost_little_and_whole_particles_nothing) {
     EXPECT_DOUBLE_EQ(cells->bytes_per_particle * particles, state * sites + 4 * vectors + set * static_cast<double>(sets.size()));
     EXPECT_LT(static_cast<double>(sets.size()), vectors);  // vectors share them, even in a ball that is nearly all surface
   }
+}
+
+TEST(Plan, writes_no_more_frames_than_steps) {
+  auto scene = small_sphere();
+  scene["pipeline"].push_back({{"type", "writers.vtu"}, {"every", 1e-30}});
+  const auto often = plan_of(scene);
+  scene["pipeline"].back()["every"] = often->stages.front().plan.time_step;
+  const auto each_step = plan_of(scene);
+  EXPECT_GT(often->output_bytes, 1e6);
+  EXPECT_NEAR(often->output_bytes, each_step->output_bytes, 0.05 * often->output_bytes);
+}
+
+TEST(Plan, says_what_a_run_has_too_little_of) {
+  const auto plan = plan_of(small_sphere());
+  EXPECT_TRUE(shortages(*plan, ".").empty());
+  plan->memory_bytes = 1e18;
+  plan->output_bytes = 1e18;
+  const auto found = shortages(*plan, "not/there/yet");
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_NE(found[0].find("the run needs 1e+06 TB"), std::string::npos) << found[0];
+  EXPECT_NE(found[1].find("will write about 1e+06 TB"), std::string::npos) << found[1];
+  EXPECT_THROW(refuse_shortage(*plan, "."), OutsideError);
+}
+
+// On a machine as it is at the time, so that no figure can be expected.
+TEST(Plan, measures_its_run_time) {
+  const auto plan = plan_of(small_sphere());
+  plan->expected_seconds = -1;
+  calibrate_run_time(*plan);
+  EXPECT_GT(plan->expected_seconds, 0);
+  EXPECT_LT(plan->expected_seconds, 600);
 }
 
 TEST(Plan, carries_only_what_the_scene_needs) {

@@ -1,0 +1,111 @@
+#include <plan/estimates.hpp>
+#include <plan/fields.hpp>
+#include <run/layout.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyperlattice {
+
+namespace {
+
+/// Numbers a particle that the asked fields hold.
+double numbers_per_particle(const Scene& scene, const Stage& output) {
+  double numbers = 0;
+  for (const std::string& name : asked_fields(scene, output)) numbers += name == "displacement" || name == "velocity" ? 3 : 1;
+  return numbers;
+}
+
+double particles_of(const Plan& plan) { return static_cast<double>(plan.model->body.particles); }
+
+constexpr double bytes_per_number = 4.5;  // compressed
+
+}  // namespace
+
+double frames_of(const Plan& plan, const Stage& output) {
+  const double every = output_interval(output, plan.end_time());
+  const double asked = every > 0 ? std::floor(plan.end_time() / every) + 1 : 2;
+  return std::min(asked, static_cast<double>(plan.steps()) + 1);
+}
+
+double frame_bytes(const Plan& plan, const Stage& writer) {
+  return particles_of(plan) * (3 + numbers_per_particle(*plan.scene, writer)) * bytes_per_number;
+}
+
+double records_of(const PlannedStage& stage) {
+  if (stage.plan.at_rest) {
+    const std::uint64_t whole = stage.plan.steps / record_steps(stage);
+    return static_cast<double>(whole) + 1;
+  }
+  return std::min((stage.plan.end_time - stage.start_time) / record_interval(stage), static_cast<double>(stage.plan.steps)) + 1;
+}
+
+double model_bytes(const Model& model) {
+  const std::size_t runs = model.body.runs.size() + model.body.cells.runs().size();
+  auto bytes = static_cast<double>(model.body.listed.springs.size() * sizeof(ListedSpring) + model.body.listed.positions.size() * sizeof(Vec3) +
+                                   runs * sizeof(Run) + model.body.row_runs.size() * sizeof(std::size_t) + model.material_of.size()) +
+               model.mixtures.bytes();
+  for (const Load& load : model.loads)
+    bytes += static_cast<double>(load.particles.size() * sizeof(LoadedParticle) + load.watched.size() * sizeof(WatchedParticle));
+  return bytes;
+}
+
+void estimate_memory(Plan& plan) {
+  const Model& model = *plan.model;
+  const double particles = particles_of(plan);
+  const std::unique_ptr<Layout> layout = make_layout(model, plan.threads);
+  plan.bytes_per_particle = layout->state_bytes() / particles;
+
+  double bytes = model_bytes(model);
+  for (const Load& load : model.loads)
+    bytes += static_cast<double>(load.particles.size() * sizeof(Support) + load.watched.size() * (sizeof(Support) + 2 * sizeof(Vec3)));
+  for (const BlockLayout& block : layout->blocks) bytes += static_cast<double>(block.rows.size() * 2 * sizeof(Row));
+
+  double output_numbers = 0;  // positions, and the fields of the most demanding output
+  for (const Family family : {Family::writers, Family::probes})
+    for (const Stage* stage : plan.scene->of(family)) output_numbers = std::max(output_numbers, 3 + numbers_per_particle(*plan.scene, *stage));
+  double solver_bytes = 0;
+  for (const PlannedStage& stage : plan.stages) solver_bytes = std::max(solver_bytes, stage.plan.bytes_per_site);
+  const Site low = model.body.low, high = model.body.high;
+  solver_bytes *= model.body.is_listed() ? particles : (high.i - low.i + 1.0) * (high.j - low.j + 1.0) * (high.k - low.k + 1.0);
+  plan.memory_bytes = solver_bytes + layout->state_bytes() + layout->scratch_bytes() + bytes + output_numbers * sizeof(double) * particles;
+}
+
+void estimate_output(Plan& plan) {
+  constexpr double bytes_per_text_number = 19, history_numbers = 16;
+  for (const Stage* stage : plan.scene->of(Family::writers)) plan.output_bytes += frames_of(plan, *stage) * frame_bytes(plan, *stage);
+  for (const Stage* stage : plan.scene->of(Family::probes))
+    plan.output_bytes += frames_of(plan, *stage) * (1 + std::max(1.0, numbers_per_particle(*plan.scene, *stage))) * bytes_per_text_number;
+  for (const PlannedStage& stage : plan.stages) plan.output_bytes += records_of(stage) * history_numbers * bytes_per_text_number;
+}
+
+double output_seconds(const Plan& plan, double sweep) {
+  constexpr double write = 30e-9;  // s a number of a frame
+  double seconds = 0;
+  for (const Stage* stage : plan.scene->of(Family::writers))
+    seconds += frames_of(plan, *stage) * particles_of(plan) * (3 + numbers_per_particle(*plan.scene, *stage)) * write;
+  for (const PlannedStage& stage : plan.stages) seconds += sweep * records_of(stage);
+  return seconds;
+}
+
+double slowest(const Model& model) {
+  constexpr double breaking = 3, answering = 5;  // measured on a sphere that a blast breaks, and whose pieces collide
+  return (model.choice.breakable ? breaking : 1) * (model.answering ? answering : 1);
+}
+
+void estimate_time(Plan& plan) {
+  constexpr double baseline = 4, avx2 = 1.4, avx512 = 0.9;  // ns a base spring and step
+  constexpr double fourth_dimension = 1.8, damped = 1.1, floats = 0.6, listed = 4, second_thread = 0.6;
+  const Model& model = *plan.model;
+  const std::string_view instructions = model.kernels.instructions;
+  double spring = instructions == "avx512" ? avx512 : instructions == "avx2" ? avx2 : baseline;
+  if (model.degrees_of_freedom == 4) spring *= fourth_dimension;
+  if (model.body.is_listed()) spring *= listed;
+  if (model.choice.precision == Precision::floats) spring *= floats;
+  const double step = 1e-9 * spring * static_cast<double>(model.body.base_springs()) / (1 + second_thread * (plan.threads - 1));
+  for (const PlannedStage& stage : plan.stages)
+    plan.expected_seconds += step * static_cast<double>(stage.plan.steps) * stage.plan.sweeps_per_step * (stage.plan.damping > 0 ? damped : 1);
+  plan.expected_seconds += output_seconds(plan, step);
+}
+
+}  // namespace hyperlattice
