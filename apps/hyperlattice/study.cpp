@@ -37,9 +37,12 @@ double read_target(const std::string& text) {
   return share.value;
 }
 
+/// Reasons may name files in other encodings.
+std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n'; }
+
 void write_results(const Study& study, const std::vector<Row>& rows, const Findings& findings, const std::filesystem::path& directory) {
   write_file((directory / "study.csv").string(), study_csv(study, rows, findings));
-  write_file((directory / "study.json").string(), study_json(study, rows, findings).dump(2) + '\n');
+  write_file((directory / "study.json").string(), text_of(study_json(study, rows, findings)));
   const std::string script = study_script(study, rows, findings);
   if (script.empty()) return;
   try {
@@ -69,10 +72,10 @@ int run_study(Arguments a) {
   Host host;
   stop_gently_when_interrupted();
   Conducted done = conduct(study, grid(study), options, host);
-  find_errors(study, options.directory, done.rows);
-  const Findings findings = find(study, done.rows);
+  auto limits = find_errors(study, options.directory, done.rows);
+  const Findings findings = find(study, done.rows, std::move(limits));
   write_results(study, done.rows, findings, options.directory);
-  std::cout << (a.json ? study_json(study, done.rows, findings).dump(2) + "\n" : study_text(study, done.rows, findings)) << std::flush;
+  std::cout << (a.json ? text_of(study_json(study, done.rows, findings)) : study_text(study, done.rows, findings)) << std::flush;
   spdlog::info("{}, results in {}", done.interrupted ? "interrupted; the same command goes on from here" : "done", options.directory.string());
   return exit_code(done);
 }

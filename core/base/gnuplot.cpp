@@ -1,30 +1,24 @@
 #include <base/errors.hpp>
 #include <base/gnuplot.hpp>
 
+#include <hyperlattice/files.hpp>
+
 #include <spdlog/fmt/fmt.h>
+#include <nlohmann/json.hpp>
 
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <system_error>
+#include <vector>
 
 namespace hyperlattice {
 
 namespace {
-
-/// A file that is gone when the object is.
-struct Temporary {
-  std::filesystem::path path;
-  explicit Temporary(std::filesystem::path file) : path(std::move(file)) {}
-  Temporary(const Temporary&) = delete;
-  Temporary& operator=(const Temporary&) = delete;
-  ~Temporary() {
-    std::error_code ignored;
-    std::filesystem::remove(path, ignored);
-  }
-};
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& why) {
   throw OutsideError(fmt::format("{}: cannot draw it: {}", file.string(), why));
@@ -32,51 +26,105 @@ struct Temporary {
 
 std::string reason(int error) { return std::system_category().message(error); }
 
-std::string quoted(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("''") : std::string(1, c);
-  return out + "'";
+/// A file in memory, which has no name that another program could know.
+class MemoryFile {
+ public:
+  explicit MemoryFile(const std::filesystem::path& picture) : picture_(picture), descriptor_(::memfd_create("hyperlattice", MFD_CLOEXEC)) {
+    if (descriptor_ < 0) fail(picture_, reason(errno));
+  }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+  ~MemoryFile() { ::close(descriptor_); }
+
+  int descriptor() const { return descriptor_; }
+
+  void write(const std::string& text) {
+    for (std::size_t written = 0; written < text.size();) {
+      const ssize_t count = ::pwrite(descriptor_, text.data() + written, text.size() - written, static_cast<off_t>(written));
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) fail(picture_, reason(errno));
+      written += static_cast<std::size_t>(count);
+    }
+  }
+  std::string read() const {
+    std::string text;
+    std::array<char, 1 << 16> bytes{};
+    for (;;) {
+      const ssize_t count = ::pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(text.size()));
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) fail(picture_, reason(errno));
+      if (count == 0) return text;
+      text.append(bytes.data(), static_cast<std::size_t>(count));
+    }
+  }
+
+ private:
+  const std::filesystem::path& picture_;
+  int descriptor_;
+};
+
+/// The environment without what changes gnuplot's pictures.
+std::vector<char*> environment() {
+  std::vector<char*> kept;
+  for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
+    const std::string_view text = *entry;
+    if (!text.starts_with("GNUPLOT") && !text.starts_with("GNUTERM") && !text.starts_with("GNUHELP")) kept.push_back(*entry);
+  }
+  kept.push_back(nullptr);
+  return kept;
 }
 
-/// Puts the commands into a new file, for gnuplot to read, and gives its name.
-std::string write_script(const std::filesystem::path& file, const std::string& commands) {
-  std::string name = (std::filesystem::temp_directory_path() / "hyperlattice_XXXXXX").string();
-  const int descriptor = ::mkstemp(name.data());
-  if (descriptor < 0) fail(file, reason(errno));
-  for (std::size_t written = 0; written < commands.size();) {
-    const ssize_t count = ::write(descriptor, commands.data() + written, commands.size() - written);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) {
-      const int error = errno;
-      ::close(descriptor);
-      ::unlink(name.c_str());
-      fail(file, reason(error));
-    }
-    written += static_cast<std::size_t>(count);
-  }
-  ::close(descriptor);
-  return name;
+/// gnuplot's last words: the line that says what is wrong.
+std::string last_line(const std::string& text) {
+  const auto end = text.find_last_not_of(" \n\r\t");
+  if (end == std::string::npos) return "";
+  const auto begin = text.rfind('\n', end);
+  return text.substr(begin == std::string::npos ? 0 : begin + 1, end - (begin == std::string::npos ? std::size_t(-1) : begin));
 }
 
 }  // namespace
 
+std::string gnuplot_text(std::string_view text) {
+  // in single quotes gnuplot expands nothing
+  const std::string quoted = nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  std::string out = "'";
+  for (const char c : nlohmann::json::parse(quoted).get<std::string>()) {
+    if (c == '\'')
+      out += "''";
+    else if (c == '\n')
+      out += "'.\"\\n\".'";
+    else
+      out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
+  }
+  return out + "'";
+}
+
 void draw_svg(const std::filesystem::path& file, const std::string& commands, int width, int height) {
-  const Temporary part(file.string() + ".part");
-  const Temporary script(write_script(file, fmt::format("set terminal svg size {},{} font 'Helvetica,13' background 'white'\nset output {}\n{}\n",
-                                                        width, height, quoted(part.path.string()), commands)));
-  std::string program = "gnuplot", argument = script.path.string();
-  char* words[] = {program.data(), argument.data(), nullptr};
+  MemoryFile script(file), picture(file), words(file);
+  script.write(fmt::format("set terminal svg size {},{} font 'Helvetica,13' background 'white'\n{}\n", width, height, commands));
+  std::string program = "gnuplot", plain = "--default-settings";
+  char* arguments[] = {program.data(), plain.data(), nullptr};
+  posix_spawn_file_actions_t streams;
+  posix_spawn_file_actions_init(&streams);
+  posix_spawn_file_actions_adddup2(&streams, script.descriptor(), STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&streams, picture.descriptor(), STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&streams, words.descriptor(), STDERR_FILENO);
   pid_t child = 0;
-  const int error = ::posix_spawnp(&child, program.c_str(), nullptr, nullptr, words, environ);
+  const int error = ::posix_spawnp(&child, program.c_str(), &streams, nullptr, arguments, environment().data());
+  posix_spawn_file_actions_destroy(&streams);
   if (error == ENOENT) fail(file, "gnuplot is not installed (Debian's package gnuplot-nox)");
   if (error != 0) fail(file, "gnuplot: " + reason(error));
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) fail(file, "gnuplot failed");
-  std::error_code renamed;
-  std::filesystem::rename(part.path, file, renamed);
-  if (renamed) fail(file, renamed.message());
+  const std::string drawn = picture.read();
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || drawn.find("</svg>") == std::string::npos)
+    fail(file, "gnuplot failed: " + last_line(words.read()));
+  try {
+    write_file(file.string(), drawn);
+  } catch (const std::runtime_error& unwritten) {
+    fail(file, unwritten.what());
+  }
 }
 
 }  // namespace hyperlattice

@@ -96,6 +96,7 @@ std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, int threads) {
   auto plan = std::make_unique<Plan>();
   plan->scene = std::move(scene);
   plan->threads = threads;
+  plan->identity = identity_of(*plan->scene);
   try {
     plan->model = build_model(*plan->scene);
   } catch (const std::bad_alloc&) {

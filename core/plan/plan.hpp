@@ -2,6 +2,7 @@
 #pragma once
 
 #include <model/body_figures.hpp>
+#include <plan/identity.hpp>
 
 #include <hyperlattice/solver.hpp>
 
@@ -33,6 +34,7 @@ struct PlannedTable {
 
 struct Plan {
   std::unique_ptr<Scene> scene;
+  Identity identity;  ///< of the run, when it was planned
   std::unique_ptr<Model> model;
   BodyFigures body;  ///< how large it came out
   std::vector<PlannedStage> stages;

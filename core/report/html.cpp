@@ -19,8 +19,12 @@ std::string in_utf8(std::string_view text) {
 }  // namespace
 
 std::string escaped(std::string_view text) {
+  constexpr std::string_view replacement = "\xEF\xBF\xBD";  // U+FFFD
+  std::string whole = in_utf8(text);
+  for (const std::string_view no_character : {"\xEF\xBF\xBE", "\xEF\xBF\xBF"})  // U+FFFE and U+FFFF
+    for (std::size_t at = whole.find(no_character); at != std::string::npos; at = whole.find(no_character, at)) whole.replace(at, 3, replacement);
   std::string out;
-  for (const char c : in_utf8(text)) switch (c) {
+  for (const char c : whole) switch (c) {
       case '&':
         out += "&amp;";
         break;
@@ -42,7 +46,7 @@ std::string escaped(std::string_view text) {
         break;
       default:
         if (static_cast<unsigned char>(c) < 0x20)
-          out += "\xEF\xBF\xBD";  // U+FFFD
+          out += replacement;
         else
           out += c;
     }

@@ -1,6 +1,5 @@
 // The page: what stands where.
 #include <base/figures.hpp>
-#include <base/input_file.hpp>
 #include <report/curves.hpp>
 #include <report/facts.hpp>
 #include <report/html.hpp>
@@ -45,10 +44,12 @@ void put_pictures(std::string& page, const RunRecord& run) {
     if (series.files.size() < series.count) put(page, "<p class=\"soft\">{} of {}, evenly chosen.</p>\n", series.files.size(), series.count);
     page += "<div class=\"columns pictures\">\n";
     for (const auto& [file, time] : series.files) {
-      const std::string name = file.lexically_relative(run.folder).generic_string(),
-                        caption = time ? name + " at " + quantity_text(*time, "s") : name;
-      put(page, "<figure><img alt=\"{}\" src=\"{}\"/><figcaption>{}</figcaption></figure>\n", escaped(caption),
-          data_uri("image/png", read_input_file(file, file.string(), "a picture")), escaped(caption));
+      const std::string name = file.generic_string(), caption = time ? name + " at " + quantity_text(*time, "s") : name;
+      const std::string bytes = read_picture(run.folder, file);
+      if (bytes.empty())
+        put(page, "<p class=\"soft\">{} is too large to be shown.</p>\n", escaped(caption));
+      else
+        put(page, "<figure><img alt=\"{0}\" src=\"{1}\"/><figcaption>{0}</figcaption></figure>\n", escaped(caption), data_uri("image/png", bytes));
     }
     page += "</div>\n";
   }

@@ -1,11 +1,12 @@
 #include <base/csv.hpp>
+#include <base/folder_file.hpp>
 #include <report/pictures.hpp>
 
 #include <spdlog/fmt/fmt.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <fstream>
+#include <limits>
 
 namespace hyperlattice::report {
 
@@ -14,37 +15,46 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t head_bytes = 4096;  // of a picture: the texts stand before the pixels
-
-std::string head_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::string bytes(head_bytes, '\0');
-  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  bytes.resize(static_cast<std::size_t>(stream.gcount()));
-  return bytes;
-}
+constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
 
 /// "1e-05 s" is what the writer says.
-std::optional<double> time_of(const fs::path& file) {
-  for (const auto& [key, text] : png_texts(head_of(file)))
+std::optional<double> time_of(std::string_view head) {
+  for (const auto& [key, text] : png_texts(head))
     if (key == "Time") return csv_number(std::string_view(text).substr(0, text.find(' ')));
   return std::nullopt;
 }
 
+/// Why a file is not shown as a picture; empty: it is.
+std::string fault_of(const FolderFile& file) {
+  if (!file.refusal.empty()) return file.refusal;
+  return file.text.starts_with(signature) ? "" : "no PNG picture";
+}
+
 /// The writer's frames in their order.
-std::vector<PictureFile> frames(const fs::path& folder, const std::string& base) {
+std::vector<PictureFile> frames(const fs::path& folder, const fs::path& base, double end_time, std::vector<std::string>& notes) {
   std::vector<PictureFile> found;
-  double last = 0;
+  std::optional<double> last;
   for (std::size_t n = 0;; ++n) {
-    PictureFile picture{folder / fmt::format("{}_{:06}.png", base, n), std::nullopt};
-    if (!fs::exists(picture.file)) return found;
-    picture.time = time_of(picture.file);
-    if (n > 0 && picture.time && *picture.time < last) return found;
-    last = picture.time.value_or(last);
+    PictureFile picture{fs::path(fmt::format("{}_{:06}.png", base.string(), n)), std::nullopt};
+    const auto file = read_folder_file(folder, picture.name, head_bytes, true);
+    if (!file) return found;
+    if (const std::string fault = fault_of(*file); !fault.empty()) {
+      notes.push_back(fmt::format("{} is {}, and is not shown.", picture.name.generic_string(), fault));
+      return found;
+    }
+    picture.time = time_of(file->text);
+    if (picture.time && ((last && *picture.time < *last) || *picture.time > end_time)) return found;
+    if (picture.time) last = picture.time;
     found.push_back(std::move(picture));
   }
 }
 
 }  // namespace
+
+std::string read_picture(const fs::path& folder, const fs::path& name) {
+  auto file = read_folder_file(folder, name, largest_picture);
+  return file && fault_of(*file).empty() ? std::move(file->text) : std::string();
+}
 
 std::vector<std::size_t> evenly(std::size_t count, std::size_t most) {
   std::vector<std::size_t> chosen;
@@ -55,7 +65,7 @@ std::vector<std::size_t> evenly(std::size_t count, std::size_t most) {
 
 std::vector<std::pair<std::string, std::string>> png_texts(std::string_view bytes) {
   std::vector<std::pair<std::string, std::string>> texts;
-  if (!bytes.starts_with("\x89PNG\r\n\x1a\n")) return texts;
+  if (!bytes.starts_with(signature)) return texts;
   for (std::size_t at = 8; at + 8 <= bytes.size();) {
     std::size_t length = 0;
     for (std::size_t n = 0; n < 4; ++n) length = length << 8 | static_cast<unsigned char>(bytes[at + n]);
@@ -74,7 +84,8 @@ std::vector<std::pair<std::string, std::string>> png_texts(std::string_view byte
   return texts;
 }
 
-std::vector<PictureSeries> find_pictures(const fs::path& folder, const Json& scene) {
+std::vector<PictureSeries> find_pictures(const fs::path& folder, const Json& scene, std::optional<double> end_time, std::vector<std::string>& notes) {
+  constexpr double rounding = 1e-9, always = std::numeric_limits<double>::infinity();
   std::vector<PictureSeries> all;
   if (!scene.is_object() || !scene.contains("pipeline")) return all;
   for (const Json& stage : scene["pipeline"]) {
@@ -82,7 +93,8 @@ std::vector<PictureSeries> find_pictures(const fs::path& folder, const Json& sce
     if (!type.starts_with("writers.") || file.empty()) continue;
     PictureSeries series{word_in(stage, "name"), {}, 0};
     const bool is_labelled = series.name != type.substr(type.find('.') + 1);  // it then writes into a folder of that name
-    const auto found = frames(is_labelled ? folder / series.name : folder, file);
+    const auto found =
+        frames(folder, is_labelled ? fs::path(series.name) / file : fs::path(file), end_time ? *end_time * (1 + rounding) : always, notes);
     series.count = found.size();
     for (const std::size_t n : evenly(found.size(), most_pictures)) series.files.push_back(found[n]);
     if (series.count > 0) all.push_back(std::move(series));

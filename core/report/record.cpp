@@ -1,5 +1,5 @@
 #include <base/csv.hpp>
-#include <base/input_file.hpp>
+#include <base/folder_file.hpp>
 #include <report/record.hpp>
 #include <run/checkpoint.hpp>
 #include <run/failing_motion.hpp>
@@ -7,7 +7,6 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <fstream>
 
 namespace hyperlattice::report {
 
@@ -15,12 +14,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The table of that file, if there is one.
-Columns read_table(const fs::path& file, RunRecord& run, Faults& faults) {
-  if (!fs::exists(file)) return {};
-  Columns columns = read_columns(file, read_input_file(file, file.string(), "a table"), faults);
-  if (columns.is_cut)
-    run.notes.push_back(fmt::format("{} ends within a line, which is left out.", file.lexically_relative(run.folder).generic_string()));
+/// The table of that name, if there is one.
+Columns read_table(const fs::path& name, RunRecord& run, Faults& faults) {
+  const auto text = read_text(run.folder, name, largest_table, faults);
+  if (!text) return {};
+  Columns columns = read_columns(run.folder / name, *text, faults);
+  if (columns.is_cut) run.notes.push_back(fmt::format("{} ends within a line, which is left out.", name.generic_string()));
   return columns;
 }
 
@@ -33,28 +32,42 @@ void check_history(const RunRecord& run, Faults& faults) {
     faults.add((run.folder / "history.csv").string(), "", fmt::format("the columns of a history; it has no {}", fmt::join(missing, ", ")));
 }
 
+/// The names of the run's probes: those of its scene. What else stands in the folder, an earlier run left. Without the scene, all that is there.
+std::vector<std::string> probe_names(const RunRecord& run) {
+  std::vector<std::string> names;
+  if (run.scene.is_object() && run.scene.contains("pipeline")) {
+    for (const Json& stage : run.scene["pipeline"])
+      if (word_in(stage, "type").starts_with("probes.")) names.push_back(word_in(stage, "name"));
+  } else {
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(run.folder / "probes", none))
+      if (entry.path().extension() == ".csv") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
 void read_probes(RunRecord& run, Faults& faults) {
-  std::error_code none;
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(run.folder / "probes", none))
-    if (entry.path().extension() == ".csv") files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  for (const fs::path& file : files) {
+  for (const std::string& name : probe_names(run)) {
+    const fs::path file = fs::path("probes") / (name + ".csv");
     Columns table = read_table(file, run, faults);
     if (!table.names.empty() && table.names.front() != "time")
-      faults.add(file.string(), "\"" + table.names.front() + "\"", "a first column \"time\"");
-    if (!table.names.empty()) run.probes.push_back({file.stem().string(), std::move(table)});
+      faults.add((run.folder / file).string(), "\"" + table.names.front() + "\"", "a first column \"time\"");
+    if (!table.names.empty()) run.probes.push_back({name, std::move(table)});
   }
 }
 
-/// When the first spring broke: of a log that may have millions of lines, only the first is read.
-std::optional<double> read_first_break(const fs::path& file) {
-  std::ifstream stream(file);
-  std::string head, line;
-  if (!std::getline(stream, head) || !std::getline(stream, line) || stream.eof()) return std::nullopt;
-  const CsvTable table = parse_csv(head + '\n' + line);
+/// When the first spring broke: of a log that may have millions of lines, only the first two are read.
+std::optional<double> read_first_break(const RunRecord& run) {
+  constexpr std::uint64_t enough = 4096;
+  if (run.summary.is_object() && run.summary.value("breakable", Json()) == false) return std::nullopt;  // the log is of an earlier run
+  const auto file = read_folder_file(run.folder, "failures.csv", enough, true);
+  if (!file || std::count(file->text.begin(), file->text.end(), '\n') < 2) return std::nullopt;
+  const auto second = file->text.find('\n', file->text.find('\n') + 1);
+  const CsvTable table = parse_csv(std::string_view(file->text).substr(0, second));
   const auto column = table.column("time");
-  return column ? csv_number(table.rows.front()[*column]) : std::nullopt;
+  return column && !table.rows.empty() ? csv_number(table.rows.front()[*column]) : std::nullopt;
 }
 
 const Json* find(const Json& json, const std::string& pointer) {
@@ -82,13 +95,25 @@ std::string RunRecord::word(const std::string& pointer) const {
   return found != nullptr && found->is_string() ? found->get<std::string>() : "";
 }
 
-bool is_run(const fs::path& folder) { return fs::exists(folder / "summary.json") || fs::exists(folder / "history.csv"); }
+bool is_run(const fs::path& folder) { return has_folder_file(folder, "summary.json") || has_folder_file(folder, "history.csv"); }
 
-Json read_json_object(const fs::path& file, Faults& faults) {
-  if (!fs::exists(file)) return nullptr;
+std::optional<std::string> read_text(const fs::path& folder, const fs::path& name, std::uint64_t most, Faults& faults) {
+  auto file = read_folder_file(folder, name, most);
+  if (!file) return std::nullopt;
+  if (!file->refusal.empty()) {
+    faults.add((folder / name).string(), file->refusal, fmt::format("a regular file of at most {} MB", most >> 20));
+    return std::nullopt;
+  }
+  return std::move(file->text);
+}
+
+Json read_json_object(const fs::path& folder, const fs::path& name, Faults& faults) {
+  const auto text = read_text(folder, name, largest_json, faults);
+  if (!text) return nullptr;
+  const fs::path file = folder / name;
   Json json;
   Faults own;
-  const bool is_json = parse_json(read_input_file(file, file.string(), "a file"), json, own);
+  const bool is_json = parse_json(*text, json, own);
   for (const Fault& fault : own.all()) faults.add(file.string() + " " + fault.pointer, fault.value, fault.expected);
   if (is_json && !json.is_object()) faults.add(file.string(), shown(json), "an object");
   return is_json && json.is_object() ? json : Json(nullptr);
@@ -97,19 +122,19 @@ Json read_json_object(const fs::path& file, Faults& faults) {
 RunRecord read_run(const fs::path& folder, Faults& faults) {
   RunRecord run;
   run.folder = folder;
-  run.summary = read_json_object(folder / "summary.json", faults);
+  run.summary = read_json_object(folder, "summary.json", faults);
   if (!run.summary.is_null() && run.word("/status").empty())
     faults.add((folder / "summary.json").string() + " /status", "", "\"done\", \"failed\" or \"interrupted\"");
-  run.scene = read_json_object(folder / "scene.resolved.json", faults);
+  run.scene = read_json_object(folder, "scene.resolved.json", faults);
   if (run.scene.is_null()) run.notes.emplace_back("scene.resolved.json is not there: what the scene was is not known.");
-  run.history = read_table(folder / "history.csv", run, faults);
+  run.history = read_table("history.csv", run, faults);
   check_history(run, faults);
   if (run.history.rows() == 0) run.notes.emplace_back("history.csv has no record yet: nothing can be said of energies over time.");
   read_probes(run, faults);
-  run.first_break = read_first_break(folder / "failures.csv");
-  run.has_failing_motion = fs::exists(folder / failing_motion_file);
-  run.has_checkpoint = fs::exists(folder / checkpoint_file);
-  run.pictures = find_pictures(folder, run.scene);
+  run.first_break = read_first_break(run);
+  run.has_failing_motion = has_folder_file(folder, failing_motion_file);
+  run.has_checkpoint = has_folder_file(folder, checkpoint_file);
+  run.pictures = find_pictures(folder, run.scene, run.number("/end_time"), run.notes);
   return run;
 }
 

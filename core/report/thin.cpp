@@ -31,7 +31,8 @@ void keep_column(std::span<const double> y, std::size_t begin, std::size_t end, 
 
 std::vector<std::size_t> thinned(std::span<const double> x, std::span<const double> y, std::size_t columns) {
   const std::size_t count = std::min(x.size(), y.size());
-  if (count <= 4 * columns || !std::is_sorted(x.begin(), x.end()) || !(x.back() > x.front())) {
+  const bool is_finite = std::all_of(x.begin(), x.end(), [](double value) { return std::isfinite(value); });
+  if (count <= 4 * columns || !is_finite || !std::is_sorted(x.begin(), x.end()) || !(x.back() > x.front())) {
     std::vector<std::size_t> all(count);
     std::iota(all.begin(), all.end(), std::size_t{0});
     return all;

@@ -12,6 +12,11 @@ namespace hyperlattice::report {
 
 namespace {
 
+/// Up to these a number is called fine. A run's own tolerances may be wider: they say where it stops.
+constexpr double fine_balance = 0.01;   ///< of the largest energy
+constexpr double fine_residual = 1e-3;  ///< of the mean force on held or loaded particles
+constexpr double fine_displacement = 0.01;
+
 std::string seconds(double value) { return quantity_text(value, "s"); }
 
 double number_in(const Json& json, const char* key, double otherwise) {
@@ -125,7 +130,10 @@ class Sceptic {
       sentence += fmt::format(" ({} iterations)", short_number(*iterations));
       numbers["iterations"] = *iterations;
     }
-    add("rest", tolerance == 0 ? Judgement::plain : *residual <= tolerance ? Judgement::fine : Judgement::doubtful, sentence + ".", numbers);
+    const bool is_fine = *residual <= fine_residual && run_.number("/rest/displacement_error").value_or(0) <= fine_displacement &&
+                         (tolerance == 0 || *residual <= tolerance);
+    sentence += fmt::format(". Fine are at most {} and {}", short_number(fine_residual, 3), percent_text(fine_displacement));
+    add("rest", is_fine ? Judgement::fine : Judgement::doubtful, sentence + ".", numbers);
   }
 
   /// The strictest tolerance of the stages in time, which are those that mind it; 0: none.
@@ -148,15 +156,16 @@ class Sceptic {
     const double tolerance = energy_tolerance();
     std::string sentence = fmt::format("Energy balance: off by {} of the largest energy {}, by {} at most", percent_text(std::abs(*at_end)), now_,
                                        percent_text(largest));
-    sentence += all_at_rest_    ? "; along states of rest it is a measure of how finely the loads were stepped."
-                : tolerance > 0 ? fmt::format("; the run stops at {}.", percent_text(tolerance))
-                                : "; the scene sets no tolerance, so nothing would have stopped the run.";
+    sentence += all_at_rest_ ? "; along states of rest it is a measure of how finely the loads were stepped."
+                : tolerance > 0
+                    ? fmt::format("; fine is at most {}, and the run stops at {}.", percent_text(fine_balance), percent_text(tolerance))
+                    : fmt::format("; fine is at most {}, and the scene sets no tolerance at which the run stops.", percent_text(fine_balance));
     Json numbers = {{"relative_error", *at_end}, {"largest_relative_error", largest}};
     if (tolerance > 0) numbers["energy_tolerance"] = tolerance;
-    const Judgement judgement = all_at_rest_           ? Judgement::plain
-                                : tolerance == 0       ? Judgement::doubtful
-                                : largest <= tolerance ? Judgement::fine
-                                                       : Judgement::wrong;
+    const Judgement judgement = all_at_rest_                               ? Judgement::plain
+                                : tolerance > 0 && largest > tolerance     ? Judgement::wrong
+                                : tolerance > 0 && largest <= fine_balance ? Judgement::fine
+                                                                           : Judgement::doubtful;
     add("energy_balance", judgement, sentence, numbers);
   }
 
@@ -169,7 +178,7 @@ class Sceptic {
           largest, std::hypot((*run_.history.find("momentum_x"))[n], (*run_.history.find("momentum_y"))[n], (*run_.history.find("momentum_z"))[n]));
     const double size = std::hypot(*x, *y, *z);
     add("momentum", Judgement::plain,
-        fmt::format("Momentum: {} N s {}, at most {} N s. Only loads and supports can change it.", short_number(size, 3), now_,
+        fmt::format("Momentum: {} N s {}, at most {} N s. Only loads, supports and damping can change it.", short_number(size, 3), now_,
                     short_number(largest, 3)),
         {{"at_end", {*x, *y, *z}}, {"largest", largest}});
   }

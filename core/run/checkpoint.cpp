@@ -2,9 +2,7 @@
 #include <base/errors.hpp>
 #include <run/checkpoint.hpp>
 #include <run/records.hpp>
-#include <run/summary.hpp>
 
-#include <hyperlattice/chance.hpp>
 #include <hyperlattice/files.hpp>
 
 #include <spdlog/spdlog.h>
@@ -24,19 +22,11 @@ namespace fs = std::filesystem;
 constexpr std::string_view head_tag = "head", state_tag = "stat";
 constexpr int version = 2;  // of what a checkpoint holds
 
-std::uint64_t identity_of(const Plan& plan) {
-  const nlohmann::json planned = plan_json(plan);
-  const std::string text = plan.scene->resolved + planned.at("version").dump() + planned.at("plugins").dump();
-  std::uint64_t sum = text.size();
-  for (const char c : text) sum = mixed_bits(sum ^ static_cast<unsigned char>(c));
-  return sum;
-}
-
 std::string text_of(const CheckpointHead& head) {
-  nlohmann::json json{{"version", version}, {"identity", head.identity}, {"threads", head.threads}, {"at_start", head.at_start}};
+  nlohmann::json json{{"version", version}, {"identity", identity_json(head.identity)}, {"threads", head.threads}, {"at_start", head.at_start}};
   auto& tables = json["tables"] = nlohmann::json::array();
   for (const TableMark& table : head.tables) tables.push_back({{"name", table.name}, {"bytes", table.extent.bytes}, {"hash", table.extent.hash}});
-  return json.dump();
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 CheckpointHead read_head(RecordReader& records, const fs::path& file) {
@@ -44,7 +34,7 @@ CheckpointHead read_head(RecordReader& records, const fs::path& file) {
     const auto json = nlohmann::json::parse(records.take_all(head_tag));
     if (json.at("version") != version) throw std::runtime_error(file.string() + ": a checkpoint of another version of the program");
     CheckpointHead head;
-    head.identity = json.at("identity").get<std::uint64_t>();
+    head.identity = read_identity(json.at("identity"));
     head.threads = json.at("threads").get<std::int32_t>();
     head.at_start = json.at("at_start").get<bool>();
     for (const auto& table : json.at("tables"))
@@ -86,12 +76,12 @@ Checkpoint newest(const fs::path& directory) {
 
 }  // namespace
 
-CheckpointHead checkpoint_head(const Plan& plan, bool at_start) { return {identity_of(plan), plan.threads, at_start, {}}; }
+CheckpointHead checkpoint_head(const Plan& plan, bool at_start) { return {plan.identity, plan.threads, at_start, {}}; }
 
 Checkpoint find_checkpoint(const Plan& plan, const fs::path& directory) {
   Checkpoint found = newest(directory);
-  if (found.head.identity != identity_of(plan))
-    throw InputError({{"--resume", found.file.string(), "a checkpoint of this scene, made by this version of the program and of its plugins"}});
+  if (const std::string changed = changes(found.head.identity, plan.identity); !changed.empty())
+    throw InputError({{"--resume", found.file.string(), "a checkpoint of this scene and of all that it uses, but " + changed}});
   return found;
 }
 

@@ -13,7 +13,7 @@ namespace hyperlattice {
 
 /// What stands before the state.
 struct CheckpointHead {
-  std::uint64_t identity = 0;  ///< of the resolved scene, the program and the plugins
+  Identity identity;  ///< what the run depends on
   std::int32_t threads = 1;
   bool at_start = false;          ///< nothing was done yet that is worth keeping
   std::vector<TableMark> tables;  ///< what the run had written

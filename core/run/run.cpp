@@ -91,7 +91,7 @@ void Running::timed(Output&& output) {
 
 void Running::start(Outcome& outcome, const std::optional<Checkpoint>& resumed) {
   const auto start = Clock::now();
-  if (!resumed) folder_.write("scene.resolved.json", plan_.scene->resolved);
+  if (!resumed) folder_.write("scene.resolved.json", plan_.scene->resolved_in(options_.directory));
   simulation_ = std::make_unique<Simulation>(*plan_.model, plan_.threads);
   guard_ = std::make_unique<Guard>(*plan_.model, *simulation_);
   cells_ = std::make_unique<CellWatch>(*plan_.model);

@@ -41,6 +41,7 @@ nlohmann::json summary_json(const Plan& plan, const Outcome& outcome) {
   nlohmann::json summary = plan_json(plan);
   summary.erase("left_out");
   const double work = static_cast<double>(plan.model->body.particles) * static_cast<double>(outcome.steps);
+  summary["identity"] = identity_json(plan.identity);
   summary["status"] = outcome.status;
   if (!outcome.reason.empty()) summary["reason"] = outcome.reason;
   summary["exit_code"] = outcome.exit_code;

@@ -27,6 +27,8 @@ class RegionReader {
   RegionReader(const Json& named, Regions& regions, Faults& faults, std::deque<std::string>& texts, std::filesystem::path folder = {});
 
   const std::filesystem::path& folder() const { return folder_; }
+  /// The files that options named so far, by the options' JSON pointers. Options are read beside regions: they name files of the same folder.
+  std::map<std::string, std::filesystem::path>& files() { return files_; }
 
   /// Reads every named region; `resolved` becomes the same with SI numbers.
   void read_named(Json& resolved);
@@ -55,6 +57,7 @@ class RegionReader {
   Faults& faults_;
   std::deque<std::string>& texts_;
   std::filesystem::path folder_;
+  std::map<std::string, std::filesystem::path> files_;
   std::map<std::string, std::shared_ptr<const Region>> done_;
   std::map<std::string, std::string> resolved_;  // JSON text of the named regions that are done
   std::vector<std::string> under_way_;

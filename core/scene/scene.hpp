@@ -45,6 +45,12 @@ struct Stage {
   }
 };
 
+/// A file that a scene reads.
+struct InputFile {
+  std::string pointer;  ///< of the option that names it
+  std::filesystem::path path;
+};
+
 struct Scene {
   std::filesystem::path file;
   std::string title;
@@ -52,10 +58,15 @@ struct Scene {
   Precision precision = Precision::doubles;  ///< of the state and of the steps
   Regions regions;
   std::vector<Stage> stages;      ///< in the pipeline's order
+  std::vector<InputFile> files;   ///< that its options name, each option once
   std::string resolved;           ///< scene.resolved.json: every default filled, SI; running it gives the same bits
   std::deque<std::string> texts;  ///< backing of text options; entries stay where they are
 
   std::vector<const Stage*> of(Family family) const;
+
+  /// `resolved` as it is written into a folder: what stands with the scene below one folder that holds the results, too, is named relative to them,
+  /// so that this folder can be moved or copied as a whole. Anything else is named by its whole path.
+  std::string resolved_in(const std::filesystem::path& folder) const;
 };
 
 /// Reads, patches (`--set /pointer=value`) and validates a scene, loading the plugins it names.

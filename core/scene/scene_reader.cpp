@@ -73,6 +73,7 @@ class SceneReader {
     resolved["pipeline"] = stages.read(given_, scene_.stages);
     reader.reject_unknown();
     finish();
+    for (const auto& [pointer, path] : regions_.files()) scene_.files.push_back({pointer, path});
     scene_.resolved = resolved.dump(2) + '\n';
   }
 

@@ -11,8 +11,8 @@ namespace hyperlattice::study {
 namespace {
 
 /// Keys of a row beside what was varied; an axis of such a name would hide them.
-constexpr const char* row_keys[] = {"run",     "status",        "reason",  "particles", "steps", "size",  "error",        "errors",
-                                    "seconds", "setup_seconds", "repeats", "pareto",    "order", "pairs", "target_error", "label"};
+constexpr const char* row_keys[] = {"run",           "status",  "reason", "particles", "steps", "size",         "error", "errors",  "seconds",
+                                    "setup_seconds", "repeats", "pareto", "order",     "pairs", "target_error", "label", "identity"};
 
 std::string text_of(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
 

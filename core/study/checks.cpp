@@ -1,11 +1,13 @@
+#include <base/folder_file.hpp>
 #include <scene/expectation.hpp>
 #include <study/checks.hpp>
+#include <study/expected.hpp>
 #include <study/observe.hpp>
 
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <fstream>
+#include <cmath>
 
 namespace hyperlattice::study {
 
@@ -52,14 +54,47 @@ void check_columns(const Study& study, const std::vector<PlannedTable>& tables) 
   faults.throw_if_any();
 }
 
-std::vector<PlannedTable> tables_in(const std::filesystem::path& run_directory) {
+void check_truth(const Study& study, const Row& row) {
+  const Truth& truth = *std::find_if(study.truths.begin(), study.truths.end(), [&](const Truth& t) { return t.when.holds(row.choice); });
+  if (truth.kind == Truth::Kind::finest) return;
+  Faults faults;
+  bool all_zero = true;
+  std::string zero;  // where the latest one stands
+  for (const Comparison& comparison : study.comparisons) {
+    if (comparison.at_column) {  // the run will say where
+      all_zero = false;
+      continue;
+    }
+    const std::string place = truth.kind == Truth::Kind::table ? truth.pointer + "/csv"
+                              : comparison.truth.empty()       ? truth.pointer + "/value"
+                                                               : member(truth.pointer + "/values", comparison.truth);
+    try {
+      const Curve curve = true_curve(comparison, truth, comparison.at, row.numbers);
+      const bool is_zero = std::all_of(curve.values.begin(), curve.values.end(), [](double value) { return value == 0; });
+      if (!std::all_of(curve.values.begin(), curve.values.end(), [](double value) { return std::isfinite(value); }))
+        faults.add(place, "", fmt::format("a truth of \"{}\" that is finite with its scale", comparison.name));
+      all_zero = all_zero && is_zero;
+      if (is_zero) zero = place;
+      if (is_zero && study.norm != Norm::together_l2)
+        faults.add(
+            place, "0",
+            fmt::format("a truth of \"{}\" that is not zero, since the error is relative to it; or \"error\": \"together_l2\"", comparison.name));
+    } catch (const std::runtime_error& error) {
+      faults.add(place, "", fmt::format("a truth of \"{}\" for every run; {}", comparison.name, error.what()));
+    }
+  }
+  if (study.norm == Norm::together_l2 && all_zero && faults.empty())
+    faults.add(zero, "0", "at least one quantity whose truth is not zero, since the error is relative to all of them together");
+  faults.throw_if_any();
+}
+
+std::optional<std::vector<PlannedTable>> tables_in(const std::filesystem::path& run_directory, const Scene& scene) {
+  constexpr std::uint64_t longest_head = 64 << 20;  // bytes; a probe of many places has many columns
   std::vector<PlannedTable> tables;
-  std::error_code none;
-  for (const auto& file : std::filesystem::directory_iterator(run_directory / "probes", none)) {
-    std::ifstream stream(file.path());
-    std::string header;
-    std::getline(stream, header);
-    if (file.path().extension() == ".csv") tables.push_back({file.path().stem().string(), csv_cells(header)});
+  for (const Stage* probe : scene.of(Family::probes)) {
+    const auto file = read_folder_file(run_directory, std::filesystem::path("probes") / (probe->name + ".csv"), longest_head, true);
+    if (!file || !file->refusal.empty()) return std::nullopt;
+    tables.push_back({probe->name, csv_cells(std::string_view(file->text).substr(0, file->text.find('\n')))});
   }
   return tables;
 }

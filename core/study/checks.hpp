@@ -2,6 +2,7 @@
 #pragma once
 
 #include <plan/plan.hpp>
+#include <study/rows.hpp>
 #include <study/study_file.hpp>
 
 namespace hyperlattice::study {
@@ -23,7 +24,10 @@ class RunFaults {
 /// Every comparison must find its probe and its column. Throws InputError.
 void check_columns(const Study& study, const std::vector<PlannedTable>& tables);
 
-/// The tables that the probes of a finished run left.
-std::vector<PlannedTable> tables_in(const std::filesystem::path& run_directory);
+/// The truth of a row must be there and must not be zero, as far as that is known before its run. Throws InputError.
+void check_truth(const Study& study, const Row& row);
+
+/// The tables that the scene's probes left in a finished run; nothing if one is missing.
+std::optional<std::vector<PlannedTable>> tables_in(const std::filesystem::path& run_directory, const Scene& scene);
 
 }  // namespace hyperlattice::study

@@ -1,4 +1,5 @@
 #include <base/errors.hpp>
+#include <base/folder_file.hpp>
 #include <plan/plan.hpp>
 #include <run/interrupt.hpp>
 #include <run/run.hpp>
@@ -7,8 +8,6 @@
 
 #include <spdlog/spdlog.h>
 
-#include <fstream>
-#include <iterator>
 #include <new>
 
 namespace hyperlattice::study {
@@ -29,18 +28,41 @@ class QuietLog {
   spdlog::level::level_enum before_;
 };
 
-std::string text_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
+/// The summary that a run left; null if there is none that can be read.
+Json summary_in(const fs::path& folder) {
+  const auto file = read_folder_file(folder, "summary.json", largest_json);
+  Json summary = file ? Json::parse(file->text, nullptr, false) : Json();
+  return summary.is_object() ? summary : Json();
 }
 
-/// The summary of a run that was done, of this scene, with these threads, by this version; null otherwise.
-Json finished(const fs::path& folder, const Scene& scene, int threads) {
-  Json summary = Json::parse(text_of(folder / "summary.json"), nullptr, false);
-  if (!summary.is_object() || summary.value("status", "") != "done" || summary.value("threads", 0) != threads ||
-      summary.value("version", "") != HYPERLATTICE_VERSION || text_of(folder / "scene.resolved.json") != scene.resolved)
-    return nullptr;
-  return summary;
+/// A run that is there already.
+struct Earlier {
+  Json summary;         ///< null: it is not there, is not done, or cannot be taken
+  std::string changed;  ///< why a run that is done cannot be taken
+};
+
+/// The run in a folder, if it is done and depends on the same as a run of now, with as many threads: these do not change results, but times.
+Earlier find_earlier(const fs::path& folder, const Identity& identity, int threads) {
+  Earlier earlier{summary_in(folder), ""};
+  const Json status = earlier.summary.is_null() ? Json() : earlier.summary.value("status", Json());
+  if (status != "done") return {};
+  const Json counted = earlier.summary.value("threads", Json()), wall = earlier.summary.value("wall_seconds", Json());
+  if (counted != threads)
+    earlier.changed = fmt::format("it was run with {} threads", counted.dump());
+  else if (!wall.is_object() || !wall.value("solve", Json()).is_number() || !wall.value("setup", Json()).is_number())
+    earlier.changed = "its summary.json is not whole";
+  else if (!earlier.summary.contains("identity"))
+    earlier.changed = "it does not say what it depended on";
+  else
+    earlier.changed = changes(read_identity(nlohmann::json(earlier.summary["identity"])), identity);
+  if (!earlier.changed.empty()) earlier.summary = nullptr;
+  return earlier;
+}
+
+/// A count of a summary; 0 if it has none.
+std::uint64_t count_in(const Json& summary, const char* key) {
+  const Json count = summary.value(key, Json());
+  return count.is_number_unsigned() ? count.get<std::uint64_t>() : 0;
 }
 
 class Conductor {
@@ -61,6 +83,11 @@ class Conductor {
         tables = tables_of(point, std::move(scene));
       } catch (const InputError& error) {
         faults.add(error, row.run, "scene ");
+      }
+      try {
+        if (!row.numbers.empty()) check_truth(study_, row);
+      } catch (const InputError& error) {
+        faults.add(error, row.run, "");
       }
       try {
         if (tables) check_columns(study_, *tables);
@@ -95,7 +122,8 @@ class Conductor {
   /// Those that the run left, or will leave; none if it is too large for this machine: its row will say so, and the others go on.
   std::optional<std::vector<PlannedTable>> tables_of(const Point& point, std::unique_ptr<Scene> scene) const {
     const fs::path folder = run_directory(options_.directory, point.name, 1);
-    if (!options_.fresh && !finished(folder, *scene, threads(point)).is_null()) return tables_in(folder);
+    if (!options_.fresh && !find_earlier(folder, identity_of(*scene), threads(point)).summary.is_null())
+      if (auto tables = tables_in(folder, *scene)) return tables;
     try {
       return make_plan(std::move(scene), threads(point))->tables;
     } catch (const OutsideError&) {
@@ -134,8 +162,15 @@ class Conductor {
     RunOptions run_options{run_directory(options_.directory, row.run, repeat), true};
     run_options.overwrite = true;  // the folder is the study's
     auto scene = read(point);
-    Json summary = options_.fresh ? Json() : finished(run_options.directory, *scene, threads(point));
+    Identity identity = identity_of(*scene);
+    auto [summary, changed] = options_.fresh ? Earlier() : find_earlier(run_options.directory, identity, threads(point));
+    if (!summary.is_null() && !tables_in(run_options.directory, *scene)) {
+      summary = nullptr;
+      changed = "a table of its probes is missing";
+    }
     const bool there = !summary.is_null();
+    if (!changed.empty()) spdlog::info("{}: runs again: {}", title, changed);
+    row.identity = identity_hash(identity);
     if (!there) {
       int code = exit_outside;
       std::string reason;
@@ -154,9 +189,10 @@ class Conductor {
         result_.interrupted = true;
         return spdlog::warn("{}: interrupted", title);
       }
-      summary = Json::parse(text_of(run_options.directory / "summary.json"), nullptr, false);
-      if (code != exit_done || !summary.is_object()) {
-        row.fail(summary.is_object() ? summary.value("reason", reason) : reason.empty() ? "summary.json cannot be read" : reason, code);
+      summary = summary_in(run_options.directory);
+      if (code != exit_done || summary.is_null()) {
+        if (reason.empty()) reason = summary.is_null() ? "summary.json cannot be read" : word_in(summary, "reason");
+        row.fail(reason, code == exit_done ? exit_outside : code);
         return spdlog::error("{}: failed: {}", title, row.reason);
       }
     }
@@ -169,8 +205,8 @@ class Conductor {
 
   static void take(Row& row, const Json& summary, std::int64_t repeat) {
     row.status = "done";
-    row.particles = summary.value("particles", std::uint64_t{0});
-    row.steps = summary.value("steps", std::uint64_t{0});
+    row.particles = count_in(summary, "particles");
+    row.steps = count_in(summary, "steps");
     const Json& wall = summary.at("wall_seconds");
     row.solve_seconds.push_back(wall.at("solve").get<double>());
     if (repeat == 1) row.setup_seconds = wall.at("setup").get<double>();

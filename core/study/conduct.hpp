@@ -20,8 +20,8 @@ struct Conducted {
 };
 
 /// Checks every scene first and throws InputError with all faults, before anything is written. Then runs the points in turn, once around for each
-/// repeat, so that a machine that changes its speed is unfair to none. A run that is there, done, of the same scene with the same threads and
-/// version, is taken as it is. A run that fails is a row with its reason.
+/// repeat, so that a machine that changes its speed is unfair to none. A run that is there, done, with the same threads and of the same identity
+/// (plan/identity.hpp), is taken as it is; of another one the log says what changed. A run that fails is a row with its reason.
 Conducted conduct(const Study& study, const std::vector<Point>& points, const ConductOptions& options, Host& host);
 
 /// Where the files of a repeat (from 1) are.

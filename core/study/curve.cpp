@@ -99,7 +99,7 @@ Distance distance(const Curve& observed, const Curve& truth, Norm norm) {
         break;
       case Norm::relative_end:
         difference = apart;
-        size = true_size;
+        size = std::max(size, true_size);
         break;
     }
   }

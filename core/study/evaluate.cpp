@@ -1,31 +1,45 @@
-#include <base/input_file.hpp>
+#include <base/folder_file.hpp>
 #include <study/conduct.hpp>
 #include <study/evaluate.hpp>
 #include <study/expected.hpp>
 #include <study/observe.hpp>
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
+#include <cmath>
+#include <set>
 
 namespace hyperlattice::study {
 
-namespace {
-
-/// Whether two choices differ in some axes alone.
 bool same_but(const std::vector<std::size_t>& axes, Choice a, const Choice& b) {
   for (const std::size_t axis : axes) a[axis] = b[axis];
   return a == b;
 }
+
+std::size_t count_cases(const Study& study, const std::vector<Row>& rows) {
+  std::set<Choice> cases;
+  for (const Row& row : rows) {
+    Choice asked;
+    for (const std::size_t axis : study.cases) asked.push_back(row.choice[axis]);
+    cases.insert(asked);
+  }
+  return cases.size();
+}
+
+namespace {
 
 class Evaluation {
  public:
   Evaluation(const Study& study, const std::filesystem::path& directory, std::vector<Row>& rows)
       : study_(study), directory_(directory), rows_(rows), curves_(rows.size()) {}
 
-  void run() {
+  std::vector<LimitGap> run() {
     for (std::size_t r = 0; r < rows_.size(); ++r)
       if (rows_[r].is_done()) guarded(rows_[r], [&] { observe(r); });
     for (std::size_t r = 0; r < rows_.size(); ++r)
       if (rows_[r].is_done()) guarded(rows_[r], [&] { compare(r); });
+    return compare_limits();
   }
 
  private:
@@ -39,6 +53,9 @@ class Evaluation {
   static void guarded(Row& row, Code&& code) {
     try {
       code();
+    } catch (const NoLimit& error) {
+      row.errors.clear();
+      row.reason = std::string("it was run, but not compared: ") + error.what();
     } catch (const std::runtime_error& error) {
       row.errors.clear();
       row.fail(std::string("it was run but cannot be compared: ") + error.what(), exit_run);
@@ -52,8 +69,11 @@ class Evaluation {
   void observe(std::size_t r) {
     const bool number = truth_of(rows_[r]).kind == Truth::Kind::numbers;
     for (const Comparison& comparison : study_.comparisons) {
-      const auto file = run_directory(directory_, rows_[r].run, 1) / "probes" / (comparison.probe + ".csv");
-      const CsvTable table = parse_csv(read_input_file(file, file.string(), "the probe's table"));
+      const auto name = std::filesystem::path("probes") / (comparison.probe + ".csv");
+      const auto file = read_folder_file(run_directory(directory_, rows_[r].run, 1), name, largest_table);
+      if (!file || !file->refusal.empty())
+        throw std::runtime_error(fmt::format("{} is {}", name.string(), file ? file->refusal + ", and only regular files are read" : "not there"));
+      const CsvTable table = parse_csv(file->text);
       const Reduction reduction = number && comparison.reduction == Reduction::none ? Reduction::last : comparison.reduction;
       curves_[r].push_back({reduced(observed_curve(comparison, table), reduction), place_of(comparison, table)});
     }
@@ -67,31 +87,83 @@ class Evaluation {
       try {
         apart.push_back(distance(curves_[r][c].curve, truth_curve(r, c), study_.norm));
         if (study_.norm != Norm::together_l2) row.errors.push_back(apart.back().relative(study_.norm));
+      } catch (const NoLimit& error) {
+        throw NoLimit(comparison.name + ": " + error.what());
       } catch (const std::runtime_error& error) {
         throw std::runtime_error(comparison.name + ": " + error.what());
       }
     }
-    if (study_.norm == Norm::together_l2) return compare_together(row, apart);
-    row.error = *std::max_element(row.errors.begin(), row.errors.end());
+    double whole = 0;
+    if (study_.norm == Norm::together_l2)
+      whole = compare_together(row, apart);
+    else
+      whole = *std::max_element(row.errors.begin(), row.errors.end());
+    const bool is_finite = std::all_of(row.errors.begin(), row.errors.end(), [](double error) { return std::isfinite(error); });
+    if (!is_finite || !std::isfinite(whole)) throw std::runtime_error("the error is no finite number");
+    row.error = whole;
   }
 
   /// All quantities are one: each of their errors is in relation to the whole, so that their squares add up.
-  static void compare_together(Row& row, const std::vector<Distance>& apart) {
-    Distance whole;
-    for (const Distance& one : apart) whole = {whole.difference + one.difference, whole.size + one.size};
-    row.error = whole.relative(Norm::together_l2);
+  static double compare_together(Row& row, const std::vector<Distance>& apart) {
+    const Distance whole = sum(apart);
     for (const Distance& one : apart) row.errors.push_back(Distance{one.difference, whole.size}.relative(Norm::together_l2));
+    return whole.relative(Norm::together_l2);
+  }
+
+  static Distance sum(const std::vector<Distance>& parts) {
+    Distance whole;
+    for (const Distance& one : parts) whole = {whole.difference + one.difference, whole.size + one.size};
+    return whole;
+  }
+
+  /// The limits of two rows' families, as an error of one against the other; nothing where they cannot be compared.
+  std::optional<double> apart(std::size_t r, std::size_t other) const {
+    std::vector<Distance> parts;
+    double largest = 0;
+    try {
+      for (std::size_t c = 0; c < study_.comparisons.size(); ++c) {
+        parts.push_back(distance(limit(r, c), limit(other, c), study_.norm));
+        if (study_.norm != Norm::together_l2) largest = std::max(largest, parts.back().relative(study_.norm));
+      }
+      return study_.norm == Norm::together_l2 ? sum(parts).relative(study_.norm) : largest;
+    } catch (const std::runtime_error&) {
+      return std::nullopt;
+    }
+  }
+
+  /// Each setting's limit against that of the first setting of the same case: if both answer the same question, they should be one.
+  std::vector<LimitGap> compare_limits() const {
+    std::vector<LimitGap> gaps;
+    if (!study_.refinement) return gaps;
+    std::vector<std::size_t> firsts;  // rows: one a family
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+      const auto same_family = [&](std::size_t first) { return same_but({*study_.refinement}, rows_[first].choice, rows_[r].choice); };
+      if (!rows_[r].error || truth_of(rows_[r]).kind != Truth::Kind::finest || std::any_of(firsts.begin(), firsts.end(), same_family)) continue;
+      const auto same_case = [&](std::size_t first) {
+        return std::all_of(study_.cases.begin(), study_.cases.end(),
+                           [&](std::size_t axis) { return rows_[first].choice[axis] == rows_[r].choice[axis]; });
+      };
+      const auto rival = std::find_if(firsts.begin(), firsts.end(), same_case);
+      if (rival != firsts.end())
+        if (const auto gap = apart(r, *rival)) gaps.push_back({rows_[r].choice, rows_[*rival].choice, *gap});
+      firsts.push_back(r);
+    }
+    return gaps;
   }
 
   Curve truth_curve(std::size_t r, std::size_t c) const {
     const Truth& truth = truth_of(rows_[r]);
-    if (truth.kind != Truth::Kind::finest) return true_curve(study_.comparisons[c], truth, curves_[r][c].place, rows_[r].numbers);
+    return truth.kind == Truth::Kind::finest ? limit(r, c) : true_curve(study_.comparisons[c], truth, curves_[r][c].place, rows_[r].numbers);
+  }
+
+  /// Where the runs lead that differ from this one in the refinement alone.
+  Curve limit(std::size_t r, std::size_t c) const {
     std::vector<SizedCurve> family;
     for (std::size_t other = 0; other < rows_.size(); ++other)
       if (curves_[other].size() > c && same_but({*study_.refinement}, rows_[other].choice, rows_[r].choice))
         family.push_back({*rows_[other].numbers[*study_.refinement], curves_[other][c].curve});
     std::sort(family.begin(), family.end(), [](const SizedCurve& a, const SizedCurve& b) { return a.size > b.size; });
-    return extrapolated(family, truth.order);
+    return extrapolated(family, truth_of(rows_[r]).order);
   }
 
   const Study& study_;
@@ -122,33 +194,39 @@ struct Setting {
   Cost cost;
 };
 
-/// Those whose error is known in every case.
+/// Those whose error is known in every case that the study asks about.
 std::vector<Setting> settings_of(const Study& study, const std::vector<Row>& rows) {
   std::vector<Setting> settings;
   std::vector<bool> taken(rows.size());
+  const std::size_t cases = count_cases(study, rows);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     if (taken[r]) continue;
     Setting setting{r, {0, 0}};
     bool known = true;
+    std::size_t answered = 0;
     for (std::size_t other = r; other < rows.size(); ++other) {
       if (!same_but(study.cases, rows[other].choice, rows[r].choice)) continue;
       taken[other] = true;
+      ++answered;
       known = known && rows[other].error.has_value();
       if (!known) continue;
       if (*rows[other].error >= setting.cost.error) setting = {other, {*rows[other].error, setting.cost.seconds}};
       setting.cost.seconds += rows[other].seconds();
     }
-    if (known) settings.push_back(setting);
+    if (known && answered == cases) settings.push_back(setting);
   }
   return settings;
 }
 
 }  // namespace
 
-void find_errors(const Study& study, const std::filesystem::path& directory, std::vector<Row>& rows) { Evaluation(study, directory, rows).run(); }
+std::vector<LimitGap> find_errors(const Study& study, const std::filesystem::path& directory, std::vector<Row>& rows) {
+  return Evaluation(study, directory, rows).run();
+}
 
-Findings find(const Study& study, const std::vector<Row>& rows) {
+Findings find(const Study& study, const std::vector<Row>& rows, std::vector<LimitGap> limits) {
   Findings findings;
+  findings.limits = std::move(limits);
   std::vector<Cost> costs;
   std::vector<std::size_t> place;  // of each cost, its row
   for (std::size_t r = 0; r < rows.size(); ++r)

@@ -1,10 +1,11 @@
 #include <study/expected.hpp>
+#include <study/order.hpp>
 
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
+#include <numeric>
 
 namespace hyperlattice::study {
 
@@ -75,14 +76,11 @@ Curve common_part(const Curve& a, const Curve& b) {
   return part;
 }
 
-/// The length of the difference of two curves at the points of `where`.
-double apart(const Curve& where, const Curve& a, const Curve& b) {
-  double sum = 0;
-  for (const double over : where.over) {
-    const double difference = value_at(a, over) - value_at(b, over);
-    if (!std::isnan(difference)) sum += difference * difference;
-  }
-  return std::sqrt(sum);
+/// The differences of two curves at the points of `where`, which both reach.
+std::vector<double> difference(const Curve& where, const Curve& a, const Curve& b) {
+  std::vector<double> apart;
+  for (const double over : where.over) apart.push_back(value_at(a, over) - value_at(b, over));
+  return apart;
 }
 
 }  // namespace
@@ -94,25 +92,30 @@ Curve true_curve(const Comparison& comparison, const Truth& truth, std::optional
 
 double order_of(const SizedCurve& coarse, const SizedCurve& middle, const SizedCurve& fine) {
   const Curve where = common_part(common_part(coarse.curve, middle.curve), fine.curve);
-  const double first = apart(where, coarse.curve, middle.curve), second = apart(where, middle.curve, fine.curve);
-  if (second == 0) throw std::runtime_error("the finest two runs are the same, so that they show no order of convergence");
+  const auto first = difference(where, coarse.curve, middle.curve), second = difference(where, middle.curve, fine.curve);
+  const auto product = [](const auto& a, const auto& b) { return std::inner_product(a.begin(), a.end(), b.begin(), 0.0); };
+  if (product(second, second) == 0) throw NoLimit("the finest two runs are the same, so that they show no order of convergence");
+  const std::string advice = ", so that nothing can be extrapolated from them: refine further, or state the order";
+  if (product(first, second) <= 0) throw NoLimit("the finest three runs lie on both sides of where they lead" + advice);
+  const double fall = std::sqrt(product(first, first) / product(second, second));
   // (h1^p - h2^p) / (h2^p - h3^p) grows with p; it is the ratio of the differences.
   const auto ratio = [&](double p) { return (std::pow(coarse.size / middle.size, p) - 1) / (1 - std::pow(fine.size / middle.size, p)); };
   double low = 1e-3, high = 20;
   for (int n = 0; n < 100; ++n) {
     const double p = (low + high) / 2;
-    (ratio(p) < first / second ? low : high) = p;
+    (ratio(p) < fall ? low : high) = p;
   }
   constexpr double least = 0.1;
-  if (low < least)
-    throw std::runtime_error(
-        "the finest three runs do not converge, so that nothing can be extrapolated from them: refine further, or state the order");
+  if (low < least) throw NoLimit("the finest three runs do not converge" + advice);
+  if (low > greatest_order)
+    throw NoLimit(
+        fmt::format("the finest three runs show an order of {:.2f}, more than the method can have, which is of second order{}", low, advice));
   return low;
 }
 
 Curve extrapolated(const std::vector<SizedCurve>& curves, std::optional<double> order) {
   const std::size_t count = curves.size(), needed = order ? 2 : 3;
-  if (count < needed) throw std::runtime_error(fmt::format("there are {} finished runs to extrapolate from, and {} are needed", count, needed));
+  if (count < needed) throw NoLimit(fmt::format("there are {} finished runs to extrapolate from, and {} are needed", count, needed));
   const SizedCurve &fine = curves[count - 1], &middle = curves[count - 2];
   const double p = order ? *order : order_of(curves[count - 3], middle, fine);
   const double gain = 1 / (std::pow(middle.size / fine.size, p) - 1);

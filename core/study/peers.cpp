@@ -1,10 +1,25 @@
 #include <base/csv.hpp>
 #include <base/input_file.hpp>
+#include <scene/json.hpp>
 #include <study/peers.hpp>
 
 #include <spdlog/fmt/fmt.h>
+#include <nlohmann/json.hpp>
 
 namespace hyperlattice::study {
+
+namespace {
+
+bool is_utf8(const std::string& text) {
+  try {
+    Json(text).dump();
+    return true;
+  } catch (const Json::type_error&) {
+    return false;
+  }
+}
+
+}  // namespace
 
 void append_peers(std::vector<Peer>& peers, const std::filesystem::path& file, const std::string& pointer, Faults& faults) {
   CsvTable table;
@@ -21,7 +36,9 @@ void append_peers(std::vector<Peer>& peers, const std::filesystem::path& file, c
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     const auto& cells = table.rows[row];
     const auto e = csv_number(cells[*error]), s = csv_number(cells[*seconds]);
-    if (e && s && *e > 0 && *s > 0)
+    if (!is_utf8(cells[*label]))
+      faults.add(pointer, fmt::format("{}, row {}: {}", file.filename().string(), row + 1, shown(cells[*label])), "a label in UTF-8");
+    else if (e && s && *e > 0 && *s > 0)
       peers.push_back({cells[*label], *e, *s});
     else
       faults.add(pointer, fmt::format("{}, row {}: {}", file.filename().string(), row + 1, fmt::join(cells, ",")), "an error and seconds above 0");

@@ -1,4 +1,5 @@
 // The plot of a study: error against run time on logarithmic axes.
+#include <base/gnuplot.hpp>
 #include <study/report.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -14,18 +15,15 @@ namespace {
 constexpr const char* colours[] = {"#1b6ca8", "#e67e22", "#27825a", "#8e44ad", "#b03a2e", "#7f6000",
                                    "#2e86c1", "#7f8c8d", "#c2185b", "#00796b", "#5d4037", "#9e9d24"};
 
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
-  return out + "\"";
-}
-
-/// Points as a named block of gnuplot's, with a label each.
-void append_block(std::string& text, const std::string& name, const std::vector<std::pair<Cost, std::string>>& points) {
+/// Points as a named block of gnuplot's, and a label at each that has one.
+void append_points(std::string& text, const std::string& name, const std::vector<std::pair<Cost, std::string>>& points, const char* colour) {
   fmt::format_to(std::back_inserter(text), "{} << EOD\n", name);
-  for (const auto& [cost, label] : points)
-    fmt::format_to(std::back_inserter(text), "{:.6g} {:.6g} {}\n", cost.seconds, 100 * cost.error, quoted(label));
+  for (const auto& [cost, label] : points) fmt::format_to(std::back_inserter(text), "{:.6g} {:.6g}\n", cost.seconds, 100 * cost.error);
   text += "EOD\n";
+  for (const auto& [cost, label] : points)
+    if (!label.empty())
+      fmt::format_to(std::back_inserter(text), "set label {} at {:.6g},{:.6g} offset 0,0.8 font ',10' tc rgb '{}' noenhanced\n", gnuplot_text(label),
+                     cost.seconds, 100 * cost.error, colour);
 }
 
 class Plot {
@@ -39,7 +37,7 @@ class Plot {
     draw_front();
     std::string text = "set encoding utf8\nset logscale xy\nset tics out\nset key above left Left reverse vertical maxrows 6 samplen 2 font ',11'\n";
     fmt::format_to(std::back_inserter(text), "set title {} noenhanced\nset xlabel 'run time in s'\nset ylabel 'error in %, {}' noenhanced\n",
-                   quoted(study_.title), norm_names[static_cast<std::size_t>(study_.norm)]);
+                   gnuplot_text(study_.title), norm_names[static_cast<std::size_t>(study_.norm)]);
     fmt::format_to(std::back_inserter(text), "set xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\n", least_.seconds / 2, most_.seconds * 2,
                    100 * least_.error / 2, 100 * most_.error * 2);
     text += data_;
@@ -75,12 +73,11 @@ class Plot {
 
   void draw(const char* kind, std::size_t number, const std::vector<std::pair<Cost, std::string>>& points, const std::string& title, int mark) {
     const std::string name = fmt::format("{}{}", kind, number);
-    const char* colour = colours[curves_.size() / 2 % std::size(colours)];
-    append_block(data_, name, points);
+    const char* colour = colours[curves_.size() % std::size(colours)];
+    append_points(data_, name, points, colour);
     for (const auto& [cost, label] : points) include(cost);
     curves_.push_back(
-        fmt::format("{} using 1:2 with linespoints lw 2 pt {} ps 0.9 lc rgb '{}' title {} noenhanced", name, mark, colour, quoted(title)));
-    curves_.push_back(fmt::format("{} using 1:2:3 with labels offset 0,0.8 font ',10' tc rgb '{}' notitle", name, colour));
+        fmt::format("{} using 1:2 with linespoints lw 2 pt {} ps 0.9 lc rgb '{}' title {} noenhanced", name, mark, colour, gnuplot_text(title)));
   }
 
   /// Widens the range of the axes to hold this too.
@@ -94,7 +91,7 @@ class Plot {
     for (std::size_t r = 0; r < rows_.size(); ++r)
       if (findings_.pareto[r] && *rows_[r].error > 0 && rows_[r].seconds() > 0) front.emplace_back(Cost{*rows_[r].error, rows_[r].seconds()}, "");
     std::sort(front.begin(), front.end(), [](const auto& a, const auto& b) { return a.first.seconds < b.first.seconds; });
-    append_block(data_, "$front", front);
+    append_points(data_, "$front", front, "");
     curves_.emplace_back("$front using 1:2 with points pt 6 ps 2.2 lw 1.5 lc rgb '#000000' title 'Pareto front'");
     if (!findings_.target) return;
     include({*findings_.target, most_.seconds});

@@ -37,6 +37,7 @@ Json row_json(const Study& study, const Row& row, bool pareto) {
   json["setup_seconds"] = row.setup_seconds;
   json["repeats"] = row.solve_seconds;
   json["run"] = "runs/" + row.run;
+  json["identity"] = row.identity;
   json["status"] = row.status;
   if (!row.reason.empty()) json["reason"] = row.reason;
   return json;
@@ -46,6 +47,7 @@ Json order_json(const Study& study, const ChoiceOrder& order) {
   Json json = Json::object();
   append_choice(json, study.axes, order.choice, refinement_of(study));
   json["order"] = order.observed.order;
+  if (!order.observed.doubt.empty()) json["doubt"] = order.observed.doubt;
   json["pairs"] = Json::array();
   const auto& errors = order.observed.errors;
   for (std::size_t n = 1; n < errors.size(); ++n)
@@ -83,7 +85,7 @@ std::string table_text(const Study& study, const std::vector<Row>& rows, const F
     for (std::size_t a = 0; a < study.axes.size(); ++a) line.push_back(study.axes[a].labels[row.choice[a]]);
     line.push_back(row.is_done() ? fmt::format("{}", row.particles) : "");
     line.push_back(row.is_done() ? fmt::format("{}", row.steps) : "");
-    line.push_back(row.error ? percent(*row.error) : row.status);
+    line.push_back(row.error ? percent(*row.error) : row.is_done() ? "not compared" : row.status);
     line.push_back(row.is_done() ? fmt::format("{:.3g}", row.seconds()) : "");
     line.emplace_back(findings.pareto[r] ? "*" : "");
   }
@@ -97,9 +99,37 @@ std::string orders_text(const Study& study, const Findings& findings) {
     const std::string choice = choice_text(study.axes, order.choice, {*study.refinement});
     fmt::format_to(std::back_inserter(text), "  {}{:.2f}", choice.empty() ? "" : choice + ": ", order.observed.order);
     if (order.observed.pairs.size() > 1) fmt::format_to(std::back_inserter(text), " (step by step {:.2f})", fmt::join(order.observed.pairs, ", "));
+    if (!order.observed.doubt.empty()) fmt::format_to(std::back_inserter(text), ": not to be trusted, for {}", order.observed.doubt);
     text += '\n';
   }
   return text;
+}
+
+/// "boundary particles"; of a study that varies the refinement alone, "this scene".
+std::string setting_text(const Study& study, const Choice& choice) {
+  const std::string text = choice_text(study.axes, choice, {refinement_of(study)});
+  return text.empty() ? "this scene" : text;
+}
+
+std::string limits_text(const Study& study, const Findings& findings) {
+  if (findings.limits.empty()) return "";
+  std::string text = "\nLimits to which the finest runs lead: those that answer the same should be the same\n";
+  for (const LimitGap& gap : findings.limits)
+    fmt::format_to(std::back_inserter(text), "  {} and {}: {} apart\n", setting_text(study, gap.other), setting_text(study, gap.one),
+                   percent(gap.apart));
+  return text + "  An error is counted against the own limit; one smaller than this says nothing of the truth.\n";
+}
+
+/// What is said of a row whose error is smaller than its limit is uncertain; empty: nothing.
+std::string limit_warning(const Study& study, const Findings& findings, const Row& row) {
+  const LimitGap* widest = nullptr;
+  for (const LimitGap& gap : findings.limits)
+    if (study.refinement && (same_but({*study.refinement}, gap.one, row.choice) || same_but({*study.refinement}, gap.other, row.choice)) &&
+        (widest == nullptr || gap.apart > widest->apart))
+      widest = &gap;
+  if (widest == nullptr || !row.error || widest->apart <= *row.error) return "";
+  return fmt::format(" The limits of {} and {} are {} apart, though, so that such an error says nothing of the truth.",
+                     setting_text(study, widest->other), setting_text(study, widest->one), percent(widest->apart));
 }
 
 std::string peers_text(const Study& study) {
@@ -109,19 +139,30 @@ std::string peers_text(const Study& study) {
   return '\n' + aligned(lines, 1);
 }
 
-/// Where the choices that do not meet the target would meet it, by their observed orders: the coarsest size is the cheapest promise.
-std::string promise(const Study& study, const Findings& findings) {
+/// Where the settings that do not meet the target would meet it, by their observed orders: the coarsest size is the cheapest promise. A setting meets
+/// it at the size that its hardest case needs.
+std::string promise(const Study& study, const std::vector<Row>& rows, const Findings& findings) {
+  const std::size_t cases = count_cases(study, rows);
+  std::vector<std::size_t> free = study.cases;  // axes in which the cases of a setting differ
+  free.push_back(*study.refinement);
   const ChoiceOrder* best = nullptr;
   double size = 0;
-  for (const ChoiceOrder& order : findings.orders)
-    if (const auto found = size_for(order.observed, *findings.target); found && *found > size) {
-      best = &order;
-      size = *found;
-    }
+  for (const ChoiceOrder& order : findings.orders) {
+    double needed = infinity;
+    std::size_t answered = 0;
+    for (const ChoiceOrder& other : findings.orders)
+      if (same_but(free, other.choice, order.choice)) {
+        ++answered;
+        needed = std::min(needed, size_for(other.observed, *findings.target).value_or(0));
+      }
+    if (answered != cases || needed <= size) continue;
+    best = &order;
+    size = needed;
+  }
   if (best == nullptr) return "";
-  const std::string choice = choice_text(study.axes, best->choice, {*study.refinement});
-  return fmt::format(" By its observed order, {} would meet it at a {} of about {:.2g} (SI).", choice.empty() ? "the scene" : choice,
-                     study.axes[*study.refinement].name, size);
+  const std::string choice = choice_text(study.axes, best->choice, free);
+  return fmt::format(" By its observed order, {} would meet it{} at a {} of about {:.2g} (SI).", choice.empty() ? "the scene" : choice,
+                     study.cases.empty() ? "" : " in every case", study.axes[*study.refinement].name, size);
 }
 
 }  // namespace
@@ -153,13 +194,19 @@ std::string cheapest_sentence(const Study& study, const std::vector<Row>& rows, 
     std::iota(settings.begin(), settings.end(), std::size_t{0});
     std::erase_if(settings, [&](std::size_t a) { return std::find(study.cases.begin(), study.cases.end(), a) != study.cases.end(); });
     const std::string cases = choice_text(study.axes, rows[r].choice, settings);
-    return fmt::format("{}: error {}{}, {:.3g} s, {} particles", choice_text(study.axes, rows[r].choice, study.cases), percent(*rows[r].error),
-                       cases.empty() ? "" : " at most, with " + cases, rows[r].seconds(), rows[r].particles);
+    double seconds = 0;
+    for (const Row& row : rows)
+      if (same_but(study.cases, row.choice, rows[r].choice)) seconds += row.seconds();
+    return fmt::format("{}: error {}{}, {:.3g} s{}, {} particles", choice_text(study.axes, rows[r].choice, study.cases), percent(*rows[r].error),
+                       cases.empty() ? "" : " at most, with " + cases, seconds, cases.empty() ? "" : " for all cases together", rows[r].particles);
   };
   const std::string target = percent(*findings.target);
-  if (findings.cheapest) return fmt::format("The cheapest setting for an error of {} is {}.", target, setting(*findings.cheapest));
+  if (findings.cheapest)
+    return fmt::format("The cheapest setting for an error of {} is {}.", target, setting(*findings.cheapest)) +
+           limit_warning(study, findings, rows[*findings.cheapest]);
   if (!findings.best) return fmt::format("No setting was compared, so none is known to have an error of {}.", target);
-  return fmt::format("No setting has an error of {} or less; the most accurate is {}.", target, setting(*findings.best)) + promise(study, findings);
+  return fmt::format("No setting has an error of {} or less; the most accurate is {}.", target, setting(*findings.best)) +
+         (study.refinement ? promise(study, rows, findings) : "");
 }
 
 Json study_json(const Study& study, const std::vector<Row>& rows, const Findings& findings) {
@@ -167,6 +214,13 @@ Json study_json(const Study& study, const std::vector<Row>& rows, const Findings
       {"title", study.title}, {"norm", norm_names[static_cast<std::size_t>(study.norm)]}, {"rows", Json::array()}, {"orders", Json::array()}};
   for (std::size_t r = 0; r < rows.size(); ++r) json["rows"].push_back(row_json(study, rows[r], findings.pareto[r]));
   for (const ChoiceOrder& order : findings.orders) json["orders"].push_back(order_json(study, order));
+  json["limits"] = Json::array();
+  for (const LimitGap& gap : findings.limits) {
+    Json one = Json::object(), other = Json::object();
+    append_choice(one, study.axes, gap.one, refinement_of(study));
+    append_choice(other, study.axes, gap.other, refinement_of(study));
+    json["limits"].push_back({{"of", one}, {"against", other}, {"apart", gap.apart}});
+  }
   json["target_error"] = findings.target ? Json(*findings.target) : Json(nullptr);
   json["cheapest"] = findings.cheapest ? row_json(study, rows[*findings.cheapest], findings.pareto[*findings.cheapest]) : Json(nullptr);
   json["sentence"] = cheapest_sentence(study, rows, findings);
@@ -194,9 +248,14 @@ std::string study_csv(const Study& study, const std::vector<Row>& rows, const Fi
 
 std::string study_text(const Study& study, const std::vector<Row>& rows, const Findings& findings) {
   std::string text = (study.title.empty() ? "" : study.title + "\n\n") + table_text(study, rows, findings) + peers_text(study);
-  for (const Row& row : rows)
-    if (!row.reason.empty()) fmt::format_to(std::back_inserter(text), "\n{} failed: {}\n", choice_text(study.axes, row.choice), row.reason);
-  text += orders_text(study, findings);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const auto same = [&](const Row& row) { return row.reason == rows[r].reason; };
+    if (rows[r].reason.empty() || std::find_if(rows.begin(), rows.end(), same) != rows.begin() + static_cast<std::ptrdiff_t>(r)) continue;
+    const auto more = std::count_if(rows.begin(), rows.end(), same) - 1;
+    fmt::format_to(std::back_inserter(text), "\n{}{}{}: {}\n", choice_text(study.axes, rows[r].choice),
+                   more > 0 ? fmt::format(" and {} more", more) : "", rows[r].is_done() ? "" : " failed", rows[r].reason);
+  }
+  text += orders_text(study, findings) + limits_text(study, findings);
   const std::string sentence = cheapest_sentence(study, rows, findings);
   return text + (sentence.empty() ? "" : '\n' + sentence + '\n');
 }

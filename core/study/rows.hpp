@@ -11,6 +11,7 @@ namespace hyperlattice::study {
 struct Row {
   Choice choice;
   std::string run;                             ///< its folder's name below runs/
+  std::string identity;                        ///< hash of all that it depends on
   std::vector<std::optional<double>> numbers;  ///< what each axis was set to, in SI, where it is a number
   std::string status = "waiting";              ///< "waiting", "done", "failed"
   std::string reason;                          ///< why it failed

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <support/program.hpp>
 
+#include <sys/stat.h>
+
 namespace {
 using namespace hyperlattice::test;
 using nlohmann::json;
@@ -228,6 +230,90 @@ TEST_F(ReportCommand, BearsFilesOfAnyContent) {
     }
     write(file, good);
     EXPECT_EQ(expect_borne("whole"), 0);
+  }
+}
+
+TEST_F(ReportCommand, ShowsOnlyWhatThisRunWrote) {
+  const json picture = {{"type", "writers.picture"}, {"every", "2 us"}, {"width", 32}, {"height", 32}};
+  run("again", {{"/pipeline/5", picture}});
+  for (const char* file : {"/picture_000004.png", "/picture_000005.png", "/probes/outer.csv"})
+    fs::copy(out("again") + file, out(fs::path(file).filename().string()));
+  run("again", {{"/pipeline/5", picture}, {"/pipeline/4/name", "top"}, {"/pipeline/3/end_time", "4 us"}});
+  for (const char* file : {"/picture_000004.png", "/picture_000005.png", "/probes/outer.csv"})  // as if the earlier run had left them
+    fs::copy(out(fs::path(file).filename().string()), out("again") + file, fs::copy_options::overwrite_existing);
+  fs::copy(out("again") + "/picture_000004.png", out("again") + "/picture_000003.png", fs::copy_options::overwrite_existing);
+  write(out("again") + "/failures.csv", "step,time\n1,1e-6\n2,2e-6\n");
+  const Result result = report({out("again")});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const std::string text = page("again");
+  EXPECT_NE(text.find("picture_000002.png at "), std::string::npos);
+  EXPECT_EQ(text.find("picture_000003.png"), std::string::npos) << "it is later than the run's end";
+  EXPECT_NE(text.find("Probe top"), std::string::npos);
+  EXPECT_EQ(text.find("Probe outer"), std::string::npos);
+  EXPECT_EQ(result.out.find("the first broke"), std::string::npos);
+}
+
+TEST_F(ReportCommand, ReadsOnlyRegularFilesInsideTheFolder) {
+  run("run", {{"/pipeline/5", {{"type", "writers.picture"}, {"every", 0}, {"width", 32}, {"height", 32}}}});
+  const std::string picture = contents(out("run") + "/picture_000000.png");
+  write(out("outside_000000.png"), "secret");
+  write(out("outside.csv"), "time,secret\n0,1\n1,2\n");
+  const json good = read_json(out("run") + "/scene.resolved.json");
+  const auto page_without_secret = [&](const std::string& what) {
+    const Result result = report({out("run")});
+    EXPECT_EQ(result.exit_code, 0) << what << result.err;
+    EXPECT_EQ(page("run").find("c2VjcmV0"), std::string::npos) << what;  // "secret" in base64
+    EXPECT_EQ(page("run").find("secret"), std::string::npos) << what;
+    return result.out;
+  };
+  for (const std::string& name : {std::string("../outside"), out("outside")}) {
+    json changed = good;
+    changed["pipeline"][5]["file"] = name;
+    write(out("run") + "/scene.resolved.json", changed.dump());
+    EXPECT_NE(page_without_secret(name).find("leads out of the folder"), std::string::npos);
+    changed = good;
+    changed["pipeline"][4]["name"] = name == "../outside" ? "../../outside" : name;
+    write(out("run") + "/scene.resolved.json", changed.dump());
+    expect_refused({out("run")}, {"a name that leads out of the folder: expected a regular file"});
+  }
+  write(out("run") + "/scene.resolved.json", good.dump());
+  fs::remove(out("run") + "/picture_000000.png");
+  fs::create_symlink(out("outside_000000.png"), out("run") + "/picture_000000.png");
+  EXPECT_NE(page_without_secret("a link").find("picture_000000.png is a link"), std::string::npos);
+  fs::remove(out("run") + "/picture_000000.png");
+  write(out("run") + "/picture_000000.png", "secret");
+  EXPECT_NE(page_without_secret("no picture").find("picture_000000.png is no PNG picture"), std::string::npos);
+  fs::remove(out("run") + "/picture_000000.png");
+  ASSERT_EQ(mkfifo((out("run") + "/picture_000000.png").c_str(), 0600), 0);
+  ASSERT_EQ(mkfifo((out("run") + "/probes/pipe.csv").c_str(), 0600), 0);
+  page_without_secret("a pipe");
+  fs::remove(out("run") + "/history.csv");
+  ASSERT_EQ(mkfifo((out("run") + "/history.csv").c_str(), 0600), 0);
+  expect_refused({out("run")}, {"/history.csv: a folder, device or pipe: expected a regular file of at most"});
+}
+
+TEST_F(ReportCommand, EscapesEveryText) {
+  const std::string wild = "</script><script>alert('x')</script> \"q\" & \u0001\u001b[31m \u007f \uFFFE";
+  run("wild", {{"/title", wild}, {"/pipeline/1/young", "5 GPa"}});
+  write(out("wild") + "/probes/outer.csv", "time,<b>`x`\xff\xfe\n0,1\n1,2\n");
+  ASSERT_EQ(report({out("wild"), "--json"}).exit_code, 0);
+  const std::string text = page("wild");
+  EXPECT_EQ(text.find("<script"), std::string::npos);
+  EXPECT_EQ(text.find("<b>`x`"), std::string::npos);
+  EXPECT_NE(text.find("&lt;/script&gt;&lt;script&gt;alert(&#39;x&#39;)"), std::string::npos);
+  for (const char c : text) EXPECT_TRUE(static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t');
+  for (const std::string_view no_character : {"\xEF\xBF\xBE", "\xff"}) EXPECT_EQ(text.find(no_character), std::string::npos);
+}
+
+TEST_F(ReportCommand, CallsFineOnlyWhatIsBelowTheStatedBound) {
+  run("one", {{"/pipeline/3/energy_tolerance", 0.5}});
+  json summary = read_json(out("one") + "/summary.json");
+  for (const auto& [error, judgement] : {std::pair{0.002, "fine"}, std::pair{0.1, "doubtful"}, std::pair{0.6, "wrong"}}) {
+    summary["energy"]["relative_error"] = summary["energy"]["largest_relative_error"] = error;
+    write(out("one") + "/summary.json", summary.dump());
+    const json found = json::parse(report({out("one"), "--json"}).out);
+    EXPECT_EQ(finding(found["runs"][0], "energy_balance").at("judgement"), judgement) << error;
+    EXPECT_NE(finding(found["runs"][0], "energy_balance").at("sentence").get<std::string>().find("fine is at most 1 %"), std::string::npos);
   }
 }
 

@@ -24,7 +24,7 @@ json swinging_pair() {
       "step": { "/pipeline/4/time_step": ["0.2 us", "0.1 us", "0.05 us"] },
       "stiffness": { "/pipeline/1/young": ["10 GPa", "5 GPa"], "labels": ["stiff", "soft"] } },
     "refine": "step",
-    "truth": [ { "when": { "stiffness": "stiff" }, "value": 0 }, { "when": { "stiffness": ["soft"] }, "value": 0 } ],
+    "truth": [ { "when": { "stiffness": "stiff" }, "value": 1e-10 }, { "when": { "stiffness": ["soft"] }, "value": 1e-10 } ],
     "compare": { "upper": { "probe": "upper", "column": "displacement_z" } },
     "repeats": 1 })");
 }
@@ -127,7 +127,7 @@ TEST_F(StudyCommand, CountsQuantitiesTogether) {
                      {"across", {{"probe", "upper"}, {"column", "displacement_x"}, {"truth", "across"}}}};
   file["vary"]["step"]["/pipeline/4/time_step"] = {"0.05 us"};
   file["vary"].erase("stiffness");
-  EXPECT_EQ(study(file).exit_code, 3);
+  expect_refused(file, {"/truth/values/across: 0: expected a truth of \"across\" that is not zero"});
   file["error"] = "together_l2";
   const Result result = study(file, {"--json"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -135,6 +135,75 @@ TEST_F(StudyCommand, CountsQuantitiesTogether) {
   EXPECT_NEAR(row["error"], 1.0 / 3, 1e-3);
   EXPECT_NEAR(row["errors"]["along"], 1.0 / 3, 1e-3);
   EXPECT_EQ(row["errors"]["across"], 0);
+}
+
+/// Steps that seem to show an order above two leave runs that are done, and no error.
+TEST_F(StudyCommand, QuotesNoErrorFromAnOrderThatTheMethodCannotHave) {
+  json file = swinging_pair();
+  file["vary"].erase("stiffness");
+  file["truth"] = "finest";
+  file["vary"]["step"]["/start"] = {{0, 0, "1.9 mm/s"}, {0, 0, "1 mm/s"}, {0, 0, "0.999 mm/s"}};
+  std::string text = file.dump(1);
+  text.replace(text.find("/start"), 6, "/pipeline/3/linear");  // behind the size, which stands first
+  std::ofstream(folder_.file("study.json")) << text;
+  const Result result = run_program({"study", folder_.file("study.json"), "--out", out(), "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json found = json::parse(result.out);
+  for (const json& row : found["rows"]) {
+    EXPECT_EQ(row["status"], "done");
+    EXPECT_TRUE(row["error"].is_null());
+    EXPECT_NE(row["reason"].get<std::string>().find("more than the method can have"), std::string::npos) << row["reason"];
+  }
+  EXPECT_TRUE(found["orders"].empty());
+}
+
+TEST_F(StudyCommand, ComparesTheLimitsOfSettingsThatAnswerTheSame) {
+  json file = swinging_pair();
+  file["truth"] = "finest";
+  const json found = json::parse(study(file, {"--json"}).out);  // stiff and soft are taken for settings, and lead to other limits
+  ASSERT_EQ(found["limits"].size(), 1u);
+  EXPECT_EQ(found["limits"][0]["of"]["stiffness"], "soft");
+  EXPECT_EQ(found["limits"][0]["against"]["stiffness"], "stiff");
+  EXPECT_NEAR(found["limits"][0]["apart"], std::abs(swing(5e9) / swing(10e9) - 1), 1e-3);
+  EXPECT_NE(study(file, {"--target-error", "5%"}).out.find("says nothing of the truth"), std::string::npos);
+  file["cases"] = {"stiffness"};  // now they ask something else
+  EXPECT_TRUE(json::parse(study(file, {"--json"}).out)["limits"].empty());
+}
+
+TEST_F(StudyCommand, ReadsOnlyRegularFiles) {
+  json file = true_swinging_pair();
+  file["scene"] = "/dev/zero";
+  expect_refused(file, {"/scene: "});
+  file = true_swinging_pair();
+  file["peers"] = {"/dev/zero"};
+  expect_refused(file, {"/peers/0: "});
+  file["peers"] = json::array();
+  file["truth"] = {{"csv", "/dev/zero"}};
+  file["compare"]["upper"]["truth"] = "u";
+  expect_refused(file, {"/truth/csv: "});
+}
+
+/// Titles, labels and names are data, whatever they hold, and nothing of the user's gnuplot has a part.
+TEST_F(StudyCommand, DrawsTextsAsTheyStand) {
+  const std::string ran = folder_.file("ran"), wild = "a `touch " + ran + "` $(touch " + ran + ") 'b' \"c\" @d {e}_f^g \\n <h> & #";
+  std::ofstream(folder_.file(".gnuplot")) << "set xlabel 'hijacked'\nsystem(\"touch " << ran << "\")\n";
+  std::ofstream(folder_.file("peers.csv")) << "label,error,seconds\nP " << wild << ",0.1,0.01\n";
+  json file = true_swinging_pair();
+  file["title"] = "T " + wild + "\nsecond line" + std::string(1, '\0') + "end";
+  file["vary"]["stiffness"]["labels"] = {"L " + wild, "soft"};
+  file["truth"] = {{"value", swing(10e9)}};
+  std::ofstream(folder_.file("study.json")) << file.dump(1);
+  Launch launch;
+  launch.environment = {"HOME=" + folder_.path(), "TMPDIR=/nowhere"};
+  const Result result = run_program({"study", folder_.file("study.json"), "--out", out(), "--peers", folder_.file("peers.csv")}, launch);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_FALSE(fs::exists(ran));
+  const std::string picture = contents(out() + "/study.svg");
+  for (const std::string letter : {"T", "L", "P"})
+    EXPECT_NE(picture.find(letter + " a `touch " + ran + "` $(touch " + ran + ") 'b' \"c\" @d {e}_f^g \\n &lt;h> &amp; #"), std::string::npos)
+        << letter << picture.substr(0, 20000);
+  EXPECT_NE(picture.find(">second line"), std::string::npos);
+  EXPECT_EQ(picture.find("hijacked"), std::string::npos);
 }
 
 TEST_F(StudyCommand, RunsAgainOnlyWhatIsMissing) {

@@ -56,6 +56,23 @@ class MutatedStudies : public testing::Test {
   test::Folder folder_{"mutated_studies"};
 };
 
+/// Tables of any bytes are read, or refused with where they are named.
+TEST_F(MutatedStudies, TablesOfAnyBytesAreReadOrRefused) {
+  const Json study = Json::parse(good);
+  const std::string truth = test::contents(folder_.file("truth.csv")), peers = test::contents(folder_.file("peers.csv"));
+  const std::string bytes[] = {"", "\n", ",", "\xff", std::string(1, '\0'), "1e999", "-", "nan", "\"", ";", "\xEF\xBB\xBF"};
+  for (const auto& [name, whole] : {std::pair{"truth.csv", truth}, std::pair{"peers.csv", peers}}) {
+    for (std::size_t at = 0; at < whole.size(); ++at)
+      for (const std::string& other : bytes) {
+        std::ofstream(folder_.file(name), std::ios::binary) << whole.substr(0, at) + other + whole.substr(at + 1);
+        accepted(study);
+      }
+    std::ofstream(folder_.file(name), std::ios::binary) << whole;
+  }
+  std::ofstream(folder_.file("peers.csv"), std::ios::binary) << "label,error,seconds\n\xff\xfe,0.1,1\n";
+  EXPECT_FALSE(accepted(study)) << "what is no text cannot be shown";
+}
+
 TEST_F(MutatedStudies, AreReadOrRefused) {
   const Json study = Json::parse(good);
   ASSERT_TRUE(accepted(study));

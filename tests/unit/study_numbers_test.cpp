@@ -2,6 +2,7 @@
 #include <study/evaluate.hpp>
 #include <study/expected.hpp>
 #include <study/observe.hpp>
+#include <study/report.hpp>
 
 #include <gtest/gtest.h>
 
@@ -55,6 +56,10 @@ TEST(StudyNorm, CountsWhatItSays) {
   EXPECT_DOUBLE_EQ(part.size, 50);
 }
 
+TEST(StudyNorm, HasAFloorWhereTheTruthPassesZeroAtItsEnd) {
+  EXPECT_DOUBLE_EQ(error_of({{0, 1, 2}, {0, 4, 0.1}}, {{0, 1, 2}, {0, 4, 1e-12}}, Norm::relative_end), (0.1 - 1e-12) / 4);
+}
+
 TEST(StudyNorm, SaysWhyThereIsNone) {
   const auto why = [](const Curve& observed, const Curve& truth) {
     try {
@@ -80,6 +85,15 @@ TEST(StudyOrder, IsTheSlopeOfTheLogarithms) {
   EXPECT_NEAR(mixed->pairs[1], 2, 1e-12);
   EXPECT_NEAR(mixed->order, 1.5, 1e-12);
   EXPECT_NEAR(*size_for(*second, 0.01), 0.5, 1e-12);
+}
+
+TEST(StudyOrder, IsDoubtedWhereTheMethodCannotHaveIt) {
+  EXPECT_EQ(observed_order({{4, 0.16}, {2, 0.04}, {1, 0.01}})->doubt, "");
+  const auto too_high = observed_order({{4, 1}, {2, 0.01}});
+  EXPECT_NE(too_high->doubt.find("an order of 6.64 is more than the method can have"), std::string::npos) << too_high->doubt;
+  EXPECT_FALSE(size_for(*too_high, 1e-6)) << "nothing is promised by it";
+  EXPECT_NE(observed_order({{4, 1}, {2, 0.3}, {1, 0.4}})->doubt.find("does not fall"), std::string::npos);
+  EXPECT_NE(observed_order({{4, 1}, {2, 0.9}, {1, 0.15}})->doubt.find("scatters"), std::string::npos);
 }
 
 TEST(StudyOrder, NeedsTwoErrorsThatAreNotZero) {
@@ -131,6 +145,44 @@ TEST(StudyExtrapolation, RefusesWhatDoesNotConverge) {
   SizedCurve away = converging(0.0625, 2);
   for (double& value : away.curve.values) value += 5;
   EXPECT_THROW(extrapolated({converging(0.25, 2), converging(0.125, 2), away}, std::nullopt), std::runtime_error);
+}
+
+TEST(StudyExtrapolation, RefusesOrdersThatTheMethodCannotHave) {
+  EXPECT_THROW(extrapolated({converging(0.25, 6.6), converging(0.125, 6.6), converging(0.0625, 6.6)}, std::nullopt), NoLimit);
+  SizedCurve beyond = converging(0.0625, 2);  // the differences change their sign
+  for (double& value : beyond.curve.values) value += 0.04;
+  EXPECT_THROW(extrapolated({converging(0.25, 2), converging(0.125, 2), beyond}, std::nullopt), NoLimit);
+}
+
+Row done_row(Choice choice, double size, double error, double seconds) {
+  Row row;
+  row.choice = std::move(choice);
+  row.status = "done";
+  row.numbers = {std::nullopt, size};
+  row.error = error;
+  row.solve_seconds = {seconds};
+  return row;
+}
+
+TEST(StudyCases, AreAnsweredForTheHardest) {
+  Study study;
+  study.axes.resize(2);
+  study.axes[0].name = "nu";
+  study.axes[0].labels = {"easy", "hard"};
+  study.axes[1].name = "spacing";
+  study.axes[1].labels = {"4", "2"};
+  study.cases = {0};
+  study.refinement = 1;
+  study.target_error = 0.01;
+  std::vector<Row> rows{done_row({0, 0}, 4, 0.04, 1), done_row({0, 1}, 2, 0.01, 8), done_row({1, 0}, 4, 0.16, 2), done_row({1, 1}, 2, 0.04, 16)};
+  const std::string sentence = cheapest_sentence(study, rows, find(study, rows));
+  EXPECT_NE(sentence.find("the most accurate is spacing 2: error 4 % at most, with nu hard, 24 s for all cases together"), std::string::npos)
+      << sentence;
+  EXPECT_NE(sentence.find("would meet it in every case at a spacing of about 1 (SI)"), std::string::npos) << sentence;
+  study.target_error = 0.05;
+  EXPECT_EQ(find(study, rows).cheapest, 3u);
+  rows.pop_back();  // a setting that was not asked the hardest is no answer
+  EXPECT_FALSE(find(study, rows).cheapest);
 }
 
 const CsvTable line = parse_csv(
