@@ -55,6 +55,13 @@ void check_constants(const Stage& stage, const MaterialConstants& constants) {
   if (!good) throw refusal(stage, "the stiffness of its cross springs or a constant of its law came out as no number");
 }
 
+/// What else there is to say of a Poisson ratio that a random body does not reach.
+std::string reach_of_sample(const Body& body, const std::string& sentence) {
+  if (body.listed.sample_particles == 0 || !sentence.starts_with("poisson ")) return "";
+  return ". This reach is the body's own: particles at its surface have fewer springs, so those inside have more, which lowers the largest Poisson "
+         "ratio; a body more spacings across reaches further";
+}
+
 Material make_material(const Model& model, const Stage& stage, const LatticeFacts& facts) {
   Material material;
   material.stage = &stage;
@@ -66,7 +73,7 @@ Material make_material(const Model& model, const Stage& stage, const LatticeFact
   const auto refused = refusal_of(stage, "constants", [&](const Complaint& why) {
     return stage.functions<MaterialFunctions>().constants(material.component.get(), facts, material.constants, why);
   });
-  if (refused) throw objection(*model.scene, stage, *refused);
+  if (refused) throw objection(*model.scene, stage, *refused + reach_of_sample(model.body, *refused));
   check_constants(stage, material.constants);
   const MaterialConstants& constants = material.constants;
   material.mass = constants.density * facts.site_volume;

@@ -1,3 +1,4 @@
+#include <plan/coordination.hpp>
 #include <plan/estimates.hpp>
 #include <scene/common_options.hpp>
 
@@ -59,9 +60,8 @@ nlohmann::json body_json(const BodyFigures& body) {
   return json;
 }
 
-}  // namespace
-
-nlohmann::json plan_json(const Plan& plan) {
+/// What every plan has.
+nlohmann::json common_facts(const Plan& plan) {
   const Model& model = *plan.model;
   double time_step = 0;
   auto stages = nlohmann::json::array();
@@ -110,6 +110,16 @@ nlohmann::json plan_json(const Plan& plan) {
           {"plugins", plugins_json(*plan.scene)},
           {"warnings", model.warnings},
           {"left_out", left_out}};
+}
+
+}  // namespace
+
+nlohmann::json plan_json(const Plan& plan) {
+  nlohmann::json facts = common_facts(plan);
+  if (!plan.model->body.is_listed()) return facts;
+  const Coordination springs = coordination_of(plan.model->body);
+  facts["springs_of_a_particle"] = {{"fewest", springs.fewest}, {"most", springs.most}, {"fewer_than_three", springs.swinging}};
+  return facts;
 }
 
 }  // namespace hyperlattice

@@ -79,6 +79,13 @@ std::string plan_text(const Plan& plan) {
 
   page.section("Computed");
   page.line("springs", fmt::format("{}, {:.2f} per particle", count("springs"), number("springs_per_particle")));
+  if (facts.contains("springs_of_a_particle")) {
+    const nlohmann::json& of = facts.at("springs_of_a_particle");
+    const auto swinging = of.at("fewer_than_three").get<std::uint64_t>();
+    page.line("springs of a particle",
+              fmt::format("{} to {}{}", of.at("fewest").get<std::uint64_t>(), of.at("most").get<std::uint64_t>(),
+                          swinging == 0 ? "" : fmt::format("; {} have fewer than three, and swing where a load reaches them", count_text(swinging))));
+  }
   page.line("kernel",
             fmt::format("{} degrees of freedom, membrane {}, {}, {} precision, {} instructions, {} thread{}",
                         facts.at("degrees_of_freedom").get<int>(), word("membrane"), facts.at("breakable").get<bool>() ? "breakable" : "unbreakable",

@@ -1,10 +1,12 @@
 // A random lattice: points thrown into the shape one after the other, each kept if it is not too near to one that is there (random sequential
 // addition), until there is one for every spacing^3; springs between the nearest pairs, as many as give the mean coordination L_N asked for,
-//   springs = L_N particles / 2.
+//   springs = L_N particles / 2,
+// each particle to its nearest six at least (joined.hpp).
 // Such a lattice is isotropic but not affine: its particles move against each other under a uniform strain, the more the fewer neighbours they have.
 // Its elastic constants are therefore found from a sample: a periodic cube made in the same way, with springs up to the same length.
+#include "joined.hpp"
+
 #include <hyperlattice/lattice.hpp>
-#include <hyperlattice/neighbourhood.hpp>
 
 #include <random>
 #include <stdexcept>
@@ -57,9 +59,14 @@ class Random {
 
   static Schema<Options> schema() {
     return Schema<Options>("lattices.random", "Random points with a least distance, joined to the nearest")
-        .equation("particles = V / spacing^3; springs = coordination particles / 2, the shortest pairs; Delta = spacing")
+        .equation(
+            "particles = V / spacing^3; springs = coordination particles / 2: of each particle to its nearest six, then the shortest "
+            "pairs; Delta = spacing")
         .source("Zhao 2017, section 2.4 and figure 3: mean coordinations 8.4 and 13.2")
-        .restrictions("boundary particles only; the Poisson ratio of few neighbours is above 1/4 without a membrane: 0.30 at 8.4, 0.25 at 13.2")
+        .restrictions(
+            "boundary particles only; the Poisson ratio of few neighbours is above 1/4 without a membrane: 0.30 at 8.4, 0.25 at 13.2 in an endless "
+            "body. A particle at the surface has fewer springs, so those inside have more, and the largest Poisson ratio is less: at 8.4 about 0.27 "
+            "in a body 10 particles across, 0.29 in one of 30; a coordination below 7 leaves no room for six springs each")
         .add<&Options::spacing>("spacing", "m", "mean spacing l: the body has one particle in every l^3")
         .positive()
         .add<&Options::shape>("shape", "", "the solid that is filled")
@@ -90,15 +97,13 @@ class Random {
     const double distance = o_.min_distance * o_.spacing;
     const std::vector<Vec3> points =
         throw_points(count, shape.low, shape.high, distance, false, Dice(o_.seed, 0), [&](Vec3 point) { return shape.contains(point); });
-    const std::vector<NearPair> pairs = pairs_with_coordination(points, shape.low, shape.high, o_.spacing, o_.coordination);
+    const auto wanted = static_cast<std::size_t>(std::llround(o_.coordination * static_cast<double>(count) / 2));
+    if (wanted > count * (count - 1) / 2) throw std::invalid_argument("coordination is more than the number of particles can have");
+    const Joined body = joined_by_number(count, pairs_to_choose_from(points, shape.low, shape.high, o_.spacing, wanted), wanted);
 
     std::vector<ListedSpring> springs;
-    springs.reserve(pairs.size());
-    double longest = 0;  // 0: the sample counts for itself
-    for (const NearPair& pair : pairs) {
-      springs.push_back({pair.a, pair.b, 1});
-      if (!sink.for_analysis) longest = std::max(longest, norm(pair.rest));
-    }
+    springs.reserve(body.springs.size());
+    for (const NearPair& pair : body.springs) springs.push_back({pair.a, pair.b, 1});
     PointList list;
     list.spacing = list.membrane_distance = o_.spacing;
     list.site_volume = volume / static_cast<double>(count);
@@ -106,7 +111,7 @@ class Random {
     list.springs = springs;
     list.shape = &shape;
     sink.points(list);
-    send_sample(sink, longest);
+    send_sample(sink, sink.for_analysis ? nullptr : &body);
   }
 
  private:
@@ -130,13 +135,20 @@ class Random {
     return size.x * size.y * size.z * static_cast<double>(inside) / static_cast<double>(nx * ny * nz);
   }
 
-  void send_sample(const LatticeSink& sink, double longest) const {
+  /// Joined as the body is; null: by the coordination.
+  void send_sample(const LatticeSink& sink, const Joined* like) const {
     const double edge = static_cast<double>(o_.sample) * o_.spacing;
     const Vec3 high{edge, edge, edge};
     const auto count = static_cast<std::size_t>(o_.sample * o_.sample * o_.sample);
     const std::vector<Vec3> points = throw_points(count, {}, high, o_.min_distance * o_.spacing, true, Dice(o_.seed, 1), [](Vec3) { return true; });
-    std::vector<NearPair> pairs = near_pairs(points, {}, high, longest > 0 ? longest : 2 * o_.spacing * std::cbrt(o_.coordination / 8), true);
-    if (longest == 0) pairs = shortest(std::move(pairs), static_cast<std::size_t>(std::llround(o_.coordination * static_cast<double>(count) / 2)));
+    const double few_reach = std::min(1.7 * o_.spacing, 0.33 * edge);  // there six are found, inside of a body
+    std::vector<NearPair> pairs =
+        near_pairs(points, {}, high, like ? std::max(like->reach, few_reach) : 2 * o_.spacing * std::cbrt(o_.coordination / 8), true);
+    if (like)
+      pairs = joined_alike(count, std::move(pairs), *like);
+    else
+      pairs =
+          joined_by_number(count, std::move(pairs), static_cast<std::size_t>(std::llround(o_.coordination * static_cast<double>(count) / 2))).springs;
     std::vector<SampleSpring> springs;
     springs.reserve(pairs.size());
     for (const NearPair& pair : pairs) springs.push_back({pair.a, pair.b, pair.rest, 1});

@@ -89,7 +89,7 @@
   CROSSES(Field, components, values)                                                                                                                  \
   CROSSES(Snapshot, time, step, particles, spacing, positions, self, get_field)                                                                       \
   CROSSES(FrameMark, step, time)                                                                                                                      \
-  CROSSES(OutputContext, directory, title, fields, earlier, self, region_particles)                                                                   \
+  CROSSES(OutputContext, directory, title, fields, earlier, self, region_particles, announce_file)                                                                   \
   CROSSES(WriterFunctions, begin, frame, end)                                                                                                         \
   CROSSES(ColumnSink, self, receive)                                                                                                                  \
   CROSSES(ProbeFunctions, begin, sample)

@@ -20,6 +20,7 @@ class GridSystem : public System {
   }
   void apply(const Field& r, Field& z) override { multigrid_.apply(r, z); }
   double stiffest() const override { return matrix_.stiffest(); }
+  double softest_height() const override { return matrix_.softest_height(); }
   void for_springs(const Join& join) const override {
     const StaticGrid& grid = matrix_.grid();
     for (std::size_t n = 0; n < grid.neighbours.size(); ++n)

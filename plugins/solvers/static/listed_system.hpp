@@ -20,7 +20,7 @@ class ListedSystem : public System {
   const StaticGrid& grid() const { return grid_; }
   std::size_t blocks() const { return column_.size(); }                                    ///< of the tangent, a particle's own among them
   double largest_pull() const { return components_ == 4 ? largest_magnitude(pull_) : 0; }  ///< N/m, of base springs where heights can move
-  double softest_height() const;                                                           ///< N/m, least stiffness of a height; infinite: none
+  double softest_height() const override;
   /// Whether a number of a field can move and has stiffness.
   bool is_unknown(std::size_t number) const;
   /// Calls visit(column, value) for the entries of a row of the tangent, N/m; row and columns are numbers of a field. Columns of one component

@@ -1,6 +1,7 @@
 #include "newton.hpp"
 
 #include "free_motions.hpp"
+#include "height_change.hpp"
 #include "stability.hpp"
 
 #include <utility>
@@ -32,7 +33,7 @@ Found Newton::search(double share, Field& displacement) {
   for (int n = 0; n < limits_.newton; ++n) {
     switch (step(change, u)) {
       case Step::at_rest: {
-        const bool linear = n == 0 && largest(displacement) == 0;  // the tangents of the undeformed body were true to the end
+        const bool linear = n == 0 && largest(displacement) == 0 && !may_wrinkle(u);  // the undeformed body's tangents were true to the end
         Found found = limits_.stable && !linear ? check(u) : Found{.at_rest = true};
         if (found.at_rest) displacement = u;
         return found;
@@ -83,6 +84,19 @@ Found Newton::give_up(const Field& u, bool hopeless, const char* why, const Fiel
             .rigid = true,
             .direction = std::move(rigid.motion)};
   return {.hopeless = hopeless, .why = why, .direction = direction};
+}
+
+/// Whether the springs strained by u may hold the heights otherwise than those of the undeformed body, whose tangents are the present ones. That
+/// changes no force while the heights are smooth, so it is not seen in the residual.
+bool Newton::may_wrinkle(const Field& u) const {
+  const StaticGrid& grid = problem_.grid;
+  if (grid.components < 4) return false;
+  double apart = 0;
+  system_.for_springs([&](std::int64_t a, std::int64_t b) {
+    for (std::int64_t c = 0; c < 3; ++c)
+      apart = std::max(apart, std::abs(u[static_cast<std::size_t>(c * grid.places + b)] - u[static_cast<std::size_t>(c * grid.places + a)]));
+  });
+  return holds_heights_otherwise(system_.stiffest() * apart / grid.spacing, system_.softest_height());
 }
 
 /// Whether the state of rest u is stable.

@@ -44,6 +44,7 @@ class Newton {
   Found give_up(const Field& u, bool hopeless, const char* why, const Field& direction) const;
   Found blame(const Field& u);
   std::string unsolved_text() const;
+  bool may_wrinkle(const Field& u) const;
   Found check(const Field& u);
 
   System& system_;

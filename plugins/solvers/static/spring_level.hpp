@@ -31,7 +31,8 @@ class SpringLevel : public Level {
   /// False if there is no spring.
   bool tangent(std::size_t neighbour, std::int64_t place, SpringBlocks& blocks) const;
   bool has_spring(std::size_t neighbour, std::int64_t place) const;
-  double stiffest() const;  ///< largest tangent of a spring, N/m
+  double stiffest() const;                                   ///< largest tangent of a spring, N/m
+  double softest_height() const { return softest_height_; }  ///< least stiffness of a height, N/m; infinite where none can move
   float alpha(std::int64_t place) const { return alpha_.empty() ? 0 : alpha_[static_cast<std::size_t>(place)]; }
   const StaticGrid& grid() const { return grid_; }
   Signatures signatures() const;

@@ -26,6 +26,7 @@ class System {
   virtual void apply(const Field& r, Field& z) = 0;     ///< z, about K^-1 r
   virtual int most_iterations() const { return 1000; }  ///< of conjugate gradients, in which they find what they can
   virtual double stiffest() const = 0;                  ///< largest tangent of a spring, N/m
+  virtual double softest_height() const = 0;            ///< least stiffness of a height, N/m; infinite where none can move
   using Join = std::function<void(std::int64_t a, std::int64_t b)>;
   virtual void for_springs(const Join& join) const = 0;  ///< the two places of every spring that is there
 

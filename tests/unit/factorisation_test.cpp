@@ -1,0 +1,71 @@
+// What the static solver takes from Eigen fails with a sentence, or finds another way.
+#include <plugins/solvers/static/block_inverse.hpp>
+#include <plugins/solvers/static/factorisation.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+using namespace hyperlattice::statics;
+
+Eigen::SparseMatrix<double> two_by_two(double a, double b, double c) {
+  Eigen::SparseMatrix<double> matrix(2, 2);
+  matrix.insert(0, 0) = a;
+  matrix.insert(1, 0) = b;
+  matrix.insert(1, 1) = c;
+  matrix.makeCompressed();
+  return matrix;
+}
+
+TEST(Factorisation, SolvesWhatIsSound) {
+  Factorisation factors;
+  factors.compute(two_by_two(2, 1, 3), 1e-12);
+  const Eigen::VectorXd x = factors.solve(Eigen::Vector2d{4, 7});
+  EXPECT_NEAR(x[0], 1, 1e-9);
+  EXPECT_NEAR(x[1], 2, 1e-9);
+}
+
+TEST(Factorisation, AddsMoreWhereAPivotVanishes) {
+  constexpr double shift = 1e-9;
+  Factorisation factors;
+  factors.compute(two_by_two(1 / (1 + shift), 1, 1 / (1 + shift)), shift);  // singular once the first shift is added
+  EXPECT_TRUE(factors.solve(Eigen::Vector2d{1, 0}).allFinite());
+}
+
+TEST(Factorisation, SaysWhyNothingHelps) {
+  Factorisation factors;
+  const auto why = [&](const Eigen::SparseMatrix<double>& matrix) -> std::string {
+    try {
+      factors.compute(matrix, 1e-9);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(why(two_by_two(0, 1, 0)).find("a pivot is zero"), std::string::npos);
+  EXPECT_NE(why(two_by_two(NAN, 0, 1)).find("not finite"), std::string::npos);
+}
+
+// Heights a billion times as stiff as space, or as soft, leave the rest of the block's inverse as it is.
+TEST(BlockInverse, KnowsHeightsOfAnyStiffness) {
+  for (const double height : {1e-12, 1e-6, 1.0, 1e6, 1e12}) {
+    Eigen::Matrix4d block = Eigen::Matrix4d::Identity();
+    block(0, 1) = block(1, 0) = 0.5;
+    block(3, 3) = height;
+    const BlockInverse found(block);
+    EXPECT_LT((found.inverse * block - Eigen::Matrix4d::Identity()).norm(), 1e-12) << height;
+    EXPECT_EQ(found.added.norm(), 0) << height;
+  }
+}
+
+TEST(BlockInverse, IsFiniteWhateverTheBlock) {
+  Eigen::Matrix4d block = Eigen::Matrix4d::Zero();
+  EXPECT_EQ(BlockInverse(block).inverse.norm(), 0);
+  block(0, 0) = 1;  // one spring: nothing across it
+  EXPECT_NEAR(BlockInverse(block).inverse(1, 1), 1e3, 1e-9);
+  block(2, 2) = NAN;
+  EXPECT_TRUE(BlockInverse(block).inverse.allFinite());
+}
+
+}  // namespace

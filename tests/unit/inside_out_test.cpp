@@ -1,0 +1,78 @@
+// Cells that are turned inside out are counted and placed; sound ones, however turned or strained, are not.
+#include <run/inside_out.hpp>
+#include <support/lists.hpp>
+
+#include <gtest/gtest.h>
+
+namespace {
+using namespace hyperlattice;
+using namespace hyperlattice::test;
+
+struct Watched {
+  explicit Watched(const std::string& scene) : plan(plan_of(scene, 1)), simulation(*plan->model, 1), watch(*plan->model) {}
+  /// Each particle goes to the place that `to` says.
+  template <class To>
+  const InsideOut& look(const To& to) {
+    std::vector<double> u;
+    for (Particle p = 0; p < plan->model->body.particles; ++p) {
+      const Vec3 x = plan->model->body.position(p), d = to(x) - x;
+      u.insert(u.end(), {d.x, d.y, d.z});
+    }
+    simulation.set_displacements(u, {});
+    watch = CellWatch(*plan->model);
+    watch.look(simulation);
+    return watch.seen();
+  }
+  std::unique_ptr<Plan> plan;
+  Simulation simulation;
+  CellWatch watch;
+};
+
+std::string lattice(const std::string& type, const std::string& more = "") {
+  return listed_scene(
+      R"({ "type": ")" + type + R"(", "spacing": "1 mm", )" + more + R"("shape": { "box": { "low": [0, 0, 0], "high": [6e-3, 5e-3, 4e-3] } } })",
+      R"("membrane": "none")");
+}
+
+Vec3 same(Vec3 x) { return x; }
+Vec3 turned(Vec3 x) { return {-x.y, x.x, x.z}; }
+Vec3 stretched(Vec3 x) { return {3 * x.x, 0.1 * x.y, x.z + 2 * x.x}; }
+Vec3 mirrored(Vec3 x) { return {x.x, x.y, -x.z}; }
+Vec3 flattened(Vec3 x) { return {x.x, x.y, 0}; }
+
+TEST(InsideOut, AnyLatticeMayBeTurnedAndStrainedButNotMirrored) {
+  for (const char* type : {"lattices.cubic", "lattices.bcc", "lattices.fcc", "lattices.random"}) {
+    Watched body(lattice(type));
+    for (const auto& to : {same, turned, stretched}) {
+      EXPECT_EQ(body.look(to).number, 0u) << type;
+      EXPECT_EQ(body.watch.sentence(), "") << type;
+    }
+    for (const auto& to : {mirrored, flattened}) {
+      const InsideOut& seen = body.look(to);
+      EXPECT_GT(seen.all, 20u) << type;
+      EXPECT_EQ(seen.number, seen.all) << type;
+      EXPECT_NE(body.watch.sentence().find("folds through itself"), std::string::npos) << type;
+    }
+  }
+}
+
+TEST(InsideOut, OneParticleThatGoesThroughItsNeighboursTurnsItsCells) {
+  Watched body(lattice("lattices.cubic", R"("boundary": "cells", )"));
+  const Vec3 inner{2e-3, 3e-3, 2e-3};
+  const auto pushed = [&](double by) { return body.look([&](Vec3 x) { return norm(x - inner) < 1e-6 ? x + Vec3{by, 0, 0} : x; }); };
+  EXPECT_EQ(pushed(0.9e-3).number, 0u);
+  const InsideOut seen = pushed(1.1e-3);  // beyond the particle before it: the four cells between them
+  EXPECT_EQ(seen.number, 4u);
+  EXPECT_EQ(seen.all, 120u);
+  EXPECT_NEAR(norm(seen.first_place - Vec3{2e-3, 2e-3, 1e-3}), 0, 1e-9);
+  EXPECT_NE(body.watch.sentence().find("4 of 120 cells are inside out"), std::string::npos) << body.watch.sentence();
+}
+
+TEST(InsideOut, AGapOrAHoleIsNoCell) {
+  Watched body(listed_scene(R"({ "type": "lattices.cubic", "spacing": "1 mm", "shape": { "difference": [
+      { "box": { "low": [0, 0, 0], "high": [6e-3, 3e-3, 3e-3] } }, { "box": { "low": [2e-3, 1e-3, 1e-3], "high": [3e-3, 2e-3, 2e-3] } } ] } })",
+                            R"("membrane": "none")"));
+  EXPECT_EQ(body.look(same).all, 5u * 2 * 2 - 8);
+}
+
+}  // namespace
