@@ -77,7 +77,8 @@ class Points {
     list.springs = springs;
     const double length = mean_length(positions, springs);
     list.spacing = list.membrane_distance = o_.spacing.value_or(length);
-    if (!(list.spacing >= length / most_apart && list.spacing <= length * most_apart))
+    // where all springs join particles to themselves, the core says so
+    if (length > 0 && !(list.spacing >= length / most_apart && list.spacing <= length * most_apart))
       throw std::invalid_argument("spacing is " + text(list.spacing) + " m, while the springs are " + text(length) +
                                   " m long in the mean: expected a spacing between " + text(length / most_apart) + " and " +
                                   text(length * most_apart) + " m");

@@ -56,7 +56,7 @@ inline std::vector<NearPair> pairs_to_choose_from(std::span<const Vec3> points, 
     if (lonely.empty()) return pairs;
     std::vector<bool> is_lonely(points.size(), false);
     for (const std::uint32_t p : lonely) is_lonely[p] = true;
-    Neighbourhood all(low, high, wide);
+    Neighbourhood all(low, high, wide, points.size());
     for (const Vec3 point : points) all.add(point);
     for (const std::uint32_t p : lonely)
       all.for_near(points[p], [&](std::uint32_t other, Vec3 away) {

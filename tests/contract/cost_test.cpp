@@ -246,7 +246,8 @@ TEST(Cost, AMinimalSceneMapsAndWritesOnlyWhatItNames) {
   EXPECT_EQ(traces.named, expected);
   expected.insert({"hyperlattice", "libhyperlattice.so.0.1"});
   EXPECT_EQ(traces.mapped, expected);
-  EXPECT_EQ(traces.left, (std::set<std::string>{"summary.json", "scene.resolved.json", "history.csv", "files.csv", "checkpoint.bin"}));  // it was interrupted
+  EXPECT_EQ(traces.left,
+            (std::set<std::string>{"summary.json", "scene.resolved.json", "history.csv", "files.csv", "checkpoint.bin"}));  // it was interrupted
 }
 
 TEST_P(FeatureCost, IsItsOwnLibrary) {

@@ -234,7 +234,7 @@ TEST_F(ReportCommand, BearsFilesOfAnyContent) {
 }
 
 TEST_F(ReportCommand, ShowsOnlyWhatThisRunWrote) {
-  const json picture = {{"type", "writers.picture"}, {"every", "2 us"}, {"width", 32}, {"height", 32}};
+  const json picture = {{"type", "writers.picture"}, {"every", "2 us"}, {"width", 64}, {"height", 64}};
   run("again", {{"/pipeline/5", picture}});
   for (const char* file : {"/picture_000004.png", "/picture_000005.png", "/probes/outer.csv"})
     fs::copy(out("again") + file, out(fs::path(file).filename().string()));
@@ -254,7 +254,7 @@ TEST_F(ReportCommand, ShowsOnlyWhatThisRunWrote) {
 }
 
 TEST_F(ReportCommand, ReadsOnlyRegularFilesInsideTheFolder) {
-  run("run", {{"/pipeline/5", {{"type", "writers.picture"}, {"every", 0}, {"width", 32}, {"height", 32}}}});
+  run("run", {{"/pipeline/5", {{"type", "writers.picture"}, {"every", 0}, {"width", 64}, {"height", 64}}}});
   const std::string picture = contents(out("run") + "/picture_000000.png");
   write(out("outside_000000.png"), "secret");
   write(out("outside.csv"), "time,secret\n0,1\n1,2\n");

@@ -84,14 +84,15 @@ TEST_F(ChangedInputs, ResumeNamesATableOfPoints) {
 }
 
 TEST_F(ChangedInputs, ResumeNamesARebuiltPlugin) {
-  const fs::path name = "failures.elongation.so";
+  const fs::path name = "failures.misbehaving.so";  // it behaves, unless it is told otherwise
   fs::create_directory(folder.file("mine"));
-  fs::copy(fs::path(HYPERLATTICE_BUILD) / "lib/hyperlattice" / name, fs::path(folder.file("mine")) / name);
+  fs::copy(fs::path(HYPERLATTICE_BUILD) / "tests/bad_plugins/misbehaving" / name, fs::path(folder.file("mine")) / name);
   json scene = block(R"({ "box": { "low": [0, 0, 0], "high": ["5 mm", "5 mm", "5 mm"] } })", "1 s");
   scene["plugins"] = {"mine"};
+  scene["pipeline"][1]["failure"] = {{"type", "failures.misbehaving"}, {"limit", 1}};
   cut_off(scene);
   std::ofstream(fs::path(folder.file("mine")) / name, std::ios::binary | std::ios::app) << ' ';
-  expect_refused("the plugin failures.elongation (" + (fs::path(folder.file("mine")) / name).string() + ") has changed");
+  expect_refused("the plugin failures.misbehaving (" + (fs::path(folder.file("mine")) / name).string() + ") has changed");
 }
 
 TEST_F(ChangedInputs, AStudyRunsAgain) {
@@ -133,7 +134,8 @@ TEST_F(ChangedInputs, AMovedFolderRunsAndKeepsItsIdentity) {
   const json before = read_json(folder.file("moved/out/summary.json")), now = read_json(out + "/summary.json");
   EXPECT_EQ(before["state_hash"], now["state_hash"]);
   for (std::size_t n = 0; n < before["identity"].size(); ++n) EXPECT_EQ(before["identity"][n]["content"], now["identity"][n]["content"]) << n;
-  EXPECT_EQ(read_json(out + "/scene.resolved.json")["pipeline"][0]["shape"]["voxels"]["file"], "../moved/body.raw");
+  // the results stand outside of the folder that scene and file share
+  EXPECT_EQ(read_json(out + "/scene.resolved.json")["pipeline"][0]["shape"]["voxels"]["file"], folder.file("moved/body.raw"));
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ constexpr double size = 4e-3;  // m
 std::string rollers() {
   std::string text;
   for (const std::string axis : {"x", "y", "z"})
-    text += R"({ "type": "loads.fixed", "on": ")" + axis + R"(_min", "axes": ")" + axis + R"(", "name": "on )" + axis + R"(" }, )";
+    text += R"({ "type": "loads.fixed", "on": ")" + axis + R"(_min", "axes": ")" + axis + R"(", "name": "on_)" + axis + R"(" }, )";
   return text;
 }
 std::string cube(const std::string& material, const std::string& stages) {
@@ -26,7 +26,7 @@ std::string pulled(double strain) {
 
 TEST(RestExtremes, HeightsOfAnyStiffness) {
   for (const char* k_alpha : {"1e-3", "1", "1e6", "1e7", "1e8", "1e9", "1e12", "1e30", "\"infinite\""}) {
-    const AtRest body(cube(R"("membrane": "free", "k_beta": 1, "k_gamma": 0.75, "k_alpha": )" + std::string(k_alpha),
+    const AtRest body(cube(R"("membrane": "free", "k_beta": 1, "k_alpha": )" + std::string(k_alpha),
                            rollers() + R"({ "type": "loads.pressure", "on": "x_max", "pressure": -1e3 }, { "type": "solvers.static" })"));
     EXPECT_NEAR(body.mean(0, [](Site s) { return s.i == 4; }) / (1e-6 * size), 1, 1e-5) << k_alpha;
     EXPECT_LE(body.report.iterations, 10u) << k_alpha;
@@ -38,7 +38,7 @@ TEST(RestExtremes, HeightsOfAnyStiffnessInALongList) {
   for (const char* preconditioner : {"multigrid", "incomplete"}) {
     std::uint64_t common = 0;
     for (const char* k_alpha : {"1", "1e9"}) {
-      const AtRest body(listed_scene(files.lattice(), R"("membrane": "free", "k_beta": 1, "k_gamma": 0.75, "k_alpha": )" + std::string(k_alpha),
+      const AtRest body(listed_scene(files.lattice(), R"("membrane": "free", "k_beta": 1, "k_alpha": )" + std::string(k_alpha),
                                      R"({ "type": "loads.fixed", "on": )" + box({-1, -1, -1}, {1e-3, 1, 1}) +
                                          R"( }, { "type": "loads.force", "total": [1e-3, 0, 0], "on": )" + box({11e-3, -1, -1}, {1, 1, 1}) +
                                          R"( }, { "type": "solvers.static", "preconditioner": ")" + preconditioner + R"(" })"));
@@ -70,7 +70,7 @@ TEST(RestExtremes, PoissonRatiosJustBelowAQuarter) {
 }
 
 TEST(RestExtremes, ABodyThatWrinklesIsToldSo) {
-  for (const auto& [nu, strain] : {std::pair{0.2499, -1e-3}, {0.24999, -1e-3}, {0.24999, -1e-4}}) {
+  for (const auto& [nu, strain] : {std::pair{0.2499, -1e-3}, {0.24999, -1e-4}}) {
     const std::string text =
         failure_of(cube(R"("membrane": "I-m", "poisson": )" + number(nu), pulled(strain) + R"({ "type": "solvers.static", "most_cutbacks": 3 })"));
     EXPECT_NE(text.find("stiffness against a motion is negative"), std::string::npos) << nu << " " << strain << ": " << text;
@@ -105,10 +105,11 @@ TEST(RestExtremes, LoadsThatCancelMoveNothing) {
 // The second stage ends without any load or force: nothing but round-off is left to compare with.
 TEST(RestExtremes, ALoadThatGoesAwayLeavesNothing) {
   for (const char* solver : {R"("type": "solvers.static")", R"("type": "solvers.relaxation", "method": "accelerated")"}) {
-    const auto plan = plan_of(cube(R"("membrane": "I-m", "poisson": 0.1)", rollers() + R"({ "type": "loads.pressure", "on": "x_max",
-        "pressure": -1e6, "form": "triangle", "rise": 1, "fall": 1 }, { )" + std::string(solver) +
-                                                                               R"(, "end_time": 1 }, { )" + solver + R"(, "end_time": 2 })"),
-                              1);
+    const auto plan =
+        plan_of(cube(R"("membrane": "I-m", "poisson": 0.1)", rollers() + R"({ "type": "loads.expression", "on": "x_max",
+        "total": [)" + number(1e6 * size * size) + R"(, 0, 0], "expression": "t < 1 ? t : 2 - t", "corners": [1] }, { )" +
+                                                                 std::string(solver) + R"(, "end_time": 1 }, { )" + solver + R"(, "end_time": 2 })"),
+                1);
     Simulation simulation(*plan->model, 1);
     StageCalls(*plan->model, simulation, plan->stages[0], 1, {}).run();
     EXPECT_NEAR(largest(displacements(simulation)), 1e-3 * size, 1e-5 * size) << solver;

@@ -163,10 +163,10 @@ TEST(Materials, FaultsOfABodyOfSeveral) {
 
 TEST(Elastic, SaysWhichPoissonRatiosAMembraneReaches) {
   expect_in(material_faults(R"("membrane": "I-m", "poisson": 0.3)"),
-            {"/pipeline/1/poisson", "0.3", "(-0.2, 0.25]", "membrane I-m", "0.3 is within the reach of IV"});
+            {"/pipeline/1/poisson", "0.3", "(-0.2, 0.25]", "membrane I-m", "0.3 is within the reach of IV (not isotropic)"});
   expect_in(material_faults(R"("membrane": "IV", "poisson": -0.3)"), {"/pipeline/1/poisson", "-0.3 is within the reach of II"});
   expect_in(material_faults(R"("membrane": "I", "poisson": 0.4)"), {"no membrane of this lattice reaches it"});
-  expect_in(material_faults(R"("poisson": 0.2)"), {"/pipeline/1/poisson", "0.25, or left out", "I-m, I, II, III, IV"});
+  expect_in(material_faults(R"("poisson": 0.2)"), {"/pipeline/1/poisson", "0.25, or left out", "I-m, I (not isotropic), II (not isotropic)"});
   expect_in(material_faults(R"("membrane": "I-m", "poisson": 0.02, "parameters": "paper")"), {"/pipeline/1/poisson", "0.04 to 0.2464"});
 }
 

@@ -180,7 +180,7 @@ TEST(Picture, TellsWhatItShows) {
 
 TEST(Picture, RefusesWhatItCannotDraw) {
   const auto faults = Plugin("writers.picture", {{"file", ""}, {"view", {0, 0, 0}}, {"range", {2, 1}}}).faults();
-  EXPECT_EQ(faults, (std::vector<std::string>{"file: a name of letters, digits, '_', '-' and '.', without folders",
+  EXPECT_EQ(faults, (std::vector<std::string>{"file: a name of letters, digits, '_', '-' and '.', without folders, of at most 80 characters",
                                               "view: a direction that is not zero", "range: two numbers, the smaller first"}));
   Scene scene({2, 2, 2});
   const auto message = [&](const nlohmann::json& options) -> std::string {

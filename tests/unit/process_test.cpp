@@ -89,7 +89,9 @@ TEST(Team, SharesAllWorkOnceAndTheSameWayEachTime) {
         });
       EXPECT_EQ(count, std::vector<int>(size, 50));
       EXPECT_EQ(first, second);
-      if (size == 1000) EXPECT_EQ(std::set(first.begin(), first.end()).size(), static_cast<std::size_t>(threads));
+      if (size == 1000) {
+        EXPECT_EQ(std::set(first.begin(), first.end()).size(), static_cast<std::size_t>(threads));
+      }
     }
   }
 }

@@ -43,9 +43,11 @@ std::shared_ptr<const Region> make(std::string_view name, Values values) {
 std::vector<std::string> faults_of(std::string_view name, Values values) {
   return with_options(name, values, [](const Primitive& primitive, const void* options) {
     std::vector<std::string> found;
-    primitive.options.check(options, {&found, [](void* self, std::string_view option, std::string_view) noexcept {
-                                        static_cast<std::vector<std::string>*>(self)->emplace_back(option);
-                                      }});
+    const FaultSink faults{&found, [](void* self, std::string_view option, std::string_view) noexcept {
+                             static_cast<std::vector<std::string>*>(self)->emplace_back(option);
+                           }};
+    const Complaint none{nullptr, [](void*, std::string_view sentence) noexcept { ADD_FAILURE() << sentence; }};
+    EXPECT_TRUE(primitive.options.check(options, faults, none));
     return found;
   });
 }

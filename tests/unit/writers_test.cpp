@@ -90,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(Types, EveryWriter, testing::Values("writers.vtu", "wri
 
 TEST_P(EveryWriter, RefusesRepeatedFieldsAndFolders) {
   const auto faults = Plugin(GetParam(), {{"fields", {"damage", "damage"}}, {"file", "a/b"}}).faults();
-  EXPECT_EQ(faults, (std::vector<std::string>{"file: a name of letters, digits, '_', '-' and '.', without folders",
+  EXPECT_EQ(faults, (std::vector<std::string>{"file: a name of letters, digits, '_', '-' and '.', without folders, of at most 80 characters",
                                               "fields: each field once; \"damage\" is there twice"}));
 }
 

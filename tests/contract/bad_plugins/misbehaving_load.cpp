@@ -43,7 +43,7 @@ class Misbehaves {
   }
 
   double factor(double time) const {
-    if (time < 1e-6) return 1;
+    if (time < 1e-6 || time > 2e-6) return 1;  // the plan asks about the start, the middle and the end
     if (asked_for("throw")) throw std::runtime_error("boom");
     if (asked_for("nan")) return infinity - infinity;
     if (asked_for("null pointer")) return *static_cast<const volatile double*>(nullptr);
