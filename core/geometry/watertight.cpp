@@ -47,7 +47,7 @@ Vec3 doubled_area(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& 
   return cross(mesh.points[facet[1]] - a, mesh.points[facet[2]] - a);
 }
 
-/// Of a surface that is open at two points, whether a neighbour's corner is there but for a rounding.
+/// Whether a surface that is open at two points has a neighbour's corner there but for a rounding.
 std::string near_miss(const TriangleMesh& mesh, std::uint32_t a, std::uint32_t b) {
   constexpr double close = 1e-5;  // of the surface's extent
   Vec3 low = mesh.points.front(), high = low;

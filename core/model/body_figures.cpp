@@ -21,7 +21,7 @@ bool has_tight_box(const Region& region) {
 
 template <class Value, class Text>
 std::string beside(const Value& is, const std::optional<Value>& asked, const Text& text) {
-  const std::string made = text(is);
+  std::string made = text(is);
   if (!asked || text(*asked) == made) return made;
   return fmt::format("{}; its shape asks for {}", made, text(*asked));
 }

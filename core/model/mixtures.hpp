@@ -51,7 +51,9 @@ class Mixtures {
   }
 
  private:
-  static std::size_t place(int di, int dj, int dk) { return static_cast<std::size_t>(4 * (dk + 1) + 2 * (dj + 1) + di + 1); }
+  static std::size_t place(int di, int dj, int dk) {
+    return 4 * static_cast<std::size_t>(dk + 1) + 2 * static_cast<std::size_t>(dj + 1) + static_cast<std::size_t>(di + 1);
+  }
 
   std::vector<std::uint32_t> of_particle_;
   std::vector<Around> around_;

@@ -100,7 +100,7 @@ struct Model {
   bool answering = false;             ///< some load watches the motion
   bool asks_rate = false;             ///< some criterion asks how fast springs grow
 
-  /// Of a particle between cells of several materials, the one that most of them are of.
+  /// The material of most cells around a particle that stands between several materials.
   std::uint8_t material(Particle particle) const {
     if (!mixtures.empty()) return mixtures.commonest(mixtures.of(particle));
     return material_of.empty() ? std::uint8_t{0} : material_of[particle];
@@ -111,7 +111,7 @@ struct Model {
   const SpringConstants& spring(std::uint8_t a, std::uint8_t b, std::uint32_t spring_class) const {
     return springs[(a * materials.size() + b) * body.grid.spring_classes + spring_class];
   }
-  /// Of the spring to a neighbour that begins at a particle of one kind and ends at one of another.
+  /// Constants of the spring to a neighbour that begins at a particle of one kind and ends at one of another.
   const SpringConstants& spring_to(std::uint32_t neighbour, std::uint32_t here, std::uint32_t there) const {
     if (!mixtures.empty()) return springs[mixture_springs[here * neighbours.size() + neighbour]];
     return spring(static_cast<std::uint8_t>(here), static_cast<std::uint8_t>(there), neighbours[neighbour].site.spring_class);

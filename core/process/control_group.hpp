@@ -10,7 +10,7 @@ namespace hyperlattice {
 
 class ControlGroups {
  public:
-  /// Of this process. `root`: where the system's files are looked for. What cannot be read sets no limit.
+  /// The limits of this process. `root`: where the system's files are looked for. A file that cannot be read sets no limit.
   explicit ControlGroups(const std::filesystem::path& root = "/");
 
   struct Memory {

@@ -12,7 +12,7 @@ namespace hyperlattice {
 
 namespace {
 
-/// Of the affinity mask; a machine may have more processors than a cpu_set_t holds.
+/// Counts the processors of the affinity mask; a machine may have more than a cpu_set_t holds.
 int allowed_by_mask() {
   constexpr std::size_t most = 1 << 16;
   for (std::size_t processors = CPU_SETSIZE; processors <= most; processors *= 2) {

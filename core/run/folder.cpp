@@ -201,7 +201,7 @@ void RunFolder::go_on(std::vector<TableMark> marks) {
 }
 
 fs::path RunFolder::subfolder(const std::string& name) {
-  const fs::path path = path_of(name);
+  fs::path path = path_of(name);
   struct stat status {};
   if (::mkdir(path.c_str(), 0777) != 0 && errno != EEXIST) throw cannot("create", path, errno);
   if (::lstat(path.c_str(), &status) != 0) throw cannot("create", path, errno);

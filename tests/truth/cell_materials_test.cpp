@@ -13,7 +13,7 @@ using namespace hyperlattice::test;
 
 constexpr double poisson = 0.25, soft = 2e8, contrast = 1e5;
 
-/// Of a bar whose sides are held, stress over strain.
+/// Stress over strain of a bar whose sides are held.
 double confined(double young) { return young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson)); }
 
 std::string material(double young, const std::string& more = "") { return elastic(young, R"("poisson": 0.25)" + more); }
