@@ -8,8 +8,8 @@
 namespace hyperlattice {
 namespace {
 
-/// Of all springs of the row, or -1 if they are several. A row's mixtures say it of its springs; materials of particles, with those of its
-/// neighbours.
+/// The one material of all springs of a row, or -1 if there are several. In a body of cells the row's mixtures decide; else the materials of its
+/// particles and of their neighbours.
 std::int32_t material_of_row(const Model& model, std::int32_t j, std::int32_t k) {
   if (model.materials.size() == 1) return 0;
   std::int32_t found = -2;
