@@ -42,10 +42,10 @@ void stop_gently_when_interrupted();
 
 /// --threads.
 struct ThreadArgument {
-  int threads = 0;  ///< 0: every processor
+  int threads = 0;  ///< 0: nobody asked for a number
 
   void declare(CLI::App& command);
-  int count() const;  ///< at least 1
+  Threads count() const;
 };
 
 /// What `run` and `plan` are both told.

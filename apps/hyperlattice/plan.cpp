@@ -21,14 +21,14 @@ constexpr int most_threads = 4096;
 void ThreadArgument::declare(CLI::App& command) {
   command
       .add_option("--threads", threads,
-                  "threads to run on; results do not depend on it (default: OMP_NUM_THREADS, else every processor that it may use)")
+                  "threads to run on; results do not depend on it (default: OMP_NUM_THREADS, else every processor that it may use, but few for a small body)")
       ->check(CLI::Range(1, most_threads));
 }
 
-int ThreadArgument::count() const {
+Threads ThreadArgument::count() const {
   if (threads > 0) return threads;
   const char* wish = std::getenv("OMP_NUM_THREADS");
-  if (wish == nullptr || *wish == '\0') return std::min(processors(), most_threads);
+  if (wish == nullptr || *wish == '\0') return Threads::up_to(std::min(processors(), most_threads));
   const std::string_view list = wish, first = list.substr(0, list.find(','));  // a number for each level of nesting
   int number = 0;
   const auto [end, error] = std::from_chars(first.data(), first.data() + first.size(), number);

@@ -101,7 +101,7 @@ Measured VirtualTest::compress(const calibration::Ratios& ratios) {
   const auto start = std::chrono::steady_clock::now();
   const auto plan = make_plan(read_scene_text(scene_of(options_, ratios, options_.strain * length_), host_), options_.threads);
   const Model& model = *plan->model;
-  Simulation simulation(model, options_.threads);
+  Simulation simulation(model, plan->threads);
   const Cube cube(model.body);
   simulation.set_displacements(cube.shortened(options_.strain), {});
   const RestReport rest = bring_to_rest(*plan, simulation);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <host/host.hpp>
+#include <plan/threads.hpp>
 
 #include <hyperlattice/calibration.hpp>
 
@@ -33,7 +34,7 @@ class VirtualTest {
     int particles = 20;      ///< N, along an edge; of lattices with several particles in a cubic cell, cells
     double strain = 1e-3;    ///< by which the platens shorten the distance of the end layers: (N - 1) l in the cubic lattice
     double residual = 1e-8;  ///< at which the cube counts as at rest
-    int threads = 1;
+    Threads threads = 1;
   };
 
   /// Measures the lattice without a membrane, to compare others with. Throws as read_scene and build_model do; RunError if a cube does not come to

@@ -91,17 +91,17 @@ double record_interval(const PlannedStage& stage) {
 
 std::uint64_t record_steps(const PlannedStage& stage) { return std::max<std::uint64_t>(1, stage.plan.time_step > 0 ? stage.plan.steps / 200 : 1); }
 
-std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, int threads) {
+std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, Threads threads) {
   const auto start = std::chrono::steady_clock::now();
   auto plan = std::make_unique<Plan>();
   plan->scene = std::move(scene);
-  plan->threads = threads;
   plan->identity = identity_of(*plan->scene);
   try {
     plan->model = build_model(*plan->scene);
   } catch (const std::bad_alloc&) {
     throw OutsideError("out of memory while the lattice was built: too many particles for this machine; " + lack_of_memory());
   }
+  plan->threads = threads.of(plan->model->body.particles);
   plan->body = body_figures(*plan->model);
   for (std::string& warning : size_warnings(plan->body, plan->model->body.grid.spacing)) plan->model->warnings.push_back(std::move(warning));
   Faults faults;

@@ -3,6 +3,7 @@
 
 #include <model/body_figures.hpp>
 #include <plan/identity.hpp>
+#include <plan/threads.hpp>
 
 #include <hyperlattice/solver.hpp>
 
@@ -52,7 +53,7 @@ struct Plan {
 };
 
 /// Validates everything, computes nothing. Throws as read_scene and build_model do, and InputError if a solver refuses its time step.
-std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, int threads);
+std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, Threads threads);
 
 /// Seconds between the outputs of a writer or probe in a run of `end_time` seconds; a scene that does not say gets 20 frames, 200 samples.
 double output_interval(const Stage& output, double end_time);

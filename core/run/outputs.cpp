@@ -50,7 +50,10 @@ void Outputs::begin(Output& output) {
     return PluginCall::answer(std::span<const Particle>(), [&] { return static_cast<Outputs*>(self)->regions_.particles(region); });
   };
   context.announce_file = [](void* self, std::string_view file, bool rewritten) noexcept {
-    PluginCall::answer([&] { static_cast<Outputs*>(self)->announce(file, rewritten); });
+    return PluginCall::answer(false, [&] {
+      static_cast<Outputs*>(self)->announce(file, rewritten);
+      return true;
+    });
   };
   if (!is_probe) {
     call(stage, "begin", [&](const Complaint& why) { return stage.functions<WriterFunctions>().begin(output.component.get(), context, why); });

@@ -42,12 +42,12 @@ struct Earlier {
 };
 
 /// The run in a folder, if it is done and depends on the same as a run of now, with as many threads: these do not change results, but times.
-Earlier find_earlier(const fs::path& folder, const Identity& identity, int threads) {
+Earlier find_earlier(const fs::path& folder, const Identity& identity, Threads threads) {
   Earlier earlier{summary_in(folder), ""};
   const Json status = earlier.summary.is_null() ? Json() : earlier.summary.value("status", Json());
   if (status != "done") return {};
   const Json counted = earlier.summary.value("threads", Json()), wall = earlier.summary.value("wall_seconds", Json());
-  if (counted != threads)
+  if (!counted.is_number_integer() || !threads.allow(counted.get<std::int64_t>()))
     earlier.changed = fmt::format("it was run with {} threads", counted.dump());
   else if (!wall.is_object() || !wall.value("solve", Json()).is_number() || !wall.value("setup", Json()).is_number())
     earlier.changed = "its summary.json is not whole";
@@ -116,7 +116,7 @@ class Conductor {
   Conducted result() && { return std::move(result_); }
 
  private:
-  int threads(const Point& point) const { return point.threads.value_or(options_.threads); }
+  Threads threads(const Point& point) const { return point.threads ? Threads(*point.threads) : options_.threads; }
   std::unique_ptr<Scene> read(const Point& point) const { return read_scene_text(point.scene.dump(), study_.scene_file, host_); }
 
   /// Those that the run left, or will leave; none if it is too large for this machine: its row will say so, and the others go on.
@@ -138,7 +138,7 @@ class Conductor {
     for (const Axis& axis : study_.axes) {
       auto& number = found.emplace_back();
       if (axis.is_threads()) {
-        number = threads(point);
+        number = threads(point).most();
         continue;
       }
       const Json::json_pointer place(axis.pointers.front());

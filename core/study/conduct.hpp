@@ -5,12 +5,13 @@
 #include <study/rows.hpp>
 
 #include <host/host.hpp>
+#include <plan/threads.hpp>
 
 namespace hyperlattice::study {
 
 struct ConductOptions {
   std::filesystem::path directory;  ///< of the study's results; the runs are in runs/<name>/, further repeats of one in runs/<name>/repeat_2/ ...
-  int threads = 1;                  ///< of runs whose threads the study does not vary
+  Threads threads = 1;              ///< of runs whose threads the study does not vary
   bool fresh = false;               ///< run again what is there already
 };
 

@@ -147,6 +147,7 @@ TEST_F(FolderOfARun, TouchesNoFileThatIsNotARuns) {
   const Result met = run(scene_with_outputs());
   EXPECT_EQ(met.exit_code, 4) << met.err;
   EXPECT_NE(met.err.find("frames_000001.vtu"), std::string::npos) << met.err;
+  EXPECT_EQ(contents(out + "/frames_000001.vtu"), "mine");
 }
 
 TEST_F(FolderOfARun, FollowsNoLinkOutOfIt) {

@@ -2,6 +2,8 @@
 // environments that say odd things.
 #include "support/program.hpp"
 
+#include <process/processors.hpp>
+
 #include <gtest/gtest.h>
 
 #include <sched.h>
@@ -84,11 +86,16 @@ TEST_F(Surroundings, ThreadsAreThoseThatItMayUse) {
   CPU_ZERO(&one);
   for (int n = 0; n < CPU_SETSIZE && CPU_COUNT(&one) == 0; ++n)
     if (CPU_ISSET(n, &before)) CPU_SET(n, &one);
+  const std::vector<std::string> large = {"--set", "/pipeline/0/shape/hollow_sphere/outer_radius=0.016", "--overwrite"};  // 16,904 particles
   ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);  // inherited by the program
-  const Result result = run({});
+  const Result result = run(large);
   sched_setaffinity(0, sizeof before, &before);
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(summary()["threads"], 1);
+  ASSERT_EQ(run(large).exit_code, 0);
+  EXPECT_EQ(summary()["threads"], std::min(hyperlattice::processors(), 4));
+  ASSERT_EQ(run({"--overwrite"}).exit_code, 0);
+  EXPECT_EQ(summary()["threads"], 1) << "a small body";
 
   ASSERT_EQ(run({}, {"OMP_NUM_THREADS=3,2"}).exit_code, 0);
   EXPECT_EQ(summary()["threads"], 3);

@@ -29,6 +29,16 @@ bool leaves_out(const Plan& plan, const std::string& what) {
   return std::any_of(plan.left_out.begin(), plan.left_out.end(), [&](const LeftOut& left) { return left.what == what; });
 }
 
+TEST(Plan, small_bodies_take_few_threads_unless_a_number_is_asked_for) {
+  EXPECT_EQ(Threads::up_to(8).of(432), 1);
+  EXPECT_EQ(Threads::up_to(8).of(3 * 4096), 3);
+  EXPECT_EQ(Threads::up_to(8).of(4'000'000'000), 8);
+  EXPECT_EQ(Threads(8).of(432), 8);
+  EXPECT_TRUE(Threads::up_to(8).allow(3));
+  EXPECT_FALSE(Threads::up_to(8).allow(9));
+  EXPECT_FALSE(Threads(8).allow(3));
+}
+
 TEST(Plan, bytes_are_those_of_the_state) {
   for (const char* membrane : {"none", "I-m", "III"})
     for (const int threads : {1, 2, 5}) {

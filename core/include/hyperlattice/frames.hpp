@@ -77,14 +77,14 @@ class FrameFiles {
 
  private:
   std::string announced(const std::string& name, bool rewritten) const {
-    if (announce_ != nullptr) announce_(run_, name, rewritten);
+    if (announce_ != nullptr && !announce_(run_, name, rewritten)) throw std::runtime_error(name + " is not a file of this run");
     return base_ + name;
   }
 
   std::string base_, file_, extension_;
   std::uint64_t frame_ = 0;
   void* run_ = nullptr;
-  void (*announce_)(void* run, std::string_view name, bool rewritten) noexcept = nullptr;
+  bool (*announce_)(void* run, std::string_view name, bool rewritten) noexcept = nullptr;
 };
 
 /// The particles of a region, and their part of any field. A region that is the whole body costs nothing.

@@ -3,6 +3,8 @@
 
 #include <hyperlattice/component.hpp>
 
+#include <stdexcept>
+
 namespace hyperlattice {
 
 /// A quantity of every particle (or of those asked for), `components` numbers each.
@@ -47,13 +49,14 @@ struct OutputContext {
   void* self = nullptr;
   std::span<const Particle> (*region_particles)(void* self, RegionId region) noexcept = nullptr;
 
-  /// Told the name of each file, relative to `directory`, before it is written. `rewritten`: a later frame writes the file again. FrameFiles tells
-  /// it.
-  void (*announce_file)(void* self, std::string_view name, bool rewritten) noexcept = nullptr;
+  /// Told the name of each file, relative to `directory`, before it is written. `rewritten`: a later frame writes the file again.
+  /// False: a file of that name is not the run's own, and must not be touched; the run tells its user. FrameFiles asks it.
+  bool (*announce_file)(void* self, std::string_view name, bool rewritten) noexcept = nullptr;
 
   std::span<const Particle> particles(RegionId region) const { return region_particles(self, region); }  ///< ascending
+  /// Throws std::runtime_error if the file must not be touched.
   void announce(std::string_view name, bool rewritten = false) const {
-    if (announce_file != nullptr) announce_file(self, name, rewritten);
+    if (announce_file != nullptr && !announce_file(self, name, rewritten)) throw std::runtime_error(std::string(name) + " is not a file of this run");
   }
 };
 

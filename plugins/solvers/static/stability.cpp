@@ -24,16 +24,23 @@ Field rough_field(const System& system) {
 
 Field softening_motion(System& system, ConjugateGradients& gradients, const Field& displacement) {
   constexpr double solved = 1e-3, rounding = 1e-13;
+  const auto softens = [&](const Field& motion, double curvature) {
+    return curvature < -rounding * system.stiffest() * product(motion.data(), motion.data(), motion.size(), system.threads());
+  };
   const FreeMotions free(system, displacement);
   const Field rough = rough_field(system);
   gradients.start(rough, &free);
-  for (int n = 0; n < system.most_iterations() && gradients.unit() * largest(gradients.residual()) > solved; ++n) {
-    if (gradients.advance()) continue;
-    const Field& p = gradients.direction();
-    const double size = product(p.data(), p.data(), p.size(), system.threads());
-    return gradients.curvature() < -rounding * system.stiffest() * size ? p : Field{};
+  const Field& left = gradients.residual();
+  bool goes_on = true;
+  for (int n = 0; goes_on && n < system.most_iterations(); ++n) {
+    if (gradients.unit() * largest(left) <= solved) return {};
+    goes_on = gradients.advance();
   }
-  return {};
+  if (!goes_on && softens(gradients.direction(), gradients.curvature())) return gradients.direction();
+  // The preconditioner leaves alone what has no stiffness by itself, such as heights that compression has robbed of theirs: that is left.
+  Field resisting(left.size());
+  system.multiply(left.data(), resisting.data());
+  return softens(left, product(left.data(), resisting.data(), left.size(), system.threads())) ? left : Field{};
 }
 
 }  // namespace hyperlattice::statics

@@ -10,29 +10,17 @@
 
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
-template <class Law, Membrane membrane, bool Breakable, bool Mixed, Task task, class Stored>
-class ListedSweep {
-  using Real = RealOf<Law, task, Stored>;
+/// The forces on particles, from the records that stand since the step's start.
+template <class Law, Membrane membrane, bool Breakable, bool measuring, class Stored>
+class ListedForces {
+  using Real = RealOf<Law, measuring, Stored>;
   using Pack = PackOf<Real>;
   static constexpr int components = components_of(membrane), width = lanes_of<Real>, slot_width = lanes_of<Stored>;
-  static constexpr bool measuring = task == Task::measure;
 
  public:
-  static void run(const KernelRequest& request) {
-    const ListedSweep sweep(request);
-    sweep.write_records();
-    if (request.listed.stiffness != nullptr)
-      sweep.template all_rows<true>();
-    else
-      sweep.template all_rows<false>();
-  }
+  explicit ListedForces(const KernelRequest& request) : request_(request), slots_(request.listed), exact_(exact_springs()) {}
 
- private:
-  explicit ListedSweep(const KernelRequest& request) : request_(request), slots_(request.listed), exact_(exact_springs()) {}
-
-  Stored* record(std::uint64_t place) const { return static_cast<Stored*>(slots_.records) + record_numbers * place; }
-
-  void write_records() const {
+  [[gnu::noinline]] void write_records() const {
     for (std::int32_t index = 0; index < request_.rows_per_plane; ++index) {
       const Row& row = request_.rows[index];
       for (std::uint64_t n = row.start; n < row.start + static_cast<std::uint64_t>(row.end); ++n)
@@ -40,24 +28,24 @@ class ListedSweep {
     }
   }
 
+  /// Adds the forces of a row's springs to those on its particles, one array a component, and half of each spring's energies: the other half is its
+  /// other end's. `index`: the row's. Not inlined: every sweep has the same.
+  [[gnu::noinline]] void add(const Row& row, std::uint32_t index, Real* const (&forces)[components], Energies<Pack>& energies) const {
+    if (slots_.stiffness != nullptr)
+      all_packs<true>(row, index, forces, energies);
+    else
+      all_packs<false>(row, index, forces, energies);
+    energies.stored *= 0.5;
+    energies.dissipated *= 0.5;
+  }
+
+ private:
+  Stored* record(std::uint64_t place) const { return static_cast<Stored*>(slots_.records) + record_numbers * place; }
+
   /// Several: each spring has a stiffness of its own.
   template <bool Several>
-  void all_rows() const {
-    for (std::uint32_t index = 0; index < static_cast<std::uint32_t>(request_.rows_per_plane); ++index) {
-      const Row& row = request_.rows[index];
-      Motion<membrane, Mixed, task, Stored, Real> motion(request_, row);
-      Real* forces[components];
-      for (int c = 0; c < components; ++c) {
-        forces[c] = static_cast<Real*>(request_.scratch) + c * request_.scratch_width;
-        for (int t = 0; t < row.end; t += width) store(forces[c] + t, motion.accelerated() ? motion.body_force(c, t) : Pack(0));
-      }
-      Energies<Pack> energies;
-      for (int t = 0; t < row.end; t += width) one_pack<Several>(row, index, t, forces, energies);
-      energies.stored *= 0.5;  // half of every spring's energy to each of its ends
-      energies.dissipated *= 0.5;
-      motion.vectors(forces);
-      motion.template finish<LawWithMemory<Law>>(index, energies);
-    }
+  void all_packs(const Row& row, std::uint32_t index, Real* const (&forces)[components], Energies<Pack>& energies) const {
+    for (int t = 0; t < row.end; t += width) one_pack<Several>(row, index, t, forces, energies);
   }
 
   /// A pack of springs from here to there.
@@ -244,6 +232,29 @@ class ListedSweep {
   const KernelRequest& request_;
   const ListedSlots& slots_;
   const bool exact_;
+};
+
+template <class Law, Membrane membrane, bool Breakable, bool Mixed, Task task, class Stored>
+struct ListedSweep {
+  static void run(const KernelRequest& request) {
+    constexpr bool measuring = task == Task::measure;
+    constexpr int components = components_of(membrane);
+    using Real = RealOf<Law, measuring, Stored>;
+    using Pack = PackOf<Real>;
+    const ListedForces<Law, membrane, Breakable, measuring, Stored> springs(request);
+    springs.write_records();
+    for (std::uint32_t index = 0; index < static_cast<std::uint32_t>(request.rows_per_plane); ++index) {
+      const Row& row = request.rows[index];
+      Motion<membrane, Mixed, task, Stored, Real> motion(request, row);
+      Real* forces[components];
+      for (int c = 0; c < components; ++c) forces[c] = static_cast<Real*>(request.scratch) + c * request.scratch_width;
+      motion.set_body_force(forces, row.end);
+      Energies<Pack> energies;
+      springs.add(row, index, forces, energies);
+      motion.vectors(forces);
+      motion.template finish<LawWithMemory<Law>>(index, energies);
+    }
+  }
 };
 
 }  // namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS

@@ -18,8 +18,8 @@ constexpr std::size_t kinds_of(Membrane membrane) { return membrane == Membrane:
 enum class Task { step, step_damped, measure };
 
 /// What is measured is computed in doubles, whatever the state is stored in; so is what a law with constants of its own does.
-template <class Law, Task task, class Stored>
-using RealOf = std::conditional_t<task == Task::measure || LawWithConstants<Law>, double, Stored>;
+template <class Law, bool measuring, class Stored>
+using RealOf = std::conditional_t<measuring || LawWithConstants<Law>, double, Stored>;
 
 /// Stores a pack as numbers of the state's precision.
 template <class Real, class Stored>
@@ -128,8 +128,19 @@ class Motion {
     return where(lanes_with<Real>(load_bits<Real>(request_.alive + row_.start + t), particle_bit), acceleration[c] * values_.at(request_.mass, t));
   }
 
-  /// `force`: one array a component, whole vectors. Visits the row's supports too.
-  void vectors(Real* const (&force)[components]) {
+  /// Sets the forces on the row's `count` sites to the body acceleration's, or adds these.
+  [[gnu::noinline]] void set_body_force(Real* const (&force)[components], int count) const {
+    const bool accelerated = this->accelerated();
+    for (int c = 0; c < components; ++c)
+      for (int t = 0; t < count; t += width) store(force[c] + t, accelerated ? body_force(c, t) : Pack(0));
+  }
+  [[gnu::noinline]] void add_body_force(Real* const (&force)[components], int count) const {
+    for (int c = 0; c < components; ++c)
+      for (int t = 0; t < count; t += width) store(force[c] + t, load(force[c] + t) + body_force(c, t));
+  }
+
+  /// `force`: one array a component, whole vectors. Visits the row's supports too. Not inlined: every sweep has the same.
+  [[gnu::noinline]] void vectors(Real* const (&force)[components]) {
     supports_before(force);
     for (int t = 0; t < row_.end - row_.begin; t += width) {
       Forces<components, Real> forces;
@@ -181,7 +192,7 @@ class Motion {
 
   /// `springs`: what the row's have; `index`: the row's.
   template <bool Dissipating = false>
-  void finish(std::uint32_t index, const Energies<Pack>& springs) {
+  [[gnu::noinline]] void finish(std::uint32_t index, const Energies<Pack>& springs) {
     damped_ += springs.dissipated;
     if constexpr (task == Task::step_damped || (task == Task::step && Dissipating)) request_.damped_work[index] += sum(damped_) - not_damped_;
     if constexpr (measuring) {

@@ -112,7 +112,7 @@ class SpringKind {
  public:
   SpringKind() = default;
   /// `alarm`: elongation; infinity if nothing asks.
-  SpringKind(double stiffness, double rest_length, double alarm) : stiffness_(stiffness), rest_length_(rest_length) {
+  [[gnu::noinline]] SpringKind(double stiffness, double rest_length, double alarm) : stiffness_(stiffness), rest_length_(rest_length) {
     if (alarm < infinity) alarm_ = static_cast<Real>(squared_growth<Real>(rest_length, alarm));
     if constexpr (is_linear<Law>) {
       const double square = rest_length * rest_length;

@@ -46,7 +46,7 @@ class Stencil {
   /// Adds to what later rows receive; gives the whole force on each vector of sites to take(t, forces), and clears what they received.
   /// Returns the bits of neighbours with an alarm.
   template <class Take>
-  std::uint32_t run(const Take& take) {
+  HYPERLATTICE_INLINE std::uint32_t run(const Take& take) {
     Carried carried;
     if ((rows_.alive[0] & List::leaning(-1)) != 0) first(carried);
     for (int t = 0; t < rows_.count; t += width) {
@@ -62,6 +62,12 @@ class Stencil {
     }
     last(carried);
     return rung_;
+  }
+  /// The same, with the forces kept in one array a component. Not inlined: every sweep that moves its particles later has the same.
+  [[gnu::noinline]] std::uint32_t run(Real* const (&forces)[components]) {
+    return run([&](int t, const Packs& sums) __attribute__((always_inline)) {
+      for (std::size_t c = 0; c < components; ++c) store(forces[c] + t, sums[c]);
+    });
   }
 
  private:

@@ -14,11 +14,11 @@ namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
 template <class Law, Membrane membrane, bool Breakable, bool Mixed, Task task, class Stored>
 class Sweep {
-  using Real = RealOf<Law, task, Stored>;
+  static constexpr bool measuring = task == Task::measure;
+  using Real = RealOf<Law, measuring, Stored>;
   using Pack = PackOf<Real>;
   using Pair = RowPair<components_of(membrane), Stored, Real>;
   static constexpr int components = components_of(membrane), width = lanes_of<Real>;
-  static constexpr bool measuring = task == Task::measure;
 
  public:
   static void run(const KernelRequest& request) { Sweep(request).all_rows(); }
@@ -57,26 +57,30 @@ class Sweep {
     const bool at_once = may_move_at_once && fused && owned && row.first_support == row.last_support;
     Energies<Pack> energies;
     if (!fused) {
-      for (int c = 0; c < components; ++c)
-        for (int t = 0; t < count; t += width) store(own_[c] + t, accelerated ? motion.body_force(c, t) : Pack(0));
+      motion.set_body_force(own_, count);
       one_by_one(row, index, j, k, count, energies);
     } else if constexpr (can_fuse) {
-      const std::uint32_t rung = all_neighbours(
-          row, j, k, count, [&](int t, Forces<components, Real>& forces) __attribute__((always_inline)) {
+      const typename Fused::Rows rows = rows_of(row, j, k, count);
+      Fused stencil(request_, rows);
+      if (may_move_at_once && at_once) {
+        if constexpr (may_move_at_once)
+          stencil.run([&](int t, Forces<components, Real>& forces) __attribute__((always_inline)) {
             if (accelerated)
               for (std::size_t c = 0; c < components; ++c) forces[c] += motion.body_force(static_cast<int>(c), t);
-            if (may_move_at_once && at_once) return motion.vector(t, forces);
-            for (std::size_t c = 0; c < components; ++c) store(own_[c] + t, forces[c]);
+            motion.vector(t, forces);
           });
-      if (Breakable && owned) review_all(row, index, j, k, rung);
+      } else {
+        const std::uint32_t rung = stencil.run(own_);
+        if (accelerated) motion.add_body_force(own_, count);
+        if (Breakable && owned) review_all(row, index, j, k, rung);
+      }
     }
     if (!owned) return;
     if (!at_once) motion.vectors(own_);
     motion.template finish<LawWithMemory<Law>>(index, energies);
   }
 
-  template <class Take>
-  std::uint32_t all_neighbours(const Row& row, int j, int k, int count, const Take& take) {
+  typename Fused::Rows rows_of(const Row& row, int j, int k, int count) {
     if (const std::int32_t material = Mixed ? row.material : 0; material != kinds_of_) set_kinds(material);
     typename Fused::Rows rows;
     for (std::size_t line = 0; line < CubicList::lines.size(); ++line) {
@@ -92,7 +96,7 @@ class Sweep {
     rows.kinds = kinds_;
     rows.neighbours = row.neighbours;
     rows.count = count;
-    return Fused(request_, rows).run(take);
+    return rows;
   }
 
   void review_all(const Row& row, std::uint32_t index, int j, int k, std::uint32_t rung) {
@@ -102,7 +106,7 @@ class Sweep {
                                        constants_of(row, request_.neighbours[n].site.spring_class));
   }
 
-  void one_by_one(const Row& row, std::uint32_t index, int j, int k, int count, Energies<Pack>& energies) {
+  [[gnu::noinline]] void one_by_one(const Row& row, std::uint32_t index, int j, int k, int count, Energies<Pack>& energies) {
     const bool owned = k >= 0;
     for (std::uint32_t n = 0; n < request_.neighbours.size(); ++n) {
       const NeighbourGeometry& neighbour = request_.neighbours[n];
