@@ -57,7 +57,7 @@ int analyze(const Arguments& arguments) {
     text += (text.empty() ? "" : "\n") + crystals_text(crystals);
   }
   if (!arguments.plot.empty()) draw_svg(arguments.plot, crystal_map_script(crystals, point));
-  std::cout << (arguments.json ? json.dump(2) + "\n" : text) << std::flush;
+  std::cout << (arguments.json ? json_text(json) : text) << std::flush;
   return exit_done;
 }
 

@@ -62,7 +62,7 @@ int calibrate_curve(const Arguments& a, Host& host, const LatticeGeometry& geome
   if (!a.plot.empty()) draw_svg(a.plot, curve_script(curve, options), 1000, 460);
   Json json = {{"lattice", a.lattice.lattice}};
   json.update(curve_json(curve, options));
-  std::cout << (a.json ? json.dump(2) + "\n" : curve_text(curve, options)) << std::flush;
+  std::cout << (a.json ? json_text(json) : curve_text(curve, options)) << std::flush;
   return exit_done;
 }
 
@@ -81,7 +81,7 @@ int calibrate_family(const Arguments& a, Host& host) {
   if (!a.plot.empty()) draw_svg(a.plot, family_script(family), 640, 460);
   Json json = {{"lattice", a.lattice.lattice}};
   json.update(family_json(family, a.virtual_test()));
-  std::cout << (a.json ? json.dump(2) + "\n" : family_text(family)) << std::flush;
+  std::cout << (a.json ? json_text(json) : family_text(family)) << std::flush;
   return exit_done;
 }
 
@@ -107,7 +107,7 @@ int calibrate(Arguments a) {
     json["measured"] = measured_json(measured, options);
     text += measured_text(measured, options, found.infinite);
   }
-  std::cout << (a.json ? json.dump(2) + "\n" : text) << std::flush;
+  std::cout << (a.json ? json_text(json) : text) << std::flush;
   return exit_done;
 }
 

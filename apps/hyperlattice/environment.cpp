@@ -10,6 +10,23 @@
 
 namespace hyperlattice {
 
+namespace {
+
+/// Refuses seconds that are no whole number: host/crash.cpp would take its own 60 in their place.
+void check_load_seconds(Faults& faults) {
+  constexpr const char* name = "HYPERLATTICE_LOAD_SECONDS";
+  const char* value = std::getenv(name);
+  if (value == nullptr) return;
+  const std::string_view text = value;
+  if (text.empty()) {
+    unsetenv(name);
+  } else if (text.find_first_not_of("0123456789") != text.npos) {
+    faults.add(name, std::string(text), "in the environment, whole seconds that a plugin may take to load; 0: no limit");
+  }
+}
+
+}  // namespace
+
 void check_environment() {
   struct Variable {
     const char* name;
@@ -29,6 +46,7 @@ void check_environment() {
     const std::string near = nearest(value, values);
     faults.add(name, value, fmt::format("in the environment, {}{}", fmt::join(values, ", "), near.empty() ? "" : "; did you mean '" + near + "'?"));
   }
+  check_load_seconds(faults);
   faults.throw_if_any();
 }
 

@@ -6,6 +6,7 @@
 #include <host/crash.hpp>
 #include <process/descriptors.hpp>
 #include <process/lack_of_memory.hpp>
+#include <run/interrupt.hpp>
 #include <scene/scene_plugins.hpp>
 
 #include <spdlog/sinks/stdout_sinks.h>
@@ -85,6 +86,7 @@ int obey(int count, char** words) {
 int main(int count, char** words) {
   open_missing_streams();
   watch_memory();
+  const FileLimitGuard file_limit;
   report_crashes();
   const int code = obey(count, words);
   if (std::cout.flush()) return code;

@@ -1,10 +1,11 @@
-// hyperlattice plan: what a run will load, allocate and compute, and what it leaves out; computes nothing.
+// hyperlattice plan: what a run will load, allocate and compute, and what it leaves out; writes nothing.
 #include "commands.hpp"
 #include "patience.hpp"
 
 #include <plan/calibration.hpp>
 #include <plan/shortage.hpp>
 #include <process/processors.hpp>
+#include <scene/json.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -15,13 +16,26 @@
 namespace hyperlattice {
 
 namespace {
+
 constexpr int most_threads = 4096;
+
+/// The folder that `run` writes into where no other is named.
+std::filesystem::path results_by_default(const std::filesystem::path& scene) {
+  std::filesystem::path directory;
+  try {
+    choose_directory(directory, scene);
+  } catch (const InputError&) {  // something else has that name: a run will need --out
+  }
+  return directory;
 }
+
+}  // namespace
 
 void ThreadArgument::declare(CLI::App& command) {
   command
-      .add_option("--threads", threads,
-                  "threads to run on; results do not depend on it (default: OMP_NUM_THREADS, else every processor that it may use, but few for a small body)")
+      .add_option(
+          "--threads", threads,
+          "threads to run on; results do not depend on it (default: OMP_NUM_THREADS, else every processor that it may use, but few for a small body)")
       ->check(CLI::Range(1, most_threads));
 }
 
@@ -61,9 +75,9 @@ Command plan_command(CLI::App& program) {
   return {command, [arguments] {
             Host host;
             const auto plan = arguments->plan(host);
-            for (std::string& missing : shortages(*plan, ".")) plan->model->warnings.push_back(std::move(missing));
+            for (std::string& missing : shortages(*plan, results_by_default(arguments->scene))) plan->model->warnings.push_back(std::move(missing));
             calibrate_run_time(*plan);
-            std::cout << (arguments->json ? plan_json(*plan).dump(2) + "\n" : plan_text(*plan)) << std::flush;
+            std::cout << (arguments->json ? json_text(plan_json(*plan)) : plan_text(*plan)) << std::flush;
             return exit_done;
           }};
 }

@@ -1,6 +1,8 @@
 // hyperlattice plugins: what can be named in a scene, components' pages and tests, and where it was all looked for.
 #include "commands.hpp"
 
+#include <scene/json.hpp>
+
 #include <spdlog/fmt/fmt.h>
 #include <nlohmann/json.hpp>
 
@@ -63,7 +65,7 @@ std::vector<const Component*> named(Host& host, const Arguments& arguments) {
     components.push_back(host.find(name));
     if (components.back() != nullptr) continue;
     if (arguments.why && arguments.json)
-      std::cout << nlohmann::json{{"searched", searched_json(host)}}.dump(2) << '\n';
+      std::cout << json_text(nlohmann::json{{"searched", searched_json(host)}});
     else if (arguments.why)
       print_searched(host);
     say_why_not(host, name);
@@ -84,7 +86,7 @@ int show(const Arguments& arguments) {
     nlohmann::json document;
     for (const Component* component : components) document["components"].push_back(nlohmann::json::parse(component_json(*component)));
     if (arguments.why) document["searched"] = searched_json(host);
-    std::cout << document.dump(2) << '\n';
+    std::cout << json_text(document);
     return exit_done;
   }
   if (arguments.names.empty()) print_list(components);

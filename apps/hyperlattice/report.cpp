@@ -31,7 +31,7 @@ Command report_command(CLI::App& program) {
             if (json) {
               Json found = report::report_json(report);
               found["file"] = file.string();
-              std::cout << found.dump(2, ' ', false, Json::error_handler_t::replace) << std::endl;
+              std::cout << json_text(found) << std::flush;
             } else {
               std::cout << report::report_text(report) << std::flush;
             }

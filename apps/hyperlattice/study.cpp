@@ -37,12 +37,9 @@ double read_target(const std::string& text) {
   return share.value;
 }
 
-/// Reasons may name files in other encodings.
-std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n'; }
-
 void write_results(const Study& study, const std::vector<Row>& rows, const Findings& findings, const std::filesystem::path& directory) {
   write_file((directory / "study.csv").string(), study_csv(study, rows, findings));
-  write_file((directory / "study.json").string(), text_of(study_json(study, rows, findings)));
+  write_file((directory / "study.json").string(), json_text(study_json(study, rows, findings)));
   const std::string script = study_script(study, rows, findings);
   if (script.empty()) return;
   try {
@@ -75,7 +72,7 @@ int run_study(Arguments a) {
   auto limits = find_errors(study, options.directory, done.rows);
   const Findings findings = find(study, done.rows, std::move(limits));
   write_results(study, done.rows, findings, options.directory);
-  std::cout << (a.json ? text_of(study_json(study, done.rows, findings)) : study_text(study, done.rows, findings)) << std::flush;
+  std::cout << (a.json ? json_text(study_json(study, done.rows, findings)) : study_text(study, done.rows, findings)) << std::flush;
   spdlog::info("{}, results in {}", done.interrupted ? "interrupted; the same command goes on from here" : "done", options.directory.string());
   return exit_code(done);
 }

@@ -2,6 +2,7 @@
 #include "commands.hpp"
 
 #include <contract/contract.hpp>
+#include <scene/json.hpp>
 
 #include <spdlog/fmt/fmt.h>
 #include <nlohmann/json.hpp>
@@ -47,7 +48,7 @@ int test_plugins(Host& host, const std::vector<const Component*>& components, co
   }
   if (json) {
     for (std::size_t n = 0; n < verdicts; ++n) document[std::string(contract::verdict_names[n])] = counts[n];
-    std::cout << document.dump(2) << '\n';
+    std::cout << json_text(document);
   } else {
     std::cout << fmt::format("{} passed, {} failed, {} not applicable\n", counts[0], counts[1], counts[2]);
   }

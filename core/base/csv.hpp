@@ -1,4 +1,4 @@
-// Tables as text: the first line names the columns. How lines are cut into cells is the SDK's <hyperlattice/tables.hpp>.
+// Tables as text: the first line names the columns, see parse_csv. How lines are cut into cells is the SDK's <hyperlattice/tables.hpp>.
 #pragma once
 
 #include <optional>
@@ -22,7 +22,9 @@ struct CsvTable {
   std::optional<std::size_t> column(std::string_view name) const;
 };
 
-/// Blank lines and lines that begin with "#" count for nothing.
+/// The first line that is neither blank nor begins with "#" names the columns. If this line holds a number, it is a row instead, and the last line
+/// above it that begins with "#" and has as many cells, or else the last such line, names the columns. All other lines that begin with "#" are
+/// skipped.
 CsvTable parse_csv(std::string_view text);
 
 }  // namespace hyperlattice

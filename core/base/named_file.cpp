@@ -41,7 +41,11 @@ void write_named_file(const fs::path& file, std::string_view bytes) {
   std::error_code ignored;
   const fs::file_status named = fs::symlink_status(file, ignored);
   if (fs::exists(named) && named.type() != fs::file_type::regular) return write_into(file, bytes);
-  write_file(file.string(), bytes);
+  try {
+    write_file(file.string(), bytes);
+  } catch (const std::runtime_error& error) {
+    throw OutsideError(error.what());
+  }
 }
 
 }  // namespace hyperlattice

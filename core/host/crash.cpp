@@ -1,6 +1,7 @@
 #include <base/errors.hpp>
 #include <host/crash.hpp>
 #include <host/plugin_call.hpp>
+#include <process/signal_stack.hpp>
 
 #include <sys/time.h>
 #include <unistd.h>
@@ -92,11 +93,7 @@ void set_alarm(long seconds) {
 }  // namespace
 
 void report_crashes() {
-  static char stack[1 << 16];  // a plugin that calls itself without end has used up the thread's own
-  stack_t own{}, present{};
-  own.ss_sp = stack;
-  own.ss_size = sizeof stack;
-  if (sigaltstack(nullptr, &present) == 0 && (present.ss_flags & SS_DISABLE) != 0) sigaltstack(&own, nullptr);
+  static const SignalStack stack;  // of the main thread; those of a Team have their own
   for (CrashSignal& signal : crash_signals) {
     struct sigaction action {};
     action.sa_sigaction = on_crash;

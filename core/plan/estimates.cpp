@@ -1,5 +1,6 @@
 #include <plan/estimates.hpp>
 #include <plan/fields.hpp>
+#include <run/inside_out.hpp>
 #include <run/layout.hpp>
 
 #include <algorithm>
@@ -68,7 +69,8 @@ void estimate_memory(Plan& plan) {
   for (const PlannedStage& stage : plan.stages) solver_bytes = std::max(solver_bytes, stage.plan.bytes_per_site);
   const Site low = model.body.low, high = model.body.high;
   solver_bytes *= model.body.is_listed() ? particles : (high.i - low.i + 1.0) * (high.j - low.j + 1.0) * (high.k - low.k + 1.0);
-  plan.memory_bytes = solver_bytes + layout->state_bytes() + layout->scratch_bytes() + bytes + output_numbers * sizeof(double) * particles;
+  plan.memory_bytes =
+      solver_bytes + layout->state_bytes() + layout->scratch_bytes() + bytes + CellWatch::bytes(model) + output_numbers * sizeof(double) * particles;
 }
 
 void estimate_output(Plan& plan) {
@@ -98,6 +100,7 @@ void estimate_time(Plan& plan) {
   constexpr double fourth_dimension = 1.8, damped = 1.1, floats = 0.6, listed = 4, second_thread = 0.6;
   const Model& model = *plan.model;
   const std::string_view instructions = model.kernels.instructions;
+  plan.expected_seconds = 0;
   double spring = instructions == "avx512" ? avx512 : instructions == "avx2" ? avx2 : baseline;
   if (model.degrees_of_freedom == 4) spring *= fourth_dimension;
   if (model.body.is_listed()) spring *= listed;

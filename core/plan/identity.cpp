@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <map>
 #include <mutex>
+#include <set>
 
 namespace hyperlattice {
 
@@ -64,9 +65,9 @@ void add_scene(Identity& identity, const Scene& scene) {
   }
 }
 
-void add_plugin(Identity& identity, const Component& component) {
-  const auto same = [&](const Dependence& other) { return other.kind == Kind::plugin && other.name == component.plugin; };
-  if (std::none_of(identity.begin(), identity.end(), same))
+/// Adds the plugin of a component, unless it is among the `known`.
+void add_plugin(Identity& identity, std::set<std::string>& known, const Component& component) {
+  if (known.insert(component.plugin).second)
     identity.push_back({Kind::plugin, component.plugin, component.path, component.path.empty() ? component.version : hash_of_code(component.path)});
 }
 
@@ -83,11 +84,21 @@ std::string shown(const Dependence& one) {
   }
 }
 
-const Dependence* find(const Identity& identity, const Dependence& wanted) {
-  const auto found =
-      std::find_if(identity.begin(), identity.end(), [&](const Dependence& one) { return one.kind == wanted.kind && one.name == wanted.name; });
-  return found == identity.end() ? nullptr : &*found;
-}
+/// Finds the entries of an identity by kind and name; of several alike, the first.
+class Index {
+ public:
+  explicit Index(const Identity& identity) {
+    for (const Dependence& one : identity) entries_.try_emplace({one.kind, one.name}, &one);
+  }
+  /// The entry of the same kind and name; null if there is none.
+  const Dependence* find(const Dependence& wanted) const {
+    const auto found = entries_.find({wanted.kind, wanted.name});
+    return found == entries_.end() ? nullptr : found->second;
+  }
+
+ private:
+  std::map<std::pair<Kind, std::string_view>, const Dependence*> entries_;
+};
 
 }  // namespace
 
@@ -95,9 +106,10 @@ Identity identity_of(const Scene& scene) {
   Identity identity;
   add_scene(identity, scene);
   for (const InputFile& file : scene.files) identity.push_back({Kind::file, file.pointer, file.path, hash_of_file(file.path)});
+  std::set<std::string> plugins;
   for (const Stage& stage : scene.stages) {
-    add_plugin(identity, *stage.component);
-    if (stage.failure) add_plugin(identity, *stage.failure->component);
+    add_plugin(identity, plugins, *stage.component);
+    if (stage.failure) add_plugin(identity, plugins, *stage.failure->component);
   }
   identity.push_back({Kind::program, "program", {}, hash_of_text(hash_of_code("/proc/self/exe") + hash_of_code(core_library()))});
   identity.push_back({Kind::mode, "instruction set", {}, std::string(instruction_names[static_cast<std::size_t>(processor_instructions())])});
@@ -107,8 +119,9 @@ Identity identity_of(const Scene& scene) {
 
 std::string changes(const Identity& before, const Identity& now) {
   std::vector<std::string> found;
+  const Index earlier(before), present(now);
   for (const Dependence& one : now) {
-    const Dependence* other = find(before, one);
+    const Dependence* other = earlier.find(one);
     if (other == nullptr)
       found.push_back(shown(one) + " is new");
     else if (other->content != one.content)
@@ -116,7 +129,7 @@ std::string changes(const Identity& before, const Identity& now) {
                                              : shown(one) + " has changed");
   }
   for (const Dependence& one : before)
-    if (find(now, one) == nullptr) found.push_back(shown(one) + " is gone");
+    if (present.find(one) == nullptr) found.push_back(shown(one) + " is gone");
   constexpr std::size_t most = 4;
   if (found.size() > most) {
     const std::string rest = fmt::format("{} more", found.size() - (most - 1));

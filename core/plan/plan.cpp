@@ -91,6 +91,12 @@ double record_interval(const PlannedStage& stage) {
 
 std::uint64_t record_steps(const PlannedStage& stage) { return std::max<std::uint64_t>(1, stage.plan.time_step > 0 ? stage.plan.steps / 200 : 1); }
 
+void set_threads(Plan& plan, int threads) {
+  plan.threads = threads;
+  estimate_memory(plan);
+  estimate_time(plan);
+}
+
 std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, Threads threads) {
   const auto start = std::chrono::steady_clock::now();
   auto plan = std::make_unique<Plan>();
@@ -101,7 +107,6 @@ std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, Threads threads) {
   } catch (const std::bad_alloc&) {
     throw OutsideError("out of memory while the lattice was built: too many particles for this machine; " + lack_of_memory());
   }
-  plan->threads = threads.of(plan->model->body.particles);
   plan->body = body_figures(*plan->model);
   for (std::string& warning : size_warnings(plan->body, plan->model->body.grid.spacing)) plan->model->warnings.push_back(std::move(warning));
   Faults faults;
@@ -112,9 +117,8 @@ std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, Threads threads) {
   if (faults.empty()) check_resolution(*plan, faults);
   if (faults.empty()) rehearse_outputs(*plan, faults);
   faults.throw_if_any();
-  estimate_memory(*plan);
   estimate_output(*plan);
-  estimate_time(*plan);
+  set_threads(*plan, threads.of(plan->model->body.particles));
   plan->left_out = left_out(*plan);
   plan->setup_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return plan;

@@ -52,8 +52,11 @@ struct Plan {
   double end_time() const;
 };
 
-/// Validates everything, computes nothing. Throws as read_scene and build_model do, and InputError if a solver refuses its time step.
+/// Validates everything, writes nothing. Throws as read_scene and build_model do, and InputError if a solver refuses its time step.
 std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, Threads threads);
+
+/// Gives a plan another number of threads, and estimates anew what depends on it.
+void set_threads(Plan& plan, int threads);
 
 /// Seconds between the outputs of a writer or probe in a run of `end_time` seconds; a scene that does not say gets 20 frames, 200 samples.
 double output_interval(const Stage& output, double end_time);

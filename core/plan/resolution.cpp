@@ -21,18 +21,30 @@ struct ShortPiece {
   bool found = false;
 };
 
-ShortPiece shortest(const Load& load, const PlannedStage& stage) {
+/// The pieces of a load's factor, from one corner to the next.
+struct Pieces {
+  std::vector<double> ends;  ///< s, ascending: 0 and the corners
+  double largest = 0;        ///< of the factor's magnitudes in the middles of the pieces
+};
+
+Pieces pieces_of(const Load& load) {
+  Pieces pieces;
+  pieces.ends.push_back(0);
+  pieces.ends.insert(pieces.ends.end(), load.corners.begin(), load.corners.end());
+  for (std::size_t n = 0; n + 1 < pieces.ends.size(); ++n)
+    pieces.largest = std::max(pieces.largest, std::abs(load.factor(0.5 * (pieces.ends[n] + pieces.ends[n + 1]))));
+  return pieces;
+}
+
+ShortPiece shortest(const Load& load, const Pieces& pieces, const PlannedStage& stage) {
   constexpr double enough_steps = 2, round_off = 1e-6, share = 0.1;
   const double step = stage.plan.time_step, nearby = round_off * step;
-  std::vector<double> ends{0};
-  ends.insert(ends.end(), load.corners.begin(), load.corners.end());
-  double largest = std::abs(load.factor(stage.plan.end_time));
-  for (std::size_t n = 0; n + 1 < ends.size(); ++n) largest = std::max(largest, std::abs(load.factor(0.5 * (ends[n] + ends[n + 1]))));
+  const double largest = std::max(std::abs(load.factor(stage.plan.end_time)), pieces.largest);
   ShortPiece shortest{0, enough_steps * step * (1 - round_off), false};
-  for (std::size_t n = 0; n + 1 < ends.size(); ++n) {
-    const double from = ends[n], to = ends[n + 1], length = to - from;
-    if (to < stage.start_time || from > stage.plan.end_time || !(length > nearby) || !(length < (1 - round_off) * (shortest.to - shortest.from)))
-      continue;
+  const auto first = std::lower_bound(pieces.ends.begin() + 1, pieces.ends.end(), stage.start_time);
+  for (auto end = first; end != pieces.ends.end() && *(end - 1) <= stage.plan.end_time; ++end) {
+    const double from = *(end - 1), to = *end, length = to - from;
+    if (!(length > nearby) || !(length < (1 - round_off) * (shortest.to - shortest.from))) continue;
     const double edge = 1e-3 * length;
     double least = infinity, most = -infinity;
     for (const double time : {from - edge, from + edge, 0.5 * (from + to), to - edge, to + edge}) {
@@ -44,17 +56,23 @@ ShortPiece shortest(const Load& load, const PlannedStage& stage) {
   return shortest;
 }
 
+/// The stage in time with the longest step; null if there is none.
+const PlannedStage* coarsest_of(const Plan& plan) {
+  const PlannedStage* coarsest = nullptr;
+  for (const PlannedStage& stage : plan.stages)
+    if (!stage.plan.at_rest && stage.plan.time_step > 0 && (coarsest == nullptr || stage.plan.time_step > coarsest->plan.time_step))
+      coarsest = &stage;
+  return coarsest;
+}
+
 }  // namespace
 
 void check_resolution(Plan& plan, Faults& faults) {
   constexpr double fewest = 2, good = 20;  // steps a period
+  const PlannedStage* coarsest = coarsest_of(plan);
+  if (coarsest == nullptr) return;
   for (const Load& load : plan.model->loads) {
     const std::string name = fmt::format("{} ({})", load.stage->component->type(), load.stage->pointer);
-    const PlannedStage* coarsest = nullptr;
-    for (const PlannedStage& stage : plan.stages)
-      if (!stage.plan.at_rest && stage.plan.time_step > 0 && (coarsest == nullptr || stage.plan.time_step > coarsest->plan.time_step))
-        coarsest = &stage;
-    if (coarsest == nullptr) continue;
     const double step = coarsest->plan.time_step;
     if (load.frequency > 0) {
       const double steps = 1 / (load.frequency * step);
@@ -68,10 +86,11 @@ void check_resolution(Plan& plan, Faults& faults) {
                         "period take off 0.4 %: a time_step of {:.4g} s",
                         name, load.frequency, steps, coarsest->stage->pointer, 100 * lost_by_mean(steps), 1 / (good * load.frequency)));
     }
+    const Pieces pieces = pieces_of(load);
     ShortPiece piece;
     for (const PlannedStage& stage : plan.stages) {
       if (stage.plan.at_rest || !(stage.plan.time_step > 0)) continue;
-      piece = shortest(load, stage);
+      piece = shortest(load, pieces, stage);
       if (!piece.found) continue;
       plan.model->warnings.push_back(
           fmt::format("{}: from {:.4g} s to {:.4g} s it changes within {:.2g} steps of {}. Its impulse is exact, but its shape needs two steps or "

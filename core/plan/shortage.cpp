@@ -3,6 +3,7 @@
 #include <plan/estimates.hpp>
 #include <plan/shortage.hpp>
 #include <process/room.hpp>
+#include <run/own_files.hpp>
 
 #include <spdlog/fmt/fmt.h>
 
@@ -12,14 +13,23 @@ namespace hyperlattice {
 
 namespace {
 
-/// What an earlier run left in the folder makes room when it goes.
-double bytes_in(const std::filesystem::path& directory) {
+/// Bytes of the files that an earlier run's list names: a new run replaces them, a resumed one has written them already. A list that
+/// cannot be read names none; the run itself says why.
+double own_bytes(const std::filesystem::path& directory) {
   namespace fs = std::filesystem;
-  std::error_code ignored;
   double bytes = 0;
-  for (auto entry = fs::recursive_directory_iterator(directory, fs::directory_options::skip_permission_denied, ignored);
-       entry != fs::recursive_directory_iterator(); entry.increment(ignored))
-    if (entry->is_regular_file(ignored) && !entry->is_symlink(ignored)) bytes += static_cast<double>(entry->file_size(ignored));
+  try {
+    const std::optional<OwnFiles> files = read_own_files(directory);
+    if (!files) return 0;
+    for (const auto& [name, file] : *files) {
+      std::error_code error;
+      const fs::path path = directory / name;
+      if (!fs::is_regular_file(fs::symlink_status(path, error))) continue;
+      const std::uintmax_t size = fs::file_size(path, error);
+      if (!error) bytes += static_cast<double>(size);
+    }
+  } catch (const OutsideError&) {  // nothing is known of the files
+  }
   return bytes;
 }
 
@@ -31,7 +41,7 @@ std::vector<std::string> shortages(const Plan& plan, const std::filesystem::path
   if (const Room memory = memory_room(); missing > memory.bytes)
     found.push_back(fmt::format("too little memory: the run needs {}, {} more than it has now; there are {} ({})", bytes_text(plan.memory_bytes),
                                 bytes_text(missing), bytes_text(memory.bytes), memory.bound));
-  if (const Room disk = disk_room(directory); plan.output_bytes > disk.bytes + bytes_in(directory))
+  if (const Room disk = disk_room(directory); plan.output_bytes > disk.bytes && plan.output_bytes > disk.bytes + own_bytes(directory))
     found.push_back(fmt::format("too little disk: the run will write about {}, and {}", bytes_text(plan.output_bytes), disk.bound));
   double frame = 0;
   for (const Stage* writer : plan.scene->of(Family::writers)) frame = std::max(frame, frame_bytes(plan, *writer));

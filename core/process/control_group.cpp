@@ -47,7 +47,8 @@ bool lists(const std::string& controllers, std::string_view wanted) {
 }
 
 std::optional<ControlGroups::Memory> memory_of(const fs::path& folder) {
-  const bool unified = fs::exists(folder / "memory.max");
+  std::error_code ignored;
+  const bool unified = fs::exists(folder / "memory.max", ignored);
   const auto limit = number_in(folder / (unified ? "memory.max" : "memory.limit_in_bytes"));
   const auto used = number_in(folder / (unified ? "memory.current" : "memory.usage_in_bytes"));
   if (!limit || !used) return std::nullopt;

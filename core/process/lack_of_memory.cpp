@@ -52,6 +52,7 @@ void watch_memory() noexcept {
 }
 
 bool memory_ran_out() noexcept { return ran_out.load(std::memory_order_relaxed); }
+void forget_lack_of_memory() noexcept { ran_out.store(false, std::memory_order_relaxed); }
 
 std::string lack_of_memory() {
   try {

@@ -1,14 +1,18 @@
-#include <base/errors.hpp>
 #include <process/processors.hpp>
+#include <process/signal_stack.hpp>
 #include <process/team.hpp>
+#include <process/thread_trial.hpp>
 
-#include <spdlog/fmt/fmt.h>
-
-#include <system_error>
+#include <utility>
 
 namespace hyperlattice {
 
 namespace {
+
+constexpr std::uint64_t left_bits = 0xffffffff;
+
+constexpr std::uint64_t left_of(std::uint32_t round, std::size_t count) { return std::uint64_t{round} << 32 | count; }
+constexpr bool is_of(std::uint64_t left, std::uint32_t round) { return left >> 32 == round && (left & left_bits) > 0; }
 
 void pause() noexcept {
 #if defined(__x86_64__)
@@ -18,21 +22,18 @@ void pause() noexcept {
 
 }  // namespace
 
-Team::Team(int threads) : failures_(static_cast<std::size_t>(threads)) {
+Team::Team(int threads) : threads_(static_cast<std::size_t>(threads)), ranges_(std::make_unique<Range[]>(threads_)) {
   // A thread that sleeps takes some 10 us to wake, longer than equal shares of work wait for each other. A thread that looks for long takes the
   // processor from the one that it waits for, as soon as other work shares the machine.
   constexpr int looks = 2000;  // some 20 to 60 us
   looks_ = threads <= processors() ? looks : 0;
-  others_.reserve(failures_.size() - 1);
+  others_.reserve(threads_ - 1);
   try {
-    while (others_.size() + 1 < failures_.size()) others_.emplace_back([this, thread = others_.size() + 1] { serve(thread); });
+    while (others_.size() + 1 < threads_) others_.emplace_back([this, thread = others_.size() + 1] { serve(thread); });
   } catch (const std::system_error& error) {
     const std::size_t started = others_.size() + 1;
     stop();
-    throw OutsideError(
-        fmt::format("the system starts no more than {} of {} threads ({}): limits on memory (ulimit -v, ulimit -s) or processes "
-                    "(ulimit -u) may be the cause; `--threads {}` asks for fewer",
-                    started, threads, error.code().message(), started));
+    throw refused_threads(started, threads_, error.code());
   } catch (...) {
     stop();
     throw;
@@ -42,53 +43,82 @@ Team::Team(int threads) : failures_(static_cast<std::size_t>(threads)) {
 Team::~Team() { stop(); }
 
 void Team::stop() noexcept {
-  range_ = nullptr;
+  stopping_.store(true, std::memory_order_relaxed);
   round_.fetch_add(1, std::memory_order_release);
   round_.notify_all();
   for (std::thread& other : others_) other.join();
   others_.clear();
 }
 
-void Team::share(std::size_t size, Range range, const void* work) {
+void Team::share(std::size_t size, bool helping, Call call, const void* work_to_do) {
+  if (size == 0) return;
   size_ = size;
-  range_ = range;
-  work_ = work;
-  const int round = round_.load(std::memory_order_relaxed);
-  working_.store(static_cast<int>(others_.size()), std::memory_order_relaxed);
-  round_.store(round + 1, std::memory_order_release);
+  call_ = call;
+  work_ = work_to_do;
+  helping_.store(helping, std::memory_order_relaxed);
+  open_.store(size, std::memory_order_relaxed);
+  const std::uint32_t before = round_.load(std::memory_order_relaxed), round = before + 1;
+  for (std::size_t range = 0; range < threads_; ++range)
+    ranges_[range].left.store(left_of(round, end_of(range) - size_ * range / threads_), std::memory_order_release);
+  round_.store(round, std::memory_order_release);
   round_.notify_all();
-  do_range(0);
-  if (!others_.empty()) wait_for_change(done_, round);
-  std::exception_ptr first;
-  for (std::exception_ptr& failure : failures_) {
-    if (!first) first = failure;
-    failure = nullptr;
-  }
-  if (first) std::rethrow_exception(first);
+  work(0, round);
+  while (done_.load(std::memory_order_acquire) != round) wait_for_change(done_, before);
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
-void Team::do_range(std::size_t thread) noexcept {
-  const std::size_t threads = failures_.size();
-  try {
-    range_(work_, size_ * thread / threads, size_ * (thread + 1) / threads);
-  } catch (...) {
-    failures_[thread] = std::current_exception();
+void Team::work(std::size_t thread, std::uint32_t round) noexcept {
+  do_range(thread, round);
+  if (!helping_.load(std::memory_order_relaxed)) return;
+  for (std::size_t n = 1; n < threads_; ++n) do_range((thread + n) % threads_, round);
+}
+
+/// A thread that comes late finds another round in the range, and takes nothing.
+void Team::do_range(std::size_t range, std::uint32_t round) noexcept {
+  std::atomic<std::uint64_t>& left = ranges_[range].left;
+  for (std::uint64_t now = left.load(std::memory_order_acquire); is_of(now, round);) {
+    if (!left.compare_exchange_weak(now, now - 1, std::memory_order_acq_rel, std::memory_order_acquire)) continue;
+    const std::size_t n = end_of(range) - (now & left_bits);
+    try {
+      call_(work_, n);
+    } catch (...) {
+      fail(range, round, n);
+    }
+    finish(round, 1);
+    now = left.load(std::memory_order_acquire);
   }
+}
+
+/// Keeps the present exception, and leaves out the rest of the range.
+void Team::fail(std::size_t range, std::uint32_t round, std::size_t n) noexcept {
+  {
+    const std::lock_guard lock(failing_);
+    if (!failure_ || n < failed_) {
+      failed_ = n;
+      failure_ = std::current_exception();
+    }
+  }
+  if (const std::uint64_t rest = ranges_[range].left.exchange(left_of(round, 0), std::memory_order_acq_rel) & left_bits; rest > 0)
+    finish(round, rest);
+}
+
+void Team::finish(std::uint32_t round, std::size_t count) noexcept {
+  if (open_.fetch_sub(count, std::memory_order_acq_rel) != count) return;
+  done_.store(round, std::memory_order_release);
+  done_.notify_one();
 }
 
 void Team::serve(std::size_t thread) noexcept {
-  for (int round = 0;;) {
-    wait_for_change(round_, round);
-    ++round;
-    if (range_ == nullptr) return;
-    do_range(thread);
-    if (working_.fetch_sub(1, std::memory_order_acq_rel) != 1) continue;
-    done_.store(round, std::memory_order_release);
-    done_.notify_one();
+  const SignalStack stack;  // for a law of a plugin that calls itself without end
+  for (std::uint32_t seen = 0;;) {
+    wait_for_change(round_, seen);
+    seen = round_.load(std::memory_order_acquire);
+    if (stopping_.load(std::memory_order_relaxed)) return;
+    work(thread, seen);
   }
 }
 
-void Team::wait_for_change(const std::atomic<int>& number, int from) const noexcept {
+void Team::wait_for_change(const std::atomic<std::uint32_t>& number, std::uint32_t from) const noexcept {
   for (int look = 0; look < looks_; ++look) {
     if (number.load(std::memory_order_acquire) != from) return;
     pause();

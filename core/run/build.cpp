@@ -6,7 +6,7 @@
 namespace hyperlattice {
 
 Simulation::Parts::Parts(const Model& m, int wanted) : model(m), layout(make_layout(m, wanted)), blocks(layout->blocks.size()), team(wanted) {
-  team.for_each(blocks.size(), [&](std::size_t b) { allocate(blocks[b], b); });
+  team.for_own(blocks.size(), [&](std::size_t b) { allocate(blocks[b], b); });
   for (Block& block : blocks) add_supports(block);
   acting.resize(model.loads.size());
   for (std::size_t l = 0; l < acting.size(); ++l) {

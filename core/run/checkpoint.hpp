@@ -39,7 +39,7 @@ bool holds_progress(const std::filesystem::path& directory);
 
 using Visit = std::function<void(Archive&)>;
 /// Writes head and state. When this returns, the checkpoint is on the disk under its name, and the one before it under the other. std::runtime_error
-/// if the disk refuses; the checkpoints are then as before.
+/// if the disk refuses: the newest of the checkpoints before is then there, under one of the two names.
 void write_checkpoint(const std::filesystem::path& directory, const CheckpointHead& head, const Visit& state);
 /// Restores the state. std::runtime_error if the checkpoint does not fit.
 void read_checkpoint(const Checkpoint& checkpoint, const Visit& state);

@@ -1,3 +1,4 @@
+#include <base/folder_file.hpp>
 #include <plan/file_names.hpp>
 #include <run/checkpoint.hpp>
 #include <run/failing_motion.hpp>
@@ -46,9 +47,8 @@ bool is_later(const timespec& a, const timespec& b) { return a.tv_sec != b.tv_se
 
 /// Whether the run in a folder has said that it is done.
 bool is_done(const fs::path& directory) {
-  std::ifstream file(directory / "summary.json", std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  const auto summary = nlohmann::json::parse(text, nullptr, false);
+  const auto file = read_folder_file(directory, "summary.json", largest_json);
+  const auto summary = nlohmann::json::parse(file ? file->text : "", nullptr, false);
   return summary.is_object() && summary.contains("status") && summary["status"] == "done";
 }
 
@@ -91,6 +91,9 @@ RunFolder::RunFolder(fs::path directory, bool is_new) : directory_(std::move(dir
   struct stat status {};
   if (::fstat(list.number(), &status) != 0) throw cannot("read", list_path(), errno);
   if (!S_ISREG(status.st_mode)) throw OutsideError(fmt::format("{} is no regular file", list_path().string()));
+  struct stat named {};  // another run may have opened it first, and removed it since
+  if (::lstat(list_path().c_str(), &named) != 0 || named.st_ino != status.st_ino || named.st_dev != status.st_dev)
+    throw OutsideError(fmt::format("{} was removed while it was opened: run again", list_path().string()));
   if (auto files = read_own_files(directory_)) earlier_ = std::move(*files);
   list_ = std::make_unique<Table>(list_path(), std::move(list), static_cast<std::uint64_t>(status.st_size));
 }
@@ -130,15 +133,14 @@ void RunFolder::remove_leavings(const OwnFiles& files, bool overwrite, Faults& f
     if (!is_real(directory_, name, status)) continue;
     const fs::path path = path_of(name);
     folders.insert(path.parent_path());
-    // what has not changed since the list was written needs no reading; nobody can set the time of the last change
+    // What has not changed since the list was written needs no reading, for no program can set the time of the last change. (What changes that time
+    // of the list, such as a copy of the folder, hides changes from before it.)
     const bool is_known = file.hash.empty() || (static_cast<std::uint64_t>(status.st_size) == file.bytes &&
                                                 (!is_later(status.st_ctim, list.st_ctim) || has_extent(path, {file.bytes, file.hash})));
     if (is_known || overwrite)
       old.push_back(path);
-    else if (std::find(std::begin(run_file_names), std::end(run_file_names), name) != std::end(run_file_names))
-      faults.add("--out", path.string(), "as the earlier run left it, but it has changed; move it, or replace it by --overwrite");
     else
-      spdlog::warn("warning: {} has changed since the earlier run wrote it, and stays", path.string());
+      faults.add("--out", path.string(), "as the earlier run left it, but it has changed; move it, or replace it by --overwrite");
   }
   faults.throw_if_any();
   for (const char* name : {checkpoint_file, earlier_checkpoint_file}) old.push_back(directory_ / name);
@@ -241,7 +243,7 @@ void RunFolder::note(const std::string& name, Mine& file, bool to_the_disk) {
   const fs::path path = path_of(name);
   const Descriptor there(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   struct stat status {};
-  if (!there || ::fstat(there.number(), &status) != 0) return;  // claimed, but never written
+  if (!there || ::fstat(there.number(), &status) != 0 || !S_ISREG(status.st_mode)) return;  // claimed, but never written
   if (to_the_disk && ::fsync(there.number()) != 0) throw cannot("write", path, errno);
   if (to_the_disk && file.rewritten) return;
   list_->lines(own_file_line(name, {static_cast<std::uint64_t>(status.st_size), hash_of_file(path)}));

@@ -9,6 +9,8 @@ namespace hyperlattice {
 
 namespace {
 
+constexpr double slab_particles = 1 << 19;
+
 /// Six times the volume of the tetrahedron between three edges; above 0 if they lie round each other as x, y and z do.
 double turn(Vec3 a, Vec3 b, Vec3 c) { return dot(a, cross(b, c)); }
 
@@ -30,11 +32,48 @@ class RowCursor {
   std::size_t run_ = 0;
 };
 
+/// The other ends of each particle's springs, in the order of the springs.
+class Ends {
+ public:
+  explicit Ends(const Body& body) : first_(body.particles + 1), ends_(2 * body.listed.springs.size()) {
+    for (const ListedSpring& spring : body.listed.springs) {
+      ++first_[spring.a];
+      ++first_[spring.b];
+    }
+    std::size_t sum = 0;
+    for (std::size_t& first : first_) first = sum += first;  // behind the particle's last, from where they are filled in backwards
+    for (std::size_t n = body.listed.springs.size(); n-- > 0;) {
+      const ListedSpring& spring = body.listed.springs[n];
+      ends_[--first_[spring.b]] = spring.a;
+      ends_[--first_[spring.a]] = spring.b;
+    }
+  }
+  std::span<const std::uint32_t> of(Particle particle) const {
+    return std::span(ends_).subspan(first_[particle], first_[particle + 1] - first_[particle]);
+  }
+  static double bytes(double particles, double springs) { return sizeof(std::size_t) * particles + 2 * sizeof(std::uint32_t) * springs; }
+
+ private:
+  std::vector<std::size_t> first_;  ///< of each particle, its first place in ends_; one more entry at the end
+  std::vector<std::uint32_t> ends_;
+};
+
 }  // namespace
 
 bool CellWatch::is_due(std::uint64_t step) const {
-  constexpr std::uint64_t every = 200;  // steps
+  constexpr std::uint64_t every = 1000;  // steps: of a run on many threads a look takes as long as many steps
   return seen_.has_looked == 0 || step >= seen_.last_looked + every;
+}
+
+double CellWatch::bytes(const Model& model) {
+  const auto particles = static_cast<double>(model.body.particles), springs = static_cast<double>(model.body.listed.springs.size());
+  const double two_planes = 2.0 * model.body.grid.sites[0] * model.body.grid.sites[1];
+  const double at_a_time = model.body.is_listed() ? particles : std::min(particles, std::max(slab_particles, two_planes));
+  double bytes = 3 * sizeof(double) * at_a_time;       // displacements
+  if (model.choice.breakable) bytes += particles / 8;  // one bit: torn or not
+  if (!model.body.is_listed()) return bytes;
+  bytes += sizeof(Triple) * particles;
+  return bytes + Ends::bytes(particles, springs);
 }
 
 void CellWatch::count(bool is_inside_out, Particle particle) {
@@ -54,12 +93,14 @@ bool CellWatch::look(const Simulation& simulation) {
   seen_.all = seen_.number = 0;
   seen_.last_looked = simulation.steps();
   seen_.has_looked = 1;
-  std::vector<double> moved;
-  simulation.displacements(moved);
-  if (body_.is_listed())
-    look_at_list(moved);
-  else
-    look_at_cells(moved);
+  if (body_.is_listed()) {
+    first_ = 0;
+    simulation.displacements(moved_);
+    look_at_list();
+  } else {
+    look_at_cells(simulation);
+  }
+  moved_ = {};
   const bool is_first = seen_.most == 0 && seen_.number > 0;
   if (is_first) {
     seen_.first_time = simulation.time();
@@ -69,12 +110,27 @@ bool CellWatch::look(const Simulation& simulation) {
   return is_first;
 }
 
-void CellWatch::look_at_cells(std::span<const double> moved) {
-  for (std::int32_t k = body_.low.k; k < body_.high.k; ++k)
-    for (std::int32_t j = body_.low.j; j < body_.high.j; ++j) look_at_row(j, k, moved);
+/// A slab of planes at a time, so that a large body's displacements never stand in memory twice.
+void CellWatch::look_at_cells(const Simulation& simulation) {
+  const auto planes = static_cast<std::size_t>(body_.high.k - body_.low.k + 1);
+  std::vector<Particle> before(planes + 1);  // of each plane, the particles before it
+  for (std::size_t plane = 0; plane < planes; ++plane) {
+    before[plane + 1] = before[plane];
+    for (std::int32_t j = body_.low.j; j <= body_.high.j; ++j)
+      for (const Run& run : body_.row(j, body_.low.k + static_cast<std::int32_t>(plane)))
+        before[plane + 1] += static_cast<Particle>(run.end - run.begin);
+  }
+  for (std::size_t plane = 0; plane + 1 < planes;) {  // cells stand between a plane and the next
+    std::size_t last = plane + 1;
+    while (last + 1 < planes && static_cast<double>(before[last + 2] - before[plane]) <= slab_particles) ++last;
+    first_ = before[plane];
+    simulation.displacements(moved_, first_, before[last + 1] - first_);
+    for (; plane < last; ++plane)
+      for (std::int32_t j = body_.low.j; j < body_.high.j; ++j) look_at_row(j, body_.low.k + static_cast<std::int32_t>(plane));
+  }
 }
 
-void CellWatch::look_at_row(std::int32_t j, std::int32_t k, std::span<const double> all_moved) {
+void CellWatch::look_at_row(std::int32_t j, std::int32_t k) {
   const Basis& basis = body_.grid.basis;
   const double upright = turn(basis[0], basis[1], basis[2]);
   RowCursor others[3] = {RowCursor(body_.row(j + 1, k)), RowCursor(body_.row(j, k + 1)), RowCursor(body_.row(j + 1, k + 1))};
@@ -91,7 +147,7 @@ void CellWatch::look_at_row(std::int32_t j, std::int32_t k, std::span<const doub
       bool is_torn = false;
       for (std::size_t corner = 0; corner < 8; ++corner) {
         const Particle particle = row[corner >> 1] + (corner & 1);
-        moved[corner] = (1 / body_.grid.spacing) * vector_at(all_moved, particle);
+        moved[corner] = (1 / body_.grid.spacing) * vector_at(moved_, particle - first_);
         is_torn = is_torn || (!is_torn_.empty() && is_torn_[particle]);
       }
       if (is_torn) continue;
@@ -107,11 +163,7 @@ void CellWatch::look_at_row(std::int32_t j, std::int32_t k, std::span<const doub
 /// Three springs of each particle, the first any, the others as far askew as they come.
 void CellWatch::find_triples() {
   constexpr double flattest = 0.3;  // of a cube's corner
-  std::vector<std::vector<std::uint32_t>> ends(body_.particles);
-  for (const ListedSpring& spring : body_.listed.springs) {
-    ends[spring.a].push_back(spring.b);
-    ends[spring.b].push_back(spring.a);
-  }
+  const Ends all_ends(body_);
   triples_.assign(body_.particles, Triple{});
   for (Particle p = 0; p < body_.particles; ++p) {
     const auto way = [&](std::uint32_t to) {
@@ -120,14 +172,15 @@ void CellWatch::find_triples() {
     };
     double area = 0, volume = 0;
     Triple triple{};
-    if (ends[p].size() < 3) continue;
-    triple[0] = ends[p][0];
-    for (const std::uint32_t to : ends[p])
+    const std::span<const std::uint32_t> ends = all_ends.of(p);
+    if (ends.size() < 3) continue;
+    triple[0] = ends[0];
+    for (const std::uint32_t to : ends)
       if (const double size = norm(cross(way(triple[0]), way(to))); size > area) {
         area = size;
         triple[1] = to;
       }
-    for (const std::uint32_t to : ends[p])
+    for (const std::uint32_t to : ends)
       if (const double size = std::abs(turn(way(triple[0]), way(triple[1]), way(to))); size > volume) {
         volume = size;
         triple[2] = to;
@@ -136,7 +189,7 @@ void CellWatch::find_triples() {
   }
 }
 
-void CellWatch::look_at_list(std::span<const double> moved) {
+void CellWatch::look_at_list() {
   if (triples_.empty()) find_triples();
   for (Particle p = 0; p < body_.particles; ++p) {
     const Triple& triple = triples_[p];
@@ -144,7 +197,7 @@ void CellWatch::look_at_list(std::span<const double> moved) {
     Vec3 rest[3], now[3];
     for (std::size_t n = 0; n < 3; ++n) {
       rest[n] = (1 / body_.grid.spacing) * (body_.position(Particle{triple[n]}) - body_.position(p));
-      now[n] = rest[n] + (1 / body_.grid.spacing) * (vector_at(moved, triple[n]) - vector_at(moved, p));
+      now[n] = rest[n] + (1 / body_.grid.spacing) * (vector_at(moved_, triple[n]) - vector_at(moved_, p));
     }
     count(turn(rest[0], rest[1], rest[2]) * turn(now[0], now[1], now[2]) <= 0, p);
   }

@@ -27,11 +27,14 @@ class CellWatch {
  public:
   explicit CellWatch(const Model& model) : body_(model.body) {}
 
-  /// Looks at the present state; it costs about as much as a step. Cells and particles next to a broken spring are not judged. Returns whether the
-  /// first one was seen now.
+  /// Looks at the present state, on one thread, in about the time of a step on one thread. Cells and particles next to a broken spring are not
+  /// judged. Returns whether the first one was seen now.
   bool look(const Simulation& simulation);
   /// Whether the steps since the last look make another one cheap.
   bool is_due(std::uint64_t step) const;
+
+  /// Bytes that a look takes at most, with what stays between looks.
+  static double bytes(const Model& model);
 
   /// A sentence about what was seen; "" if nothing was.
   std::string sentence() const;
@@ -40,14 +43,16 @@ class CellWatch {
  private:
   using Triple = std::array<std::uint32_t, 3>;  ///< the springs' other ends; all 0: none
 
-  void look_at_cells(std::span<const double> moved);
-  void look_at_row(std::int32_t j, std::int32_t k, std::span<const double> moved);
-  void look_at_list(std::span<const double> moved);
+  void look_at_cells(const Simulation& simulation);
+  void look_at_row(std::int32_t j, std::int32_t k);
+  void look_at_list();
   void find_triples();
   void count(bool is_inside_out, Particle particle);
 
   const Body& body_;
   InsideOut seen_;
+  std::vector<double> moved_;    ///< m, x y z of the particles from first_ on
+  Particle first_ = 0;
   Particle found_ = 0;           ///< the first one that is inside out in this look
   std::vector<bool> is_torn_;    ///< of each particle, whether a spring of it is broken; empty: none is
   std::vector<Triple> triples_;  ///< of each particle of a list

@@ -14,6 +14,7 @@
 #include <run/run.hpp>
 #include <run/stage_calls.hpp>
 #include <run/summary.hpp>
+#include <scene/json.hpp>
 
 #include <hyperlattice/files.hpp>
 
@@ -273,7 +274,7 @@ std::optional<Checkpoint> prepare(RunFolder& folder, Plan& plan, const RunOption
   if (options.resume) resumed = find_checkpoint(plan, options.directory);
   if (resumed && resumed->head.threads != plan.threads) {
     spdlog::info("the run goes on with {} threads, as it began", resumed->head.threads);
-    plan.threads = resumed->head.threads;
+    set_threads(plan, resumed->head.threads);
   }
   if (resumed && !resumed->head.at_start)
     folder.go_on(resumed->head.tables);
@@ -293,8 +294,8 @@ void carry_out(Plan& plan, const RunOptions& options, RunFolder& folder, const s
     try {
       work();
     } catch (const RunError& error) {
+      if (memory_ran_out()) end_for_memory();  // what made the law, criterion or solver fail
       outcome.end("failed", exit_run, error.what());
-      if (memory_ran_out()) end_for_memory();  // the law, criterion or solver that failed met nothing else
     } catch (const std::bad_alloc&) {
       end_for_memory();
     } catch (const std::exception& error) {
@@ -325,7 +326,7 @@ void conclude(const Plan& plan, RunFolder& folder, Outcome& outcome) {
       spdlog::error("{}", error.what());
     }
     AtomicFile summary((directory / "summary.json").string());
-    summary.write(summary_json(plan, outcome).dump(2) + "\n");
+    summary.write(json_text(summary_json(plan, outcome)));
     if (has_checkpoint) summary.sync();
     summary.commit();
     folder.finish();
@@ -347,7 +348,6 @@ void conclude(const Plan& plan, RunFolder& folder, Outcome& outcome) {
 
 int run(Plan& plan, const RunOptions& options) {
   refuse_shortage(plan, options.directory);
-  const FileLimitGuard file_limit;
   if (options.resume) must_be_resumable(options.directory);
   RunFolder folder(options.directory, !options.resume);
   const std::optional<Checkpoint> resumed = prepare(folder, plan, options);
@@ -358,7 +358,7 @@ int run(Plan& plan, const RunOptions& options) {
   spdlog::info("the body: {}", body);
   for (const std::string& warning : plan.model->warnings) spdlog::warn("warning: {}", warning);
   carry_out(plan, options, folder, resumed, outcome);
-  forget_stop();
+  if (outcome.exit_code == exit_interrupted) forget_stop();  // a request that came too late is for the next run of a study
   conclude(plan, folder, outcome);
   return outcome.exit_code;
 }

@@ -56,13 +56,17 @@ std::uint64_t Simulation::broken_open() const {
   return open;
 }
 
-void Simulation::copy(const Quantity& quantity, std::vector<double>& values) const {
+void Simulation::copy(const Quantity& quantity, std::vector<double>& values) const { copy(quantity, 0, parts_->model.body.particles, values); }
+
+void Simulation::copy(const Quantity& quantity, Particle first, std::uint64_t count, std::vector<double>& values) const {
   const auto components = static_cast<std::size_t>(quantity.components);
-  values.resize(parts_->model.body.particles * components);
-  parts_->for_runs([&](const Block& block, std::uint64_t place, Particle first, std::uint64_t count) {
+  values.resize(count * components);
+  parts_->for_runs([&](const Block& block, std::uint64_t place, Particle start, std::uint64_t length) {
+    const Particle from = std::max(start, first), to = std::min(start + length, first + count);
+    if (from >= to) return;
     for (std::size_t c = 0; c < components; ++c) {
-      const Numbers& from = (quantity.velocity ? block.velocity : block.displacement)[quantity.first + static_cast<int>(c)];
-      for (std::uint64_t n = 0; n < count; ++n) values[(first + n) * components + c] = from[place + n];
+      const Numbers& numbers = (quantity.velocity ? block.velocity : block.displacement)[quantity.first + static_cast<int>(c)];
+      for (Particle n = from; n < to; ++n) values[(n - first) * components + c] = numbers[place + (n - start)];
     }
   });
 }
@@ -79,6 +83,7 @@ void Simulation::set(const Quantity& quantity, const std::vector<double>& values
 }
 
 void Simulation::displacements(std::vector<double>& xyz) const { copy({false, 0, 3}, xyz); }
+void Simulation::displacements(std::vector<double>& xyz, Particle first, std::uint64_t count) const { copy({false, 0, 3}, first, count, xyz); }
 void Simulation::velocities(std::vector<double>& xyz) const { copy({true, 0, 3}, xyz); }
 void Simulation::heights(std::vector<double>& values) const {
   values.clear();

@@ -150,6 +150,14 @@ std::string word_in(const Json& object, const char* key) {
   return found != object.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
+std::string json_text(const Json& document) { return document.dump(2, ' ', false, Json::error_handler_t::replace) + '\n'; }
+std::string json_text(const nlohmann::json& document) { return document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n'; }
+
+bool is_utf8(const std::string& text) {
+  const Json value = text;
+  return Json::parse(value.dump(-1, ' ', false, Json::error_handler_t::replace)) == value;
+}
+
 std::string shown(const Json& value) { return visible(value.dump(-1, ' ', false, Json::error_handler_t::replace), longest); }
 
 }  // namespace hyperlattice

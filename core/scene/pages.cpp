@@ -104,19 +104,18 @@ std::string component_json(const Component& component) {
   const ComponentInfo& info = component.info;
   Json common = options_json(common_options(info.family).options);
   if (info.family == Family::materials) common.push_back({{"name", "failure"}, {"kind", "stage"}, {"help", failure_help}, {"required", false}});
-  return Json{{"type", info.name},
-              {"family", family_name(info.family)},
-              {"summary", info.summary},
-              {"equation", info.equation},
-              {"source", info.source},
-              {"restrictions", info.restrictions},
-              {"plugin", component.plugin},
-              {"version", component.version},
-              {"path", component.path.string()},
-              {"options", options_json(info.options)},
-              {"common_options", std::move(common)},
-              {"example", example_stage(info)}}
-      .dump(2);
+  return json_text(Json{{"type", info.name},
+                        {"family", family_name(info.family)},
+                        {"summary", info.summary},
+                        {"equation", info.equation},
+                        {"source", info.source},
+                        {"restrictions", info.restrictions},
+                        {"plugin", component.plugin},
+                        {"version", component.version},
+                        {"path", component.path.string()},
+                        {"options", options_json(info.options)},
+                        {"common_options", std::move(common)},
+                        {"example", example_stage(info)}});
 }
 
 }  // namespace hyperlattice

@@ -34,7 +34,7 @@ std::string Scene::resolved_in(const fs::path& folder) const {
     if (const Json::json_pointer place(input.pointer); json.contains(place) && json[place].is_string()) name_anew(json[place]);
   if (json.contains("plugins"))
     for (Json& path : json["plugins"]) name_anew(path);
-  return json.dump(2) + '\n';
+  return json_text(json);
 }
 
 }  // namespace hyperlattice

@@ -74,7 +74,7 @@ class SceneReader {
     reader.reject_unknown();
     finish();
     for (const auto& [pointer, path] : regions_.files()) scene_.files.push_back({pointer, path});
-    scene_.resolved = resolved.dump(2) + '\n';
+    scene_.resolved = json_text(resolved);
   }
 
  private:
@@ -100,6 +100,8 @@ class SceneReader {
         faults_.add(member("/plugins", n), shown(entries[n]), fmt::format("a folder or library; there is no {}", outcome.path.string()));
       else if (!outcome.accepted)
         refusals_.push_back({member("/plugins", n), shown(entries[n]), outcome.reason});
+      else if (!is_utf8(outcome.path.string()))
+        faults_.add(member("/plugins", n), shown(entries[n]), fmt::format("a path in UTF-8, and not {}", outcome.path.string()));
       if (resolved.contains("plugins")) resolved["plugins"][n] = outcome.path.string();
     }
   }

@@ -94,7 +94,7 @@ void apply_settings(Json& scene, const std::vector<std::string>& settings, Fault
       continue;
     }
     const Json value = value_of(setting.substr(equals + 1));
-    if (value.is_string() && Json::parse(value.dump(-1, ' ', false, Json::error_handler_t::replace)) != value) {
+    if (value.is_string() && !is_utf8(value.get_ref<const std::string&>())) {
       faults.add("--set " + setting.substr(0, equals), shown(value), "text in UTF-8");
       continue;
     }

@@ -114,6 +114,7 @@ bool read_value(const Option& option, const Json& given, const std::string& poin
       if (!given.is_string()) return wrong();
       const std::filesystem::path file = std::filesystem::absolute(reading.regions.folder() / given.get<std::string>()).lexically_normal();
       if (const std::string fault = input_file_fault(file); !fault.empty()) return wrong(fmt::format("; {}: {}", fault, file.string()));
+      if (!is_utf8(file.string())) return wrong(fmt::format("; a path in UTF-8, and not {}", file.string()));
       reading.regions.files()[pointer] = file;
       plain.text = reading.texts.emplace_back(file.string());
       resolved = file.string();

@@ -1,4 +1,5 @@
 #include <host/plugin_call.hpp>
+#include <process/thread_trial.hpp>
 #include <statics/statics.hpp>
 
 #include <algorithm>
@@ -15,6 +16,7 @@ Statics::Statics(const Model& model, Simulation& simulation, double start, doubl
     make_grid();
   const std::int64_t few = problem_.grid.listed ? 4096 : 65536;  // places; with fewer, threads would wait for each other longer than they work
   problem_.grid.threads = problem_.grid.places < few ? 1 : threads;
+  if (problem_.grid.threads > 1) try_openmp_threads(problem_.grid.threads);
   if (!problem_.grid.listed) make_weights();
   state_.assign(problem_.grid.numbers(), 0);
   force_.assign(problem_.grid.numbers(), 0);

@@ -1,6 +1,7 @@
 #include <base/errors.hpp>
 #include <base/folder_file.hpp>
 #include <plan/plan.hpp>
+#include <process/lack_of_memory.hpp>
 #include <run/interrupt.hpp>
 #include <run/run.hpp>
 #include <study/checks.hpp>
@@ -108,6 +109,11 @@ class Conductor {
         ++number;
         Row& row = result_.rows[n];
         if (row.status == "failed") continue;
+        if (stop_requested()) {
+          forget_stop();
+          result_.interrupted = true;
+          return;
+        }
         run_one(points_[n], row, repeat, fmt::format("[{}/{}] {}", number, total, row.run));
         if (result_.interrupted) return;
       }
@@ -124,9 +130,12 @@ class Conductor {
     const fs::path folder = run_directory(options_.directory, point.name, 1);
     if (!options_.fresh && !find_earlier(folder, identity_of(*scene), threads(point)).summary.is_null())
       if (auto tables = tables_in(folder, *scene)) return tables;
+    forget_lack_of_memory();
     try {
       return make_plan(std::move(scene), threads(point))->tables;
     } catch (const OutsideError&) {
+      return std::nullopt;
+    } catch (const std::bad_alloc&) {
       return std::nullopt;
     }
   }
@@ -176,6 +185,7 @@ class Conductor {
       std::string reason;
       {
         const QuietLog quiet;
+        forget_lack_of_memory();
         try {
           const auto plan = make_plan(std::move(scene), threads(point));
           code = run(*plan, run_options);

@@ -8,19 +8,6 @@
 
 namespace hyperlattice::study {
 
-namespace {
-
-bool is_utf8(const std::string& text) {
-  try {
-    Json(text).dump();
-    return true;
-  } catch (const Json::type_error&) {
-    return false;
-  }
-}
-
-}  // namespace
-
 void append_peers(std::vector<Peer>& peers, const std::filesystem::path& file, const std::string& pointer, Faults& faults) {
   CsvTable table;
   try {

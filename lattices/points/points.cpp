@@ -2,12 +2,11 @@
 // for. The door for any structure: a packing, a mesh's nodes, a scanned grain, a design of one's own.
 //   points:  x, y, z and, if it is there, volume
 //   springs: a, b and, if it is there, stiffness, over k; a and b count the points from 0
+#include <hyperlattice/files.hpp>
 #include <hyperlattice/lattice.hpp>
 #include <hyperlattice/neighbourhood.hpp>
 #include <hyperlattice/tables.hpp>
 
-#include <locale>
-#include <sstream>
 #include <stdexcept>
 
 namespace {
@@ -79,9 +78,9 @@ class Points {
     list.spacing = list.membrane_distance = o_.spacing.value_or(length);
     // where all springs join particles to themselves, the core says so
     if (length > 0 && !(list.spacing >= length / most_apart && list.spacing <= length * most_apart))
-      throw std::invalid_argument("spacing is " + text(list.spacing) + " m, while the springs are " + text(length) +
-                                  " m long in the mean: expected a spacing between " + text(length / most_apart) + " and " +
-                                  text(length * most_apart) + " m");
+      throw std::invalid_argument("spacing is " + short_number(list.spacing) + " m, while the springs are " + short_number(length) +
+                                  " m long in the mean: expected a spacing between " + short_number(length / most_apart) + " and " +
+                                  short_number(length * most_apart) + " m");
     list.site_volume = o_.particle_volume.value_or(volumes.empty() ? std::pow(list.spacing, 3) : mean(volumes));
     list.shape = o_.shape.value_or(nullptr);
     sink.points(list);
@@ -89,13 +88,6 @@ class Points {
 
  private:
   static constexpr double most_apart = 20;  // the surface is made of cubes of half a spacing
-
-  static std::string text(double length) {
-    std::ostringstream out;
-    out.imbue(std::locale::classic());
-    out << length;
-    return out.str();
-  }
 
   std::vector<ListedSpring> springs_of_file(std::size_t particles) const {
     static constexpr std::string_view ends[] = {"a", "b"}, more[] = {"stiffness"};

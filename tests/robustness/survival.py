@@ -1,8 +1,8 @@
 """What a run survives: survival.py PROGRAM kills|checkpoints|full_disk|power_cuts [COUNT].
 
 Each trial ends a run at a random moment, or spoils its checkpoint, and goes on with it. What the run leaves must be, byte for byte, what a run leaves
-that was never disturbed; a refusal must leave the folder as it was. full_disk and power_cuts need root, for a disk of their own; without, they are
-skipped (exit code 77).
+that was never disturbed; a refusal must leave the folder as it was. full_disk and power_cuts need root, for a disk of their own, and power_cuts
+needs mkfs.ext4; without, they are skipped (exit code 77).
 """
 import hashlib
 import json
@@ -201,6 +201,12 @@ def need_root():
         sys.exit(77)
 
 
+def need_program(name):
+    if shutil.which(name) is None:
+        print(f"skipped: this needs {name}")
+        sys.exit(77)
+
+
 def mount(*arguments):
     if subprocess.run(["mount", *arguments], capture_output=True, check=False).returncode != 0:
         print("skipped: nothing can be mounted here")
@@ -235,6 +241,7 @@ def full_disk(trial, count):
 
 def power_cuts(trial, count):
     need_root()
+    need_program("mkfs.ext4")
     disk, after = os.path.join(trial.folder, "disk"), os.path.join(trial.folder, "after")
     image, copy = os.path.join(trial.folder, "image"), os.path.join(trial.folder, "copy")
     for folder in (disk, after):

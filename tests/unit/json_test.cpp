@@ -80,6 +80,17 @@ TEST(Json, LongValuesAreCutInMessages) {
   EXPECT_NO_THROW(Json(text).dump());  // no character was cut in two
 }
 
+TEST(Json, NamesThatAreNoUtf8CanBeWritten) {
+  const std::string latin = "W\xF6rth";
+  EXPECT_EQ(json_text(Json{{"path", latin}}), "{\n  \"path\": \"W\xEF\xBF\xBDrth\"\n}\n");
+  EXPECT_EQ(json_text(nlohmann::json{{"path", latin}}), json_text(Json{{"path", latin}}));
+}
+
+TEST(Json, Utf8IsKnown) {
+  for (const char* const text : {"", "plain", "W\xC3\xB6rth", "\xEF\xBF\xBD", "\xF0\x9F\x99\x82", "a\nb\"\\"}) EXPECT_TRUE(is_utf8(text)) << text;
+  for (const char* const text : {"W\xF6rth", "\xC3", "\xED\xA0\x80", "\xC0\x80", "\x80"}) EXPECT_FALSE(is_utf8(text));
+}
+
 TEST(Settings, ReplaceAndAdd) {
   const char* const text = R"({"a": {"b": [1, 2]}, "x/y": 0, "~": 0})";
   EXPECT_EQ(set(text, {"/a/b/0=7"}), R"({"a":{"b":[7,2]},"x/y":0,"~":0})");

@@ -5,12 +5,16 @@
 #include <plan/plan.hpp>
 #include <plan/precision.hpp>
 #include <plan/shortage.hpp>
+#include <process/room.hpp>
 #include <run/layout.hpp>
+#include <run/own_files.hpp>
 #include <run/state.hpp>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <set>
 
 using namespace hyperlattice;
@@ -100,6 +104,19 @@ TEST(Plan, says_what_a_run_has_too_little_of) {
   EXPECT_NE(found[0].find("the run needs 1e+06 TB"), std::string::npos) << found[0];
   EXPECT_NE(found[1].find("will write about 1e+06 TB"), std::string::npos) << found[1];
   EXPECT_THROW(refuse_shortage(*plan, "."), OutsideError);
+}
+
+TEST(Plan, counts_the_files_of_an_earlier_run_as_free_disk_and_no_others) {
+  const auto plan = plan_of(small_sphere());
+  const test::Folder folder("shortage");
+  std::ofstream(folder.file("history.csv")).close();
+  std::filesystem::resize_file(folder.file("history.csv"), 1'000'000'000'000);  // takes no disk
+  plan->output_bytes = disk_room(folder.path()).bytes + 5e11;
+  const auto found = shortages(*plan, folder.path());
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NE(found[0].find("too little disk"), std::string::npos) << found[0];
+  std::ofstream(folder.file(own_files_list)) << own_file_line("history.csv", {}) << own_file_line("removed.csv", {});
+  EXPECT_TRUE(shortages(*plan, folder.path()).empty());
 }
 
 // On a machine as it is at the time, so that no figure can be expected.

@@ -74,16 +74,27 @@ TEST_F(FakeRoot, AGroupGrantsPartOfTheProcessors) {
   EXPECT_EQ(processors(root()), 1);
 }
 
-TEST(Team, SharesAllWorkOnceAndTheSameWayEachTime) {
+TEST(Team, SharesAllWorkOnce) {
   for (const int threads : {1, 2, 3, 7}) {
     Team team(threads);
     EXPECT_EQ(team.count(), threads);
     for (const std::size_t size : {0, 1, 2, 5, 1000}) {
+      std::vector<int> count(size, 0);
+      for (int round = 0; round < 2000; ++round) team.for_each(size, [&](std::size_t n) { ++count[n]; });
+      EXPECT_EQ(count, std::vector<int>(size, 2000));
+    }
+  }
+}
+
+TEST(Team, GivesWorkOfItsOwnToTheSameThreadEachTime) {
+  for (const int threads : {1, 2, 3, 7}) {
+    Team team(threads);
+    for (const std::size_t size : {0, 1, 2, 5, 1000}) {
       std::vector<std::thread::id> first(size), second(size);
       std::vector<int> count(size, 0);
-      team.for_each(size, [&](std::size_t n) { first[n] = std::this_thread::get_id(); });
+      team.for_own(size, [&](std::size_t n) { first[n] = std::this_thread::get_id(); });
       for (int round = 0; round < 50; ++round)
-        team.for_each(size, [&](std::size_t n) {
+        team.for_own(size, [&](std::size_t n) {
           ++count[n];
           second[n] = std::this_thread::get_id();
         });
@@ -93,6 +104,33 @@ TEST(Team, SharesAllWorkOnceAndTheSameWayEachTime) {
         EXPECT_EQ(std::set(first.begin(), first.end()).size(), static_cast<std::size_t>(threads));
       }
     }
+  }
+}
+
+TEST(Team, WaitsForNoThreadThatHasBegunNothing) {
+  Team team(2);
+  std::atomic<bool> all = false;
+  std::atomic<int> count = 0;
+  team.for_each(4, [&](std::size_t n) {
+    if (n == 2)  // the second thread's range begins here: one thread is held until the other has done the rest
+      for (int look = 0; !all && look < 10'000; ++look) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    if (++count == 3) all = true;
+  });
+  EXPECT_TRUE(all);
+  EXPECT_EQ(count, 4);
+}
+
+TEST(Team, ThrowsTheFirstOfSeveralErrors) {
+  for (const int threads : {1, 2, 3}) {
+    Team team(threads);
+    for (int round = 0; round < 200; ++round) try {
+        team.for_each(9, [](std::size_t n) {
+          if (n % 3 == 2) throw std::runtime_error(std::to_string(n));
+        });
+        FAIL();
+      } catch (const std::runtime_error& error) {
+        EXPECT_STREQ(error.what(), "2");
+      }
   }
 }
 

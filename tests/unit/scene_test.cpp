@@ -1,10 +1,14 @@
 // Whole scenes: defaults, labels, the resolved scene, order rules; with components that only declare options.
 #include "support/fake_components.hpp"
+#include "support/output.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
+
+#include <filesystem>
+#include <fstream>
 
 using namespace hyperlattice;
 using Json = nlohmann::ordered_json;
@@ -208,6 +212,25 @@ TEST(Scene, PluginPathsBecomeAbsolute) {
   const auto scene = read_scene_text(good, folder + "/tests/scene.json", {"/plugins=[\"../core\"]"}, catalogue);
   EXPECT_EQ(Json::parse(scene->resolved)["plugins"][0], folder + "/core");
   EXPECT_THROW(read_scene_text(good, folder + "/tests/scene.json", {"/plugins=[\"../cor\"]"}, catalogue), InputError);
+}
+
+TEST(Scene, PathsAreInUtf8) {
+  const test::Folder here("paths_in_utf8");
+  const std::string folder = here.file("W\xF6rth");
+  std::filesystem::create_directory(folder);
+  std::ofstream(folder + "/body.stl") << "solid";
+  const auto fault_of = [&](const std::string& setting) {
+    fakes::Catalogue catalogue;
+    try {
+      read_scene_text(good, folder + "/scene.json", {setting}, catalogue);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(fault_of("/title=plain"), "");  // where the scene itself stands does not matter
+  for (const char* const setting : {"/plugins=[\".\"]", "/regions/tip={\"stl\": {\"file\": \"body.stl\"}}"})
+    EXPECT_NE(fault_of(setting).find("a path in UTF-8, and not " + folder), std::string::npos) << fault_of(setting);
 }
 
 TEST(Scene, AMissingFileIsTheInputsFault) {

@@ -4,6 +4,7 @@
 #include <hyperlattice/plain.hpp>
 
 #include <algorithm>
+#include <concepts>
 #include <stdexcept>
 #include <vector>
 
@@ -29,6 +30,9 @@ class Neighbourhood {
     for (int axis = 0; axis < 3; ++axis) count_[axis] = static_cast<std::int64_t>(count[axis]);
     head_.assign(static_cast<std::size_t>(count[0] * count[1] * count[2]), none);
   }
+
+  /// The fourth argument was `periodic` once. A call that still passes a bool there must not compile: true would be taken as a number of points.
+  Neighbourhood(Vec3, Vec3, double, std::same_as<bool> auto) = delete;
 
   /// Points are numbered in the order in which they are added.
   void add(Vec3 point) {
@@ -86,7 +90,7 @@ struct NearPair {
   Vec3 rest;  ///< from a to b, metres
 };
 
-/// All pairs of points up to a distance, metres, each once. Arguments as Neighbourhood's.
+/// All pairs of points up to a distance `reach`, metres, each once. `low`, `high`, `reach` and `periodic` are as in Neighbourhood's constructor.
 inline std::vector<NearPair> near_pairs(std::span<const Vec3> points, Vec3 low, Vec3 high, double reach, bool periodic = false) {
   Neighbourhood near(low, high, reach, points.size(), periodic);
   std::vector<NearPair> pairs;

@@ -1,5 +1,5 @@
 // Tables in files: lines of cells, the first line names the columns. As spreadsheets and programs write them: a byte order mark, cells in quotation
-// marks, commas, semicolons, tabs or blanks between cells, blank lines, "+" before numbers, "#" before the names.
+// marks, commas, semicolons, tabs or blanks between cells, blank lines, comments, "+" before numbers, "#" before the names.
 #pragma once
 
 #include <algorithm>
@@ -39,9 +39,8 @@ inline std::optional<std::size_t> find_column(std::span<const std::string> colum
 class TableColumns {
  public:
   explicit TableColumns(std::string_view first_line) {
-    constexpr std::string_view mark = "\xEF\xBB\xBF";
-    if (first_line.starts_with(mark)) first_line.remove_prefix(mark.size());
-    if (trimmed(first_line).starts_with('#')) first_line = trimmed(trimmed(first_line).substr(1));
+    first_line = without_mark(first_line);
+    if (is_comment(first_line)) first_line = trimmed(trimmed(first_line).substr(1));
     for (const char candidate : {'\t', ';', ',', ' '})
       if (trimmed(first_line).find(candidate) != std::string_view::npos) {
         separator_ = candidate;
@@ -53,6 +52,10 @@ class TableColumns {
   const std::vector<std::string>& names() const { return names_; }
 
   std::optional<std::size_t> find(std::string_view name) const { return find_column(names_, name); }
+
+  bool has_all(std::span<const std::string_view> names) const {
+    return std::all_of(names.begin(), names.end(), [&](std::string_view name) { return find(name).has_value(); });
+  }
 
   /// The cells of a line, without blanks around them and without their quotation marks.
   std::vector<std::string> cells(std::string_view line) const {
@@ -69,9 +72,11 @@ class TableColumns {
     return found;
   }
 
-  static bool is_blank(std::string_view line) { return trimmed(line).empty(); }
-  /// Whether a line below the first holds no cells: it is blank, or a comment.
-  static bool is_empty(std::string_view line) { return is_blank(line) || trimmed(line).front() == '#'; }
+  static bool is_blank(std::string_view line) { return trimmed(without_mark(line)).empty(); }
+  /// Whether a line begins with "#". Such a line above all others may still name the columns.
+  static bool is_comment(std::string_view line) { return trimmed(without_mark(line)).starts_with('#'); }
+  /// Whether a line below the names holds no cells.
+  static bool is_empty(std::string_view line) { return is_blank(line) || is_comment(line); }
 
   /// The columns for a message: "x", "y", "z"; cut if they are many.
   std::string text() const {
@@ -86,6 +91,11 @@ class TableColumns {
 
  private:
   static constexpr std::string_view blank_ = " \t\r\v\f";
+  /// The line without the byte order mark that a file may begin with.
+  static std::string_view without_mark(std::string_view line) {
+    constexpr std::string_view mark = "\xEF\xBB\xBF";
+    return line.starts_with(mark) ? line.substr(mark.size()) : line;
+  }
   static std::string_view trimmed(std::string_view text) {
     const auto first = text.find_first_not_of(blank_);
     return first == std::string_view::npos ? std::string_view() : text.substr(first, text.find_last_not_of(blank_) - first + 1);
@@ -119,26 +129,43 @@ class TableColumns {
   std::vector<std::string> names_;
 };
 
-/// The columns asked for, one vector each in their order; a missing one that may be missing is empty. Throws std::invalid_argument with the file, the
-/// line and what was expected there.
+/// The columns asked for, one vector each in their order; a missing one that may be missing is empty. The first line that is neither blank nor a
+/// comment names the columns; if it does not name all required columns, but a comment above it does, that comment names them. Throws
+/// std::invalid_argument with the file, the line and what was expected there, or if the file cannot be read to its end.
 class NumberTable {
  public:
   NumberTable(const std::string& file, std::span<const std::string_view> required, std::span<const std::string_view> optional = {}) : file_(file) {
     std::ifstream in(file);
     if (!in) throw std::invalid_argument("file " + file + " cannot be read");
     std::string line;
-    std::size_t number = 1;
-    while (std::getline(in, line) && TableColumns::is_blank(line)) ++number;
-    const TableColumns header(line);
+    std::size_t number = 0, header_number = 1;
+    TableColumns header("");
+    bool is_named = false, is_row = false;  // whether `header` has all required columns, and whether `line` is a row below a comment that has them
+    for (bool is_comment = true; is_comment && std::getline(in, line);) {
+      ++number;
+      if (TableColumns::is_blank(line)) continue;
+      const TableColumns columns(line);
+      const bool has_all = columns.has_all(required);
+      is_comment = TableColumns::is_comment(line);
+      is_row = !is_comment && is_named && !has_all;
+      if (is_named && !has_all) continue;
+      header = columns;
+      header_number = number;
+      is_named = has_all;
+    }
+    check_reading(in);
     for (const std::string_view name : required) {
       columns_.push_back({name, header.find(name), {}});
-      if (!columns_.back().place) complain(number, "a column \"" + std::string(name) + "\", named in the first line; it names " + header.text());
+      if (!columns_.back().place)
+        complain(header_number, "a column \"" + std::string(name) + "\", named in the first line; it names " + header.text());
     }
     for (const std::string_view name : optional) columns_.push_back({name, header.find(name), {}});
+    if (is_row) read_line(header.cells(line), number);
     while (std::getline(in, line)) {
       ++number;
       if (!TableColumns::is_empty(line)) read_line(header.cells(line), number);
     }
+    check_reading(in);
   }
 
   /// Of a column that was asked for.
@@ -155,6 +182,9 @@ class NumberTable {
     std::vector<double> numbers;
   };
 
+  void check_reading(const std::ifstream& in) const {
+    if (in.bad()) throw std::invalid_argument("file " + file_ + " cannot be read to its end");
+  }
   [[noreturn]] void complain(std::size_t line, const std::string& expected) const {
     throw std::invalid_argument("file " + file_ + ", line " + std::to_string(line) + ": expected " + expected);
   }

@@ -32,8 +32,8 @@ class Contact {
             "that of a "
             "load: what they store counts as taken from the body, and comes back. Particles that are deeper than half a spacing mean a contact too "
             "soft. Bodies that are drawn less than an empty cell apart are joined by springs (plan counts bodies). With one empty cell between them "
-            "centres are two spacings apart, and they meet when the gap has closed to `reach` spacings between centres: later than their drawn faces "
-            "would by (1 - reach) spacings.")
+            "centres are two spacings apart. Contact begins when centres are `reach` spacings apart, so contact begins (1 - reach) spacings later "
+            "than the drawn faces would touch.")
         .add<&Options::on>("on", "", "the particles that may meet each other")
         .fallback("\"all\"")
         .add<&Options::reach>("reach", "", "distance below which particles push each other, in spacings")

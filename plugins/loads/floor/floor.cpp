@@ -4,6 +4,7 @@
 // with v_n, v_t the velocity out of the floor and along it. Below the limit mu N friction is viscous, so that a particle at rest creeps with mu N /
 // h, a tiny speed, and time steps stay stable. Along `forward` mu is friction, against it friction_back; between them it goes with the cosine:
 //   mu = (mu_f + mu_b) / 2 + (mu_f - mu_b) / 2 (v_t . forward) / |v_t|
+#include <hyperlattice/files.hpp>
 #include <hyperlattice/penalty_contact.hpp>
 
 #include <vector>
@@ -72,7 +73,7 @@ class Floor {
     }
     constexpr double noticeable = 0.1;  // spacings
     if (deepest > noticeable * body.spacing)
-      sink.warn("the body begins up to " + std::to_string(deepest / body.spacing) +
+      sink.warn("the body begins up to " + short_number(deepest / body.spacing, 3) +
                 " spacings deep in the floor, which throws it out: expected a floor that it touches");
   }
   double factor(double) const { return 1; }

@@ -30,7 +30,8 @@ class Explicit {
         .source("Zhao 2017, section 2.2 (central differences, local damping); limit: 2 / omega_max of the lattice by Bloch analysis")
         .restrictions(
             "All steps of a stage are equal and the last ends at end_time, so they may be a little shorter than time_step. Loads act by the mean of "
-            "their factor over each step: the impulse is exact whatever the step.")
+            "their factor over each step: the impulse is exact whatever the step, if the load names its kinks and jumps (of loads.expression: "
+            "`corners`).")
         .add<&Options::end_time>("end_time", "s", "instant at which the stage ends, counted from the start of the whole run, not of the stage")
         .example("\"20 us\"")
         .positive()

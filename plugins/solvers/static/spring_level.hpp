@@ -23,9 +23,10 @@ class SpringLevel : public Level {
   void mask(double* x) const override;
   double largest_eigenvalue() const override { return largest_eigenvalue_; }
 
-  /// Whether the tangents are no longer about those when this was last said to be new: a spring was strained or turned by more than a little, or
-  /// heights are held otherwise. What was prepared for those tangents then serves for these.
+  /// Whether the tangents differ so much from those at the last call of prepared() that what was prepared must be made anew: a spring has been
+  /// strained or turned by more than a little since then, or heights are held otherwise. If false, what was prepared then still serves.
   bool is_new() const { return new_; }
+  /// Says that all has been prepared for the present tangents.
   void prepared();
 
   /// False if there is no spring.

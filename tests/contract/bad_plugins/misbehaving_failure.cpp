@@ -8,6 +8,12 @@
 namespace {
 using namespace hyperlattice;
 
+/// Calls itself until its thread has no stack left.
+[[gnu::noinline]] double deeper(const volatile double* number) {
+  volatile double room[100] = {*number};
+  return *number < 1 ? deeper(number) + room[99] : 0;
+}
+
 struct BadCriterion {
   struct Options {
     double limit = 0;
@@ -26,6 +32,10 @@ struct BadCriterion {
   bool breaks(const SpringFacts& spring, double elongation) const {
     if (asked_for("throw in breaks")) throw std::runtime_error("oops");
     if (asked_for("null pointer in breaks")) return *static_cast<const volatile bool*>(nullptr);
+    if (asked_for("endless recursion in breaks")) {
+      const volatile double number = 0;
+      return deeper(&number) > 0;
+    }
     return elongation > limit * spring.rest_length;
   }
 

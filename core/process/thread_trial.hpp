@@ -1,0 +1,17 @@
+// What the system says to a number of threads.
+#pragma once
+
+#include <base/errors.hpp>
+
+#include <system_error>
+
+namespace hyperlattice {
+
+/// `started`: of the `asked` threads, the one that asks among them.
+OutsideError refused_threads(std::size_t started, std::size_t asked, const std::error_code& why);
+
+/// Starts as many threads as OpenMP is about to, with stacks as large, and lets them end. OpenMP itself ends the program with exit code 1 where the
+/// system refuses one; this throws OutsideError.
+void try_openmp_threads(int threads);
+
+}  // namespace hyperlattice
