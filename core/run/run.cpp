@@ -314,6 +314,17 @@ void carry_out(Plan& plan, const RunOptions& options, RunFolder& folder, const s
   attempt([&] { running.note(outcome); });
 }
 
+/// What follows the summary: it has said how the run ended, and that stays true if something here goes wrong.
+void tidy_up(RunFolder& folder, const Outcome& outcome, bool has_checkpoint) {
+  try {
+    folder.finish();
+    if (has_checkpoint) sync_directory(folder.directory());
+    if (outcome.exit_code == exit_done || (outcome.exit_code == exit_run && !has_checkpoint)) remove_checkpoints(folder.directory());
+  } catch (const std::exception& error) {
+    spdlog::warn("warning: after the end of the run: {}", error.what());
+  }
+}
+
 /// Leaves the summary. A checkpoint goes when the run is done and this is on the disk; that of a run that failed is kept.
 void conclude(const Plan& plan, RunFolder& folder, Outcome& outcome) {
   const std::filesystem::path& directory = folder.directory();
@@ -329,9 +340,7 @@ void conclude(const Plan& plan, RunFolder& folder, Outcome& outcome) {
     summary.write(json_text(summary_json(plan, outcome)));
     if (has_checkpoint) summary.sync();
     summary.commit();
-    folder.finish();
-    if (has_checkpoint) sync_directory(directory);
-    if (outcome.exit_code == exit_done || (outcome.exit_code == exit_run && !has_checkpoint)) remove_checkpoints(directory);
+    tidy_up(folder, outcome, has_checkpoint);
   } catch (const std::exception& error) {
     spdlog::error("{}", error.what());
     if (outcome.exit_code == exit_done) outcome.end("failed", exit_outside, error.what());
