@@ -66,7 +66,7 @@ class ListedForces {
   };
 
   template <bool Several>
-  void one_pack(const Row& row, std::uint32_t index, int t, Real* const (&forces)[components], Energies<Pack>& energies) const {
+  HYPERLATTICE_INLINE void one_pack(const Row& row, std::uint32_t index, int t, Real* const (&forces)[components], Energies<Pack>& energies) const {
     const std::uint64_t start = row.start + static_cast<std::uint64_t>(t), pack = start / slot_width;
     Pack force[components];
     for (int c = 0; c < components; ++c) force[c] = load(forces[c] + t);
