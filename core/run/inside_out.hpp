@@ -51,7 +51,7 @@ class CellWatch {
 
   const Body& body_;
   InsideOut seen_;
-  std::vector<double> moved_;    ///< m, x y z of the particles from first_ on
+  std::vector<double> moved_;  ///< m, x y z of the particles from first_ on
   Particle first_ = 0;
   Particle found_ = 0;           ///< the first one that is inside out in this look
   std::vector<bool> is_torn_;    ///< of each particle, whether a spring of it is broken; empty: none is

@@ -75,7 +75,7 @@ class Simulation {
   /// Copies of a quantity, particles in the order z, y, x. Height is empty without a membrane.
   void displacements(std::vector<double>& xyz) const;
   void displacements(std::vector<double>& xyz, Particle first, std::uint64_t count) const;  ///< of the particles from `first` on
-  void velocities(std::vector<double>& xyz) const;  ///< v(n-1/2)
+  void velocities(std::vector<double>& xyz) const;                                          ///< v(n-1/2)
   void heights(std::vector<double>& values) const;
   void alive(std::vector<std::uint16_t>& bits) const;  ///< springs that each particle's site begins, see KernelRequest::alive
   void height_rates(std::vector<double>& values) const;

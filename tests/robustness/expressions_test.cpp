@@ -40,7 +40,8 @@ bool runs(const std::string& expression) {
 TEST(Expressions, AreOneValueOfTime) {
   for (const char* good : {"5", "t", "1.5e3 * t", "sin(2 * pi * t)", "t > 1e-4 ? 1 : 0", "max(t, 1e-4)", "t >= 0 && t < 1", "-t ^ 2"})
     EXPECT_TRUE(runs(good)) << good;
-  for (const char* bad : {"", " ", "1,5", "t,2", "(1,5)", "1;5", "t = 5", "u", "sin()", "sin(t", "1 +", "\"5\"", "5 N", "max()"}) EXPECT_FALSE(runs(bad)) << bad;
+  for (const char* bad : {"", " ", "1,5", "t,2", "(1,5)", "1;5", "t = 5", "u", "sin()", "sin(t", "1 +", "\"5\"", "5 N", "max()"})
+    EXPECT_FALSE(runs(bad)) << bad;
 }
 
 void damaged(int usual) {
