@@ -78,7 +78,7 @@ TEST(Team, SharesAllWorkOnce) {
   for (const int threads : {1, 2, 3, 7}) {
     Team team(threads);
     EXPECT_EQ(team.count(), threads);
-    for (const std::size_t size : {0, 1, 2, 5, 1000}) {
+    for (const std::size_t size : {0U, 1U, 2U, 5U, 1000U}) {
       std::vector<int> count(size, 0);
       for (int round = 0; round < 2000; ++round) team.for_each(size, [&](std::size_t n) { ++count[n]; });
       EXPECT_EQ(count, std::vector<int>(size, 2000));
@@ -89,7 +89,7 @@ TEST(Team, SharesAllWorkOnce) {
 TEST(Team, GivesWorkOfItsOwnToTheSameThreadEachTime) {
   for (const int threads : {1, 2, 3, 7}) {
     Team team(threads);
-    for (const std::size_t size : {0, 1, 2, 5, 1000}) {
+    for (const std::size_t size : {0U, 1U, 2U, 5U, 1000U}) {
       std::vector<std::thread::id> first(size), second(size);
       std::vector<int> count(size, 0);
       team.for_own(size, [&](std::size_t n) { first[n] = std::this_thread::get_id(); });
@@ -136,7 +136,7 @@ TEST(Team, ThrowsTheFirstOfSeveralErrors) {
 
 TEST(Team, ThrowsWhatWorkThrowsAndGoesOn) {
   Team team(3);
-  for (const std::size_t bad : {0, 4, 8}) {
+  for (const std::size_t bad : {0U, 4U, 8U}) {
     EXPECT_THROW(team.for_each(9,
                                [&](std::size_t n) {
                                  if (n == bad) throw std::bad_alloc();
