@@ -13,7 +13,10 @@
 
 #include <array>
 #include <cerrno>
+#include <csignal>
+#include <iterator>
 #include <system_error>
+#include <thread>
 #include <vector>
 
 namespace hyperlattice {
@@ -74,6 +77,21 @@ std::vector<char*> environment() {
   return kept;
 }
 
+/// Waits until the child has ended; kills it if it takes longer than that, and says so by false.
+bool wait_for(pid_t child, int& status, std::chrono::milliseconds patience) {
+  const auto until = std::chrono::steady_clock::now() + patience;
+  for (;;) {
+    const pid_t ended = ::waitpid(child, &status, WNOHANG);
+    if (ended == child || (ended < 0 && errno != EINTR)) return true;
+    if (std::chrono::steady_clock::now() >= until) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  ::kill(child, SIGKILL);
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return false;
+}
+
 /// gnuplot's last words: the line that says what is wrong.
 std::string last_line(const std::string& text) {
   const auto end = text.find_last_not_of(" \n\r\t");
@@ -85,21 +103,25 @@ std::string last_line(const std::string& text) {
 }  // namespace
 
 std::string gnuplot_text(std::string_view text) {
-  // in single quotes gnuplot expands nothing
+  // Double quotes: gnuplot 5.4 loses a plot whose single-quoted texts hold or begin with single quotes. Within double quotes it runs what stands in
+  // backquotes, and reads backslashes. So all such marks stand as octal numbers; those of three digits need no look at what follows them.
   const std::string quoted = nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  std::string out = "'";
+  std::string out = "\"";
   for (const char c : nlohmann::json::parse(quoted).get<std::string>()) {
-    if (c == '\'')
-      out += "''";
+    const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+    if (c == '"')
+      out += "\\\"";
     else if (c == '\n')
-      out += "'.\"\\n\".'";
+      out += "\\n";
+    else if (c >= 0x40 && c < 0x7f && !is_letter)  // @ [ \ ] ^ _ ` { | } ~
+      fmt::format_to(std::back_inserter(out), "\\{:03o}", static_cast<unsigned>(c));
     else
       out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
   }
-  return out + "'";
+  return out + '"';
 }
 
-void draw_svg(const std::filesystem::path& file, const std::string& commands, int width, int height) {
+void draw_svg(const std::filesystem::path& file, const std::string& commands, int width, int height, std::chrono::milliseconds patience) {
   MemoryFile script(file), picture(file), words(file);
   script.write(fmt::format("set terminal svg size {},{} font 'Helvetica,13' background 'white'\n{}\n", width, height, commands));
   std::string program = "gnuplot", plain = "--default-settings";
@@ -115,8 +137,8 @@ void draw_svg(const std::filesystem::path& file, const std::string& commands, in
   if (error == ENOENT) fail(file, "gnuplot is not installed (Debian's package gnuplot-nox)");
   if (error != 0) fail(file, "gnuplot: " + reason(error));
   int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
+  if (!wait_for(child, status, patience))
+    fail(file, fmt::format("gnuplot took longer than {:g} s, and was ended", 1e-3 * static_cast<double>(patience.count())));
   const std::string drawn = picture.read();
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || drawn.find("</svg>") == std::string::npos)
     fail(file, "gnuplot failed: " + last_line(words.read()));

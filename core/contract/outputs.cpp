@@ -60,7 +60,7 @@ class Watched {
     const std::size_t particles = model_.body.particles;
     simulation_->set_velocities(noise(3 * particles, 1), std::vector<double>(particles, 0.0));
     run_folder_ = std::make_unique<RunFolder>(folder.path(), true);
-    run_folder_->begin(false);
+    run_folder_->begin(false, {});
     outputs_ = std::make_unique<Outputs>(model_, *simulation_, *run_folder_, 1e-4);
   }
   void show() { outputs_->show_now(); }

@@ -1,4 +1,5 @@
 // STL files: a list of facets, three corners each, as text or as 50 bytes a facet.
+#include <base/visible.hpp>
 #include <geometry/triangle_mesh.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -115,8 +116,8 @@ class Words {
     return value;
   }
   [[noreturn]] void fail(const std::string& expected, std::string_view found) const {
-    throw std::runtime_error(
-        fmt::format("line {}: {} was expected, {}", line_, expected, found.empty() ? "but it ends" : fmt::format("not \"{}\"", found.substr(0, 40))));
+    throw std::runtime_error(fmt::format("line {}: {} was expected, {}", line_, expected,
+                                         found.empty() ? "but it ends" : fmt::format("not \"{}\"", visible(found.substr(0, 40), 200))));
   }
   std::string place() const { return fmt::format("line {}", line_); }
 

@@ -16,17 +16,22 @@
 namespace hyperlattice {
 
 /// A component made from its stage; destroyed by the plugin that made it.
-using ComponentPointer = std::unique_ptr<void, void (*)(void*)>;
+/// Ends a component; a crash there is its plugin's.
+struct Destroy {
+  const Component* of = nullptr;
+  void operator()(void* made) const;
+};
+using ComponentPointer = std::unique_ptr<void, Destroy>;
 ComponentPointer make_component(const Stage& stage);  ///< InputError at the stage's pointer if it refuses its options
 
 struct Material {
   const Stage* stage = nullptr;
-  ComponentPointer component{nullptr, [](void*) {}};
+  ComponentPointer component;
   MaterialConstants constants;
   double mass = 0;                       ///< of a whole particle, kg
   double critical_time_step = 0;         ///< of the infinite lattice of this material, s
   const Stage* failure_stage = nullptr;  ///< null: unbreakable
-  ComponentPointer failure{nullptr, [](void*) {}};
+  ComponentPointer failure;
 };
 
 /// A load's contributions, as it declared them.
@@ -43,7 +48,7 @@ struct WatchedParticle {
 };
 struct Load {
   const Stage* stage = nullptr;
-  ComponentPointer component{nullptr, [](void*) {}};
+  ComponentPointer component;
   std::vector<LoadedParticle> particles;  ///< ascending, each once
   std::vector<WatchedParticle> watched;   ///< as the load named them
   std::vector<double> corners;            ///< s, ascending, each once: where the factor has a kink or jump

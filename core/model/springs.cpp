@@ -36,7 +36,7 @@ double alarm_of(const Material& material, const SpringFacts& facts) {
   double alarm = 0;
   call(stage, "alarm", [&](const Complaint& why) { return stage.functions<FailureFunctions>().alarm(material.failure.get(), facts, alarm, why); });
   if (std::isnan(alarm)) throw plugin_error(stage, "alarm", "it gives an elongation that is no number (nan)");
-  return alarm;
+  return std::max(alarm, -facts.rest_length);  // no spring is shorter than nothing
 }
 
 KernelSet kernels_of(const Stage& stage, const KernelChoice& choice) {

@@ -11,9 +11,9 @@ namespace hyperlattice {
 namespace {
 
 /// Numbers a particle that the asked fields hold.
-double numbers_per_particle(const Scene& scene, const Stage& output) {
+double numbers_per_particle(const Plan& plan, const Stage& output) {
   double numbers = 0;
-  for (const std::string& name : asked_fields(scene, output)) numbers += name == "displacement" || name == "velocity" ? 3 : 1;
+  for (const std::string& name : plan.asked_fields.at(&output)) numbers += name == "displacement" || name == "velocity" ? 3 : 1;
   return numbers;
 }
 
@@ -29,9 +29,7 @@ double frames_of(const Plan& plan, const Stage& output) {
   return std::min(asked, static_cast<double>(plan.steps()) + 1);
 }
 
-double frame_bytes(const Plan& plan, const Stage& writer) {
-  return particles_of(plan) * (3 + numbers_per_particle(*plan.scene, writer)) * bytes_per_number;
-}
+double frame_bytes(const Plan& plan, const Stage& writer) { return particles_of(plan) * (3 + numbers_per_particle(plan, writer)) * bytes_per_number; }
 
 double records_of(const PlannedStage& stage) {
   if (stage.plan.at_rest) {
@@ -64,7 +62,7 @@ void estimate_memory(Plan& plan) {
 
   double output_numbers = 0;  // positions, and the fields of the most demanding output
   for (const Family family : {Family::writers, Family::probes})
-    for (const Stage* stage : plan.scene->of(family)) output_numbers = std::max(output_numbers, 3 + numbers_per_particle(*plan.scene, *stage));
+    for (const Stage* stage : plan.scene->of(family)) output_numbers = std::max(output_numbers, 3 + numbers_per_particle(plan, *stage));
   double solver_bytes = 0;
   for (const PlannedStage& stage : plan.stages) solver_bytes = std::max(solver_bytes, stage.plan.bytes_per_site);
   const Site low = model.body.low, high = model.body.high;
@@ -77,7 +75,7 @@ void estimate_output(Plan& plan) {
   constexpr double bytes_per_text_number = 19, history_numbers = 16;
   for (const Stage* stage : plan.scene->of(Family::writers)) plan.output_bytes += frames_of(plan, *stage) * frame_bytes(plan, *stage);
   for (const Stage* stage : plan.scene->of(Family::probes))
-    plan.output_bytes += frames_of(plan, *stage) * (1 + std::max(1.0, numbers_per_particle(*plan.scene, *stage))) * bytes_per_text_number;
+    plan.output_bytes += frames_of(plan, *stage) * (1 + std::max(1.0, numbers_per_particle(plan, *stage))) * bytes_per_text_number;
   for (const PlannedStage& stage : plan.stages) plan.output_bytes += records_of(stage) * history_numbers * bytes_per_text_number;
 }
 
@@ -85,7 +83,7 @@ double output_seconds(const Plan& plan, double sweep) {
   constexpr double write = 30e-9;  // s a number of a frame
   double seconds = 0;
   for (const Stage* stage : plan.scene->of(Family::writers))
-    seconds += frames_of(plan, *stage) * particles_of(plan) * (3 + numbers_per_particle(*plan.scene, *stage)) * write;
+    seconds += frames_of(plan, *stage) * particles_of(plan) * (3 + numbers_per_particle(plan, *stage)) * write;
   for (const PlannedStage& stage : plan.stages) seconds += sweep * records_of(stage);
   return seconds;
 }

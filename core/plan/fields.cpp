@@ -16,7 +16,9 @@ bool has_field(const Model& model, std::string_view name) {
   return false;
 }
 
-std::vector<std::string> asked_fields(const Scene& scene, const Stage& output) {
+namespace {
+
+std::vector<std::string> asked_by(const Stage& output, const nlohmann::json& resolved) {
   std::vector<std::string> asked;
   const auto consider = [&](const nlohmann::json& value) {
     if (!value.is_string()) return;
@@ -24,10 +26,9 @@ std::vector<std::string> asked_fields(const Scene& scene, const Stage& output) {
     const bool is_field = std::find(std::begin(field_names), std::end(field_names), name) != std::end(field_names);
     if (is_field && std::find(asked.begin(), asked.end(), name) == asked.end()) asked.push_back(name);
   };
-  const auto resolved = nlohmann::json::parse(scene.resolved);
+  const auto& stage = resolved.at(nlohmann::json::json_pointer(output.pointer));
   for (const Option& option : output.component->info.options) {
     if (option.kind != OptionKind::texts && option.kind != OptionKind::choice && option.kind != OptionKind::text) continue;
-    const auto& stage = resolved.at(nlohmann::json::json_pointer(output.pointer));
     const auto value = stage.find(option.name);
     if (value == stage.end()) continue;
     if (value->is_array())
@@ -35,6 +36,16 @@ std::vector<std::string> asked_fields(const Scene& scene, const Stage& output) {
     else
       consider(*value);
   }
+  return asked;
+}
+
+}  // namespace
+
+AskedFields asked_fields(const Scene& scene) {
+  AskedFields asked;
+  const auto resolved = nlohmann::json::parse(scene.resolved);
+  for (const Family family : {Family::writers, Family::probes})
+    for (const Stage* output : scene.of(family)) asked[output] = asked_by(*output, resolved);
   return asked;
 }
 

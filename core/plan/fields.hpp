@@ -3,6 +3,7 @@
 
 #include <model/model.hpp>
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,7 +13,8 @@ namespace hyperlattice {
 /// Whether a run has the field: no height without a membrane that moves, nothing broken without a failure law.
 bool has_field(const Model& model, std::string_view name);
 
-/// The fields that a writer or probe names in any of its options.
-std::vector<std::string> asked_fields(const Scene& scene, const Stage& output);
+/// The fields that each writer and probe names in any of its options.
+using AskedFields = std::map<const Stage*, std::vector<std::string>>;
+AskedFields asked_fields(const Scene& scene);
 
 }  // namespace hyperlattice

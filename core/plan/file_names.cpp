@@ -1,9 +1,11 @@
+#include <plan/estimates.hpp>
 #include <plan/file_names.hpp>
 
 #include <spdlog/fmt/fmt.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <charconv>
 
 namespace hyperlattice {
 
@@ -15,28 +17,47 @@ bool has_folder(const Stage& writer) {
   return writer.name != type.substr(type.find('.') + 1);
 }
 
-/// A writer without a folder, and the text that all its files' names begin with.
-struct Unlabelled {
+/// A writer, and the text that all its files' names begin with.
+struct Named {
   const Stage* writer;
   std::string base;
 };
 
-std::vector<Unlabelled> unlabelled_of(const std::vector<const Stage*>& writers, const nlohmann::json& resolved) {
-  std::vector<Unlabelled> unlabelled;
+/// The writers that have an option `file`.
+std::vector<Named> named_of(const std::vector<const Stage*>& writers, const nlohmann::json& resolved) {
+  std::vector<Named> named;
   for (const Stage* writer : writers) {
-    if (has_folder(*writer)) continue;
     const nlohmann::json::json_pointer place(writer->pointer + "/file");
-    if (resolved.contains(place) && resolved[place].is_string()) unlabelled.push_back({writer, resolved[place].get<std::string>()});
+    if (resolved.contains(place) && resolved[place].is_string()) named.push_back({writer, resolved[place].get<std::string>()});
   }
-  return unlabelled;
+  return named;
 }
 
 }  // namespace
 
+bool OutputName::may_be(std::string_view name) const {
+  if (frames == 0 || !name.starts_with(base)) return name == base;
+  name.remove_prefix(base.size());
+  if (name.starts_with('.')) return true;
+  std::uint64_t number = 0;
+  const auto [end, error] = std::from_chars(name.data() + std::min<std::size_t>(1, name.size()), name.data() + name.size(), number);
+  return name.starts_with('_') && error == std::errc() && end != name.data() + name.size() && *end == '.' && static_cast<double>(number) < frames;
+}
+
+std::vector<OutputName> output_names(const Plan& plan) {
+  std::vector<OutputName> names;
+  const auto resolved = nlohmann::json::parse(plan.scene->resolved, nullptr, false);
+  for (const auto& [writer, base] : named_of(plan.scene->of(Family::writers), resolved))
+    names.push_back({has_folder(*writer) ? writer->name : "", base, 1 + frames_of(plan, *writer)});
+  for (const Stage* probe : plan.scene->of(Family::probes)) names.push_back({"probes", probe->name + ".csv"});
+  return names;
+}
+
 void check_file_names(const Scene& scene, Faults& faults) {
   const auto resolved = nlohmann::json::parse(scene.resolved, nullptr, false);
   const auto writers = scene.of(Family::writers);
-  const std::vector<Unlabelled> unlabelled = unlabelled_of(writers, resolved);
+  std::vector<Named> unlabelled = named_of(writers, resolved);
+  std::erase_if(unlabelled, [](const Named& one) { return has_folder(*one.writer); });
   for (const Stage* writer : writers) {
     if (!has_folder(*writer)) continue;
     const std::string& name = writer->name;

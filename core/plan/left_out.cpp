@@ -54,7 +54,8 @@ void leave_out_outputs(const Plan& plan, std::vector<LeftOut>& out) {
   for (const Family family : {Family::writers, Family::probes})
     for (const Stage* stage : plan.scene->of(family)) {
       ++outputs;
-      for (std::string& name : asked_fields(*plan.scene, *stage)) asked.insert(std::move(name));
+      const std::vector<std::string>& names = plan.asked_fields.at(stage);
+      asked.insert(names.begin(), names.end());
     }
   if (plan.scene->of(Family::writers).empty()) out.push_back({"writers", "the scene has none: only tables and the summary are written"});
   if (plan.scene->of(Family::probes).empty()) out.push_back({"probes", "the scene has none"});

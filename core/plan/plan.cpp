@@ -62,10 +62,9 @@ void check_fields(const Plan& plan, Faults& faults) {
   std::vector<std::string_view> present;
   for (const std::string_view name : field_names)
     if (has_field(*plan.model, name)) present.push_back(name);
-  for (const Family family : {Family::writers, Family::probes})
-    for (const Stage* stage : plan.scene->of(family))
-      for (const std::string& name : asked_fields(*plan.scene, *stage))
-        if (!has_field(*plan.model, name)) faults.add(stage->pointer, name, fmt::format("fields that this run has: {}", fmt::join(present, ", ")));
+  for (const auto& [stage, names] : plan.asked_fields)
+    for (const std::string& name : names)
+      if (!has_field(*plan.model, name)) faults.add(stage->pointer, name, fmt::format("fields that this run has: {}", fmt::join(present, ", ")));
 }
 
 }  // namespace
@@ -110,6 +109,7 @@ std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, Threads threads) {
   plan->body = body_figures(*plan->model);
   for (std::string& warning : size_warnings(plan->body, plan->model->body.grid.spacing)) plan->model->warnings.push_back(std::move(warning));
   Faults faults;
+  plan->asked_fields = asked_fields(*plan->scene);
   plan_stages(*plan, faults);
   check_fields(*plan, faults);
   check_file_names(*plan->scene, faults);

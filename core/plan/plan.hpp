@@ -2,6 +2,7 @@
 #pragma once
 
 #include <model/body_figures.hpp>
+#include <plan/fields.hpp>
 #include <plan/identity.hpp>
 #include <plan/threads.hpp>
 
@@ -22,7 +23,7 @@ struct LeftOut {
 /// One solver stage, planned.
 struct PlannedStage {
   const Stage* stage = nullptr;
-  ComponentPointer component{nullptr, [](void*) {}};
+  ComponentPointer component;
   double start_time = 0;
   SolverPlan plan;
 };
@@ -39,6 +40,7 @@ struct Plan {
   std::unique_ptr<Model> model;
   BodyFigures body;  ///< how large it came out
   std::vector<PlannedStage> stages;
+  AskedFields asked_fields;
   std::vector<PlannedTable> tables;  ///< in the order of the scene's probes
   int threads = 1;
   double bytes_per_particle = 0;  ///< of the state: what the kernel works on

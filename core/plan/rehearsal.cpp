@@ -11,6 +11,8 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <set>
+
 namespace hyperlattice {
 namespace {
 
@@ -91,6 +93,9 @@ void rehearse_outputs(Plan& plan, Faults& faults) {
     const auto refused = refusal_of(*stage, "begin", [&](const Complaint& why) {
       return stage->functions<ProbeFunctions>().begin(probe.get(), context, snapshot, columns_into(names), why);
     });
+    std::set<std::string_view> different;
+    for (const std::string& name : names)
+      if (!different.insert(name).second) throw plugin_error(*stage, "begin", fmt::format("it gives two columns the name \"{}\"", name));
     if (refused) faults.add(stage->pointer, stage->component->type(), "an output that fits the body: " + *refused);
   }
 }

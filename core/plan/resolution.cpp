@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace hyperlattice {
 namespace {
@@ -56,6 +57,24 @@ ShortPiece shortest(const Load& load, const Pieces& pieces, const PlannedStage& 
   return shortest;
 }
 
+/// An instant about which a load's mean over a step is not that of the step's two halves: it changes too fast for the points at which it is looked
+/// at. Nothing if there is none among some steps of the stage.
+std::optional<double> too_fast_at(const Load& load, const PlannedStage& stage, std::uint64_t most_steps) {
+  constexpr double share = 1e-3;
+  const double step = stage.plan.time_step;
+  const std::uint64_t stride = std::max<std::uint64_t>(1, stage.plan.steps / most_steps);
+  double largest = 0, worst = 0, at = 0;
+  for (std::uint64_t n = 0; n < stage.plan.steps; n += stride) {
+    const double from = stage.start_time + static_cast<double>(n) * step, middle = from + 0.5 * step, to = from + step;
+    const double whole = load.mean(from, to), halves = 0.5 * (load.mean(from, middle) + load.mean(middle, to));
+    largest = std::max({largest, std::abs(whole), std::abs(halves)});
+    if (!(std::abs(whole - halves) > worst)) continue;
+    worst = std::abs(whole - halves);
+    at = from;
+  }
+  return worst > share * largest ? std::optional(at) : std::nullopt;
+}
+
 /// The stage in time with the longest step; null if there is none.
 const PlannedStage* coarsest_of(const Plan& plan) {
   const PlannedStage* coarsest = nullptr;
@@ -71,6 +90,7 @@ void check_resolution(Plan& plan, Faults& faults) {
   constexpr double fewest = 2, good = 20;  // steps a period
   const PlannedStage* coarsest = coarsest_of(plan);
   if (coarsest == nullptr) return;
+  const std::uint64_t most_steps = std::clamp<std::uint64_t>(200'000 / (1 + plan.model->loads.size()), 16, 4096);
   for (const Load& load : plan.model->loads) {
     const std::string name = fmt::format("{} ({})", load.stage->component->type(), load.stage->pointer);
     const double step = coarsest->plan.time_step;
@@ -86,6 +106,11 @@ void check_resolution(Plan& plan, Faults& faults) {
                         "period take off 0.4 %: a time_step of {:.4g} s",
                         name, load.frequency, steps, coarsest->stage->pointer, 100 * lost_by_mean(steps), 1 / (good * load.frequency)));
     }
+    if (const auto at = too_fast_at(load, *coarsest, most_steps))
+      plan.model->warnings.push_back(fmt::format(
+          "{}: about {:.4g} s it changes faster than the steps of {}, {:.4g} s, can tell, so its impulse is not exact. It needs shorter steps, or "
+          "corners where it has kinks and jumps",
+          name, *at, coarsest->stage->pointer, step));
     const Pieces pieces = pieces_of(load);
     ShortPiece piece;
     for (const PlannedStage& stage : plan.stages) {

@@ -44,8 +44,8 @@ Team::~Team() { stop(); }
 
 void Team::stop() noexcept {
   stopping_.store(true, std::memory_order_relaxed);
-  round_.fetch_add(1, std::memory_order_release);
-  round_.notify_all();
+  round_.now.fetch_add(1, std::memory_order_release);
+  round_.now.notify_all();
   for (std::thread& other : others_) other.join();
   others_.clear();
 }
@@ -56,14 +56,14 @@ void Team::share(std::size_t size, bool helping, Call call, const void* work_to_
   call_ = call;
   work_ = work_to_do;
   helping_.store(helping, std::memory_order_relaxed);
-  open_.store(size, std::memory_order_relaxed);
-  const std::uint32_t before = round_.load(std::memory_order_relaxed), round = before + 1;
+  open_.now.store(size, std::memory_order_relaxed);
+  const std::uint32_t before = round_.now.load(std::memory_order_relaxed), round = before + 1;
   for (std::size_t range = 0; range < threads_; ++range)
-    ranges_[range].left.store(left_of(round, end_of(range) - size_ * range / threads_), std::memory_order_release);
-  round_.store(round, std::memory_order_release);
-  round_.notify_all();
+    ranges_[range].now.store(left_of(round, end_of(range) - size_ * range / threads_), std::memory_order_release);
+  round_.now.store(round, std::memory_order_release);
+  round_.now.notify_all();
   work(0, round);
-  while (done_.load(std::memory_order_acquire) != round) wait_for_change(done_, before);
+  while (done_.now.load(std::memory_order_acquire) != round) wait_for_change(done_.now, before);
   if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
@@ -75,7 +75,7 @@ void Team::work(std::size_t thread, std::uint32_t round) noexcept {
 
 /// A thread that comes late finds another round in the range, and takes nothing.
 void Team::do_range(std::size_t range, std::uint32_t round) noexcept {
-  std::atomic<std::uint64_t>& left = ranges_[range].left;
+  std::atomic<std::uint64_t>& left = ranges_[range].now;
   for (std::uint64_t now = left.load(std::memory_order_acquire); is_of(now, round);) {
     if (!left.compare_exchange_weak(now, now - 1, std::memory_order_acq_rel, std::memory_order_acquire)) continue;
     const std::size_t n = end_of(range) - (now & left_bits);
@@ -98,21 +98,20 @@ void Team::fail(std::size_t range, std::uint32_t round, std::size_t n) noexcept 
       failure_ = std::current_exception();
     }
   }
-  if (const std::uint64_t rest = ranges_[range].left.exchange(left_of(round, 0), std::memory_order_acq_rel) & left_bits; rest > 0)
-    finish(round, rest);
+  if (const std::uint64_t rest = ranges_[range].now.exchange(left_of(round, 0), std::memory_order_acq_rel) & left_bits; rest > 0) finish(round, rest);
 }
 
 void Team::finish(std::uint32_t round, std::size_t count) noexcept {
-  if (open_.fetch_sub(count, std::memory_order_acq_rel) != count) return;
-  done_.store(round, std::memory_order_release);
-  done_.notify_one();
+  if (open_.now.fetch_sub(count, std::memory_order_acq_rel) != count) return;
+  done_.now.store(round, std::memory_order_release);
+  done_.now.notify_one();
 }
 
 void Team::serve(std::size_t thread) noexcept {
   const SignalStack stack;  // for a law of a plugin that calls itself without end
   for (std::uint32_t seen = 0;;) {
-    wait_for_change(round_, seen);
-    seen = round_.load(std::memory_order_acquire);
+    wait_for_change(round_.now, seen);
+    seen = round_.now.load(std::memory_order_acquire);
     if (stopping_.load(std::memory_order_relaxed)) return;
     work(thread, seen);
   }

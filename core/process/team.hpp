@@ -13,6 +13,13 @@
 
 namespace hyperlattice {
 
+/// A number that several threads write, in a line of the caches of its own.
+template <class Number>
+struct Apart {
+  std::atomic<Number> now = 0;
+  char rest_of_line[64 - sizeof now] = {};
+};
+
 class Team {
  public:
   /// Starts all threads but the first, which is the one that asks for work. Throws OutsideError if the system refuses one.
@@ -43,10 +50,7 @@ class Team {
   }
 
   /// What is left of a thread's range: the round in the upper half, how many in the lower. Who counts it down by one has taken the first of these.
-  struct Range {
-    std::atomic<std::uint64_t> left = 0;
-    char apart[64 - sizeof left] = {};  ///< so that no two threads write into one line of the caches
-  };
+  using Range = Apart<std::uint64_t>;
 
   void share(std::size_t size, bool helping, Call call, const void* work);
   void work(std::size_t thread, std::uint32_t round) noexcept;
@@ -71,9 +75,9 @@ class Team {
   std::size_t failed_ = 0;      ///< the least n whose work threw
   std::exception_ptr failure_;  ///< what it threw
 
-  alignas(64) std::atomic<std::uint32_t> round_ = 0;  ///< of shared work
-  alignas(64) std::atomic<std::size_t> open_ = 0;     ///< parts of it that are not done
-  alignas(64) std::atomic<std::uint32_t> done_ = 0;   ///< the latest round of which all is done
+  Apart<std::uint32_t> round_;  ///< of shared work
+  Apart<std::size_t> open_;     ///< parts of it that are not done
+  Apart<std::uint32_t> done_;   ///< the latest round of which all is done
   std::atomic<bool> helping_ = true, stopping_ = false;
 };
 

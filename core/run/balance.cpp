@@ -78,13 +78,16 @@ std::vector<double> Simulation::Parts::work_by_load(double potential) const {
   return work;
 }
 
-/// J, the sum of the sizes of all works, of each load on each particle: they may cancel.
+/// J, the sum of the sizes of all works, of each load on each particle: they may cancel. So does what a body acceleration gives to a held particle in
+/// a step with what holds it.
 double Simulation::Parts::gross_work(double potential) const {
   double sum = std::abs(potential);
+  const Vec3 gained = last_step * model.acceleration;
   for (const Block& block : blocks) {
     for (const Contribution& part : block.contributions)
       sum += std::abs(part.work + part.factor * dot(part.force, block.supports[part.support].path));
-    for (const Support& support : block.supports) sum += std::abs(support.reaction_work + support.reaction_now);
+    for (const Support& support : block.supports)
+      sum += std::abs(support.reaction_work + support.reaction_now) + (support.axes != 0 ? 0.5 * support.mass * dot(gained, gained) : 0);
   }
   return sum;
 }

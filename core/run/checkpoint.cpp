@@ -64,7 +64,10 @@ Checkpoint newest(const fs::path& directory) {
     if (!is_there(file)) continue;
     try {
       Checkpoint found = verified(file);
-      if (!faults.empty()) spdlog::warn("warning: {}; the run goes on from the checkpoint before it", faults.front().expected);
+      if (!faults.empty())
+        spdlog::warn("warning: {}; the run goes on from the checkpoint before it", faults.front().expected);
+      else if (name == earlier_checkpoint_file)
+        spdlog::warn("warning: {} is missing; the run goes on from the checkpoint before it", (directory / checkpoint_file).string());
       return found;
     } catch (const std::runtime_error& error) {
       faults.push_back({"--resume", file.string(), error.what()});

@@ -98,20 +98,39 @@ RunFolder::RunFolder(fs::path directory, bool is_new) : directory_(std::move(dir
   list_ = std::make_unique<Table>(list_path(), std::move(list), static_cast<std::uint64_t>(status.st_size));
 }
 
-void RunFolder::begin(bool overwrite) {
+/// Files that would meet the run on its way.
+void RunFolder::refuse_strangers(const std::vector<OutputName>& outputs, Faults& faults) const {
+  const auto refuse = [&](const std::string& name) {
+    if (earlier_.find(name) == earlier_.end() && is_there(path_of(name)))
+      faults.add("--out", path_of(name).string(),
+                 fmt::format("a folder where no such file is, for its list of a run's own files ({}) does not name it; move the file, or replace it "
+                             "by --overwrite",
+                             own_files_list));
+  };
+  for (const std::string_view name : run_file_names)
+    if (name != own_files_list && name != "probes" && name != "report.html" && name != checkpoint_file && name != earlier_checkpoint_file)
+      refuse(std::string(name));
+  std::set<std::string> folders;
+  for (const OutputName& output : outputs) folders.insert(output.folder);
+  for (const std::string& folder : folders) {
+    struct stat status {};
+    if (!folder.empty() && ::lstat(path_of(folder).c_str(), &status) == 0 && !S_ISDIR(status.st_mode))
+      faults.add("--out", path_of(folder).string(), "a folder, or nothing, of that name; a file or link is there");
+    std::error_code error;
+    for (fs::directory_iterator entry(path_of(folder), error), end; !error && entry != end; entry.increment(error)) {
+      const std::string name = entry->path().filename().string();
+      if (std::any_of(outputs.begin(), outputs.end(), [&](const OutputName& output) { return output.folder == folder && output.may_be(name); }))
+        refuse(folder.empty() ? name : folder + "/" + name);
+    }
+  }
+}
+
+void RunFolder::begin(bool overwrite, const std::vector<OutputName>& outputs) {
   may_replace_ = overwrite;
   Faults faults;
   if (!overwrite && holds_progress(directory_) && !is_done(directory_))
     faults.add("--out", directory_.string(), "a folder without an interrupted run; go on with it by --resume, or give up its results by --overwrite");
-  if (!overwrite)
-    for (const std::string_view name : run_file_names)
-      if (name != own_files_list && name != "probes" && name != "report.html" && name != checkpoint_file && name != earlier_checkpoint_file &&
-          earlier_.find(name) == earlier_.end() && is_there(directory_ / name))
-        faults.add(
-            "--out", path_of(std::string(name)).string(),
-            fmt::format("a folder where no such file is, for its list of a run's own files ({}) does not name it; move the file, or replace it "
-                        "by --overwrite",
-                        own_files_list));
+  if (!overwrite) refuse_strangers(outputs, faults);
   try {
     remove_leavings(earlier_, overwrite, faults);
   } catch (const InputError&) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <base/errors.hpp>
+#include <plan/file_names.hpp>
 #include <run/own_files.hpp>
 #include <run/table.hpp>
 
@@ -23,9 +24,11 @@ class RunFolder {
   /// Opens and locks a folder, which a new run makes if it is not there. OutsideError if another run is writing there, or if the system refuses.
   RunFolder(std::filesystem::path directory, bool is_new);
 
+  /// Whether an earlier run left something here.
+  bool has_results() const { return !earlier_.empty(); }
   /// Begins a new run: removes what an earlier run left, if it is still as that run left it. InputError, with nothing touched, if an interrupted run
-  /// is there or files that no list names, unless `overwrite`.
-  void begin(bool overwrite);
+  /// is there or files of the run's own names that no list names, unless `overwrite`. `outputs`: what its writers and probes will write.
+  void begin(bool overwrite, const std::vector<OutputName>& outputs);
   /// Goes on with a run whose checkpoint holds these marks. InputError, with nothing touched, if a table or file from before is not as it was.
   void go_on(std::vector<TableMark> marks);
 
@@ -51,6 +54,7 @@ class RunFolder {
   };
   void note(const std::string& name, Mine& file, bool to_the_disk);
   void remove_leavings(const OwnFiles& files, bool overwrite, Faults& faults);
+  void refuse_strangers(const std::vector<OutputName>& outputs, Faults& faults) const;
   void remove_parts(const std::filesystem::path& folder) const;
   std::filesystem::path path_of(const std::string& name) const { return directory_ / name; }
   std::filesystem::path list_path() const { return directory_ / own_files_list; }

@@ -112,7 +112,7 @@ bool CellWatch::look(const Simulation& simulation) {
 
 /// A slab of planes at a time, so that a large body's displacements never stand in memory twice.
 void CellWatch::look_at_cells(const Simulation& simulation) {
-  const auto planes = static_cast<std::size_t>(body_.high.k - body_.low.k + 1);
+  const auto planes = static_cast<std::size_t>(std::int64_t{body_.high.k} - body_.low.k + 1);
   std::vector<Particle> before(planes + 1);  // of each plane, the particles before it
   for (std::size_t plane = 0; plane < planes; ++plane) {
     before[plane + 1] = before[plane];

@@ -25,7 +25,7 @@ class Outputs {
  private:
   struct Output {
     const Stage* stage = nullptr;
-    ComponentPointer component{nullptr, [](void*) {}};
+    ComponentPointer component;
     std::string name;       ///< of its folder in the run's; empty: the run's itself
     std::string directory;  ///< of its files
     Schedule schedule;

@@ -34,7 +34,9 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 class Running {
  public:
-  Running(Plan& plan, const RunOptions& options, RunFolder& folder) : plan_(plan), options_(options), folder_(folder) {}
+  /// `simulation`: null if it is still to be built.
+  Running(Plan& plan, const RunOptions& options, RunFolder& folder, std::unique_ptr<Simulation> simulation)
+      : plan_(plan), options_(options), folder_(folder), simulation_(std::move(simulation)) {}
 
   /// `resumed`: where an earlier run had come to.
   void start(Outcome& outcome, const std::optional<Checkpoint>& resumed);
@@ -93,7 +95,7 @@ void Running::timed(Output&& output) {
 void Running::start(Outcome& outcome, const std::optional<Checkpoint>& resumed) {
   const auto start = Clock::now();
   if (!resumed) folder_.write("scene.resolved.json", plan_.scene->resolved_in(options_.directory));
-  simulation_ = std::make_unique<Simulation>(*plan_.model, plan_.threads);
+  if (!simulation_) simulation_ = std::make_unique<Simulation>(*plan_.model, plan_.threads);
   guard_ = std::make_unique<Guard>(*plan_.model, *simulation_);
   cells_ = std::make_unique<CellWatch>(*plan_.model);
   if (resumed)
@@ -190,7 +192,8 @@ void Running::solve_stage(const PlannedStage& stage) {
   };
   hooks.must_stop = [] { return stop_requested(); };
   StageCalls(*plan_.model, *simulation_, stage, plan_.threads, std::move(hooks), stage_steps_).run();
-  if (stop_requested() && stage.plan.resumes) {
+  if (stop_requested() && !stage.plan.resumes) return;  // it is on no way in time: the stage begins anew
+  if (stop_requested()) {
     if (observed_ != simulation_->steps()) observe();
     save();
   }
@@ -262,31 +265,48 @@ void Running::note(Outcome& outcome) {
   outcome.time = simulation_->time();
   outcome.injected_by_load = simulation_->injected_by_load();
   outcome.state_hash = simulation_->hash();
+  if (outcome.exit_code == exit_run) look_at_cells();  // it may be why
   if (std::string sentence = cells_ ? cells_->sentence() : ""; !sentence.empty()) outcome.warnings.push_back(std::move(sentence));
   if (plan_.model->choice.precision == Precision::doubles) return;
   if (std::string warning = precision_warning(*plan_.model, simulation_->farthest()); !warning.empty())
     outcome.warnings.push_back(std::move(warning));
 }
 
+/// Takes the memory and threads of a run before the results of an earlier one go. Null if the system refuses them where there are none: the run then
+/// meets that itself, and leaves a summary.
+std::unique_ptr<Simulation> build(const RunFolder& folder, const Plan& plan) {
+  try {
+    return std::make_unique<Simulation>(*plan.model, plan.threads);
+  } catch (const std::bad_alloc&) {
+    if (folder.has_results())
+      throw OutsideError(fmt::format("nothing was changed: this run needs about {:.0f} MB; {}", plan.memory_bytes / 1e6, lack_of_memory()));
+  } catch (const OutsideError& error) {
+    if (folder.has_results()) throw OutsideError(fmt::format("nothing was changed: {}", error.what()));
+  }
+  return nullptr;
+}
+
 /// Makes the folder ready, and says where the run goes on; nowhere if it begins.
-std::optional<Checkpoint> prepare(RunFolder& folder, Plan& plan, const RunOptions& options) {
+std::optional<Checkpoint> prepare(RunFolder& folder, Plan& plan, const RunOptions& options, std::unique_ptr<Simulation>& simulation) {
   std::optional<Checkpoint> resumed;
   if (options.resume) resumed = find_checkpoint(plan, options.directory);
   if (resumed && resumed->head.threads != plan.threads) {
     spdlog::info("the run goes on with {} threads, as it began", resumed->head.threads);
     set_threads(plan, resumed->head.threads);
   }
+  simulation = build(folder, plan);
   if (resumed && !resumed->head.at_start)
     folder.go_on(resumed->head.tables);
   else
-    folder.begin(options.overwrite || resumed);
+    folder.begin(options.overwrite || resumed, output_names(plan));
   if (resumed && resumed->head.at_start) resumed.reset();
   return resumed;
 }
 
 /// Solves the plan; what went wrong is in the outcome.
-void carry_out(Plan& plan, const RunOptions& options, RunFolder& folder, const std::optional<Checkpoint>& resumed, Outcome& outcome) {
-  Running running(plan, options, folder);
+void carry_out(Plan& plan, const RunOptions& options, RunFolder& folder, const std::optional<Checkpoint>& resumed,
+               std::unique_ptr<Simulation> simulation, Outcome& outcome) {
+  Running running(plan, options, folder, std::move(simulation));
   const auto end_for_memory = [&] {
     outcome.end("failed", exit_outside, fmt::format("this run needs about {:.0f} MB; {}", plan.memory_bytes / 1e6, lack_of_memory()));
   };
@@ -359,14 +379,16 @@ int run(Plan& plan, const RunOptions& options) {
   refuse_shortage(plan, options.directory);
   if (options.resume) must_be_resumable(options.directory);
   RunFolder folder(options.directory, !options.resume);
-  const std::optional<Checkpoint> resumed = prepare(folder, plan, options);
+  const auto start = Clock::now();
+  std::unique_ptr<Simulation> simulation;
+  const std::optional<Checkpoint> resumed = prepare(folder, plan, options, simulation);
   Outcome outcome;
-  outcome.setup_seconds = plan.setup_seconds;
+  outcome.setup_seconds = plan.setup_seconds + seconds_since(start);
   std::string body;
   for (const auto& [name, value] : body_lines(plan.body)) body += fmt::format("{}{} {}", body.empty() ? "" : ", ", name, value);
   spdlog::info("the body: {}", body);
   for (const std::string& warning : plan.model->warnings) spdlog::warn("warning: {}", warning);
-  carry_out(plan, options, folder, resumed, outcome);
+  carry_out(plan, options, folder, resumed, std::move(simulation), outcome);
   if (outcome.exit_code == exit_interrupted) forget_stop();  // a request that came too late is for the next run of a study
   conclude(plan, folder, outcome);
   return outcome.exit_code;

@@ -1,4 +1,5 @@
 #include <base/errors.hpp>
+#include <process/room.hpp>
 #include <scene/unit_text.hpp>
 #include <scene/units.hpp>
 
@@ -13,6 +14,7 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <new>
 
 namespace hyperlattice {
 
@@ -76,6 +78,21 @@ std::string definition(const ut_unit* unit) {
   return length > 0 && length < static_cast<int>(sizeof text) ? std::string(text, static_cast<std::size_t>(length)) : std::string();
 }
 
+bool is_percent(std::string_view symbol) { return symbol == "%" || symbol == "percent"; }
+
+/// The unit that differs from an unknown one in capital letters only, or is what it shortens, as the end of a sentence; empty if there is none.
+std::string meant_instead(std::string_view symbol) {
+  constexpr std::string_view common[] = {"GPa", "MPa", "kPa", "Pa", "GHz", "MHz", "kHz", "Hz", "MN", "kN", "N", "km", "mm", "cm", "um", "nm",
+                                         "m",   "ms",  "us",  "ns", "s",   "kg",  "mg",  "g",  "kJ", "MJ", "J", "kW", "MW", "W",  "K",  "rad"};
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  const auto is_alike = [&](std::string_view other) {
+    return std::equal(symbol.begin(), symbol.end(), other.begin(), other.end(), [&](char a, char b) { return lower(a) == lower(b); });
+  };
+  if (is_alike("deg") || is_alike("degs")) return "; did you mean \"degrees\"?";
+  const auto* found = std::find_if(std::begin(common), std::end(common), is_alike);
+  return found == std::end(common) ? "" : fmt::format("; did you mean \"{}\"?", *found);
+}
+
 /// The units database; UDUNITS keeps its state in globals, so every use holds the lock.
 class Database {
  public:
@@ -93,7 +110,9 @@ class Database {
       if (!problem.empty()) break;
       const Unit symbol = known_symbol(factor.symbol);
       if (!symbol) {
-        problem = fmt::format("unknown unit {}", quoted(factor.symbol));
+        problem = fmt::format("unknown unit {}{}", quoted(factor.symbol), meant_instead(factor.symbol));
+      } else if (is_percent(factor.symbol) && &factor != &read.factors.front()) {
+        problem = fmt::format("{} stands behind a unit", quoted(factor.symbol));
       } else if (definition(symbol.get()).find_first_of("@(") != std::string::npos) {
         problem = fmt::format("{} does not begin at zero, or is a logarithm", quoted(factor.symbol));
       } else {
@@ -112,6 +131,8 @@ class Database {
 
  private:
   Database() {
+    constexpr double enough = 16e6;  // bytes; where UDUNITS gets none it ends the program by an assertion
+    if (memory_room().bytes < enough) throw std::bad_alloc();
     ut_set_error_message_handler(ut_ignore);
     const PlainNumbers plain;
     system_ = ut_read_xml(nullptr);
@@ -191,7 +212,7 @@ Quantity read_quantity(std::string_view text, std::string_view unit) {
   const std::string_view digits = rest.substr(0, static_cast<std::size_t>(end - rest.data())), given = trim_blanks(rest.substr(digits.size()));
   if (given.empty())
     return problem(unit.empty() ? "write a plain number without quotation marks" : "it has no unit; a plain number without quotation marks is SI");
-  if (given.front() == ',' || given.front() == '\'')
+  if (given.front() == ',' || given.front() == '\'' || given.front() == '_')
     return problem(fmt::format("{} stands in the number: it has a decimal point, and nothing between thousands", quoted(given.substr(0, 1))));
 
   Database& database = Database::instance();

@@ -1,4 +1,6 @@
+#include <base/content_hash.hpp>
 #include <base/folder_file.hpp>
+#include <run/own_files.hpp>
 #include <scene/expectation.hpp>
 #include <study/checks.hpp>
 #include <study/expected.hpp>
@@ -58,16 +60,25 @@ void check_truth(const Study& study, const Row& row) {
   const Truth& truth = *std::find_if(study.truths.begin(), study.truths.end(), [&](const Truth& t) { return t.when.holds(row.choice); });
   if (truth.kind == Truth::Kind::finest) return;
   Faults faults;
+  const auto refuse = [&](const std::string& place, const Comparison& comparison, const std::runtime_error& error) {
+    faults.add(place, "", fmt::format("a truth of \"{}\" for every run; {}", comparison.name, error.what()));
+  };
   bool all_zero = true;
   std::string zero;  // where the latest one stands
   for (const Comparison& comparison : study.comparisons) {
-    if (comparison.at_column) {  // the run will say where
-      all_zero = false;
-      continue;
-    }
     const std::string place = truth.kind == Truth::Kind::table ? truth.pointer + "/csv"
                               : comparison.truth.empty()       ? truth.pointer + "/value"
                                                                : member(truth.pointer + "/values", comparison.truth);
+    if (comparison.at_column) {  // the run will say where; all places have numbers
+      all_zero = false;
+      try {
+        if (truth.table)
+          for (const auto& [at, column] : placed_columns(*truth.table, comparison.truth)) true_curve(comparison, truth, at, row.numbers);
+      } catch (const std::runtime_error& error) {
+        refuse(place, comparison, error);
+      }
+      continue;
+    }
     try {
       const Curve curve = true_curve(comparison, truth, comparison.at, row.numbers);
       const bool is_zero = std::all_of(curve.values.begin(), curve.values.end(), [](double value) { return value == 0; });
@@ -80,7 +91,7 @@ void check_truth(const Study& study, const Row& row) {
             place, "0",
             fmt::format("a truth of \"{}\" that is not zero, since the error is relative to it; or \"error\": \"together_l2\"", comparison.name));
     } catch (const std::runtime_error& error) {
-      faults.add(place, "", fmt::format("a truth of \"{}\" for every run; {}", comparison.name, error.what()));
+      refuse(place, comparison, error);
     }
   }
   if (study.norm == Norm::together_l2 && all_zero && faults.empty())
@@ -97,6 +108,21 @@ std::optional<std::vector<PlannedTable>> tables_in(const std::filesystem::path& 
     tables.push_back({probe->name, csv_cells(std::string_view(file->text).substr(0, file->text.find('\n')))});
   }
   return tables;
+}
+
+std::string changed_table(const std::filesystem::path& run_directory, const Scene& scene) {
+  const auto own = read_own_files(run_directory);
+  if (!own) return fmt::format("its {} is missing", own_files_list);
+  for (const Stage* probe : scene.of(Family::probes)) {
+    const std::string name = "probes/" + probe->name + ".csv";
+    if (!has_folder_file(run_directory, name)) return name + " is missing";
+    const auto file = own->find(name);
+    if (file == own->end() || file->second.hash.empty()) return fmt::format("{} does not say how {} was", own_files_list, name);
+    const std::filesystem::path path = run_directory / name;
+    std::error_code error;
+    if (std::filesystem::file_size(path, error) != file->second.bytes || hash_of_file(path) != file->second.hash) return name + " has changed";
+  }
+  return "";
 }
 
 }  // namespace hyperlattice::study

@@ -30,4 +30,8 @@ void check_truth(const Study& study, const Row& row);
 /// The tables that the scene's probes left in a finished run; nothing if one is missing.
 std::optional<std::vector<PlannedTable>> tables_in(const std::filesystem::path& run_directory, const Scene& scene);
 
+/// Why the tables of a scene's probes are not as the run that is done left them, by its list of files: "probes/point.csv has changed"; empty: they
+/// are.
+std::string changed_table(const std::filesystem::path& run_directory, const Scene& scene);
+
 }  // namespace hyperlattice::study

@@ -2,6 +2,8 @@
 #include <scene/units.hpp>
 #include <study/comparison.hpp>
 
+#include <hyperlattice/tables.hpp>
+
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
@@ -52,6 +54,8 @@ void read_place(const Json& given, Comparison& comparison, Faults& faults) {
 void require_column(const CsvTable& table, const std::string& file, const std::string& name, const std::string& pointer, Faults& faults) {
   if (!table.column(name))
     faults.add(pointer, shown(name), fmt::format("a column of {}: {}", file, fmt::join(table.columns, ", ")) + did_you_mean(name, table.columns));
+  else if (std::find(table.columns.begin(), table.columns.end(), name) == table.columns.end() && is_ambiguous_column(table.columns, name))
+    faults.add(pointer, shown(name), fmt::format("one column of {}, and several differ from it in capital letters only", file));
 }
 
 void check_filters(const std::vector<RowFilter>& filters, const std::string& pointer, const Truth& truth, Faults& faults) {

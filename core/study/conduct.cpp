@@ -29,11 +29,12 @@ class QuietLog {
   spdlog::level::level_enum before_;
 };
 
-/// The summary that a run left; null if there is none that can be read.
+/// The summary that a run left; null if there is none, discarded if it cannot be read.
 Json summary_in(const fs::path& folder) {
   const auto file = read_folder_file(folder, "summary.json", largest_json);
-  Json summary = file ? Json::parse(file->text, nullptr, false) : Json();
-  return summary.is_object() ? summary : Json();
+  if (!file) return {};
+  Json summary = Json::parse(file->text, nullptr, false);
+  return summary.is_object() ? summary : Json(Json::value_t::discarded);
 }
 
 /// A run that is there already.
@@ -43,8 +44,9 @@ struct Earlier {
 };
 
 /// The run in a folder, if it is done and depends on the same as a run of now, with as many threads: these do not change results, but times.
-Earlier find_earlier(const fs::path& folder, const Identity& identity, Threads threads) {
+Earlier find_earlier(const fs::path& folder, const Scene& scene, const Identity& identity, Threads threads) {
   Earlier earlier{summary_in(folder), ""};
+  if (earlier.summary.is_discarded()) return {nullptr, "its summary.json cannot be read"};
   const Json status = earlier.summary.is_null() ? Json() : earlier.summary.value("status", Json());
   if (status != "done") return {};
   const Json counted = earlier.summary.value("threads", Json()), wall = earlier.summary.value("wall_seconds", Json());
@@ -56,6 +58,7 @@ Earlier find_earlier(const fs::path& folder, const Identity& identity, Threads t
     earlier.changed = "it does not say what it depended on";
   else
     earlier.changed = changes(read_identity(nlohmann::json(earlier.summary["identity"])), identity);
+  if (earlier.changed.empty()) earlier.changed = changed_table(folder, scene);
   if (!earlier.changed.empty()) earlier.summary = nullptr;
   return earlier;
 }
@@ -101,6 +104,8 @@ class Conductor {
   }
 
   void run_all() {
+    fs::create_directories(options_.directory);
+    result_.lock = FolderLock(options_.directory);
     fs::create_directories(options_.directory / "runs");
     const std::size_t total = points_.size() * static_cast<std::size_t>(study_.repeats);
     std::size_t number = 0;
@@ -128,7 +133,7 @@ class Conductor {
   /// Those that the run left, or will leave; none if it is too large for this machine: its row will say so, and the others go on.
   std::optional<std::vector<PlannedTable>> tables_of(const Point& point, std::unique_ptr<Scene> scene) const {
     const fs::path folder = run_directory(options_.directory, point.name, 1);
-    if (!options_.fresh && !find_earlier(folder, identity_of(*scene), threads(point)).summary.is_null())
+    if (!options_.fresh && !find_earlier(folder, *scene, identity_of(*scene), threads(point)).summary.is_null())
       if (auto tables = tables_in(folder, *scene)) return tables;
     forget_lack_of_memory();
     try {
@@ -172,11 +177,7 @@ class Conductor {
     run_options.overwrite = true;  // the folder is the study's
     auto scene = read(point);
     Identity identity = identity_of(*scene);
-    auto [summary, changed] = options_.fresh ? Earlier() : find_earlier(run_options.directory, identity, threads(point));
-    if (!summary.is_null() && !tables_in(run_options.directory, *scene)) {
-      summary = nullptr;
-      changed = "a table of its probes is missing";
-    }
+    auto [summary, changed] = options_.fresh ? Earlier() : find_earlier(run_options.directory, *scene, identity, threads(point));
     const bool there = !summary.is_null();
     if (!changed.empty()) spdlog::info("{}: runs again: {}", title, changed);
     row.identity = identity_hash(identity);
@@ -200,6 +201,7 @@ class Conductor {
         return spdlog::warn("{}: interrupted", title);
       }
       summary = summary_in(run_options.directory);
+      if (summary.is_discarded()) summary = nullptr;
       if (code != exit_done || summary.is_null()) {
         if (reason.empty()) reason = summary.is_null() ? "summary.json cannot be read" : word_in(summary, "reason");
         row.fail(reason, code == exit_done ? exit_outside : code);

@@ -1,6 +1,8 @@
 #include <study/expected.hpp>
 #include <study/order.hpp>
 
+#include <hyperlattice/tables.hpp>
+
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
@@ -10,6 +12,37 @@
 namespace hyperlattice::study {
 
 namespace {
+
+/// Reads the numbers of a truth's rows, and throws std::runtime_error with the first few rows that have none.
+class RowNumbers {
+ public:
+  explicit RowNumbers(const Truth& truth) : truth_(truth) {}
+
+  std::optional<double> operator()(std::size_t row, std::size_t column) {
+    const std::string& cell = truth_.table->rows[row][column];
+    const auto number = csv_number(cell);
+    if (!number && row_ != row) {
+      row_ = row;
+      if (++count_ <= most_shown)
+        faults_ += fmt::format("{}line {}: expected a finite number in column \"{}\", not \"{}\"", faults_.empty() ? "" : "; ",
+                               truth_.table->lines[row], truth_.table->columns[column], shown_cell(cell));
+    }
+    return number;
+  }
+  void throw_if_any() const {
+    if (count_ == 0) return;
+    const std::string more = count_ > most_shown ? fmt::format("; and {} such lines more", count_ - most_shown) : "";
+    throw std::runtime_error(fmt::format("{}, {}{}", truth_.file.filename().string(), faults_, more));
+  }
+
+ private:
+  static constexpr std::size_t most_shown = 5;
+
+  const Truth& truth_;
+  std::optional<std::size_t> row_;  // the latest one without a number
+  std::size_t count_ = 0;
+  std::string faults_;
+};
 
 /// A row's number in a column that may be one of several at known places: straight between the two around the place.
 class RowValue {
@@ -33,10 +66,10 @@ class RowValue {
     parts_ = {{columns[right - 1].second, 1 - share}, {columns[right].second, share}};
   }
 
-  std::optional<double> operator()(std::size_t row) const {
+  std::optional<double> operator()(std::size_t row, RowNumbers& numbers) const {
     double value = 0;
     for (const auto& [column, share] : parts_) {
-      const auto number = csv_number(table_.rows[row][column]);
+      const auto number = numbers(row, column);
       if (!number) return std::nullopt;
       value += share * *number;
     }
@@ -53,14 +86,16 @@ Curve table_curve(const Comparison& comparison, const Truth& truth, std::optiona
   const std::size_t over = table.column(over_column(comparison, truth)).value();
   const double over_scale = comparison.over_scale.value_or(truth.over_scale);
   const RowValue value(comparison, truth, place);
+  RowNumbers number_in(truth);
   Curve curve;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     if (!passes(table, row, truth.where, numbers) || !passes(table, row, comparison.where, numbers)) continue;
-    const auto x = csv_number(table.rows[row][over]), y = value(row);
+    const auto x = number_in(row, over), y = value(row, number_in);
     if (!x || !y) continue;
     curve.over.push_back(*x * over_scale);
     curve.values.push_back(*y * comparison.scale);
   }
+  number_in.throw_if_any();
   if (curve.over.empty()) throw std::runtime_error(fmt::format("no row of {} fits \"where\"", truth.file.filename().string()));
   return reduced(sorted(std::move(curve)), comparison.reduction);
 }

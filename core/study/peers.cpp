@@ -1,6 +1,6 @@
 #include <base/csv.hpp>
-#include <base/input_file.hpp>
 #include <scene/json.hpp>
+#include <study/outside_table.hpp>
 #include <study/peers.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -11,7 +11,9 @@ namespace hyperlattice::study {
 void append_peers(std::vector<Peer>& peers, const std::filesystem::path& file, const std::string& pointer, Faults& faults) {
   CsvTable table;
   try {
-    table = parse_csv(read_input_file(file, pointer, "a table with the columns label, error, seconds"));
+    const std::size_t before = faults.size();
+    table = read_outside_table(file, pointer, "a table with the columns label, error, seconds", faults);
+    if (faults.size() > before) return;
   } catch (const InputError& error) {
     for (const Fault& fault : error.faults()) faults.add(fault.pointer, fault.value, fault.expected);
     return;

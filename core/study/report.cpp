@@ -1,3 +1,4 @@
+#include <base/visible.hpp>
 #include <study/report.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -9,6 +10,9 @@
 namespace hyperlattice::study {
 
 namespace {
+
+/// The text without what a terminal would act on.
+std::string shown_whole(const std::string& text) { return visible(text, std::string::npos); }
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
@@ -77,12 +81,12 @@ std::string aligned(const Lines& lines, std::size_t left) {
 
 std::string table_text(const Study& study, const std::vector<Row>& rows, const Findings& findings) {
   Lines lines(1);
-  for (const Axis& axis : study.axes) lines[0].push_back(axis.name);
+  for (const Axis& axis : study.axes) lines[0].push_back(shown_whole(axis.name));
   for (const char* name : {"particles", "steps", "error", "seconds", ""}) lines[0].emplace_back(name);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const Row& row = rows[r];
     auto& line = lines.emplace_back();
-    for (std::size_t a = 0; a < study.axes.size(); ++a) line.push_back(study.axes[a].labels[row.choice[a]]);
+    for (std::size_t a = 0; a < study.axes.size(); ++a) line.push_back(shown_whole(study.axes[a].labels[row.choice[a]]));
     line.push_back(row.is_done() ? fmt::format("{}", row.particles) : "");
     line.push_back(row.is_done() ? fmt::format("{}", row.steps) : "");
     line.push_back(row.error ? percent(*row.error) : row.is_done() ? "not compared" : row.status);
@@ -135,7 +139,7 @@ std::string limit_warning(const Study& study, const Findings& findings, const Ro
 std::string peers_text(const Study& study) {
   if (study.peers.empty()) return "";
   Lines lines{{"peer", "error", "seconds"}};
-  for (const Peer& peer : study.peers) lines.push_back({peer.label, percent(peer.error), fmt::format("{:.3g}", peer.seconds)});
+  for (const Peer& peer : study.peers) lines.push_back({shown_whole(peer.label), percent(peer.error), fmt::format("{:.3g}", peer.seconds)});
   return '\n' + aligned(lines, 1);
 }
 
@@ -257,7 +261,7 @@ std::string study_text(const Study& study, const std::vector<Row>& rows, const F
   }
   text += orders_text(study, findings) + limits_text(study, findings);
   const std::string sentence = cheapest_sentence(study, rows, findings);
-  return text + (sentence.empty() ? "" : '\n' + sentence + '\n');
+  return shown_whole(text + (sentence.empty() ? "" : '\n' + sentence + '\n'));
 }
 
 }  // namespace hyperlattice::study

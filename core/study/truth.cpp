@@ -1,5 +1,5 @@
-#include <base/input_file.hpp>
 #include <scene/expectation.hpp>
+#include <study/outside_table.hpp>
 #include <study/truth.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -66,9 +66,11 @@ void read_table(Truth& truth, const Json& given, const std::filesystem::path& fo
   truth.file = folder / options->csv;
   truth.over = options->over;
   truth.over_scale = options->over_scale;
+  const std::size_t before = reader.faults().size();
   try {
-    auto table = std::make_shared<CsvTable>(parse_csv(read_input_file(truth.file, truth.pointer + "/csv", "a table")));
-    if (table->rows.empty())
+    auto table = std::make_shared<CsvTable>(read_outside_table(truth.file, truth.pointer + "/csv", "a table", reader.faults()));
+    if (table->columns.empty() && reader.faults().size() > before) return;  // it is no table at all
+    if (table->rows.empty() && reader.faults().size() == before)
       reader.faults().add(truth.pointer + "/csv", shown(options->csv), "a table with at least one row below the columns' names");
     truth.table = std::move(table);
   } catch (const InputError& error) {

@@ -53,7 +53,7 @@ nlohmann::json scene_with_failure() {
 
 std::string last_line(const std::string& text) {
   const std::size_t end = text.find_last_not_of('\n'), begin = text.rfind('\n', end);
-  return end == text.npos ? "" : text.substr(begin == text.npos ? 0 : begin + 1, end - (begin == text.npos ? -1 : begin));
+  return end == text.npos ? "" : text.substr(begin == text.npos ? 0 : begin + 1, end - begin);
 }
 
 struct Fault {
@@ -96,7 +96,8 @@ INSTANTIATE_TEST_SUITE_P(All, MisbehavingFailure,
                          testing::Values(Fault{"throw in alarm", "failed in alarm(): oops"},
                                          Fault{"nan alarm", "failed in alarm(): it gives an elongation that is no number"},
                                          Fault{"throw in breaks", "failed in breaks(): oops"},
-                                         Fault{"null pointer in breaks", "ended the program in breaks(): segmentation fault", true}),
+                                         Fault{"null pointer in breaks", "ended the program in breaks(): segmentation fault", true},
+                                         Fault{"null pointer in destructor", "ended the program in destructor(): segmentation fault", true}),
                          name_of);
 TEST_P(MisbehavingFailure, IsNamedInTheLastLine) { expect_named(scene_with_failure(), GetParam(), "failures.misbehaving"); }
 
@@ -118,13 +119,27 @@ TEST_P(WrongHandedOver, IsRefused) {
 }
 
 TEST(MisbehavingPlugins, WhatTheRunHadWrittenStays) {
-  nlohmann::json watched = scene_with_load();
+  nlohmann::json watched = scene_with_failure();
+  watched["pipeline"][1]["failure"]["limit"] = 1e-4;  // strain: reached while the load rises
+  watched["pipeline"][3]["rise"] = "4 us";
   watched["pipeline"].back()["record_every"] = "0.2 us";
   watched["pipeline"].push_back({{"type", "probes.region"}, {"region", "z_max"}, {"every", "0.2 us"}});
   const Folder here("misbehaving");
-  const Result result = run_program({"run", write_scene(here, watched), "--out", here.file("out")}, launch_with("throw"));
+  const Result result = run_program({"run", write_scene(here, watched), "--out", here.file("out")}, launch_with("throw in breaks"));
   EXPECT_EQ(result.exit_code, 4) << result.err;
   for (const char* table : {"out/probes/region.csv", "out/history.csv"}) EXPECT_GT(table_rows(here.file(table)).size(), 2u) << table;
+}
+
+TEST(MisbehavingPlugins, AnAlarmBelowAllElongationsAsksAlways) {
+  const Folder here("misbehaving");
+  const std::string file = write_scene(here, scene_with_failure());
+  for (const char* fault : {"none", "alarm below the shortest"}) {
+    const Result result = run_program({"run", file, "--out", here.file(fault)}, launch_with(fault));
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+  }
+  const auto broken = [&](const char* fault) { return read_json(here.file(fault) + "/summary.json")["broken_springs"]; };
+  EXPECT_GT(broken("none")["open"], 0);
+  EXPECT_EQ(broken("none"), broken("alarm below the shortest"));
 }
 
 TEST(MisbehavingPlugins, AStackUsedUpOnAnyThreadIsNamed) {

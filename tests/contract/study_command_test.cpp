@@ -185,11 +185,11 @@ TEST_F(StudyCommand, ReadsOnlyRegularFiles) {
 
 /// Titles, labels and names are data, whatever they hold, and nothing of the user's gnuplot has a part.
 TEST_F(StudyCommand, DrawsTextsAsTheyStand) {
-  const std::string ran = folder_.file("ran"), wild = "a `touch " + ran + "` $(touch " + ran + ") 'b' \"c\" @d {e}_f^g \\n <h> & #";
+  const std::string ran = folder_.file("ran"), wild = "a `touch " + ran + "` $(touch " + ran + ") 'b' ''i'' \"c\" @d {e}_f^g \\n <h> & #";
   std::ofstream(folder_.file(".gnuplot")) << "set xlabel 'hijacked'\nsystem(\"touch " << ran << "\")\n";
   std::ofstream(folder_.file("peers.csv")) << "label,error,seconds\nP " << wild << ",0.1,0.01\n";
   json file = true_swinging_pair();
-  file["title"] = "T " + wild + "\nsecond line" + std::string(1, '\0') + "end";
+  file["title"] = "T " + wild + "\nsecond line" + std::string(1, '\0') + "end\n'quoted' \x1b[31m\a";
   file["vary"]["stiffness"]["labels"] = {"L " + wild, "soft"};
   file["truth"] = {{"value", swing(10e9)}};
   std::ofstream(folder_.file("study.json")) << file.dump(1);
@@ -200,9 +200,12 @@ TEST_F(StudyCommand, DrawsTextsAsTheyStand) {
   EXPECT_FALSE(fs::exists(ran));
   const std::string picture = contents(out() + "/study.svg");
   for (const std::string letter : {"T", "L", "P"})
-    EXPECT_NE(picture.find(letter + " a `touch " + ran + "` $(touch " + ran + ") 'b' \"c\" @d {e}_f^g \\n &lt;h> &amp; #"), std::string::npos)
+    EXPECT_NE(picture.find(letter + " a `touch " + ran + "` $(touch " + ran + ") 'b' ''i'' \"c\" @d {e}_f^g \\n &lt;h> &amp; #"), std::string::npos)
         << letter << picture.substr(0, 20000);
   EXPECT_NE(picture.find(">second line"), std::string::npos);
+  EXPECT_NE(picture.find(">'quoted'"), std::string::npos);
+  EXPECT_EQ(result.out.find_first_of("\x1b\a"), std::string::npos);
+  EXPECT_NE(result.out.find("'quoted' U+001B[31mU+0007\n"), std::string::npos) << result.out;
   EXPECT_EQ(picture.find("hijacked"), std::string::npos);
 }
 
@@ -230,6 +233,70 @@ TEST_F(StudyCommand, RunsAgainOnlyWhatIsMissing) {
   file["scene"]["pipeline"][1]["density"] = 2600;  // another scene: nothing of it is there
   EXPECT_EQ(count(study(file).err, "there already"), 0u);
   EXPECT_EQ(count(study(file, {"--fresh"}).err, "there already"), 0u);
+}
+
+TEST_F(StudyCommand, RunsAgainWhatIsNotAsItWasLeft) {
+  const json file = true_swinging_pair();
+  const std::string first = study(file, {"--json"}).out;
+  const std::string runs = out() + "/runs/", cut = "step-0.1us_stiffness-soft", changed = "step-0.2us_stiffness-soft",
+                    gone = "step-0.2us_stiffness-stiff", unreadable = "step-0.1us_stiffness-stiff", unlisted = "step-0.05us_stiffness-soft";
+  const std::string table = runs + cut + "/probes/upper.csv";
+  fs::resize_file(table, fs::file_size(table) / 2);
+  std::string text = contents(runs + changed + "/probes/upper.csv");
+  text[text.size() - 3] = text[text.size() - 3] == '1' ? '2' : '1';
+  std::ofstream(runs + changed + "/probes/upper.csv") << text;
+  fs::remove(runs + gone + "/probes/upper.csv");
+  std::ofstream(runs + unreadable + "/summary.json") << "{";
+  fs::remove(runs + unlisted + "/files.csv");
+  const Result again = study(file, {"--json"});
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  for (const std::string& line : {cut + ": runs again: probes/upper.csv has changed", changed + ": runs again: probes/upper.csv has changed",
+                                  gone + ": runs again: probes/upper.csv is missing", unreadable + ": runs again: its summary.json cannot be read",
+                                  unlisted + ": runs again: its files.csv is missing", std::string("step-0.05us_stiffness-stiff: there already")})
+    EXPECT_NE(again.err.find(line), std::string::npos) << line << '\n' << again.err;
+  const json before = json::parse(first), after = json::parse(again.out);
+  for (std::size_t r = 0; r < 6; ++r) EXPECT_EQ(after["rows"][r]["error"], before["rows"][r]["error"]);
+  EXPECT_EQ(study(file).err.find("runs again"), std::string::npos);
+}
+
+TEST_F(StudyCommand, LocksItsFolder) {
+  json file = true_swinging_pair();
+  file["scene"]["pipeline"][4]["end_time"] = "1 s";  // longer than anyone waits
+  std::ofstream(folder_.file("study.json")) << file.dump();
+  Launch launch;
+  launch.meanwhile = [&](pid_t child) {
+    EXPECT_TRUE(wait_until([&] { return fs::exists(out() + "/runs/step-0.2us_stiffness-stiff/history.csv"); }));
+    const Result second = run_program({"study", folder_.file("study.json"), "--out", out(), "--fresh"});
+    EXPECT_EQ(second.exit_code, 4) << second.err;
+    EXPECT_NE(second.err.find(out() + " is in use: another study is running there; wait until it ends, or choose another folder"), std::string::npos)
+        << second.err;
+    EXPECT_FALSE(fs::exists(out() + "/study.csv"));
+    kill(child, SIGINT);
+  };
+  EXPECT_EQ(run_program({"study", folder_.file("study.json"), "--out", out()}, launch).exit_code, 130);
+  EXPECT_EQ(study(true_swinging_pair()).exit_code, 0);  // the lock ended with the study
+}
+
+TEST_F(StudyCommand, RefusesTablesThatSayNotWhatIsMeant) {
+  json file = swinging_pair();
+  file["truth"] = {{"csv", "truth.csv"}};
+  file["compare"]["upper"]["truth"] = "u";
+  const auto refused = [&](const std::string& table, const Words& parts) {
+    std::ofstream(folder_.file("truth.csv"), std::ios::binary) << table;
+    expect_refused(file, parts);
+  };
+  refused("t,u\n0,0\n0,5,1,5\n1\n", {"/truth/csv: truth.csv, line 3: expected a row of at most 2 cells, one a column, not of 4 (decimal commas?",
+                                     "/truth/csv: truth.csv, line 4: expected a row of 2 cells, not of 1"});
+  refused("t,u,u\n0,0,1\n", {"/truth/csv: truth.csv: expected one column \"u\", not several"});
+  refused("t,u,U,U \n0,0,1,1\n", {"/truth/csv: truth.csv: expected one column \"U\", not several"});
+  refused("t,U,v\n0,1,1\n1e-6,nan,1\n", {"line 3: expected a finite number in column \"U\", not \"nan\""});
+  refused(std::string("\xFF\xFEt\0,\0u\0\n\0", 10), {"/truth/csv: truth.csv: expected a table; it is a text in UTF-16: save it in ASCII or UTF-8"});
+  file["truth"] = {{"csv", "truth.csv"}, {"where", {{"nu", 1}}}};
+  refused("t,u,Nu,NU\n0,1,1,1\n", {"/truth/where/nu: \"nu\": expected one column of truth.csv, and several differ from it in capital letters only"});
+  file = swinging_pair();
+  file["peers"] = {"peers.csv"};
+  std::ofstream(folder_.file("peers.csv")) << "label,error,seconds\nA,0,1,2\n";
+  expect_refused(file, {"/peers/0: peers.csv, line 2: expected a row of at most 3 cells"});
 }
 
 TEST_F(StudyCommand, GoesOnAfterAnInterruption) {

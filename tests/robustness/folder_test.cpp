@@ -49,12 +49,15 @@ class FolderOfARun : public testing::Test {
   }
   /// Runs until the history grows, and calls what is to be done then.
   Result run_meanwhile(const std::function<void(pid_t)>& then, std::vector<std::string> more = {}) {
+    return run_meanwhile(endless(), then, std::move(more));
+  }
+  Result run_meanwhile(const json& scene, const std::function<void(pid_t)>& then, std::vector<std::string> more = {}) {
     Launch launch;
     launch.meanwhile = [&](pid_t child) {
       EXPECT_TRUE(wait_until([&] { return table_rows(out + "/history.csv").size() > 3; }));
       then(child);
     };
-    return run(endless(), std::move(more), launch);
+    return run(scene, std::move(more), launch);
   }
   void interrupt() {
     ASSERT_EQ(run_meanwhile([](pid_t child) { kill(child, SIGTERM); }).exit_code, 130);
@@ -115,6 +118,17 @@ TEST_F(FolderOfARun, HoldsWhatTheLastRunWroteAndWhatTheUserPutThere) {
   EXPECT_EQ(found, expected);
 }
 
+TEST_F(FolderOfARun, HoldsACheckpointOfASearchForRestThatWasInterrupted) {
+  json scene = json::parse(R"({ "format": "hyperlattice/1", "pipeline": [
+    { "type": "lattices.cubic", "spacing": "0.5 mm", "shape": { "box": { "low": [0, 0, 0], "high": ["20 mm", "20 mm", "20 mm"] } } },
+    { "type": "materials.elastic", "young": "10 GPa", "poisson": 0.25, "density": 2500 },
+    { "type": "loads.fixed", "on": "z_max" }, { "type": "loads.force", "on": "z_min", "total": [0, 0, -100] },
+    { "type": "solvers.relaxation", "tolerance": 1e-300 } ] })");
+  EXPECT_EQ(run_meanwhile(scene, [](pid_t child) { kill(child, SIGTERM); }).exit_code, 130);
+  EXPECT_TRUE(fs::exists(out + "/checkpoint.bin"));
+  EXPECT_EQ(read_json(out + "/summary.json")["status"], "interrupted");
+}
+
 TEST_F(FolderOfARun, KeepsAnInterruptedRunUnlessToldOtherwise) {
   interrupt();
   const auto before = files_in(out);
@@ -145,9 +159,10 @@ TEST_F(FolderOfARun, TouchesNoFileThatIsNotARuns) {
   fs::create_directories(out);
   std::ofstream(out + "/frames_000001.vtu") << "mine";
   const Result met = run(scene_with_outputs());
-  EXPECT_EQ(met.exit_code, 4) << met.err;
+  EXPECT_EQ(met.exit_code, 2) << met.err;
   EXPECT_NE(met.err.find("frames_000001.vtu"), std::string::npos) << met.err;
   EXPECT_EQ(contents(out + "/frames_000001.vtu"), "mine");
+  EXPECT_FALSE(fs::exists(out + "/history.csv"));
 }
 
 TEST_F(FolderOfARun, FollowsNoLinkOutOfIt) {
@@ -155,7 +170,8 @@ TEST_F(FolderOfARun, FollowsNoLinkOutOfIt) {
   fs::create_directories(victim);
   fs::create_directories(out);
   fs::create_symlink(victim, out + "/probes");
-  EXPECT_EQ(run(scene_with_outputs()).exit_code, 4);
+  EXPECT_EQ(run(scene_with_outputs()).exit_code, 2);
+  EXPECT_EQ(run(scene_with_outputs(), {"--overwrite"}).exit_code, 4);
   fs::remove_all(out);
   fs::create_directories(out);
   std::ofstream(victim + "/precious") << "precious";

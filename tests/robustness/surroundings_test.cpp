@@ -158,6 +158,13 @@ TEST_F(Surroundings, ThreadsThatTheSystemRefusesAreExit4WithASummary) {
   EXPECT_EQ(at_rest.exit_code, 4) << at_rest.err;
   EXPECT_NE(at_rest.err.find("of 8 threads"), std::string::npos) << at_rest.err;
   EXPECT_EQ(summary()["exit_code"], 4);
+
+  std::ofstream(folder_.file("scene.json")) << small_sphere().dump();
+  ASSERT_EQ(run({"--overwrite"}).exit_code, 0);
+  const Result again = shell("ulimit -s 1000000; ulimit -v 3000000; \\$hl run scene.json --out out --threads 8");
+  EXPECT_EQ(again.exit_code, 4) << again.err;
+  EXPECT_NE(again.err.find("nothing was changed"), std::string::npos) << again.err;
+  EXPECT_EQ(summary()["status"], "done") << "the earlier run's";
 }
 
 /// From a limit under which nothing starts upwards, until runs are done. The picture takes some megabytes that the plan does not count, so that

@@ -226,6 +226,14 @@ TEST(Balance, IsNotMeasuredAgainstRoundOff) {  // a force on particles that are 
   EXPECT_LT(run_stages(*at_rest, 1).largest_error, 1e-4);
 }
 
+TEST(Balance, IsNotMeasuredAgainstRoundOffOfWhatGravityDoesToHeldParticles) {
+  for (const char* held : {R"("on": "all")", R"("on": "all", "axes": "z")"}) {
+    const auto plan = plan_of(scene(R"({ "type": "loads.fixed", )" + std::string(held) + R"( }, { "type": "loads.gravity" })",
+                                    R"({ "type": "solvers.explicit", "end_time": 4e-5 })", 6, 6, 12, membrane));
+    EXPECT_LT(run_stages(*plan, 1).largest_error, 1e-4) << held;
+  }
+}
+
 TEST(ForceOnALoad, HoldsWhatOthersDoToItsParticles) {
   const auto plan = plan_of(
       scene(R"({ "type": "loads.fixed", "on": "z_max" }, { "type": "loads.force", "on": "z_max", "total": [0, 0, -500] })", explicit_to(1e-6, 1e-7)));
@@ -258,6 +266,21 @@ std::string faults_of_scene(const std::string& text) {
     return error.what();
   }
   return "";
+}
+
+TEST(Resolution, OfExpressionsFasterThanTheStepIsToldByThePlan) {
+  const auto warnings = [](const std::string& expression, const std::string& more = "") {
+    return plan_of(scene(R"({ "type": "loads.expression", "on": "z_min", "total": [0, 0, 1], "expression": ")" + expression + "\"" + more + " }",
+                         explicit_to(1e-5, 1e-7)))
+        ->model->warnings;
+  };
+  for (const char* slow : {"1", "t", "sin(1e6 * t)", "exp(-t / 1e-6)"}) EXPECT_TRUE(warnings(slow).empty()) << slow;
+  EXPECT_TRUE(warnings("(t > 2.11e-6 && t < 2.12e-6) ? 1 : 0", R"(, "corners": [2.11e-6, 2.12e-6])").size() <= 1);
+  for (const char* fast : {"sin(1e8 * t)", "sin(1e9 * t)", "exp(-((t - 5.02e-6) / 4e-9)^2)", "(t > 2.11e-6 && t < 2.15e-6) ? 1 : 0"}) {
+    const auto found = warnings(fast);
+    ASSERT_FALSE(found.empty()) << fast;
+    EXPECT_NE(found.front().find("its impulse is not exact"), std::string::npos) << found.front();
+  }
 }
 
 TEST(Resolution, OfLoadsIsToldByThePlan) {

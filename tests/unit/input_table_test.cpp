@@ -59,6 +59,55 @@ TEST_F(InputTables, RefusalsShowWhatWasFound) {
   EXPECT_LT(refusal(std::string(1'000'000, 'q') + "\n").size(), 400u);
 }
 
+TEST_F(InputTables, RowsHaveNoMoreCellsThanColumns) {
+  EXPECT_EQ(refusal("x,y\n1,5,2,5\n"),
+            "line 2: expected a row of at most 2 cells, one a column, not of 4 (decimal commas? numbers have a decimal point)");
+  EXPECT_EQ(refusal("x;y\n1;2\n1;2;3\n"), "line 3: expected a row of at most 2 cells, one a column, not of 3");
+  EXPECT_EQ(refusal("x y\n1 2 3\n"), "line 2: expected a row of at most 2 cells, one a column, not of 3");
+  for (const char* trailing : {"x,y\n1,2,\n", "x,y,\n1,2,\n", "x;y\n1;2;;\n", "x\ty\n1\t2\t\n", "x y \n1 2 \n"})
+    EXPECT_EQ(refusal(trailing), "") << trailing;
+}
+
+TEST_F(InputTables, SeveralBadRowsAreToldTogether) {
+  EXPECT_EQ(refusal("x;y\n1;a\n1;2\n1;2;3\n"),
+            "line 2: expected a number in column \"y\", not \"a\"; line 4: expected a row of at most 2 cells, one a column, not of 3");
+  std::string many = "x;y\n";
+  for (int n = 0; n < 9; ++n) many += "1;b\n";
+  const std::string all = refusal(many);
+  EXPECT_NE(all.find("line 6: "), std::string::npos) << all;
+  EXPECT_EQ(all.find("line 7: "), std::string::npos) << all;
+  EXPECT_TRUE(all.ends_with("; and 4 such lines more")) << all;
+}
+
+TEST_F(InputTables, AColumnIsNamedOnce) {
+  EXPECT_EQ(refusal("x,y,x\n1,2,3\n"), "line 1: expected one column \"x\", not several; it names \"x\", \"y\", \"x\"");
+  EXPECT_EQ(refusal("X,y,X\n1,2,3\n"), "line 1: expected one column \"x\", not several; it names \"X\", \"y\", \"X\"");
+  EXPECT_EQ(refusal("x,y,Volume,VOLUME\n1,2,3,4\n"),
+            "line 1: expected one column \"volume\", not several; it names \"x\", \"y\", \"Volume\", \"VOLUME\"");
+  EXPECT_EQ(refusal("x,y,id,id\n1,2,3,4\n"), "");  // nobody asks for it
+}
+
+TEST_F(InputTables, LinesEndWithLineFeedOrCarriageReturn) {
+  const NumberTable table = read("x,y\r1,-2\r\r3,4\r");
+  EXPECT_EQ(table["x"], (std::vector<double>{1, 3}));
+  EXPECT_EQ(table["y"], (std::vector<double>{-2, 4}));
+  EXPECT_EQ(refusal("x,y\r1,-2\r3,a"), "line 3: expected a number in column \"y\", not \"a\"");
+}
+
+TEST_F(InputTables, BytesThatAreNoTextAreShown) {
+  EXPECT_EQ(refusal(std::string("x,y\n1,2\n1,\0\0\n", 13)), "line 3: expected a number in column \"y\", not \"U+0000U+0000\"");
+  EXPECT_EQ(refusal(std::string("x,\0y\n1,2\n", 9)), "line 1: expected a column \"y\", named in the first line; it names \"x\", \"U+0000y\"");
+  for (const std::string& utf16 : {std::string("\xFF\xFEx\0,\0y\0\n\0", 10), std::string("\xFE\xFF\0x\0,\0y\0\n", 10)}) {
+    try {
+      read(utf16);
+      FAIL() << "read UTF-16";
+    } catch (const std::invalid_argument& error) {
+      EXPECT_EQ(std::string(error.what()),
+                "file " + folder_.file("table.csv") + " cannot be read: it is a text in UTF-16: save it in ASCII or UTF-8");
+    }
+  }
+}
+
 TEST_F(InputTables, WhatCannotBeReadToItsEndIsRefused) {
   static constexpr std::string_view names[] = {"x"};
   try {
@@ -93,6 +142,23 @@ TEST(CsvTables, AreReadTheSameWay) {
   EXPECT_EQ(table.column("error"), 1u);
   EXPECT_EQ(table.column("none"), std::nullopt);
   EXPECT_EQ(csv_number("+2"), 2);
+}
+
+TEST(CsvTables, TellRowsOfOtherLengthsAndNamesOfSeveral) {
+  const CsvTable table = parse_csv("# by hand\r\nt,u,\r\n0,1\r\n\r\n0,5,1\r\n7\r\n0,1,,\r\n");
+  EXPECT_EQ(table.lines, (std::vector<std::size_t>{3, 5, 6, 7}));
+  ASSERT_EQ(table.faults.size(), 2u);  // the last column has no name, and is none
+  EXPECT_EQ(table.faults[0].line, 5u);
+  EXPECT_NE(table.faults[0].expected.find("at most 2 cells, one a column, not of 3"), std::string::npos);
+  EXPECT_EQ(table.faults[1].line, 6u);
+  EXPECT_EQ(table.faults[1].expected, "a row of 2 cells, not of 1");
+  const CsvTable decimal_commas = parse_csv("t,u\r0,5,1,5\r");
+  ASSERT_EQ(decimal_commas.faults.size(), 1u);
+  EXPECT_EQ(decimal_commas.faults[0].line, 2u);
+  EXPECT_NE(decimal_commas.faults[0].expected.find("not of 4 (decimal commas?"), std::string::npos);
+  EXPECT_EQ(name_of_several(table), std::nullopt);
+  EXPECT_EQ(name_of_several(parse_csv("t,u,,,U\n")), std::nullopt);
+  EXPECT_EQ(name_of_several(parse_csv("t,u,u\n")), "u");
 }
 
 }  // namespace

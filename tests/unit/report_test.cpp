@@ -1,5 +1,7 @@
 // What a report is made of: ticks, thinned curves, texts of numbers, tables cut off, pictures' texts, differences of scenes.
+#include <base/errors.hpp>
 #include <base/figures.hpp>
+#include <base/gnuplot.hpp>
 #include <report/curves.hpp>
 #include <report/differences.hpp>
 #include <report/html.hpp>
@@ -26,6 +28,26 @@ Labels labels(double low, double high, int most, bool whole = false) {
     texts.push_back(tick.label);
   }
   return texts;
+}
+
+TEST(Gnuplot, IsEndedWhereItHangs) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "hyperlattice_hanging.svg";
+  std::filesystem::remove(file);
+  const auto begin = std::chrono::steady_clock::now();
+  try {
+    draw_svg(file, "pause 100", 100, 100, std::chrono::milliseconds(200));
+    FAIL() << "it did not hang";
+  } catch (const OutsideError& error) {
+    EXPECT_EQ(std::string(error.what()), file.string() + ": cannot draw it: gnuplot took longer than 0.2 s, and was ended");
+  }
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(50));
+  EXPECT_FALSE(std::filesystem::exists(file));
+}
+
+TEST(Gnuplot, TextsHoldNothingThatItActsOn) {
+  EXPECT_EQ(gnuplot_text("'it''s' x"), "\"'it''s' x\"");
+  EXPECT_EQ(gnuplot_text("`a` @b \\n \"c\""), R"("\140a\140 \100b \134n \"c\"")");
+  EXPECT_EQ(gnuplot_text("two\nlines\x1b\a\x7f\xff"), "\"two\\nlines   \uFFFD\"");
 }
 
 TEST(Ticks, AreRoundNumbers) {

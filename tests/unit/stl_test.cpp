@@ -155,6 +155,8 @@ TEST(Stl, SaysWhereAFileIsBroken) {
   EXPECT_EQ(refusal([&] { read_stl("", 1); }), "it is cut short: 0 bytes are less than the header of a binary STL");
   EXPECT_EQ(refusal([&] { read_stl(std::string_view(text).substr(0, text.find("endloop")), 1); }), "line 7: \"endloop\" was expected, but it ends");
   EXPECT_EQ(refusal([&] { read_stl("solid x\nfacet normal 0 0 1 outer loop\nvertex 0 0 O\n", 1); }), "line 3: a number was expected, not \"O\"");
+  EXPECT_EQ(refusal([&] { read_stl(text + std::string(2, '\0'), 1); }).substr(std::string_view("line 143: ").size()),
+            "\"solid\" or the end was expected, not \"U+0000U+0000\"");
   EXPECT_EQ(refusal([&] { read_stl("solid x\nendsolid x\n", 1); }), "it has no facets");
   EXPECT_EQ(refusal([&] { read_stl("solid x\nfacet normal 0 0 1 outer loop\nvertex 0 0 nan", 1); }), "line 3: a coordinate is not finite");
 }

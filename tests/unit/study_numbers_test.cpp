@@ -247,6 +247,23 @@ TEST(StudyTruth, IsTakenFromTheRowsThatFit) {
   EXPECT_THROW(true_curve(comparison, truth, std::nullopt, {0.3, 0.0}), std::runtime_error);
 }
 
+TEST(StudyTruth, RowsWithoutNumbersAreRefusedWithTheirLines) {
+  const auto refusal = [](const std::string& text) -> std::string {
+    Comparison comparison;
+    comparison.truth = "u";
+    try {
+      true_curve(comparison, table_truth(text), std::nullopt, {});
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(
+      refusal("t,u\n0,1\n\n1,inf\none,2\n"),
+      "truth.csv, line 4: expected a finite number in column \"u\", not \"inf\"; line 5: expected a finite number in column \"t\", not \"one\"");
+  EXPECT_EQ(refusal("t,u,v\n0,1,none\n"), "");
+}
+
 TEST(StudyTruth, ALoadCanStandForTheTime) {  // a curve over the load, in a run whose time is the share of the full load
   Truth truth = table_truth("load_N,method,uy\n40,linear,-1\n80,linear,-2\n40,nonlinear,-0.9\n80,nonlinear,-1.5\n");
   Comparison comparison;

@@ -81,7 +81,7 @@ TEST(Table, a_folder_that_is_not_there_is_an_outside_fault) { EXPECT_THROW(Table
 TEST(FailureLog, writes_each_breakage_once) {
   const auto folder = fresh_folder("log");
   RunFolder run(folder, true);
-  run.begin(false);
+  run.begin(false, {});
   FailureLog log(run);
   std::vector<Breakage> breakages{{3, 0.5, 7, 8, 0, 1e-6}};
   log.write_new(breakages);

@@ -100,6 +100,19 @@ TEST(Units, NothingStandsAfterTheUnit) {
     EXPECT_NE(problem(bad, "Pa"), "") << bad;
 }
 
+TEST(Units, NoPercentStandsBehindAUnit) {
+  EXPECT_EQ(problem("10 GPa %", "Pa"), "\"%\" stands behind a unit");
+  EXPECT_EQ(problem("10 GPa.percent", "Pa"), "\"percent\" stands behind a unit");
+  EXPECT_DOUBLE_EQ(si("5 %/s", "1/s"), 0.05);
+  EXPECT_EQ(problem("1_000 MPa", "Pa"), "\"_\" stands in the number: it has a decimal point, and nothing between thousands");
+}
+
+TEST(Units, UnknownOnesThatAreMeantToBeKnown) {
+  EXPECT_EQ(problem("10 gpa", "Pa"), "unknown unit \"gpa\"; did you mean \"GPa\"?");
+  EXPECT_EQ(problem("10 Gpa", "Pa"), "unknown unit \"Gpa\"; did you mean \"GPa\"?");
+  EXPECT_EQ(problem("90 deg", "rad"), "unknown unit \"deg\"; did you mean \"degrees\"?");
+}
+
 TEST(Units, ProductsQuotientsAndPowers) {
   for (const char* same : {"3 kg/m3", "3 kg m-3", "3 kg.m^-3", "3 kg*m**-3", "3 kg\u00B7m\u207B\u00B3", "3 kg / m\u00B3", "3 kg/m/m/m",
                            "3 kg/(m m m)", "3 kg/(m.m2)", "3kg/m^3", "3 (kg m)/m4"})

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -34,6 +35,56 @@ inline std::optional<std::size_t> find_column(std::span<const std::string> colum
   return std::nullopt;
 }
 
+/// Whether a column looked up by this name is one of several: two are called so, or none is and two differ in capital letters only.
+inline bool is_ambiguous_column(std::span<const std::string> columns, std::string_view name) {
+  const auto found = find_column(columns, name);
+  if (!found) return false;
+  const auto others = columns.subspan(*found + 1);
+  return columns[*found] == name ? std::find(others.begin(), others.end(), name) != others.end() : find_column(others, name).has_value();
+}
+
+/// A cell as a message shows it: its beginning, with control characters as "U+0000".
+inline std::string shown_cell(std::string_view cell, std::size_t most = 40) {
+  constexpr char digits[] = "0123456789ABCDEF";
+  std::string shown;
+  for (const char c : cell.substr(0, most)) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code < 0x20 || code == 0x7F)
+      shown += {'U', '+', '0', '0', digits[code / 16], digits[code % 16]};
+    else
+      shown += c;
+  }
+  return shown;
+}
+
+/// Why no table can be read from a file that begins with these bytes; empty: nothing speaks against it.
+inline std::string table_encoding_fault(std::string_view bytes) {
+  return bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF") ? "it is a text in UTF-16: save it in ASCII or UTF-8" : "";
+}
+
+/// The lines of a text file. They end with LF, CR or both.
+class TableLines {
+ public:
+  explicit TableLines(std::istream& in) : in_(in) {}
+
+  bool next(std::string& line) {
+    if (at_ > read_.size()) {
+      if (!std::getline(in_, read_)) return false;
+      if (read_.ends_with('\r')) read_.pop_back();
+      at_ = 0;
+    }
+    const std::size_t end = std::min(read_.find('\r', at_), read_.size());
+    line.assign(read_, at_, end - at_);
+    at_ = end + 1;
+    return true;
+  }
+
+ private:
+  std::istream& in_;
+  std::string read_;
+  std::size_t at_ = 1;
+};
+
 /// The columns of a table, and how its lines are cut into cells: the separator is the first of tab, semicolon, comma and blank that its first line
 /// has.
 class TableColumns {
@@ -52,6 +103,23 @@ class TableColumns {
   const std::vector<std::string>& names() const { return names_; }
 
   std::optional<std::size_t> find(std::string_view name) const { return find_column(names_, name); }
+
+  /// How many columns there are, without those at the end that have no name.
+  std::size_t count() const {
+    std::size_t count = names_.size();
+    while (count > 0 && names_[count - 1].empty()) --count;
+    return count;
+  }
+
+  /// Why a row of these cells has more than there are columns; empty: it has not. Empty cells at its end do not count.
+  std::string excess(std::span<const std::string> cells) const {
+    const std::size_t most = count();
+    std::size_t given = cells.size();
+    while (given > most && cells[given - 1].empty()) --given;
+    if (given <= most) return "";
+    return "a row of at most " + std::to_string(most) + (most == 1 ? " cell" : " cells") + ", one a column, not of " + std::to_string(given) +
+           (separator_ == ',' ? " (decimal commas? numbers have a decimal point)" : "");
+  }
 
   bool has_all(std::span<const std::string_view> names) const {
     return std::all_of(names.begin(), names.end(), [&](std::string_view name) { return find(name).has_value(); });
@@ -83,7 +151,7 @@ class TableColumns {
     constexpr std::size_t most = 200;
     std::string all;
     for (const std::string& name : names_) {
-      all += (all.empty() ? "\"" : ", \"") + name.substr(0, most) + '"';
+      all += (all.empty() ? "\"" : ", \"") + shown_cell(name, most) + '"';
       if (all.size() > most) return all + ", ...";
     }
     return all;
@@ -131,17 +199,20 @@ class TableColumns {
 
 /// The columns asked for, one vector each in their order; a missing one that may be missing is empty. The first line that is neither blank nor a
 /// comment names the columns; if it does not name all required columns, but a comment above it does, that comment names them. Throws
-/// std::invalid_argument with the file, the line and what was expected there, or if the file cannot be read to its end.
+/// std::invalid_argument with the file, the lines (the first few that are wrong) and what was expected there, or if the file cannot be read to its
+/// end.
 class NumberTable {
  public:
   NumberTable(const std::string& file, std::span<const std::string_view> required, std::span<const std::string_view> optional = {}) : file_(file) {
-    std::ifstream in(file);
+    std::ifstream in(file, std::ios::binary);
     if (!in) throw std::invalid_argument("file " + file + " cannot be read");
+    check_encoding(in);
+    TableLines lines(in);
     std::string line;
     std::size_t number = 0, header_number = 1;
     TableColumns header("");
     bool is_named = false, is_row = false;  // whether `header` has all required columns, and whether `line` is a row below a comment that has them
-    for (bool is_comment = true; is_comment && std::getline(in, line);) {
+    for (bool is_comment = true; is_comment && lines.next(line);) {
       ++number;
       if (TableColumns::is_blank(line)) continue;
       const TableColumns columns(line);
@@ -155,17 +226,18 @@ class NumberTable {
     }
     check_reading(in);
     for (const std::string_view name : required) {
-      columns_.push_back({name, header.find(name), {}});
-      if (!columns_.back().place)
-        complain(header_number, "a column \"" + std::string(name) + "\", named in the first line; it names " + header.text());
+      if (!header.find(name)) complain(header_number, "a column \"" + std::string(name) + "\", named in the first line; it names " + header.text());
+      take_column(name, header, header_number);
     }
-    for (const std::string_view name : optional) columns_.push_back({name, header.find(name), {}});
-    if (is_row) read_line(header.cells(line), number);
-    while (std::getline(in, line)) {
+    for (const std::string_view name : optional) take_column(name, header, header_number);
+    if (is_row) read_line(header, line, number);
+    while (lines.next(line)) {
       ++number;
-      if (!TableColumns::is_empty(line)) read_line(header.cells(line), number);
+      if (!TableColumns::is_empty(line)) read_line(header, line, number);
     }
     check_reading(in);
+    if (bad_rows_ > most_shown) complaints_ += "; and " + std::to_string(bad_rows_ - most_shown) + " such lines more";
+    if (bad_rows_ > 0) throw std::invalid_argument("file " + file_ + complaints_);
   }
 
   /// Of a column that was asked for.
@@ -176,31 +248,56 @@ class NumberTable {
   }
 
  private:
+  static constexpr std::size_t most_shown = 5;  // rows that a message names
+
   struct Column {
     std::string_view name;
     std::optional<std::size_t> place;
     std::vector<double> numbers;
   };
 
+  void check_encoding(std::ifstream& in) const {
+    std::array<char, 2> mark{};
+    in.read(mark.data(), mark.size());
+    const std::string fault = table_encoding_fault({mark.data(), static_cast<std::size_t>(in.gcount())});
+    if (!fault.empty()) throw std::invalid_argument("file " + file_ + " cannot be read: " + fault);
+    check_reading(in);
+    in.clear();
+    in.seekg(0);
+  }
   void check_reading(const std::ifstream& in) const {
     if (in.bad()) throw std::invalid_argument("file " + file_ + " cannot be read to its end");
   }
+  static std::string complaint(std::size_t line, const std::string& expected) { return "line " + std::to_string(line) + ": expected " + expected; }
   [[noreturn]] void complain(std::size_t line, const std::string& expected) const {
-    throw std::invalid_argument("file " + file_ + ", line " + std::to_string(line) + ": expected " + expected);
+    throw std::invalid_argument("file " + file_ + ", " + complaint(line, expected));
   }
-  void read_line(const std::vector<std::string>& cells, std::size_t number) {
+  void take_column(std::string_view name, const TableColumns& header, std::size_t line) {
+    if (is_ambiguous_column(header.names(), name)) complain(line, "one column \"" + std::string(name) + "\", not several; it names " + header.text());
+    columns_.push_back({name, header.find(name), {}});
+  }
+  void read_line(const TableColumns& header, const std::string& line, std::size_t number) {
+    const std::vector<std::string> cells = header.cells(line);
+    const std::string fault = read_cells(header, cells);
+    if (!fault.empty() && ++bad_rows_ <= most_shown) complaints_ += (complaints_.empty() ? ", " : "; ") + complaint(number, fault);
+  }
+  /// What was expected of a row that cannot be read; empty: it was read.
+  std::string read_cells(const TableColumns& header, const std::vector<std::string>& cells) {
+    if (std::string excess = header.excess(cells); !excess.empty()) return excess;
     for (Column& column : columns_) {
       if (!column.place) continue;
       const std::string cell = *column.place < cells.size() ? cells[*column.place] : "";
       const auto value = table_number(cell);
       if (!value)
-        complain(number, "a number in column \"" + std::string(column.name) + "\", not \"" + cell.substr(0, 40) + "\"" +
-                             (cell.find(',') == std::string::npos ? "" : "; numbers have a decimal point"));
+        return "a number in column \"" + std::string(column.name) + "\", not \"" + shown_cell(cell) + "\"" +
+               (cell.find(',') == std::string::npos ? "" : "; numbers have a decimal point");
       column.numbers.push_back(*value);
     }
+    return "";
   }
 
-  std::string file_;
+  std::string file_, complaints_;
+  std::size_t bad_rows_ = 0;
   std::vector<Column> columns_;
 };
 

@@ -24,9 +24,15 @@ struct BadCriterion {
     return schema;
   }
   explicit BadCriterion(const Options& options) : limit(options.limit) {}
+  BadCriterion(const BadCriterion&) = delete;
+  BadCriterion& operator=(const BadCriterion&) = delete;
+  ~BadCriterion() {
+    if (asked_for("null pointer in destructor")) *static_cast<volatile int*>(nullptr) = 1;
+  }
 
   double alarm(const SpringFacts& spring) const {
     if (asked_for("throw in alarm")) throw std::runtime_error("oops");
+    if (asked_for("alarm below the shortest")) return -infinity;
     return asked_for("nan alarm") ? infinity - infinity : limit * spring.rest_length;
   }
   bool breaks(const SpringFacts& spring, double elongation) const {
