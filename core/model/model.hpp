@@ -15,12 +15,12 @@
 
 namespace hyperlattice {
 
-/// A component made from its stage; destroyed by the plugin that made it.
-/// Ends a component; a crash there is its plugin's.
+/// Lets its plugin destroy a component; the last line of the program names the plugin if that crashes.
 struct Destroy {
   const Component* of = nullptr;
   void operator()(void* made) const;
 };
+/// A component made from its stage; destroyed by the plugin that made it.
 using ComponentPointer = std::unique_ptr<void, Destroy>;
 ComponentPointer make_component(const Stage& stage);  ///< InputError at the stage's pointer if it refuses its options
 

@@ -19,8 +19,8 @@ class Threads {
 
   int most() const { return most_; }
 
-  /// Of a body. A step of `worth_a_thread` particles takes some 40 us. Threads with less work than that wait longer for each other than they work,
-  /// and much longer if other work shares the machine.
+  /// The number for a body. A step of `worth_a_thread` particles takes some 40 us. With less work than that, threads gain less than they cost each
+  /// other.
   int of(std::uint64_t particles) const {
     constexpr std::uint64_t worth_a_thread = 4096;
     const std::uint64_t busy = std::max<std::uint64_t>(1, particles / worth_a_thread);

@@ -1,4 +1,4 @@
-// What the system says to a number of threads.
+// Threads that the system refuses: how that is told, and a trial of those that OpenMP will start.
 #pragma once
 
 #include <base/errors.hpp>
@@ -7,7 +7,7 @@
 
 namespace hyperlattice {
 
-/// `started`: of the `asked` threads, the one that asks among them.
+/// The error for `asked` threads of which the system starts only `started`. Both numbers include the thread that asks.
 OutsideError refused_threads(std::size_t started, std::size_t asked, const std::error_code& why);
 
 /// Starts as many threads as OpenMP is about to, with stacks as large, and lets them end. OpenMP itself ends the program with exit code 1 where the
