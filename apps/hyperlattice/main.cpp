@@ -12,9 +12,11 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <new>
+#include <span>
 
 namespace {
 using namespace hyperlattice;
@@ -24,11 +26,27 @@ int complain(int code, const std::string& message) {
   return code;
 }
 
+void suggest(const std::string& word, const std::vector<std::string>& names) {
+  if (const std::string near = hyperlattice::nearest(word, names); !near.empty()) std::cerr << "Did you mean '" << near << "'?\n";
+}
+
 /// Names the command that was most likely meant by a word that is none.
-void suggest(const CLI::App& program, const std::string& word) {
+void suggest_command(const CLI::App& program, const std::string& word) {
   std::vector<std::string> names;
   for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) names.push_back(command->get_name());
-  if (const std::string near = hyperlattice::nearest(word, names); !near.empty()) std::cerr << "Did you mean '" << near << "'?\n";
+  suggest(word, names);
+}
+
+/// Names the options that were most likely meant by words that are none.
+void suggest_options(const CLI::App& program, const CLI::App& command, std::span<char* const> words) {
+  std::vector<std::string> names;
+  for (const CLI::App* known : {&program, &command})
+    for (const CLI::Option* option : known->get_options())
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  for (const char* const word : words) {
+    const std::string name = std::string(word).substr(0, std::string_view(word).find('='));
+    if (name.starts_with("--") && name.size() > 2 && std::find(names.begin(), names.end(), name) == names.end()) suggest(name, names);
+  }
 }
 
 /// Input or a run that only lack of memory made fail is not at fault.
@@ -36,14 +54,17 @@ int complain_of_scene(int code, const std::string& message) {
   return memory_ran_out() ? complain(exit_outside, lack_of_memory() + "\n" + message) : complain(code, message);
 }
 
-/// CLI11 reads nan and inf as numbers.
-void refuse_infinite_numbers(CLI::App& command) {
+/// CLI11 reads nan and inf as numbers, and nothing as a file.
+void refuse_odd_values(CLI::App& command) {
   const auto finite = [](const std::string& text) {
     double number = 0;
     return CLI::detail::lexical_cast(text, number) && !std::isfinite(number) ? text + " is not a finite number" : std::string();
   };
-  for (CLI::Option* option : command.get_options())
+  const auto named = [](const std::string& text) { return text.empty() ? std::string("a name that is not empty was expected") : std::string(); };
+  for (CLI::Option* option : command.get_options()) {
     if (option->get_type_name().find("FLOAT") != std::string::npos) option->check(finite);
+    if (option->get_name() == "--out") option->check(named);
+  }
 }
 
 int obey(int count, char** words) {
@@ -57,7 +78,7 @@ int obey(int count, char** words) {
   program.add_flag("--no-plugins", no_plugins, "refuse scenes that name \"plugins\", whose code would run: for scenes from elsewhere");
   const Command commands[] = {run_command(program),     plan_command(program),      plugins_command(program), schema_command(program),
                               analyze_command(program), calibrate_command(program), study_command(program),   report_command(program)};
-  for (const Command& command : commands) refuse_infinite_numbers(*command.arguments);
+  for (const Command& command : commands) refuse_odd_values(*command.arguments);
   try {
     program.parse(count, words);
     if (no_plugins) refuse_scene_plugins();
@@ -66,7 +87,9 @@ int obey(int count, char** words) {
       if (command.arguments->parsed()) return command.act();
   } catch (const CLI::ParseError& error) {
     const int code = program.exit(error);
-    if (code != 0 && program.get_subcommands().empty() && count > 1) suggest(program, words[1]);
+    const auto named = program.get_subcommands();
+    if (code != 0 && named.empty() && count > 1) suggest_command(program, words[1]);
+    if (code != 0 && !named.empty()) suggest_options(program, *named.front(), {words + 1, static_cast<std::size_t>(count - 1)});
     return code == 0 ? exit_done : exit_input;
   } catch (const InputError& error) {
     return complain_of_scene(exit_input, "wrong input, nothing was written\n" + std::string(error.what()));

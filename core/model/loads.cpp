@@ -88,15 +88,16 @@ struct View {
 /// Takes what one load declares, merged for each particle.
 struct Collector {
   const Body& body;
-  std::unordered_map<Particle, LoadedParticle> particles;
-  std::vector<WatchedParticle> watched;
-  std::set<Particle> watching;
-  std::map<Particle, Vec3> start_velocities;
-  std::vector<double> corners;
+  std::unordered_map<Particle, LoadedParticle> particles{};
+  std::vector<WatchedParticle> watched{};
+  std::set<Particle> watching{};
+  std::map<Particle, Vec3> start_velocities{};
+  std::vector<double> corners{};
   double frequency = 0;
-  Vec3 acceleration;
-  std::vector<std::string> warnings;
-  std::string fault;  ///< of what the load handed over
+  Vec3 acceleration{};
+  std::vector<std::string> warnings{};
+  std::uint64_t warned = 0;  ///< more than are kept
+  std::string fault{};       ///< of what the load handed over
 
   LoadedParticle& at(Particle particle, Vec3 amplitude) {
     if (particle >= body.particles) throw std::out_of_range("it loads a particle that does not exist");
@@ -175,7 +176,10 @@ struct Collector {
       });
     };
     to.receive_warning = [](void* self, std::string_view sentence) noexcept {
-      take(self, [&](Collector& c) { c.warnings.emplace_back(sentence.substr(0, 4096)); });
+      take(self, [&](Collector& c) {
+        constexpr std::size_t most = 20, longest = 4096;
+        if (++c.warned <= most) c.warnings.emplace_back(sentence.substr(0, longest));
+      });
     };
     to.receive_corner = [](void* self, double time) noexcept {
       take(self, [&](Collector& c) {
@@ -287,7 +291,7 @@ void add_loads(Model& model, RegionIndex& regions, Faults& faults) {
       load.stage = stage;
       load.component = make_component(*stage);
       View view{model, regions, std::nullopt, {}, false};
-      Collector collector{model.body, {}, {}, {}, {}, {}, 0, {}, {}, {}};
+      Collector collector{.body = model.body};
       const auto refused = refusal_of(*stage, "declare", [&](const Complaint& why) {
         return stage->functions<LoadFunctions>().declare(load.component.get(), view.body(), collector.sink(), why);
       });
@@ -308,6 +312,8 @@ void add_loads(Model& model, RegionIndex& regions, Faults& faults) {
       for (const auto& [particle, velocity] : collector.start_velocities) start_velocities[particle] = start_velocities[particle] + velocity;
       for (const std::string& warning : collector.warnings)
         model.warnings.push_back(fmt::format("{} ({}): {}", stage->name, stage->pointer, warning));
+      if (const auto more = collector.warned - collector.warnings.size(); more > 0)
+        model.warnings.push_back(fmt::format("{} ({}): and {} more such warnings", stage->name, stage->pointer, more));
       load.corners = std::move(collector.corners);
       sort_once(load.corners);
       load.frequency = collector.frequency;

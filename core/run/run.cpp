@@ -388,6 +388,9 @@ int run(Plan& plan, const RunOptions& options) {
   for (const auto& [name, value] : body_lines(plan.body)) body += fmt::format("{}{} {}", body.empty() ? "" : ", ", name, value);
   spdlog::info("the body: {}", body);
   for (const std::string& warning : plan.model->warnings) spdlog::warn("warning: {}", warning);
+  if (std::filesystem::exists(options.directory / "report.html"))
+    spdlog::warn("warning: {} shows an earlier state: make it anew by `hyperlattice report` after this run",
+                 (options.directory / "report.html").string());
   carry_out(plan, options, folder, resumed, std::move(simulation), outcome);
   if (outcome.exit_code == exit_interrupted) forget_stop();  // a request that came too late is for the next run of a study
   conclude(plan, folder, outcome);

@@ -39,6 +39,7 @@ TEST_F(CommandLine, WhatCannotBeUnderstoodIsExit2) {
                                                        {"run", "cube.json", "--threads", "many"},
                                                        {"run", "cube.json", "--set"},
                                                        {"run", "cube.json", "--out", "cube.json"},
+                                                       {"run", "cube.json", "--out", ""},
                                                        {"run", "nowhere.json"},
                                                        {"plan", "nowhere.json"},
                                                        {"plugins", "nothing"},
@@ -46,6 +47,8 @@ TEST_F(CommandLine, WhatCannotBeUnderstoodIsExit2) {
   for (const auto& line : lines) EXPECT_EQ(run(line).exit_code, 2) << testing::PrintToString(line);
   EXPECT_NE(run({"frobnicate"}).err.find("frobnicate"), std::string::npos);
   EXPECT_NE(run({"rum", "cube.json"}).err.find("Did you mean 'run'?"), std::string::npos);
+  EXPECT_NE(run({"run", "cube.json", "--overwite"}).err.find("Did you mean '--overwrite'?"), std::string::npos);
+  EXPECT_NE(run({"run", "cube.json", "--thread=2"}).err.find("Did you mean '--threads'?"), std::string::npos);
   EXPECT_EQ(run({"run", "cube.json", "cube.json"}).err.find("Did you mean"), std::string::npos);
 }
 

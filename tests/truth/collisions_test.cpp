@@ -82,6 +82,18 @@ TEST(Collisions, StiffContactsStayStable) {
   }
 }
 
+// The stiffest springs of both bars are 1e4 times as stiff as this contact is made, and more.
+TEST(Collisions, TooSoftContactsAreWarnedOf) {
+  const auto warned = [](const std::string& contact) {
+    const auto plan = bars(contact);
+    return std::any_of(plan->model->warnings.begin(), plan->model->warnings.end(),
+                       [](const std::string& text) { return text.find("particles may pass through") != std::string::npos; });
+  };
+  EXPECT_TRUE(warned(R"({ "type": "loads.contact", "stiffness": 1 },)"));
+  EXPECT_TRUE(warned(R"({ "type": "loads.floor", "stiffness": 1, "point": [0, 0, -1] },)"));
+  EXPECT_FALSE(warned(R"({ "type": "loads.contact" }, { "type": "loads.floor", "point": [0, 0, -1] },)"));
+}
+
 TEST(Collisions, ResultsDoNotDependOnThreads) {
   const char* contact = R"({ "type": "loads.contact", "damping": 0.1, "friction": 0.3 },)";
   EXPECT_EQ(meet(*bars(contact, 1)).hash, meet(*bars(contact, 3)).hash);

@@ -78,6 +78,15 @@ TEST(RestExtremes, ABodyThatWrinklesIsToldSo) {
   }
 }
 
+// A pressure finds no wrinkled state of rest, and the search for one leaves by the heights.
+TEST(RestExtremes, ABodyThatAPressureWrinklesIsToldSo) {
+  for (const auto& [nu, pressure] : {std::pair{0.2499, "1e6"}, {0.2499, "3e6"}, {0.24999, "1e6"}, {0.24999, "3e6"}}) {
+    const std::string text = failure_of(cube(R"("membrane": "I-m", "poisson": )" + number(nu), R"({ "type": "loads.fixed", "on": "x_min" },
+          { "type": "loads.pressure", "on": "x_max", "pressure": )" + std::string(pressure) + R"( }, { "type": "solvers.static" })"));
+    EXPECT_NE(text.find("wrinkles in the fourth dimension"), std::string::npos) << nu << " " << pressure << ": " << text;
+  }
+}
+
 TEST(RestExtremes, TheSmallestLoadsMoveInProportion) {
   const auto moved = [](const std::string& force) {
     const AtRest body(cube(R"("membrane": "I-m", "poisson": 0.1)", rollers() + R"({ "type": "loads.force", "on": "x_max", "total": [)" + force +

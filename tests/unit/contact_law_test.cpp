@@ -24,6 +24,7 @@ struct Bodies {
     body.region_particles = [](void* self, RegionId) noexcept { return std::span<const Particle>(static_cast<Bodies*>(self)->all); };
     body.particle_position = [](void* self, Particle p) noexcept { return static_cast<Bodies*>(self)->places[p]; };
     body.particle_mass = [](void*, Particle) noexcept { return mass; };
+    body.region_springs = [](void*, RegionId) noexcept { return std::span<const RestSpring>(); };
     sink.receive_warning = [](void*, std::string_view) noexcept {};
     sink.receive_watched = [](void*, Particle, bool, const Reaction&) noexcept {};
   }

@@ -6,6 +6,7 @@
 // Below the limit mu N friction is viscous, so that what rests creeps with mu N / h, a tiny speed, and time steps stay stable.
 #pragma once
 
+#include <hyperlattice/files.hpp>
 #include <hyperlattice/load.hpp>
 
 #include <algorithm>
@@ -15,12 +16,17 @@
 
 namespace hyperlattice {
 
-/// c of a whole particle, N/m: as asked, or that of the stiffest base spring of the region. std::invalid_argument if there is none.
-inline double contact_stiffness(const LoadBody& body, RegionId region, std::optional<double> asked) {
-  double stiffness = asked.value_or(0);
-  if (!asked)
-    for (const RestSpring& spring : body.springs(region)) stiffness = std::max(stiffness, spring.stiffness / spring.share);
+/// c of a whole particle, N/m: as asked, or that of the stiffest base spring of the region. std::invalid_argument if there is none. Warns of a
+/// contact that is far softer than the body.
+inline double contact_stiffness(const LoadBody& body, RegionId region, std::optional<double> asked, const LoadSink& sink) {
+  double stiffest = 0;
+  for (const RestSpring& spring : body.springs(region)) stiffest = std::max(stiffest, spring.stiffness / spring.share);
+  const double stiffness = asked.value_or(stiffest);
   if (!(stiffness > 0)) throw std::invalid_argument("stiffness as a number: the region has no springs to take it from");
+  constexpr double soft = 1e-4;
+  if (stiffness < soft * stiffest)
+    sink.warn("its stiffness of " + short_number(stiffness, 3) + " N/m is " + short_number(stiffness / stiffest, 2) +
+              " of the body's stiffest spring: particles may pass through each other or through the floor");
   return stiffness;
 }
 

@@ -59,7 +59,7 @@ class Contact {
   explicit Contact(const Options& o) : o_(o) {}
 
   void declare(const LoadBody& body, const LoadSink& sink) {
-    stiffness_ = contact_stiffness(body, o_.on, o_.stiffness);
+    stiffness_ = contact_stiffness(body, o_.on, o_.stiffness, sink);
     reach_ = o_.reach * body.spacing;
     std::vector<Vec3> at_rest;
     for (const Particle particle : body.particles(o_.on)) {

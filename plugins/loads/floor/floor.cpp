@@ -62,7 +62,7 @@ class Floor {
   }
 
   void declare(const LoadBody& body, const LoadSink& sink) {
-    const double whole = contact_stiffness(body, o_.on, o_.stiffness);
+    const double whole = contact_stiffness(body, o_.on, o_.stiffness, sink);
     const bool rubs = o_.friction > 0 || o_.friction_back.value_or(0) > 0;
     double deepest = 0;
     for (const Particle particle : body.particles(o_.on)) {

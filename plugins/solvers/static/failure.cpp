@@ -16,7 +16,7 @@ class MotionText {
     }
   }
   bool is_nothing() const { return space_.size == 0 && height_.size == 0; }
-  bool wrinkles() const { return space_.size <= 0.1 * height_.size; }
+  bool wrinkles() const { return space_.size <= height_.size; }
   std::string text() const {
     if (wrinkles())
       return "that motion is one of the fourth dimension, of the membrane, largest at " + place_text(height_) + ", and " +

@@ -54,16 +54,18 @@ Found Newton::search(double share, Field& displacement) {
     }
     std::fill(change.begin(), change.end(), 0.0);
   }
-  return careful_ ? blame(u) : Found{};
+  return careful_ ? blame(displacement, u) : Found{};
 }
 
-/// Why a careful search failed: a motion that the last state which it came to does not resist, or none that is known.
-Found Newton::blame(const Field& u) {
+/// Why a careful search from the state of rest `last` failed: a motion that u, which it came to, does not resist, or else the motion to u.
+Found Newton::blame(const Field& last, const Field& u) {
   system_.linearise(u, force_);
   system_.prepare();
   if (Field motion = softening_motion(system_, gradients_, u); !motion.empty())
     return {.why = "Newton's method comes to states whose stiffness against a motion is negative", .buckles = true, .direction = std::move(motion)};
-  return {.why = "Newton's method does not converge"};
+  Field away = u;
+  for (std::size_t n = 0; n < away.size(); ++n) away[n] -= last[n];
+  return {.why = "Newton's method leaves the last state of rest by a motion and does not converge", .direction = std::move(away)};
 }
 
 /// Why conjugate gradients found no direction.

@@ -42,7 +42,7 @@ class Newton {
   bool look(const Field& u, const Field& moved, double part = 1);
   bool go_along(const Field& moved, Field& u);
   Found give_up(const Field& u, bool hopeless, const char* why, const Field& direction) const;
-  Found blame(const Field& u);
+  Found blame(const Field& last, const Field& u);
   std::string unsolved_text() const;
   bool may_wrinkle(const Field& u) const;
   Found check(const Field& u);
