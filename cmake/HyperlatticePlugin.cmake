@@ -10,7 +10,7 @@ function(hyperlattice_add_plugin type)
   add_library(${type} MODULE ${ARGN})
   set_target_properties(${type} PROPERTIES PREFIX "" OUTPUT_NAME ${type} CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   target_compile_features(${type} PRIVATE cxx_std_20)
-  target_link_libraries(${type} PRIVATE Hyperlattice::sdk)
+  target_link_libraries(${type} PRIVATE Hyperlattice::kernels)
   if(TARGET hyperlattice_flags) # this project's own plugins
     target_link_libraries(${type} PRIVATE hyperlattice_flags)
     set_target_properties(${type} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/hyperlattice)

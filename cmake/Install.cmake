@@ -5,8 +5,8 @@ set(package ${CMAKE_INSTALL_LIBDIR}/cmake/Hyperlattice)
 set(share ${CMAKE_INSTALL_DATADIR}/hyperlattice)
 
 install(TARGETS hyperlattice LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(DIRECTORY core/include/hyperlattice DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(TARGETS hyperlattice_sdk EXPORT HyperlatticeTargets)
+install(DIRECTORY core/sdk/include/hyperlattice core/kernels/include/hyperlattice DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(TARGETS hyperlattice_sdk hyperlattice_kernels EXPORT HyperlatticeTargets)
 install(EXPORT HyperlatticeTargets NAMESPACE Hyperlattice:: DESTINATION ${package})
 
 configure_package_config_file(cmake/HyperlatticeConfig.cmake.in ${PROJECT_BINARY_DIR}/HyperlatticeConfig.cmake INSTALL_DESTINATION ${package}

@@ -5,7 +5,7 @@
 #include <scene/scene.hpp>
 
 #include <hyperlattice/failure.hpp>
-#include <hyperlattice/kernels/request.hpp>
+#include <hyperlattice/kernel_request.hpp>
 #include <hyperlattice/load.hpp>
 #include <hyperlattice/material.hpp>
 

@@ -1,7 +1,7 @@
 #include <plan/calibration.hpp>
 #include <plan/estimates.hpp>
 #include <process/room.hpp>
-#include <run/state.hpp>
+#include <state/simulation.hpp>
 
 #include <algorithm>
 #include <chrono>

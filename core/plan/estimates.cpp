@@ -1,7 +1,7 @@
 #include <plan/estimates.hpp>
 #include <plan/fields.hpp>
-#include <run/inside_out.hpp>
-#include <run/layout.hpp>
+#include <state/inside_out.hpp>
+#include <state/layout.hpp>
 
 #include <algorithm>
 #include <cmath>

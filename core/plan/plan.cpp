@@ -8,8 +8,8 @@
 #include <plan/precision.hpp>
 #include <plan/rehearsal.hpp>
 #include <plan/resolution.hpp>
+#include <plan/solver_facts.hpp>
 #include <process/lack_of_memory.hpp>
-#include <run/stage_calls.hpp>
 #include <scene/stage_call.hpp>
 
 #include <hyperlattice/output.hpp>

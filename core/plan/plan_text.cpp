@@ -1,7 +1,7 @@
 // The plan as a page for people; every number comes from the JSON form, so that the two never differ.
 #include <base/figures.hpp>
 #include <plan/estimates.hpp>
-#include <run/state.hpp>
+#include <state/simulation.hpp>
 
 #include <spdlog/fmt/fmt.h>
 #include <nlohmann/json.hpp>

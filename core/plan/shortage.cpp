@@ -1,9 +1,9 @@
 #include <base/errors.hpp>
 #include <base/figures.hpp>
+#include <base/own_files.hpp>
 #include <plan/estimates.hpp>
 #include <plan/shortage.hpp>
 #include <process/room.hpp>
-#include <run/own_files.hpp>
 
 #include <spdlog/fmt/fmt.h>
 

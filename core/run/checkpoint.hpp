@@ -4,8 +4,8 @@
 
 #include <plan/file_names.hpp>
 #include <plan/plan.hpp>
-#include <run/archive.hpp>
 #include <run/folder.hpp>
+#include <state/archive.hpp>
 
 #include <filesystem>
 

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <base/errors.hpp>
+#include <base/own_files.hpp>
 #include <plan/file_names.hpp>
-#include <run/own_files.hpp>
 #include <run/table.hpp>
 
 #include <list>

@@ -1,5 +1,5 @@
-#include <run/archive.hpp>
 #include <run/history.hpp>
+#include <state/archive.hpp>
 
 #include <spdlog/fmt/fmt.h>
 

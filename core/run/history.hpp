@@ -2,7 +2,7 @@
 #pragma once
 
 #include <run/folder.hpp>
-#include <run/state.hpp>
+#include <state/simulation.hpp>
 
 namespace hyperlattice {
 

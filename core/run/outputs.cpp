@@ -1,9 +1,9 @@
 #include <plan/columns.hpp>
 #include <plan/fields.hpp>
 #include <plan/plan.hpp>
-#include <run/archive.hpp>
 #include <run/outputs.hpp>
 #include <scene/stage_call.hpp>
+#include <state/archive.hpp>
 
 #include <spdlog/fmt/fmt.h>
 

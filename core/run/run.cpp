@@ -1,20 +1,20 @@
 // The run: planned solver stages one after the other. Each step belongs to the solver; records, outputs, guards and the end are here.
 #include <base/descriptor.hpp>
+#include <engine/guard.hpp>
+#include <engine/stage_calls.hpp>
 #include <plan/precision.hpp>
 #include <plan/shortage.hpp>
 #include <process/lack_of_memory.hpp>
 #include <run/checkpoint.hpp>
 #include <run/failing_motion.hpp>
 #include <run/folder.hpp>
-#include <run/guard.hpp>
-#include <run/inside_out.hpp>
 #include <run/interrupt.hpp>
 #include <run/outputs.hpp>
 #include <run/progress.hpp>
 #include <run/run.hpp>
-#include <run/stage_calls.hpp>
 #include <run/summary.hpp>
 #include <scene/json.hpp>
+#include <state/inside_out.hpp>
 
 #include <hyperlattice/files.hpp>
 

@@ -1,7 +1,7 @@
 // What writers and probes see of a running simulation.
 #pragma once
 
-#include <run/state.hpp>
+#include <state/simulation.hpp>
 
 #include <hyperlattice/output.hpp>
 

@@ -2,7 +2,7 @@
 // Split by concern: grid.cpp, list.cpp, response.cpp, load_path.cpp, rest.cpp, statics.cpp.
 #pragma once
 
-#include <run/state.hpp>
+#include <state/simulation.hpp>
 
 #include <hyperlattice/array_memory.hpp>
 #include <hyperlattice/statics.hpp>

@@ -1,7 +1,7 @@
 // Speed of the explicit step: nanoseconds per particle-step, springs per second, and the share of the processor's arithmetic that they make,
 // for each kind of kernel, precision, size and shape. Arguments: those of Google Benchmark, for instance --benchmark_filter=free/float/50.
 #include <plan/plan.hpp>
-#include <run/state.hpp>
+#include <state/simulation.hpp>
 
 #include <benchmark/benchmark.h>
 #include <unistd.h>

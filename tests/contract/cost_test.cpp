@@ -3,8 +3,8 @@
 #include <support/program.hpp>
 
 #include <plan/plan.hpp>
-#include <run/layout.hpp>
-#include <run/state.hpp>
+#include <state/layout.hpp>
+#include <state/simulation.hpp>
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "support/scenes.hpp"
 
 #include <base/errors.hpp>
-#include <run/state.hpp>
+#include <state/simulation.hpp>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

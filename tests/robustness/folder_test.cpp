@@ -1,6 +1,6 @@
 // A folder of results belongs to one run: a second one is refused while the first goes on, an interrupted one is not lost by mistake, a new one
 // removes what the earlier one left and nothing else.
-#include <run/own_files.hpp>
+#include <base/own_files.hpp>
 #include <support/program.hpp>
 
 #include <gtest/gtest.h>

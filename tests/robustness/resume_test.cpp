@@ -1,5 +1,5 @@
 // A run that is cut off, again and again, at any step, and goes on: what it leaves is, byte for byte, what a run leaves that never was.
-#include <run/own_files.hpp>
+#include <base/own_files.hpp>
 #include <support/program.hpp>
 
 #include <gtest/gtest.h>

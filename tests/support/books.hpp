@@ -1,7 +1,7 @@
 // How well a simulation keeps its books of energy.
 #pragma once
 
-#include <run/state.hpp>
+#include <state/simulation.hpp>
 
 #include <gtest/gtest.h>
 

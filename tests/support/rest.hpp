@@ -3,7 +3,7 @@
 
 #include "scenes.hpp"
 
-#include <run/stage_calls.hpp>
+#include <engine/stage_calls.hpp>
 
 #include <sstream>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <plan/plan.hpp>
-#include <run/state.hpp>
+#include <state/simulation.hpp>
 
 #include <unistd.h>
 

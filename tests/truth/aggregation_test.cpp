@@ -1,5 +1,5 @@
 // Multigrid by aggregation, of listed lattices, against factorisations.
-#include <run/stage_calls.hpp>
+#include <engine/stage_calls.hpp>
 
 #include <support/lists.hpp>
 

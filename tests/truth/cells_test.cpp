@@ -1,6 +1,6 @@
 // A body of cells is exactly the union of its cells: every homogeneous strain needs the tractions of the continuum on every surface, and
 // nothing inside; large motions have the forces of the cells' own springs, written out one cell after the other.
-#include <run/stage_calls.hpp>
+#include <engine/stage_calls.hpp>
 
 #include <support/cells.hpp>
 

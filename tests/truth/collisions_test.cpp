@@ -1,6 +1,6 @@
 // Bodies that meet. Two equal bars of which one stands: after the waves of the impact have gone to the ends and back, that one moves, and the other
 // stands (Saint-Venant 1867). Momentum and energy are kept, and results do not depend on threads.
-#include <run/state.hpp>
+#include <state/simulation.hpp>
 
 #include <support/scenes.hpp>
 

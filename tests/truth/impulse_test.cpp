@@ -1,7 +1,7 @@
 // Loads act by the mean of their factor over each step: impulses are exact for any function of time and any step, the books close as with smooth
 // loads, and stages of unlike steps lose nothing.
 #include <base/errors.hpp>
-#include <run/stage_calls.hpp>
+#include <engine/stage_calls.hpp>
 #include <support/scenes.hpp>
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Listed lattices: the cubic lattice written out as a list does what the structured one does, and what a body must keep is kept.
-#include <run/stage_calls.hpp>
+#include <engine/stage_calls.hpp>
 
 #include <support/lists.hpp>
 

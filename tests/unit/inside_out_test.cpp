@@ -1,5 +1,5 @@
 // Cells that are turned inside out are counted and placed; sound ones, however turned or strained, are not.
-#include <run/inside_out.hpp>
+#include <state/inside_out.hpp>
 #include <support/lists.hpp>
 
 #include <gtest/gtest.h>

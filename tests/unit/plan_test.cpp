@@ -1,14 +1,14 @@
 // The plan against what is then really built: bytes to the last one, steps, and what the kernel carries for each choice in a scene.
 #include "support/program.hpp"
 
+#include <base/own_files.hpp>
 #include <plan/calibration.hpp>
 #include <plan/plan.hpp>
 #include <plan/precision.hpp>
 #include <plan/shortage.hpp>
 #include <process/room.hpp>
-#include <run/layout.hpp>
-#include <run/own_files.hpp>
-#include <run/state.hpp>
+#include <state/layout.hpp>
+#include <state/simulation.hpp>
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <process/processors.hpp>
 #include <process/room.hpp>
 #include <process/team.hpp>
-#include <run/layout.hpp>
+#include <state/layout.hpp>
 
 #include <gtest/gtest.h>
 

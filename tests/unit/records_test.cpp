@@ -1,6 +1,6 @@
 // A file of records is taken as it was written or not at all.
-#include <run/archive.hpp>
 #include <run/records.hpp>
+#include <state/archive.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,123 @@
+#include <analyze/virtual_test.hpp>
+#include <engine/stage_calls.hpp>
+#include <scene/json.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+
+namespace hyperlattice {
+
+namespace {
+
+/// The cube as a scene, in units of its own: spacing 1 m, E 1 Pa.
+std::string scene_of(const VirtualTest::Options& options, const calibration::Ratios& ratios, double shortening) {
+  const int n = options.particles;
+  Json material = {{"type", "materials.elastic"}, {"young", 1}, {"density", 1}, {"membrane", "free"}};
+  material["k_alpha"] = ratios.clamped ? Json("infinite") : Json(ratios.alpha);
+  material["k_beta"] = ratios.beta;
+  material["k_gamma"] = ratios.gamma;
+  const auto platen = [](const char* on, double displacement) {
+    const double at_once = 1e-9;  // a fraction of any step
+    return Json{{"type", "loads.displacement"}, {"on", on}, {"value", {0, 0, displacement}}, {"axes", "z"}, {"rise", at_once}};
+  };
+  Json scene;
+  scene["format"] = "hyperlattice/1";
+  // `stability`: what is measured is the linear answer, also of lattices so soft to shear that any pressure makes them buckle.
+  scene["pipeline"] = {{{"type", options.lattice}, {"spacing", 1}, {"shape", {{"box", {{"low", {0, 0, 0}}, {"high", {n, n, n}}}}}}},
+                       material,
+                       platen("z_min", shortening / 2),
+                       platen("z_max", -shortening / 2),
+                       {{"type", "solvers.static"}, {"tolerance", options.residual}, {"most_cutbacks", 0}, {"stability", false}}};
+  return scene.dump();
+}
+
+double along(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+
+/// The particles at rest, and how far a cube of them has grown along an axis.
+class Cube {
+ public:
+  explicit Cube(const Body& body) : places_(body.particles) {
+    for (Particle p = 0; p < body.particles; ++p) places_[p] = body.position(p);
+  }
+
+  /// All particles moved as if each plane across the axis z approached the middle evenly.
+  std::vector<double> shortened(double strain) const {
+    const auto [low, high] = ends(2);
+    std::vector<double> xyz(3 * places_.size(), 0.0);
+    for (std::size_t p = 0; p < places_.size(); ++p) xyz[3 * p + 2] = -strain * (places_[p].z - (low + high) / 2);
+    return xyz;
+  }
+
+  /// Mean displacement of the upper face less that of the lower one.
+  double growth(int axis, const std::vector<double>& xyz) const {
+    constexpr double nearby = 1e-6;
+    const auto [low, high] = ends(axis);
+    double sum_low = 0, sum_high = 0, count_low = 0, count_high = 0;
+    for (std::size_t p = 0; p < places_.size(); ++p) {
+      const double place = along(places_[p], axis), moved = xyz[3 * p + static_cast<std::size_t>(axis)];
+      if (place < low + nearby) {
+        sum_low += moved;
+        ++count_low;
+      } else if (place > high - nearby) {
+        sum_high += moved;
+        ++count_high;
+      }
+    }
+    return sum_high / count_high - sum_low / count_low;
+  }
+
+ private:
+  std::pair<double, double> ends(int axis) const {
+    double low = infinity, high = -infinity;
+    for (const Vec3& place : places_) {
+      low = std::min(low, along(place, axis));
+      high = std::max(high, along(place, axis));
+    }
+    return {low, high};
+  }
+
+  std::vector<Vec3> places_;
+};
+
+}  // namespace
+
+VirtualTest::VirtualTest(Host& host, Options options)
+    : host_(host), options_(std::move(options)), length_(length_at_rest()), base_young_(compress({}).young) {}
+
+double VirtualTest::length_at_rest() const {
+  const auto scene = read_scene_text(scene_of(options_, {}, 0), host_);
+  const auto model = build_model(*scene);
+  return model->body.highest.z - model->body.lowest.z;
+}
+
+Measured VirtualTest::measure(const calibration::Ratios& ratios) {
+  Measured measured = compress(ratios);
+  measured.modulus_ratio = measured.young / base_young_;
+  return measured;
+}
+
+Measured VirtualTest::compress(const calibration::Ratios& ratios) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto plan = make_plan(read_scene_text(scene_of(options_, ratios, options_.strain * length_), host_), options_.threads);
+  const Model& model = *plan->model;
+  Simulation simulation(model, plan->threads);
+  const Cube cube(model.body);
+  simulation.set_displacements(cube.shortened(options_.strain), {});
+  const RestReport rest = bring_to_rest(*plan, simulation);
+
+  std::vector<double> moved;
+  simulation.displacements(moved);
+  const std::vector<Vec3> pushed = simulation.force_on_load();
+  const double area = options_.particles * options_.particles, force = (pushed.at(1).z - pushed.at(0).z) / 2;
+  Measured measured;
+  measured.poisson = -(cube.growth(0, moved) + cube.growth(1, moved)) / 2 / cube.growth(2, moved);
+  measured.young = force / area / options_.strain / model.materials.front().constants.base_stiffness;
+  measured.particles = model.body.particles;
+  measured.residual = rest.residual;
+  measured.iterations = rest.iterations;
+  measured.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return measured;
+}
+
+}  // namespace hyperlattice

@@ -1,0 +1,13 @@
+// What a solver may know before its stage.
+#pragma once
+
+#include <model/model.hpp>
+
+#include <hyperlattice/solver.hpp>
+
+namespace hyperlattice {
+
+/// Of a stage that begins at `start_time`, s.
+SolverFacts solver_facts(const Model& model, double start_time);
+
+}  // namespace hyperlattice

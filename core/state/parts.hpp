@@ -1,0 +1,116 @@
+// The inside of a Simulation: its blocks and its books. Split by concern: build.cpp, acting.cpp, step.cpp, start.cpp, settle.cpp, breakage.cpp,
+// balance.cpp, restart.cpp.
+#pragma once
+
+#include <process/team.hpp>
+#include <state/block.hpp>
+#include <state/simulation.hpp>
+
+#include <utility>
+#include <vector>
+
+namespace hyperlattice {
+
+inline double component(Vec3 v, int c) { return c == 0 ? v.x : c == 1 ? v.y : v.z; }
+
+inline void set_component(Vec3& v, int c, double value) { (c == 0 ? v.x : c == 1 ? v.y : v.z) = value; }
+
+/// The components of a vector along some axes, the others zero.
+inline Vec3 along(Axes axes, Vec3 v) { return {(axes & 1u) != 0 ? v.x : 0, (axes & 2u) != 0 ? v.y : 0, (axes & 4u) != 0 ? v.z : 0}; }
+
+/// One evaluation of all forces at the present instant, and what is done with them.
+struct Sweep {
+  double before = 0, after = 0;  ///< s: the interval around the instant over which the forces act; loads act by their mean over it
+  double step = 0;               ///< s, of the step in which prescribed particles move; 0: their motion at the instant, as seen from before it
+  double measured = 0;           ///< s, half of the kick that a measurement makes of the acceleration
+};
+
+struct Simulation::Parts {
+  const Model& model;
+  std::unique_ptr<Layout> layout;
+  std::vector<Block> blocks;
+  std::vector<double> particle_masses;  ///< kg; filled when first asked for
+  Team team;
+
+  /// What a load is during a sweep, and what it sees.
+  struct Acting {
+    double mean = 0;          ///< of the factor, over the sweep's interval
+    double next = 0;          ///< factor at the step's end
+    double mean_of_step = 0;  ///< of the factor, from the present instant to the step's end
+    Load::Limit now;          ///< of the factor
+    bool moves = false;       ///< it prescribes motion
+    std::vector<Vec3> displacement, velocity;
+    WatchedMotion motion;
+  };
+  std::vector<Acting> acting;  ///< of each load
+  bool prepares = false;       ///< some load prepares its answers
+
+  double damping = 0, damping_rate = 0, last_step = 0;
+  double time = 0, time_rest = 0;  ///< compensated sum
+  bool time_held = false;
+  std::uint64_t steps = 0;
+  std::vector<Breakage> breakages;
+  struct Ends {
+    const Block *block_a, *block_b;
+    std::uint64_t a, b;
+  };
+  std::vector<Ends> ends;     ///< where the particles of each breakage are stored
+  double failure_energy = 0;  ///< J, dissipated since the start
+  double halted_energy = 0;   ///< J, dissipated where motion was stopped
+  double gravity_unused = 0;  ///< J, work of body accelerations that did not act in full while the body settled
+  bool start_known = false;
+  double start_energy = 0, start_potential = 0, largest_energy = 0;  ///< J
+
+  Parts(const Model& model, int threads);
+
+  // build.cpp
+  void allocate(Block& block, std::size_t number) const;
+  void add_supports(Block& block) const;
+
+  // acting.cpp
+  void prepare_loads(const Sweep& sweep);
+  void watch(const Block& block);
+  void prepare_answers();
+  void prepare_supports(Block& block, const Sweep& sweep) const;
+  void apply_forces(Block& block) const;
+  double prescribed_velocity(const Block& block, const Contribution& part, int axis, const Sweep& sweep) const;
+  void check_factors() const;
+  void check_answers() const;
+
+  // step.cpp
+  void step(double dt);
+  KernelRequest request_for(Block& block, double back, double forward) const;
+
+  // start.cpp
+  void start_prescribed(double dt);
+  void change_step(double dt);
+
+  // breakage.cpp
+  const std::uint8_t* review(Block& block, const AlarmRow& alarm) const;
+  double rate_of(const Block& block, const AlarmRow& alarm, std::size_t n) const;
+  void collect_breakages(double dt);
+  void note_ends(const Breakage& breakage);
+  double energy_of(std::size_t breakage, const Block& block, const Block::Broken& broken, double dt) const;
+  double elongation_now(std::size_t breakage) const;
+
+  // balance.cpp
+  RowSums measure(const Sweep& sweep);
+  RowSums measure_now() { return measure({last_step / 2, 0, 0, last_step / 2}); }
+  void find_start();
+  std::vector<double> work_by_load(double potential) const;
+  double gross_work(double potential) const;
+  Balance balance();
+
+  // Where things are.
+  std::pair<const Block*, std::uint64_t> at(Particle particle) const {
+    const Place place = layout->place(particle);
+    return {&blocks[place.block], place.index};
+  }
+  /// Calls visit(block, index, first particle, count) for all particles in their order.
+  template <class Visit>
+  void for_runs(const Visit& visit) const {
+    layout->for_stretches([&](const Stretch& stretch) { visit(blocks[stretch.block], stretch.index, stretch.first, stretch.count); });
+  }
+};
+
+}  // namespace hyperlattice

@@ -1,0 +1,52 @@
+// The state and its books in an archive. Blocks are saved as they are, so that a run goes on with as many as it began with.
+#include <state/archive.hpp>
+#include <state/parts.hpp>
+
+namespace hyperlattice {
+
+namespace {
+
+template <class T>
+void visit(Archive& archive, const AlignedArray<T>& array) {
+  archive(std::span(array.get(), array.size()));
+}
+
+void visit(Archive& archive, Block& block, int components) {
+  for (int c = 0; c < components; ++c) {
+    archive(block.displacement[c].bytes());
+    archive(block.velocity[c].bytes());
+  }
+  visit(archive, block.alive);
+  visit(archive, block.memory);
+  visit(archive, block.listed.neighbour);
+  archive(block.damped_work);
+  archive(block.supports);
+  archive(block.contributions);
+}
+
+}  // namespace
+
+void Simulation::archive(Archive& archive) {
+  Parts& p = *parts_;
+  archive.same(p.blocks.size(), "the number of blocks");
+  for (Block& block : p.blocks) visit(archive, block, p.model.degrees_of_freedom);
+  archive(p.damping);
+  archive(p.damping_rate);
+  archive(p.last_step);
+  archive(p.time);
+  archive(p.time_rest);
+  archive(p.steps);
+  archive(p.breakages);
+  archive(p.failure_energy);
+  archive(p.halted_energy);
+  archive(p.gravity_unused);
+  archive(p.start_known);
+  archive(p.start_energy);
+  archive(p.start_potential);
+  archive(p.largest_energy);
+  if (!archive.restores()) return;
+  p.ends.clear();
+  for (const Breakage& breakage : p.breakages) p.note_ends(breakage);
+}
+
+}  // namespace hyperlattice

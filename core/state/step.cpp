@@ -1,0 +1,81 @@
+// One step: ghost planes, loads, the kernel on every block, then the books of what broke.
+#include <model/kernel_calls.hpp>
+#include <state/parts.hpp>
+
+namespace hyperlattice {
+
+void Simulation::Parts::step(double dt) {
+  if (dt != last_step) change_step(dt);
+  const Sweep sweep{last_step / 2, dt / 2, dt, 0};
+  prepare_loads(sweep);
+  check_factors();
+  const auto kernel = damping != 0 || damping_rate != 0 ? model.kernels.step_damped : model.kernels.step;
+  struct Reviewer {
+    const Parts* parts;
+    Block* block;
+  };
+  team.for_each(blocks.size(), [&](std::size_t b) {
+    layout->exchange(blocks, blocks[b]);
+    watch(blocks[b]);
+  });
+  if (prepares) prepare_answers();
+  team.for_each(blocks.size(), [&](std::size_t b) {
+    Block& block = blocks[b];
+    prepare_supports(block, sweep);
+    Reviewer reviewer{this, &block};
+    KernelRequest request = request_for(block, sweep.before, sweep.after);
+    request.self = &reviewer;
+    request.review = [](void* self, const AlarmRow& alarm) noexcept {
+      return PluginCall::answer(static_cast<const std::uint8_t*>(nullptr), [&] {
+        const auto* asked = static_cast<const Reviewer*>(self);
+        return asked->parts->review(*asked->block, alarm);
+      });
+    };
+    call_kernel(model, kernel, request);
+    for (Contribution& part : block.contributions) {
+      const Support& support = block.supports[part.support];
+      part.work += part.factor * dot(part.force, support.path);
+      if (support.axes != 0) part.held_work += part.factor * dot(part.force, along(support.axes, support.path));
+    }
+  });
+  check_answers();
+  collect_breakages(dt);
+  if (!time_held) {
+    const double added = dt - time_rest, sum = time + added;
+    time_rest = (sum - time) - added;
+    time = sum;
+  }
+  last_step = dt;
+  ++steps;
+}
+
+KernelRequest Simulation::Parts::request_for(Block& block, double back, double forward) const {
+  KernelRequest request;
+  layout->describe(block, request);
+  request.rows = block.rows.data();
+  for (int c = 0; c < model.degrees_of_freedom; ++c) {
+    request.displacement[c] = block.displacement[c].get();
+    request.velocity[c] = block.velocity[c].get();
+  }
+  request.alive = block.alive.get();
+  request.material = block.material.get();
+  request.neighbours = model.neighbours;
+  request.springs = model.springs.data();
+  request.mass = model.masses.data();
+  request.alpha = model.alphas.data();
+  request.materials = static_cast<std::uint32_t>(model.materials.size());
+  request.spring_classes = model.body.grid.spring_classes;
+  request.membrane_distance = model.body.grid.membrane_distance;
+  request.back = back;
+  request.forward = forward;
+  request.damping = damping;
+  request.damping_rate = damping_rate;
+  request.acceleration = model.acceleration;
+  request.supports = block.supports.data();
+  request.scratch = block.scratch.get();
+  request.damped_work = block.damped_work.data();
+  request.sums = block.sums.data();
+  return request;
+}
+
+}  // namespace hyperlattice
