@@ -28,7 +28,7 @@ bool by_paper(const CalibrationChoice& choice, const LatticeGeometry& geometry, 
   Faults unknown;  // reported by resolve()
   const auto membrane = membrane_named(choice.membrane.membrane, unknown);
   if (!membrane) return false;
-  if (const std::string instead = paper_fit::instead(choice.lattice, *membrane); !instead.empty()) {
+  if (const std::string instead = paper_fit::instead(geometry, *membrane); !instead.empty()) {
     faults.add("--parameters", choice.parameters, instead);
     return false;
   }

@@ -8,7 +8,6 @@ namespace hyperlattice {
 
 /// As written on a command line; what was not given is empty.
 struct CalibrationChoice {
-  std::string lattice = "lattices.cubic";
   MembraneChoice membrane;
   std::optional<double> young;             ///< Pa
   std::optional<double> spacing;           ///< l, m

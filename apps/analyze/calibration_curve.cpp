@@ -48,7 +48,7 @@ Curve calibration_curve(const CurveChoice& choice, const CalibrationChoice& latt
   Faults none;
   Curve curve;
   curve.membrane = *membrane_named(lattice.membrane.membrane, none);
-  curve.has_paper_fit = paper_fit::instead(lattice.lattice, curve.membrane).empty();
+  curve.has_paper_fit = paper_fit::instead(geometry, curve.membrane).empty();
   std::vector<double> lambdas, poissons, moduli;
   for (int n = 0; n < choice.points; ++n) {
     CurvePoint point;

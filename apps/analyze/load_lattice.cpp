@@ -3,6 +3,7 @@
 #include <scene/option_reader.hpp>
 #include <scene/settings.hpp>
 
+#include <spdlog/fmt/fmt.h>
 #include <nlohmann/json.hpp>
 
 #include <stdexcept>
@@ -21,7 +22,8 @@ const Component& find_lattice(Host& host, const std::string& type) {
   for (const std::string& known : host.known_types())
     if (known.starts_with("lattices.")) lattices.push_back(known);
   const std::string near = nearest(type, lattices);
-  throw InputError({{where, type, "a lattice that can be found, such as lattices.cubic" + (near.empty() ? "" : "; did you mean '" + near + "'?")}});
+  const std::string found = lattices.empty() ? "" : fmt::format(": {}", fmt::join(lattices, ", "));
+  throw InputError({{where, type, "a lattice that can be found" + found + (near.empty() ? "" : "; did you mean '" + near + "'?")}});
 }
 
 }  // namespace

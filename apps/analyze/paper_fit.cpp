@@ -1,5 +1,7 @@
 #include <analyze/paper_fit.hpp>
 
+#include <hyperlattice/elastic_solid.hpp>
+
 #include <spdlog/fmt/fmt.h>
 
 namespace hyperlattice::paper_fit {
@@ -13,9 +15,9 @@ const double most_lambda = paper_lambda(paper_poisson_low);
 
 }  // namespace
 
-std::string instead(const std::string& lattice, Membrane membrane) {
-  if (membrane == Membrane::I_m && lattice == "lattices.cubic") return "";
-  return "closed_form: the paper's polynomials are of lattices.cubic with membrane I-m";
+std::string instead(const LatticeGeometry& geometry, Membrane membrane) {
+  if (membrane == Membrane::I_m && elastic_solid::is_cubic_of_18(facts_of(geometry))) return "";
+  return "closed_form: the paper's polynomials are of the simple cubic lattice with membrane I-m";
 }
 
 std::string range_of_poisson(double poisson) {

@@ -10,28 +10,6 @@ namespace hyperlattice {
 
 namespace {
 
-/// The cube as a scene, in units of its own: spacing 1 m, E 1 Pa.
-std::string scene_of(const VirtualTest::Options& options, const calibration::Ratios& ratios, double shortening) {
-  const int n = options.particles;
-  Json material = {{"type", "materials.elastic"}, {"young", 1}, {"density", 1}, {"membrane", "free"}};
-  material["k_alpha"] = ratios.clamped ? Json("infinite") : Json(ratios.alpha);
-  material["k_beta"] = ratios.beta;
-  material["k_gamma"] = ratios.gamma;
-  const auto platen = [](const char* on, double displacement) {
-    const double at_once = 1e-9;  // a fraction of any step
-    return Json{{"type", "loads.displacement"}, {"on", on}, {"value", {0, 0, displacement}}, {"axes", "z"}, {"rise", at_once}};
-  };
-  Json scene;
-  scene["format"] = "hyperlattice/1";
-  // `stability`: what is measured is the linear answer, also of lattices so soft to shear that any pressure makes them buckle.
-  scene["pipeline"] = {{{"type", options.lattice}, {"spacing", 1}, {"shape", {{"box", {{"low", {0, 0, 0}}, {"high", {n, n, n}}}}}}},
-                       material,
-                       platen("z_min", shortening / 2),
-                       platen("z_max", -shortening / 2),
-                       {{"type", "solvers.static"}, {"tolerance", options.residual}, {"most_cutbacks", 0}, {"stability", false}}};
-  return scene.dump();
-}
-
 double along(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
 /// The particles at rest, and how far a cube of them has grown along an axis.
@@ -82,12 +60,34 @@ class Cube {
 
 }  // namespace
 
-VirtualTest::VirtualTest(Host& host, Options options)
-    : host_(host), options_(std::move(options)), length_(length_at_rest()), base_young_(compress({}).young) {}
+VirtualTest::VirtualTest(Host& host, Components components, Options options)
+    : host_(host), components_(std::move(components)), options_(std::move(options)), length_(length_at_rest()), base_young_(compress({}).young) {}
+
+/// The cube, in units of its own: spacing 1 m, E 1 Pa.
+std::string VirtualTest::scene(const calibration::Ratios& ratios, double shortening) const {
+  const int n = options_.particles;
+  Json material = {{"type", components_.material}, {"young", 1}, {"density", 1}, {"membrane", "free"}};
+  material["k_alpha"] = ratios.clamped ? Json("infinite") : Json(ratios.alpha);
+  material["k_beta"] = ratios.beta;
+  material["k_gamma"] = ratios.gamma;
+  const auto platen = [&](const char* on, double displacement) {
+    const double at_once = 1e-9;  // a fraction of any step
+    return Json{{"type", components_.displacement}, {"on", on}, {"value", {0, 0, displacement}}, {"axes", "z"}, {"rise", at_once}};
+  };
+  Json scene;
+  scene["format"] = "hyperlattice/1";
+  // `stability`: what is measured is the linear answer, also of lattices so soft to shear that any pressure makes them buckle.
+  scene["pipeline"] = {{{"type", options_.lattice}, {"spacing", 1}, {"shape", {{"box", {{"low", {0, 0, 0}}, {"high", {n, n, n}}}}}}},
+                       material,
+                       platen("z_min", shortening / 2),
+                       platen("z_max", -shortening / 2),
+                       {{"type", components_.solver}, {"tolerance", options_.residual}, {"most_cutbacks", 0}, {"stability", false}}};
+  return scene.dump();
+}
 
 double VirtualTest::length_at_rest() const {
-  const auto scene = read_scene_text(scene_of(options_, {}, 0), host_);
-  const auto model = build_model(*scene);
+  const auto read = read_scene_text(scene({}, 0), host_);
+  const auto model = build_model(*read);
   return model->body.highest.z - model->body.lowest.z;
 }
 
@@ -99,7 +99,7 @@ Measured VirtualTest::measure(const calibration::Ratios& ratios) {
 
 Measured VirtualTest::compress(const calibration::Ratios& ratios) {
   const auto start = std::chrono::steady_clock::now();
-  const auto plan = make_plan(read_scene_text(scene_of(options_, ratios, options_.strain * length_), host_), options_.threads);
+  const auto plan = make_plan(read_scene_text(scene(ratios, options_.strain * length_), host_), options_.threads);
   const Model& model = *plan->model;
   Simulation simulation(model, plan->threads);
   const Cube cube(model.body);

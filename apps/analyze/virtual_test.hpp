@@ -29,8 +29,14 @@ struct Measured : ElasticPair {
 /// displacement of the lateral faces over the mean inward one of the end faces, all over all particles of a face.
 class VirtualTest {
  public:
+  /// Types of what the scene is made of besides the lattice.
+  struct Components {
+    std::string material;      ///< an elastic solid: young, density, membrane free with k_alpha, k_beta, k_gamma
+    std::string displacement;  ///< a load that leads particles: on, value, axes, rise
+    std::string solver;        ///< finds a state of rest: tolerance, most_cutbacks, stability
+  };
   struct Options {
-    std::string lattice = "lattices.cubic";
+    std::string lattice;     ///< its type
     int particles = 20;      ///< N, along an edge; of lattices with several particles in a cubic cell, cells
     double strain = 1e-3;    ///< by which the platens shorten the distance of the end layers: (N - 1) l in the cubic lattice
     double residual = 1e-8;  ///< at which the cube counts as at rest
@@ -39,15 +45,17 @@ class VirtualTest {
 
   /// Measures the lattice without a membrane, to compare others with. Throws as read_scene and build_model do; RunError if a cube does not come to
   /// rest.
-  VirtualTest(Host& host, Options options);
+  VirtualTest(Host& host, Components components, Options options);
 
   Measured measure(const calibration::Ratios& ratios);
 
  private:
+  std::string scene(const calibration::Ratios& ratios, double shortening) const;
   double length_at_rest() const;
   Measured compress(const calibration::Ratios& ratios);
 
   Host& host_;
+  Components components_;
   Options options_;
   double length_;
   double base_young_;

@@ -32,9 +32,10 @@ void check_family(Trial& trial) {
 
 }  // namespace
 
-std::vector<Check> check(const Component& component, Host& host, const std::filesystem::path& pictures) {
+std::vector<Check> check(const Component& component, Host& host, const Surroundings& around, const std::filesystem::path& pictures) {
   std::vector<Check> checks;
-  Trial trial(component, host, pictures, checks);
+  const Scenes scenes(host, around);
+  Trial trial(component, scenes, pictures, checks);
   trial.example = example_stage(component.info);
   if (const std::string option = missing_file(component.info, trial.example); !option.empty())
     trial.check("example", [&] { return not_applicable("it needs a file, option " + option + ": test it in a scene of its own"); });

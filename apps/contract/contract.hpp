@@ -20,8 +20,18 @@ struct Check {
   std::string detail;  ///< figures, what is wrong, or why it does not apply
 };
 
-/// Runs the component through its family's contract. `host` must also find the built-in components that stand around it in the scenes.
+/// The types of the components that stand around the one under test in the scenes.
+struct Surroundings {
+  std::string grid;          ///< a structured lattice of cubic cells, with the options spacing, shape, boundary
+  std::string list;          ///< a lattice that is a list of springs: spacing, shape
+  std::string material;      ///< an elastic solid: young, poisson, density, membrane
+  std::string failure;       ///< springs that break at an elongation: limit
+  std::string displacement;  ///< a load that leads particles: on, value, axes, rise
+  std::string steps;         ///< a solver that steps in time: end_time
+};
+
+/// Runs the component through its family's contract. `host` must also find those around it.
 /// `pictures`: folder for <type>.svg of those that have a picture, made if need be; empty: none is drawn. Never throws for what a component does.
-std::vector<Check> check(const Component& component, Host& host, const std::filesystem::path& pictures = {});
+std::vector<Check> check(const Component& component, Host& host, const Surroundings& around, const std::filesystem::path& pictures = {});
 
 }  // namespace hyperlattice::contract

@@ -1,6 +1,5 @@
 // What every criterion must do: leave springs below its alarm alone, break one where it says so, and never let it heal.
 #include <contract/families.hpp>
-#include <contract/scenes.hpp>
 #include <scene/stage_call.hpp>
 
 #include <hyperlattice/failure.hpp>
@@ -155,8 +154,10 @@ void check_failure(Trial& trial) {
     material["failure"] = trial.example;
     return material;
   };
-  const auto pair = plan_of(trial.host, {cubic_box(2, 1, 1), with(elastic())}), cell = plan_of(trial.host, {cubic_box(2, 2, 2), with(elastic())});
-  const auto block = plan_of(trial.host, {cubic_box(5, 4, 6), with(elastic(usual_membrane))});
+  const Scenes& scenes = trial.scenes;
+  const auto pair = scenes.plan_of({scenes.grid_box(2, 1, 1), with(scenes.material())});
+  const auto cell = scenes.plan_of({scenes.grid_box(2, 2, 2), with(scenes.material())});
+  const auto block = scenes.plan_of({scenes.grid_box(5, 4, 6), with(scenes.material(usual_membrane))});
   const Criterion all(*cell->model), one(*pair->model);
   const std::optional<double> threshold = one.threshold(one.springs().front());
 

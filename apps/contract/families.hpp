@@ -1,8 +1,7 @@
-// The checks of each family, a file each. What they share: the component with its example, and where findings go.
+// The checks of each family, a file each. What they share: the component with its example, the scenes around it, and where findings go.
 #pragma once
 
-#include <contract/contract.hpp>
-#include <scene/json.hpp>
+#include <contract/scenes.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -22,11 +21,11 @@ inline Finding not_applicable(std::string reason) { return {Verdict::not_applica
 /// A component under test.
 class Trial {
  public:
-  Trial(const Component& component, Host& host, const std::filesystem::path& pictures, std::vector<Check>& checks)
-      : component(component), host(host), pictures(pictures), checks_(checks) {}
+  Trial(const Component& component, const Scenes& scenes, const std::filesystem::path& pictures, std::vector<Check>& checks)
+      : component(component), scenes(scenes), pictures(pictures), checks_(checks) {}
 
   const Component& component;
-  Host& host;
+  const Scenes& scenes;
   const std::filesystem::path& pictures;
   Json example;  ///< the component's stage, or a material's failure
 

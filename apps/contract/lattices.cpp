@@ -1,6 +1,5 @@
 // What every lattice must do: have the modulus and the Poisson ratio that are asked of it, and no force inside when it is strained evenly.
 #include <contract/families.hpp>
-#include <contract/scenes.hpp>
 #include <model/spring_lattice.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -21,10 +20,10 @@ Json in_a_box(const Trial& trial) {
   return lattice;
 }
 
-Finding calibration(Host& host, const Json& lattice, const char* membrane) {
+Finding calibration(const Scenes& scenes, const Json& lattice, const char* membrane) {
   std::unique_ptr<Plan> plan;
   try {
-    plan = plan_of(host, {lattice, elastic(membrane)});
+    plan = scenes.plan_of({lattice, scenes.material(membrane)});
   } catch (const InputError& error) {
     return not_applicable(error.faults().front().expected);
   }
@@ -80,10 +79,10 @@ Finding books(const Model& model) {
 
 void check_lattice(Trial& trial) {
   const Json lattice = in_a_box(trial);
-  const auto plan = plan_of(trial.host, {lattice, elastic()});
+  const auto plan = trial.scenes.plan_of({lattice, trial.scenes.material()});
   const Model& model = *plan->model;
-  trial.check("calibration without a membrane", [&] { return calibration(trial.host, lattice, "none"); });
-  trial.check("calibration with a membrane", [&] { return calibration(trial.host, lattice, usual_membrane); });
+  trial.check("calibration without a membrane", [&] { return calibration(trial.scenes, lattice, "none"); });
+  trial.check("calibration with a membrane", [&] { return calibration(trial.scenes, lattice, usual_membrane); });
   trial.check("patch test", [&] { return patch(model); });
   trial.check("books of energy", [&] { return books(model); });
   trial.check("same bits", [&] {

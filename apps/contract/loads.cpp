@@ -1,6 +1,5 @@
 // What every load must do: have a factor at all times, and give to the body's energy what the books say it gave.
 #include <contract/families.hpp>
-#include <contract/scenes.hpp>
 
 #include <spdlog/fmt/fmt.h>
 
@@ -36,7 +35,7 @@ Finding work(const Model& model) {
 }  // namespace
 
 void check_load(Trial& trial) {
-  const auto plan = plan_of(trial.host, {cubic_box(6, 5, 7), elastic(usual_membrane), trial.example});
+  const auto plan = trial.scenes.plan_of({trial.scenes.grid_box(6, 5, 7), trial.scenes.material(usual_membrane), trial.example});
   const Model& model = *plan->model;
   trial.check("factor", [&] { return factor(model); });
   trial.check("work accounting", [&] { return work(model); });

@@ -2,7 +2,6 @@
 // turned, and the kernels made of it keep the books and the bits.
 #include <contract/families.hpp>
 #include <contract/lone_spring.hpp>
-#include <contract/scenes.hpp>
 #include <model/kernel_calls.hpp>
 
 #include <hyperlattice/files.hpp>
@@ -185,9 +184,9 @@ Finding restart(const Model& model, const LoneSpring& spring) {
 }
 
 /// What a scene with the material is refused for; empty: it is not.
-std::string refusal_of(Host& host, const std::vector<Json>& stages, std::unique_ptr<Plan>& plan, const char* precision = "double") {
+std::string refusal_of(const Scenes& scenes, const std::vector<Json>& stages, std::unique_ptr<Plan>& plan, const char* precision = "double") {
   try {
-    plan = plan_of(host, stages, 1, precision);
+    plan = scenes.plan_of(stages, 1, precision);
   } catch (const InputError& error) {
     return "refused: " + error.faults().front().expected;
   }
@@ -196,14 +195,14 @@ std::string refusal_of(Host& host, const std::vector<Json>& stages, std::unique_
 
 Finding in_floats(const Trial& trial, const LoneSpring& spring) {
   std::unique_ptr<Plan> plan;
-  if (std::string refused = refusal_of(trial.host, {cubic_box(2, 1, 1), trial.example}, plan, "float"); !refused.empty())
+  if (std::string refused = refusal_of(trial.scenes, {trial.scenes.grid_box(2, 1, 1), trial.example}, plan, "float"); !refused.empty())
     return not_applicable(std::move(refused));
   return kernels_follow_the_law(*plan->model, spring, 1e-5);
 }
 
 Finding in_a_list(const Trial& trial, const LoneSpring& spring) {
   std::unique_ptr<Plan> plan;
-  if (std::string refused = refusal_of(trial.host, {random_box(5, 4, 6), trial.example}, plan); !refused.empty())
+  if (std::string refused = refusal_of(trial.scenes, {trial.scenes.listed_box(5, 4, 6), trial.example}, plan); !refused.empty())
     return not_applicable(std::move(refused));
   const Finding kept = books(*plan->model, spring), same = same_bits(*plan->model, spring);
   return passes_if(kept.verdict == Verdict::passed && same.verdict == Verdict::passed, kept.detail + "; the same bits " + same.detail);
@@ -223,8 +222,8 @@ Finding path_and_picture(const Trial& trial, const LoneSpring& spring) {
 }
 
 /// What a cell of a large body takes until nothing is left of it, pulled along x without contraction.
-Finding fracture_energy(Host& host, const Json& material) {
-  const auto plan = plan_of(host, {cubic_box(1, 1, 1, "cells"), material});
+Finding fracture_energy(const Scenes& scenes, const Json& material) {
+  const auto plan = scenes.plan_of({scenes.grid_box(1, 1, 1, "cells"), material});
   const Model& model = *plan->model;
   const LoneSpring spring(model);
   const double piece = spring.reach() / 100, time_step = spring.period() / 10, area = model.body.grid.spacing * model.body.grid.spacing;
@@ -256,8 +255,9 @@ Finding fracture_energy(Host& host, const Json& material) {
 }  // namespace
 
 void check_material(Trial& trial) {
-  const auto pair = plan_of(trial.host, {cubic_box(2, 1, 1), trial.example});
-  const auto cell = plan_of(trial.host, {cubic_box(2, 2, 2), trial.example}), block = plan_of(trial.host, {cubic_box(5, 4, 6), trial.example});
+  const Scenes& scenes = trial.scenes;
+  const auto pair = scenes.plan_of({scenes.grid_box(2, 1, 1), trial.example}), cell = scenes.plan_of({scenes.grid_box(2, 2, 2), trial.example});
+  const auto block = scenes.plan_of({scenes.grid_box(5, 4, 6), trial.example});
   const LoneSpring spring(*pair->model);
   trial.check("one-spring path", [&] { return path_and_picture(trial, spring); });
   trial.check("force is the derivative of the energy", [&] { return force_from_energy(spring); });
@@ -266,7 +266,7 @@ void check_material(Trial& trial) {
   trial.check("kernels follow the law", [&] { return kernels_follow_the_law(*pair->model, spring, 1e-9); });
   trial.check("in floats", [&] { return in_floats(trial, spring); });
   trial.check("objectivity", [&] { return objective(*cell->model, spring); });
-  trial.check("fracture energy", [&] { return fracture_energy(trial.host, trial.example); });
+  trial.check("fracture energy", [&] { return fracture_energy(scenes, trial.example); });
   trial.check("books of energy", [&] { return books(*block->model, spring); });
   trial.check("same bits", [&] { return same_bits(*block->model, spring); });
   trial.check("in a list", [&] { return in_a_list(trial, spring); });

@@ -1,7 +1,6 @@
 // What every writer and probe must do: whole files and nothing else, numbers that are numbers, and on a full disk a sentence in place of half a file.
 #include <base/csv.hpp>
 #include <contract/families.hpp>
-#include <contract/scenes.hpp>
 #include <contract/small_disk.hpp>
 #include <run/outputs.hpp>
 
@@ -88,10 +87,8 @@ class Watched {
   std::unique_ptr<Outputs> outputs_;
 };
 
-std::unique_ptr<Plan> plan_with(Trial& trial, int threads = 1) {
-  Json material = elastic(usual_membrane);
-  material["failure"] = {{"type", "failures.elongation"}, {"limit", 1e-7}};
-  return plan_of(trial.host, {cubic_box(6, 5, 4), material, trial.example}, threads);
+std::unique_ptr<Plan> plan_with(const Trial& trial, int threads = 1) {
+  return trial.scenes.plan_of({trial.scenes.grid_box(6, 5, 4), trial.scenes.brittle(usual_membrane, 1e-7), trial.example}, threads);
 }
 
 /// What three frames leave.

@@ -17,20 +17,33 @@ Json box(Json lattice, int nx, int ny, int nz) {
 }
 }  // namespace
 
-Json cubic_box(int nx, int ny, int nz, const char* boundary) { return box({{"type", "lattices.cubic"}, {"boundary", boundary}}, nx, ny, nz); }
-Json random_box(int nx, int ny, int nz) { return box({{"type", "lattices.random"}}, nx, ny, nz); }
+Json Scenes::grid_box(int nx, int ny, int nz, const char* boundary) const {
+  return box({{"type", around_.grid}, {"boundary", boundary}}, nx, ny, nz);
+}
 
-Json elastic(const char* membrane) {
-  Json material{{"type", "materials.elastic"}, {"young", 1e10}, {"density", 2500}, {"membrane", membrane}};
+Json Scenes::listed_box(int nx, int ny, int nz) const { return box({{"type", around_.list}}, nx, ny, nz); }
+
+Json Scenes::material(const char* membrane) const {
+  Json material{{"type", around_.material}, {"young", 1e10}, {"density", 2500}, {"membrane", membrane}};
   if (std::string_view(membrane) != "none") material["poisson"] = 0.1;
   return material;
 }
 
-std::unique_ptr<Plan> plan_of(Host& host, const std::vector<Json>& stages, int threads, const char* precision) {
+Json Scenes::brittle(const char* membrane, double limit) const {
+  Json brittle = material(membrane);
+  brittle["failure"] = {{"type", around_.failure}, {"limit", limit}};
+  return brittle;
+}
+
+Json Scenes::platen(const char* face, double way) const {
+  return {{"type", around_.displacement}, {"on", face}, {"value", {0, 0, way}}, {"axes", "z"}, {"rise", 1e-5}};
+}
+
+std::unique_ptr<Plan> Scenes::plan_of(const std::vector<Json>& stages, int threads, const char* precision) const {
   Json scene{{"format", "hyperlattice/1"}, {"title", "contract"}, {"precision", precision}, {"pipeline", stages}};
   const auto is_solver = [](const Json& stage) { return stage.at("type").get<std::string>().starts_with("solvers."); };
-  if (std::none_of(stages.begin(), stages.end(), is_solver)) scene["pipeline"].push_back({{"type", "solvers.explicit"}, {"end_time", 1e-3}});
-  return make_plan(read_scene_text(scene.dump(), host), threads);
+  if (std::none_of(stages.begin(), stages.end(), is_solver)) scene["pipeline"].push_back({{"type", around_.steps}, {"end_time", 1e-3}});
+  return make_plan(read_scene_text(scene.dump(), host_), threads);
 }
 
 std::vector<double> noise(std::size_t count, double amplitude, std::uint64_t seed) {

@@ -1,6 +1,7 @@
-// The small scenes that a component under test stands in: built-in components around it, in millimetres.
+// The small scenes that a component under test stands in, in millimetres, and what their bodies do.
 #pragma once
 
+#include <contract/contract.hpp>
 #include <plan/plan.hpp>
 #include <scene/json.hpp>
 #include <state/archive.hpp>
@@ -12,20 +13,36 @@
 
 namespace hyperlattice::contract {
 
-/// A box of that many cells of the cubic lattice, 1 mm wide, its low corner at the origin.
-Json cubic_box(int nx, int ny, int nz, const char* boundary = "particles");
-
-/// The same box of a random lattice, which is a list of springs.
-Json random_box(int nx, int ny, int nz);
-
-/// An elastic material of 10 GPa and 2500 kg/m3 with a membrane; none: nu is 1/4 in the cubic lattice.
-Json elastic(const char* membrane = "none");
-
 /// The membrane that a body has whose material is not what is tested: springs of all kinds, a Poisson ratio of 0.1.
 inline constexpr const char* usual_membrane = "I-m";
 
-/// Plans a scene of these stages, for the explicit solver if there is none. InputError with the faults.
-std::unique_ptr<Plan> plan_of(Host& host, const std::vector<Json>& stages, int threads = 1, const char* precision = "double");
+/// Makes stages of the components around, and plans of stages.
+class Scenes {
+ public:
+  Scenes(Host& host, const Surroundings& around) : host_(host), around_(around) {}
+
+  /// A box of that many cells of the grid, 1 mm wide, its low corner at the origin.
+  Json grid_box(int nx, int ny, int nz, const char* boundary = "particles") const;
+
+  /// The same box of the list.
+  Json listed_box(int nx, int ny, int nz) const;
+
+  /// Of 10 GPa and 2500 kg/m3 with a membrane; none: with the Poisson ratio that the lattice has.
+  Json material(const char* membrane = "none") const;
+
+  /// The same, with springs that break at that elongation, m.
+  Json brittle(const char* membrane, double limit) const;
+
+  /// Leads a face along z that far, m, within 0.01 ms.
+  Json platen(const char* face, double way) const;
+
+  /// Plans a scene of these stages, stepped in time if there is no solver. InputError with the faults.
+  std::unique_ptr<Plan> plan_of(const std::vector<Json>& stages, int threads = 1, const char* precision = "double") const;
+
+ private:
+  Host& host_;
+  const Surroundings& around_;
+};
 
 /// Numbers drawn evenly from [-amplitude, amplitude], the same in every run.
 std::vector<double> noise(std::size_t count, double amplitude, std::uint64_t seed = 1);

@@ -1,6 +1,5 @@
 // What every solver must do: keep to the stable step that it states, come to its end, and not depend on the number of threads.
 #include <contract/families.hpp>
-#include <contract/scenes.hpp>
 #include <engine/stage_calls.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -12,11 +11,8 @@ namespace hyperlattice::contract {
 namespace {
 
 /// A bar held at its low end and shortened from the other.
-std::vector<Json> pressed_bar() {
-  const auto platen = [](const char* on, double way) {
-    return Json{{"type", "loads.displacement"}, {"on", on}, {"value", {0, 0, way}}, {"axes", "z"}, {"rise", 1e-5}};
-  };
-  return {cubic_box(4, 4, 8), elastic(usual_membrane), platen("z_min", 0), platen("z_max", -1e-6)};
+std::vector<Json> pressed_bar(const Scenes& scenes) {
+  return {scenes.grid_box(4, 4, 8), scenes.material(usual_membrane), scenes.platen("z_min", 0), scenes.platen("z_max", -1e-6)};
 }
 
 struct Solved {
@@ -68,9 +64,9 @@ Finding comes_to_its_end(const SolverPlan& plan, const Solved& solved) {
 }  // namespace
 
 void check_solver(Trial& trial) {
-  std::vector<Json> stages = pressed_bar();
+  std::vector<Json> stages = pressed_bar(trial.scenes);
   stages.push_back(trial.example);
-  const auto plan = plan_of(trial.host, stages, 1), with_three = plan_of(trial.host, stages, 3);
+  const auto plan = trial.scenes.plan_of(stages, 1), with_three = trial.scenes.plan_of(stages, 3);
   trial.check("stable step", [&] { return stable(plan->stages.front().plan); });
   std::optional<Solved> solved;
   trial.check("comes to its end", [&] {

@@ -27,8 +27,8 @@ void check(const Arguments& arguments) {
   const bool needs = m.poisson || m.lambda || m.k_alpha || m.k_beta || m.k_gamma || !arguments.dispersion.empty();
   if (m.membrane.empty() && (needs || (arguments.crystals.empty() && arguments.plot.empty())))
     faults.add("--membrane", "", "a membrane: none, I, II, III, IV, I-m or free");
-  if (arguments.lattice != "lattices.cubic" && !(arguments.crystals.empty() && arguments.plot.empty()))
-    faults.add("--lattice", arguments.lattice, "lattices.cubic, the one whose crystals are known");
+  if (arguments.lattice != bundled::cubic && !(arguments.crystals.empty() && arguments.plot.empty()))
+    faults.add("--lattice", arguments.lattice, std::string(bundled::cubic) + ", the one whose crystals are known");
   faults.throw_if_any();
 }
 

@@ -57,7 +57,7 @@ int calibrate_curve(const Arguments& a, Host& host, const LatticeGeometry& geome
   const VirtualTest::Options options = a.virtual_test();
   check_curve(choice, a.choice, geometry);
   std::optional<VirtualTest> virtual_test;
-  if (a.measure) virtual_test.emplace(host, options);
+  if (a.measure) virtual_test.emplace(host, bundled::virtual_test, options);
   const Curve curve = calibration_curve(choice, a.choice, geometry, virtual_test ? &*virtual_test : nullptr);
   if (!a.plot.empty()) draw_svg(a.plot, curve_script(curve, options), 1000, 460);
   Json json = {{"lattice", a.lattice.lattice}};
@@ -87,7 +87,6 @@ int calibrate_family(const Arguments& a, Host& host) {
 
 int calibrate(Arguments a) {
   check(a);
-  a.choice.lattice = a.lattice.lattice;
   a.choice.membrane = a.lattice.membrane;
   Host host;
   if (!a.each.empty()) return calibrate_family(a, host);
@@ -103,7 +102,7 @@ int calibrate(Arguments a) {
   std::string text = calibration_text(found);
   if (a.measure) {
     const VirtualTest::Options options = a.virtual_test();
-    const Measured measured = VirtualTest(host, options).measure(found.chosen.ratios);
+    const Measured measured = VirtualTest(host, bundled::virtual_test, options).measure(found.chosen.ratios);
     json["measured"] = measured_json(measured, options);
     text += measured_text(measured, options, found.infinite);
   }

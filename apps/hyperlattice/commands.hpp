@@ -1,6 +1,8 @@
 // The commands of the program, one file each. A command declares its arguments, and acts when it was the one named.
 #pragma once
 
+#include "components.hpp"
+
 #include <analyze/membrane_choice.hpp>
 #include <plan/plan.hpp>
 
@@ -60,7 +62,7 @@ struct SceneArguments {
 
 /// What `analyze` and `calibrate` are both told.
 struct LatticeArguments {
-  std::string lattice = "lattices.cubic";
+  std::string lattice = bundled::cubic;
   std::vector<std::string> options;
   MembraneChoice membrane;
 

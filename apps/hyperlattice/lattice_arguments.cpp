@@ -4,7 +4,7 @@
 namespace hyperlattice {
 
 void LatticeArguments::declare(CLI::App& command) {
-  command.add_option("--lattice", lattice, "a lattice component (default: lattices.cubic)");
+  command.add_option("--lattice", lattice, std::string("a lattice component (default: ") + bundled::cubic + ")");
   command.add_option("--option", options, "an option of the lattice component as name=value, such as coordination=13.2; may be repeated");
   command.add_option("--membrane", membrane.membrane, "none, I, II, III, IV, I-m, or free with the ratios below");
   command.add_option("--poisson", membrane.poisson, "Poisson ratio along [100]; gives lambda");

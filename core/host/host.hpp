@@ -14,7 +14,7 @@ namespace hyperlattice {
 /// A component and where it comes from. Lives as long as the process.
 struct Component {
   ComponentInfo info;
-  std::string plugin;          ///< "lattices.cubic": the file's name without its suffix
+  std::string plugin;          ///< "family.name": the file's name without its suffix
   std::string version;         ///< the plugin's
   std::filesystem::path path;  ///< of its library, absolute
   std::string type() const { return std::string(info.name); }

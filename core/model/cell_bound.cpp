@@ -1,6 +1,7 @@
 // Waves of the endless lattice do not bound those of a body of cells: at its edges and corners a particle has less mass, but its springs help
 // each other less than inside, where they pull from all sides.
 #include <model/critical_step.hpp>
+#include <numerics/symmetric_eigen.hpp>
 
 #include <Eigen/Dense>
 
@@ -40,7 +41,7 @@ double stiffest(const Model& model, std::uint8_t material) {
   for (int n = 0; n < corners && size == 4; ++n) stiffness(size * n + 3, size * n + 3) += 2 * model.alphas[material] / corners;
   const Eigen::VectorXd root = mass.cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = root.asDiagonal() * stiffness * root.asDiagonal();
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+  return numerics::SymmetricEigen<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <model/stability.hpp>
 #include <model/zone.hpp>
+#include <numerics/symmetric_eigen.hpp>
 
 #include <Eigen/Dense>
 
@@ -35,7 +36,7 @@ double waviness(const InfiniteLattice& lattice, Vec3 q) {
 
 std::optional<Instability> find_instability(const InfiniteLattice& lattice, Sector sector) {
   if (sector == Sector::opposed && lattice.membrane == Membrane::none) return std::nullopt;  // two layers that do not know of each other
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> strains(homogeneous(lattice));
+  const numerics::SymmetricEigen<Eigen::MatrixXd> strains(homogeneous(lattice));
   const double largest = strains.eigenvalues().cwiseAbs().maxCoeff();
   if (sector == Sector::mirrored && strains.eigenvalues()(0) < -round_off * largest) {
     Instability found;

@@ -1,6 +1,5 @@
 #include <model/critical_step.hpp>
-
-#include <Eigen/Dense>
+#include <numerics/symmetric_eigen.hpp>
 
 namespace hyperlattice {
 
@@ -25,7 +24,7 @@ double StiffnessBound::value() const {
   Eigen::Matrix4d sum;
   for (int row = 0, at = 0; row < 4; ++row)
     for (int column = 0; column <= row; ++column) sum(row, column) = sum_[at++];
-  return 2 * Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(sum, Eigen::EigenvaluesOnly).eigenvalues()(3);  // reads the lower triangle
+  return 2 * numerics::SymmetricEigen<Eigen::Matrix4d>(sum, Eigen::EigenvaluesOnly).eigenvalues()(3);  // reads the lower triangle
 }
 
 }  // namespace hyperlattice

@@ -6,6 +6,7 @@
 // (the height taken a quarter of a period late, which makes the Hermitian matrix a real one); alpha contributes 2 k_alpha to a mirrored height.
 #include <model/waves.hpp>
 #include <model/zone.hpp>
+#include <numerics/symmetric_eigen.hpp>
 
 #include <Eigen/Dense>
 
@@ -16,7 +17,7 @@ namespace hyperlattice {
 namespace {
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4>;
-using Modes = Eigen::SelfAdjointEigenSolver<Matrix>;
+using Modes = numerics::SymmetricEigen<Matrix>;
 using Membrane = KernelChoice::Membrane;
 
 double phase_of(const InfiniteLattice& lattice, Vec3 q, const NeighbourGeometry& n) { return dot(q, n.rest) / lattice.spacing; }

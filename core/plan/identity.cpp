@@ -1,4 +1,5 @@
 #include <base/content_hash.hpp>
+#include <model/arithmetic.hpp>
 #include <plan/identity.hpp>
 #include <scene/json.hpp>
 
@@ -32,12 +33,6 @@ std::string hash_of_code(const std::filesystem::path& file) {
   const auto [found, is_new] = known.try_emplace(file);
   if (is_new) found->second = hash_of_file(file);
   return found->second;
-}
-
-/// How kernels compute springs (kernels/response.hpp): a part of no one library, so that the wish is read as they read it.
-std::string springs_mode() {
-  const char* wish = std::getenv("HYPERLATTICE_SPRINGS");
-  return wish != nullptr && std::string_view(wish) == "exact" ? "exact" : "series";
 }
 
 /// The library that holds the core.
@@ -113,7 +108,7 @@ Identity identity_of(const Scene& scene) {
   }
   identity.push_back({Kind::program, "program", {}, hash_of_text(hash_of_code("/proc/self/exe") + hash_of_code(core_library()))});
   identity.push_back({Kind::mode, "instruction set", {}, std::string(instruction_names[static_cast<std::size_t>(processor_instructions())])});
-  identity.push_back({Kind::mode, "way of computing springs", {}, springs_mode()});
+  identity.push_back({Kind::mode, "way of computing springs", {}, spring_arithmetic()});
   return identity;
 }
 

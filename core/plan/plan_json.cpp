@@ -1,3 +1,4 @@
+#include <model/arithmetic.hpp>
 #include <plan/coordination.hpp>
 #include <plan/estimates.hpp>
 #include <scene/common_options.hpp>
@@ -95,6 +96,7 @@ nlohmann::json common_facts(const Plan& plan) {
           {"loads", model.loads.size()},
           {"precision", precision_names[static_cast<std::size_t>(model.choice.precision)]},
           {"instructions", model.kernels.instructions},
+          {"spring_arithmetic", spring_arithmetic()},
           {"threads", plan.threads},
           {"steps", plan.steps()},
           {"end_time", plan.end_time()},

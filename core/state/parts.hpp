@@ -2,6 +2,7 @@
 // balance.cpp, restart.cpp.
 #pragma once
 
+#include <model/arithmetic.hpp>
 #include <process/team.hpp>
 #include <state/block.hpp>
 #include <state/simulation.hpp>
@@ -44,6 +45,7 @@ struct Simulation::Parts {
   };
   std::vector<Acting> acting;  ///< of each load
   bool prepares = false;       ///< some load prepares its answers
+  const bool exact = asked_for_exact_springs();
 
   double damping = 0, damping_rate = 0, last_step = 0;
   double time = 0, time_rest = 0;  ///< compensated sum

@@ -66,6 +66,7 @@ KernelRequest Simulation::Parts::request_for(Block& block, double back, double f
   request.materials = static_cast<std::uint32_t>(model.materials.size());
   request.spring_classes = model.body.grid.spring_classes;
   request.membrane_distance = model.body.grid.membrane_distance;
+  request.exact = exact;
   request.back = back;
   request.forward = forward;
   request.damping = damping;

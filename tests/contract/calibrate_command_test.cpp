@@ -92,7 +92,8 @@ TEST(CalibrateCommand, CentredLattices) {
     const std::string page = calibrate({"--lattice", lattice, "--membrane", "I-m", "--poisson", "0.1", "--measure", "4"}).out;
     EXPECT_NE(page.find(cell), std::string::npos) << page;
   }
-  expect_refused({"--lattice", "lattices.fcc", "--membrane", "I-m", "--poisson", "0.1", "--parameters", "paper"}, {"--parameters", "lattices.cubic"});
+  expect_refused({"--lattice", "lattices.fcc", "--membrane", "I-m", "--poisson", "0.1", "--parameters", "paper"},
+                 {"--parameters", "the simple cubic lattice"});
 }
 
 TEST(CalibrateCommand, RefusesWhatIsOutOfReach) {

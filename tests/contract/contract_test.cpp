@@ -2,6 +2,7 @@
 #include <contract/contract.hpp>
 #include <contract/lone_spring.hpp>
 #include <contract/scenes.hpp>
+#include <support/components.hpp>
 #include <support/program.hpp>
 
 #include <gtest/gtest.h>
@@ -30,7 +31,7 @@ TEST_P(Contract, IsKept) {
   const Component* component = host().find(GetParam());
   ASSERT_NE(component, nullptr) << host().why_not(GetParam());
   std::size_t passed = 0;
-  for (const Check& check : contract::check(*component, host())) {
+  for (const Check& check : contract::check(*component, host(), around)) {
     EXPECT_NE(check.verdict, Verdict::failed) << check.name << ": " << check.detail;
     passed += check.verdict == Verdict::passed ? 1 : 0;
   }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <analyze/calibration_curve.hpp>
 #include <analyze/load_lattice.hpp>
+#include <support/components.hpp>
 
 namespace {
 using namespace hyperlattice;
@@ -11,10 +12,11 @@ Curve figure(int particles, double strain) {
   CalibrationChoice choice;
   choice.membrane.membrane = "I-m";
   VirtualTest::Options options;
+  options.lattice = "lattices.cubic";
   options.particles = particles;
   options.strain = strain;
-  VirtualTest virtual_test(host, options);
-  return calibration_curve({0, 4.5, 10}, choice, load_lattice(host, "lattices.cubic"), &virtual_test);
+  VirtualTest measures = test::virtual_test(host, options);
+  return calibration_curve({0, 4.5, 10}, choice, load_lattice(host, options.lattice), &measures);
 }
 
 double worst(const std::vector<double>& found, std::span<const double> expected) {

@@ -5,6 +5,7 @@
 #include <analyze/membranes.hpp>
 #include <analyze/virtual_test.hpp>
 #include <model/stability.hpp>
+#include <support/components.hpp>
 #include <support/models.hpp>
 
 #include <gtest/gtest.h>
@@ -265,7 +266,7 @@ TEST_P(Centred, AMeasuredCubeApproachesTheEndlessLattice) {
     options.lattice = GetParam().name;
     options.particles = cells;
     options.strain = -1e-6;  // pulled: at the edges of fcc some particles have nothing that would keep them from buckling
-    const Measured measured = VirtualTest(host, options).measure(r);
+    const Measured measured = test::virtual_test(host, options).measure(r);
     poisson.push_back(measured.poisson - 0.1);
     modulus.push_back(measured.young / young - 1);
   }

@@ -1,13 +1,15 @@
-// What the static solver takes from Eigen fails with a sentence, or finds another way.
-#include <plugins/solvers/static/block_inverse.hpp>
-#include <plugins/solvers/static/factorisation.hpp>
+// What numerics take from Eigen fails with a sentence, or finds another way.
+#include <numerics/block_inverse.hpp>
+#include <numerics/incomplete_cholesky.hpp>
+#include <numerics/sparse_cholesky.hpp>
+#include <numerics/symmetric_eigen.hpp>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 namespace {
-using namespace hyperlattice::statics;
+using namespace hyperlattice::numerics;
 
 Eigen::SparseMatrix<double> two_by_two(double a, double b, double c) {
   Eigen::SparseMatrix<double> matrix(2, 2);
@@ -18,23 +20,23 @@ Eigen::SparseMatrix<double> two_by_two(double a, double b, double c) {
   return matrix;
 }
 
-TEST(Factorisation, SolvesWhatIsSound) {
-  Factorisation factors;
+TEST(SparseCholesky, SolvesWhatIsSound) {
+  SparseCholesky factors;
   factors.compute(two_by_two(2, 1, 3), 1e-12);
   const Eigen::VectorXd x = factors.solve(Eigen::Vector2d{4, 7});
   EXPECT_NEAR(x[0], 1, 1e-9);
   EXPECT_NEAR(x[1], 2, 1e-9);
 }
 
-TEST(Factorisation, AddsMoreWhereAPivotVanishes) {
+TEST(SparseCholesky, AddsMoreWhereAPivotVanishes) {
   constexpr double shift = 1e-9;
-  Factorisation factors;
+  SparseCholesky factors;
   factors.compute(two_by_two(1 / (1 + shift), 1, 1 / (1 + shift)), shift);  // singular once the first shift is added
   EXPECT_TRUE(factors.solve(Eigen::Vector2d{1, 0}).allFinite());
 }
 
-TEST(Factorisation, SaysWhyNothingHelps) {
-  Factorisation factors;
+TEST(SparseCholesky, SaysWhyNothingHelps) {
+  SparseCholesky factors;
   const auto why = [&](const Eigen::SparseMatrix<double>& matrix) -> std::string {
     try {
       factors.compute(matrix, 1e-9);
@@ -45,6 +47,28 @@ TEST(Factorisation, SaysWhyNothingHelps) {
   };
   EXPECT_NE(why(two_by_two(0, 1, 0)).find("a pivot is zero"), std::string::npos);
   EXPECT_NE(why(two_by_two(NAN, 0, 1)).find("not finite"), std::string::npos);
+}
+
+TEST(SparseCholesky, DoesNotSolveWithoutFactors) {
+  SparseCholesky factors;
+  EXPECT_THROW(factors.compute(two_by_two(NAN, 0, 1), 1e-9), std::runtime_error);
+  EXPECT_THROW(factors.solve(Eigen::Vector2d{1, 0}), std::runtime_error);
+}
+
+TEST(IncompleteCholesky, SaysWhetherThereIsOne) {
+  IncompleteCholesky factor;
+  ASSERT_TRUE(factor.compute(two_by_two(2, 1, 3)));  // no entry is left out, so it is the whole one
+  const Eigen::VectorXd x = factor.solve(Eigen::Vector2d{4, 7});
+  EXPECT_NEAR(x[0], 1, 1e-2);
+  EXPECT_NEAR(x[1], 2, 1e-2);
+  EXPECT_FALSE(factor.compute(two_by_two(0, 1, 0)));
+}
+
+TEST(SymmetricEigen, SaysWhyItFails) {
+  Eigen::Matrix3d matrix = Eigen::Vector3d{3, 1, 2}.asDiagonal();
+  EXPECT_NEAR((SymmetricEigen<Eigen::Matrix3d>(matrix).eigenvalues() - Eigen::Vector3d{1, 2, 3}).norm(), 0, 1e-14);
+  matrix(1, 0) = NAN;
+  EXPECT_THROW(SymmetricEigen<Eigen::Matrix3d>{matrix}, std::runtime_error);
 }
 
 // Heights a billion times as stiff as space, or as soft, leave the rest of the block's inverse as it is.

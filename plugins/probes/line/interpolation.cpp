@@ -14,6 +14,7 @@ Eigen::Vector3d vector(Vec3 v) { return {v.x, v.y, v.z}; }
 Eigen::Matrix3d pseudo_inverse(const Eigen::Matrix3d& spread) {
   constexpr double nothing = 1e-9;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
+  if (axes.info() != Eigen::Success) return Eigen::Matrix3d::Zero();  // points that are not finite
   Eigen::Vector3d inverse = Eigen::Vector3d::Zero();
   for (int n = 0; n < 3; ++n)
     if (axes.eigenvalues()[n] > nothing * axes.eigenvalues()[2]) inverse[n] = 1 / axes.eigenvalues()[n];

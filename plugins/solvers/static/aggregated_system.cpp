@@ -31,7 +31,7 @@ bool AggregatedSystem::is_near(const Field& displacement) const {
 }
 
 void AggregatedSystem::prepare() {
-  smoother_.emplace(*this);
+  smoother_.emplace(*this, own_blocks());
   if (!made_at_.empty() && is_near(present_)) return;
   below_.reset();
   below_.emplace(rows(), smoother_->blocks());
@@ -39,12 +39,28 @@ void AggregatedSystem::prepare() {
   pull_made_at_ = largest_pull();
 }
 
+numerics::BlockJacobi AggregatedSystem::own_blocks() const {
+  const auto places = static_cast<std::size_t>(grid().places), components = static_cast<std::size_t>(grid().components);
+  return {places, components, threads(), [&](std::size_t p) {
+            numerics::BlockJacobi::Block own;
+            for (std::size_t a = 0; a < components; ++a) own.unknown[a] = is_unknown(a * places + p);
+            for (std::size_t a = 0; a < components; ++a)
+              if (own.unknown[a])
+                for_row(a * places + p, [&](std::size_t number, double value) {
+                  if (number % places == p && own.unknown[number / places])
+                    own.matrix(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(number / places)) = value;
+                });
+            return own;
+          }};
+}
+
 /// What cannot move, or has no stiffness, has a row of its own; so each particle has as many rows.
-SparseRows AggregatedSystem::rows() const {
+numerics::SparseRows AggregatedSystem::rows() const {
+  constexpr double shift = 1e-6;  // added to the diagonal, over itself, where nothing holds a body
   const auto places = static_cast<std::size_t>(grid().places), components = static_cast<std::size_t>(grid().components);
   std::vector<bool> unknown(numbers());
   for (std::size_t n = 0; n < numbers(); ++n) unknown[n] = is_unknown(n);
-  SparseRows rows(static_cast<Eigen::Index>(numbers()), static_cast<Eigen::Index>(numbers()));
+  numerics::SparseRows rows(static_cast<Eigen::Index>(numbers()), static_cast<Eigen::Index>(numbers()));
   rows.reserve(static_cast<Eigen::Index>(blocks() * components * components));
   for (std::size_t p = 0; p < places; ++p)
     for (std::size_t a = 0; a < components; ++a) {
@@ -54,10 +70,10 @@ SparseRows AggregatedSystem::rows() const {
       if (unknown[row])
         for_row(row, [&](std::size_t number, double value) {
           if (!unknown[number]) return;
-          if (number % places == p) value += smoother_->added(row, number);
+          if (number % places == p) value += smoother_->diagonal().added(row, number);
           if (value == 0) return;
           rows.insertBack(at, static_cast<Eigen::Index>(number % places * components + number / places)) =
-              number == row ? value * (1 + BlockSmoother::shift) : value;
+              number == row ? value * (1 + shift) : value;
         });
       else
         rows.insertBack(at, at) = 1;

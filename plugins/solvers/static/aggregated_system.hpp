@@ -1,7 +1,10 @@
 // A listed lattice with multigrid by aggregation. The finest level is smoothed on the tangent itself.
 #pragma once
 
-#include "block_smoother.hpp"
+#include "listed_system.hpp"
+
+#include <numerics/aggregation_multigrid.hpp>
+#include <numerics/chebyshev_smoother.hpp>
 
 #include <optional>
 
@@ -16,13 +19,14 @@ class AggregatedSystem : public ListedSystem {
   void apply(const Field& r, Field& z) override;
 
  private:
-  SparseRows rows() const;
+  numerics::BlockJacobi own_blocks() const;
+  numerics::SparseRows rows() const;
   bool is_near(const Field& displacement) const;
 
   Field present_, made_at_;  ///< displacements: of the tangent, and of the one that the levels were made for; empty: none
   double pull_made_at_ = 0;  ///< largest_pull() there
-  std::optional<BlockSmoother> smoother_;
-  std::optional<Aggregation> below_;
+  std::optional<numerics::ChebyshevSmoother> smoother_;
+  std::optional<numerics::AggregationMultigrid> below_;
   Field rest_;
   Eigen::VectorXd right_, left_;  ///< by particle and component, as the levels count
 };

@@ -1,16 +1,16 @@
 #include "coarsest.hpp"
 
-#include "factorisation.hpp"
+#include <numerics/sparse_cholesky.hpp>
 
 namespace hyperlattice::statics {
 
 struct Coarsest::Factor {
   std::vector<std::size_t> numbers;  ///< of a field, that have stiffness
-  Factorisation of;
+  numerics::SparseCholesky of;
 };
 
 Coarsest::Coarsest(const StencilLevel& level) : factor_(std::make_unique<Factor>()) {
-  const Layout& layout = level.layout();
+  const GridLayout& layout = level.layout();
   std::vector<int> row_of(layout.numbers(), -1);
   for (std::int64_t p = 0; p < layout.places; ++p)
     for (std::size_t c = 0; c < 4; ++c)

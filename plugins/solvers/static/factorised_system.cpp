@@ -1,8 +1,7 @@
 #include "factorised_system.hpp"
 
-#include "factorisation.hpp"
-
-#include <Eigen/IterativeLinearSolvers>
+#include <numerics/incomplete_cholesky.hpp>
+#include <numerics/sparse_cholesky.hpp>
 
 #include <stdexcept>
 
@@ -16,8 +15,8 @@ using Matrix = Eigen::SparseMatrix<double>;
 
 struct FactorisedSystem::Factors {
   bool whole = true;
-  Factorisation ldlt;
-  Eigen::IncompleteCholesky<double> incomplete;
+  numerics::SparseCholesky ldlt;
+  numerics::IncompleteCholesky incomplete;
 };
 
 FactorisedSystem::FactorisedSystem(const StaticProblem& problem, bool whole) : ListedSystem(problem), factors_(std::make_unique<Factors>()) {
@@ -49,15 +48,14 @@ void FactorisedSystem::prepare() {
   lower.finalize();
   constexpr double shift = 1e-9;  // where nothing holds the body
   if (factors_->whole) return factors_->ldlt.compute(lower, shift);
-  factors_->incomplete.compute(lower);  // it shifts the diagonal by itself
-  if (factors_->incomplete.info() != Eigen::Success)
+  if (!factors_->incomplete.compute(lower))
     throw std::runtime_error("the tangent has no incomplete factorisation: preconditioner \"multigrid\" or \"whole\" may do");
 }
 
 void FactorisedSystem::apply(const Field& r, Field& z) {
   Eigen::VectorXd right(static_cast<Eigen::Index>(unknowns_.size()));
   for (std::size_t n = 0; n < unknowns_.size(); ++n) right[static_cast<Eigen::Index>(n)] = r[unknowns_[n]];
-  const Eigen::VectorXd left = factors_->whole ? Eigen::VectorXd(factors_->ldlt.solve(right)) : Eigen::VectorXd(factors_->incomplete.solve(right));
+  const Eigen::VectorXd left = factors_->whole ? factors_->ldlt.solve(right) : factors_->incomplete.solve(right);
   std::fill(z.begin(), z.end(), 0.0);
   for (std::size_t n = 0; n < unknowns_.size(); ++n) z[unknowns_[n]] = left[static_cast<Eigen::Index>(n)];
 }

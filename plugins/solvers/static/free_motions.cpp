@@ -1,9 +1,9 @@
 #include "free_motions.hpp"
 #include "words.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <numerics/disjoint_sets.hpp>
 
-#include <numeric>
+#include <Eigen/Eigenvalues>
 
 namespace hyperlattice::statics {
 
@@ -11,25 +11,6 @@ namespace {
 
 using Six = Eigen::Matrix<double, 6, 1>;
 using SixBySix = Eigen::Matrix<double, 6, 6>;
-
-/// Sets of places that springs join.
-class Pieces {
- public:
-  explicit Pieces(std::int64_t places) : root_(static_cast<std::size_t>(places)) { std::iota(root_.begin(), root_.end(), 0); }
-  std::int64_t root(std::int64_t place) {
-    while (at(place) != place) place = at(place) = at(at(place));
-    return place;
-  }
-  void join(std::int64_t a, std::int64_t b) {
-    a = root(a);
-    b = root(b);
-    at(std::max(a, b)) = std::min(a, b);
-  }
-
- private:
-  std::int64_t& at(std::int64_t place) { return root_[static_cast<std::size_t>(place)]; }
-  std::vector<std::int64_t> root_;
-};
 
 double component(Vec3 v, int c) { return c == 0 ? v.x : c == 1 ? v.y : v.z; }
 
@@ -46,7 +27,7 @@ Six row(int c, Vec3 r) {
 
 FreeMotions::FreeMotions(const System& system, const Field& displacement) : problem_(system.problem()), displacement_(displacement) {
   const StaticGrid& grid = problem_.grid;
-  Pieces pieces(grid.places);
+  numerics::DisjointSets pieces(grid.places);  // of places that springs join
   std::vector<bool> there(static_cast<std::size_t>(grid.places));
   for (std::int64_t p = 0; p < grid.places; ++p) there[static_cast<std::size_t>(p)] = grid.free[p] != 0;
   system.for_springs([&](std::int64_t a, std::int64_t b) {
@@ -89,6 +70,7 @@ void FreeMotions::find_motions(Piece& piece) const {
     }
   constexpr double nothing = 1e-9;
   const Eigen::SelfAdjointEigenSolver<SixBySix> modes(held);
+  if (modes.info() != Eigen::Success) return;  // positions are not finite: Newton's method says so
   for (int n = 0; n < 6 && modes.eigenvalues()[n] <= nothing * std::max(1.0, modes.eigenvalues()[5]); ++n) {
     Six motion = modes.eigenvectors().col(n);
     for (const Motion& before : piece.motions) {

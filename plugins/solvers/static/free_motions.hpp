@@ -8,13 +8,13 @@
 
 namespace hyperlattice::statics {
 
-class FreeMotions {
+class FreeMotions : public numerics::Deflation {
  public:
   /// Of the body at a displacement, which must outlive this, with the springs that have stiffness in the present tangents.
   FreeMotions(const System& system, const Field& displacement);
 
   /// Takes the part of these motions out of a field.
-  void remove_from(Field& field) const;
+  void remove_from(Field& field) const override;
   struct Driven {
     std::string sentence;
     Field motion;

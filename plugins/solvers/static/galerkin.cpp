@@ -14,7 +14,7 @@ struct Family {
   int count = 0;
   Parent of[8];
 
-  Family(const Transfer& transfer, std::int64_t i, std::int64_t j, std::int64_t k) {
+  Family(const TrilinearTransfer& transfer, std::int64_t i, std::int64_t j, std::int64_t k) {
     const Parents x = transfer.parents(0, i), y = transfer.parents(1, j), z = transfer.parents(2, k);
     for (int c = 0; c < z.count; ++c)
       for (int b = 0; b < y.count; ++b)
@@ -36,7 +36,7 @@ void plane_by_plane(std::int64_t fine_planes, std::int64_t coarse_planes, bool h
 /// The fine sites that blocks in the making are made of.
 class Needed {
  public:
-  Needed(const StencilLevel& coarse, const Transfer& transfer, int reach) : sites_(transfer.fine_sites()) {
+  Needed(const StencilLevel& coarse, const TrilinearTransfer& transfer, int reach) : sites_(transfer.fine_sites()) {
     needed_.assign(static_cast<std::size_t>(sites_[0] * sites_[1] * sites_[2]), 0);
     const auto inside = [&](std::size_t axis, std::int64_t at) {
       const Window window = transfer.window(static_cast<int>(axis), at, reach);
@@ -59,7 +59,7 @@ class Needed {
   std::vector<std::uint8_t> needed_;
 };
 
-int reach_between(const Transfer& transfer, int reach) {
+int reach_between(const TrilinearTransfer& transfer, int reach) {
   int found = 1;  // two sites `reach` apart, and their parents
   for (int axis = 0; axis < 3; ++axis) found = std::max(found, transfer.halved(axis) ? reach / 2 + 1 : reach);
   return found;
@@ -90,7 +90,7 @@ int collect_ends(const Family& near, std::uint8_t free_near, const Family& far, 
 
 /// What a spring with these ends adds to the blocks between them; counted from the coarse site `from`. Returns how many blocks.
 int parts_of(const StencilLevel& coarse, const Parent& from, const End* ends, int count, CoarsePart* parts) {
-  const Layout& layout = coarse.layout();
+  const GridLayout& layout = coarse.layout();
   int found = 0;
   for (int p = 0; p < count; ++p)
     for (int q = 0; q < count; ++q) {
@@ -113,7 +113,7 @@ int parts_of(const StencilLevel& coarse, const Parent& from, const End* ends, in
 /// The same for all springs to one neighbour from sites that are alike: even or odd along each axis, and free at both ends.
 class Parts {
  public:
-  Parts(const StencilLevel& coarse, const Transfer& transfer, const StaticGrid& grid) {
+  Parts(const StencilLevel& coarse, const TrilinearTransfer& transfer, const StaticGrid& grid) {
     for (const NeighbourGeometry& neighbour : grid.neighbours)
       for (std::int64_t n = 0; n < 8; ++n) {
         const Neighbour& to = neighbour.site;
@@ -146,7 +146,7 @@ void add_alpha(StencilLevel& coarse, double alpha, const Family& family) {
 
 }  // namespace
 
-std::unique_ptr<StencilLevel> coarsen(const SpringLevel& fine, const Transfer& transfer) {
+std::unique_ptr<StencilLevel> coarsen(const SpringLevel& fine, const TrilinearTransfer& transfer) {
   const StaticGrid& grid = fine.grid();
   int reach = 1;
   for (const NeighbourGeometry& n : grid.neighbours) reach = std::max({reach, std::abs(n.site.dx), std::abs(n.site.dy), n.site.dz});
@@ -189,8 +189,8 @@ std::unique_ptr<StencilLevel> coarsen(const SpringLevel& fine, const Transfer& t
   return coarse;
 }
 
-std::unique_ptr<StencilLevel> coarsen(const StencilLevel& fine, const Transfer& transfer) {
-  const Layout& from = fine.layout();
+std::unique_ptr<StencilLevel> coarsen(const StencilLevel& fine, const TrilinearTransfer& transfer) {
+  const GridLayout& from = fine.layout();
   auto coarse = std::make_unique<StencilLevel>(transfer.coarse_sites(), reach_between(transfer, fine.reach()),
                                                coarse_signatures(fine.signatures(), transfer, fine.reach()), fine.threads());
   const Needed needed(*coarse, transfer, fine.reach());

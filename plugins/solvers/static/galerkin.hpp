@@ -4,13 +4,12 @@
 
 #include "spring_level.hpp"
 #include "stencil_level.hpp"
-#include "transfer.hpp"
 
 #include <memory>
 
 namespace hyperlattice::statics {
 
-std::unique_ptr<StencilLevel> coarsen(const SpringLevel& fine, const Transfer& transfer);
-std::unique_ptr<StencilLevel> coarsen(const StencilLevel& fine, const Transfer& transfer);
+std::unique_ptr<StencilLevel> coarsen(const SpringLevel& fine, const TrilinearTransfer& transfer);
+std::unique_ptr<StencilLevel> coarsen(const StencilLevel& fine, const TrilinearTransfer& transfer);
 
 }  // namespace hyperlattice::statics

@@ -1,7 +1,7 @@
 // A structured lattice: its springs, never assembled, and multigrid.
 #pragma once
 
-#include "multigrid.hpp"
+#include "spring_multigrid.hpp"
 #include "system.hpp"
 
 namespace hyperlattice::statics {
@@ -30,7 +30,7 @@ class GridSystem : public System {
 
  private:
   SpringLevel matrix_;
-  Multigrid multigrid_;
+  SpringMultigrid multigrid_;
 };
 
 }  // namespace hyperlattice::statics

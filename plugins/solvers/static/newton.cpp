@@ -9,7 +9,7 @@
 namespace hyperlattice::statics {
 
 Newton::Newton(System& system, const SolverHost& host, const Limits& limits)
-    : system_(system), problem_(system.problem()), host_(host), limits_(limits), gradients_(system) {
+    : system_(system), problem_(system.problem()), host_(host), limits_(limits), gradients_(system, system) {
   for (Field* field : {&external_, &force_, &trial_, &rest_, &right_, &held_part_}) field->assign(system.numbers(), 0);
 }
 

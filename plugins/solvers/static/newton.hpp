@@ -2,7 +2,9 @@
 // true.
 #pragma once
 
-#include "conjugate_gradients.hpp"
+#include "system.hpp"
+
+#include <numerics/conjugate_gradients.hpp>
 
 #include <hyperlattice/solver.hpp>
 
@@ -51,7 +53,7 @@ class Newton {
   const StaticProblem& problem_;
   const SolverHost& host_;
   Limits limits_;
-  ConjugateGradients gradients_;
+  numerics::ConjugateGradients gradients_;
   bool careful_ = false;   ///< steps that go too far are shortened
   bool prepared_ = false;  ///< tangents and preconditioner are those of the state that the next search starts from
   Field external_, force_, trial_, rest_, right_, held_part_;

@@ -3,7 +3,7 @@
 namespace hyperlattice::statics {
 
 /// One axis after the other: each number becomes that of all in the window around it.
-Signatures coarse_signatures(Signatures sites, const Transfer& transfer, int reach) {
+Signatures coarse_signatures(Signatures sites, const TrilinearTransfer& transfer, int reach) {
   std::array<std::int64_t, 3> box = transfer.fine_sites();
   for (int axis = 0; axis < 3; ++axis) {
     const auto along = static_cast<std::size_t>(axis);

@@ -2,7 +2,7 @@
 // blocks are made and kept once a number: of a box of one material there are about a hundred, whatever its size.
 #pragma once
 
-#include "transfer.hpp"
+#include "numerics.hpp"
 
 #include <hyperlattice/chance.hpp>
 
@@ -16,6 +16,6 @@ constexpr std::uint64_t signed_by(std::uint64_t signature, std::uint64_t bits) {
 
 /// Of the coarse sites, from those of the fine ones, which are joined to others up to `reach` sites away. That two sites which differ have one number
 /// is next to impossible, and would spoil a preconditioner, no solution.
-Signatures coarse_signatures(Signatures fine, const Transfer& transfer, int reach);
+Signatures coarse_signatures(Signatures fine, const TrilinearTransfer& transfer, int reach);
 
 }  // namespace hyperlattice::statics

@@ -8,8 +8,8 @@ namespace hyperlattice::statics {
 
 namespace {
 
-Layout layout_of(const StaticGrid& grid) {
-  Layout layout;
+GridLayout layout_of(const StaticGrid& grid) {
+  GridLayout layout;
   layout.sites = {grid.sites[0], grid.sites[1], grid.sites[2]};
   layout.row = grid.row;
   layout.plane = grid.plane;
@@ -24,7 +24,7 @@ Layout layout_of(const StaticGrid& grid) {
 }  // namespace
 
 SpringLevel::SpringLevel(const StaticProblem& problem)
-    : Level(layout_of(problem.grid), problem.grid.threads), problem_(problem), grid_(problem.grid) {
+    : GridLevel(layout_of(problem.grid), problem.grid.threads), problem_(problem), grid_(problem.grid) {
   const auto places = static_cast<std::size_t>(grid_.places), springs = grid_.neighbours.size() * places;
   axial_.resize(springs);
   pull_.resize(springs);

@@ -1,7 +1,7 @@
 // The finest level: the tangents of the lattice's own springs, never assembled.
 #pragma once
 
-#include "level.hpp"
+#include "numerics.hpp"
 #include "rows.hpp"
 #include "signatures.hpp"
 #include "spring_tangent.hpp"
@@ -11,7 +11,7 @@
 
 namespace hyperlattice::statics {
 
-class SpringLevel : public Level {
+class SpringLevel : public GridLevel {
  public:
   explicit SpringLevel(const StaticProblem& problem);
 

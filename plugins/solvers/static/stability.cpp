@@ -2,6 +2,8 @@
 
 #include "free_motions.hpp"
 
+#include <numerics/random_stream.hpp>
+
 namespace hyperlattice::statics {
 
 namespace {
@@ -10,19 +12,18 @@ namespace {
 Field rough_field(const System& system) {
   const StaticGrid& grid = system.problem().grid;
   Field rough(grid.numbers(), 0);
-  std::uint32_t random = 12345;
+  numerics::RandomStream random;
   for (std::int64_t p = 0; p < grid.places; ++p)
     for (int c = 0; c < grid.components; ++c) {
       if ((grid.free[p] >> c & 1u) == 0) continue;
-      random = random * 1664525u + 1013904223u;
-      rough[static_cast<std::size_t>(c * grid.places + p)] = static_cast<double>(random >> 8) / 16777216.0 - 0.5;
+      rough[static_cast<std::size_t>(c * grid.places + p)] = random.next();
     }
   return rough;
 }
 
 }  // namespace
 
-Field softening_motion(System& system, ConjugateGradients& gradients, const Field& displacement) {
+Field softening_motion(System& system, numerics::ConjugateGradients& gradients, const Field& displacement) {
   constexpr double solved = 1e-3, rounding = 1e-13;
   const auto softens = [&](const Field& motion, double curvature) {
     return curvature < -rounding * system.stiffest() * product(motion.data(), motion.data(), motion.size(), system.threads());

@@ -6,8 +6,8 @@ namespace hyperlattice::statics {
 
 namespace {
 
-Layout layout_of(const std::array<std::int64_t, 3>& sites, std::int64_t reach) {
-  Layout layout;
+GridLayout layout_of(const std::array<std::int64_t, 3>& sites, std::int64_t reach) {
+  GridLayout layout;
   layout.sites = sites;
   layout.row = sites[0] + reach;
   layout.plane = layout.row * (sites[1] + reach);
@@ -50,7 +50,7 @@ void invert_block(const double* block, double* inverse) {
 }  // namespace
 
 StencilLevel::StencilLevel(const std::array<std::int64_t, 3>& sites, int reach, const Signatures& signatures, int threads)
-    : Level(layout_of(sites, reach), threads), reach_(reach) {
+    : GridLevel(layout_of(sites, reach), threads), reach_(reach) {
   constexpr std::int64_t few = 16384;  // places; with fewer, threads would wait for each other longer than they work
   if (layout_.places < few) threads_ = 1;
   // Forward neighbours in the order of neighbour(): every one with a number above 0.

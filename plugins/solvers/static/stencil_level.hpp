@@ -2,13 +2,13 @@
 // Three-dimensional bodies use three rows of a block.
 #pragma once
 
-#include "level.hpp"
+#include "numerics.hpp"
 #include "rows.hpp"
 #include "signatures.hpp"
 
 namespace hyperlattice::statics {
 
-class StencilLevel : public Level {
+class StencilLevel : public GridLevel {
  public:
   /// Zero stiffness on a box of sites, between sites up to `reach` apart along each axis. Sites of one signature are of one kind, whose blocks are
   /// made at the first of them.

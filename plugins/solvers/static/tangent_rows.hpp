@@ -2,7 +2,7 @@
 // the other. Rows that are alike are kept once, so that those of an undeformed body mostly stay in the processor's caches.
 #pragma once
 
-#include "fields.hpp"
+#include "numerics.hpp"
 
 #include <hyperlattice/statics.hpp>
 

@@ -60,7 +60,7 @@
   CROSSES(RowSums, stored, kinetic, kinetic_mean, momentum, potential, damped)                                                                        \
   CROSSES(ListedSlots, first, neighbour, stiffness, alarm, records, memory)                                                                           \
   CROSSES(KernelRequest, rows_per_plane, planes, reach, rows, displacement, velocity, alive, material, mixture, mixture_springs, memory, memory_stride, weight_sets, weights, \
-          listed, neighbours, springs, mass, alpha, materials, spring_classes, membrane_distance, back, forward, damping, damping_rate, acceleration, \
+          listed, neighbours, springs, mass, alpha, materials, spring_classes, membrane_distance, exact, back, forward, damping, damping_rate, acceleration, \
           supports, self, review, scratch, scratch_width, damped_work, sums)                                                                          \
   CROSSES(SpringRow, count, here, there, stiffness, cross_stiffness, weight, rest, rest_length, cross_rest_length, membrane_distance, spacing, pull,  \
           axial, cross_pull, cross_axial)                                                                                                             \

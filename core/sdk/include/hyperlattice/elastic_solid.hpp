@@ -67,7 +67,8 @@ struct Options {
             "k_gamma", "", "with membrane free: stiffness over k of the cross springs beside springs of the second class: diagonal ones")
         .fallback("0")
         .template add<&Options::parameters>(
-            "parameters", "", "closed_form: exact for the infinite lattice; paper: polynomials (11) and (13), for I-m in lattices.cubic only")
+            "parameters", "",
+            "closed_form: exact for the infinite lattice; paper: polynomials (11) and (13), for I-m in the simple cubic lattice only")
         .choices(parameter_names)
         .fallback("\"closed_form\"")
         .template add<&Options::stiffness>("stiffness", "", "bulk: k of the infinite lattice; eq15: equation (15) with the springs that the body has")
@@ -80,7 +81,7 @@ struct Options {
   MaterialConstants constants(const LatticeFacts& lattice) const {
     const bool cubic = is_cubic_of_18(lattice);
     if (parameters == Parameters::paper && !cubic)
-      throw std::invalid_argument("parameters closed_form: the paper's polynomials are of lattices.cubic");
+      throw std::invalid_argument("parameters closed_form: the paper's polynomials are of the simple cubic lattice");
     const Choice choice = cubic ? choose_in_closed_form(lattice) : choose(lattice);
     if (!(choice.modulus_ratio > 0)) throw std::invalid_argument("these ratios give a lattice without stiffness");
     check_poisson(lattice, choice.poisson);

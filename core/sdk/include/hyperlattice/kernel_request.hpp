@@ -128,6 +128,7 @@ struct KernelRequest {
   const double* alpha = nullptr;             ///< k_alpha of the same, N/m
   std::uint32_t materials = 1, spring_classes = 1;
   double membrane_distance = 0;  ///< Delta, metres
+  bool exact = false;            ///< roots and divisions in place of series, one neighbour at a time
 
   // the step: v(n+1/2) = v(n-1/2) + (back + forward) F(n) / m; u(n+1) = u(n) + 2 forward v(n+1/2)
   double back = 0;          ///< half of the step before, s; 0 at the start

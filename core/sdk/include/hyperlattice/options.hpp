@@ -3,7 +3,7 @@
 //
 //   struct Options { double peak; std::optional<double> area; std::string law; };
 //   static Schema<Options> schema() {
-//     return Schema<Options>("loads.blast", "Triangular pressure pulse on a surface")
+//     return Schema<Options>("loads.my_pulse", "Triangular pressure pulse on a surface")
 //         .add<&Options::peak>("peak", "Pa", "largest pressure").at_least(0)
 //         .add<&Options::area>("area", "m2", "true area of the surface").positive()      // optional: absent if not given
 //         .add<&Options::law>("law", "", "how it falls").choices(kLaws).fallback("\"linear\"");

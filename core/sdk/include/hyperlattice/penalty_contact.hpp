@@ -1,4 +1,4 @@
-// Contact by penalty, as loads.floor and loads.contact have it: what is a depth p inside is pushed out, and rubs.
+// Contact by penalty, of bodies with floors and with each other: what is a depth p inside is pushed out, and rubs.
 //
 //   N = max(0, c p - b v_n)                        outwards, b = 2 damping sqrt(c m)
 //   T = min(mu N, h |v_t|) against v_t             h = grip sqrt(c m)

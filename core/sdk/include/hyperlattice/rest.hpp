@@ -13,9 +13,9 @@ namespace hyperlattice {
 /// A plan at rest up to `end_time`, s; by default to when the last load has stopped changing. Throws std::runtime_error for a body of which the core
 /// has no statics, and for an end before the start.
 inline SolverPlan plan_of_rest(const SolverFacts& facts, std::optional<double> end_time) {
-  if (!facts.tangents) throw std::runtime_error("a law without memory; with this one a body comes to rest by solvers.explicit with damping");
+  if (!facts.tangents) throw std::runtime_error("a law without memory; with this one a body comes to rest by steps in time with damping");
   if (facts.answering)
-    throw std::runtime_error("loads that do not answer to the motion; with such loads solvers.explicit with damping comes to rest");
+    throw std::runtime_error("loads that do not answer to the motion; with such loads a body comes to rest by steps in time with damping");
   SolverPlan plan;
   plan.at_rest = true;
   plan.end_time = end_time.value_or(facts.corners.empty() ? facts.start_time : std::max(facts.start_time, facts.corners.back()));

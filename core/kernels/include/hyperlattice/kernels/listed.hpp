@@ -11,14 +11,17 @@
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
 /// The forces on particles, from the records that stand since the step's start.
-template <class Law, Membrane membrane, bool Breakable, bool measuring, class Stored>
+template <class Law, KernelConfig config>
 class ListedForces {
-  using Real = RealOf<Law, measuring, Stored>;
+  using Stored = NumberOf<config.stored>;
+  using Real = NumberOf<config.computed>;
   using Pack = PackOf<Real>;
-  static constexpr int components = components_of(membrane), width = lanes_of<Real>, slot_width = lanes_of<Stored>;
+  static constexpr Membrane membrane = config.membrane;
+  static constexpr bool measuring = config.measures(), Breakable = config.breakable;
+  static constexpr int components = config.components(), width = lanes_of<Real>, slot_width = lanes_of<Stored>;
 
  public:
-  explicit ListedForces(const KernelRequest& request) : request_(request), slots_(request.listed), exact_(exact_springs()) {}
+  explicit ListedForces(const KernelRequest& request) : request_(request), slots_(request.listed) {}
 
   [[gnu::noinline]] void write_records() const {
     for (std::int32_t index = 0; index < request_.rows_per_plane; ++index) {
@@ -145,7 +148,7 @@ class ListedForces {
         outside.look(cross_p, -range, range);
       }
       if constexpr (Breakable) outside.look_above(reach.growth, load(alarms(slot)));
-      if (!outside && !exact_) [[likely]] {
+      if (!outside && !request_.exact) [[likely]] {
         pulls.base = pull_near_rest<Law>(stiffness, p);
         if constexpr (membrane != Membrane::none) pulls.cross = where(not_zero(reach.square), pull_near_rest<Law>(cross_stiffness, cross_p));
         return pulls;
@@ -231,21 +234,19 @@ class ListedForces {
 
   const KernelRequest& request_;
   const ListedSlots& slots_;
-  const bool exact_;
 };
 
-template <class Law, Membrane membrane, bool Breakable, bool Mixed, Task task, class Stored>
+template <class Law, KernelConfig config>
 struct ListedSweep {
   static void run(const KernelRequest& request) {
-    constexpr bool measuring = task == Task::measure;
-    constexpr int components = components_of(membrane);
-    using Real = RealOf<Law, measuring, Stored>;
+    constexpr int components = config.components();
+    using Real = NumberOf<config.computed>;
     using Pack = PackOf<Real>;
-    const ListedForces<Law, membrane, Breakable, measuring, Stored> springs(request);
+    const ListedForces<Law, config.of_springs(false, false)> springs(request);
     springs.write_records();
     for (std::uint32_t index = 0; index < static_cast<std::uint32_t>(request.rows_per_plane); ++index) {
       const Row& row = request.rows[index];
-      Motion<membrane, Mixed, task, Stored, Real> motion(request, row);
+      Motion<config.of_motion()> motion(request, row);
       Real* forces[components];
       for (int c = 0; c < components; ++c) forces[c] = static_cast<Real*>(request.scratch) + c * request.scratch_width;
       motion.set_body_force(forces, row.end);

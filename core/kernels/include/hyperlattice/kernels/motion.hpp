@@ -3,23 +3,13 @@
 #pragma once
 
 #include <hyperlattice/kernel_request.hpp>
+#include <hyperlattice/kernels/config.hpp>
 #include <hyperlattice/kernels/simd.hpp>
-#include <hyperlattice/material.hpp>
 
 #include <array>
 #include <type_traits>
 
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
-
-using Membrane = KernelChoice::Membrane;
-constexpr int components_of(Membrane membrane) { return membrane == Membrane::free ? 4 : 3; }
-constexpr std::size_t kinds_of(Membrane membrane) { return membrane == Membrane::none ? 1 : 2; }  // of springs: base, cross
-
-enum class Task { step, step_damped, measure };
-
-/// What is measured is computed in doubles, whatever the state is stored in; so is what a law with constants of its own does.
-template <class Law, bool measuring, class Stored>
-using RealOf = std::conditional_t<measuring || LawWithConstants<Law>, double, Stored>;
 
 /// Stores a pack as numbers of the state's precision.
 template <class Real, class Stored>
@@ -110,11 +100,15 @@ struct Kick {
 };
 
 /// Moves or measures a row: vectors() with the forces on its particles, or a vector() at a time, then finish().
-template <Membrane membrane, bool Mixed, Task task, class Stored, class Real>
+template <KernelConfig config>
 class Motion {
+  using Stored = NumberOf<config.stored>;
+  using Real = NumberOf<config.computed>;
   using Pack = PackOf<Real>;
-  static constexpr int components = components_of(membrane), width = lanes_of<Real>;
-  static constexpr bool measuring = task == Task::measure;
+  static constexpr Membrane membrane = config.membrane;
+  static constexpr Task task = config.task;
+  static constexpr int components = config.components(), width = lanes_of<Real>;
+  static constexpr bool measuring = config.measures();
 
  public:
   Motion(const KernelRequest& request, const Row& row)
@@ -278,7 +272,7 @@ class Motion {
 
   const KernelRequest& request_;
   const Row& row_;
-  RowValues<Mixed, Real> values_;
+  RowValues<config.mixed, Real> values_;
   Pack mass_, inverse_mass_;
   Pack stored_ = 0, damped_ = 0, kinetic_ = 0, kinetic_mean_ = 0, momentum_[4] = {0, 0, 0, 0}, potential_ = 0;
   double not_damped_ = 0;  ///< of damped_, what was counted for components that are held

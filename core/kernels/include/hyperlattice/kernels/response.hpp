@@ -10,9 +10,7 @@
 #include <hyperlattice/kernels/simd.hpp>
 
 #include <array>
-#include <cstdlib>
 #include <limits>
-#include <string_view>
 
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
@@ -91,12 +89,6 @@ HYPERLATTICE_INLINE PackOf<Real> pull_near_rest(const PackOf<Real>& stiffness, c
   PackOf<Real> sum = c.back();
   each<c.size() - 1>([&]<std::size_t n>() __attribute__((always_inline)) { sum = sum * p + PackOf<Real>(c[c.size() - 2 - n]); });
   return Law::force(stiffness, sum * p);
-}
-
-/// HYPERLATTICE_SPRINGS=exact in the environment asks for root and division everywhere, and for the plainest kernel.
-inline bool exact_springs() {
-  const char* wish = std::getenv("HYPERLATTICE_SPRINGS");
-  return wish != nullptr && std::string_view(wish) == "exact";
 }
 
 /// Springs of one class between two materials, base or cross: constants made ready for the loop.

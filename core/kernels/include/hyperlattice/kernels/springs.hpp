@@ -14,12 +14,15 @@
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
 /// Where the particles of a row, and their neighbours, stand in the arrays. Element t belongs to site begin + t.
-template <int Components, class Stored, class Real>
+template <KernelConfig config>
 struct RowPair {
-  const Stored* here[Components];
-  const Stored* there[Components];
-  Real* own[Components];       ///< forces on the row itself
-  Real* received[Components];  ///< forces on the neighbours' row
+  using Stored = NumberOf<config.stored>;
+  using Real = NumberOf<config.computed>;
+  static constexpr int components = config.components();
+  const Stored* here[components];
+  const Stored* there[components];
+  Real* own[components];       ///< forces on the row itself
+  Real* received[components];  ///< forces on the neighbours' row
   const std::uint16_t* alive;
   const std::uint8_t *material_here, *material_there;
   const std::uint32_t* mixture;      ///< of the row itself; null: springs are between the materials of their ends
@@ -28,11 +31,14 @@ struct RowPair {
   double* memory;                    ///< of the row's springs to the neighbour, [base, cross][number][site]
 };
 
-template <class Law, Membrane membrane, bool Breakable, bool Mixed, bool Weighted, bool Energy, class Stored, class Real>
+template <class Law, KernelConfig config>
 class Springs {
+  using Real = NumberOf<config.computed>;
   using Pack = PackOf<Real>;
-  static constexpr int components = components_of(membrane), width = lanes_of<Real>;
-  using Pair = RowPair<components, Stored, Real>;
+  using Pair = RowPair<config.of_rows()>;
+  static constexpr Membrane membrane = config.membrane;
+  static constexpr int width = lanes_of<Real>;
+  static constexpr bool energy = config.measures();
 
  public:
   /// Adds the forces of `count` springs (padded to whole vectors). Returns whether any is above its alarm; adds to the energies.
@@ -47,24 +53,24 @@ class Springs {
     for (int t = 0; t < count; t += width) {
       const LanesOf<Real> alive = lanes_with<Real>(load_bits<Real>(pair.alive + t), bit);
       const auto counted = [&](Pack whole) {
-        if constexpr (Weighted) whole *= load_weights<Real>(pair.weights, pair.weight_sets + t / lanes, 0);
+        if constexpr (config.weighted) whole *= load_weights<Real>(pair.weights, pair.weight_sets + t / lanes, 0);
         return where(alive, whole);
       };
       /// Force over length, counted; cross: 0 the base springs, 1 their cross springs.
       const auto pull_of = [&](int cross, const Pack& stiffness, double rest_length, const Pack& growth) {
         if constexpr (LawWithConstants<Law>) {
           const LawSprings springs = law_springs(request, pair, neighbour, bit, constants, cross, rest_length, t);
-          const LawResponse response = springs.template ask<Law, !Energy>(stiffness, growth);
+          const LawResponse response = springs.template ask<Law, !energy>(stiffness, growth);
           energies.dissipated += counted(response.dissipated);
-          if constexpr (Energy) energies.stored += counted(response.energy);
+          if constexpr (energy) energies.stored += counted(response.energy);
           return counted(response.force_over_length);
         } else {
-          const ResponseOf<Pack> response = respond<Law, Energy>(stiffness, rest_length, growth);
-          if constexpr (Energy) energies.stored += counted(response.energy);
+          const ResponseOf<Pack> response = respond<Law, energy>(stiffness, rest_length, growth);
+          if constexpr (energy) energies.stored += counted(response.energy);
           return counted(response.force_over_length);
         }
       };
-      if constexpr (Mixed) constants_of_lanes(request, pair, neighbour, t, base_stiffness, cross_stiffness, alarm);
+      if constexpr (config.mixed) constants_of_lanes(request, pair, neighbour, t, base_stiffness, cross_stiffness, alarm);
       const Pack dx = difference_of(0, t), dy = difference_of(1, t), dz = difference_of(2, t);
       const Pack q = dx * (2 * rest.x + dx) + dy * (2 * rest.y + dy) + dz * (2 * rest.z + dz);
 
@@ -77,7 +83,7 @@ class Springs {
         base_q += difference * difference;
       }
       const Pack base_pull = pull_of(0, base_stiffness, neighbour.rest_length, base_q);
-      if constexpr (Breakable) rung |= any(where(alive, base_q) > alarm);
+      if constexpr (config.breakable) rung |= any(where(alive, base_q) > alarm);
       Pack pull = base_pull;
 
       if constexpr (membrane != Membrane::none) {
@@ -138,7 +144,8 @@ class Springs {
     LawSprings springs;
     springs.rest_length = rest_length;
     springs.time_step = 2 * request.back;
-    for (int lane = 0; lane < lanes; ++lane) springs.constants[lane] = (Mixed ? between(request, pair, neighbour, t + lane) : constants).law[cross];
+    for (int lane = 0; lane < lanes; ++lane)
+      springs.constants[lane] = (config.mixed ? between(request, pair, neighbour, t + lane) : constants).law[cross];
     for (int lane = 0; lane < lanes; ++lane) springs.there |= ((pair.alive[t + lane] & bit) != 0 ? 1u : 0u) << lane;
     springs.memory_stride = request.memory_stride;
     springs.memory = pair.memory + static_cast<std::size_t>(cross) * memory_of<Law>() * request.memory_stride + t;

@@ -15,12 +15,14 @@
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
 /// One row's pass. `List`: see CubicList.
-template <class Law, Membrane membrane, bool Breakable, class List, class Real>
+template <class Law, KernelConfig config, class List>
 class Stencil {
+  using Real = NumberOf<config.computed>;
   using Pack = PackOf<Real>;
   using Bits = BitsOf<Real>;
   using Kind = SpringKind<Law, Real>;
-  static constexpr int components = components_of(membrane), width = lanes_of<Real>;
+  static constexpr Membrane membrane = config.membrane;
+  static constexpr int components = config.components(), width = lanes_of<Real>;
   static constexpr std::size_t lines = List::lines.size();
   static constexpr bool has_cross = membrane != Membrane::none;
 
@@ -225,7 +227,7 @@ class Stencil {
       }
     });
     const std::uint32_t rung = Kind::template pull<answers>(kinds, q, pulls);
-    if (Breakable && rung != 0) [[unlikely]]
+    if (config.breakable && rung != 0) [[unlikely]]
       for (std::size_t s = 0; s < number; ++s)
         if ((rung >> s & 1u) != 0) rung_ |= 1u << neighbour[s];
     each<number>([&]<std::size_t s>()

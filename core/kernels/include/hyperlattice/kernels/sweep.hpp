@@ -12,24 +12,25 @@
 
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
-template <class Law, Membrane membrane, bool Breakable, bool Mixed, Task task, class Stored>
+template <class Law, KernelConfig config>
 class Sweep {
-  static constexpr bool measuring = task == Task::measure;
-  using Real = RealOf<Law, measuring, Stored>;
+  using Stored = NumberOf<config.stored>;
+  using Real = NumberOf<config.computed>;
   using Pack = PackOf<Real>;
-  using Pair = RowPair<components_of(membrane), Stored, Real>;
-  static constexpr int components = components_of(membrane), width = lanes_of<Real>;
+  using Pair = RowPair<config.of_rows()>;
+  static constexpr int components = config.components(), width = lanes_of<Real>;
+  static constexpr bool measuring = config.measures(), Breakable = config.breakable, Mixed = config.mixed;
 
  public:
   static void run(const KernelRequest& request) { Sweep(request).all_rows(); }
 
  private:
   template <bool Several, bool Weighted>
-  using OneByOne = Springs<Law, membrane, Breakable, Several, Weighted, measuring, Stored, Real>;
-  using Fused = Stencil<Law, membrane, Breakable, CubicList, Real>;
+  using OneByOne = Springs<Law, config.of_springs(Several, Weighted)>;
+  using Fused = Stencil<Law, config.of_springs(false, false), CubicList>;
   static constexpr bool can_fuse = !measuring && !LawWithConstants<Law> && vectors <= 2;  // processors with shorter vectors have too few registers
 
-  explicit Sweep(const KernelRequest& request) : request_(request), fused_(can_fuse && !exact_springs() && CubicList::is(request.neighbours)) {
+  explicit Sweep(const KernelRequest& request) : request_(request), fused_(can_fuse && !request.exact && CubicList::is(request.neighbours)) {
     for (int c = 0; c < components; ++c) own_[c] = own_row(c);
   }
 
@@ -50,7 +51,7 @@ class Sweep {
   void one_row(const Row& row, std::uint32_t index, int j, int k) {
     const bool owned = k >= 0, fused = fused_ && (!Mixed || row.material >= 0);
     const int count = (row.end - row.begin + width - 1) / width * width;
-    Motion<membrane, Mixed, task, Stored, Real> motion(request_, row);
+    Motion<config.of_motion()> motion(request_, row);
     const bool accelerated = motion.accelerated();
     // Particles can move as soon as the forces on them are known if no criterion and no support must see them first.
     constexpr bool may_move_at_once = !Breakable && !Mixed && !measuring;
@@ -113,7 +114,7 @@ class Sweep {
       if ((row.neighbours >> n & 1u) == 0 || (!owned && k + neighbour.site.dz < 0)) continue;
       Pair pair = pair_of(row, neighbour.site, j, k);
       if constexpr (memory_of<Law>() > 0)
-        pair.memory = request_.memory + n * kinds_of(membrane) * memory_of<Law>() * request_.memory_stride + row.start;
+        pair.memory = request_.memory + n * kinds_of(config.membrane) * memory_of<Law>() * request_.memory_stride + row.start;
       const auto bit = static_cast<std::uint16_t>(1u << n);
       const bool uniform = !Mixed || row.material >= 0;
       const SpringConstants* constants = constants_of(row, neighbour.site.spring_class);
@@ -263,29 +264,33 @@ class Kernels {
     if constexpr (LawWithConstants<Law>) return of_mixture<membrane, true>(choice);
     return choice.breakable ? of_mixture<membrane, true>(choice) : of_mixture<membrane, false>(choice);
   }
-  template <Membrane membrane, bool Breakable>
+  template <Membrane membrane, bool breakable>
   static KernelSet of_mixture(const KernelChoice& choice) {
-    if constexpr (LawWithConstants<Law>) return of_topology<membrane, Breakable, true>(choice);  // asks lane by lane: nothing to gain from less
-    return choice.mixed ? of_topology<membrane, Breakable, true>(choice) : of_topology<membrane, Breakable, false>(choice);
+    if constexpr (LawWithConstants<Law>) return of_precision<membrane, breakable, true>(choice);  // asks lane by lane: nothing to gain from less
+    return choice.mixed ? of_precision<membrane, breakable, true>(choice) : of_precision<membrane, breakable, false>(choice);
   }
-  template <Membrane membrane, bool Breakable, bool Mixed>
+  template <Membrane membrane, bool breakable, bool mixed>
+  static KernelSet of_precision(const KernelChoice& choice) {
+    return choice.precision == Precision::floats ? of_topology<membrane, breakable, mixed, Precision::floats>(choice)
+                                                 : of_topology<membrane, breakable, mixed, Precision::doubles>(choice);
+  }
+  template <Membrane membrane, bool breakable, bool mixed, Precision stored>
   static KernelSet of_topology(const KernelChoice& choice) {
-    const bool floats = choice.precision == Precision::floats;
-    if (choice.listed)
-      return floats ? of_sweep<ListedSweep, membrane, Breakable, Mixed, float>() : of_sweep<ListedSweep, membrane, Breakable, Mixed, double>();
-    KernelSet set = floats ? of_sweep<Sweep, membrane, Breakable, Mixed, float>() : of_sweep<Sweep, membrane, Breakable, Mixed, double>();
+    constexpr auto config = [](Task task) { return config_of<Law>(membrane, breakable && task != Task::measure, mixed, task, stored); };
+    if (choice.listed) return of_sweep<ListedSweep, config(Task::step), config(Task::step_damped), config(Task::measure)>();
+    KernelSet set = of_sweep<Sweep, config(Task::step), config(Task::step_damped), config(Task::measure)>();
     if constexpr (!LawWithConstants<Law>)
       set.linearise = [](const SpringRow& row, double& energy, const Complaint& why) noexcept {
         return detail::guarded(why, [&] { energy = Tangent<Law, membrane>::run(row); });
       };
     return set;
   }
-  template <template <class, Membrane, bool, bool, Task, class> class Of, Membrane membrane, bool Breakable, bool Mixed, class Stored>
+  template <template <class, KernelConfig> class Of, KernelConfig step, KernelConfig step_damped, KernelConfig measure>
   static KernelSet of_sweep() {
     KernelSet set;
-    set.step = &run<Of<Law, membrane, Breakable, Mixed, Task::step, Stored>>;
-    set.step_damped = &run<Of<Law, membrane, Breakable, Mixed, Task::step_damped, Stored>>;
-    set.measure = &run<Of<Law, membrane, false, Mixed, Task::measure, Stored>>;
+    set.step = &run<Of<Law, step>>;
+    set.step_damped = &run<Of<Law, step_damped>>;
+    set.measure = &run<Of<Law, measure>>;
     return set;
   }
 };

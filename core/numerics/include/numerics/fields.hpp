@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace hyperlattice::statics {
+namespace hyperlattice::numerics {
 
 using Field = std::vector<double, ArrayMemory<double>>;
 using Floats = std::vector<float, ArrayMemory<float>>;
@@ -67,4 +67,4 @@ inline double largest_magnitude(const Floats& a) {
 /// The largest one up to a size; 1 of what is zero or not finite.
 inline double power_of_two(double size) { return size > 0 && std::isfinite(size) ? std::exp2(std::ilogb(size)) : 1; }
 
-}  // namespace hyperlattice::statics
+}  // namespace hyperlattice::numerics

@@ -1,10 +1,8 @@
-#include "conjugate_gradients.hpp"
+#include <numerics/conjugate_gradients.hpp>
 
-#include "free_motions.hpp"
+namespace hyperlattice::numerics {
 
-namespace hyperlattice::statics {
-
-void ConjugateGradients::start(const Field& b, const FreeMotions* without) {
+void ConjugateGradients::start(const Field& b, const Deflation* without) {
   without_ = without;
   std::fill(x_.begin(), x_.end(), 0.0);
   r_ = b;
@@ -15,8 +13,8 @@ void ConjugateGradients::start(const Field& b, const FreeMotions* without) {
 }
 
 bool ConjugateGradients::advance() {
-  const int threads = system_.threads();
-  system_.apply(r_, z_);
+  const int threads = A_.threads();
+  preconditioner_.apply(r_, z_);
   if (without_ != nullptr) without_->remove_from(z_);
   // The change of r in place of r: round-off in the preconditioner then does not spoil the directions.
   const double rz = product(r_.data(), z_.data(), size_, threads);
@@ -27,7 +25,7 @@ bool ConjugateGradients::advance() {
   });
   first_ = false;
   rz_ = rz;
-  system_.multiply(p_.data(), q_.data());
+  A_.multiply(p_.data(), q_.data());
   if (without_ != nullptr) without_->remove_from(q_);
   curvature_ = product(p_.data(), q_.data(), size_, threads);
   sound_ = std::isfinite(rz) && std::isfinite(curvature_) && rz != 0;
@@ -42,4 +40,4 @@ bool ConjugateGradients::advance() {
   return std::isfinite(last_step_);
 }
 
-}  // namespace hyperlattice::statics
+}  // namespace hyperlattice::numerics

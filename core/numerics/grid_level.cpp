@@ -1,15 +1,13 @@
-#include "level.hpp"
+#include <numerics/grid_level.hpp>
+#include <numerics/random_stream.hpp>
 
-namespace hyperlattice::statics {
+namespace hyperlattice::numerics {
 
-double Level::power_iteration() const {
+double GridLevel::power_iteration() const {
   const std::size_t size = layout_.numbers();
   Field x(size, 0), y(size, 0), z(size, 0);
-  std::uint32_t random = 12345;
-  for (double& value : x) {
-    random = random * 1664525u + 1013904223u;
-    value = static_cast<double>(random >> 8) / 16777216.0 - 0.5;
-  }
+  RandomStream random;
+  for (double& value : x) value = random.next();
   clear_margin(x);
   constexpr int iterations = 8;
   double growth = 1;
@@ -26,7 +24,7 @@ double Level::power_iteration() const {
 }
 
 /// Zeros everywhere but at the sites of the box, and where something can move.
-void Level::clear_margin(Field& x) const {
+void GridLevel::clear_margin(Field& x) const {
   std::vector<bool> inside(static_cast<std::size_t>(layout_.places), false);
   layout_.for_sites([&](std::int64_t i, std::int64_t j, std::int64_t k) { inside[static_cast<std::size_t>(layout_.place(i, j, k))] = true; });
   const auto components = static_cast<std::int64_t>(layout_.numbers()) / layout_.places;
@@ -36,4 +34,4 @@ void Level::clear_margin(Field& x) const {
   mask(x.data());
 }
 
-}  // namespace hyperlattice::statics
+}  // namespace hyperlattice::numerics

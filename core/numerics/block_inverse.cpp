@@ -1,10 +1,10 @@
-#include "block_inverse.hpp"
+#include <numerics/block_inverse.hpp>
 
 #include <Eigen/Eigenvalues>
 
 #include <cmath>
 
-namespace hyperlattice::statics {
+namespace hyperlattice::numerics {
 
 double unit_of_height(double in_space, double of_height) {
   return in_space > 0 && of_height > 0 && std::isfinite(in_space / of_height) ? std::sqrt(in_space / of_height) : 1;
@@ -28,4 +28,4 @@ BlockInverse::BlockInverse(const Eigen::Matrix4d& block) {
   added = unit.cwiseInverse().asDiagonal() * (turn * more.asDiagonal() * turn.transpose()) * unit.cwiseInverse().asDiagonal();
 }
 
-}  // namespace hyperlattice::statics
+}  // namespace hyperlattice::numerics

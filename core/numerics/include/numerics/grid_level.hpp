@@ -1,15 +1,15 @@
-// One level of the multigrid hierarchy: a box of sites, a stiffness on it, and how its numbers are stored. The finest level is the lattice itself.
+// One level of a geometric multigrid: a matrix K on a box of sites with up to four numbers each, and how these are stored.
 #pragma once
 
-#include "fields.hpp"
+#include <numerics/fields.hpp>
 
 #include <array>
 
-namespace hyperlattice::statics {
+namespace hyperlattice::numerics {
 
 /// Where the numbers of a box of sites are: component c of site (i, j, k) at place(i, j, k) * of_place + c * of_component. Around the box is a
 /// margin of zeros.
-struct Layout {
+struct GridLayout {
   std::array<std::int64_t, 3> sites{};
   std::int64_t row = 0, plane = 0, origin = 0, places = 0;
   std::int64_t of_place = 1, of_component = 1;
@@ -33,12 +33,12 @@ struct Layout {
   std::size_t numbers() const { return static_cast<std::size_t>(places) * static_cast<std::size_t>(of_place == 1 ? components : of_place); }
 };
 
-class Level {
+class GridLevel {
  public:
-  explicit Level(const Layout& layout, int threads) : layout_(layout), threads_(threads) {}
-  virtual ~Level() = default;
-  Level(const Level&) = delete;
-  Level& operator=(const Level&) = delete;
+  explicit GridLevel(const GridLayout& layout, int threads) : layout_(layout), threads_(threads) {}
+  virtual ~GridLevel() = default;
+  GridLevel(const GridLevel&) = delete;
+  GridLevel& operator=(const GridLevel&) = delete;
 
   /// y = K x
   virtual void multiply(const double* x, double* y) const = 0;
@@ -48,17 +48,18 @@ class Level {
   virtual void mask(double* x) const = 0;
   virtual double largest_eigenvalue() const = 0;  ///< of D^-1 K, a bound or a good estimate
 
-  const Layout& layout() const { return layout_; }
+  const GridLayout& layout() const { return layout_; }
   int threads() const { return threads_; }
 
  protected:
-  double power_iteration() const;  ///< the largest eigenvalue of D^-1 K, from a rough field
+  /// The largest eigenvalue of D^-1 K by the power method, |D^-1 K x| / |x|, times a safety of 1.2; of a K that is zero, the safety alone. No errors.
+  double power_iteration() const;
 
-  Layout layout_;
+  GridLayout layout_;
   int threads_;
 
  private:
   void clear_margin(Field& x) const;
 };
 
-}  // namespace hyperlattice::statics
+}  // namespace hyperlattice::numerics

@@ -1,6 +1,6 @@
-#include "transfer.hpp"
+#include <numerics/trilinear_transfer.hpp>
 
-namespace hyperlattice::statics {
+namespace hyperlattice::numerics {
 
 namespace {
 
@@ -13,7 +13,7 @@ struct Children {
   double weight[3] = {};
 };
 
-Children children(const Transfer& transfer, int axis, std::int64_t at, std::int64_t sites) {
+Children children(const TrilinearTransfer& transfer, int axis, std::int64_t at, std::int64_t sites) {
   Children found;
   const auto add = [&](std::int64_t i, double weight) {
     if (i < 0 || i >= sites) return;
@@ -32,15 +32,15 @@ Children children(const Transfer& transfer, int axis, std::int64_t at, std::int6
 
 }  // namespace
 
-Transfer::Transfer(const std::array<std::int64_t, 3>& fine) : fine_(fine) {
+TrilinearTransfer::TrilinearTransfer(const std::array<std::int64_t, 3>& fine) : fine_(fine) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     halved_[axis] = fine[axis] >= shortest;
     coarse_[axis] = halved_[axis] ? fine[axis] / 2 + 1 : fine[axis];
   }
 }
 
-void Transfer::restrict_to(const Level& coarse, double* to, const Level& fine, const double* from) const {
-  const Layout &c = coarse.layout(), &f = fine.layout();
+void TrilinearTransfer::restrict_to(const GridLevel& coarse, double* to, const GridLevel& fine, const double* from) const {
+  const GridLayout &c = coarse.layout(), &f = fine.layout();
   const std::int64_t rows = coarse_[1] * coarse_[2];
 #pragma omp parallel num_threads(fine.threads())
   {
@@ -71,8 +71,8 @@ void Transfer::restrict_to(const Level& coarse, double* to, const Level& fine, c
   }
 }
 
-void Transfer::prolong_from(const Level& coarse, const double* from, const Level& fine, double* to) const {
-  const Layout &c = coarse.layout(), &f = fine.layout();
+void TrilinearTransfer::prolong_from(const GridLevel& coarse, const double* from, const GridLevel& fine, double* to) const {
+  const GridLayout &c = coarse.layout(), &f = fine.layout();
   const std::int64_t rows = fine_[1] * fine_[2];
 #pragma omp parallel num_threads(fine.threads())
   {
@@ -102,4 +102,4 @@ void Transfer::prolong_from(const Level& coarse, const double* from, const Level
   fine.mask(to);
 }
 
-}  // namespace hyperlattice::statics
+}  // namespace hyperlattice::numerics

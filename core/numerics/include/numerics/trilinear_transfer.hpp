@@ -2,9 +2,9 @@
 // halved, both levels have the same sites.
 #pragma once
 
-#include "level.hpp"
+#include <numerics/grid_level.hpp>
 
-namespace hyperlattice::statics {
+namespace hyperlattice::numerics {
 
 /// Sites of the coarser level from which a site is interpolated along one axis.
 struct Parents {
@@ -18,9 +18,9 @@ struct Window {
   std::int64_t first, last;
 };
 
-class Transfer {
+class TrilinearTransfer {
  public:
-  explicit Transfer(const std::array<std::int64_t, 3>& fine);
+  explicit TrilinearTransfer(const std::array<std::int64_t, 3>& fine);
 
   const std::array<std::int64_t, 3>& fine_sites() const { return fine_; }
   const std::array<std::int64_t, 3>& coarse_sites() const { return coarse_; }
@@ -36,12 +36,14 @@ class Transfer {
     return halved(axis) ? Window{2 * coarse - 1 - reach, 2 * coarse + 1 + reach} : Window{coarse - reach, coarse + reach};
   }
 
-  void restrict_to(const Level& coarse, double* to, const Level& fine, const double* from) const;
-  void prolong_from(const Level& coarse, const double* from, const Level& fine, double* to) const;  ///< adds
+  /// to = P^T from; both as the levels' layouts have them, four numbers a coarse site.
+  void restrict_to(const GridLevel& coarse, double* to, const GridLevel& fine, const double* from) const;
+  /// to += P from, 0 in what cannot move.
+  void prolong_from(const GridLevel& coarse, const double* from, const GridLevel& fine, double* to) const;
 
  private:
   std::array<std::int64_t, 3> fine_, coarse_{};
   std::array<bool, 3> halved_{};
 };
 
-}  // namespace hyperlattice::statics
+}  // namespace hyperlattice::numerics

@@ -1,11 +1,10 @@
-#include "aggregation.hpp"
+#include <numerics/aggregation_multigrid.hpp>
+#include <numerics/block_inverse.hpp>
+#include <numerics/chebyshev_iteration.hpp>
+#include <numerics/power_iteration.hpp>
+#include <numerics/random_stream.hpp>
 
-#include "block_inverse.hpp"
-#include "chebyshev.hpp"
-
-#include <numeric>
-
-namespace hyperlattice::statics {
+namespace hyperlattice::numerics {
 
 namespace {
 
@@ -139,20 +138,14 @@ NodeBlocks blocks_of(const SparseRows& K, std::size_t components) {
         blocks.inverse[(static_cast<std::size_t>(node) * components + static_cast<std::size_t>(a)) * components + static_cast<std::size_t>(b)] =
             inverse(a, b);
   }
-  constexpr int rounds = 12;
-  constexpr double safe = 1.1;  // they approach the largest from below
   Eigen::VectorXd x(K.rows()), y(K.rows());
-  std::uint32_t random = 12345;
-  for (double& value : x) {
-    random = random * 1664525u + 1013904223u;
-    value = static_cast<double>(random >> 8) / 16777216.0 - 0.5;
-  }
-  for (int n = 0; n < rounds; ++n) {
-    x.normalize();
+  RandomStream random;
+  for (double& value : x) value = random.next();
+  const auto apply = [&] {
     y = K * x;
     times_blocks(blocks, y, x);
-  }
-  blocks.largest = safe * x.norm();
+  };
+  blocks.largest = PowerIteration{}.largest_eigenvalue([&] { return x.norm(); }, [&](double length) { x /= length; }, apply);
   return blocks;
 }
 
@@ -178,16 +171,16 @@ SparseRows interpolation(const SparseRows& K, const NodeBlocks& blocks, const st
 
 }  // namespace
 
-struct Aggregation::Level {
+struct AggregationMultigrid::Level {
   SparseRows from_coarse, to_coarse;  ///< between the finer level and this one
   SparseRows K;
   NodeBlocks blocks;
   Eigen::VectorXd b, x, rest, step, product;
 
   void smooth(bool from_zero) {
-    Chebyshev chebyshev(blocks.largest);
-    for (int n = 0; n < Chebyshev::degree; ++n) {
-      const Chebyshev::Step weights = n == 0 ? chebyshev.first() : chebyshev.next();
+    ChebyshevIteration chebyshev(blocks.largest);
+    for (int n = 0; n < ChebyshevIteration::degree; ++n) {
+      const ChebyshevIteration::Step weights = n == 0 ? chebyshev.first() : chebyshev.next();
       const bool zero = from_zero && n == 0;
       rest = zero ? b : Eigen::VectorXd(b - K * x);
       times_blocks(blocks, rest, product);
@@ -197,7 +190,7 @@ struct Aggregation::Level {
   }
 };
 
-Aggregation::Aggregation(const SparseRows& finest, const NodeBlocks& finest_blocks) {
+AggregationMultigrid::AggregationMultigrid(const SparseRows& finest, const NodeBlocks& finest_blocks) {
   constexpr double threshold = 0.08;  // on the finest level; aggregates are joined to few others
   const SparseRows* K = &finest;
   const NodeBlocks* blocks = &finest_blocks;
@@ -224,9 +217,9 @@ Aggregation::Aggregation(const SparseRows& finest, const NodeBlocks& finest_bloc
   coarsest_.compute(levels_.back()->K, shift);
 }
 
-Aggregation::~Aggregation() = default;
+AggregationMultigrid::~AggregationMultigrid() = default;
 
-void Aggregation::apply(const Eigen::VectorXd& r, Eigen::VectorXd& z) {
+void AggregationMultigrid::apply(const Eigen::VectorXd& r, Eigen::VectorXd& z) {
   if (levels_.empty()) {
     z.setZero();
     return;
@@ -236,7 +229,7 @@ void Aggregation::apply(const Eigen::VectorXd& r, Eigen::VectorXd& z) {
   z = levels_.front()->from_coarse * levels_.front()->x;
 }
 
-void Aggregation::cycle(std::size_t n) {
+void AggregationMultigrid::cycle(std::size_t n) {
   Level& level = *levels_[n];
   if (n + 1 == levels_.size()) {
     level.x = coarsest_.solve(level.b);
@@ -251,4 +244,4 @@ void Aggregation::cycle(std::size_t n) {
   level.smooth(false);
 }
 
-}  // namespace hyperlattice::statics
+}  // namespace hyperlattice::numerics

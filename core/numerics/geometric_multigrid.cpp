@@ -1,60 +1,42 @@
-#include "multigrid.hpp"
+#include <numerics/chebyshev_iteration.hpp>
+#include <numerics/geometric_multigrid.hpp>
 
-#include "chebyshev.hpp"
+namespace hyperlattice::numerics {
 
-namespace hyperlattice::statics {
-
-namespace {
-
-constexpr std::int64_t few_sites = 300;  // for the factorisation
-
-}  // namespace
-
-void Multigrid::build() {
-  coarse_.clear();
-  transfers_.clear();
-  const auto sites = [](const Level& level) { return level.layout().sites[0] * level.layout().sites[1] * level.layout().sites[2]; };
-  do {
-    Transfer transfer(at(coarse_.size()).layout().sites);
-    if (!coarse_.empty() && !transfer.coarsens()) break;
-    auto next = coarse_.empty() ? coarsen(finest_, transfer) : coarsen(*coarse_.back(), transfer);
-    transfers_.push_back(transfer);
-    coarse_.push_back(std::move(next));
-  } while (sites(*coarse_.back()) > few_sites);
-  coarsest_ = std::make_unique<Coarsest>(*coarse_.back());
-  work_.clear();
-  for (std::size_t level = 0; level < levels(); ++level) work_.emplace_back(at(level).layout().numbers());
+GeometricMultigrid::GeometricMultigrid(std::vector<const GridLevel*> levels, std::vector<TrilinearTransfer> transfers, Solve coarsest)
+    : levels_(std::move(levels)), transfers_(std::move(transfers)), coarsest_(std::move(coarsest)) {
+  for (const GridLevel* level : levels_) work_.emplace_back(level->layout().numbers());
 }
 
-void Multigrid::apply(const Field& r, Field& z) {
+void GeometricMultigrid::apply(const Field& r, Field& z) {
   work_.front().b = r;
   cycle(0);
   z = work_.front().x;
 }
 
 /// Solves K x = b of a level, about.
-void Multigrid::cycle(std::size_t level) {
+void GeometricMultigrid::cycle(std::size_t level) {
   Work& work = work_[level];
-  if (level + 1 == levels()) return coarsest_->solve(work.b.data(), work.x.data());
-  const Level& here = at(level);
+  if (level + 1 == levels_.size()) return coarsest_(work.b.data(), work.x.data());
+  const GridLevel &here = *levels_[level], &next = *levels_[level + 1];
   Work& below = work_[level + 1];
   smooth(here, work, true);
   here.multiply(work.d.data(), work.t.data());  // the last step of the smoother is not yet in its residual
   in_pieces(work.r.size(), here.threads(), [&](std::size_t first, std::size_t last) {
     for (std::size_t n = first; n < last; ++n) work.r[n] -= work.t[n];
   });
-  transfers_[level].restrict_to(*coarse_[level], below.b.data(), here, work.r.data());
+  transfers_[level].restrict_to(next, below.b.data(), here, work.r.data());
   cycle(level + 1);
-  transfers_[level].prolong_from(*coarse_[level], below.x.data(), here, work.x.data());
+  transfers_[level].prolong_from(next, below.x.data(), here, work.x.data());
   smooth(here, work, false);
 }
 
 /// Chebyshev iteration on D^-1 K x = D^-1 b; leaves in r what was left before the last step d.
-void Multigrid::smooth(const Level& level, Work& w, bool from_zero) {
-  Chebyshev chebyshev(level.largest_eigenvalue());
+void GeometricMultigrid::smooth(const GridLevel& level, Work& w, bool from_zero) {
+  ChebyshevIteration chebyshev(level.largest_eigenvalue());
   constexpr std::size_t piece = 512;  // places, whose numbers stay in the processor's caches from one loop to the next
-  for (int step = 0; step < Chebyshev::degree; ++step) {
-    const Chebyshev::Step weights = step == 0 ? chebyshev.first() : chebyshev.next();
+  for (int step = 0; step < ChebyshevIteration::degree; ++step) {
+    const ChebyshevIteration::Step weights = step == 0 ? chebyshev.first() : chebyshev.next();
     const bool from_nothing = from_zero && step == 0;
     if (!from_nothing) level.multiply(step == 0 ? w.x.data() : w.d.data(), w.t.data());
     const Field& left = step == 0 ? w.b : w.r;
@@ -73,4 +55,4 @@ void Multigrid::smooth(const Level& level, Work& w, bool from_zero) {
   }
 }
 
-}  // namespace hyperlattice::statics
+}  // namespace hyperlattice::numerics

@@ -1,0 +1,21 @@
+// What this solver takes from the library of numerics, and calls as if it were its own.
+#pragma once
+
+#include <numerics/trilinear_transfer.hpp>
+
+namespace hyperlattice::statics {
+
+using numerics::Field;
+using numerics::Floats;
+using numerics::GridLayout;
+using numerics::GridLevel;
+using numerics::in_pieces;
+using numerics::largest;
+using numerics::largest_magnitude;
+using numerics::Parents;
+using numerics::power_of_two;
+using numerics::product;
+using numerics::TrilinearTransfer;
+using numerics::Window;
+
+}  // namespace hyperlattice::statics
