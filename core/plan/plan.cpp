@@ -3,6 +3,7 @@
 #include <plan/estimates.hpp>
 #include <plan/fields.hpp>
 #include <plan/file_names.hpp>
+#include <plan/idle_loads.hpp>
 #include <plan/left_out.hpp>
 #include <plan/plan.hpp>
 #include <plan/precision.hpp>
@@ -115,6 +116,7 @@ std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, Threads threads) {
   check_file_names(*plan->scene, faults);
   if (faults.empty()) check_precision(*plan, faults);
   if (faults.empty()) check_resolution(*plan, faults);
+  if (faults.empty() && !plan->stages.empty()) warn_of_idle_loads(*plan);
   if (faults.empty()) rehearse_outputs(*plan, faults);
   faults.throw_if_any();
   estimate_output(*plan);

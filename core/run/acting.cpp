@@ -45,7 +45,7 @@ void Simulation::Parts::prepare_loads(const Sweep& sweep) {
     const Load& load = model.loads[l];
     const double reach = sweep.step > 0 ? sweep.step : -last_step;
     if (time_held) {
-      now.mean = now.next = now.mean_of_step = load.factor(time);
+      now.mean = now.next = now.mean_of_step = load.after(time);
       now.now = {now.mean, 0};
     } else {
       now.mean = load.mean(time - sweep.before, time + sweep.after);
@@ -99,13 +99,17 @@ void Simulation::Parts::apply_forces(Block& block) const {
   }
 }
 
-/// m/s, along an axis that the load prescribes. A displacement is met at the end of each step, a velocity's path is exact.
+/// m/s, along an axis that the load prescribes. A displacement is met at the end of each step, a velocity's path is exact. Where time is held both
+/// stand where they are at that time.
 double Simulation::Parts::prescribed_velocity(const Block& block, const Contribution& part, int axis, const Sweep& sweep) const {
   const Acting& load = acting[part.load];
   const std::uint64_t index = block.supports[part.support].index;
   const double displacement = component(part.displacement, axis), velocity = component(part.velocity, axis);
-  if ((part.driven >> axis & 1u) != 0) return (sweep.step > 0 ? load.mean_of_step : load.now.value) * velocity;
-  return sweep.step > 0 ? (load.next * displacement - block.displacement[axis][index]) / sweep.step : load.now.slope * displacement;
+  const bool driven = (part.driven >> axis & 1u) != 0;
+  if (driven && !time_held) return (sweep.step > 0 ? load.mean_of_step : load.now.value) * velocity;
+  const double goal = driven ? component(part.goal, axis) : load.next * displacement;
+  if (sweep.step > 0) return (goal - block.displacement[axis][index]) / sweep.step;
+  return driven ? 0 : load.now.slope * displacement;
 }
 
 void Simulation::Parts::prepare_supports(Block& block, const Sweep& sweep) const {

@@ -21,8 +21,8 @@ void Statics::make_loads() {
   std::map<std::int64_t, Held> held;
   for (std::size_t l = 0; l < model_.loads.size(); ++l) {
     const Load& load = model_.loads[l];
-    factor_start_.push_back(fresh ? 0 : load.factor(start_));
-    factor_end_.push_back(load.factor(end_));
+    factor_start_.push_back(fresh ? 0 : load.after(start_));
+    factor_end_.push_back(load.after(end_));
     const double way = load.integral(start_, end_);
     for (const LoadedParticle& loaded : load.particles) {
       const std::int64_t place = place_of(loaded.particle);

@@ -317,6 +317,46 @@ TEST_F(ReportCommand, CallsFineOnlyWhatIsBelowTheStatedBound) {
   }
 }
 
+TEST_F(ReportCommand, TakesThePlaceOfNothingElse) {
+  run("one");
+  write(out("one") + "/files.csv", contents(out("one") + "/files.csv") + ",,mine.html\n");
+  write(out("one") + "/mine.html", "a writer's");
+  for (const std::string name : {"one/summary.json", "one/history.csv", "one/probes/outer.csv", "one/files.csv", "one/mine.html", "scene.json"}) {
+    fs::create_symlink(out(name), out("link.html"));
+    const std::string before = contents(out(name));
+    for (const std::string& file : {out(name), out("link.html")}) {
+      const Result result = report({out("one"), "--out", file});
+      EXPECT_EQ(result.exit_code, 2) << result.err;
+      EXPECT_NE(result.err.find("--out: " + file + ": expected "), std::string::npos) << result.err;
+      EXPECT_EQ(result.out, "");
+      EXPECT_EQ(contents(out(name)), before) << file;
+    }
+    fs::remove(out("link.html"));
+  }
+}
+
+TEST_F(ReportCommand, WritesIntoLinksAndDevicesAndSaysWhereALinkLeadsNowhere) {
+  run("one");
+  write(out("target.html"), "an earlier page");
+  fs::create_symlink("target.html", out("page"));
+  EXPECT_EQ(report({out("one"), "--out", out("page")}).exit_code, 0);
+  EXPECT_TRUE(fs::is_symlink(out("page")));
+  EXPECT_NE(contents(out("target.html")).find("small sphere"), std::string::npos);
+  EXPECT_EQ(report({out("one"), "--out", "/dev/null"}).exit_code, 0);
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  for (int twice = 0; twice < 2; ++twice) EXPECT_EQ(report({out("one"), "--out", out("new.HTM")}).exit_code, 0);
+
+  fs::create_symlink("nowhere.html", out("dangling.html"));
+  fs::create_symlink("itself.html", out("itself.html"));
+  for (const auto& [name, part] : {std::pair{"dangling.html", "a link to nowhere.html, where none is"}, std::pair{"itself.html", "in a circle"}}) {
+    const Result result = report({out("one"), "--out", out(name)});
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
+    EXPECT_TRUE(fs::is_symlink(out(name)));
+  }
+  EXPECT_FALSE(fs::exists(out("nowhere.html")));
+}
+
 TEST_F(ReportCommand, RefusesCommandsThatMakeNoSense) {
   run("good");
   EXPECT_EQ(report({}).exit_code, 2);

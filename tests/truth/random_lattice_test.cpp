@@ -137,8 +137,8 @@ TEST(RandomLattice, WavesTravelAsFastAsItsModuliSay) {
 
 TEST(Points, RefusesWhatIsNoLattice) {
   const ListFiles files(3, 3, 3);
-  const auto refusal = [&](const std::string& springs) {
-    std::ofstream(files.springs) << "a,b\n" << springs;
+  const auto refusal = [&](const std::string& springs, const std::string& columns = "a,b") {
+    std::ofstream(files.springs) << columns << "\n" << springs;
     try {
       plan_of(listed_scene(files.lattice(), R"("membrane": "none")"));
     } catch (const InputError& error) {
@@ -146,11 +146,46 @@ TEST(Points, RefusesWhatIsNoLattice) {
     }
     return std::string();
   };
-  EXPECT_NE(refusal("0,1\n1,0\n").find("is given twice"), std::string::npos);
-  EXPECT_NE(refusal("0,0\n").find("joins a particle to itself"), std::string::npos);
-  EXPECT_NE(refusal("0,27\n").find("none of the 27 particles"), std::string::npos);
+  const std::string file = "file " + files.springs.string();
+  EXPECT_NE(refusal("0,1\n1,2\n1,0\n").find(file + ", line 4: expected a spring between points that no other joins; line 2 joins 0 and 1 too"),
+            std::string::npos);
+  EXPECT_NE(refusal("0,0\n").find(file + ", line 2: expected two points, not 0 twice"), std::string::npos);
+  EXPECT_NE(refusal("0,1\n0,27\n").find(file + ", line 3: expected one of the 27 points, counted from 0, in column \"b\", not 27"),
+            std::string::npos);
+  EXPECT_NE(refusal("0,1,1\n1,2,0\n", "a,b,stiffness").find(file + ", line 3: expected a stiffness that is not 0"), std::string::npos);
+  EXPECT_NE(refusal("0,1,-1\n1,2,-1\n", "a,b,stiffness").find(file + ": expected stiffnesses that are positive and finite in the sum"),
+            std::string::npos);
+  EXPECT_NE(refusal("0,1,1\n", "a,b,stifness").find(file + ", line 1: expected the name \"stiffness\" for column \"stifness\""), std::string::npos);
   EXPECT_NE(refusal("0,x\n").find("line 2: expected a number in column \"b\", not \"x\""), std::string::npos);
   EXPECT_NE(refusal("").find("has no spring"), std::string::npos);
+}
+
+TEST(Points, RefusesPointsThatCannotBeParticles) {
+  const ListFiles files(3, 3, 3);
+  const auto refusal = [&](const std::string& points) {
+    std::ofstream(files.points) << points;
+    std::ofstream(files.springs) << "a,b\n0,1\n1,2\n";
+    try {
+      plan_of(listed_scene(files.lattice(), R"("membrane": "none")"));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string file = "file " + files.points.string();
+  EXPECT_EQ(refusal("x,y,z,volume\n0,0,0,1\n0,0,1,1\n0,1,0,1\n"), "");
+  EXPECT_NE(
+      refusal("x,y,z\n0,0,0\n# between\n0,0,1\n-0,0,0\n").find(file + ", line 5: expected a point at a place of its own, not at that of line 2"),
+      std::string::npos);
+  for (const char* volume : {"0", "-1"})
+    EXPECT_NE(refusal("x,y,z,volume\n0,0,0,1\n0,0,1," + std::string(volume) + "\n0,1,0,1\n")
+                  .find(file + ", line 3: expected a volume above 0, not " + volume),
+              std::string::npos);
+  EXPECT_NE(refusal("x,y,z,volume\n0,0,0,1\n0,0,1,1e200\n0,1,0,1\n").find(file + ", line 3: expected a volume in reach of numbers"),
+            std::string::npos);
+  EXPECT_NE(refusal("x,y,z,volum\n0,0,0,1\n0,0,1,1\n0,1,0,1\n").find(file + ", line 1: expected the name \"volume\" for column \"volum\""),
+            std::string::npos);
+  EXPECT_NE(refusal("x,y,z\n0,0,0\n0,0,1\n0,1e200,0\n").find(file + ", line 4: expected coordinates up to 1e+50 m, not 1e+197 m"), std::string::npos);
 }
 
 }  // namespace

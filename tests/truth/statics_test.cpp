@@ -184,6 +184,40 @@ TEST(Statics, RelaxationAgrees) {
   }
 }
 
+// What is driven stands where it would have come by then, however many steps rest takes: 1 mm/s for 1 ms, or with a rise of that time half as far.
+TEST(Statics, WhatIsDrivenComesWhereItWouldHaveComeByThen) {
+  const auto driven = [](const std::string& load, const std::string& solver) {
+    return AtRest(block(6, 4, 4, R"("membrane": "I-m", "poisson": 0.1)",
+                        R"({ "type": "loads.fixed", "on": "x_min" }, { "type": "loads.velocity", "on": "x_max", "value": [1e-3, 0, 0])" + load +
+                            R"( }, { "type": "solvers.)" + solver + R"(, "end_time": "1 ms" })"));
+  };
+  for (const auto& [rise, way] : {std::pair{"", 1e-6}, {R"(, "rise": "1 ms")", 0.5e-6}}) {
+    const AtRest found = driven(rise, R"(static", "tolerance": 1e-8)");
+    EXPECT_NEAR(largest(found.u), way, 1e-12 * way) << rise;
+    for (const char* method : {"local_damping", "accelerated"}) {
+      const AtRest relaxed = driven(rise, R"(relaxation", "tolerance": 1e-6, "method": ")" + std::string(method) + '"');
+      EXPECT_NEAR(largest(relaxed.u), way, 1e-12 * way) << rise << method;
+      EXPECT_LT(distance(found.u, relaxed.u), 1e-3 * way) << rise << method;
+    }
+  }
+}
+
+// At an instant at which a load jumps it has jumped.
+TEST(Statics, ALoadThatJumpsAtTheInstantOfRestHasJumped) {
+  for (const char* solver : {"static", "relaxation"}) {
+    const auto pulled = [&](const std::string& expression) {
+      return AtRest(block(6, 4, 4, R"("membrane": "I-m", "poisson": 0.1)",
+                          R"({ "type": "loads.fixed", "on": "x_min" }, { "type": "loads.expression", "on": "x_max", "total": [1, 0, 0],
+                             "corners": ["10 us"], "expression": ")" +
+                              expression + R"(" }, { "type": "solvers.)" + solver + R"(" })"));
+    };
+    const AtRest whole = pulled("1");
+    EXPECT_GT(largest(whole.u), 0);
+    EXPECT_EQ(whole.u, pulled("t>10e-6?1:0").u) << solver;
+    EXPECT_EQ(whole.u, pulled("t>=10e-6?1:0").u) << solver;
+  }
+}
+
 // Also where the residual says little of it: of the slender beam, 1e-4 of the mean force is 3% of the displacements.
 TEST(Statics, RelaxationKnowsItsError) {
   const auto bent_beam = [](const std::string& solver) {

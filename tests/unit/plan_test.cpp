@@ -43,6 +43,30 @@ TEST(Plan, small_bodies_take_few_threads_unless_a_number_is_asked_for) {
   EXPECT_FALSE(Threads(8).allow(3));
 }
 
+TEST(Plan, warns_of_loads_that_do_nothing) {
+  const auto warned = [](const nlohmann::json& load, const nlohmann::json& solver) {
+    auto scene = small_sphere();
+    scene["pipeline"] = {scene["pipeline"][0], scene["pipeline"][1], load, solver};
+    const auto plan = plan_of(scene);
+    return std::any_of(plan->model->warnings.begin(), plan->model->warnings.end(),
+                       [](const std::string& text) { return text.find("does nothing in this run") != std::string::npos; });
+  };
+  const auto expression = [](const char* text) {
+    return nlohmann::json{{"type", "loads.expression"}, {"on", "outer_surface"}, {"total", {1, 0, 0}}, {"expression", text}};
+  };
+  const nlohmann::json velocity{{"type", "loads.velocity"}, {"on", "outer_surface"}, {"value", {1, 0, 0}}};
+  const nlohmann::json held{{"type", "loads.fixed"}, {"on", "outer_surface"}};
+  const nlohmann::json rest{{"type", "solvers.static"}}, later{{"type", "solvers.static"}, {"end_time", "1 us"}};
+  const nlohmann::json steps{{"type", "solvers.explicit"}, {"end_time", "1 us"}};
+  EXPECT_TRUE(warned(expression("t / 1e-5"), rest));
+  EXPECT_FALSE(warned(expression("t / 1e-5"), later));
+  EXPECT_FALSE(warned(expression("t / 1e-5"), steps));
+  EXPECT_TRUE(warned(expression("t > 2e-6 ? 1 : 0"), steps));
+  EXPECT_TRUE(warned(velocity, rest));
+  EXPECT_FALSE(warned(velocity, later));
+  EXPECT_FALSE(warned(held, rest));
+}
+
 TEST(Plan, bytes_are_those_of_the_state) {
   for (const char* membrane : {"none", "I-m", "III"})
     for (const int threads : {1, 2, 5}) {
