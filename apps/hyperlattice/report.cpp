@@ -7,6 +7,7 @@
 #include <run/output_file.hpp>
 
 #include <hyperlattice/files.hpp>
+
 #include <spdlog/spdlog.h>
 
 #include <iostream>
@@ -33,7 +34,10 @@ Command report_command(CLI::App& program) {
             faults.throw_if_any();
             const report::Report report = report::read_report(folders);
             const std::string page = report::report_page(report);
-            is_default ? write_file(file.string(), page) : write_named_file(file, page);
+            if (is_default)
+              write_file(file.string(), page);  // through no link that was made meanwhile
+            else
+              write_named_file(file, page);
             if (json) {
               Json found = report::report_json(report);
               found["file"] = file.string();

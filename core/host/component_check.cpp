@@ -58,7 +58,7 @@ constexpr std::size_t longest_name = 200, longest_text = 1 << 16;
 
 bool is_text(std::string_view text) { return text.size() <= longest_text && (text.empty() || text.data() != nullptr); }
 
-/// Of a text that a scene must repeat, or that is read as a number, unit or JSON.
+/// Of a text that a scene repeats, or that is read as a unit: it cannot be shown otherwise than it is.
 bool is_seen(std::string_view text) { return visible_line(text, longest_text) == text; }
 
 std::string option_fault(const Option& option) {
@@ -69,8 +69,8 @@ std::string option_fault(const Option& option) {
   if (option.kind > OptionKind::file || !option.set) return "it cannot be set";
   for (const std::string_view text : option.choices)
     if (!is_text(text) || !is_seen(text)) return "one of its choices holds characters that nobody sees";
-  for (const std::string_view text : {option.unit, option.fallback, option.word})
-    if (!is_seen(text)) return "its unit, fallback or word holds characters that nobody sees";
+  if (!is_seen(option.unit) || !is_seen(option.word) || visible(option.fallback, longest_text) != option.fallback)
+    return "its unit, word or fallback holds characters that nobody sees";
   if (option.kind == OptionKind::choice && option.choices.empty()) return "it has no choices";
   if (!(option.low <= option.high)) return "its range is empty";
   for (const auto& [what, text] : {std::pair("example", option.example), std::pair("fallback", option.fallback)})

@@ -96,7 +96,8 @@ ComponentInfo shown(ComponentInfo info) {
   info.summary = shown_line(info.summary);
   for (std::string_view* text : {&info.equation, &info.source, &info.restrictions}) *text = shown_lines(*text);
   auto& options = lists.emplace_back(info.options.begin(), info.options.end());
-  for (Option& option : options) option.help = shown_line(option.help);
+  for (Option& option : options)
+    for (std::string_view* text : {&option.help, &option.fallback}) *text = shown_line(*text);  // JSON may have ends of lines between values only
   info.options = options;
   return info;
 }

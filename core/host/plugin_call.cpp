@@ -23,14 +23,19 @@ OutsideError plugin_failure(std::string_view name, std::string_view place, std::
 }
 
 PluginCall::PluginCall(std::string_view name, const char* library, const char* function, std::string_view place) noexcept
-    : name_(name), place_(place), library_(library), function_(function), before_(current), why_{this, [](void* self, std::string_view sentence) noexcept {
-                                                                                    auto& call = *static_cast<PluginCall*>(self);
-                                                                                    try {
-                                                                                      call.sentence_.assign(sentence.substr(0, longest_sentence));
-                                                                                    } catch (...) {
-                                                                                      call.keep(std::current_exception());
-                                                                                    }
-                                                                                  }} {
+    : name_(name),
+      place_(place),
+      library_(library),
+      function_(function),
+      before_(current),
+      why_{this, [](void* self, std::string_view sentence) noexcept {
+             auto& call = *static_cast<PluginCall*>(self);
+             try {
+               call.sentence_.assign(sentence.substr(0, longest_sentence));
+             } catch (...) {
+               call.keep(std::current_exception());
+             }
+           }} {
   current = this;
 }
 
@@ -41,7 +46,8 @@ const std::string* PluginCall::failure(bool done) {
   if (done) return nullptr;
   if (sentence_ == out_of_memory && name_.empty()) throw std::bad_alloc();
   if (sentence_ == out_of_memory) throw plugin_failure(name_, place_, library_, function_, lack_of_memory());
-  sentence_ = sentence_.empty() ? "it does not say why" : visible_line(sentence_, longest_sentence);
+  sentence_ = visible_line(sentence_, longest_sentence);
+  if (sentence_.empty()) sentence_ = "it does not say why";
   return &sentence_;
 }
 

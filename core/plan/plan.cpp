@@ -1,5 +1,6 @@
 #include <base/errors.hpp>
 #include <model/build.hpp>
+#include <plan/coordination.hpp>
 #include <plan/estimates.hpp>
 #include <plan/fields.hpp>
 #include <plan/file_names.hpp>
@@ -109,6 +110,8 @@ std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, Threads threads) {
   }
   plan->body = body_figures(*plan->model);
   for (std::string& warning : size_warnings(plan->body, plan->model->body.grid.spacing)) plan->model->warnings.push_back(std::move(warning));
+  if (plan->model->body.is_listed())
+    if (std::string warning = coordination_warning(plan->model->body); !warning.empty()) plan->model->warnings.push_back(std::move(warning));
   Faults faults;
   plan->asked_fields = asked_fields(*plan->scene);
   plan_stages(*plan, faults);

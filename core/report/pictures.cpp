@@ -59,7 +59,8 @@ std::vector<PictureFile> frames(const fs::path& folder, const fs::path& base, do
     if (picture.time) last = picture.time;
     found.push_back(std::move(picture));
   }
-  if (left_out > most_told) notes.push_back(fmt::format("{} more files of the pictures {} are not shown.", left_out - most_told, base.generic_string()));
+  if (left_out > most_told)
+    notes.push_back(fmt::format("{} more files of the pictures {} are not shown.", left_out - most_told, base.generic_string()));
   return found;
 }
 

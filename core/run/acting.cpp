@@ -1,10 +1,9 @@
 // What loads do at the present instant: their factors, by the mean over the interval in which forces act, their answers to the motion, and the
 // velocities of the particles that they move.
-#include <base/errors.hpp>
+#include <model/blame.hpp>
 #include <run/parts.hpp>
 
 #include <spdlog/fmt/fmt.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -20,20 +19,6 @@ bool is_sound(const WatchedMotion& seen, double step, double spacing) {
   constexpr double spacings = 100;  // in a step
   return std::all_of(seen.displacement.begin(), seen.displacement.end(), is_finite) &&
          std::all_of(seen.velocity.begin(), seen.velocity.end(), [&](Vec3 v) { return norm(v) * step <= spacings * spacing; });
-}
-
-/// A load as the scene has it, cut to a line.
-std::string text_of(const Model& model, const Stage& stage) {
-  std::string text;
-  const nlohmann::json resolved = nlohmann::json::parse(model.scene->resolved, nullptr, false);
-  if (const nlohmann::json::json_pointer at(stage.pointer); !resolved.is_discarded() && resolved.contains(at)) text = resolved.at(at).dump();
-  constexpr std::size_t most = 300;
-  return text.size() > most ? text.substr(0, most) + "..." : text;
-}
-
-[[noreturn]] void blame(const Model& model, std::size_t load, const std::string& what) {
-  const Stage& stage = *model.loads[load].stage;
-  throw RunError(fmt::format("{} ({}): {}. The load is {}", stage.component->type(), stage.pointer, what, text_of(model, stage)));
 }
 
 }  // namespace
@@ -134,9 +119,9 @@ void Simulation::Parts::check_factors() const {
   for (std::size_t l = 0; l < acting.size(); ++l) {
     const Acting& load = acting[l];
     const double now = model.loads[l].factor(time);
-    if (!std::isfinite(now)) blame(model, l, fmt::format("its factor at t = {:.6g} s, step {}, is {}: no finite number", time, steps, now));
+    if (!std::isfinite(now)) blame_load(model, l, fmt::format("its factor at t = {:.6g} s, step {}, is {}: no finite number", time, steps, now));
     if (std::isfinite(load.mean + load.next + load.mean_of_step + load.now.value + load.now.slope)) continue;
-    blame(model, l, fmt::format("its factor is no finite number within a step of t = {:.6g} s, step {}", time, steps));
+    blame_load(model, l, fmt::format("its factor is no finite number within a step of t = {:.6g} s, step {}", time, steps));
   }
 }
 
@@ -145,7 +130,7 @@ void Simulation::Parts::check_answers() const {
   for (const Block& block : blocks) {
     if (block.bad_answer == no_load) continue;
     if (is_sound(acting[block.bad_answer].motion, last_step, model.body.grid.spacing))
-      blame(model, block.bad_answer, fmt::format("its answer at t = {:.6g} s, step {}, to a finite motion is no finite force", time, steps));
+      blame_load(model, block.bad_answer, fmt::format("its answer at t = {:.6g} s, step {}, to a finite motion is no finite force", time, steps));
   }
 }
 

@@ -18,8 +18,7 @@ constexpr std::size_t most_shown = 4096;  // bytes of a plugin's text
 template <class Code>
 void call(const OptionSet& set, const char* function, Code&& code) {
   PluginCall call(set.name, set.library, function);
-  if (const std::string* sentence = call.failure(code(call.why())))
-    throw plugin_failure(set.name, "", set.library, function, *sentence);
+  if (const std::string* sentence = call.failure(code(call.why()))) throw plugin_failure(set.name, "", set.library, function, *sentence);
 }
 
 }  // namespace

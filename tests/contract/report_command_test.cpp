@@ -357,6 +357,72 @@ TEST_F(ReportCommand, WritesIntoLinksAndDevicesAndSaysWhereALinkLeadsNowhere) {
   EXPECT_FALSE(fs::exists(out("nowhere.html")));
 }
 
+TEST_F(ReportCommand, WritesIntoNothingUnderANameThatNobodyGave) {
+  run("one");
+  run("two");
+  write(out("secret.txt"), "secret");
+  write(out("other.html"), "a page");
+  Launch here;
+  here.directory = out("");
+  const std::vector<std::pair<std::string, Words>> calls{{out("one") + "/report.html", {"report", out("one")}},
+                                                         {out("report.html"), {"report", out("one"), out("two")}}};
+  for (const auto& [file, words] : calls) {
+    const auto expect_left = [&, &file = file, &words = words](const std::string& what) {
+      const Result result = run_program(words, here);
+      EXPECT_EQ(result.exit_code, 2) << what << result.err;
+      EXPECT_NE(result.err.find("report.html: expected a regular file, or nothing, of that name"), std::string::npos) << what << result.err;
+      EXPECT_EQ(contents(out("secret.txt")), "secret");
+      EXPECT_EQ(contents(out("other.html")), "a page");
+      EXPECT_FALSE(fs::exists(out("nowhere.html")));
+      fs::remove(file);
+    };
+    for (const std::string target : {"secret.txt", "other.html", "nowhere.html"}) {
+      fs::create_symlink(out(target), file);
+      expect_left(target);
+    }
+    ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
+    expect_left("a pipe");
+    for (int twice = 0; twice < 2; ++twice) EXPECT_EQ(run_program(words, here).exit_code, 0);
+  }
+}
+
+TEST_F(ReportCommand, ShowsTheGoodPicturesBesideBadOnes) {
+  run("run", {{"/pipeline/5", {{"type", "writers.picture"}, {"every", "2 us"}, {"width", 64}, {"height", 64}}}});
+  const auto name = [](int n) { return "picture_00000" + std::to_string(n) + ".png"; };
+  const auto file = [&](int n) { return out("run") + "/" + name(n); };
+  const std::string good = contents(file(0));
+  ASSERT_TRUE(fs::exists(file(4)));
+  write(out("outside.png"), good);
+  const std::vector<std::pair<std::string, std::function<void(const std::string&)>>> faults{
+      {"a link", [&](const std::string& at) { fs::create_symlink(out("outside.png"), at); }},
+      {"no PNG picture", [&](const std::string& at) { write(at, "text"); }},
+      {"a folder, device or pipe", [](const std::string& at) { ASSERT_EQ(mkfifo(at.c_str(), 0600), 0); }}};
+  for (const int bad : {0, 1, 4})
+    for (const auto& [what, make] : faults) {
+      const std::string before = contents(file(bad));
+      fs::remove(file(bad));
+      make(file(bad));
+      const Result result = report({out("run")});
+      EXPECT_EQ(result.exit_code, 0) << result.err;
+      EXPECT_NE(result.out.find(name(bad) + " is " + what + ", and is not shown."), std::string::npos) << result.out;
+      for (int n = 0; n < 5; ++n) EXPECT_EQ(page("run").find("alt=\"" + name(n)) != std::string::npos, n != bad) << n << ' ' << bad << ' ' << what;
+      fs::remove(file(bad));
+      write(file(bad), before);
+    }
+  for (int n = 0; n < 5; ++n) write(file(n), "text");
+  const Result none = report({out("run")});
+  EXPECT_EQ(none.exit_code, 0) << none.err;
+  EXPECT_NE(none.out.find("more files of the pictures picture are not shown."), std::string::npos) << none.out;
+
+  json scene = read_json(out("run") + "/scene.resolved.json");  // a folder that is a link: nothing in it counts
+  scene["pipeline"][5]["file"] = "linked/picture";
+  write(out("run") + "/scene.resolved.json", scene.dump());
+  fs::create_directory_symlink(".", out("run") + "/linked");
+  const Result linked = report({out("run")});
+  EXPECT_EQ(linked.exit_code, 0) << linked.err;
+  EXPECT_NE(linked.out.find("linked/picture_000000.png is a link"), std::string::npos) << linked.out;
+}
+
 TEST_F(ReportCommand, RefusesCommandsThatMakeNoSense) {
   run("good");
   EXPECT_EQ(report({}).exit_code, 2);

@@ -184,12 +184,16 @@ TEST(Statics, RelaxationAgrees) {
   }
 }
 
+std::string small_block(const std::string& stages) {
+  return scene(R"("spacing": 0.001, "shape": )" + box({0, 0, 0}, {0.006, 0.004, 0.004}),
+               elastic(1e9, R"("membrane": "I-m", "poisson": 0.1)") + R"({ "type": "loads.fixed", "on": "x_min" },)" + stages);
+}
+
 // What is driven stands where it would have come by then, however many steps rest takes: 1 mm/s for 1 ms, or with a rise of that time half as far.
 TEST(Statics, WhatIsDrivenComesWhereItWouldHaveComeByThen) {
   const auto driven = [](const std::string& load, const std::string& solver) {
-    return AtRest(block(6, 4, 4, R"("membrane": "I-m", "poisson": 0.1)",
-                        R"({ "type": "loads.fixed", "on": "x_min" }, { "type": "loads.velocity", "on": "x_max", "value": [1e-3, 0, 0])" + load +
-                            R"( }, { "type": "solvers.)" + solver + R"(, "end_time": "1 ms" })"));
+    return AtRest(small_block(R"({ "type": "loads.velocity", "on": "x_max", "value": [1e-3, 0, 0])" + load + R"( }, { "type": "solvers.)" + solver +
+                              R"(, "end_time": "1 ms" })"));
   };
   for (const auto& [rise, way] : {std::pair{"", 1e-6}, {R"(, "rise": "1 ms")", 0.5e-6}}) {
     const AtRest found = driven(rise, R"(static", "tolerance": 1e-8)");
@@ -206,15 +210,27 @@ TEST(Statics, WhatIsDrivenComesWhereItWouldHaveComeByThen) {
 TEST(Statics, ALoadThatJumpsAtTheInstantOfRestHasJumped) {
   for (const char* solver : {"static", "relaxation"}) {
     const auto pulled = [&](const std::string& expression) {
-      return AtRest(block(6, 4, 4, R"("membrane": "I-m", "poisson": 0.1)",
-                          R"({ "type": "loads.fixed", "on": "x_min" }, { "type": "loads.expression", "on": "x_max", "total": [1, 0, 0],
+      return AtRest(small_block(R"({ "type": "loads.expression", "on": "x_max", "total": [1, 0, 0],
                              "corners": ["10 us"], "expression": ")" +
-                              expression + R"(" }, { "type": "solvers.)" + solver + R"(" })"));
+                                expression + R"(" }, { "type": "solvers.)" + solver + R"(" })"));
     };
     const AtRest whole = pulled("1");
     EXPECT_GT(largest(whole.u), 0);
     EXPECT_EQ(whole.u, pulled("t>10e-6?1:0").u) << solver;
     EXPECT_EQ(whole.u, pulled("t>=10e-6?1:0").u) << solver;
+  }
+}
+
+TEST(Statics, ALoadThatIsNoNumberIsNamed) {
+  for (const char* expression : {"sqrt(0.5-t)", "exp(t*1500)"}) {
+    const std::string load =
+        R"({ "type": "loads.expression", "on": "x_max", "total": [1, 0, 0], "expression": ")" + std::string(expression) + "\" },";
+    try {
+      const AtRest found(small_block(load + R"({ "type": "solvers.static", "end_time": 1 })"));
+      FAIL() << expression;
+    } catch (const RunError& error) {
+      EXPECT_NE(std::string(error.what()).find(expression), std::string::npos) << error.what();
+    }
   }
 }
 
