@@ -7,6 +7,7 @@
 #include <analyze/load_lattice.hpp>
 #include <base/gnuplot.hpp>
 #include <base/named_file.hpp>
+#include <run/output_file.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -29,6 +30,10 @@ void check(const Arguments& arguments) {
     faults.add("--membrane", "", "a membrane: none, I, II, III, IV, I-m or free");
   if (arguments.lattice != bundled::cubic && !(arguments.crystals.empty() && arguments.plot.empty()))
     faults.add("--lattice", arguments.lattice, std::string(bundled::cubic) + ", the one whose crystals are known");
+  std::vector<std::filesystem::path> inputs = arguments.files();
+  inputs.emplace_back(arguments.crystals);
+  if (!arguments.dispersion.empty()) check_output_file({"--dispersion", arguments.dispersion, {".csv"}}, inputs, faults);
+  if (!arguments.plot.empty()) check_output_file({"--plot", arguments.plot, {".svg"}}, inputs, faults);
   faults.throw_if_any();
 }
 
@@ -56,7 +61,7 @@ int analyze(const Arguments& arguments) {
     json.update(crystals_json(crystals));
     text += (text.empty() ? "" : "\n") + crystals_text(crystals);
   }
-  if (!arguments.plot.empty()) draw_svg(arguments.plot, crystal_map_script(crystals, point));
+  if (!arguments.plot.empty()) write_named_file(arguments.plot, svg_picture(arguments.plot, crystal_map_script(crystals, point)));
   std::cout << (arguments.json ? json_text(json) : text) << std::flush;
   return exit_done;
 }

@@ -4,6 +4,8 @@
 #include <analyze/curve_family.hpp>
 #include <analyze/load_lattice.hpp>
 #include <base/gnuplot.hpp>
+#include <base/named_file.hpp>
+#include <run/output_file.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -48,6 +50,7 @@ void check(const Arguments& a) {
   if (const auto equals = a.each.find('='); !a.each.empty() && (equals == std::string::npos || equals == 0 || equals + 1 == a.each.size()))
     faults.add("--each", a.each, "an option of the lattice with several values, such as coordination=8.4,13.2");
   if (!a.plot.empty() && !a.curve) faults.add("--plot", a.plot, "--curve with it: that is what is drawn");
+  if (!a.plot.empty()) check_output_file({"--plot", a.plot, {".svg"}}, a.lattice.files(), faults);
   faults.throw_if_any();
 }
 
@@ -59,7 +62,7 @@ int calibrate_curve(const Arguments& a, Host& host, const LatticeGeometry& geome
   std::optional<VirtualTest> virtual_test;
   if (a.measure) virtual_test.emplace(host, bundled::virtual_test, options);
   const Curve curve = calibration_curve(choice, a.choice, geometry, virtual_test ? &*virtual_test : nullptr);
-  if (!a.plot.empty()) draw_svg(a.plot, curve_script(curve, options), 1000, 460);
+  if (!a.plot.empty()) write_named_file(a.plot, svg_picture(a.plot, curve_script(curve, options), 1000, 460));
   Json json = {{"lattice", a.lattice.lattice}};
   json.update(curve_json(curve, options));
   std::cout << (a.json ? json_text(json) : curve_text(curve, options)) << std::flush;
@@ -78,7 +81,7 @@ int calibrate_family(const Arguments& a, Host& host) {
     options.push_back(family.option + "=" + value);
     family.members.push_back({value, calibration_curve(choice, a.choice, load_lattice(host, a.lattice.lattice, options), nullptr)});
   }
-  if (!a.plot.empty()) draw_svg(a.plot, family_script(family), 640, 460);
+  if (!a.plot.empty()) write_named_file(a.plot, svg_picture(a.plot, family_script(family), 640, 460));
   Json json = {{"lattice", a.lattice.lattice}};
   json.update(family_json(family, a.virtual_test()));
   std::cout << (a.json ? json_text(json) : family_text(family)) << std::flush;

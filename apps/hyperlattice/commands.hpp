@@ -67,6 +67,7 @@ struct LatticeArguments {
   MembraneChoice membrane;
 
   void declare(CLI::App& command);
+  std::vector<std::filesystem::path> files() const;  ///< that options may name: their values
 };
 
 }  // namespace hyperlattice

@@ -14,4 +14,11 @@ void LatticeArguments::declare(CLI::App& command) {
   command.add_option("--k_gamma", membrane.k_gamma, "membrane free: k_gamma / k, beside springs of the second class");
 }
 
+std::vector<std::filesystem::path> LatticeArguments::files() const {
+  std::vector<std::filesystem::path> files;
+  for (const std::string& option : options)
+    if (const auto equals = option.find('='); equals != std::string::npos) files.emplace_back(option.substr(equals + 1));
+  return files;
+}
+
 }  // namespace hyperlattice

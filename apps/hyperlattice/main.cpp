@@ -5,8 +5,8 @@
 #include <base/errors.hpp>
 #include <host/crash.hpp>
 #include <process/descriptors.hpp>
+#include <process/file_limit.hpp>
 #include <process/lack_of_memory.hpp>
-#include <run/interrupt.hpp>
 #include <scene/scene_plugins.hpp>
 
 #include <spdlog/sinks/stdout_sinks.h>
@@ -113,6 +113,6 @@ int main(int count, char** words) {
   report_crashes();
   const int code = obey(count, words);
   if (std::cout.flush()) return code;
-  complain(exit_outside, "cannot write all of what was to be printed: the device behind standard output is full or gone");
+  complain(exit_outside, "cannot write all of what was to be printed: standard output is closed, or the device behind it is full or gone");
   return code == exit_done ? exit_outside : code;
 }

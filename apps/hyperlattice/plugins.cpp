@@ -73,6 +73,16 @@ std::vector<const Component*> named(Host& host, const Arguments& arguments) {
   return components;
 }
 
+/// Makes the folder of the pictures, so that what stands in its way is no fault of a component.
+void make_folder(const std::filesystem::path& pictures) {
+  std::error_code error, unseen;
+  std::filesystem::create_directories(pictures, error);
+  if (std::filesystem::is_directory(pictures, unseen)) return;
+  if (std::filesystem::exists(std::filesystem::symlink_status(pictures, unseen)))
+    throw InputError({{"--pictures", pictures.string(), "a folder, or a name that is free"}});
+  throw OutsideError(fmt::format("cannot create the folder {}: {}", pictures.string(), error.message()));
+}
+
 int show(const Arguments& arguments) {
   Host host(arguments.folders);
   if (!arguments.new_type.empty()) {
@@ -81,6 +91,7 @@ int show(const Arguments& arguments) {
     return write_new_plugin(arguments.new_type, arguments.out);
   }
   const auto components = named(host, arguments);
+  if (arguments.test && !arguments.pictures.empty()) make_folder(arguments.pictures);
   if (arguments.test) return test_plugins(host, components, arguments.pictures, arguments.json);
   if (arguments.json) {
     nlohmann::json document;

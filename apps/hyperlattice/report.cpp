@@ -4,6 +4,9 @@
 #include <base/errors.hpp>
 #include <base/named_file.hpp>
 #include <report/report.hpp>
+#include <run/output_file.hpp>
+
+#include <hyperlattice/files.hpp>
 
 #include <spdlog/spdlog.h>
 
@@ -24,10 +27,17 @@ Command report_command(CLI::App& program) {
   command->add_flag("--json", arguments->json, "print what the page says for machines");
   return {command, [arguments] {
             auto& [folders, file, json] = *arguments;
-            if (file.empty()) file = (folders.size() == 1 ? folders.front() : std::filesystem::path()) / "report.html";
-            if (std::filesystem::is_directory(file)) throw InputError({{"--out", file.string(), "a file; there is a folder of that name"}});
+            const bool is_default = file.empty();
+            if (is_default) file = (folders.size() == 1 ? folders.front() : std::filesystem::path()) / "report.html";
+            Faults faults;
+            check_output_file({"--out", file, {".html", ".htm"}, is_default}, {}, faults);
+            faults.throw_if_any();
             const report::Report report = report::read_report(folders);
-            write_named_file(file, report::report_page(report));
+            const std::string page = report::report_page(report);
+            if (is_default)
+              write_file(file.string(), page);  // through no link that was made meanwhile
+            else
+              write_named_file(file, page);
             if (json) {
               Json found = report::report_json(report);
               found["file"] = file.string();

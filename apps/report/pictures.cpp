@@ -15,6 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t head_bytes = 4096;  // of a picture: the texts stand before the pixels
+constexpr std::size_t most_told = 3;      // files of a writer that are not shown, by name
 constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
 
 /// "1e-05 s" is what the writer says.
@@ -30,23 +31,37 @@ std::string fault_of(const FolderFile& file) {
   return file.text.starts_with(signature) ? "" : "no PNG picture";
 }
 
-/// The writer's frames in their order.
+/// Whether a file is one of the folder's, or of folders in it, with no link on the way. What is wrong with the way is wrong for every frame.
+bool stands_inside(const fs::path& folder, const fs::path& name) {
+  fs::path way = folder;
+  std::error_code error;
+  for (const fs::path& part : name.parent_path())
+    if (part == ".." || part == "." || !fs::is_directory(fs::symlink_status(way /= part, error))) return false;
+  return !name.is_absolute();
+}
+
+/// The writer's frames in their order; those that cannot be shown are left out.
 std::vector<PictureFile> frames(const fs::path& folder, const fs::path& base, double end_time, std::vector<std::string>& notes) {
   std::vector<PictureFile> found;
   std::optional<double> last;
+  std::size_t left_out = 0;
   for (std::size_t n = 0;; ++n) {
     PictureFile picture{fs::path(fmt::format("{}_{:06}.png", base.string(), n)), std::nullopt};
     const auto file = read_folder_file(folder, picture.name, head_bytes, true);
-    if (!file) return found;
+    if (!file) break;
     if (const std::string fault = fault_of(*file); !fault.empty()) {
-      notes.push_back(fmt::format("{} is {}, and is not shown.", picture.name.generic_string(), fault));
-      return found;
+      if (++left_out <= most_told) notes.push_back(fmt::format("{} is {}, and is not shown.", picture.name.generic_string(), fault));
+      if (!stands_inside(folder, picture.name)) break;
+      continue;
     }
     picture.time = time_of(file->text);
-    if (picture.time && ((last && *picture.time < *last) || *picture.time > end_time)) return found;
+    if (picture.time && ((last && *picture.time < *last) || *picture.time > end_time)) break;
     if (picture.time) last = picture.time;
     found.push_back(std::move(picture));
   }
+  if (left_out > most_told)
+    notes.push_back(fmt::format("{} more files of the pictures {} are not shown.", left_out - most_told, base.generic_string()));
+  return found;
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ inline constexpr std::size_t most_pictures = 6;
 
 /// Those of each writer of the resolved scene that has an option `file` and left PNG pictures of that name (frames.hpp). Pictures that an earlier run
 /// left in the same folder are told by their times: they fall back where they begin, or are later than the run's end. A file of such a name that is
-/// no PNG picture, is a link, or is too large is left out, with a note.
+/// no PNG picture, is a link, or is too large is left out, with a note, and those after it are shown.
 std::vector<PictureSeries> find_pictures(const std::filesystem::path& folder, const Json& scene, std::optional<double> end_time,
                                          std::vector<std::string>& notes);
 

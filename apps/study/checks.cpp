@@ -56,7 +56,22 @@ void check_columns(const Study& study, const std::vector<PlannedTable>& tables) 
   faults.throw_if_any();
 }
 
-void check_truth(const Study& study, const Row& row) {
+namespace {
+
+/// Why a truth over time cannot be compared with a run; empty: nothing speaks against it.
+std::string fault_of_times(const Comparison& comparison, const Truth& truth, const Curve& curve, const Foreseen* run) {
+  if (run == nullptr || truth.kind != Truth::Kind::table || comparison.along || comparison.reduction != Reduction::none) return "";
+  const Curve times{{0, run->end_time + run->step}, {0, 0}};
+  const auto reached = [&](double time) { return !std::isnan(value_at(times, time)); };
+  if (run->end_time == infinity || std::any_of(curve.over.begin(), curve.over.end(), reached)) return "";
+  return fmt::format(
+      "a truth of \"{}\" at times in s that the run reaches, which ends at {:.6g} s; \"{}\" of {}, times its scale, is from {:g} to {:g}",
+      comparison.name, run->end_time, over_column(comparison, truth), truth.file.filename().string(), curve.over.front(), curve.over.back());
+}
+
+}  // namespace
+
+void check_truth(const Study& study, const Row& row, const Foreseen* foreseen) {
   const Truth& truth = *std::find_if(study.truths.begin(), study.truths.end(), [&](const Truth& t) { return t.when.holds(row.choice); });
   if (truth.kind == Truth::Kind::finest) return;
   Faults faults;
@@ -71,9 +86,12 @@ void check_truth(const Study& study, const Row& row) {
                                                                : member(truth.pointer + "/values", comparison.truth);
     if (comparison.at_column) {  // the run will say where; all places have numbers
       all_zero = false;
+      std::string fault;  // the same at all places, since they share their times
       try {
         if (truth.table)
-          for (const auto& [at, column] : placed_columns(*truth.table, comparison.truth)) true_curve(comparison, truth, at, row.numbers);
+          for (const auto& [at, column] : placed_columns(*truth.table, comparison.truth))
+            fault = fault_of_times(comparison, truth, true_curve(comparison, truth, at, row.numbers), foreseen);
+        if (!fault.empty()) faults.add(place, "", fault);
       } catch (const std::runtime_error& error) {
         refuse(place, comparison, error);
       }
@@ -84,6 +102,7 @@ void check_truth(const Study& study, const Row& row) {
       const bool is_zero = std::all_of(curve.values.begin(), curve.values.end(), [](double value) { return value == 0; });
       if (!std::all_of(curve.values.begin(), curve.values.end(), [](double value) { return std::isfinite(value); }))
         faults.add(place, "", fmt::format("a truth of \"{}\" that is finite with its scale", comparison.name));
+      if (const std::string fault = fault_of_times(comparison, truth, curve, foreseen); !fault.empty()) faults.add(place, "", fault);
       all_zero = all_zero && is_zero;
       if (is_zero) zero = place;
       if (is_zero && study.norm != Norm::together_l2)

@@ -24,8 +24,16 @@ class RunFaults {
 /// Every comparison must find its probe and its column. Throws InputError.
 void check_columns(const Study& study, const std::vector<PlannedTable>& tables);
 
-/// The truth of a row must be there and must not be zero, as far as that is known before its run. Throws InputError.
-void check_truth(const Study& study, const Row& row);
+/// What is known of a run before it, or of one that is there.
+struct Foreseen {
+  std::vector<PlannedTable> tables;
+  double end_time = infinity;  ///< s
+  double step = 0;             ///< s, by less than which a solver may pass the end
+};
+
+/// The truth of a row must be there, must not be zero and must not lie at times alone that the run does not reach, as far as that is known before its
+/// run: `foreseen` is null if nothing is. Throws InputError.
+void check_truth(const Study& study, const Row& row, const Foreseen* foreseen);
 
 /// The tables that the scene's probes left in a finished run; nothing if one is missing.
 std::optional<std::vector<PlannedTable>> tables_in(const std::filesystem::path& run_directory, const Scene& scene);

@@ -3,12 +3,14 @@
 #include <plan/plan.hpp>
 #include <process/lack_of_memory.hpp>
 #include <run/interrupt.hpp>
+#include <run/occupancy.hpp>
 #include <run/run.hpp>
 #include <study/checks.hpp>
 #include <study/conduct.hpp>
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <new>
 
 namespace hyperlattice::study {
@@ -75,26 +77,27 @@ class Conductor {
       : study_(study), points_(points), options_(options), host_(host) {}
 
   void check() {
+    check_folder();
     RunFaults faults;
     for (const Point& point : points_) {
       Row& row = result_.rows.emplace_back();
       row.choice = point.choice;
       row.run = point.name;
-      std::optional<std::vector<PlannedTable>> tables;
+      std::optional<Foreseen> foreseen;
       try {
         auto scene = read(point);
         row.numbers = numbers(point, *scene);
-        tables = tables_of(point, std::move(scene));
+        foreseen = foresee(point, std::move(scene));
       } catch (const InputError& error) {
         faults.add(error, row.run, "scene ");
       }
       try {
-        if (!row.numbers.empty()) check_truth(study_, row);
+        if (!row.numbers.empty()) check_truth(study_, row, foreseen ? &*foreseen : nullptr);
       } catch (const InputError& error) {
         faults.add(error, row.run, "");
       }
       try {
-        if (tables) check_columns(study_, *tables);
+        if (foreseen) check_columns(study_, foreseen->tables);
       } catch (const InputError& error) {
         faults.add(error, row.run, "");
       }
@@ -127,17 +130,47 @@ class Conductor {
   Conducted result() && { return std::move(result_); }
 
  private:
+  /// A study's results take the place of nothing else.
+  void check_folder() const {
+    const fs::path& folder = options_.directory;
+    Faults faults;
+    if (const std::string run = run_in(folder); !run.empty())
+      faults.add("--out", folder.string(), fmt::format("another folder than a run's; {}", run));
+    std::vector<fs::path> inputs{study_.file, study_.scene_file};
+    for (const Truth& truth : study_.truths) inputs.push_back(truth.file);
+    std::error_code error;
+    for (const char* name : {"study.json", "study.csv", "study.svg"}) {
+      const fs::path file = folder / name;
+      const fs::file_status status = fs::symlink_status(file, error);
+      if (!fs::exists(status)) continue;
+      if (!fs::is_regular_file(status))
+        faults.add("--out", file.string(), "a regular file, or nothing, of that name");
+      else if (std::any_of(inputs.begin(), inputs.end(), [&](const fs::path& input) { return fs::equivalent(file, input, error); }))
+        faults.add("--out", file.string(), "a folder in which the study replaces nothing that it needs; it reads this file, or it is the study");
+      else if (file.filename() == "study.json" && !has_study(folder))
+        faults.add("--out", file.string(), "the results of a study, or nothing, of that name; another file is there");
+    }
+    if (const fs::file_status runs = fs::status(folder / "runs", error); fs::exists(runs) && !fs::is_directory(runs))
+      faults.add("--out", (folder / "runs").string(), "a folder, or nothing, of that name");
+    faults.throw_if_any();
+  }
+
   Threads threads(const Point& point) const { return point.threads ? Threads(*point.threads) : options_.threads; }
   std::unique_ptr<Scene> read(const Point& point) const { return read_scene_text(point.scene.dump(), study_.scene_file, host_); }
 
-  /// Those that the run left, or will leave; none if it is too large for this machine: its row will say so, and the others go on.
-  std::optional<std::vector<PlannedTable>> tables_of(const Point& point, std::unique_ptr<Scene> scene) const {
+  /// What the run left, or will leave; nothing if it is too large for this machine: its row will say so, and the others go on.
+  std::optional<Foreseen> foresee(const Point& point, std::unique_ptr<Scene> scene) const {
     const fs::path folder = run_directory(options_.directory, point.name, 1);
-    if (!options_.fresh && !find_earlier(folder, *scene, identity_of(*scene), threads(point)).summary.is_null())
-      if (auto tables = tables_in(folder, *scene)) return tables;
+    if (!options_.fresh)
+      if (const Json summary = find_earlier(folder, *scene, identity_of(*scene), threads(point)).summary; !summary.is_null())
+        if (auto tables = tables_in(folder, *scene)) {
+          const Json end_time = summary.value("end_time", Json());
+          return Foreseen{std::move(*tables), end_time.is_number() ? end_time.get<double>() : infinity, 0};
+        }
     forget_lack_of_memory();
     try {
-      return make_plan(std::move(scene), threads(point))->tables;
+      const auto plan = make_plan(std::move(scene), threads(point));
+      return Foreseen{std::move(plan->tables), plan->end_time(), plan->stages.empty() ? 0 : plan->stages.back().plan.time_step};
     } catch (const OutsideError&) {
       return std::nullopt;
     } catch (const std::bad_alloc&) {
@@ -192,6 +225,8 @@ class Conductor {
           code = run(*plan, run_options);
         } catch (const std::bad_alloc&) {
           reason = "not enough memory";
+        } catch (const InputError& error) {  // what stands in its folder
+          reason = error.what();
         } catch (const OutsideError& error) {
           reason = error.what();
         }

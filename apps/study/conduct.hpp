@@ -22,9 +22,10 @@ struct Conducted {
   FolderLock lock;           ///< on the study's folder, as long as its results are written
 };
 
-/// Checks every scene first and throws InputError with all faults, before anything is written. Then locks the folder and runs the points in turn,
-/// once around for each repeat, so that a machine that changes its speed is unfair to none. A run that is there, done, with the same threads and of
-/// the same identity (plan/identity.hpp), is taken as it is; of another one the log says what changed. A run that fails is a row with its reason.
+/// Checks the folder, which holds no run and no other file of the names of a study's results, and then every scene; throws InputError with all
+/// faults, before anything is written. Then locks the folder and runs the points in turn, once around for each repeat, so that a machine that changes
+/// its speed is unfair to none. A run that is there, done, with the same threads and of the same identity (plan/identity.hpp), is taken as it is; of
+/// another one the log says what changed. A run that fails is a row with its reason.
 Conducted conduct(const Study& study, const std::vector<Point>& points, const ConductOptions& options, Host& host);
 
 /// Where the files of a repeat (from 1) are.

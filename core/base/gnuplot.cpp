@@ -121,7 +121,7 @@ std::string gnuplot_text(std::string_view text) {
   return out + '"';
 }
 
-void draw_svg(const std::filesystem::path& file, const std::string& commands, int width, int height, std::chrono::milliseconds patience) {
+std::string svg_picture(const std::filesystem::path& file, const std::string& commands, int width, int height, std::chrono::milliseconds patience) {
   MemoryFile script(file), picture(file), words(file);
   script.write(fmt::format("set terminal svg size {},{} font 'Helvetica,13' background 'white'\n{}\n", width, height, commands));
   std::string program = "gnuplot", plain = "--default-settings";
@@ -139,9 +139,14 @@ void draw_svg(const std::filesystem::path& file, const std::string& commands, in
   int status = 0;
   if (!wait_for(child, status, patience))
     fail(file, fmt::format("gnuplot took longer than {:g} s, and was ended", 1e-3 * static_cast<double>(patience.count())));
-  const std::string drawn = picture.read();
+  std::string drawn = picture.read();
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || drawn.find("</svg>") == std::string::npos)
     fail(file, "gnuplot failed: " + last_line(words.read()));
+  return drawn;
+}
+
+void draw_svg(const std::filesystem::path& file, const std::string& commands, int width, int height, std::chrono::milliseconds patience) {
+  const std::string drawn = svg_picture(file, commands, width, height, patience);
   try {
     write_file(file.string(), drawn);
   } catch (const std::runtime_error& unwritten) {

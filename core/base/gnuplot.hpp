@@ -8,8 +8,12 @@
 
 namespace hyperlattice {
 
-/// Runs gnuplot on the commands and writes what they plot to an SVG file, which is whole or not there. No shell and no start-up file of the user has
-/// a part in it. OutsideError if gnuplot is not installed, fails or takes longer than `patience`, or if the file cannot be written.
+/// Runs gnuplot on the commands, and returns what they plot, as SVG. No shell and no start-up file of the user has a part in it. OutsideError, which
+/// names the `file` that it is for, if gnuplot is not installed, fails or takes longer than `patience`.
+std::string svg_picture(const std::filesystem::path& file, const std::string& commands, int width = 760, int height = 760,
+                        std::chrono::milliseconds patience = std::chrono::seconds(60));
+
+/// The same into a file, which is whole or not there. OutsideError if it cannot be written, or if no regular file stands there.
 void draw_svg(const std::filesystem::path& file, const std::string& commands, int width = 760, int height = 760,
               std::chrono::milliseconds patience = std::chrono::seconds(60));
 

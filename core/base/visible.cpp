@@ -45,4 +45,12 @@ std::string visible(std::string_view text, std::size_t most) {
   return shown;
 }
 
+std::string visible_line(std::string_view text, std::size_t most) {
+  text = text.substr(0, text.find_last_not_of("\r\n") + 1);
+  std::string line;
+  for (std::size_t n = 0; n < text.size(); ++n)
+    if (!text.substr(n).starts_with("\r\n")) line += text[n] == '\n' ? ' ' : text[n];
+  return visible(line, most);
+}
+
 }  // namespace hyperlattice

@@ -1,6 +1,8 @@
 #include <geometry/region.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 
 namespace hyperlattice {
 
@@ -24,6 +26,59 @@ constexpr Plain built_in[] = {{"all", Region::Kind::all, 0},
 
 Vec3 lower(Vec3 a, Vec3 b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
 Vec3 upper(Vec3 a, Vec3 b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
+bool is_finite(Vec3 v) { return std::isfinite(norm(v)); }
+
+using Axis = double Vec3::*;
+constexpr Axis axes[] = {&Vec3::x, &Vec3::y, &Vec3::z};
+
+/// Whether a solid is all of its box: a box, or a half-space along an axis.
+bool fills_its_box(const Region& region) {
+  if (region.primitive == "box") return true;
+  return region.primitive == "half_space" && std::any_of(std::begin(axes), std::end(axes), [&](Axis axis) {
+           return std::isfinite(region.low.*axis) || std::isfinite(region.high.*axis);
+         });
+}
+
+/// Takes off what a part cuts away over a whole side.
+void cut(SolidExtent& extent, const Region& part) {
+  if (part.kind == Region::Kind::set_union)
+    for (const auto& piece : part.parts) cut(extent, *piece);
+  if (!fills_its_box(part)) return;
+  const auto covers = [&](Axis axis) { return part.low.*axis <= extent.low.*axis && part.high.*axis >= extent.high.*axis; };
+  for (const Axis along : axes) {
+    if (!std::all_of(std::begin(axes), std::end(axes), [&](Axis axis) { return axis == along || covers(axis); })) continue;
+    if (part.low.*along <= extent.low.*along)
+      extent.low.*along = std::clamp(part.high.*along, extent.low.*along, extent.high.*along);
+    else if (part.high.*along >= extent.high.*along)
+      extent.high.*along = std::clamp(part.low.*along, extent.low.*along, extent.high.*along);
+  }
+}
+
+/// Whether some point close to a side, one of many laid out evenly, is inside.
+bool reaches(const Region& solid, const SolidExtent& extent, std::size_t along, bool upper_side) {
+  constexpr int points = 24;                   // along each of the side's edges
+  constexpr double in_from_the_side = 2.5e-3;  // of the width: so near are some points to the summit of a round side
+  const Vec3 size = extent.high - extent.low;
+  const auto at = [&](int n, Axis axis) { return extent.low.*axis + (n + 0.5) / points * (size.*axis); };
+  const Axis one = axes[(along + 1) % 3], other = axes[(along + 2) % 3];
+  Vec3 point;
+  point.*axes[along] = upper_side ? extent.high.*axes[along] - in_from_the_side * (size.*axes[along])
+                                  : extent.low.*axes[along] + in_from_the_side * (size.*axes[along]);
+  for (int i = 0; i < points; ++i)
+    for (int j = 0; j < points; ++j) {
+      point.*one = at(i, one);
+      point.*other = at(j, other);
+      if (solid.contains(point)) return true;
+    }
+  return false;
+}
+
+bool reaches_all_sides(const Region& solid, const SolidExtent& extent) {
+  if (!is_finite(extent.low) || !is_finite(extent.high)) return false;
+  for (std::size_t along = 0; along < std::size(axes); ++along)
+    if (!reaches(solid, extent, along, false) || !reaches(solid, extent, along, true)) return false;
+  return true;
+}
 
 }  // namespace
 
@@ -85,6 +140,25 @@ std::shared_ptr<const Region> make_set(Region::Kind kind, std::vector<std::share
     set->high = wider ? upper(set->high, part->high) : lower(set->high, part->high);
   }
   return set;
+}
+
+SolidExtent extent_of(const Region& solid) {
+  SolidExtent extent{solid.low, solid.high, solid.kind == Region::Kind::solid && is_finite(solid.low) && is_finite(solid.high)};
+  if (solid.parts.empty()) return extent;
+  extent = extent_of(*solid.parts.front());
+  for (auto part = solid.parts.begin() + 1; part != solid.parts.end(); ++part) {
+    if (solid.kind == Region::Kind::difference) {
+      cut(extent, **part);
+      continue;
+    }
+    const SolidExtent other = extent_of(**part);
+    const bool wider = solid.kind == Region::Kind::set_union;
+    extent.low = wider ? lower(extent.low, other.low) : upper(extent.low, other.low);
+    extent.high = wider ? upper(extent.high, other.high) : lower(extent.high, other.high);
+    extent.attained = extent.attained && other.attained;
+  }
+  if (solid.kind != Region::Kind::set_union || !extent.attained) extent.attained = reaches_all_sides(solid, extent);
+  return extent;
 }
 
 Regions::Regions() { add(built_in_region("all"), "all"); }

@@ -48,6 +48,15 @@ const std::vector<std::string>& built_in_region_names();
 /// parts without a common point give an inverted box (low > high).
 std::shared_ptr<const Region> make_set(Region::Kind kind, std::vector<std::shared_ptr<const Region>> parts);
 
+/// The box around a solid.
+struct SolidExtent {
+  Vec3 low, high;         ///< infinite for a half-space
+  bool attained = false;  ///< the solid is known to reach all its sides; false: it lies inside, perhaps farther
+};
+/// Of a solid or a set of solids. What is cut off over a whole side makes it smaller; a cut solid is known to reach a side if one of many points
+/// within 1/4 % of the width is inside.
+SolidExtent extent_of(const Region& solid);
+
 /// The regions of a scene, by index (RegionId); index 0 is "all". Entries stay where they are.
 class Regions {
  public:

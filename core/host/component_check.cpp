@@ -1,3 +1,4 @@
+#include <base/visible.hpp>
 #include <host/component_check.hpp>
 
 #include <hyperlattice/boundary.hpp>
@@ -57,12 +58,19 @@ constexpr std::size_t longest_name = 200, longest_text = 1 << 16;
 
 bool is_text(std::string_view text) { return text.size() <= longest_text && (text.empty() || text.data() != nullptr); }
 
+/// Of a text that a scene repeats, or that is read as a unit: it cannot be shown otherwise than it is.
+bool is_seen(std::string_view text) { return visible_line(text, longest_text) == text; }
+
 std::string option_fault(const Option& option) {
   for (const std::string_view text : {option.unit, option.help, option.fallback, option.word, option.example})
     if (!is_text(text)) return "one of its texts is no text";
   if (!is_identifier(option.name)) return "its name must be small letters, digits and underscores, a letter first";
   if (option.name == "type" || option.name == "name") return "a stage has that key already";
   if (option.kind > OptionKind::file || !option.set) return "it cannot be set";
+  for (const std::string_view text : option.choices)
+    if (!is_text(text) || !is_seen(text)) return "one of its choices holds characters that nobody sees";
+  if (!is_seen(option.unit) || !is_seen(option.word) || visible(option.fallback, longest_text) != option.fallback)
+    return "its unit, word or fallback holds characters that nobody sees";
   if (option.kind == OptionKind::choice && option.choices.empty()) return "it has no choices";
   if (!(option.low <= option.high)) return "its range is empty";
   for (const auto& [what, text] : {std::pair("example", option.example), std::pair("fallback", option.fallback)})

@@ -1,6 +1,7 @@
 #include <base/errors.hpp>
 #include <host/crash.hpp>
 #include <host/plugin_call.hpp>
+#include <process/lack_of_memory.hpp>
 #include <process/signal_stack.hpp>
 
 #include <sys/time.h>
@@ -10,6 +11,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <string_view>
 
 namespace hyperlattice {
@@ -24,6 +26,7 @@ CrashSignal crash_signals[] = {
     {SIGSEGV, "segmentation fault"}, {SIGBUS, "bus error"}, {SIGFPE, "arithmetic error"}, {SIGILL, "illegal instruction"}, {SIGABRT, "abort"}};
 
 const char* loading = nullptr;
+std::terminate_handler other_ends = nullptr;
 struct sigaction alarm_before;
 
 /// A line on standard error, by nothing but write(): signal handlers may call no more.
@@ -68,6 +71,16 @@ void on_exit_of_plugin() {
   _exit(exit_outside);
 }
 
+/// An exception that nothing can catch, as one thrown in a destructor. For others than lack of memory the signal of the abort follows.
+[[noreturn]] void on_terminate() {
+  if (const PluginCall* call = PluginCall::running(); call != nullptr && ends_for_memory()) {
+    write_end_of(*call, "not enough memory");
+    _exit(exit_outside);
+  }
+  if (other_ends != nullptr) other_ends();
+  std::abort();
+}
+
 void on_alarm(int) {
   Line line;
   line << "\nhyperlattice: " << loading << " is still loading: a plugin must load within HYPERLATTICE_LOAD_SECONDS (60 by default)";
@@ -100,6 +113,7 @@ void report_crashes() {
     action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_NODEFER;
     sigaction(signal.number, &action, &signal.before);
   }
+  other_ends = std::set_terminate(on_terminate);
   std::atexit(on_exit_of_plugin);
   std::at_quick_exit(on_exit_of_plugin);
 }

@@ -4,8 +4,8 @@
 
 namespace hyperlattice {
 
-/// Names the plugin that is running when the program gets a signal of a crash or exit() is called. Called once, before any plugin is loaded: handlers
-/// registered first run last. Other handlers of these signals, as of sanitizers, run after it.
+/// Names the plugin that is running when the program gets a signal of a crash, exit() is called, or an exception for lack of memory cannot be caught.
+/// Called once, before any plugin is loaded: handlers registered first run last. Other handlers of these signals, as of sanitizers, run after it.
 void report_crashes();
 
 /// A library's loading, which must end within so many seconds: HYPERLATTICE_LOAD_SECONDS in the environment, 60 by default. Ends the program if not.

@@ -1,3 +1,5 @@
+#include <base/errors.hpp>
+#include <base/visible.hpp>
 #include <host/component_check.hpp>
 #include <host/crash.hpp>
 #include <host/gate.hpp>
@@ -10,6 +12,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <deque>
 #include <memory>
 #include <set>
 
@@ -77,6 +80,28 @@ const Component* keep(Component component) {
   return components.back().get();
 }
 
+constexpr std::size_t longest_text = 1 << 16, longest_refusal = 8192, longest_version = 200;  // bytes
+
+/// A text as people are shown it. It stays for as long as the plugin, which is for ever.
+std::string_view kept(std::string_view text, std::string shown) {
+  static auto& texts = *new std::deque<std::string>;
+  return shown == text ? text : texts.emplace_back(std::move(shown));
+}
+std::string_view shown_line(std::string_view text) { return kept(text, visible_line(text, longest_text)); }
+std::string_view shown_lines(std::string_view text) { return kept(text, visible(text, longest_text)); }
+
+/// A sound component, its texts as people are shown them.
+ComponentInfo shown(ComponentInfo info) {
+  static auto& lists = *new std::deque<std::vector<Option>>;
+  info.summary = shown_line(info.summary);
+  for (std::string_view* text : {&info.equation, &info.source, &info.restrictions}) *text = shown_lines(*text);
+  auto& options = lists.emplace_back(info.options.begin(), info.options.end());
+  for (Option& option : options)
+    for (std::string_view* text : {&option.help, &option.fallback}) *text = shown_line(*text);  // JSON may have ends of lines between values only
+  info.options = options;
+  return info;
+}
+
 /// What a library registers, in the order of its registration. Each is sound by itself and none comes twice.
 std::vector<Component> registered(const fs::path& path) {
   if (const std::string mismatch = gate_mismatch(read_gate(path), own_gate()); !mismatch.empty()) throw Refusal(mismatch);
@@ -100,7 +125,7 @@ std::vector<Component> registered(const fs::path& path) {
   for (const ComponentInfo& info : infos) {
     if (const std::string fault = component_fault(info); !fault.empty()) throw Refusal(fault);
     if (!names.insert(info.name).second) throw Refusal("registers " + std::string(info.name) + " twice");
-    components.push_back({info, path.stem().string(), std::string(plugin.version), path});
+    components.push_back({shown(info), path.stem().string(), visible_line(plugin.version, longest_version), path});
   }
   return components;
 }
@@ -152,6 +177,19 @@ std::vector<fs::path> Host::libraries_of(const std::string& type) const {
   return found;
 }
 
+/// Why a library that stands in the folders cannot be found there; empty: none stands there.
+std::string Host::dangling(const std::string& type) {
+  for (const fs::path& folder : folders_) {
+    const fs::path library = folder / (type + suffix);
+    std::error_code error;
+    if (fs::exists(library, error) || !fs::is_symlink(fs::symlink_status(library, error))) continue;
+    const std::string reason = library.filename().string() + ": is a link to " + fs::read_symlink(library, error).string() + ", where nothing is";
+    searched_.push_back({library, false, false, reason});
+    return reason;
+  }
+  return "";
+}
+
 const Component* Host::refuse(const std::string& type, const std::string& reason) {
   refusals_[type] = reason;
   return nullptr;
@@ -166,7 +204,10 @@ const Component* Host::find(const std::string& type) {
   if (libraries.size() > 1)
     return refuse(type, "two libraries have " + type + ", " + libraries[0].string() + " and " + libraries[1].string() + ": remove or rename one");
   if (known != components_.end()) return known->second;
-  if (libraries.empty()) return nullptr;
+  if (libraries.empty()) {
+    const std::string reason = dangling(type);
+    return reason.empty() ? nullptr : refuse(type, reason);
+  }
   const SearchOutcome& outcome = load(libraries.front(), type);
   if (!outcome.accepted) return refuse(type, outcome.reason);
   const auto given = components_.find(type);  // a library that was named directly may have been loaded before, for other types
@@ -225,7 +266,9 @@ const SearchOutcome& Host::load(const fs::path& library, const std::string& expe
     outcome.accepted = true;
     outcome.reason = "gives " + names;
   } catch (const Refusal& refusal) {
-    outcome.reason = library.filename().string() + ": " + refusal.what();
+    outcome.reason = visible_line(library.filename().string() + ": " + refusal.what(), longest_refusal);
+  } catch (const OutsideError& error) {
+    outcome.reason = error.what();
   } catch (const std::exception& error) {
     outcome.reason = library.filename().string() + ": cannot be read: " + error.what();
   }

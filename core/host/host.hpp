@@ -63,6 +63,7 @@ class Host {
   const Component* refuse(const std::string& type, const std::string& reason);
   /// Libraries called `<type>.so` in the folders; each file once, however many paths lead to it.
   std::vector<std::filesystem::path> libraries_of(const std::string& type) const;
+  std::string dangling(const std::string& type);
 
   std::vector<std::filesystem::path> folders_;
   std::map<std::string, const Component*> components_;

@@ -4,26 +4,28 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <string_view>
 
 namespace hyperlattice {
 
 namespace {
 
-/// A set has the boxes of its parts, which other parts may have cut.
-bool has_tight_box(const Region& region) {
-  constexpr std::string_view loose[] = {"half_space", "voxels"};
-  if (region.kind == Region::Kind::set_union)
-    return std::all_of(region.parts.begin(), region.parts.end(), [](const auto& part) { return has_tight_box(*part); });
-  return region.kind == Region::Kind::solid && std::find(std::begin(loose), std::end(loose), region.primitive) == std::end(loose);
+/// How far apart the lattice's planes of sites are along each axis, m: a particle stands for half of that on both sides.
+Vec3 between_planes(const Grid& grid) {
+  const auto least = [&](double Vec3::*axis) {
+    double step = 1;
+    for (const Vec3 a : grid.basis)
+      if (a.*axis != 0) step = std::min(step, std::abs(a.*axis));
+    return grid.spacing * step;
+  };
+  return {least(&Vec3::x), least(&Vec3::y), least(&Vec3::z)};
 }
 
 template <class Value, class Text>
-std::string beside(const Value& is, const std::optional<Value>& asked, const Text& text) {
+std::string beside(const Value& is, const std::optional<Value>& asked, const Text& text, std::string_view more = "", bool at_most = false) {
   std::string made = text(is);
-  if (!asked || text(*asked) == made) return made;
-  return fmt::format("{}; its shape asks for {}", made, text(*asked));
+  if (!asked || text(*asked) == made) return fmt::format("{}{}", made, more);
+  return fmt::format("{}{}; its shape asks for {}{}", made, more, at_most ? "at most " : "", text(*asked));
 }
 
 }  // namespace
@@ -31,10 +33,10 @@ std::string beside(const Value& is, const std::optional<Value>& asked, const Tex
 BodyFigures body_figures(const Model& model) {
   const Body& body = model.body;
   BodyFigures figures;
-  if (body.is_cubic()) {
-    const double rim = body.cells.empty() ? body.grid.spacing : 0;  // whole particles fill half a cell more on both sides
-    figures.size = body.highest - body.lowest + Vec3{rim, rim, rim};
-  }
+  figures.size = body.highest - body.lowest;
+  figures.of_particles = body.is_listed();
+  figures.is_centred = !body.is_listed() && !body.is_cubic();
+  if (!body.is_listed() && body.cells.empty()) figures.size = figures.size + between_planes(body.grid);
   double particles = static_cast<double>(body.cells.empty() ? body.particles : body.cells.count());  // whole ones
   if (!body.listed.shares.empty()) {
     particles = 0;
@@ -48,7 +50,9 @@ BodyFigures body_figures(const Model& model) {
   figures.parts = count_parts(body);
   if (body.grid.shape == nullptr) return figures;
   const auto& shape = *static_cast<const Region*>(body.grid.shape->self);
-  if (has_tight_box(shape)) figures.asked_size = shape.high - shape.low;
+  const SolidExtent extent = extent_of(shape);
+  if (const Vec3 asked = extent.high - extent.low; std::isfinite(norm(asked))) figures.asked_size = asked;
+  figures.asked_at_most = !extent.attained;
   if (shape.volume > 0) figures.asked_volume = shape.volume;
   if (shape.volume > 0 && model.materials.size() == 1) figures.asked_mass = shape.volume * model.materials.front().constants.density;
   return figures;
@@ -56,10 +60,9 @@ BodyFigures body_figures(const Model& model) {
 
 std::vector<std::pair<std::string, std::string>> body_lines(const BodyFigures& figures) {
   std::vector<std::pair<std::string, std::string>> lines;
-  if (figures.size) {
-    const auto size = [](Vec3 v) { return fmt::format("{:.6g} x {:.6g} x {:.6g} m", v.x, v.y, v.z); };
-    lines.emplace_back("size", beside(*figures.size, figures.asked_size, size));
-  }
+  const auto size = [](Vec3 v) { return fmt::format("{:.6g} x {:.6g} x {:.6g} m", v.x, v.y, v.z); };
+  const std::string_view of = figures.of_particles ? " between its outermost particles" : "";
+  lines.emplace_back("size", beside(figures.size, figures.asked_size, size, of, figures.asked_at_most));
   lines.emplace_back("volume", beside(figures.volume, figures.asked_volume, [](double v) { return fmt::format("{:.6g} m3", v); }));
   lines.emplace_back("mass", beside(figures.mass, figures.asked_mass, [](double m) { return fmt::format("{:.6g} kg", m); }));
   lines.emplace_back("bodies", figures.parts == 1 ? "1: springs join all particles" : fmt::format("{}, which no spring joins", figures.parts));
@@ -67,19 +70,25 @@ std::vector<std::pair<std::string, std::string>> body_lines(const BodyFigures& f
 }
 
 std::vector<std::string> size_warnings(const BodyFigures& figures, double spacing) {
-  constexpr double noticeable = 0.01;
+  constexpr double noticeable = 0.01, noticeable_volume = 0.02;
   std::vector<std::string> warnings;
-  if (!figures.size || !figures.asked_size) return warnings;
+  if (figures.of_particles) return warnings;
   const auto compare = [&](char axis, double width, double asked) {
     const double error = width / asked - 1;
-    if (std::abs(error) <= noticeable) return;
+    if (std::abs(error) <= noticeable || (figures.asked_at_most && error < 0)) return;
     warnings.push_back(fmt::format(
-        "along {} the body is {:.6g} m wide, {:.3g} % {} than the {:.6g} m that its shape asks for: cells of {:.6g} m do not fill that evenly", axis,
-        width, 100 * std::abs(error), error > 0 ? "more" : "less", asked, spacing));
+        "along {} the body is {:.6g} m wide, {:.3g} % {} than the {:.6g} m that its shape asks for{}: cells of {:.6g} m do not fill that evenly",
+        axis, width, 100 * std::abs(error), error > 0 ? "more" : "less", asked, figures.asked_at_most ? " at most" : "", spacing));
   };
-  compare('x', figures.size->x, figures.asked_size->x);
-  compare('y', figures.size->y, figures.asked_size->y);
-  compare('z', figures.size->z, figures.asked_size->z);
+  if (figures.asked_size) {
+    compare('x', figures.size.x, figures.asked_size->x);
+    compare('y', figures.size.y, figures.asked_size->y);
+    compare('z', figures.size.z, figures.asked_size->z);
+  }
+  if (!warnings.empty() || !figures.is_centred || !figures.asked_volume) return warnings;
+  if (const double error = figures.volume / *figures.asked_volume - 1; std::abs(error) > noticeable_volume)
+    warnings.push_back(fmt::format("the body has {:.3g} % {} volume than its shape asks for: cells of {:.6g} m do not fill that evenly",
+                                   100 * std::abs(error), error > 0 ? "more" : "less", spacing));
   return warnings;
 }
 

@@ -8,6 +8,10 @@
 
 namespace hyperlattice {
 
+/// Springs a particle, on the mean, from which a lattice in no order is stiff for certain. It takes more than 6 (Maxwell 1864); between, chance
+/// decides.
+inline constexpr double stiff_coordination = 7;
+
 struct Listed {
   static constexpr std::uint64_t stretch = 64;  ///< particles; see sorted()
 

@@ -37,6 +37,10 @@ void for_pieces(const std::vector<double>& corners, double from, double to, cons
 
 }  // namespace
 
+double Load::after(double time) const {
+  return factor(std::binary_search(corners.begin(), corners.end(), time) ? std::nextafter(time, infinity) : time);
+}
+
 double Load::mean(double from, double to) const {
   if (!(to > from)) return factor(to);
   const auto corner = std::upper_bound(corners.begin(), corners.end(), from);

@@ -1,3 +1,4 @@
+#include <base/visible.hpp>
 #include <model/build.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -178,7 +179,7 @@ struct Collector {
     to.receive_warning = [](void* self, std::string_view sentence) noexcept {
       take(self, [&](Collector& c) {
         constexpr std::size_t most = 20, longest = 4096;
-        if (++c.warned <= most) c.warnings.emplace_back(sentence.substr(0, longest));
+        if (++c.warned <= most) c.warnings.push_back(visible_line(sentence, longest));
       });
     };
     to.receive_corner = [](void* self, double time) noexcept {

@@ -58,6 +58,11 @@ void check_constants(const Stage& stage, const MaterialConstants& constants) {
 /// What else there is to say of a Poisson ratio that a random body does not reach.
 std::string reach_of_sample(const Body& body, const std::string& sentence) {
   if (body.listed.sample_particles == 0 || !sentence.starts_with("poisson ")) return "";
+  const double mean = 2 * static_cast<double>(body.listed.springs.size()) / static_cast<double>(body.particles);
+  if (mean < stiff_coordination)
+    return fmt::format(
+        ". The body has {:.3g} springs a particle on the mean, too few to be stiff for certain: expected a coordination of {:g} or more", mean,
+        stiff_coordination);
   return ". This reach is the body's own: particles at its surface have fewer springs, so those inside have more, which lowers the largest Poisson "
          "ratio; a body more spacings across reaches further";
 }

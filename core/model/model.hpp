@@ -56,6 +56,7 @@ struct Load {
   Vec3 acceleration;
   // Each throws OutsideError if the load throws. What is no number is found by the run.
   double factor(double time) const;
+  double after(double time) const;                ///< the factor, at one of the load's corners that just after it: where the load has jumped
   double mean(double from, double to) const;      ///< of the factor in [from, to]; exact between corners for polynomials up to degree 9
   double integral(double from, double to) const;  ///< s, of the factor over any length of time, to about 1e-12
   /// Value and slope, 1/s, of the factor just after `time`, or just before if `reach` is negative; seen over |reach| seconds, up to a corner.

@@ -45,7 +45,7 @@ void calibrate_run_time(Plan& plan) try {
   const double step = measure_step(plan);
   double seconds = 0;
   for (const PlannedStage& stage : plan.stages) seconds += step * static_cast<double>(stage.plan.steps) * stage.plan.sweeps_per_step;
-  plan.expected_seconds = seconds + output_seconds(plan, step);
+  plan.expected_seconds = seconds + output_seconds(plan, step, true);
 } catch (const std::exception&) {  // steps that fail are the run's to tell
 }
 

@@ -19,17 +19,25 @@ double numbers_per_particle(const Plan& plan, const Stage& output) {
 
 double particles_of(const Plan& plan) { return static_cast<double>(plan.model->body.particles); }
 
-constexpr double bytes_per_number = 4.5;  // compressed
-
 }  // namespace
 
 double frames_of(const Plan& plan, const Stage& output) {
-  const double every = output_interval(output, plan.end_time());
-  const double asked = every > 0 ? std::floor(plan.end_time() / every) + 1 : 2;
-  return std::min(asked, static_cast<double>(plan.steps()) + 1);
+  const double every = output_interval(output, plan.end_time()), intervals = every > 0 ? plan.end_time() / every : 0;
+  constexpr double nearly = 1e-6;  // of an interval
+  double frames = std::floor(intervals + nearly) + (output.cadence.first ? 1 : 0);
+  for (const PlannedStage& stage : plan.stages)  // a state of rest is shown whatever its time
+    if (stage.plan.at_rest && &stage != &plan.stages.back()) ++frames;
+  const bool ends_between = intervals == 0 || intervals - std::floor(intervals + nearly) > nearly;
+  const bool shows_end = output.cadence.last || (!plan.stages.empty() && plan.stages.back().plan.at_rest);
+  if (ends_between && shows_end) ++frames;
+  return std::min(frames, static_cast<double>(plan.steps()) + 1);
 }
 
-double frame_bytes(const Plan& plan, const Stage& writer) { return particles_of(plan) * (3 + numbers_per_particle(plan, writer)) * bytes_per_number; }
+double frame_bytes(const Plan& plan, const Stage& writer) {
+  constexpr double bytes_per_number = 12;  // binary has 8, text 20
+  if (const auto cost = plan.frame_costs.find(&writer); cost != plan.frame_costs.end()) return cost->second.bytes;
+  return particles_of(plan) * (3 + numbers_per_particle(plan, writer)) * bytes_per_number;
+}
 
 double records_of(const PlannedStage& stage) {
   if (stage.plan.at_rest) {
@@ -73,17 +81,27 @@ void estimate_memory(Plan& plan) {
 
 void estimate_output(Plan& plan) {
   constexpr double bytes_per_text_number = 19, history_numbers = 16;
-  for (const Stage* stage : plan.scene->of(Family::writers)) plan.output_bytes += frames_of(plan, *stage) * frame_bytes(plan, *stage);
-  for (const Stage* stage : plan.scene->of(Family::probes))
-    plan.output_bytes += frames_of(plan, *stage) * (1 + std::max(1.0, numbers_per_particle(plan, *stage))) * bytes_per_text_number;
+  constexpr double share_at_rest = 0.3;                 // of the bytes of a frame in motion
+  constexpr double own_files = 12e3, listed_file = 90;  // bytes: scene.resolved.json and summary.json; a line of files.csv
+  plan.output_bytes = own_files;
+  for (const Stage* stage : plan.scene->of(Family::writers)) {
+    const double frames = frames_of(plan, *stage), saved = stage->cadence.first ? 1 - share_at_rest : 0;
+    plan.output_bytes += (frames - saved) * frame_bytes(plan, *stage) + frames * listed_file;
+  }
+  const auto probes = plan.scene->of(Family::probes);
+  for (std::size_t n = 0; n < probes.size() && n < plan.tables.size(); ++n)
+    plan.output_bytes += (1 + frames_of(plan, *probes[n])) * static_cast<double>(plan.tables[n].columns.size()) * bytes_per_text_number;
   for (const PlannedStage& stage : plan.stages) plan.output_bytes += records_of(stage) * history_numbers * bytes_per_text_number;
 }
 
-double output_seconds(const Plan& plan, double sweep) {
+double output_seconds(const Plan& plan, double sweep, bool measured) {
   constexpr double write = 30e-9;  // s a number of a frame
   double seconds = 0;
-  for (const Stage* stage : plan.scene->of(Family::writers))
-    seconds += frames_of(plan, *stage) * particles_of(plan) * (3 + numbers_per_particle(plan, *stage)) * write;
+  for (const Stage* stage : plan.scene->of(Family::writers)) {
+    const auto cost = plan.frame_costs.find(stage);
+    const bool known = measured && cost != plan.frame_costs.end();
+    seconds += frames_of(plan, *stage) * (known ? cost->second.seconds : particles_of(plan) * (3 + numbers_per_particle(plan, *stage)) * write);
+  }
   for (const PlannedStage& stage : plan.stages) seconds += sweep * records_of(stage);
   return seconds;
 }
@@ -106,7 +124,7 @@ void estimate_time(Plan& plan) {
   const double step = 1e-9 * spring * static_cast<double>(model.body.base_springs()) / (1 + second_thread * (plan.threads - 1));
   for (const PlannedStage& stage : plan.stages)
     plan.expected_seconds += step * static_cast<double>(stage.plan.steps) * stage.plan.sweeps_per_step * (stage.plan.damping > 0 ? damped : 1);
-  plan.expected_seconds += output_seconds(plan, step);
+  plan.expected_seconds += output_seconds(plan, step, false);
 }
 
 }  // namespace hyperlattice

@@ -1,8 +1,10 @@
 #include <base/errors.hpp>
 #include <model/build.hpp>
+#include <plan/coordination.hpp>
 #include <plan/estimates.hpp>
 #include <plan/fields.hpp>
 #include <plan/file_names.hpp>
+#include <plan/idle_loads.hpp>
 #include <plan/left_out.hpp>
 #include <plan/plan.hpp>
 #include <plan/precision.hpp>
@@ -108,6 +110,8 @@ std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, Threads threads) {
   }
   plan->body = body_figures(*plan->model);
   for (std::string& warning : size_warnings(plan->body, plan->model->body.grid.spacing)) plan->model->warnings.push_back(std::move(warning));
+  if (plan->model->body.is_listed())
+    if (std::string warning = coordination_warning(plan->model->body); !warning.empty()) plan->model->warnings.push_back(std::move(warning));
   Faults faults;
   plan->asked_fields = asked_fields(*plan->scene);
   plan_stages(*plan, faults);
@@ -115,6 +119,7 @@ std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, Threads threads) {
   check_file_names(*plan->scene, faults);
   if (faults.empty()) check_precision(*plan, faults);
   if (faults.empty()) check_resolution(*plan, faults);
+  if (faults.empty() && !plan->stages.empty()) warn_of_idle_loads(*plan);
   if (faults.empty()) rehearse_outputs(*plan, faults);
   faults.throw_if_any();
   estimate_output(*plan);

@@ -10,6 +10,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -34,6 +35,11 @@ struct PlannedTable {
   std::vector<std::string> columns;
 };
 
+/// What a frame of a writer takes when the body moves, as frames of a few of its particles say.
+struct FrameCost {
+  double bytes = 0, seconds = 0;
+};
+
 struct Plan {
   std::unique_ptr<Scene> scene;
   Identity identity;  ///< of the run, when it was planned
@@ -41,7 +47,8 @@ struct Plan {
   BodyFigures body;  ///< how large it came out
   std::vector<PlannedStage> stages;
   AskedFields asked_fields;
-  std::vector<PlannedTable> tables;  ///< in the order of the scene's probes
+  std::vector<PlannedTable> tables;               ///< in the order of the scene's probes
+  std::map<const Stage*, FrameCost> frame_costs;  ///< of the writers that could be tried
   int threads = 1;
   double bytes_per_particle = 0;  ///< of the state: what the kernel works on
   double memory_bytes = 0;        ///< of the state, the model and the scratch

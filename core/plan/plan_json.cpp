@@ -53,9 +53,8 @@ std::string membrane_name(const Model& model) {
 /// What the body is, beside what its shape asks for where that is known.
 nlohmann::json body_json(const BodyFigures& body) {
   const auto vector = [](Vec3 v) { return nlohmann::json{v.x, v.y, v.z}; };
-  nlohmann::json json = {{"volume", body.volume}, {"mass", body.mass}, {"parts", body.parts}};
-  if (body.size) json["size"] = vector(*body.size);
-  if (body.asked_size) json["asked_size"] = vector(*body.asked_size);
+  nlohmann::json json = {{"size", vector(body.size)}, {"volume", body.volume}, {"mass", body.mass}, {"parts", body.parts}};
+  if (body.asked_size) json[body.asked_at_most ? "asked_size_at_most" : "asked_size"] = vector(*body.asked_size);
   if (body.asked_volume) json["asked_volume"] = *body.asked_volume;
   if (body.asked_mass) json["asked_mass"] = *body.asked_mass;
   return json;

@@ -4,6 +4,8 @@
 #include <plan/columns.hpp>
 #include <plan/fields.hpp>
 #include <plan/rehearsal.hpp>
+#include <process/file_limit.hpp>
+#include <process/lack_of_memory.hpp>
 #include <process/room.hpp>
 #include <scene/stage_call.hpp>
 
@@ -11,7 +13,16 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <optional>
 #include <set>
+#include <utility>
 
 namespace hyperlattice {
 namespace {
@@ -30,10 +41,18 @@ class AtRest {
     context.fields = fields_;
     context.self = this;
     context.region_particles = [](void* self, RegionId region) noexcept {
-      return PluginCall::answer(std::span<const Particle>(), [&] { return static_cast<AtRest*>(self)->regions_.particles(region); });
+      return PluginCall::answer(std::span<const Particle>(), [&] {
+        auto& rest = *static_cast<AtRest*>(self);
+        rest.asked_.push_back(region);
+        return rest.regions_.particles(region);
+      });
     };
     return context;
   }
+
+  std::span<const Particle> particles(RegionId region) { return regions_.particles(region); }
+  /// The regions that were asked for since the last call.
+  std::vector<RegionId> take_asked() { return std::exchange(asked_, {}); }
 
   /// What probes are shown; writers need none of it.
   Snapshot snapshot() {
@@ -69,8 +88,191 @@ class AtRest {
   const Model& model_;
   RegionIndex regions_;
   std::vector<std::string_view> fields_;
+  std::vector<RegionId> asked_;
   std::vector<double> positions_, zeros_;
 };
+
+/// A few of a body's particles, spread over all that a writer shows, in a motion that fills every digit of its numbers.
+class Sample {
+ public:
+  /// `regions`: those that the writer asks for; the largest of them is what it shows, and of none the whole body.
+  Sample(const Model& model, AtRest& rest, const std::vector<RegionId>& regions, std::size_t most) : model_(model), rest_(rest) {
+    std::span<const Particle> shown;
+    for (const RegionId region : regions)
+      if (const auto particles = rest.particles(region); particles.size() > shown.size()) shown = particles;
+    all_ = regions.empty() ? model.body.particles : shown.size();
+    const std::size_t size = std::min(most, all_);
+    for (std::size_t n = 0; n < size; ++n) {
+      const std::size_t place = n * (all_ / size) + n * (all_ % size) / size;
+      particles_.push_back(regions.empty() ? static_cast<Particle>(place) : shown[place]);
+    }
+    for (const Particle particle : particles_) {
+      const Vec3 x = model.body.position(particle);
+      positions_.insert(positions_.end(), {x.x, x.y, x.z});
+    }
+  }
+  Sample(const Sample&) = delete;
+  Sample& operator=(const Sample&) = delete;
+
+  std::size_t size() const { return particles_.size(); }
+  /// How many particles the sample stands for.
+  std::size_t all() const { return all_; }
+
+  OutputContext context(const std::string& directory) {
+    OutputContext context = rest_.context();
+    context.directory = directory;
+    context.self = this;
+    context.region_particles = [](void* self, RegionId region) noexcept {
+      return PluginCall::answer(std::span<const Particle>(), [&] { return static_cast<Sample*>(self)->particles(region); });
+    };
+    return context;
+  }
+
+  Snapshot snapshot() {
+    Snapshot snapshot;
+    snapshot.time = 1e-4 / 3;
+    snapshot.step = 1000;
+    snapshot.particles = size();
+    snapshot.spacing = model_.body.grid.spacing * std::cbrt(static_cast<double>(all_) / static_cast<double>(size()));
+    snapshot.positions = positions_;
+    snapshot.self = this;
+    snapshot.get_field = [](void* self, std::string_view name, Field& field) noexcept {
+      return PluginCall::answer(false, [&] { return static_cast<Sample*>(self)->field(name, field); });
+    };
+    return snapshot;
+  }
+
+ private:
+  /// Places in the sample.
+  std::span<const Particle> particles(RegionId region) {
+    const auto [entry, is_new] = places_.try_emplace(region.index);
+    if (!is_new) return entry->second;
+    const auto members = rest_.particles(region);
+    for (std::size_t n = 0; n < particles_.size(); ++n)
+      if (std::binary_search(members.begin(), members.end(), particles_[n])) entry->second.push_back(static_cast<Particle>(n));
+    return entry->second;
+  }
+
+  bool field(std::string_view name, Field& field) {
+    if (!has_field(model_, name)) return false;
+    std::vector<double>& values = values_[std::string(name)];
+    field.components = name == "displacement" || name == "velocity" ? 3 : 1;
+    values.assign(field.components * size(), 0.0);  // nothing is broken
+    if (name == "material")
+      std::transform(particles_.begin(), particles_.end(), values.begin(), [this](Particle particle) { return model_.material(particle); });
+    else if (name == "source")
+      std::transform(particles_.begin(), particles_.end(), values.begin(), [this](Particle particle) { return model_.body.listed.source[particle]; });
+    else if (name == "velocity" || name == "displacement" || name == "height")
+      fill(values, name == "velocity" ? 1.0 : 1e-3 * model_.body.grid.spacing);
+    field.values = values;
+    return true;
+  }
+
+  /// Numbers that change slowly along the body, and whose last digits are noise. Their last bits are left out: so they pack about as well as those of
+  /// a body whose parts move partly alike, and have as many decimal digits as any.
+  void fill(std::vector<double>& values, double size) const {
+    constexpr double roughness = 1e-4, middle = 0.37;  // a bit more than half of the numbers have no sign
+    std::uint64_t noise = 1;
+    for (std::size_t n = 0; n < values.size(); ++n) {
+      noise = noise * 6364136223846793005U + 1442695040888963407U;  // Knuth's
+      const double along = static_cast<double>(n) / static_cast<double>(values.size());
+      const double value = size * (along - middle + roughness * std::ldexp(static_cast<double>(noise >> 11), -53));
+      constexpr std::uint64_t left_out = (1U << 16) - 1;
+      values[n] = model_.choice.precision == Precision::floats ? static_cast<double>(static_cast<float>(value))
+                                                               : std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) & ~left_out);
+    }
+  }
+
+  const Model& model_;
+  AtRest& rest_;
+  std::size_t all_ = 0;
+  std::vector<Particle> particles_;  ///< of the body
+  std::vector<double> positions_;
+  std::map<std::uint32_t, std::vector<Particle>> places_;  ///< of each region
+  std::map<std::string, std::vector<double>, std::less<>> values_;
+};
+
+/// A folder of its own in the system's folder for such, which ends with this object.
+class TrialFolder {
+ public:
+  TrialFolder() : path_((std::filesystem::temp_directory_path() / "hyperlattice_trial_XXXXXX").string()) {
+    if (::mkdtemp(path_.data()) == nullptr) throw OutsideError(path_ + ": cannot make the folder");
+  }
+  TrialFolder(const TrialFolder&) = delete;
+  TrialFolder& operator=(const TrialFolder&) = delete;
+  ~TrialFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  const std::string& path() const { return path_; }
+
+  double bytes() const {
+    double bytes = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(path_))
+      if (entry.is_regular_file()) bytes += static_cast<double>(entry.file_size());
+    return bytes;
+  }
+
+ private:
+  std::string path_;
+};
+
+/// What a frame of the sample takes. None if it cannot be written here, for whatever reason.
+std::optional<FrameCost> try_frame(const Stage& stage, Sample& sample) try {
+  using Clock = std::chrono::steady_clock;
+  constexpr double quick = 0.01;  // s, below which the first frame may have waited for what later ones find ready
+  const FileLimitGuard file_limit;
+  const TrialFolder folder;
+  const auto& writer = stage.functions<WriterFunctions>();
+  const ComponentPointer component = make_component(stage);
+  const OutputContext context = sample.context(folder.path());
+  if (refusal_of(stage, "begin", [&](const Complaint& why) { return writer.begin(component.get(), context, why); })) return std::nullopt;
+  const Snapshot snapshot = sample.snapshot();
+  FrameCost cost{0, infinity};
+  for (int n = 0; n < 2 && (n == 0 || cost.seconds < quick); ++n) {
+    const auto start = Clock::now();
+    if (refusal_of(stage, "frame", [&](const Complaint& why) { return writer.frame(component.get(), snapshot, why); })) return std::nullopt;
+    cost.seconds = std::min(cost.seconds, std::chrono::duration<double>(Clock::now() - start).count());
+    if (n == 0) cost.bytes = folder.bytes();
+  }
+  if (refusal_of(stage, "end", [&](const Complaint& why) { return writer.end(component.get(), why); })) return std::nullopt;
+  return cost;
+} catch (const std::exception&) {
+  return std::nullopt;
+}
+
+/// The same. The run tells of a failure if it meets it too; that memory ran out here does not count.
+std::optional<FrameCost> cost_of(const Stage& stage, Sample& sample) {
+  const auto cost = try_frame(stage, sample);
+  if (!cost) forget_lack_of_memory();
+  return cost;
+}
+
+/// A cost of all particles, which grows as a power of their number: 1 of a table, nearly 0 of a picture.
+double of_all(double all, double few, double cost_of_few, double some, double cost_of_some) {
+  const bool grows = cost_of_few > 0 && cost_of_some > cost_of_few;
+  const double power = grows ? std::min(1.0, std::log(cost_of_some / cost_of_few) / std::log(some / few)) : 0.0;
+  return cost_of_some * std::pow(all / some, power);
+}
+
+/// The cost of a frame of all particles that the writer shows, from frames of a few and of some. Few alone count, each particle alike, where some
+/// leave no file: files may be limited in size.
+std::optional<FrameCost> frame_cost(const Model& model, AtRest& rest, const Stage& stage, const std::vector<RegionId>& regions) {
+  constexpr std::size_t few_particles = 256, some_particles = 8192;
+  constexpr double long_time = 0.5;  // s: much longer than so few particles take, whose number then matters little
+  Sample some(model, rest, regions, some_particles);
+  const auto all = static_cast<double>(some.all());
+  if (all == 0) return std::nullopt;
+  const auto cost = cost_of(stage, some);
+  if (cost && (some.all() == some.size() || cost->seconds > long_time)) return cost;
+  Sample few(model, rest, regions, few_particles);
+  const auto least = cost_of(stage, few);
+  if (!least) return cost;
+  const auto number = static_cast<double>(few.size());
+  if (!cost) return FrameCost{least->bytes * all / number, least->seconds * all / number};
+  const auto more = static_cast<double>(some.size());
+  return FrameCost{of_all(all, number, least->bytes, more, cost->bytes), of_all(all, number, least->seconds, more, cost->seconds)};
+}
 
 }  // namespace
 
@@ -81,9 +283,13 @@ void rehearse_outputs(Plan& plan, Faults& faults) {
   const OutputContext context = rest.context();
   for (const Stage* stage : writers) {
     const ComponentPointer writer = make_component(*stage);
+    rest.take_asked();
     const auto refused =
         refusal_of(*stage, "begin", [&](const Complaint& why) { return stage->functions<WriterFunctions>().begin(writer.get(), context, why); });
-    if (refused) faults.add(stage->pointer, stage->component->type(), "an output that fits the body: " + *refused);
+    if (refused)
+      faults.add(stage->pointer, stage->component->type(), "an output that fits the body: " + *refused);
+    else if (const auto cost = frame_cost(*plan.model, rest, *stage, rest.take_asked()))
+      plan.frame_costs[stage] = *cost;
   }
   if (probes.empty()) return;
   const Snapshot snapshot = rest.snapshot();

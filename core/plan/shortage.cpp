@@ -33,6 +33,9 @@ double own_bytes(const std::filesystem::path& directory) {
   return bytes;
 }
 
+/// The share of an estimate that a run writes at least, as a rule: a run that may fit is not refused.
+constexpr double surely = 0.7;
+
 }  // namespace
 
 std::vector<std::string> shortages(const Plan& plan, const std::filesystem::path& directory) {
@@ -41,11 +44,12 @@ std::vector<std::string> shortages(const Plan& plan, const std::filesystem::path
   if (const Room memory = memory_room(); missing > memory.bytes)
     found.push_back(fmt::format("too little memory: the run needs {}, {} more than it has now; there are {} ({})", bytes_text(plan.memory_bytes),
                                 bytes_text(missing), bytes_text(memory.bytes), memory.bound));
-  if (const Room disk = disk_room(directory); plan.output_bytes > disk.bytes && plan.output_bytes > disk.bytes + own_bytes(directory))
+  if (const Room disk = disk_room(directory);
+      surely * plan.output_bytes > disk.bytes && surely * plan.output_bytes > disk.bytes + own_bytes(directory))
     found.push_back(fmt::format("too little disk: the run will write about {}, and {}", bytes_text(plan.output_bytes), disk.bound));
   double frame = 0;
   for (const Stage* writer : plan.scene->of(Family::writers)) frame = std::max(frame, frame_bytes(plan, *writer));
-  if (const Room file = file_room(); frame > file.bytes)
+  if (const Room file = file_room(); surely * frame > file.bytes)
     found.push_back(fmt::format("too small files: a frame will have about {}, and {}", bytes_text(frame), file.bound));
   return found;
 }

@@ -23,19 +23,8 @@ std::terminate_handler other_ends = nullptr;
   throw std::bad_alloc();
 }
 
-bool is_for_memory() noexcept {
-  if (ran_out.load(std::memory_order_relaxed)) return true;
-  try {
-    if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
-  } catch (const std::bad_alloc&) {
-    return true;
-  } catch (...) {
-  }
-  return false;
-}
-
 [[noreturn]] void end() {
-  if (is_for_memory()) {
+  if (ends_for_memory()) {
     constexpr char line[] = "hyperlattice: not enough memory\n";
     [[maybe_unused]] const auto written = ::write(STDERR_FILENO, line, std::strlen(line));
     ::_exit(exit_outside);
@@ -49,6 +38,17 @@ bool is_for_memory() noexcept {
 void watch_memory() noexcept {
   std::set_new_handler(note);
   other_ends = std::set_terminate(end);
+}
+
+bool ends_for_memory() noexcept {
+  if (ran_out.load(std::memory_order_relaxed)) return true;
+  try {
+    if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
+  } catch (const std::bad_alloc&) {
+    return true;
+  } catch (...) {
+  }
+  return false;
 }
 
 bool memory_ran_out() noexcept { return ran_out.load(std::memory_order_relaxed); }

@@ -3,6 +3,7 @@
 #include <run/checkpoint.hpp>
 #include <run/failing_motion.hpp>
 #include <run/folder.hpp>
+#include <run/occupancy.hpp>
 
 #include <hyperlattice/files.hpp>
 
@@ -78,7 +79,12 @@ void make_folder(const fs::path& path) {
 }  // namespace
 
 RunFolder::RunFolder(fs::path directory, bool is_new) : directory_(std::move(directory)) {
+  if (const std::string study = is_new ? study_in(directory_) : ""; !study.empty())
+    throw InputError({{"--out", directory_.string(), fmt::format("another folder than a study's; {}", study)}});
   if (is_new) make_folder(directory_);
+  if (struct stat status{}; ::lstat(list_path().c_str(), &status) == 0 && !S_ISREG(status.st_mode))
+    throw InputError(
+        {{"--out", list_path().string(), "a regular file, or nothing, of that name: --overwrite replaces no folder, link, pipe or device"}});
   constexpr int flags = O_RDWR | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
   Descriptor list(::open(list_path().c_str(), flags | (is_new ? O_CREAT : 0), 0666));
   if (!list) throw cannot("write", list_path(), errno);
@@ -98,39 +104,59 @@ RunFolder::RunFolder(fs::path directory, bool is_new) : directory_(std::move(dir
   list_ = std::make_unique<Table>(list_path(), std::move(list), static_cast<std::uint64_t>(status.st_size));
 }
 
-/// Files that would meet the run on its way.
-void RunFolder::refuse_strangers(const std::vector<OutputName>& outputs, Faults& faults) const {
-  const auto refuse = [&](const std::string& name) {
-    if (earlier_.find(name) == earlier_.end() && is_there(path_of(name)))
-      faults.add("--out", path_of(name).string(),
-                 fmt::format("a folder where no such file is, for its list of a run's own files ({}) does not name it; move the file, or replace it "
-                             "by --overwrite",
-                             own_files_list));
-  };
+/// Names that the run will write or remove, as far as something may be there.
+std::set<std::string> RunFolder::met(const std::vector<OutputName>& outputs, Faults& faults) const {
+  std::set<std::string> names;
   for (const std::string_view name : run_file_names)
-    if (name != own_files_list && name != "probes" && name != "report.html" && name != checkpoint_file && name != earlier_checkpoint_file)
-      refuse(std::string(name));
+    if (name != "probes" && name != "report.html") names.emplace(name);
+  for (const auto& [name, file] : earlier_)
+    if (struct stat status{}; is_real(directory_, name, status)) names.insert(name);
   std::set<std::string> folders;
   for (const OutputName& output : outputs) folders.insert(output.folder);
   for (const std::string& folder : folders) {
     struct stat status {};
-    if (!folder.empty() && ::lstat(path_of(folder).c_str(), &status) == 0 && !S_ISDIR(status.st_mode))
-      faults.add("--out", path_of(folder).string(), "a folder, or nothing, of that name; a file or link is there");
+    if (!folder.empty() && ::lstat(path_of(folder).c_str(), &status) == 0 && !S_ISDIR(status.st_mode)) {
+      faults.add("--out", path_of(folder).string(),
+                 "a folder, or nothing, of that name; a file or link is there, which --overwrite does not replace");
+      continue;
+    }
     std::error_code error;
     for (fs::directory_iterator entry(path_of(folder), error), end; !error && entry != end; entry.increment(error)) {
       const std::string name = entry->path().filename().string();
       if (std::any_of(outputs.begin(), outputs.end(), [&](const OutputName& output) { return output.folder == folder && output.may_be(name); }))
-        refuse(folder.empty() ? name : folder + "/" + name);
+        names.insert(folder.empty() ? name : folder + "/" + name);
     }
+  }
+  return names;
+}
+
+void RunFolder::refuse_losses(const std::set<std::string>& names, const std::vector<fs::path>& inputs, bool overwrite, Faults& faults) const {
+  std::set<std::pair<dev_t, ino_t>> read;
+  for (const fs::path& input : inputs)
+    if (struct stat status{}; ::stat(input.c_str(), &status) == 0) read.emplace(status.st_dev, status.st_ino);
+  for (const std::string& name : names) {
+    const fs::path path = path_of(name);
+    struct stat status {};
+    if (::lstat(path.c_str(), &status) != 0) continue;
+    const bool needs_no_list = name == own_files_list || name == checkpoint_file || name == earlier_checkpoint_file;
+    if (!S_ISREG(status.st_mode))
+      faults.add("--out", path.string(), "a regular file, or nothing, of that name: --overwrite replaces no folder, link, pipe or device");
+    else if (read.count({status.st_dev, status.st_ino}) > 0)
+      faults.add("--out", path.string(), "a folder in which the run replaces nothing that it needs; the scene reads it, or it is the scene");
+    else if (!overwrite && !needs_no_list && earlier_.find(name) == earlier_.end())
+      faults.add("--out", path.string(),
+                 fmt::format("a folder where no such file is, for its list of a run's own files ({}) does not name it; move the file, or replace it "
+                             "by --overwrite",
+                             own_files_list));
   }
 }
 
-void RunFolder::begin(bool overwrite, const std::vector<OutputName>& outputs) {
+void RunFolder::begin(bool overwrite, const std::vector<OutputName>& outputs, const std::vector<fs::path>& inputs) {
   may_replace_ = overwrite;
   Faults faults;
   if (!overwrite && holds_progress(directory_) && !is_done(directory_))
     faults.add("--out", directory_.string(), "a folder without an interrupted run; go on with it by --resume, or give up its results by --overwrite");
-  if (!overwrite) refuse_strangers(outputs, faults);
+  refuse_losses(met(outputs, faults), inputs, overwrite, faults);
   try {
     remove_leavings(earlier_, overwrite, faults);
   } catch (const InputError&) {
@@ -179,7 +205,7 @@ void RunFolder::remove_parts(const fs::path& folder) const {
   for (const fs::path& part : parts) ::unlink(part.c_str());
 }
 
-void RunFolder::go_on(std::vector<TableMark> marks) {
+void RunFolder::go_on(std::vector<TableMark> marks, const std::vector<OutputName>& outputs) {
   may_replace_ = true;  // frames from after the checkpoint are written again
   Faults faults;
   std::uint64_t listed = 0;
@@ -206,6 +232,7 @@ void RunFolder::go_on(std::vector<TableMark> marks) {
     mine_[name] = {file.hash.empty(), !file.hash.empty()};
     if (!is_same) faults.add("--resume", path_of(name).string(), "a file as it was when the checkpoint was made; it was changed or removed");
   }
+  refuse_losses(met(outputs, faults), {}, true, faults);
   faults.throw_if_any();
   marks_ = std::move(marks);
   for (const char* name : ends)  // how the run was when it ended before
@@ -289,6 +316,11 @@ std::vector<TableMark> RunFolder::sync() {
   for (const fs::path& folder : folders) sync_directory(folder);
   marks.push_back({own_files_list, list_->extent()});
   return marks;
+}
+
+void RunFolder::check_tables() const {
+  list_->check();
+  for (const auto& [name, table] : tables_) table.check();
 }
 
 void RunFolder::finish() {

@@ -21,16 +21,19 @@ struct TableMark {
 
 class RunFolder {
  public:
-  /// Opens and locks a folder, which a new run makes if it is not there. OutsideError if another run is writing there, or if the system refuses.
+  /// Opens and locks a folder, which a new run makes if it is not there. InputError if it is a study's, or if its list is no regular file.
+  /// OutsideError if another run is writing there, or if the system refuses.
   RunFolder(std::filesystem::path directory, bool is_new);
 
   /// Whether an earlier run left something here.
   bool has_results() const { return !earlier_.empty(); }
   /// Begins a new run: removes what an earlier run left, if it is still as that run left it. InputError, with nothing touched, if an interrupted run
-  /// is there or files of the run's own names that no list names, unless `overwrite`. `outputs`: what its writers and probes will write.
-  void begin(bool overwrite, const std::vector<OutputName>& outputs);
-  /// Goes on with a run whose checkpoint holds these marks. InputError, with nothing touched, if a table or file from before is not as it was.
-  void go_on(std::vector<TableMark> marks);
+  /// is there or files of the run's own names that no list names, unless `overwrite`; in any case if one of the `inputs` would be removed or
+  /// replaced, or if a folder, link, pipe or device stands where a file is to be written. `outputs`: what its writers and probes will write.
+  void begin(bool overwrite, const std::vector<OutputName>& outputs, const std::vector<std::filesystem::path>& inputs = {});
+  /// Goes on with a run whose checkpoint holds these marks. InputError, with nothing touched, if a table or file from before is not as it was, or if
+  /// a folder, link, pipe or device stands where a file is to be written.
+  void go_on(std::vector<TableMark> marks, const std::vector<OutputName>& outputs = {});
 
   const std::filesystem::path& directory() const { return directory_; }
   /// Makes a folder inside, or finds it. OutsideError if it is a link or file.
@@ -45,6 +48,8 @@ class RunFolder {
 
   /// Waits until everything that was written is on the disk. Returns where the tables, and the list, stand.
   std::vector<TableMark> sync();
+  /// OutsideError if a table, or the list, was removed, replaced or changed by somebody else.
+  void check_tables() const;
   /// Notes what the run's files hold at the end.
   void finish();
 
@@ -54,7 +59,8 @@ class RunFolder {
   };
   void note(const std::string& name, Mine& file, bool to_the_disk);
   void remove_leavings(const OwnFiles& files, bool overwrite, Faults& faults);
-  void refuse_strangers(const std::vector<OutputName>& outputs, Faults& faults) const;
+  std::set<std::string> met(const std::vector<OutputName>& outputs, Faults& faults) const;
+  void refuse_losses(const std::set<std::string>& names, const std::vector<std::filesystem::path>& inputs, bool overwrite, Faults& faults) const;
   void remove_parts(const std::filesystem::path& folder) const;
   std::filesystem::path path_of(const std::string& name) const { return directory_ / name; }
   std::filesystem::path list_path() const { return directory_ / own_files_list; }

@@ -59,6 +59,7 @@ class Running {
   void look_at_cells();
   template <class Output>
   void timed(Output&& output);
+  void clock();
 
   Plan& plan_;
   const RunOptions& options_;
@@ -82,7 +83,9 @@ class Running {
   Record last_;
   bool recorded_ = false;
   double largest_relative_error_ = 0;
-  double solve_seconds_ = 0, output_seconds_ = 0;
+  double solve_seconds_ = 0, output_seconds_ = 0;  ///< of all parts of the run
+  Clock::time_point clocked_;                      ///< up to where solve_seconds_ reach
+  double output_then_ = 0;                         ///< output_seconds_ there
 };
 
 template <class Output>
@@ -90,6 +93,14 @@ void Running::timed(Output&& output) {
   const auto start = Clock::now();
   output();
   output_seconds_ += seconds_since(start);
+}
+
+/// Adds what was solved since the last call.
+void Running::clock() {
+  const auto now = Clock::now();
+  solve_seconds_ += std::chrono::duration<double>(now - clocked_).count() - (output_seconds_ - output_then_);
+  clocked_ = now;
+  output_then_ = output_seconds_;
 }
 
 void Running::start(Outcome& outcome, const std::optional<Checkpoint>& resumed) {
@@ -138,6 +149,7 @@ void Running::visit(Archive& archive) {
 }
 
 void Running::save() {
+  clock();  // a run that goes on from here counts this part too
   timed([&] {
     CheckpointHead head = checkpoint_head(plan_, simulation_->steps() == 0);
     if (!head.at_start) head.tables = folder_.sync();  // what the checkpoint counts on is on the disk before it
@@ -153,12 +165,11 @@ void Running::save_if_due() {
 }
 
 void Running::solve() {
+  clocked_ = Clock::now();
+  output_then_ = output_seconds_;
   while (stages_done_ < plan_.stages.size()) {
     const PlannedStage& stage = plan_.stages[stages_done_];
     if (stop_requested()) return save();
-    const auto start = Clock::now();
-    const double output_before = output_seconds_;
-    const auto clock = [&] { solve_seconds_ += seconds_since(start) - (output_seconds_ - output_before); };
     try {
       solve_stage(stage);
     } catch (...) {
@@ -286,6 +297,14 @@ std::unique_ptr<Simulation> build(const RunFolder& folder, const Plan& plan) {
   return nullptr;
 }
 
+/// All files that the run depends on.
+std::vector<std::filesystem::path> inputs_of(const Plan& plan) {
+  std::vector<std::filesystem::path> inputs{plan.scene->file};
+  for (const Dependence& one : plan.identity)
+    if (!one.path.empty()) inputs.push_back(one.path);
+  return inputs;
+}
+
 /// Makes the folder ready, and says where the run goes on; nowhere if it begins.
 std::optional<Checkpoint> prepare(RunFolder& folder, Plan& plan, const RunOptions& options, std::unique_ptr<Simulation>& simulation) {
   std::optional<Checkpoint> resumed;
@@ -296,9 +315,9 @@ std::optional<Checkpoint> prepare(RunFolder& folder, Plan& plan, const RunOption
   }
   simulation = build(folder, plan);
   if (resumed && !resumed->head.at_start)
-    folder.go_on(resumed->head.tables);
+    folder.go_on(resumed->head.tables, output_names(plan));
   else
-    folder.begin(options.overwrite || resumed, output_names(plan));
+    folder.begin(options.overwrite || resumed, output_names(plan), inputs_of(plan));
   if (resumed && resumed->head.at_start) resumed.reset();
   return resumed;
 }
@@ -326,6 +345,7 @@ void carry_out(Plan& plan, const RunOptions& options, RunFolder& folder, const s
     running.start(outcome, resumed);
     running.solve();
     running.finish();
+    folder.check_tables();
     // how many steps a search for rest takes is not known before
     const bool short_of = running.steps() < plan.steps() ||
                           std::any_of(plan.stages.begin(), plan.stages.end(), [](const PlannedStage& stage) { return stage.plan.at_rest; });
@@ -388,7 +408,7 @@ int run(Plan& plan, const RunOptions& options) {
   for (const auto& [name, value] : body_lines(plan.body)) body += fmt::format("{}{} {}", body.empty() ? "" : ", ", name, value);
   spdlog::info("the body: {}", body);
   for (const std::string& warning : plan.model->warnings) spdlog::warn("warning: {}", warning);
-  if (std::filesystem::exists(options.directory / "report.html"))
+  if (std::error_code unreadable; std::filesystem::exists(options.directory / "report.html", unreadable))
     spdlog::warn("warning: {} shows an earlier state: make it anew by `hyperlattice report` after this run",
                  (options.directory / "report.html").string());
   carry_out(plan, options, folder, resumed, std::move(simulation), outcome);

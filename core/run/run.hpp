@@ -17,8 +17,8 @@ struct RunOptions {
 };
 
 /// Runs a plan. Returns the exit code and leaves summary.json in any case but a failure to write it. Messages go to the log. InputError or
-/// OutsideError, with nothing touched, if the folder is not fit for it: another run is writing there, an interrupted one waits to be resumed, or what
-/// is to be resumed is not there or not as it was.
+/// OutsideError, with nothing touched, if the folder is not fit for it: another run is writing there, an interrupted one waits to be resumed, what is
+/// to be resumed is not there or not as it was, a file that the scene reads would be replaced, or a study is there.
 int run(Plan& plan, const RunOptions& options);
 
 /// Asks a running simulation to stop after the present step; safe in a signal handler.

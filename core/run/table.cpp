@@ -103,6 +103,17 @@ void Table::lines(std::string_view text) {
 void Table::sync() {
   while (::fsync(descriptor_.number()) != 0)
     if (errno != EINTR) fail(errno);
+  check();
+}
+
+void Table::check() const {
+  struct stat written {
+  }, named{};
+  if (::fstat(descriptor_.number(), &written) != 0) fail(errno);
+  if (::lstat(file_.c_str(), &named) != 0 || named.st_dev != written.st_dev || named.st_ino != written.st_ino)
+    throw OutsideError(fmt::format("{} was removed or replaced while the run wrote it", file_.string()));
+  if (static_cast<std::uint64_t>(written.st_size) != bytes_)
+    throw OutsideError(fmt::format("{} was changed by another program while the run wrote it", file_.string()));
 }
 
 void Table::cut(std::uint64_t bytes) {

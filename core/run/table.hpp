@@ -32,7 +32,8 @@ class Table {
   void row(std::span<const double> values);
   void lines(std::string_view whole_lines);  ///< each ends with a newline
   void cut(std::uint64_t bytes);             ///< takes back all but the first bytes
-  void sync();                               ///< waits until all lines are on the disk
+  void sync();                               ///< waits until all lines are on the disk; checks
+  void check() const;                        ///< that its name still leads to it, and that nobody else wrote into it
   Extent extent() const { return {bytes_, hash_.text()}; }
   const std::filesystem::path& file() const { return file_; }
 

@@ -1,3 +1,4 @@
+#include <base/visible.hpp>
 #include <host/plugin_call.hpp>
 #include <scene/expectation.hpp>
 #include <scene/option_reader.hpp>
@@ -11,12 +12,13 @@
 namespace hyperlattice {
 namespace {
 
+constexpr std::size_t most_shown = 4096;  // bytes of a plugin's text
+
 /// Calls a function of the set, which must not fail. Throws OutsideError if it does.
 template <class Code>
 void call(const OptionSet& set, const char* function, Code&& code) {
   PluginCall call(set.name, set.library, function);
-  if (const std::string* sentence = call.failure(code(call.why())))
-    throw OutsideError(fmt::format("{} ({}) failed in {}(): {}", set.name, set.library, function, *sentence));
+  if (const std::string* sentence = call.failure(code(call.why()))) throw plugin_failure(set.name, "", set.library, function, *sentence);
 }
 
 }  // namespace
@@ -65,8 +67,8 @@ bool OptionReader::check(const OptionSet& set, const void* options) {
                          PluginCall::answer([&] {
                            const OptionReader& reader = *static_cast<OptionReader*>(self);
                            const auto given = option.empty() ? reader.object_.end() : reader.object_.find(std::string(option));
-                           reader.reading_.faults.add(option.empty() ? reader.pointer_ : member(reader.pointer_, option),
-                                                      given == reader.object_.end() ? "" : shown(*given), std::string(expected));
+                           reader.reading_.faults.add(option.empty() ? reader.pointer_ : member(reader.pointer_, visible_line(option, most_shown)),
+                                                      given == reader.object_.end() ? "" : shown(*given), visible_line(expected, most_shown));
                          });
                        }};
   call(set, "check", [&](const Complaint& why) { return set.check(options, sink, why); });

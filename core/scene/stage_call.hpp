@@ -10,15 +10,14 @@ namespace hyperlattice {
 
 /// Why a component cannot be used, as an error of the outside: names the component, its place in the scene, its library and the function.
 inline OutsideError plugin_error(const Stage& stage, const std::string& function, const std::string& sentence) {
-  return OutsideError(stage.component->type() + " (" + stage.pointer + ", " + stage.component->path.string() + ") failed in " + function +
-                      "(): " + sentence);
+  return plugin_failure(stage.component->info.name, stage.pointer, stage.component->path.native(), function, sentence);
 }
 
 /// Calls a function that may refuse: `code` gets the Complaint and returns whether it was done. Returns the sentence of a refusal. Throws
-/// OutsideError if what the component asked of the host was a mistake.
+/// OutsideError if the component got no memory, or if what it asked of the host was a mistake.
 template <class Code>
 std::optional<std::string> refusal_of(const Stage& stage, const char* function, Code&& code) {
-  PluginCall call(stage.component->info.name, stage.component->path.c_str(), function);
+  PluginCall call(stage.component->info.name, stage.component->path.c_str(), function, stage.pointer);
   try {
     const std::string* sentence = call.failure(code(call.why()));
     return sentence == nullptr ? std::nullopt : std::optional(*sentence);

@@ -1,10 +1,9 @@
 // What loads do at the present instant: their factors, by the mean over the interval in which forces act, their answers to the motion, and the
 // velocities of the particles that they move.
-#include <base/errors.hpp>
+#include <model/blame.hpp>
 #include <state/parts.hpp>
 
 #include <spdlog/fmt/fmt.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -22,20 +21,6 @@ bool is_sound(const WatchedMotion& seen, double step, double spacing) {
          std::all_of(seen.velocity.begin(), seen.velocity.end(), [&](Vec3 v) { return norm(v) * step <= spacings * spacing; });
 }
 
-/// A load as the scene has it, cut to a line.
-std::string text_of(const Model& model, const Stage& stage) {
-  std::string text;
-  const nlohmann::json resolved = nlohmann::json::parse(model.scene->resolved, nullptr, false);
-  if (const nlohmann::json::json_pointer at(stage.pointer); !resolved.is_discarded() && resolved.contains(at)) text = resolved.at(at).dump();
-  constexpr std::size_t most = 300;
-  return text.size() > most ? text.substr(0, most) + "..." : text;
-}
-
-[[noreturn]] void blame(const Model& model, std::size_t load, const std::string& what) {
-  const Stage& stage = *model.loads[load].stage;
-  throw RunError(fmt::format("{} ({}): {}. The load is {}", stage.component->type(), stage.pointer, what, text_of(model, stage)));
-}
-
 }  // namespace
 
 /// What loads watch is filled in by watch().
@@ -45,7 +30,7 @@ void Simulation::Parts::prepare_loads(const Sweep& sweep) {
     const Load& load = model.loads[l];
     const double reach = sweep.step > 0 ? sweep.step : -last_step;
     if (time_held) {
-      now.mean = now.next = now.mean_of_step = load.factor(time);
+      now.mean = now.next = now.mean_of_step = load.after(time);
       now.now = {now.mean, 0};
     } else {
       now.mean = load.mean(time - sweep.before, time + sweep.after);
@@ -99,13 +84,17 @@ void Simulation::Parts::apply_forces(Block& block) const {
   }
 }
 
-/// m/s, along an axis that the load prescribes. A displacement is met at the end of each step, a velocity's path is exact.
+/// m/s, along an axis that the load prescribes. A displacement is met at the end of each step, a velocity's path is exact. Where time is held both
+/// stand where they are at that time.
 double Simulation::Parts::prescribed_velocity(const Block& block, const Contribution& part, int axis, const Sweep& sweep) const {
   const Acting& load = acting[part.load];
   const std::uint64_t index = block.supports[part.support].index;
   const double displacement = component(part.displacement, axis), velocity = component(part.velocity, axis);
-  if ((part.driven >> axis & 1u) != 0) return (sweep.step > 0 ? load.mean_of_step : load.now.value) * velocity;
-  return sweep.step > 0 ? (load.next * displacement - block.displacement[axis][index]) / sweep.step : load.now.slope * displacement;
+  const bool driven = (part.driven >> axis & 1u) != 0;
+  if (driven && !time_held) return (sweep.step > 0 ? load.mean_of_step : load.now.value) * velocity;
+  const double goal = driven ? component(part.goal, axis) : load.next * displacement;
+  if (sweep.step > 0) return (goal - block.displacement[axis][index]) / sweep.step;
+  return driven ? 0 : load.now.slope * displacement;
 }
 
 void Simulation::Parts::prepare_supports(Block& block, const Sweep& sweep) const {
@@ -130,9 +119,9 @@ void Simulation::Parts::check_factors() const {
   for (std::size_t l = 0; l < acting.size(); ++l) {
     const Acting& load = acting[l];
     const double now = model.loads[l].factor(time);
-    if (!std::isfinite(now)) blame(model, l, fmt::format("its factor at t = {:.6g} s, step {}, is {}: no finite number", time, steps, now));
+    if (!std::isfinite(now)) blame_load(model, l, fmt::format("its factor at t = {:.6g} s, step {}, is {}: no finite number", time, steps, now));
     if (std::isfinite(load.mean + load.next + load.mean_of_step + load.now.value + load.now.slope)) continue;
-    blame(model, l, fmt::format("its factor is no finite number within a step of t = {:.6g} s, step {}", time, steps));
+    blame_load(model, l, fmt::format("its factor is no finite number within a step of t = {:.6g} s, step {}", time, steps));
   }
 }
 
@@ -141,7 +130,7 @@ void Simulation::Parts::check_answers() const {
   for (const Block& block : blocks) {
     if (block.bad_answer == no_load) continue;
     if (is_sound(acting[block.bad_answer].motion, last_step, model.body.grid.spacing))
-      blame(model, block.bad_answer, fmt::format("its answer at t = {:.6g} s, step {}, to a finite motion is no finite force", time, steps));
+      blame_load(model, block.bad_answer, fmt::format("its answer at t = {:.6g} s, step {}, to a finite motion is no finite force", time, steps));
   }
 }
 

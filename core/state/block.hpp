@@ -18,6 +18,7 @@ struct Contribution {
   std::uint32_t watched = not_watched;  ///< which of the load's watched particles: the force is its answer, not an amplitude
   Vec3 force, displacement, velocity;   ///< amplitudes
   Axes displaced = 0, driven = 0;
+  Vec3 goal;             ///< m, the displacement along driven axes where time is held
   double factor = 0;     ///< of the present step
   double work = 0;       ///< of the force since the start, J
   double held_work = 0;  ///< its part along prescribed axes, which whatever holds the particle takes back, J

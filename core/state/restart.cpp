@@ -35,6 +35,7 @@ void Simulation::archive(Archive& archive) {
   archive(p.last_step);
   archive(p.time);
   archive(p.time_rest);
+  archive(p.time_held);
   archive(p.steps);
   archive(p.breakages);
   archive(p.failure_energy);

@@ -7,7 +7,14 @@
 namespace hyperlattice {
 
 void Simulation::hold_time(double time) {
-  parts_->time_held = true;
+  if (std::exchange(parts_->time_held, true)) return;
+  for (Block& block : parts_->blocks)
+    for (Contribution& part : block.contributions) {
+      if (part.driven == 0) continue;
+      const double way = parts_->model.loads[part.load].integral(parts_->time, time);
+      const std::uint64_t index = block.supports[part.support].index;
+      for (int c = 0; c < 3; ++c) set_component(part.goal, c, block.displacement[c][index] + way * component(part.velocity, c));
+    }
   set_time(time);
 }
 void Simulation::release_time() { parts_->time_held = false; }

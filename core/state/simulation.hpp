@@ -53,7 +53,8 @@ class Simulation {
   void step(double time_step);
   double time() const;
   void set_time(double time);
-  /// While held, steps do not advance time and loads act as they do at that time.
+  /// While held, steps do not advance time and loads act as they do at that time; what they drive goes where it would have come by then. If time is
+  /// held already, as after a restart, it stays so.
   void hold_time(double time);
   void release_time();
   void halt();                            ///< stops all motion; its kinetic energy counts as dissipated

@@ -1,10 +1,14 @@
 // From the loads of a stage's start to those of its end, along a straight line: forces and prescribed displacements change in proportion to a share
 // from 0 to 1. Whatever else the state at the start needs to be at rest is a holding force, which goes away in the same proportion.
+#include <model/blame.hpp>
 #include <statics/statics.hpp>
+
+#include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace hyperlattice {
 
@@ -21,9 +25,14 @@ void Statics::make_loads() {
   std::map<std::int64_t, Held> held;
   for (std::size_t l = 0; l < model_.loads.size(); ++l) {
     const Load& load = model_.loads[l];
-    factor_start_.push_back(fresh ? 0 : load.factor(start_));
-    factor_end_.push_back(load.factor(end_));
-    const double way = load.integral(start_, end_);
+    factor_start_.push_back(fresh ? 0 : load.after(start_));
+    factor_end_.push_back(load.after(end_));
+    const bool drives = std::any_of(load.particles.begin(), load.particles.end(), [](const LoadedParticle& loaded) { return loaded.driven != 0; });
+    const double way = drives ? load.integral(start_, end_) : 0;
+    for (const auto& [factor, time] : {std::pair{factor_start_.back(), start_}, {factor_end_.back(), end_}})
+      if (!std::isfinite(factor)) blame_load(model_, l, fmt::format("its factor at t = {:.6g} s is {}: no finite number", time, factor));
+    if (!std::isfinite(way))
+      blame_load(model_, l, fmt::format("the way that it drives particles from {:.6g} s to {:.6g} s is no finite number", start_, end_));
     for (const LoadedParticle& loaded : load.particles) {
       const std::int64_t place = place_of(loaded.particle);
       if (!(loaded.force == Vec3{})) loaded_.push_back({place, l, loaded.force});

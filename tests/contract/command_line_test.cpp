@@ -102,6 +102,43 @@ TEST_F(CommandLine, BeginsAPluginOnlyWhereThereIsNothing) {
   EXPECT_NE(again.err.find("a folder that is not there yet"), std::string::npos) << again.err;
 }
 
+TEST_F(CommandLine, ANamedFileTakesThePlaceOfNothingElse) {
+  ASSERT_EQ(run({"run", "cube.json", "--out", "results"}).exit_code, 0);
+  std::ofstream(folder_.file("crystals.csv")) << "name,C11_GPa,C12_GPa,C44_GPa\nX,3,1,1\n";
+  std::filesystem::create_directory(folder_.file("study"));
+  std::ofstream(folder_.file("study/study.json")) << R"({"rows": []})";
+  for (const char* name : {"study/study.csv", "study/study.svg"}) std::ofstream(folder_.file(name)) << "a study's";
+  const std::vector<std::vector<std::string>> lines = {
+      {"analyze", "--membrane", "none", "--plot", "cube.json"},
+      {"analyze", "--membrane", "none", "--plot", "study/study.svg"},
+      {"analyze", "--membrane", "none", "--dispersion", "cube.json"},
+      {"analyze", "--membrane", "none", "--dispersion", "study/study.csv"},
+      {"analyze", "--membrane", "none", "--dispersion", "results/history.csv"},
+      {"analyze", "--membrane", "none", "--crystals", "crystals.csv", "--dispersion", "crystals.csv"},
+      {"analyze", "--membrane", "none", "--option", "points=crystals.csv", "--dispersion", "crystals.csv"},
+      {"calibrate", "--membrane", "I-m", "--curve", "0", "4.5", "10", "--plot", "cube.json"},
+      {"plugins", "--test", "failures.strain", "--pictures", "cube.json"}};
+  for (const auto& line : lines) {
+    const std::string file = folder_.file(line.back()), before = test::contents(file);
+    const test::Result result = run(line);
+    EXPECT_EQ(result.exit_code, 2) << testing::PrintToString(line) << result.err;
+    EXPECT_NE(result.err.find(line[line.size() - 2] + ": " + line.back() + ": expected a"), std::string::npos) << result.err;
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(test::contents(file), before) << file;
+  }
+}
+
+TEST_F(CommandLine, APictureIsWrittenIntoALinkOrDevice) {
+  std::ofstream(folder_.file("target.svg")) << "an earlier picture";
+  std::filesystem::create_symlink("target.svg", folder_.file("link.svg"));
+  for (const std::string file : {"link.svg", "/dev/null"}) {
+    const test::Result result = run({"analyze", "--plot", file});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+  }
+  EXPECT_TRUE(std::filesystem::is_symlink(folder_.file("link.svg")));
+  EXPECT_NE(test::contents(folder_.file("target.svg")).find("</svg>"), std::string::npos);
+}
+
 TEST_F(CommandLine, MachinesReadWhatPeopleRead) {
   EXPECT_EQ(json::parse(run({"plan", "cube.json", "--json"}).out).at("particles"), 27);
   const json plugins = json::parse(run({"plugins", "--json", "--why"}).out);

@@ -84,6 +84,11 @@ INSTANTIATE_TEST_SUITE_P(All, MisbehavingLoad,
                                          Fault{"hang at load", "is still loading: a plugin must load within HYPERLATTICE_LOAD_SECONDS"},
                                          Fault{"region", "failed in declare(): it asks about region 1234567"},
                                          Fault{"particle", "failed in declare(): it asks about a particle that does not exist"},
+                                         Fault{"no memory in constructor", "failed in constructor(): not enough memory"},
+                                         Fault{"no memory in declare", "failed in declare(): not enough memory"},
+                                         Fault{"no memory in factor", "failed in factor(): not enough memory"},
+                                         Fault{"no memory in destructor", "ended the program in destructor(): not enough memory"},
+                                         Fault{"wild error", "failed in factor(): U+001B[31mred forged"},
                                          Fault{"exit in declare", "ended the program in declare(): it called exit"},
                                          Fault{"null pointer", "ended the program in factor(): segmentation fault", true},
                                          Fault{"abort", "ended the program in factor(): abort", true},
@@ -107,7 +112,7 @@ INSTANTIATE_TEST_SUITE_P(All, WrongHandedOver,
                          testing::Values(Fault{"axes", "it prescribes an axis that does not exist, or none"},
                                          Fault{"amplitude", "it gives an amplitude that is not finite"},
                                          Fault{"acceleration", "it gives an acceleration that is not finite"},
-                                         Fault{"throw an int", "an exception of unknown type"}),
+                                         Fault{"wild refusal", "U+001B[31mred forged"}, Fault{"throw an int", "an exception of unknown type"}),
                          name_of);
 TEST_P(WrongHandedOver, IsRefused) {
   const Folder here("misbehaving");
@@ -169,6 +174,29 @@ TEST(MisbehavingPlugins, ABadExampleIsToldByComponentOptionAndExample) {
   EXPECT_EQ(result.exit_code, 4) << result.out << result.err;
   EXPECT_NE(result.err.find("registers 'failures.misbehaving' with a bad option 'limit': its example, 1e-3 mm, is not JSON"), std::string::npos)
       << result.err;
+}
+
+TEST(MisbehavingPlugins, WhatNobodySeesInADeclarationIsShown) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"plugins", "loads.misbehaving"}, {"plugins"}}) {
+    std::vector<std::string> all = words;
+    all.insert(all.end(), {"--plugin-path", folder});
+    const Result result = run_program(all, launch_with("wild help"));
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.out.find("MisU+001B[31mbehaves forged"), std::string::npos) << result.out;
+    EXPECT_EQ(result.out.find('\x1b'), std::string::npos) << result.out;
+    EXPECT_EQ(result.out.find("\nforged"), std::string::npos) << result.out;
+  }
+}
+
+TEST(MisbehavingPlugins, ALinkToNothingIsNoPlugin) {
+  const Folder here("gone");
+  std::filesystem::create_symlink("nowhere.so", here.file("loads.gone.so"));
+  const Result result = run_program({"plugins", "loads.gone", "--plugin-path", here.path()});
+  EXPECT_EQ(result.exit_code, 4) << result.err;
+  EXPECT_NE(result.err.find("loads.gone.so: is a link to nowhere.so, where nothing is"), std::string::npos) << result.err;
+  const Result all = run_program({"plugins", "--why", "--plugin-path", here.path()});
+  EXPECT_EQ(all.exit_code, 0) << all.err;
+  EXPECT_NE(all.out.find("loads.gone.so: is a link to nowhere.so"), std::string::npos) << all.out;
 }
 
 TEST(MisbehavingPlugins, APipeIsNoPlugin) {

@@ -317,6 +317,112 @@ TEST_F(ReportCommand, CallsFineOnlyWhatIsBelowTheStatedBound) {
   }
 }
 
+TEST_F(ReportCommand, TakesThePlaceOfNothingElse) {
+  run("one");
+  write(out("one") + "/files.csv", contents(out("one") + "/files.csv") + ",,mine.html\n");
+  write(out("one") + "/mine.html", "a writer's");
+  for (const std::string name : {"one/summary.json", "one/history.csv", "one/probes/outer.csv", "one/files.csv", "one/mine.html", "scene.json"}) {
+    fs::create_symlink(out(name), out("link.html"));
+    const std::string before = contents(out(name));
+    for (const std::string& file : {out(name), out("link.html")}) {
+      const Result result = report({out("one"), "--out", file});
+      EXPECT_EQ(result.exit_code, 2) << result.err;
+      EXPECT_NE(result.err.find("--out: " + file + ": expected "), std::string::npos) << result.err;
+      EXPECT_EQ(result.out, "");
+      EXPECT_EQ(contents(out(name)), before) << file;
+    }
+    fs::remove(out("link.html"));
+  }
+}
+
+TEST_F(ReportCommand, WritesIntoLinksAndDevicesAndSaysWhereALinkLeadsNowhere) {
+  run("one");
+  write(out("target.html"), "an earlier page");
+  fs::create_symlink("target.html", out("page"));
+  EXPECT_EQ(report({out("one"), "--out", out("page")}).exit_code, 0);
+  EXPECT_TRUE(fs::is_symlink(out("page")));
+  EXPECT_NE(contents(out("target.html")).find("small sphere"), std::string::npos);
+  EXPECT_EQ(report({out("one"), "--out", "/dev/null"}).exit_code, 0);
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  for (int twice = 0; twice < 2; ++twice) EXPECT_EQ(report({out("one"), "--out", out("new.HTM")}).exit_code, 0);
+
+  fs::create_symlink("nowhere.html", out("dangling.html"));
+  fs::create_symlink("itself.html", out("itself.html"));
+  for (const auto& [name, part] : {std::pair{"dangling.html", "a link to nowhere.html, where none is"}, std::pair{"itself.html", "in a circle"}}) {
+    const Result result = report({out("one"), "--out", out(name)});
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
+    EXPECT_TRUE(fs::is_symlink(out(name)));
+  }
+  EXPECT_FALSE(fs::exists(out("nowhere.html")));
+}
+
+TEST_F(ReportCommand, WritesIntoNothingUnderANameThatNobodyGave) {
+  run("one");
+  run("two");
+  write(out("secret.txt"), "secret");
+  write(out("other.html"), "a page");
+  Launch here;
+  here.directory = out("");
+  const std::vector<std::pair<std::string, Words>> calls{{out("one") + "/report.html", {"report", out("one")}},
+                                                         {out("report.html"), {"report", out("one"), out("two")}}};
+  for (const auto& [file, words] : calls) {
+    const auto expect_left = [&, &file = file, &words = words](const std::string& what) {
+      const Result result = run_program(words, here);
+      EXPECT_EQ(result.exit_code, 2) << what << result.err;
+      EXPECT_NE(result.err.find("report.html: expected a regular file, or nothing, of that name"), std::string::npos) << what << result.err;
+      EXPECT_EQ(contents(out("secret.txt")), "secret");
+      EXPECT_EQ(contents(out("other.html")), "a page");
+      EXPECT_FALSE(fs::exists(out("nowhere.html")));
+      fs::remove(file);
+    };
+    for (const std::string target : {"secret.txt", "other.html", "nowhere.html"}) {
+      fs::create_symlink(out(target), file);
+      expect_left(target);
+    }
+    ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
+    expect_left("a pipe");
+    for (int twice = 0; twice < 2; ++twice) EXPECT_EQ(run_program(words, here).exit_code, 0);
+  }
+}
+
+TEST_F(ReportCommand, ShowsTheGoodPicturesBesideBadOnes) {
+  run("run", {{"/pipeline/5", {{"type", "writers.picture"}, {"every", "2 us"}, {"width", 64}, {"height", 64}}}});
+  const auto name = [](int n) { return "picture_00000" + std::to_string(n) + ".png"; };
+  const auto file = [&](int n) { return out("run") + "/" + name(n); };
+  const std::string good = contents(file(0));
+  ASSERT_TRUE(fs::exists(file(4)));
+  write(out("outside.png"), good);
+  const std::vector<std::pair<std::string, std::function<void(const std::string&)>>> faults{
+      {"a link", [&](const std::string& at) { fs::create_symlink(out("outside.png"), at); }},
+      {"no PNG picture", [&](const std::string& at) { write(at, "text"); }},
+      {"a folder, device or pipe", [](const std::string& at) { ASSERT_EQ(mkfifo(at.c_str(), 0600), 0); }}};
+  for (const int bad : {0, 1, 4})
+    for (const auto& [what, make] : faults) {
+      const std::string before = contents(file(bad));
+      fs::remove(file(bad));
+      make(file(bad));
+      const Result result = report({out("run")});
+      EXPECT_EQ(result.exit_code, 0) << result.err;
+      EXPECT_NE(result.out.find(name(bad) + " is " + what + ", and is not shown."), std::string::npos) << result.out;
+      for (int n = 0; n < 5; ++n) EXPECT_EQ(page("run").find("alt=\"" + name(n)) != std::string::npos, n != bad) << n << ' ' << bad << ' ' << what;
+      fs::remove(file(bad));
+      write(file(bad), before);
+    }
+  for (int n = 0; n < 5; ++n) write(file(n), "text");
+  const Result none = report({out("run")});
+  EXPECT_EQ(none.exit_code, 0) << none.err;
+  EXPECT_NE(none.out.find("more files of the pictures picture are not shown."), std::string::npos) << none.out;
+
+  json scene = read_json(out("run") + "/scene.resolved.json");  // a folder that is a link: nothing in it counts
+  scene["pipeline"][5]["file"] = "linked/picture";
+  write(out("run") + "/scene.resolved.json", scene.dump());
+  fs::create_directory_symlink(".", out("run") + "/linked");
+  const Result linked = report({out("run")});
+  EXPECT_EQ(linked.exit_code, 0) << linked.err;
+  EXPECT_NE(linked.out.find("linked/picture_000000.png is a link"), std::string::npos) << linked.out;
+}
+
 TEST_F(ReportCommand, RefusesCommandsThatMakeNoSense) {
   run("good");
   EXPECT_EQ(report({}).exit_code, 2);

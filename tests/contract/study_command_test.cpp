@@ -277,6 +277,56 @@ TEST_F(StudyCommand, LocksItsFolder) {
   EXPECT_EQ(study(true_swinging_pair()).exit_code, 0);  // the lock ended with the study
 }
 
+TEST_F(StudyCommand, SharesItsFolderWithNoRun) {
+  json file = true_swinging_pair();
+  const std::string scene = write_scene(folder_, file["scene"]);
+  ASSERT_EQ(study(file).exit_code, 0);
+  const auto expect_no_run = [&](const std::string& why) {
+    for (const char* way : {"--quiet", "--overwrite"}) {
+      const Result run = run_program({"run", scene, "--out", out(), way});
+      EXPECT_EQ(run.exit_code, 2) << run.err;
+      EXPECT_NE(run.err.find(why), std::string::npos) << run.err;
+      EXPECT_FALSE(fs::exists(out() + "/files.csv"));
+    }
+  };
+  expect_no_run("the results of a study are there (study.json)");
+  EXPECT_NE(study(file).err.find("there already"), std::string::npos);
+  fs::remove_all(out());
+  json longer = file;
+  longer["scene"]["pipeline"][4]["end_time"] = "1 s";  // longer than anyone waits
+  std::ofstream(folder_.file("study.json")) << longer.dump();
+  Launch launch;
+  launch.meanwhile = [&](pid_t child) {
+    EXPECT_TRUE(wait_until([&] { return fs::exists(out() + "/runs/step-0.2us_stiffness-stiff/history.csv"); }));
+    expect_no_run("a study is running there");
+    kill(child, SIGINT);
+  };
+  EXPECT_EQ(run_program({"study", folder_.file("study.json"), "--out", out()}, launch).exit_code, 130);
+
+  fs::remove_all(out());
+  ASSERT_EQ(run_program({"run", scene, "--out", out(), "--quiet"}).exit_code, 0);
+  const Result refused = study(file);
+  EXPECT_EQ(refused.exit_code, 2) << refused.err;
+  EXPECT_NE(refused.err.find("the results of a run are there (files.csv)"), std::string::npos) << refused.err;
+  EXPECT_FALSE(fs::exists(out() + "/runs"));
+}
+
+TEST_F(StudyCommand, ReplacesNothingButAStudysResults) {
+  std::ofstream(folder_.file("study.json")) << true_swinging_pair().dump();
+  const std::string before = contents(folder_.file("study.json"));
+  const auto expect_kept = [&](const std::string& name, const std::string& expected) {
+    const Result result = run_program({"study", folder_.file("study.json"), "--out", folder_.path()});
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_NE(result.err.find(folder_.file(name) + ": expected " + expected), std::string::npos) << result.err;
+    EXPECT_FALSE(fs::exists(folder_.file("runs")));
+  };
+  expect_kept("study.json", "a folder in which the study replaces nothing that it needs");
+  EXPECT_EQ(contents(folder_.file("study.json")), before);
+  fs::create_symlink("victim", folder_.file("study.svg"));
+  expect_kept("study.svg", "a regular file, or nothing, of that name");
+  EXPECT_FALSE(fs::exists(folder_.file("victim")));
+}
+
 TEST_F(StudyCommand, RefusesTablesThatSayNotWhatIsMeant) {
   json file = swinging_pair();
   file["truth"] = {{"csv", "truth.csv"}};
@@ -411,6 +461,30 @@ TEST_F(StudyCommand, RefusesWhatDoesNotFitTogether) {
   expect_refused(swinging_pair(), {"--target-error: much: expected an error above 0 such as 1% or 0.01"}, {"--target-error", "much"});
   expect_refused(json::array(), {"study: []: expected an object"});
   EXPECT_EQ(run_program({"study", folder_.file("none.json")}).exit_code, 2);
+}
+
+TEST_F(StudyCommand, RefusesATruthAtTimesThatNoRunReaches) {
+  json file = swinging_pair();
+  file["truth"] = {{"csv", "truth.csv"}};
+  file["compare"]["upper"]["truth"] = "u";
+  std::ofstream(folder_.file("truth.csv")) << "t,u,u@0,u@1\n5e-6,1,1,1\n";
+  const std::string why =
+      "expected a truth of \"upper\" at times in s that the run reaches, which ends at 2e-06 s; \"t\" of truth.csv, times its scale, is from 5e-06 "
+      "to "
+      "5e-06";
+  expect_refused(file, {"/truth/csv: " + why});
+  json placed = file;
+  placed["compare"]["upper"]["at"] = "time";  // a place is a column of the probe, and this is one
+  expect_refused(placed, {"/truth/csv: " + why});
+  json longer = file;
+  longer["vary"]["end"] = {{"/pipeline/4/end_time", {"2 us", "6 us"}}};
+  expect_refused(longer, {" and 5 more): " + why});
+  json reduced = file;
+  reduced["compare"]["upper"]["reduce"] = "last";  // the times count no more
+  EXPECT_EQ(study(reduced).exit_code, 0);
+  EXPECT_EQ(study(file).exit_code, 2) << "also where the runs are there already";
+  file["truth"]["over_scale"] = 0.1;
+  EXPECT_EQ(study(file).exit_code, 0);
 }
 
 TEST_F(StudyCommand, TellsFaultsOfItsScenesOnceEach) {

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
+
 #include <map>
 #include <set>
 
@@ -171,7 +173,7 @@ TEST_F(FolderOfARun, FollowsNoLinkOutOfIt) {
   fs::create_directories(out);
   fs::create_symlink(victim, out + "/probes");
   EXPECT_EQ(run(scene_with_outputs()).exit_code, 2);
-  EXPECT_EQ(run(scene_with_outputs(), {"--overwrite"}).exit_code, 4);
+  EXPECT_EQ(run(scene_with_outputs(), {"--overwrite"}).exit_code, 2);
   fs::remove_all(out);
   fs::create_directories(out);
   std::ofstream(victim + "/precious") << "precious";
@@ -180,6 +182,111 @@ TEST_F(FolderOfARun, FollowsNoLinkOutOfIt) {
   fs::create_symlink(victim, out + "/link");
   EXPECT_EQ(run(small_sphere()).exit_code, 0);
   EXPECT_EQ(files_in(victim), (std::map<std::string, std::string>{{"precious", "precious"}}));
+}
+
+TEST_F(FolderOfARun, MissesATableThatSomebodyElseTouches) {
+  const std::string history = out + "/history.csv", removed = " was removed or replaced while the run wrote it";
+  const auto replace = [&] {
+    fs::copy_file(history, folder.file("copy"));
+    fs::rename(folder.file("copy"), history);
+  };
+  const std::vector<std::tuple<std::string, std::function<void()>, std::string>> touches = {
+      {"history.csv", [&] { fs::remove(history); }, removed},
+      {"probes/tip.csv", [&] { fs::remove(out + "/probes/tip.csv"); }, removed},
+      {"files.csv", [&] { fs::remove(out + "/files.csv"); }, removed},
+      {"history.csv", replace, removed},
+      {"history.csv", [&] { fs::resize_file(history, 0); }, " was changed by another program while the run wrote it"}};
+  json short_run = endless();
+  short_run["pipeline"][solver]["end_time"] = "10 ms";
+  for (const bool to_the_end : {false, true})
+    for (const auto& [name, touch, message] : touches) {
+      fs::remove_all(out);
+      const auto then = [&, &do_touch = touch](pid_t child) {
+        do_touch();
+        if (!to_the_end) kill(child, SIGTERM);
+      };
+      const Result result = run_meanwhile(to_the_end ? short_run : endless(), then);
+      EXPECT_EQ(result.exit_code, 4) << name << result.err;
+      EXPECT_NE(result.err.find(out + "/" + name + message), std::string::npos) << result.err;
+      EXPECT_EQ(read_json(out + "/summary.json")["status"], "failed");
+    }
+}
+
+TEST_F(FolderOfARun, KeepsWhatTheSceneReads) {
+  std::string table = "x,y,z,volume\n";
+  for (int n = 0; n < 125; ++n) table += std::to_string(n % 5) + "," + std::to_string(n / 5 % 5) + "," + std::to_string(n / 25) + ",1\n";
+  const auto expect_kept = [&](const std::string& scene, const std::string& name) {
+    const auto before = files_in(out);
+    for (const char* way : {"--quiet", "--overwrite"}) {
+      const Result result = run_program({"run", scene, "--out", out, way});
+      EXPECT_EQ(result.exit_code, 2) << name << result.err;
+      EXPECT_NE(result.err.find(out + "/" + name), std::string::npos) << result.err;
+      EXPECT_NE(result.err.find("the scene reads it"), std::string::npos) << result.err;
+      EXPECT_TRUE(files_in(out) == before) << name;
+    }
+  };
+  for (const std::string name : {"frames_000001.csv", "history.csv", "listed.csv"}) {
+    fs::remove_all(out);
+    fs::create_directories(out);
+    std::ofstream(out + "/" + name) << table;
+    if (name == "listed.csv") std::ofstream(out + "/files.csv") << "bytes,hash,name\n,,listed.csv\n";
+    expect_kept(write_scene(folder, json{{"format", "hyperlattice/1"},
+                                         {"pipeline",
+                                          {{{"type", "lattices.points"}, {"points", out + "/" + name}, {"scale", "1 mm"}, {"coordination", 14}},
+                                           {{"type", "materials.elastic"}, {"young", "10 GPa"}, {"poisson", 0.25}, {"density", 2500}},
+                                           {{"type", "loads.fixed"}, {"on", "z_max"}},
+                                           {{"type", "solvers.explicit"}, {"end_time", "10 us"}},
+                                           {{"type", "writers.csv"}, {"every", "2 us"}}}}}),
+                name);
+  }
+  fs::remove_all(out);
+  ASSERT_EQ(run(small_sphere()).exit_code, 0);
+  expect_kept(out + "/scene.resolved.json", "scene.resolved.json");
+  fs::remove_all(out);
+  fs::create_directories(out);
+  std::ofstream(out + "/history.csv") << small_sphere().dump();
+  expect_kept(out + "/history.csv", "history.csv");
+}
+
+TEST_F(FolderOfARun, ReplacesRegularFilesOnly) {
+  for (const std::string name : {"summary.json", "scene.resolved.json", "history.csv", "files.csv", "checkpoint.bin", "frames_000002.vtu", "probes",
+                                 "probes/tip.csv", "tables", "tables/frames_000001.csv"})
+    for (const std::string kind : {"folder", "link", "pipe", "file"}) {
+      const bool is_folder = name == "probes" || name == "tables";
+      if (kind == (is_folder ? "folder" : "file")) continue;
+      fs::remove_all(out);
+      const fs::path path = fs::path(out) / name;
+      fs::create_directories(path.parent_path());
+      if (kind == "folder") fs::create_directory(path);
+      if (kind == "link") fs::create_symlink(folder.file("victim"), path);
+      if (kind == "pipe") {
+        ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+      }
+      if (kind == "file") std::ofstream(path) << "mine";
+      const auto before = fs::symlink_status(path).type();
+      const Result result = run(scene_with_outputs(), {"--overwrite"});
+      EXPECT_EQ(result.exit_code, 2) << name << ' ' << kind << result.err;
+      EXPECT_NE(result.err.find(path.string()), std::string::npos) << result.err;
+      EXPECT_NE(result.err.find("--overwrite"), std::string::npos) << result.err;
+      EXPECT_EQ(fs::symlink_status(path).type(), before) << name << ' ' << kind;
+      EXPECT_EQ(files_in(out).size(), kind == "file" ? 1u : 0u) << name << ' ' << kind;
+      EXPECT_FALSE(fs::exists(folder.file("victim")));
+    }
+}
+
+TEST_F(FolderOfARun, TakesNoFileOfAUsersCommandWhileItRuns) {
+  const Result first = run_meanwhile([&](pid_t child) {
+    for (const std::string name : {"later.html", "tables/later.html"}) {
+      const Result refused = run_program({"report", out, "--out", out + "/" + name});
+      EXPECT_EQ(refused.exit_code, 2) << refused.err;
+      EXPECT_NE(refused.err.find("a run is writing in"), std::string::npos) << refused.err;
+      EXPECT_FALSE(fs::exists(out + "/" + name));
+    }
+    EXPECT_EQ(run_program({"analyze", "--membrane", "none", "--dispersion", out + "/tables/frames_009999.csv"}).exit_code, 2);
+    EXPECT_EQ(run_program({"report", out}).exit_code, 0);
+    kill(child, SIGTERM);
+  });
+  EXPECT_EQ(first.exit_code, 130) << first.err;
 }
 
 TEST_F(FolderOfARun, NamesOfItsFilesAreRefusedByThePlan) {

@@ -137,6 +137,33 @@ TEST_P(Resume, LeavesNoTrace) {
   }
 }
 
+/// Times count all the parts of a run, as its steps do.
+TEST(ResumedTimes, AreOfAllSteps) {
+  const Folder folder("resume_times");
+  json scene = pulled_block();
+  json& pipeline = scene["pipeline"];
+  pipeline[material].erase("failure");
+  pipeline[3]["value"] = {0, 0, 0.01};
+  pipeline[5]["end_time"] = "10 ms";
+  while (pipeline.size() > 6) pipeline.erase(6);
+  const std::string file = write_scene(folder, scene), out = folder.file("out");
+  constexpr std::size_t most_of_200 = 130;  // rows of the history
+  Launch launch;
+  launch.meanwhile = [&](pid_t child) {
+    EXPECT_TRUE(wait_until([&] { return std::filesystem::exists(out + "/history.csv") && table_rows(out + "/history.csv").size() > most_of_200; }));
+    kill(child, SIGINT);
+  };
+  const Result cut_off = run_program({"run", file, "--out", out, "--threads", "1", "--quiet"}, launch);
+  ASSERT_EQ(cut_off.exit_code, 130) << cut_off.err;
+  const double first = read_json(out + "/summary.json")["wall_seconds"]["solve"];
+  const Result resumed = run_program({"run", file, "--out", out, "--resume", "--quiet"});
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+  const json summary = read_json(out + "/summary.json");
+  const double both = summary["wall_seconds"]["solve"], work = summary["particles"].get<double>() * summary["steps"].get<double>();
+  EXPECT_GT(both, 0.9 * first);
+  EXPECT_NEAR(summary["nanoseconds_per_particle_step"].get<double>(), 1e9 * both / work, 1e-9 * 1e9 * both / work);
+}
+
 /// Gives a killed run a checkpoint.bin. If the kill fell between the two renames of a checkpoint (core/run/checkpoint.cpp), only the one before it is
 /// there: it is copied.
 void restore_checkpoint(const std::string& out) {

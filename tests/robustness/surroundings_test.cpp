@@ -61,9 +61,11 @@ TEST_F(Surroundings, WhatCannotBePrintedIsExit4) {
   ASSERT_EQ(shell("\\$hl run scene.json --out out --quiet").exit_code, 0);
   for (const char* command : {"plan scene.json", "plan scene.json --json", "plugins", "schema", "analyze --membrane none", "report out",
                               "report out --json", "calibrate --membrane I-m --young 1e9 --poisson 0.2", "--version", "--help", "run --help"}) {
-    const Result result = shell(std::string("\\$hl ") + command + " > /dev/full");
-    EXPECT_EQ(result.exit_code, 4) << command << ": " << result.err;
-    EXPECT_NE(result.err.find("standard output"), std::string::npos) << command << ": " << result.err;
+    for (const char* nowhere : {" > /dev/full", " >&-"}) {
+      const Result result = shell(std::string("\\$hl ") + command + nowhere);
+      EXPECT_EQ(result.exit_code, 4) << command << nowhere << ": " << result.err;
+      EXPECT_NE(result.err.find("standard output"), std::string::npos) << command << nowhere << ": " << result.err;
+    }
   }
 }
 

@@ -69,6 +69,60 @@ TEST(RandomLattice, HasWhatItsOptionsSay) {
   EXPECT_NEAR(volume, 8e-3 * 7e-3 * 9e-3, 1e-12);
 }
 
+TEST(RandomLattice, WithTooFewSpringsToBeStiffIsWarnedOf) {
+  const auto warnings = [](const std::string& coordination) {
+    return plan_of(listed_scene(random_lattice(6, 6, 6, R"("sample": 8, "coordination": )" + coordination), R"("membrane": "none")"))
+        ->model->warnings;
+  };
+  for (const char* none : {"5", "5.9"}) {  // 216 particles
+    const auto found = warnings(none);
+    ASSERT_EQ(found.size(), 1u) << none;
+    EXPECT_NE(found[0].find("the body's springs do not hold it"), std::string::npos) << found[0];
+    EXPECT_NE(found[0].find("216 particles in space are held by 642 at least"), std::string::npos) << found[0];
+  }
+  for (const char* chance : {"6", "6.5", "6.9"}) {
+    const auto found = warnings(chance);
+    ASSERT_EQ(found.size(), 1u) << chance;
+    EXPECT_NE(found[0].find("the body has " + std::string(chance) + " springs a particle on the mean"), std::string::npos) << found[0];
+    EXPECT_NE(found[0].find("left to chance"), std::string::npos) << found[0];
+  }
+  for (const char* stiff : {"7", "8.4"}) EXPECT_TRUE(warnings(stiff).empty()) << stiff;
+}
+
+/// A lattice with the Poisson ratio 2 / 3 at an endless lambda, and C12 over C11 at lambda 0; a list.
+LatticeFacts lattice_of(double* C12_over_C11) {
+  LatticeFacts lattice;
+  lattice.lengths = 1;
+  lattice.self = C12_over_C11;
+  lattice.get_elastic_constants = [](void* self, const MaterialConstants& constants) noexcept {
+    const double lambda = constants.cross_ratio[0];
+    return ElasticConstants{1 + lambda, *static_cast<const double*>(self) + 2 * lambda, 1};
+  };
+  lattice.get_stable = [](void*, const MaterialConstants& constants) noexcept { return constants.cross_ratio[0] >= 0; };
+  return lattice;
+}
+
+TEST(RandomLattice, PoissonRatiosThatNoOptionTakesAreNotOffered) {
+  double loose = 1.8, stiff = 0.5;
+  const auto sentence = [](double& C12_over_C11) { return membranes::reach_sentence(lattice_of(&C12_over_C11), membranes::Membrane::I, 0.2); };
+  const std::string none = sentence(loose);
+  EXPECT_NE(none.find("none is possible with this lattice and membrane I, which gives (0.6429, 0.6667]; a Poisson ratio is below 0.5"),
+            std::string::npos)
+      << none;
+  EXPECT_EQ(none.find("within"), std::string::npos) << none;
+  EXPECT_EQ(sentence(stiff), "within (0.3333, 0.5), the reach of membrane I; other membranes have other ratios");
+}
+
+TEST(RandomLattice, AReachOfTooFewSpringsSaysWhy) {
+  try {
+    plan_of(listed_scene(random_lattice(6, 6, 6, R"("sample": 8, "coordination": 6)"), R"("membrane": "none", "poisson": 0.1)"));
+    FAIL() << "a Poisson ratio that the lattice has not";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("The body has 6 springs a particle on the mean, too few to be stiff for certain"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(RandomLattice, FillsAnyShapeAndOnlyIt) {
   const std::string ball =
       R"({ "type": "lattices.random", "spacing": "1 mm", "shape": { "hollow_sphere": { "inner_radius": "3 mm", "outer_radius": "7 mm" } } })";
@@ -137,8 +191,8 @@ TEST(RandomLattice, WavesTravelAsFastAsItsModuliSay) {
 
 TEST(Points, RefusesWhatIsNoLattice) {
   const ListFiles files(3, 3, 3);
-  const auto refusal = [&](const std::string& springs) {
-    std::ofstream(files.springs) << "a,b\n" << springs;
+  const auto refusal = [&](const std::string& springs, const std::string& columns = "a,b") {
+    std::ofstream(files.springs) << columns << "\n" << springs;
     try {
       plan_of(listed_scene(files.lattice(), R"("membrane": "none")"));
     } catch (const InputError& error) {
@@ -146,11 +200,46 @@ TEST(Points, RefusesWhatIsNoLattice) {
     }
     return std::string();
   };
-  EXPECT_NE(refusal("0,1\n1,0\n").find("is given twice"), std::string::npos);
-  EXPECT_NE(refusal("0,0\n").find("joins a particle to itself"), std::string::npos);
-  EXPECT_NE(refusal("0,27\n").find("none of the 27 particles"), std::string::npos);
+  const std::string file = "file " + files.springs.string();
+  EXPECT_NE(refusal("0,1\n1,2\n1,0\n").find(file + ", line 4: expected a spring between points that no other joins; line 2 joins 0 and 1 too"),
+            std::string::npos);
+  EXPECT_NE(refusal("0,0\n").find(file + ", line 2: expected two points, not 0 twice"), std::string::npos);
+  EXPECT_NE(refusal("0,1\n0,27\n").find(file + ", line 3: expected one of the 27 points, counted from 0, in column \"b\", not 27"),
+            std::string::npos);
+  EXPECT_NE(refusal("0,1,1\n1,2,0\n", "a,b,stiffness").find(file + ", line 3: expected a stiffness that is not 0"), std::string::npos);
+  EXPECT_NE(refusal("0,1,-1\n1,2,-1\n", "a,b,stiffness").find(file + ": expected stiffnesses that are positive and finite in the sum"),
+            std::string::npos);
+  EXPECT_NE(refusal("0,1,1\n", "a,b,stifness").find(file + ", line 1: expected the name \"stiffness\" for column \"stifness\""), std::string::npos);
   EXPECT_NE(refusal("0,x\n").find("line 2: expected a number in column \"b\", not \"x\""), std::string::npos);
   EXPECT_NE(refusal("").find("has no spring"), std::string::npos);
+}
+
+TEST(Points, RefusesPointsThatCannotBeParticles) {
+  const ListFiles files(3, 3, 3);
+  const auto refusal = [&](const std::string& points) {
+    std::ofstream(files.points) << points;
+    std::ofstream(files.springs) << "a,b\n0,1\n1,2\n";
+    try {
+      plan_of(listed_scene(files.lattice(), R"("membrane": "none")"));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string file = "file " + files.points.string();
+  EXPECT_EQ(refusal("x,y,z,volume\n0,0,0,1\n0,0,1,1\n0,1,0,1\n"), "");
+  EXPECT_NE(
+      refusal("x,y,z\n0,0,0\n# between\n0,0,1\n-0,0,0\n").find(file + ", line 5: expected a point at a place of its own, not at that of line 2"),
+      std::string::npos);
+  for (const char* volume : {"0", "-1"})
+    EXPECT_NE(refusal("x,y,z,volume\n0,0,0,1\n0,0,1," + std::string(volume) + "\n0,1,0,1\n")
+                  .find(file + ", line 3: expected a volume above 0, not " + volume),
+              std::string::npos);
+  EXPECT_NE(refusal("x,y,z,volume\n0,0,0,1\n0,0,1,1e200\n0,1,0,1\n").find(file + ", line 3: expected a volume in reach of numbers"),
+            std::string::npos);
+  EXPECT_NE(refusal("x,y,z,volum\n0,0,0,1\n0,0,1,1\n0,1,0,1\n").find(file + ", line 1: expected the name \"volume\" for column \"volum\""),
+            std::string::npos);
+  EXPECT_NE(refusal("x,y,z\n0,0,0\n0,0,1\n0,1e200,0\n").find(file + ", line 4: expected coordinates up to 1e+50 m, not 1e+197 m"), std::string::npos);
 }
 
 }  // namespace

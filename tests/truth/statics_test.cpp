@@ -184,6 +184,56 @@ TEST(Statics, RelaxationAgrees) {
   }
 }
 
+std::string small_block(const std::string& stages) {
+  return scene(R"("spacing": 0.001, "shape": )" + box({0, 0, 0}, {0.006, 0.004, 0.004}),
+               elastic(1e9, R"("membrane": "I-m", "poisson": 0.1)") + R"({ "type": "loads.fixed", "on": "x_min" },)" + stages);
+}
+
+// What is driven stands where it would have come by then, however many steps rest takes: 1 mm/s for 1 ms, or with a rise of that time half as far.
+TEST(Statics, WhatIsDrivenComesWhereItWouldHaveComeByThen) {
+  const auto driven = [](const std::string& load, const std::string& solver) {
+    return AtRest(small_block(R"({ "type": "loads.velocity", "on": "x_max", "value": [1e-3, 0, 0])" + load + R"( }, { "type": "solvers.)" + solver +
+                              R"(, "end_time": "1 ms" })"));
+  };
+  for (const auto& [rise, way] : {std::pair{"", 1e-6}, {R"(, "rise": "1 ms")", 0.5e-6}}) {
+    const AtRest found = driven(rise, R"(static", "tolerance": 1e-8)");
+    EXPECT_NEAR(largest(found.u), way, 1e-12 * way) << rise;
+    for (const char* method : {"local_damping", "accelerated"}) {
+      const AtRest relaxed = driven(rise, R"(relaxation", "tolerance": 1e-6, "method": ")" + std::string(method) + '"');
+      EXPECT_NEAR(largest(relaxed.u), way, 1e-12 * way) << rise << method;
+      EXPECT_LT(distance(found.u, relaxed.u), 1e-3 * way) << rise << method;
+    }
+  }
+}
+
+// At an instant at which a load jumps it has jumped.
+TEST(Statics, ALoadThatJumpsAtTheInstantOfRestHasJumped) {
+  for (const char* solver : {"static", "relaxation"}) {
+    const auto pulled = [&](const std::string& expression) {
+      return AtRest(small_block(R"({ "type": "loads.expression", "on": "x_max", "total": [1, 0, 0],
+                             "corners": ["10 us"], "expression": ")" +
+                                expression + R"(" }, { "type": "solvers.)" + solver + R"(" })"));
+    };
+    const AtRest whole = pulled("1");
+    EXPECT_GT(largest(whole.u), 0);
+    EXPECT_EQ(whole.u, pulled("t>10e-6?1:0").u) << solver;
+    EXPECT_EQ(whole.u, pulled("t>=10e-6?1:0").u) << solver;
+  }
+}
+
+TEST(Statics, ALoadThatIsNoNumberIsNamed) {
+  for (const char* expression : {"sqrt(0.5-t)", "exp(t*1500)"}) {
+    const std::string load =
+        R"({ "type": "loads.expression", "on": "x_max", "total": [1, 0, 0], "expression": ")" + std::string(expression) + "\" },";
+    try {
+      const AtRest found(small_block(load + R"({ "type": "solvers.static", "end_time": 1 })"));
+      FAIL() << expression;
+    } catch (const RunError& error) {
+      EXPECT_NE(std::string(error.what()).find(expression), std::string::npos) << error.what();
+    }
+  }
+}
+
 // Also where the residual says little of it: of the slender beam, 1e-4 of the mean force is 3% of the displacements.
 TEST(Statics, RelaxationKnowsItsError) {
   const auto bent_beam = [](const std::string& solver) {

@@ -87,6 +87,30 @@ TEST_F(InputTables, AColumnIsNamedOnce) {
   EXPECT_EQ(refusal("x,y,id,id\n1,2,3,4\n"), "");  // nobody asks for it
 }
 
+TEST_F(InputTables, AColumnThatIsNearlyCalledAsOneThatMayBeMissingIsRefused) {
+  for (const char* name : {"volum", "Volumes", "VOLMUE", "vol", "wolume", "volume [mm3]", "volume(mm3)"})
+    EXPECT_EQ(refusal(std::string("x,y,") + name + "\n1,2,3\n"),
+              std::string("line 1: expected the name \"volume\" for column \"") + name + "\", or one that is less like it");
+  EXPECT_EQ(refusal("# by CT\nx y volum\n1 2 3\n"), "line 2: expected the name \"volume\" for column \"volum\", or one that is less like it");
+  for (const char* name : {"vo", "value", "column", "id", "x2", "volume,volum", "mass_and_volume", "\"\""})
+    EXPECT_EQ(refusal(std::string("x,y,") + name + "\n1,2,3,4\n").find("less like it"), std::string::npos) << name;
+  EXPECT_TRUE(is_nearly_column("Stifnes", "stiffness"));
+  EXPECT_FALSE(is_nearly_column("slimness", "stiffness"));
+}
+
+TEST_F(InputTables, RowsKnowTheirLines) {
+  const NumberTable table = read("# by CT\n\nx,y\n1,2\n# between\n\n3,4\n");
+  EXPECT_EQ(table.line(0), 4u);
+  EXPECT_EQ(table.line(1), 7u);
+  try {
+    table.refuse(1, "less");
+    FAIL() << "it was not refused";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_EQ(std::string(error.what()), "file " + folder_.file("table.csv") + ", line 7: expected less");
+  }
+  EXPECT_EQ(read("# x,y\n1,2\n").line(0), 2u);  // below a comment that names the columns
+}
+
 TEST_F(InputTables, LinesEndWithLineFeedOrCarriageReturn) {
   const NumberTable table = read("x,y\r1,-2\r\r3,4\r");
   EXPECT_EQ(table["x"], (std::vector<double>{1, 3}));

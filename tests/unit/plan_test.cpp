@@ -3,6 +3,7 @@
 
 #include <base/own_files.hpp>
 #include <plan/calibration.hpp>
+#include <plan/estimates.hpp>
 #include <plan/plan.hpp>
 #include <plan/precision.hpp>
 #include <plan/shortage.hpp>
@@ -41,6 +42,30 @@ TEST(Plan, small_bodies_take_few_threads_unless_a_number_is_asked_for) {
   EXPECT_TRUE(Threads::up_to(8).allow(3));
   EXPECT_FALSE(Threads::up_to(8).allow(9));
   EXPECT_FALSE(Threads(8).allow(3));
+}
+
+TEST(Plan, warns_of_loads_that_do_nothing) {
+  const auto warned = [](const nlohmann::json& load, const nlohmann::json& solver) {
+    auto scene = small_sphere();
+    scene["pipeline"] = {scene["pipeline"][0], scene["pipeline"][1], load, solver};
+    const auto plan = plan_of(scene);
+    return std::any_of(plan->model->warnings.begin(), plan->model->warnings.end(),
+                       [](const std::string& text) { return text.find("does nothing in this run") != std::string::npos; });
+  };
+  const auto expression = [](const char* text) {
+    return nlohmann::json{{"type", "loads.expression"}, {"on", "outer_surface"}, {"total", {1, 0, 0}}, {"expression", text}};
+  };
+  const nlohmann::json velocity{{"type", "loads.velocity"}, {"on", "outer_surface"}, {"value", {1, 0, 0}}};
+  const nlohmann::json held{{"type", "loads.fixed"}, {"on", "outer_surface"}};
+  const nlohmann::json rest{{"type", "solvers.static"}}, later{{"type", "solvers.static"}, {"end_time", "1 us"}};
+  const nlohmann::json steps{{"type", "solvers.explicit"}, {"end_time", "1 us"}};
+  EXPECT_TRUE(warned(expression("t / 1e-5"), rest));
+  EXPECT_FALSE(warned(expression("t / 1e-5"), later));
+  EXPECT_FALSE(warned(expression("t / 1e-5"), steps));
+  EXPECT_TRUE(warned(expression("t > 2e-6 ? 1 : 0"), steps));
+  EXPECT_TRUE(warned(velocity, rest));
+  EXPECT_FALSE(warned(velocity, later));
+  EXPECT_FALSE(warned(held, rest));
 }
 
 TEST(Plan, bytes_are_those_of_the_state) {
@@ -111,12 +136,77 @@ TEST(Plan, counts_the_files_of_an_earlier_run_as_free_disk_and_no_others) {
   const test::Folder folder("shortage");
   std::ofstream(folder.file("history.csv")).close();
   std::filesystem::resize_file(folder.file("history.csv"), 1'000'000'000'000);  // takes no disk
-  plan->output_bytes = disk_room(folder.path()).bytes + 5e11;
+  plan->output_bytes = 1.5 * (disk_room(folder.path()).bytes + 5e11);           // a third of it may not come
   const auto found = shortages(*plan, folder.path());
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NE(found[0].find("too little disk"), std::string::npos) << found[0];
   std::ofstream(folder.file(own_files_list)) << own_file_line("history.csv", {}) << own_file_line("removed.csv", {});
   EXPECT_TRUE(shortages(*plan, folder.path()).empty());
+}
+
+/// A body of a few thousand particles whose particles all move, shown at its start and end, and at rest between them if it finds that.
+nlohmann::json moved_box(const nlohmann::json& lattice, bool first_to_rest) {
+  nlohmann::json scene;
+  scene["format"] = "hyperlattice/1";
+  scene["pipeline"] = {lattice,
+                       {{"type", "materials.elastic"}, {"young", "10 GPa"}, {"poisson", 0.2}, {"density", 2500}},
+                       {{"type", "loads.fixed"}, {"on", "z_min"}},
+                       {{"type", "loads.force"}, {"on", "z_max"}, {"total", {1, 0, 10}}}};
+  scene["pipeline"][1]["membrane"] = lattice["type"] == "lattices.random" ? "I" : "I-m";
+  if (first_to_rest) scene["pipeline"].push_back({{"type", "solvers.static"}});
+  scene["pipeline"].push_back({{"type", "solvers.explicit"}, {"end_time", "10 us"}});
+  return scene;
+}
+
+nlohmann::json box(const char* lattice, const char* width, const char* height) {
+  return {{"type", lattice}, {"spacing", "1 mm"}, {"shape", {{"box", {{"low", {0, 0, 0}}, {"high", {width, width, height}}}}}}};
+}
+
+/// Runs the scene with one writer more, and compares what it leaves with what its plan said.
+void compare_output(nlohmann::json scene, const char* writer, const char* every, std::size_t frames) {
+  scene["pipeline"].push_back({{"type", writer}, {"every", every}});
+  const auto plan = plan_of(scene);
+  const test::Folder folder("planned_output");
+  ASSERT_EQ(run(*plan, {.directory = folder.file("out"), .quiet = true}), 0);
+  double bytes = 0, largest = 0;
+  std::size_t shown = 0;
+  const std::string ending = std::string(writer) == "writers.csv" ? ".csv" : ".vtu";
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.file("out"))) {
+    if (!entry.is_regular_file()) continue;
+    const auto size = static_cast<double>(entry.file_size());
+    bytes += size;
+    if (!entry.path().filename().string().starts_with("frames_0") || entry.path().extension() != ending) continue;
+    ++shown;
+    largest = std::max(largest, size);
+  }
+  const Stage& stage = *plan->scene->of(Family::writers).front();
+  EXPECT_EQ(shown, frames);
+  EXPECT_EQ(frames_of(*plan, stage), static_cast<double>(frames));
+  EXPECT_LT(plan->output_bytes, 2 * bytes) << bytes;
+  EXPECT_GT(plan->output_bytes, 0.5 * bytes) << bytes;
+  EXPECT_LT(frame_bytes(*plan, stage), 2 * largest) << largest;
+  EXPECT_GT(frame_bytes(*plan, stage), 0.5 * largest) << largest;
+}
+
+TEST(Plan, says_about_how_many_bytes_a_run_writes) {
+  const auto large = box("lattices.cubic", "20 mm", "25 mm"), list = box("lattices.random", "8 mm", "12 mm");  // more than a trial shows, and fewer
+  for (const char* writer : {"writers.csv", "writers.vtu"}) {
+    SCOPED_TRACE(writer);
+    compare_output(small_sphere(), writer, "0.5 us", 21);
+    compare_output(moved_box(list, false), writer, "20 us", 2);
+    compare_output(moved_box(large, false), writer, "4 us", 4);
+    compare_output(moved_box(large, true), writer, "60 us", 3);
+  }
+}
+
+TEST(Plan, says_how_many_bytes_a_frame_of_a_region_has) {
+  auto scene = moved_box(box("lattices.cubic", "20 mm", "25 mm"), false);
+  scene["pipeline"].push_back({{"type", "writers.csv"}});
+  const auto all = plan_of(scene);
+  scene["pipeline"].back()["region"] = "z_max";
+  const auto layer = plan_of(scene);
+  EXPECT_NEAR(frame_bytes(*layer, *layer->scene->of(Family::writers).front()) / frame_bytes(*all, *all->scene->of(Family::writers).front()), 0.04,
+              0.004);
 }
 
 // On a machine as it is at the time, so that no figure can be expected.

@@ -1,7 +1,7 @@
 // Tables grow by whole lines with every digit, and outputs come due at the steps nearest to their instants.
 #include <base/errors.hpp>
+#include <process/file_limit.hpp>
 #include <run/history.hpp>
-#include <run/interrupt.hpp>
 #include <run/progress.hpp>
 #include <run/schedule.hpp>
 #include <run/table.hpp>

@@ -26,13 +26,19 @@ class Expression {
   static Schema<Options> schema() {
     return Schema<Options>("loads.expression", "A force, actuation or pressure that follows an expression of time")
         .equation("f(t) times total, each, force, strain or pressure")
-        .source("expressions: muParser (BSD licence), operators + - * / ^ ?: and or, functions sin, exp, sqrt, abs, min, if ... of its manual")
+        .source(
+            "expressions: muParser (BSD licence). They hold numbers, t, the constants pi, `_pi` and `_e`, parentheses, the "
+            "operators `+ - * / ^ < <= > >= == != && || ?:`, the functions abs, sign, rint, sqrt, exp, ln, log, log2, log10, sin, "
+            "cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, asinh, acosh, atanh, min, max, sum, avg, and nothing else. A "
+            "comparison gives 1 or 0, a ^ b ^ c is a ^ (b ^ c), log is ln, rint rounds to a whole number, and min, max, sum and avg "
+            "take any number of values")
         .restrictions(
             "the impulse is exact over the expression's kinks and jumps if `corners` says where they are; loads.actuation knows its own. f(t) must "
             "be "
             "a finite number at every step. Along springs the restrictions of loads.actuation hold")
         .add<&Options::on>("on", "", "the loaded particles, springs or surface")
-        .add<&Options::expression>("expression", "", "f(t): t is the time in seconds, counted from the start of the run")
+        .add<&Options::expression>("expression", "",
+                                   "f(t): t is the time in seconds, counted from the start of the run; the source below says what it may hold")
         .example("\"sin(2e5 * t)\"")
         .add<&Options::corners>("corners", "s", "instants of kinks and jumps")
         .fallback("[]")

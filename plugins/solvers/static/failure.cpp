@@ -66,7 +66,7 @@ std::string failure_text(const StaticProblem& problem, double share, double time
          (motion.wrinkles() ? ". There the body wrinkles in the fourth dimension: a membrane this soft holds its heights no longer under such a "
                               "compression (docs/theory/mirror.md)."
           : found.buckles   ? ". There the body buckles."
-          : share == 0      ? ". Supports may be missing, or parts not joined."
+          : share == 0      ? ". Supports may be missing, parts not joined, or loads far beyond what the body can resist."
                             : ". The body may buckle there.");
 }
 

@@ -4,6 +4,7 @@
 #include <hyperlattice/load.hpp>
 
 #include <chrono>
+#include <new>
 #include <stdexcept>
 #include <thread>
 
@@ -25,10 +26,20 @@ class Misbehaves {
     RegionId on;
   };
   static Schema<Options> schema() {
-    return Schema<Options>("loads.misbehaving", "Misbehaves").add<&Options::on>("on", "", "where").example("\"z_max\"");
+    const bool wild = asked_for("wild help");
+    Schema<Options> schema("loads.misbehaving", wild ? "Mis\x1b[31mbehaves\nforged" : "Misbehaves");
+    schema.add<&Options::on>("on", "", wild ? "where\x1b[31m\r\nforged" : "where").example("\"z_max\"");
+    return schema;
   }
   explicit Misbehaves(const Options& options) : options_(options) {
     if (asked_for("throw an int")) throw 1;
+    if (asked_for("no memory in constructor")) throw std::bad_alloc();
+    if (asked_for("wild refusal")) throw std::runtime_error("\x1b[31mred\r\nforged\n");
+  }
+  Misbehaves(const Misbehaves&) = delete;
+  Misbehaves& operator=(const Misbehaves&) = delete;
+  ~Misbehaves() {
+    if (asked_for("no memory in destructor")) give_up();
   }
 
   void declare(const LoadBody& body, const LoadSink& sink) {
@@ -40,11 +51,14 @@ class Misbehaves {
     if (asked_for("amplitude")) sink.force(0, {0, infinity, 0});
     if (asked_for("acceleration")) sink.acceleration({0, infinity - infinity, 0});
     if (asked_for("exit in declare")) std::exit(0);
+    if (asked_for("no memory in declare")) throw std::bad_alloc();
   }
 
   double factor(double time) const {
     if (time < 1e-6 || time > 2e-6) return 1;  // the plan asks about the start, the middle and the end
     if (asked_for("throw")) throw std::runtime_error("boom");
+    if (asked_for("no memory in factor")) throw std::bad_alloc();
+    if (asked_for("wild error")) throw std::runtime_error("\x1b[31mred\r\nforged\n");
     if (asked_for("nan")) return infinity - infinity;
     if (asked_for("null pointer")) return *static_cast<const volatile double*>(nullptr);
     if (asked_for("abort")) std::abort();
@@ -53,6 +67,7 @@ class Misbehaves {
   }
 
  private:
+  static void give_up() { throw std::bad_alloc(); }
   Options options_;
 };
 }  // namespace

@@ -156,6 +156,9 @@ struct Options {
   void check_poisson(const LatticeFacts& lattice, double own) const {
     constexpr double tolerance = 1e-4;
     if (!poisson || has_lambda(membrane) || std::abs(*poisson - own) <= tolerance) return;
+    if (own >= membranes::largest_poisson)
+      throw std::invalid_argument(text("poisson left out: none is possible with this lattice and membrane ", membranes::name(membrane),
+                                       ", which gives ", own, "; a Poisson ratio is below ", membranes::largest_poisson));
     throw std::invalid_argument(membrane == Membrane::none ? text("poisson ", own, ", or left out: that is what the lattice without a membrane has; ",
                                                                   membranes::reached_by(lattice, membrane, *poisson))
                                                            : text("poisson ", own, " along [100], which these ratios give; or leave poisson out"));

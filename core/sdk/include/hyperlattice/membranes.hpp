@@ -148,9 +148,18 @@ inline std::string reached_by(const LatticeFacts& lattice, Membrane but, double 
   return names.empty() ? "no membrane of this lattice reaches it" : text(poisson, " is within the reach of ", names);
 }
 
+/// That of a solid is below this, and no option takes more. A lattice that hardly resists at all may seem to have more.
+inline constexpr double largest_poisson = 0.5;
+
 /// For a message about a Poisson ratio out of a membrane's reach: that reach, and who reaches it.
 inline std::string reach_sentence(const LatticeFacts& lattice, Membrane membrane, double poisson) {
-  const Reach own = reach(lattice, membrane);
+  Reach own = reach(lattice, membrane);
+  if (!(own.low < own.high) || own.low >= largest_poisson)
+    return text("for another lattice or membrane: none is possible with this lattice and membrane ", name(membrane), ", which ",
+                own.low < own.high ? text("gives (", own.low, ", ", own.high, "]; a Poisson ratio is below ", largest_poisson) : "is unstable", "; ",
+                reached_by(lattice, membrane, poisson));
+  own.open = own.open || own.high >= largest_poisson;
+  own.high = std::min(own.high, largest_poisson);
   return text("within (", own.low, ", ", own.high, own.open ? ")" : "]", ", the reach of membrane ", name(membrane), "; ",
               reached_by(lattice, membrane, poisson));
 }

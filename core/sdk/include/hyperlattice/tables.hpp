@@ -43,6 +43,31 @@ inline bool is_ambiguous_column(std::span<const std::string> columns, std::strin
   return columns[*found] == name ? std::find(others.begin(), others.end(), name) != others.end() : find_column(others, name).has_value();
 }
 
+/// Whether a column is likely to be meant by the other name: letters are wrong or swapped (one, of a long name two), its end is cut off, or a unit
+/// follows it.
+inline bool is_nearly_column(std::string_view column, std::string_view meant) {
+  column = column.substr(0, std::min(column.find_first_of(" ([", 1), column.size()));
+  const auto letter = [](std::string_view text, std::size_t n) {
+    return text[n] >= 'A' && text[n] <= 'Z' ? static_cast<char>(text[n] - 'A' + 'a') : text[n];
+  };
+  const std::size_t most = meant.size() < 8 ? 1 : 2, fewest_letters = 3;
+  if (column.size() < fewest_letters || column.size() > meant.size() + most) return false;
+  std::vector<std::size_t> before, above(meant.size() + 1), row(meant.size() + 1);  // edits from the beginnings of one to those of the other
+  for (std::size_t j = 0; j <= meant.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= column.size(); ++i) {
+    before = std::move(above);
+    above = row;
+    row[0] = i;
+    for (std::size_t j = 1; j <= meant.size(); ++j) {
+      const bool same = letter(column, i - 1) == letter(meant, j - 1);
+      row[j] = std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + (same ? 0u : 1u)});
+      if (i > 1 && j > 1 && letter(column, i - 1) == letter(meant, j - 2) && letter(column, i - 2) == letter(meant, j - 1))
+        row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+  }
+  return row[meant.size()] <= most || row[std::min(column.size(), meant.size())] == 0;
+}
+
 /// A cell as a message shows it: its beginning, with control characters as "U+0000".
 inline std::string shown_cell(std::string_view cell, std::size_t most = 40) {
   constexpr char digits[] = "0123456789ABCDEF";
@@ -199,8 +224,8 @@ class TableColumns {
 
 /// The columns asked for, one vector each in their order; a missing one that may be missing is empty. The first line that is neither blank nor a
 /// comment names the columns; if it does not name all required columns, but a comment above it does, that comment names them. Throws
-/// std::invalid_argument with the file, the lines (the first few that are wrong) and what was expected there, or if the file cannot be read to its
-/// end.
+/// std::invalid_argument with the file, the lines (the first few that are wrong) and what was expected there, also where a column is nearly called as
+/// one that may be missing, or if the file cannot be read to its end.
 class NumberTable {
  public:
   NumberTable(const std::string& file, std::span<const std::string_view> required, std::span<const std::string_view> optional = {}) : file_(file) {
@@ -229,7 +254,10 @@ class NumberTable {
       if (!header.find(name)) complain(header_number, "a column \"" + std::string(name) + "\", named in the first line; it names " + header.text());
       take_column(name, header, header_number);
     }
-    for (const std::string_view name : optional) take_column(name, header, header_number);
+    for (const std::string_view name : optional) {
+      take_column(name, header, header_number);
+      if (!columns_.back().place) refuse_nearly(name, header, header_number, required, optional);
+    }
     if (is_row) read_line(header, line, number);
     while (lines.next(line)) {
       ++number;
@@ -246,6 +274,12 @@ class NumberTable {
       if (column.name == name) return column.numbers;
     throw std::invalid_argument("no column \"" + std::string(name) + "\" was asked for");
   }
+
+  /// The line of the file in which a row stands, from 1.
+  std::size_t line(std::size_t row) const { return lines_[row]; }
+
+  /// Throws std::invalid_argument with the file, the row's line and what was expected there.
+  [[noreturn]] void refuse(std::size_t row, const std::string& expected) const { complain(lines_[row], expected); }
 
  private:
   static constexpr std::size_t most_shown = 5;  // rows that a message names
@@ -276,10 +310,20 @@ class NumberTable {
     if (is_ambiguous_column(header.names(), name)) complain(line, "one column \"" + std::string(name) + "\", not several; it names " + header.text());
     columns_.push_back({name, header.find(name), {}});
   }
+  void refuse_nearly(std::string_view name, const TableColumns& header, std::size_t line, std::span<const std::string_view> required,
+                     std::span<const std::string_view> optional) const {
+    for (const std::string& column : header.names()) {
+      const auto is_it = [&column](std::string_view asked) { return find_column({&column, 1}, asked).has_value(); };
+      if (std::any_of(required.begin(), required.end(), is_it) || std::any_of(optional.begin(), optional.end(), is_it)) continue;
+      if (is_nearly_column(column, name))
+        complain(line, "the name \"" + std::string(name) + "\" for column \"" + shown_cell(column) + "\", or one that is less like it");
+    }
+  }
   void read_line(const TableColumns& header, const std::string& line, std::size_t number) {
     const std::vector<std::string> cells = header.cells(line);
     const std::string fault = read_cells(header, cells);
     if (!fault.empty() && ++bad_rows_ <= most_shown) complaints_ += (complaints_.empty() ? ", " : "; ") + complaint(number, fault);
+    lines_.push_back(number);
   }
   /// What was expected of a row that cannot be read; empty: it was read.
   std::string read_cells(const TableColumns& header, const std::vector<std::string>& cells) {
@@ -299,6 +343,7 @@ class NumberTable {
   std::string file_, complaints_;
   std::size_t bad_rows_ = 0;
   std::vector<Column> columns_;
+  std::vector<std::size_t> lines_;  // of each row
 };
 
 }  // namespace hyperlattice
