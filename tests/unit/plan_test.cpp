@@ -8,6 +8,7 @@
 #include <plan/precision.hpp>
 #include <plan/shortage.hpp>
 #include <process/room.hpp>
+#include <run/run.hpp>
 #include <state/layout.hpp>
 #include <state/simulation.hpp>
 
