@@ -183,7 +183,7 @@ std::string Host::dangling(const std::string& type) {
     const fs::path library = folder / (type + suffix);
     std::error_code error;
     if (fs::exists(library, error) || !fs::is_symlink(fs::symlink_status(library, error))) continue;
-    const std::string reason = library.filename().string() + ": is a link to " + fs::read_symlink(library, error).string() + ", where nothing is";
+    std::string reason = library.filename().string() + ": is a link to " + fs::read_symlink(library, error).string() + ", where nothing is";
     searched_.push_back({library, false, false, reason});
     return reason;
   }
