@@ -13,10 +13,19 @@ using namespace calibration;
 constexpr const char* why = "where the paper's polynomials were fitted";
 const double most_lambda = paper_lambda(paper_poisson_low);
 
+/// Whether it is the lattice of the paper.
+bool is_the_papers(const LatticeGeometry& geometry) {
+  std::vector<Neighbour> sites;
+  for (const NeighbourGeometry& neighbour : geometry.neighbours) sites.push_back(neighbour.site);
+  LatticeFacts facts = facts_of(geometry);
+  facts.neighbours = sites;
+  return elastic_solid::is_cubic_of_18(facts);
+}
+
 }  // namespace
 
 std::string instead(const LatticeGeometry& geometry, Membrane membrane) {
-  if (membrane == Membrane::I_m && elastic_solid::is_cubic_of_18(facts_of(geometry))) return "";
+  if (membrane == Membrane::I_m && is_the_papers(geometry)) return "";
   return "closed_form: the paper's polynomials are of the simple cubic lattice with membrane I-m";
 }
 

@@ -30,8 +30,8 @@ struct MembraneKeys {
   const char* keys;
 };
 const MembraneKeys all_membranes[] = {{"none", R"("membrane": "none")"},
-                                      {"clamped", R"("membrane": "free", "k_alpha": "infinite", "k_beta": 0.4, "k_gamma": 0.3)"},
-                                      {"free", R"("membrane": "free", "k_alpha": 2, "k_beta": 0.4, "k_gamma": 0.3)"}};
+                                      {"clamped", R"("membrane": "free", "k_alpha": "infinite", "k_beta": 0.4)"},
+                                      {"free", R"("membrane": "free", "k_alpha": 2, "k_beta": 0.4)"}};
 struct LatticeCase {
   const char* name;
   const char* keys;
@@ -105,11 +105,15 @@ INSTANTIATE_TEST_SUITE_P(All, ReferenceKernel,
 
 TEST_P(ReferenceKernel, GivesTheForcesOfEveryKernel) {
   const auto& [law, membrane, lattice] = GetParam();
+  const bool is_random = lattice.name == std::string("random");  // one class of springs, in all directions
+  const bool is_plastic = law.name == std::string("plastic"), is_free = membrane.name == std::string("free");
+  if (is_plastic && (is_random || (is_free && lattice.name == std::string("fcc")))) GTEST_SKIP() << "refused: springs would yield at unlike stresses";
+  const std::string second_class = membrane.name == std::string("none") || is_random ? "" : R"(, "k_gamma": 0.3)";
   for (const char* precision : {"double", "float"}) {
     const auto plan = plan_of(R"({ "format": "hyperlattice/1", "precision": ")" + std::string(precision) + R"(", "pipeline": [ { )" + lattice.keys +
                               R"(, "spacing": 1e-3, "shape": { "box": { "low": [0, 0, 0], "high": [9e-3, 4e-3, 5e-3] } } },
                               { "young": 1e10, "density": 2500, )" +
-                              law.keys + ", " + membrane.keys + R"( }, { "type": "solvers.explicit", "end_time": "1 us" } ] })");
+                              law.keys + ", " + membrane.keys + second_class + R"( }, { "type": "solvers.explicit", "end_time": "1 us" } ] })");
     const Model& model = *plan->model;
     for (const double size : {1e-3, 0.05}) {  // of displacements over the spacing
       const std::vector<double> u = noise(4 * model.body.particles, size * 1e-3, 7);
@@ -120,7 +124,7 @@ TEST_P(ReferenceKernel, GivesTheForcesOfEveryKernel) {
       const auto expected = reference_forces(model, moved), found = kernel_forces(model, moved);
       double largest = 0, apart = 0;
       for (Particle p = 0; p < moved.size(); ++p)
-        for (std::size_t c = 0; c < 4; ++c) {
+        for (std::size_t c = 0; c < static_cast<std::size_t>(model.degrees_of_freedom); ++c) {  // what is clamped does not move
           largest = std::max(largest, std::abs(expected[p][c]));
           apart = std::max(apart, std::abs(found[p][c] - expected[p][c]));
         }
