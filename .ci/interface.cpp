@@ -1,5 +1,6 @@
-// What crosses between program and plugin, for abidiff: the tables of functions hang on pointers without a type, so that nothing that the library
-// exports leads to them. See .ci/abi and the list in boundary.hpp.
+// What crosses between program and plugin, for abidiff: the tables of functions hang on pointers
+// without a type, so that nothing that the library exports leads to them. See .ci/abi and the list
+// in boundary.hpp.
 #include <hyperlattice/boundary.hpp>
 
 namespace hyperlattice {

@@ -12,15 +12,18 @@ Fit fit(int degree, const std::vector<double>& x, const std::vector<double>& y) 
   const auto rows = static_cast<Eigen::Index>(x.size());
   Eigen::MatrixXd powers = Eigen::MatrixXd::Ones(rows, degree + 1);
   for (Eigen::Index row = 0; row < rows; ++row)
-    for (int n = degree - 1; n >= 0; --n) powers(row, n) = powers(row, n + 1) * x[static_cast<std::size_t>(row)];
+    for (int n = degree - 1; n >= 0; --n)
+      powers(row, n) = powers(row, n + 1) * x[static_cast<std::size_t>(row)];
   const Eigen::VectorXd right = Eigen::Map<const Eigen::VectorXd>(y.data(), rows);
   const Eigen::VectorXd best = powers.colPivHouseholderQr().solve(right);
-  return {{best.data(), best.data() + best.size()}, (powers * best - right).lpNorm<Eigen::Infinity>()};
+  return {{best.data(), best.data() + best.size()},
+          (powers * best - right).lpNorm<Eigen::Infinity>()};
 }
 
 }  // namespace
 
-void check_curve(const CurveChoice& choice, const CalibrationChoice& lattice, const LatticeGeometry& geometry) {
+void check_curve(const CurveChoice& choice, const CalibrationChoice& lattice,
+                 const LatticeGeometry& geometry) {
   Faults faults;
   const auto written = fmt::format("{} {} {}", choice.from, choice.to, choice.points);
   const auto membrane = membrane_named(lattice.membrane.membrane, faults);
@@ -35,7 +38,8 @@ void check_curve(const CurveChoice& choice, const CalibrationChoice& lattice, co
     if (given) faults.add(option, "", "none together with --curve, which is of many lambda");
   if (!(choice.from < choice.to) || !std::isfinite(choice.from) || !std::isfinite(choice.to))
     faults.add("--curve", written, "FROM below TO, both finite");
-  if (choice.points < 4 || choice.points > 10000) faults.add("--curve", written, "4 to 10000 points");
+  if (choice.points < 4 || choice.points > 10000)
+    faults.add("--curve", written, "4 to 10000 points");
   if (membrane && !has_lambda(*membrane))
     faults.add("--membrane", m.membrane, "one that has a lambda: I, II, III, IV or I-m");
   else if (membrane && faults.empty() && !is_stable(geometry, *membrane, choice.from))
@@ -43,7 +47,8 @@ void check_curve(const CurveChoice& choice, const CalibrationChoice& lattice, co
   faults.throw_if_any();
 }
 
-Curve calibration_curve(const CurveChoice& choice, const CalibrationChoice& lattice, const LatticeGeometry& geometry, VirtualTest* virtual_test) {
+Curve calibration_curve(const CurveChoice& choice, const CalibrationChoice& lattice,
+                        const LatticeGeometry& geometry, VirtualTest* virtual_test) {
   check_curve(choice, lattice, geometry);
   Faults none;
   Curve curve;

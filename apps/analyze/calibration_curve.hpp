@@ -1,4 +1,5 @@
-// A membrane over a range of lambda, and the polynomials that fit it: figure 2 of Zhao 2017, equations (11) and (13).
+// A membrane over a range of lambda, and the polynomials that fit it: figure 2 of Zhao 2017,
+// equations (11) and (13).
 #pragma once
 
 #include <analyze/calibrate.hpp>
@@ -15,7 +16,8 @@ struct CurvePoint {
   double lambda = 0;
   ElasticPair infinite;
   std::optional<Measured> measured;
-  std::optional<ElasticPair> affine;  ///< of a listed lattice, if all its particles were strained alike
+  std::optional<ElasticPair>
+      affine;  ///< of a listed lattice, if all its particles were strained alike
 
   const ElasticPair& pair() const { return measured ? *measured : infinite; }  ///< what is fitted
 };
@@ -35,10 +37,13 @@ struct Curve {
 };
 
 /// Throws InputError with every fault.
-void check_curve(const CurveChoice& choice, const CalibrationChoice& lattice, const LatticeGeometry& geometry);
+void check_curve(const CurveChoice& choice, const CalibrationChoice& lattice,
+                 const LatticeGeometry& geometry);
 
-/// Fits by least squares. `virtual_test` measures the points; null: those of the endless lattice are fitted. Throws as check_curve does.
-Curve calibration_curve(const CurveChoice& choice, const CalibrationChoice& lattice, const LatticeGeometry& geometry, VirtualTest* virtual_test);
+/// Fits by least squares. `virtual_test` measures the points; null: those of the endless lattice
+/// are fitted. Throws as check_curve does.
+Curve calibration_curve(const CurveChoice& choice, const CalibrationChoice& lattice,
+                        const LatticeGeometry& geometry, VirtualTest* virtual_test);
 
 Json curve_json(const Curve& curve, const VirtualTest::Options& options);
 std::string curve_text(const Curve& curve, const VirtualTest::Options& options);

@@ -1,5 +1,6 @@
-// A pair nu', nu'' is a crystal but for its scale: C11 = 1, C12 = nu' / (1 - nu'), C44 = (1 - 2 nu'') / (2 - 2 nu''). So each spot of the map is
-// asked the same as a crystal: is there a lattice, and a stable one?
+// A pair nu', nu'' is a crystal but for its scale: C11 = 1, C12 = nu' / (1 - nu'), C44 = (1 - 2
+// nu'') / (2 - 2 nu''). So each spot of the map is asked the same as a crystal: is there a lattice,
+// and a stable one?
 #include <analyze/crystal_report.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -17,7 +18,9 @@ constexpr double cell = 0.005;
 
 enum Kind { nothing, any, stable };
 
-Kind kind_of(const std::optional<CrystalFit>& fit) { return !fit ? nothing : fit->mirrored ? stable : any; }
+Kind kind_of(const std::optional<CrystalFit>& fit) {
+  return !fit ? nothing : fit->mirrored ? stable : any;
+}
 
 Kind at(double bulk, double shear) {
   Crystal crystal;
@@ -40,7 +43,8 @@ void append_region(std::string& text, const Map& map, Kind kind) {
       for (end = begin + 1; end < columns && map[row][end] == map[row][begin];) ++end;
       if (map[row][begin] != kind) continue;
       const auto first = static_cast<double>(begin), last = static_cast<double>(end);
-      fmt::format_to(std::back_inserter(text), "{:.5g} {:.5g} {:.5g} {:.5g}\n", bulk_at((first + last) / 2), shear_at(static_cast<double>(row) + 0.5),
+      fmt::format_to(std::back_inserter(text), "{:.5g} {:.5g} {:.5g} {:.5g}\n",
+                     bulk_at((first + last) / 2), shear_at(static_cast<double>(row) + 0.5),
                      cell * (last - first) / 2, cell / 2);
     }
   text += "0 -9 0 0\nEOD\n";  // never empty
@@ -50,7 +54,8 @@ void append_regions(std::string& text) {
   auto map = std::make_unique<Map>();
   for (std::size_t row = 0; row < rows; ++row)
     for (std::size_t column = 0; column < columns; ++column)
-      (*map)[row][column] = at(bulk_at(static_cast<double>(column) + 0.5), shear_at(static_cast<double>(row) + 0.5));
+      (*map)[row][column] =
+          at(bulk_at(static_cast<double>(column) + 0.5), shear_at(static_cast<double>(row) + 0.5));
   append_region(text, *map, any);
   append_region(text, *map, stable);
 }
@@ -63,27 +68,33 @@ void append_membrane(std::string& text, calibration::Membrane membrane, double f
   const double start = first / (first + 4);
   for (int n = 0; n < points; ++n) {
     const double share = start + (1 - start) * (n + 0.5) / points;
-    const calibration::Elasticity e = calibration::elasticity(calibration::ratios(membrane, 4 * share / (1 - share)));
+    const calibration::Elasticity e =
+        calibration::elasticity(calibration::ratios(membrane, 4 * share / (1 - share)));
     fmt::format_to(std::back_inserter(text), "{:.6g} {:.6g}\n", e.poisson(), e.poisson_shear());
   }
   fmt::format_to(std::back_inserter(text), "EOD # {}\n", name);
 }
 
-void append_crystals(std::string& text, const std::vector<FittedCrystal>& crystals, bool representable) {
+void append_crystals(std::string& text, const std::vector<FittedCrystal>& crystals,
+                     bool representable) {
   fmt::format_to(std::back_inserter(text), "$crystals{} << EOD\n9 9\n", representable ? 1 : 0);
   for (const auto& [crystal, found] : crystals)
     if ((kind_of(found) == stable) == representable)
-      fmt::format_to(std::back_inserter(text), "{:.6g} {:.6g}\n", crystal.poisson_bulk(), crystal.poisson_shear());
+      fmt::format_to(std::back_inserter(text), "{:.6g} {:.6g}\n", crystal.poisson_bulk(),
+                     crystal.poisson_shear());
   text += "EOD\n";
 }
 
 }  // namespace
 
-std::string crystal_map_script(const std::vector<FittedCrystal>& crystals, const std::optional<MapPoint>& lattice) {
+std::string crystal_map_script(const std::vector<FittedCrystal>& crystals,
+                               const std::optional<MapPoint>& lattice) {
   using calibration::Membrane;
   std::string text =
-      "set encoding utf8\nset xrange [0:0.5]\nset yrange [-0.5:0.5]\nset xlabel \"ν′ = C12 / (C11 + C12)\" offset 0,0.4\n"
-      "set ylabel \"ν″ = (2 C44 − C11) / (2 C44 − 2 C11)\"\nset key below horizontal samplen 2 width -4 maxrows 3 font ',11'\nset style fill solid 1 "
+      "set encoding utf8\nset xrange [0:0.5]\nset yrange [-0.5:0.5]\nset xlabel \"ν′ = C12 / (C11 "
+      "+ C12)\" offset 0,0.4\n"
+      "set ylabel \"ν″ = (2 C44 − C11) / (2 C44 − 2 C11)\"\nset key below horizontal samplen 2 "
+      "width -4 maxrows 3 font ',11'\nset style fill solid 1 "
       "noborder\nset "
       "tics out\n";
   append_regions(text);
@@ -92,27 +103,36 @@ std::string crystal_map_script(const std::vector<FittedCrystal>& crystals, const
     double first;
     const char* style;
   };
-  constexpr Curve curves[] = {{Membrane::I, 0, "lw 2 lc rgb '#1b6ca8'"},
-                              {Membrane::II, 0, "lw 2 lc rgb '#7a3fa0'"},
-                              {Membrane::IV, -2, "lw 5 lc rgb '#7fc97f'"},  // III and IV are both clamped: C12 = C44, the same curve
-                              {Membrane::III, -1.5, "lw 2 lc rgb '#b8860b'"},
-                              {Membrane::I_m, 0, "lw 2 lc rgb '#000000'"}};
+  constexpr Curve curves[] = {
+      {Membrane::I, 0, "lw 2 lc rgb '#1b6ca8'"},
+      {Membrane::II, 0, "lw 2 lc rgb '#7a3fa0'"},
+      {Membrane::IV, -2,
+       "lw 5 lc rgb '#7fc97f'"},  // III and IV are both clamped: C12 = C44, the same curve
+      {Membrane::III, -1.5, "lw 2 lc rgb '#b8860b'"},
+      {Membrane::I_m, 0, "lw 2 lc rgb '#000000'"}};
   for (const Curve& curve : curves) append_membrane(text, curve.membrane, curve.first);
   append_crystals(text, crystals, false);
   append_crystals(text, crystals, true);
-  if (lattice) fmt::format_to(std::back_inserter(text), "$lattice << EOD\n{:.6g} {:.6g}\nEOD\n", lattice->poisson_bulk, lattice->poisson_shear);
+  if (lattice)
+    fmt::format_to(std::back_inserter(text), "$lattice << EOD\n{:.6g} {:.6g}\nEOD\n",
+                   lattice->poisson_bulk, lattice->poisson_shear);
 
   text +=
       "plot $region1 using 1:2:3:4 with boxxyerror lc rgb '#dddddd' title 'a lattice, unstable'"
       ", $region2 using 1:2:3:4 with boxxyerror lc rgb '#bfe3c0' title 'a stable lattice'";
   for (const Curve& curve : curves)
-    fmt::format_to(std::back_inserter(text), ", $membrane{} using 1:2 with lines {} title '{}'", static_cast<int>(curve.membrane), curve.style,
+    fmt::format_to(std::back_inserter(text), ", $membrane{} using 1:2 with lines {} title '{}'",
+                   static_cast<int>(curve.membrane), curve.style,
                    calibration::membrane_names[static_cast<std::size_t>(curve.membrane)]);
   if (!crystals.empty())
     text +=
         ", $crystals0 using 1:2 with points pt 6 ps 0.7 lc rgb '#c0392b' title 'crystals'"
-        ", $crystals1 using 1:2 with points pt 7 ps 0.7 lc rgb '#145a32' title 'crystals, stable lattice'";
-  if (lattice) text += ", $lattice using 1:2 with points pt 3 ps 1.6 lw 2 lc rgb '#e67e22' title 'the lattice analysed'";
+        ", $crystals1 using 1:2 with points pt 7 ps 0.7 lc rgb '#145a32' title 'crystals, stable "
+        "lattice'";
+  if (lattice)
+    text +=
+        ", $lattice using 1:2 with points pt 3 ps 1.6 lw 2 lc rgb '#e67e22' title 'the lattice "
+        "analysed'";
   return text + "\n";
 }
 

@@ -14,12 +14,19 @@ struct Counts {
   std::ptrdiff_t shown, fit, mirrored, two_layer;
 };
 
-bool in_window(const Crystal& c) { return c.poisson_bulk() >= 0 && c.poisson_bulk() <= 0.5 && c.poisson_shear() >= -0.5 && c.poisson_shear() <= 0.5; }
+bool in_window(const Crystal& c) {
+  return c.poisson_bulk() >= 0 && c.poisson_bulk() <= 0.5 && c.poisson_shear() >= -0.5 &&
+         c.poisson_shear() <= 0.5;
+}
 
 Counts count(const std::vector<FittedCrystal>& all) {
-  const auto of = [&](const auto& property) { return std::count_if(all.begin(), all.end(), property); };
-  return {of([](const FittedCrystal& c) { return in_window(c.crystal); }), of([](const FittedCrystal& c) { return c.fit.has_value(); }),
-          of([](const FittedCrystal& c) { return c.fit && c.fit->mirrored; }), of([](const FittedCrystal& c) { return c.fit && c.fit->two_layer; })};
+  const auto of = [&](const auto& property) {
+    return std::count_if(all.begin(), all.end(), property);
+  };
+  return {of([](const FittedCrystal& c) { return in_window(c.crystal); }),
+          of([](const FittedCrystal& c) { return c.fit.has_value(); }),
+          of([](const FittedCrystal& c) { return c.fit && c.fit->mirrored; }),
+          of([](const FittedCrystal& c) { return c.fit && c.fit->two_layer; })};
 }
 
 Json fit_json(const CrystalFit& fit) {
@@ -66,16 +73,20 @@ Json crystals_json(const std::vector<FittedCrystal>& crystals) {
 std::string crystals_text(const std::vector<FittedCrystal>& crystals) {
   std::size_t width = 7;
   for (const FittedCrystal& c : crystals) width = std::max(width, c.crystal.name.size());
-  std::string text = fmt::format("{:<{}}  {:>7} {:>7} {:>7}  {:>7} {:>8} {:>6}  {:<9} {:>8} {:>8} {:>8} {:>8}\n", "Crystal", width, "C11", "C12",
-                                 "C44", "nu'", "nu''", "A", "lattice", "k/l", "k_alpha", "k_beta", "k_gamma");
+  std::string text =
+      fmt::format("{:<{}}  {:>7} {:>7} {:>7}  {:>7} {:>8} {:>6}  {:<9} {:>8} {:>8} {:>8} {:>8}\n",
+                  "Crystal", width, "C11", "C12", "C44", "nu'", "nu''", "A", "lattice", "k/l",
+                  "k_alpha", "k_beta", "k_gamma");
   for (const auto& [c, found] : crystals) {
-    fmt::format_to(std::back_inserter(text), "{:<{}}  {:>7.4g} {:>7.4g} {:>7.4g}  {:>7.4f} {:>8.4f} {:>6.3f}  ", c.name, width, c.C11, c.C12, c.C44,
-                   c.poisson_bulk(), c.poisson_shear(), c.zener());
+    fmt::format_to(std::back_inserter(text),
+                   "{:<{}}  {:>7.4g} {:>7.4g} {:>7.4g}  {:>7.4f} {:>8.4f} {:>6.3f}  ", c.name,
+                   width, c.C11, c.C12, c.C44, c.poisson_bulk(), c.poisson_shear(), c.zener());
     if (!found) {
       text += "none\n";
       continue;
     }
-    const std::string alpha = found->ratios.clamped ? "infinite" : fmt::format("{:.4f}", found->ratios.alpha);
+    const std::string alpha =
+        found->ratios.clamped ? "infinite" : fmt::format("{:.4f}", found->ratios.alpha);
     fmt::format_to(std::back_inserter(text), "{:<9} {:>8.4g} {:>8} {:>8.4f} {:>8.4f}\n",
                    found->two_layer  ? "stable"
                    : found->mirrored ? "mirrored"
@@ -84,9 +95,12 @@ std::string crystals_text(const std::vector<FittedCrystal>& crystals) {
   }
   const Counts counts = count(crystals);
   text += fmt::format(
-      "\nConstants and k/l in GPa; ratios from {} to {}. Of {} crystals, {} are in the window of figure 4, {} have a lattice, {} a stable one\n"
-      "(mirrored layer), {} of these also stable with two layers. Stable lattices need C44 >= C12.\n",
-      least_ratio, most_ratio, crystals.size(), counts.shown, counts.fit, counts.mirrored, counts.two_layer);
+      "\nConstants and k/l in GPa; ratios from {} to {}. Of {} crystals, {} are in the window of "
+      "figure 4, {} have a lattice, {} a stable one\n"
+      "(mirrored layer), {} of these also stable with two layers. Stable lattices need C44 >= "
+      "C12.\n",
+      least_ratio, most_ratio, crystals.size(), counts.shown, counts.fit, counts.mirrored,
+      counts.two_layer);
   return text;
 }
 

@@ -1,4 +1,5 @@
-// What is said of crystals and the lattices that have their constants: for machines, as a table, and as the map of figure 4.
+// What is said of crystals and the lattices that have their constants: for machines, as a table,
+// and as the map of figure 4.
 #pragma once
 
 #include <analyze/crystals.hpp>
@@ -21,8 +22,10 @@ struct MapPoint {
   double poisson_bulk = 0, poisson_shear = 0;
 };
 
-/// The map in gnuplot's commands: which pairs nu', nu'' lattices with ratios from -4 to 5 have at all, and which stable ones; the
-/// paper's membranes; the crystals; and `lattice`, the one analysed, if there is one.
-std::string crystal_map_script(const std::vector<FittedCrystal>& crystals, const std::optional<MapPoint>& lattice);
+/// The map in gnuplot's commands: which pairs nu', nu'' lattices with ratios from -4 to 5 have at
+/// all, and which stable ones; the paper's membranes; the crystals; and `lattice`, the one
+/// analysed, if there is one.
+std::string crystal_map_script(const std::vector<FittedCrystal>& crystals,
+                               const std::optional<MapPoint>& lattice);
 
 }  // namespace hyperlattice

@@ -20,27 +20,32 @@ struct Columns {
   std::optional<std::size_t> reliability;
 };
 
-std::optional<Columns> columns_of(const TableColumns& header, const std::string& file, Faults& faults) {
+std::optional<Columns> columns_of(const TableColumns& header, const std::string& file,
+                                  Faults& faults) {
   const std::size_t before = faults.size();
   Columns columns;
   for (std::size_t n = 0; n < columns.at.size(); ++n)
     if (const auto place = header.find(Columns::names[n]))
       columns.at[n] = *place;
     else
-      faults.add(file + ":1", header.text(), fmt::format("a column {}, named in the first line", Columns::names[n]));
+      faults.add(file + ":1", header.text(),
+                 fmt::format("a column {}, named in the first line", Columns::names[n]));
   columns.reliability = header.find("reliability");
   return faults.size() > before ? std::nullopt : std::optional(columns);
 }
 
 /// The constants of one line; they must be those of a crystal that does not fall apart.
-std::optional<Crystal> crystal_of(const std::vector<std::string>& cells, const Columns& columns, const std::string& where, Faults& faults) {
+std::optional<Crystal> crystal_of(const std::vector<std::string>& cells, const Columns& columns,
+                                  const std::string& where, Faults& faults) {
   if (cells.size() <= *std::max_element(columns.at.begin(), columns.at.end())) {
-    faults.add(where, cells.front(), "a value in each of the columns name, C11_GPa, C12_GPa, C44_GPa");
+    faults.add(where, cells.front(),
+               "a value in each of the columns name, C11_GPa, C12_GPa, C44_GPa");
     return std::nullopt;
   }
   Crystal crystal;
   crystal.name = cells[columns.at[0]];
-  if (columns.reliability && *columns.reliability < cells.size()) crystal.reliability = cells[*columns.reliability];
+  if (columns.reliability && *columns.reliability < cells.size())
+    crystal.reliability = cells[*columns.reliability];
   const std::array<double*, 3> constants{&crystal.C11, &crystal.C12, &crystal.C44};
   const std::size_t before = faults.size();
   for (std::size_t n = 0; n < constants.size(); ++n) {
@@ -51,8 +56,10 @@ std::optional<Crystal> crystal_of(const std::vector<std::string>& cells, const C
       faults.add(where, cell, fmt::format("a number in column {}", Columns::names[n + 1]));
   }
   if (faults.size() > before) return std::nullopt;
-  if (crystal.C44 > 0 && crystal.C11 > crystal.C12 && crystal.C11 + 2 * crystal.C12 > 0) return crystal;
-  faults.add(where, crystal.name, "constants of a stable crystal: C44 > 0, C11 > C12, C11 + 2 C12 > 0");
+  if (crystal.C44 > 0 && crystal.C11 > crystal.C12 && crystal.C11 + 2 * crystal.C12 > 0)
+    return crystal;
+  faults.add(where, crystal.name,
+             "constants of a stable crystal: C44 > 0, C11 > C12, C11 + 2 C12 > 0");
   return std::nullopt;
 }
 
@@ -70,7 +77,9 @@ std::vector<Crystal> read_crystals(const std::filesystem::path& file) {
       columns = columns_of(header.emplace(line), file.string(), faults);
       faults.throw_if_any();
     } else if (!TableColumns::is_empty(line)) {
-      if (auto crystal = crystal_of(header->cells(line), *columns, fmt::format("{}:{}", file.string(), number), faults)) crystals.push_back(*crystal);
+      if (auto crystal = crystal_of(header->cells(line), *columns,
+                                    fmt::format("{}:{}", file.string(), number), faults))
+        crystals.push_back(*crystal);
     }
   }
   if (crystals.empty() && faults.empty()) faults.add(file.string(), "", "at least one crystal");

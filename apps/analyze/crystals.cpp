@@ -1,6 +1,8 @@
 // With t = 2 l / k, the constants t C11, t C12, t C44 are D1, D2, D3 of the lattice, and
-//   k_gamma = 3/4 (t C44 - 2),   k_beta = t (C11 - C12 - C44) - 2,   k_alpha = (t P - 6)^2 / (t X) - 3 t (C11 - C12) + 12
-// with P = C11 - C12 + C44 and X = C44 - C12: what the free height takes away, C4^2 / C3 = t X, is what makes C12 less than C44.
+//   k_gamma = 3/4 (t C44 - 2),   k_beta = t (C11 - C12 - C44) - 2,   k_alpha = (t P - 6)^2 / (t X)
+//   - 3 t (C11 - C12) + 12
+// with P = C11 - C12 + C44 and X = C44 - C12: what the free height takes away, C4^2 / C3 = t X, is
+// what makes C12 less than C44.
 #include <analyze/crystals.hpp>
 #include <analyze/cubic_stability.hpp>
 
@@ -15,14 +17,18 @@ calibration::Ratios ratios_at(const Crystal& c, double t) {
   const double P = c.C11 - c.C12 + c.C44, X = c.C44 - c.C12;
   calibration::Ratios ratios{0, t * (c.C11 - c.C12 - c.C44) - 2, 0.75 * (t * c.C44 - 2), X == 0};
   if (X == 0)
-    ratios.beta = t * c.C11 - 6 - 8 * ratios.gamma / 3;  // Cauchy's relation holds: only a clamped height takes nothing away
+    ratios.beta =
+        t * c.C11 - 6 -
+        8 * ratios.gamma / 3;  // Cauchy's relation holds: only a clamped height takes nothing away
   else
     ratios.alpha = (t * P - 6) * (t * P - 6) / (t * X) - 3 * t * (c.C11 - c.C12) + 12;
   return ratios;
 }
 
 bool within(double ratio) { return ratio >= least_ratio && ratio <= most_ratio; }
-bool within(const calibration::Ratios& r) { return within(r.alpha) && within(r.beta) && within(r.gamma); }
+bool within(const calibration::Ratios& r) {
+  return within(r.alpha) && within(r.beta) && within(r.gamma);
+}
 
 /// Every t at which a ratio passes a limit, ascending, from 0 on.
 std::vector<double> crossings(const Crystal& c) {
@@ -32,7 +38,8 @@ std::vector<double> crossings(const Crystal& c) {
     found.push_back((limit / 0.75 + 2) / c.C44);
     found.push_back((limit + 2) / (c.C11 - c.C12 - c.C44));
     if (X == 0) continue;
-    const double a = P * P / X - 3 * (c.C11 - c.C12), b = 12 - limit - 12 * P / X, root = std::sqrt(b * b - 4 * a * 36 / X);
+    const double a = P * P / X - 3 * (c.C11 - c.C12), b = 12 - limit - 12 * P / X,
+                 root = std::sqrt(b * b - 4 * a * 36 / X);
     found.push_back((-b + root) / (2 * a));
     found.push_back((-b - root) / (2 * a));
   }
@@ -42,7 +49,9 @@ std::vector<double> crossings(const Crystal& c) {
 }
 
 int rank(const CrystalFit& fit) { return (fit.mirrored ? 1 : 0) + (fit.two_layer ? 1 : 0); }
-double size(const calibration::Ratios& r) { return r.alpha * r.alpha + r.beta * r.beta + r.gamma * r.gamma; }
+double size(const calibration::Ratios& r) {
+  return r.alpha * r.alpha + r.beta * r.beta + r.gamma * r.gamma;
+}
 
 }  // namespace
 
@@ -57,7 +66,9 @@ std::optional<CrystalFit> fit(const Crystal& crystal) {
       if (!within(found.ratios)) break;  // nor is any other t before the next crossing
       found.mirrored = mirrored_margin(found.ratios) > 0;
       found.two_layer = found.mirrored && opposed_margin(found.ratios) >= 0;
-      if (!best || rank(found) > rank(*best) || (rank(found) == rank(*best) && size(found.ratios) < size(best->ratios))) best = found;
+      if (!best || rank(found) > rank(*best) ||
+          (rank(found) == rank(*best) && size(found.ratios) < size(best->ratios)))
+        best = found;
     }
   return best;
 }

@@ -20,31 +20,42 @@ Json family_json(const CurveFamily& family, const VirtualTest::Options& options)
 std::string family_text(const CurveFamily& family) {
   std::string text;
   for (const auto& [value, curve] : family.members) {
-    fmt::format_to(std::back_inserter(text), "{}{} = {}\n  {:>10} {:>12} {:>12} {:>14}\n", text.empty() ? "" : "\n", family.option, value, "lambda",
-                   "nu", "eta", "nu affine");
+    fmt::format_to(std::back_inserter(text), "{}{} = {}\n  {:>10} {:>12} {:>12} {:>14}\n",
+                   text.empty() ? "" : "\n", family.option, value, "lambda", "nu", "eta",
+                   "nu affine");
     for (const CurvePoint& point : curve.points)
-      fmt::format_to(std::back_inserter(text), "  {:>10.6g} {:>12.6g} {:>12.6g} {:>14}\n", point.lambda, point.infinite.poisson,
-                     point.infinite.modulus_ratio, point.affine ? fmt::format("{:.6g}", point.affine->poisson) : "");
+      fmt::format_to(std::back_inserter(text), "  {:>10.6g} {:>12.6g} {:>12.6g} {:>14}\n",
+                     point.lambda, point.infinite.poisson, point.infinite.modulus_ratio,
+                     point.affine ? fmt::format("{:.6g}", point.affine->poisson) : "");
   }
   return text;
 }
 
 std::string family_script(const CurveFamily& family) {
-  constexpr const char* colours[] = {"#1b6ca8", "#c0392b", "#27ae60", "#8e44ad", "#e67e22", "#16a085"};
-  std::string text = "set encoding utf8\nset tics out\nset key right top samplen 2 font ',11'\nset xlabel 'λ'\nset ylabel 'Poisson ratio ν'\n", plots;
+  constexpr const char* colours[] = {"#1b6ca8", "#c0392b", "#27ae60",
+                                     "#8e44ad", "#e67e22", "#16a085"};
+  std::string text =
+                  "set encoding utf8\nset tics out\nset key right top samplen 2 font ',11'\nset "
+                  "xlabel 'λ'\nset ylabel 'Poisson ratio ν'\n",
+              plots;
   for (std::size_t n = 0; n < family.members.size(); ++n) {
     const auto& [value, curve] = family.members[n];
     const char* colour = colours[n % std::size(colours)];
     fmt::format_to(std::back_inserter(text), "$curve{} << EOD\n", n);
     for (const CurvePoint& point : curve.points)
-      fmt::format_to(std::back_inserter(text), "{:.10g} {:.10g} {:.10g}\n", point.lambda, point.infinite.poisson,
+      fmt::format_to(std::back_inserter(text), "{:.10g} {:.10g} {:.10g}\n", point.lambda,
+                     point.infinite.poisson,
                      point.affine ? point.affine->poisson : point.infinite.poisson);
     text += "EOD\n";
-    fmt::format_to(std::back_inserter(plots), "{}$curve{} using 1:2 with linespoints pt 7 ps 0.7 lw 2 lc rgb '{}' title '{} {}'",
-                   plots.empty() ? "plot " : ", ", n, colour, family.option, value);
+    fmt::format_to(
+        std::back_inserter(plots),
+        "{}$curve{} using 1:2 with linespoints pt 7 ps 0.7 lw 2 lc rgb '{}' title '{} {}'",
+        plots.empty() ? "plot " : ", ", n, colour, family.option, value);
     if (curve.points.front().affine)
-      fmt::format_to(std::back_inserter(plots), ", $curve{} using 1:3 with lines dt 2 lw 2 lc rgb '{}' title '{} {}, strained alike'", n, colour,
-                     family.option, value);
+      fmt::format_to(
+          std::back_inserter(plots),
+          ", $curve{} using 1:3 with lines dt 2 lw 2 lc rgb '{}' title '{} {}, strained alike'", n,
+          colour, family.option, value);
   }
   return text + plots + ", 0.25 with lines lw 1 lc rgb '#7f8c8d' title '1/4'\n";
 }

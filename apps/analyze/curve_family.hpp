@@ -1,4 +1,5 @@
-// Curves of lattices that differ in one option: the Poisson ratio against lambda, figure 3 of Zhao 2017 for random lattices of several coordinations.
+// Curves of lattices that differ in one option: the Poisson ratio against lambda, figure 3 of Zhao
+// 2017 for random lattices of several coordinations.
 #pragma once
 
 #include <analyze/calibration_curve.hpp>

@@ -18,13 +18,15 @@ struct Direction {
 };
 constexpr Direction directions[] = {{"100", {1, 0, 0}}, {"110", {1, 1, 0}}, {"111", {1, 1, 1}}};
 
-/// Half of the shortest vector in a direction that gives the same waves as 0: from there on the curves run back. If there is none, as far as that of
-/// the cubic lattice.
+/// Half of the shortest vector in a direction that gives the same waves as 0: from there on the
+/// curves run back. If there is none, as far as that of the cubic lattice.
 Vec3 turning_point(const Basis& basis, Vec3 along) {
   constexpr int farthest = 12;
   const auto is_whole = [](double number) { return std::abs(number - std::round(number)) < 1e-6; };
   for (int times = 1; times <= farthest; ++times)
-    if (std::all_of(basis.begin(), basis.end(), [&](Vec3 a) { return is_whole(times * dot(a, along)); })) return times * pi * along;
+    if (std::all_of(basis.begin(), basis.end(),
+                    [&](Vec3 a) { return is_whole(times * dot(a, along)); }))
+      return times * pi * along;
   return pi * along;
 }
 
@@ -48,7 +50,8 @@ std::string dispersion_csv(const InfiniteLattice& lattice, double base_stiffness
       const Vec3 q = (static_cast<double>(n) / intervals) * to;
       std::vector<double> row{q.x, q.y, q.z};
       for (const Sector sector : {Sector::mirrored, Sector::opposed})
-        for (const Wave& wave : waves(lattice, q, sector)) row.push_back(frequency(wave.stiffness, base_stiffness));
+        for (const Wave& wave : waves(lattice, q, sector))
+          row.push_back(frequency(wave.stiffness, base_stiffness));
       text += fmt::format("{},", name);
       append_row(text, row);
     }

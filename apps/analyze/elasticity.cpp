@@ -26,14 +26,16 @@ double cubic_distance(const LatticeElasticity& e) {
 /// Isotropic as a mean; C1 to C4, which are sums over the springs of a site, it has none.
 LatticeElasticity elasticity_of_list(const SpringLattice& lattice) {
   const double unit = lattice.geometry().spacing / lattice.base_stiffness();
-  const ElasticConstants constants = facts_of(lattice.geometry()).elastic_constants(lattice.constants());
+  const ElasticConstants constants =
+      facts_of(lattice.geometry()).elastic_constants(lattice.constants());
   LatticeElasticity e;
   e.C1 = e.C2 = e.C3 = e.C4 = std::numeric_limits<double>::quiet_NaN();
   e.C11 = unit * constants.C11;
   e.C12 = unit * constants.C12;
   e.C44 = unit * constants.C44;
   for (std::size_t i = 0; i < 6; ++i)
-    for (std::size_t j = 0; j < 6; ++j) e.stiffness[i][j] = i < 3 && j < 3 ? (i == j ? e.C11 : e.C12) : i == j ? e.C44 : 0;
+    for (std::size_t j = 0; j < 6; ++j)
+      e.stiffness[i][j] = i < 3 && j < 3 ? (i == j ? e.C11 : e.C12) : i == j ? e.C44 : 0;
   e.cubic = e.isotropic = true;
   return e;
 }

@@ -15,11 +15,13 @@ using calibration::Membrane;
 using calibration::membrane_names;
 
 void check_finite(const char* option, const std::optional<double>& value, Faults& faults) {
-  if (value && !std::isfinite(*value)) faults.add(option, fmt::format("{}", *value), "a finite number");
+  if (value && !std::isfinite(*value))
+    faults.add(option, fmt::format("{}", *value), "a finite number");
 }
 
 /// "infinite" clamps the membrane.
-calibration::Ratios free_ratios(const MembraneChoice& choice, const LatticeGeometry& geometry, Faults& faults) {
+calibration::Ratios free_ratios(const MembraneChoice& choice, const LatticeGeometry& geometry,
+                                Faults& faults) {
   calibration::Ratios ratios{0, choice.k_beta.value_or(0), choice.k_gamma.value_or(0), false};
   if (choice.k_alpha == "infinite")
     ratios.clamped = true;
@@ -30,15 +32,19 @@ calibration::Ratios free_ratios(const MembraneChoice& choice, const LatticeGeome
       faults.add("--k_alpha", *choice.k_alpha, "a finite number, or infinite");
   }
   if (ratios.gamma != 0 && geometry.spring_classes < 2)
-    faults.add("--k_gamma", fmt::format("{}", ratios.gamma), "none: this lattice has one class of springs, that of k_beta");
+    faults.add("--k_gamma", fmt::format("{}", ratios.gamma),
+               "none: this lattice has one class of springs, that of k_beta");
   return ratios;
 }
 
 /// lambda as given, or from the Poisson ratio.
-double lambda_of(const MembraneChoice& choice, Membrane membrane, const LatticeGeometry& geometry, Faults& faults) {
+double lambda_of(const MembraneChoice& choice, Membrane membrane, const LatticeGeometry& geometry,
+                 Faults& faults) {
   if (choice.poisson.has_value() == choice.lambda.has_value()) {
-    faults.add(choice.poisson ? "--lambda" : "--poisson", choice.lambda ? fmt::format("{}", *choice.lambda) : "",
-               choice.poisson ? "one of --poisson and --lambda: each follows from the other" : "a Poisson ratio, or --lambda in its place");
+    faults.add(choice.poisson ? "--lambda" : "--poisson",
+               choice.lambda ? fmt::format("{}", *choice.lambda) : "",
+               choice.poisson ? "one of --poisson and --lambda: each follows from the other"
+                              : "a Poisson ratio, or --lambda in its place");
     return 0;
   }
   if (choice.lambda) return *choice.lambda;
@@ -47,7 +53,8 @@ double lambda_of(const MembraneChoice& choice, Membrane membrane, const LatticeG
   constexpr double rounding = 1e-9;  // of the reach's own ends
   const double high = within->open ? *choice.poisson : *choice.poisson - rounding;
   if (!std::isfinite(lambda) || !within->holds(high))
-    faults.add("--poisson", fmt::format("{}", *choice.poisson), reach_sentence(geometry, membrane, *choice.poisson));
+    faults.add("--poisson", fmt::format("{}", *choice.poisson),
+               reach_sentence(geometry, membrane, *choice.poisson));
   return lambda;
 }
 
@@ -55,10 +62,13 @@ double lambda_of(const MembraneChoice& choice, Membrane membrane, const LatticeG
 
 std::optional<Membrane> membrane_named(const std::string& name, Faults& faults) {
   const auto found = std::find(std::begin(membrane_names), std::end(membrane_names), name);
-  if (found != std::end(membrane_names)) return static_cast<Membrane>(found - std::begin(membrane_names));
+  if (found != std::end(membrane_names))
+    return static_cast<Membrane>(found - std::begin(membrane_names));
   const std::vector<std::string> names(std::begin(membrane_names), std::end(membrane_names));
   const std::string near = nearest(name, names);
-  faults.add("--membrane", name, fmt::format("one of {}{}", fmt::join(names, ", "), near.empty() ? "" : "; did you mean '" + near + "'?"));
+  faults.add("--membrane", name,
+             fmt::format("one of {}{}", fmt::join(names, ", "),
+                         near.empty() ? "" : "; did you mean '" + near + "'?"));
   return std::nullopt;
 }
 
@@ -75,11 +85,14 @@ ChosenMembrane resolve(const MembraneChoice& choice, const LatticeGeometry& geom
   chosen.membrane = *membrane;
   const bool with_lambda = has_lambda(*membrane);
   if (!with_lambda && choice.lambda)
-    faults.add("--lambda", fmt::format("{}", *choice.lambda), "none: only membranes I, II, III, IV and I-m have one");
+    faults.add("--lambda", fmt::format("{}", *choice.lambda),
+               "none: only membranes I, II, III, IV and I-m have one");
   if (*membrane != Membrane::free)
-    for (const auto& [option, given] :
-         {std::pair{"--k_alpha", choice.k_alpha.has_value()}, {"--k_beta", choice.k_beta.has_value()}, {"--k_gamma", choice.k_gamma.has_value()}})
-      if (given) faults.add(option, "", "none, or --membrane free: the other membranes set it themselves");
+    for (const auto& [option, given] : {std::pair{"--k_alpha", choice.k_alpha.has_value()},
+                                        {"--k_beta", choice.k_beta.has_value()},
+                                        {"--k_gamma", choice.k_gamma.has_value()}})
+      if (given)
+        faults.add(option, "", "none, or --membrane free: the other membranes set it themselves");
 
   if (with_lambda) {
     chosen.lambda = lambda_of(choice, *membrane, geometry, faults);
@@ -90,8 +103,9 @@ ChosenMembrane resolve(const MembraneChoice& choice, const LatticeGeometry& geom
   if (!with_lambda && choice.poisson && faults.empty()) {
     const double poisson = elasticity(with_ratios(geometry, chosen.ratios)).poisson_bulk();
     if (std::abs(poisson - *choice.poisson) > 1e-4)
-      faults.add("--poisson", fmt::format("{}", *choice.poisson),
-                 fmt::format("none, or {:.6g}: that is what these springs have along [100]", poisson));
+      faults.add(
+          "--poisson", fmt::format("{}", *choice.poisson),
+          fmt::format("none, or {:.6g}: that is what these springs have along [100]", poisson));
   }
   faults.throw_if_any();
   return chosen;

@@ -23,7 +23,8 @@ struct ChosenMembrane {
 /// Empty, and a fault at --membrane, if there is none of that name.
 std::optional<calibration::Membrane> membrane_named(const std::string& name, Faults& faults);
 
-/// Throws InputError with every fault. A lambda or ratios that make an unstable lattice are no fault: to find that out is what one asks for.
+/// Throws InputError with every fault. A lambda or ratios that make an unstable lattice are no
+/// fault: to find that out is what one asks for.
 ChosenMembrane resolve(const MembraneChoice& choice, const LatticeGeometry& geometry);
 
 /// Its keys for `--json`.

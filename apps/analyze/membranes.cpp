@@ -12,7 +12,8 @@ calibration::Ratios ratios_of(const LatticeGeometry& geometry, Membrane membrane
   return membranes::ratios(facts_of(geometry), membrane, lambda);
 }
 
-std::optional<double> lambda_for(const LatticeGeometry& geometry, Membrane membrane, double poisson) {
+std::optional<double> lambda_for(const LatticeGeometry& geometry, Membrane membrane,
+                                 double poisson) {
   if (!has_lambda(membrane)) return std::nullopt;
   return membranes::lambda(facts_of(geometry), membrane, poisson);
 }

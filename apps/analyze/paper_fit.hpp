@@ -1,4 +1,5 @@
-// The paper's polynomials (11) and (13), a method of calibration for one lattice: simple cubic, membrane I-m. With their range, and backwards.
+// The paper's polynomials (11) and (13), a method of calibration for one lattice: simple cubic,
+// membrane I-m. With their range, and backwards.
 #pragma once
 
 #include <analyze/membranes.hpp>

@@ -23,7 +23,8 @@ class Cube {
   std::vector<double> shortened(double strain) const {
     const auto [low, high] = ends(2);
     std::vector<double> xyz(3 * places_.size(), 0.0);
-    for (std::size_t p = 0; p < places_.size(); ++p) xyz[3 * p + 2] = -strain * (places_[p].z - (low + high) / 2);
+    for (std::size_t p = 0; p < places_.size(); ++p)
+      xyz[3 * p + 2] = -strain * (places_[p].z - (low + high) / 2);
     return xyz;
   }
 
@@ -33,7 +34,8 @@ class Cube {
     const auto [low, high] = ends(axis);
     double sum_low = 0, sum_high = 0, count_low = 0, count_high = 0;
     for (std::size_t p = 0; p < places_.size(); ++p) {
-      const double place = along(places_[p], axis), moved = xyz[3 * p + static_cast<std::size_t>(axis)];
+      const double place = along(places_[p], axis),
+                   moved = xyz[3 * p + static_cast<std::size_t>(axis)];
       if (place < low + nearby) {
         sum_low += moved;
         ++count_low;
@@ -61,27 +63,42 @@ class Cube {
 }  // namespace
 
 VirtualTest::VirtualTest(Host& host, Components components, Options options)
-    : host_(host), components_(std::move(components)), options_(std::move(options)), length_(length_at_rest()), base_young_(compress({}).young) {}
+    : host_(host),
+      components_(std::move(components)),
+      options_(std::move(options)),
+      length_(length_at_rest()),
+      base_young_(compress({}).young) {}
 
 /// The cube, in units of its own: spacing 1 m, E 1 Pa.
 std::string VirtualTest::scene(const calibration::Ratios& ratios, double shortening) const {
   const int n = options_.particles;
-  Json material = {{"type", components_.material}, {"young", 1}, {"density", 1}, {"membrane", "free"}};
+  Json material = {
+      {"type", components_.material}, {"young", 1}, {"density", 1}, {"membrane", "free"}};
   material["k_alpha"] = ratios.clamped ? Json("infinite") : Json(ratios.alpha);
   material["k_beta"] = ratios.beta;
   material["k_gamma"] = ratios.gamma;
   const auto platen = [&](const char* on, double displacement) {
     const double at_once = 1e-9;  // a fraction of any step
-    return Json{{"type", components_.displacement}, {"on", on}, {"value", {0, 0, displacement}}, {"axes", "z"}, {"rise", at_once}};
+    return Json{{"type", components_.displacement},
+                {"on", on},
+                {"value", {0, 0, displacement}},
+                {"axes", "z"},
+                {"rise", at_once}};
   };
   Json scene;
   scene["format"] = "hyperlattice/1";
-  // `stability`: what is measured is the linear answer, also of lattices so soft to shear that any pressure makes them buckle.
-  scene["pipeline"] = {{{"type", options_.lattice}, {"spacing", 1}, {"shape", {{"box", {{"low", {0, 0, 0}}, {"high", {n, n, n}}}}}}},
+  // `stability`: what is measured is the linear answer, also of lattices so soft to shear that any
+  // pressure makes them buckle.
+  scene["pipeline"] = {{{"type", options_.lattice},
+                        {"spacing", 1},
+                        {"shape", {{"box", {{"low", {0, 0, 0}}, {"high", {n, n, n}}}}}}},
                        material,
                        platen("z_min", shortening / 2),
                        platen("z_max", -shortening / 2),
-                       {{"type", components_.solver}, {"tolerance", options_.residual}, {"most_cutbacks", 0}, {"stability", false}}};
+                       {{"type", components_.solver},
+                        {"tolerance", options_.residual},
+                        {"most_cutbacks", 0},
+                        {"stability", false}}};
   return scene.dump();
 }
 
@@ -99,7 +116,8 @@ Measured VirtualTest::measure(const calibration::Ratios& ratios) {
 
 Measured VirtualTest::compress(const calibration::Ratios& ratios) {
   const auto start = std::chrono::steady_clock::now();
-  const auto plan = make_plan(read_scene_text(scene(ratios, options_.strain * length_), host_), options_.threads);
+  const auto plan =
+      make_plan(read_scene_text(scene(ratios, options_.strain * length_), host_), options_.threads);
   const Model& model = *plan->model;
   Simulation simulation(model, plan->threads);
   const Cube cube(model.body);
@@ -109,14 +127,17 @@ Measured VirtualTest::compress(const calibration::Ratios& ratios) {
   std::vector<double> moved;
   simulation.displacements(moved);
   const std::vector<Vec3> pushed = simulation.force_on_load();
-  const double area = options_.particles * options_.particles, force = (pushed.at(1).z - pushed.at(0).z) / 2;
+  const double area = options_.particles * options_.particles,
+               force = (pushed.at(1).z - pushed.at(0).z) / 2;
   Measured measured;
   measured.poisson = -(cube.growth(0, moved) + cube.growth(1, moved)) / 2 / cube.growth(2, moved);
-  measured.young = force / area / options_.strain / model.materials.front().constants.base_stiffness;
+  measured.young =
+      force / area / options_.strain / model.materials.front().constants.base_stiffness;
   measured.particles = model.body.particles;
   measured.residual = rest.residual;
   measured.iterations = rest.iterations;
-  measured.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  measured.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return measured;
 }
 

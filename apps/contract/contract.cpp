@@ -7,7 +7,8 @@ namespace {
 /// The option that names a file which the example cannot have; empty: none.
 std::string missing_file(const ComponentInfo& info, const Json& example) {
   for (const Option& option : info.options)
-    if (std::string name(option.name); option.kind == OptionKind::file && example.contains(name)) return name;
+    if (std::string name(option.name); option.kind == OptionKind::file && example.contains(name))
+      return name;
   return "";
 }
 
@@ -32,18 +33,24 @@ void check_family(Trial& trial) {
 
 }  // namespace
 
-std::vector<Check> check(const Component& component, Host& host, const Surroundings& around, const std::filesystem::path& pictures) {
+std::vector<Check> check(const Component& component, Host& host, const Surroundings& around,
+                         const std::filesystem::path& pictures) {
   std::vector<Check> checks;
   const Scenes scenes(host, around);
   Trial trial(component, scenes, pictures, checks);
   trial.example = example_stage(component.info);
   if (const std::string option = missing_file(component.info, trial.example); !option.empty())
-    trial.check("example", [&] { return not_applicable("it needs a file, option " + option + ": test it in a scene of its own"); });
+    trial.check("example", [&] {
+      return not_applicable("it needs a file, option " + option +
+                            ": test it in a scene of its own");
+    });
   else
     try {
       check_family(trial);
     } catch (const std::exception& error) {  // what all of the family's checks need
-      trial.check("example", [&] { return Finding{Verdict::failed, trial.example.dump() + ": " + error.what()}; });
+      trial.check("example", [&] {
+        return Finding{Verdict::failed, trial.example.dump() + ": " + error.what()};
+      });
     }
   return checks;
 }

@@ -1,5 +1,6 @@
-// The contracts of the families: what every component must do, whatever it is for, and whoever wrote it. Each is checked with the component's
-// example (scene/examples.hpp) in small scenes, by the ordinary runtime; `hyperlattice plugins --test` prints what was found.
+// The contracts of the families: what every component must do, whatever it is for, and whoever
+// wrote it. Each is checked with the component's example (scene/examples.hpp) in small scenes, by
+// the ordinary runtime; `hyperlattice plugins --test` prints what was found.
 #pragma once
 
 #include <host/host.hpp>
@@ -22,7 +23,8 @@ struct Check {
 
 /// The types of the components that stand around the one under test in the scenes.
 struct Surroundings {
-  std::string grid;          ///< a structured lattice of cubic cells, with the options spacing, shape, boundary
+  std::string
+      grid;  ///< a structured lattice of cubic cells, with the options spacing, shape, boundary
   std::string list;          ///< a lattice that is a list of springs: spacing, shape
   std::string material;      ///< an elastic solid: young, poisson, density, membrane
   std::string failure;       ///< springs that break at an elongation: limit
@@ -31,7 +33,9 @@ struct Surroundings {
 };
 
 /// Runs the component through its family's contract. `host` must also find those around it.
-/// `pictures`: folder for <type>.svg of those that have a picture, made if need be; empty: none is drawn. Never throws for what a component does.
-std::vector<Check> check(const Component& component, Host& host, const Surroundings& around, const std::filesystem::path& pictures = {});
+/// `pictures`: folder for <type>.svg of those that have a picture, made if need be; empty: none is
+/// drawn. Never throws for what a component does.
+std::vector<Check> check(const Component& component, Host& host, const Surroundings& around,
+                         const std::filesystem::path& pictures = {});
 
 }  // namespace hyperlattice::contract

@@ -1,4 +1,5 @@
-// What every criterion must do: leave springs below its alarm alone, break one where it says so, and never let it heal.
+// What every criterion must do: leave springs below its alarm alone, break one where it says so,
+// and never let it heal.
 #include <contract/families.hpp>
 #include <scene/stage_call.hpp>
 
@@ -16,7 +17,9 @@ namespace {
 class Criterion {
  public:
   explicit Criterion(const Model& model)
-      : model_(model), material_(model.materials.front()), functions_(material_.failure_stage->functions<FailureFunctions>()) {}
+      : model_(model),
+        material_(model.materials.front()),
+        functions_(material_.failure_stage->functions<FailureFunctions>()) {}
 
   /// One entry for each class of base springs.
   std::vector<SpringFacts> springs() const {
@@ -24,16 +27,20 @@ class Criterion {
     for (const NeighbourGeometry& neighbour : model_.neighbours) {
       const std::uint32_t spring_class = neighbour.site.spring_class;
       if (spring_class != all.size()) continue;
-      all.push_back({neighbour.rest_length, model_.spring(0, 0, spring_class).stiffness, model_.body.grid.spacing, spring_class, model_.crossings});
+      all.push_back({neighbour.rest_length, model_.spring(0, 0, spring_class).stiffness,
+                     model_.body.grid.spacing, spring_class, model_.crossings});
     }
     return all;
   }
   double alarm(const SpringFacts& spring) const {
     double alarm = 0;
-    call(*material_.failure_stage, "alarm", [&](const Complaint& why) { return functions_.alarm(material_.failure.get(), spring, alarm, why); });
+    call(*material_.failure_stage, "alarm", [&](const Complaint& why) {
+      return functions_.alarm(material_.failure.get(), spring, alarm, why);
+    });
     return alarm;
   }
-  bool breaks(const SpringFacts& spring, double elongation, Particle other = 1, double rate = 0) const {
+  bool breaks(const SpringFacts& spring, double elongation, Particle other = 1,
+              double rate = 0) const {
     const Particle first = 0;
     SpringBatch batch{0, spring, {&elongation, 1}, {}, {}, {}};
     if (functions_.asks_ends) {
@@ -42,7 +49,9 @@ class Criterion {
     }
     if (functions_.asks_rate) batch.rate = {&rate, 1};
     std::uint8_t broken = 0;
-    call(*material_.failure_stage, "breaks", [&](const Complaint& why) { return functions_.review(material_.failure.get(), batch, &broken, why); });
+    call(*material_.failure_stage, "breaks", [&](const Complaint& why) {
+      return functions_.review(material_.failure.get(), batch, &broken, why);
+    });
     return broken != 0;
   }
   /// The elongation at which the spring to that particle breaks; none up to ten times its length.
@@ -53,7 +62,8 @@ class Criterion {
       high *= 1.05;
       if (high > 10 * spring.rest_length) return std::nullopt;
     }
-    for (int n = 0; n < 100 && high > low * (1 + 1e-14); ++n) (breaks(spring, 0.5 * (low + high), other) ? high : low) = 0.5 * (low + high);
+    for (int n = 0; n < 100 && high > low * (1 + 1e-14); ++n)
+      (breaks(spring, 0.5 * (low + high), other) ? high : low) = 0.5 * (low + high);
     return high;
   }
 
@@ -68,22 +78,30 @@ Finding alarm_is_conservative(const Criterion& criterion) {
   constexpr double rates[] = {-1e3, -1, 0, 1, 1e3};  // m/s
   std::string alarms;
   for (const SpringFacts& spring : criterion.springs()) {
-    const double alarm = criterion.alarm(spring), highest = std::min(alarm, 10 * spring.rest_length), lowest = -0.9 * spring.rest_length;
-    if (std::isnan(alarm)) return passes_if(false, fmt::format("the alarm of class {} is no number", spring.spring_class));
+    const double alarm = criterion.alarm(spring),
+                 highest = std::min(alarm, 10 * spring.rest_length),
+                 lowest = -0.9 * spring.rest_length;
+    if (std::isnan(alarm))
+      return passes_if(false,
+                       fmt::format("the alarm of class {} is no number", spring.spring_class));
     alarms += fmt::format("{}{:.3g} m", alarms.empty() ? "" : ", ", alarm);
     for (int n = 0; n < pieces; ++n) {
-      const double elongation = n == 0 ? highest : n % 2 == 0 ? lowest + (highest - lowest) * n / pieces : highest * n / pieces;
+      const double elongation = n == 0       ? highest
+                                : n % 2 == 0 ? lowest + (highest - lowest) * n / pieces
+                                             : highest * n / pieces;
       for (Particle other = 1; elongation <= highest && other <= 20; ++other)
         for (const double rate : rates)
           if (criterion.breaks(spring, elongation, other, rate))
-            return passes_if(false, fmt::format("breaks a spring of class {} at {:.6g} m, below its alarm of {:.6g} m: a run would never ask",
+            return passes_if(false, fmt::format("breaks a spring of class {} at {:.6g} m, below "
+                                                "its alarm of {:.6g} m: a run would never ask",
                                                 spring.spring_class, elongation, alarm));
     }
   }
   return passes_if(true, "nothing breaks below " + alarms);
 }
 
-/// A pair of particles, a step each at these shares of the threshold: whether their spring was there afterwards, and how it pulls.
+/// A pair of particles, a step each at these shares of the threshold: whether their spring was
+/// there afterwards, and how it pulls.
 Finding breaks_at_the_criterion(const Model& model, double threshold) {
   Led pair(model);
   Simulation& simulation = pair.simulation();
@@ -94,10 +112,15 @@ Finding breaks_at_the_criterion(const Model& model, double threshold) {
     const double pull = pair.forces(u, step)[0];
     return std::pair{pull, simulation.breakages().size()};
   };
-  if (at(1 - 1e-6).second != 0) return passes_if(false, fmt::format("the spring of two particles is gone before {:.6g} m", threshold));
-  if (at(1 + 1e-6).second != 1) return passes_if(false, fmt::format("the spring of two particles holds beyond {:.6g} m", threshold));
+  if (at(1 - 1e-6).second != 0)
+    return passes_if(false,
+                     fmt::format("the spring of two particles is gone before {:.6g} m", threshold));
+  if (at(1 + 1e-6).second != 1)
+    return passes_if(false,
+                     fmt::format("the spring of two particles holds beyond {:.6g} m", threshold));
   const double elongation = simulation.breakages().front().elongation;
-  return passes_if(std::abs(elongation / threshold - 1) < 1e-5, fmt::format("at {:.6g} m, logged as {:.6g} m", threshold, elongation));
+  return passes_if(std::abs(elongation / threshold - 1) < 1e-5,
+                   fmt::format("at {:.6g} m, logged as {:.6g} m", threshold, elongation));
 }
 
 Finding stays_broken(const Model& model, double threshold) {
@@ -111,8 +134,11 @@ Finding stays_broken(const Model& model, double threshold) {
     if (share != 1.01) take_largest(pull, now);
   }
   const std::size_t breakages = pair.simulation().breakages().size();
-  return passes_if(pull == 0 && breakages == 1, fmt::format("led back, compressed and pulled again, it pulls with {:.3g} N and broke {} time{}", pull,
-                                                            breakages, breakages == 1 ? "" : "s"));
+  return passes_if(
+      pull == 0 && breakages == 1,
+      fmt::format(
+          "led back, compressed and pulled again, it pulls with {:.3g} N and broke {} time{}", pull,
+          breakages, breakages == 1 ? "" : "s"));
 }
 
 Finding takes_its_energy(const Model& model, double threshold) {
@@ -126,7 +152,8 @@ Finding takes_its_energy(const Model& model, double threshold) {
   simulation.step(1e-6 * model.critical_time_step);
   const double taken = simulation.balance().dissipated_failure;
   return passes_if(std::abs(taken / expected - 1) < 1e-6,
-                   fmt::format("{:.4g} J are counted as dissipated, {:.4g} J were in the spring", taken, expected));
+                   fmt::format("{:.4g} J are counted as dissipated, {:.4g} J were in the spring",
+                               taken, expected));
 }
 
 Finding same_bits(const Model& model, double threshold) {
@@ -135,7 +162,8 @@ Finding same_bits(const Model& model, double threshold) {
   how.threads = 3;
   const Shaken three = shake(model, how);
   return passes_if(one.is_finite() && one.hash == three.hash && one.balance.dissipated_failure > 0,
-                   fmt::format("with 1 and 3 threads, while springs with {:.3g} J break", one.balance.dissipated_failure));
+                   fmt::format("with 1 and 3 threads, while springs with {:.3g} J break",
+                               one.balance.dissipated_failure));
 }
 
 Finding restart(const Model& model, double threshold) {
@@ -143,7 +171,8 @@ Finding restart(const Model& model, double threshold) {
   const Shaken whole = shake(model, how);
   how.cut_off = true;
   const Shaken cut_off = shake(model, how);
-  return passes_if(whole.is_finite() && cut_off.hash == whole.hash && cut_off.balance.dissipated_failure == whole.balance.dissipated_failure,
+  return passes_if(whole.is_finite() && cut_off.hash == whole.hash &&
+                       cut_off.balance.dissipated_failure == whole.balance.dissipated_failure,
                    "the same springs break when it is cut off half-way and goes on");
 }
 
@@ -157,17 +186,20 @@ void check_failure(Trial& trial) {
   const Scenes& scenes = trial.scenes;
   const auto pair = scenes.plan_of({scenes.grid_box(2, 1, 1), with(scenes.material())});
   const auto cell = scenes.plan_of({scenes.grid_box(2, 2, 2), with(scenes.material())});
-  const auto block = scenes.plan_of({scenes.grid_box(5, 4, 6), with(scenes.material(usual_membrane))});
+  const auto block =
+      scenes.plan_of({scenes.grid_box(5, 4, 6), with(scenes.material(usual_membrane))});
   const Criterion all(*cell->model), one(*pair->model);
   const std::optional<double> threshold = one.threshold(one.springs().front());
 
   trial.check("alarm is conservative", [&] { return alarm_is_conservative(all); });
   trial.check("breaks at the criterion", [&] {
-    return threshold ? breaks_at_the_criterion(*pair->model, *threshold) : passes_if(false, "a spring holds up to ten times its length");
+    return threshold ? breaks_at_the_criterion(*pair->model, *threshold)
+                     : passes_if(false, "a spring holds up to ten times its length");
   });
   if (!threshold) return;
   trial.check("stays broken", [&] { return stays_broken(*pair->model, *threshold); });
-  trial.check("takes the spring's energy", [&] { return takes_its_energy(*pair->model, *threshold); });
+  trial.check("takes the spring's energy",
+              [&] { return takes_its_energy(*pair->model, *threshold); });
   trial.check("same bits", [&] { return same_bits(*block->model, *threshold); });
   trial.check("restart", [&] { return restart(*block->model, *threshold); });
 }

@@ -1,4 +1,5 @@
-// The checks of each family, a file each. What they share: the component with its example, the scenes around it, and where findings go.
+// The checks of each family, a file each. What they share: the component with its example, the
+// scenes around it, and where findings go.
 #pragma once
 
 #include <contract/scenes.hpp>
@@ -15,13 +16,18 @@ struct Finding {
   Verdict verdict = Verdict::passed;
   std::string detail;
 };
-inline Finding passes_if(bool holds, std::string detail) { return {holds ? Verdict::passed : Verdict::failed, std::move(detail)}; }
-inline Finding not_applicable(std::string reason) { return {Verdict::not_applicable, std::move(reason)}; }
+inline Finding passes_if(bool holds, std::string detail) {
+  return {holds ? Verdict::passed : Verdict::failed, std::move(detail)};
+}
+inline Finding not_applicable(std::string reason) {
+  return {Verdict::not_applicable, std::move(reason)};
+}
 
 /// A component under test.
 class Trial {
  public:
-  Trial(const Component& component, const Scenes& scenes, const std::filesystem::path& pictures, std::vector<Check>& checks)
+  Trial(const Component& component, const Scenes& scenes, const std::filesystem::path& pictures,
+        std::vector<Check>& checks)
       : component(component), scenes(scenes), pictures(pictures), checks_(checks) {}
 
   const Component& component;

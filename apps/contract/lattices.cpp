@@ -1,4 +1,5 @@
-// What every lattice must do: have the modulus and the Poisson ratio that are asked of it, and no force inside when it is strained evenly.
+// What every lattice must do: have the modulus and the Poisson ratio that are asked of it, and no
+// force inside when it is strained evenly.
 #include <contract/families.hpp>
 #include <model/spring_lattice.hpp>
 
@@ -16,7 +17,8 @@ Json in_a_box(const Trial& trial) {
   Json lattice = trial.example;
   const double l = 1e-3, side = 8 * l;
   if (lattice.contains("spacing")) lattice["spacing"] = l;
-  if (lattice.contains("shape")) lattice["shape"] = {{"box", {{"low", {0, 0, 0}}, {"high", {side, side, side}}}}};
+  if (lattice.contains("shape"))
+    lattice["shape"] = {{"box", {{"low", {0, 0, 0}}, {"high", {side, side, side}}}}};
   return lattice;
 }
 
@@ -32,15 +34,21 @@ Finding calibration(const Scenes& scenes, const Json& lattice, const char* membr
   const MaterialConstants& constants = model.materials.front().constants;
   const ElasticConstants found = facts_of(geometry).elastic_constants(constants);
   const bool asks_poisson = std::string_view(membrane) != "none";
-  const double young = found.young() / 1e10, poisson = found.poisson(), anisotropy = 2 * found.C44 / (found.C11 - found.C12);
-  return passes_if(std::abs(young - 1) < 1e-3 && (!asks_poisson || std::abs(poisson - 0.1) < 1e-3),
-                   fmt::format("homogenised E is {:.6f} of what was asked, nu {:.6f}{}, 2 C44 / (C11 - C12) {:.4f}", young, poisson,
-                               asks_poisson ? " (asked 0.1)" : "", anisotropy));
+  const double young = found.young() / 1e10, poisson = found.poisson(),
+               anisotropy = 2 * found.C44 / (found.C11 - found.C12);
+  return passes_if(
+      std::abs(young - 1) < 1e-3 && (!asks_poisson || std::abs(poisson - 0.1) < 1e-3),
+      fmt::format(
+          "homogenised E is {:.6f} of what was asked, nu {:.6f}{}, 2 C44 / (C11 - C12) {:.4f}",
+          young, poisson, asks_poisson ? " (asked 0.1)" : "", anisotropy));
 }
 
-/// A force on a particle that has all its springs is the difference of opposite ones, which are alike.
+/// A force on a particle that has all its springs is the difference of opposite ones, which are
+/// alike.
 Finding patch(const Model& model) {
-  if (model.body.is_listed()) return not_applicable("particles of a list find their own rest; what they come to is in the calibration");
+  if (model.body.is_listed())
+    return not_applicable(
+        "particles of a list find their own rest; what they come to is in the calibration");
   const Body& body = model.body;
   std::vector<double> u;
   for (Particle p = 0; p < body.particles; ++p) {
@@ -52,7 +60,8 @@ Finding patch(const Model& model) {
   body.for_springs([&](Particle a, Particle b, std::uint32_t spring_class) {
     ++springs[a];
     ++springs[b];
-    const Vec3 r = body.position(b) - body.position(a), d{u[3 * b] - u[3 * a], u[3 * b + 1] - u[3 * a + 1], u[3 * b + 2] - u[3 * a + 2]};
+    const Vec3 r = body.position(b) - body.position(a),
+               d{u[3 * b] - u[3 * a], u[3 * b + 1] - u[3 * a + 1], u[3 * b + 2] - u[3 * a + 2]};
     take_largest(strongest, model.spring(0, 0, spring_class).stiffness * dot(r, d) / norm(r));
   });
   const std::vector<double> forces = Led(model).forces(u, 0.1 * model.critical_time_step);
@@ -64,15 +73,19 @@ Finding patch(const Model& model) {
     for (std::size_t c = 0; c < 3; ++c) take_largest(worst, forces[3 * p + c]);
   }
   if (inner == 0) return not_applicable("the example has no particle with all its springs");
-  return passes_if(std::isfinite(strongest) && worst < 1e-9 * strongest,
-                   fmt::format("strained evenly, {} inner particles feel {:.1e} of the force of a spring", inner, worst / strongest));
+  return passes_if(
+      std::isfinite(strongest) && worst < 1e-9 * strongest,
+      fmt::format("strained evenly, {} inner particles feel {:.1e} of the force of a spring", inner,
+                  worst / strongest));
 }
 
 Finding books(const Model& model) {
   const Shaken coarse = shake(model, {1, 0.4}), fine = shake(model, {1, 0.1});
-  return passes_if(coarse.largest_error < 0.01 && fine.largest_error < std::max(1e-10, coarse.largest_error / 8),
-                   fmt::format("a body set in motion: relative error of the energy balance {:.1e} at 0.4 of the critical step, {:.1e} at 0.1",
-                               coarse.largest_error, fine.largest_error));
+  return passes_if(
+      coarse.largest_error < 0.01 && fine.largest_error < std::max(1e-10, coarse.largest_error / 8),
+      fmt::format("a body set in motion: relative error of the energy balance {:.1e} at 0.4 of the "
+                  "critical step, {:.1e} at 0.1",
+                  coarse.largest_error, fine.largest_error));
 }
 
 }  // namespace
@@ -81,8 +94,10 @@ void check_lattice(Trial& trial) {
   const Json lattice = in_a_box(trial);
   const auto plan = trial.scenes.plan_of({lattice, trial.scenes.material()});
   const Model& model = *plan->model;
-  trial.check("calibration without a membrane", [&] { return calibration(trial.scenes, lattice, "none"); });
-  trial.check("calibration with a membrane", [&] { return calibration(trial.scenes, lattice, usual_membrane); });
+  trial.check("calibration without a membrane",
+              [&] { return calibration(trial.scenes, lattice, "none"); });
+  trial.check("calibration with a membrane",
+              [&] { return calibration(trial.scenes, lattice, usual_membrane); });
   trial.check("patch test", [&] { return patch(model); });
   trial.check("books of energy", [&] { return books(model); });
   trial.check("same bits", [&] {

@@ -1,4 +1,5 @@
-// What every load must do: have a factor at all times, and give to the body's energy what the books say it gave.
+// What every load must do: have a factor at all times, and give to the body's energy what the books
+// say it gave.
 #include <contract/families.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -15,27 +16,31 @@ Finding factor(const Model& model) {
   for (int n = 0; n <= 1000; ++n) {
     const double time = 1e-7 * n, now = load.factor(time);
     if (!std::isfinite(now) || load.factor(time) != now)
-      return passes_if(false, fmt::format("at {:.3g} s it is no number, or not twice the same", time));
+      return passes_if(false,
+                       fmt::format("at {:.3g} s it is no number, or not twice the same", time));
     least = std::min(least, now);
     most = std::max(most, now);
   }
   return passes_if(true, fmt::format("{:.4g} to {:.4g} in the first 0.1 ms", least, most));
 }
 
-/// Errors of central differences fall by the square of the step, and of loads that answer to velocities by its first power.
+/// Errors of central differences fall by the square of the step, and of loads that answer to
+/// velocities by its first power.
 Finding work(const Model& model) {
   const Shaken coarse = shake(model, {0.5, 0.4}), fine = shake(model, {0.5, 0.1});
   const double power = model.answering ? 2.5 : 8;
-  return passes_if(
-      coarse.largest_error < 0.02 && fine.largest_error < std::max(1e-9, coarse.largest_error / power),
-      fmt::format("a block in motion gets {:.3g} J; relative error of the energy balance {:.1e} at 0.4 of the critical step, {:.1e} at 0.1",
-                  fine.balance.injected, coarse.largest_error, fine.largest_error));
+  return passes_if(coarse.largest_error < 0.02 &&
+                       fine.largest_error < std::max(1e-9, coarse.largest_error / power),
+                   fmt::format("a block in motion gets {:.3g} J; relative error of the energy "
+                               "balance {:.1e} at 0.4 of the critical step, {:.1e} at 0.1",
+                               fine.balance.injected, coarse.largest_error, fine.largest_error));
 }
 
 }  // namespace
 
 void check_load(Trial& trial) {
-  const auto plan = trial.scenes.plan_of({trial.scenes.grid_box(6, 5, 7), trial.scenes.material(usual_membrane), trial.example});
+  const auto plan = trial.scenes.plan_of(
+      {trial.scenes.grid_box(6, 5, 7), trial.scenes.material(usual_membrane), trial.example});
   const Model& model = *plan->model;
   trial.check("factor", [&] { return factor(model); });
   trial.check("work accounting", [&] { return work(model); });
@@ -44,8 +49,10 @@ void check_load(Trial& trial) {
     return passes_if(one.is_finite() && one.hash == three.hash, "with 1 and 3 threads");
   });
   trial.check("restart", [&] {
-    const Shaken whole = shake(model, {0.5}), cut_off = shake(model, {.speed = 0.5, .cut_off = true});
-    return passes_if(whole.is_finite() && cut_off.hash == whole.hash && cut_off.balance.injected == whole.balance.injected,
+    const Shaken whole = shake(model, {0.5}),
+                 cut_off = shake(model, {.speed = 0.5, .cut_off = true});
+    return passes_if(whole.is_finite() && cut_off.hash == whole.hash &&
+                         cut_off.balance.injected == whole.balance.injected,
                      "the same motion and work when it is cut off half-way and goes on");
   });
 }

@@ -33,7 +33,9 @@ double LoneSpring::energy(double elongation) const {
 
 double LoneSpring::reach() const {
   const double slowly = 1e3 * period_;
-  const auto secant = [&](double elongation) { return LoneSpring(*this).move(elongation, slowly).force / elongation; };
+  const auto secant = [&](double elongation) {
+    return LoneSpring(*this).move(elongation, slowly).force / elongation;
+  };
   const double first = 1e-7 * rest_length(), stiffness = secant(first);
   for (double elongation = first; elongation < rest_length() / 50; elongation *= 1.02) {
     const double now = secant(elongation) / stiffness;
@@ -52,18 +54,23 @@ std::vector<double> path_through(const std::vector<double>& turns, double step) 
   return path;
 }
 
-std::vector<PathPoint> follow(LoneSpring spring, const std::vector<double>& elongations, double time_step) {
+std::vector<PathPoint> follow(LoneSpring spring, const std::vector<double>& elongations,
+                              double time_step) {
   std::vector<PathPoint> points;
   for (const double elongation : elongations) {
     const SpringAnswer answer = spring.move(elongation, points.empty() ? 0 : time_step);
     PathPoint point{elongation, answer.force, answer.energy, 0};
-    if (!points.empty()) point.work = 0.5 * (points.back().force + point.force) * (elongation - points.back().elongation);
+    if (!points.empty())
+      point.work =
+          0.5 * (points.back().force + point.force) * (elongation - points.back().elongation);
     points.push_back(point);
   }
   return points;
 }
 
-std::vector<double> usual_turns(double reach) { return {reach, 0.2 * reach, 2.5 * reach, -0.5 * reach, 0}; }
+std::vector<double> usual_turns(double reach) {
+  return {reach, 0.2 * reach, 2.5 * reach, -0.5 * reach, 0};
+}
 
 std::vector<PathPoint> usual_path(const LoneSpring& spring) {
   const double reach = spring.reach();
@@ -72,7 +79,8 @@ std::vector<PathPoint> usual_path(const LoneSpring& spring) {
 
 std::vector<PathPoint> random_path(const LoneSpring& spring, std::uint64_t seed) {
   const double reach = spring.reach();
-  return follow(spring, path_through(noise(40, 2.5 * reach, seed), reach / 100), spring.period() / 10);
+  return follow(spring, path_through(noise(40, 2.5 * reach, seed), reach / 100),
+                spring.period() / 10);
 }
 
 }  // namespace hyperlattice::contract

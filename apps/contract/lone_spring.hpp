@@ -1,4 +1,5 @@
-// One base spring of a material, alone, led along a path of elongations: what the checks of laws and their pictures are made of.
+// One base spring of a material, alone, led along a path of elongations: what the checks of laws
+// and their pictures are made of.
 #pragma once
 
 #include <model/model.hpp>
@@ -14,12 +15,13 @@ class LoneSpring {
   explicit LoneSpring(const Model& model);
 
   SpringAnswer move(double elongation, double time_step);  ///< a step further
-  double energy(double elongation) const;                  ///< J that it would store there with the memory as it is
+  double energy(double elongation) const;  ///< J that it would store there with the memory as it is
   double rest_length() const { return spring_.rest_length; }
   double period() const { return period_; }  ///< sqrt(m / k) of a particle on the spring, s
 
-  /// An elongation at which the law shows what it does: where its force is half or twice that of the spring as it is at first. One
-  /// thousandth of its length if that does not happen up to strains of a fiftieth.
+  /// An elongation at which the law shows what it does: where its force is half or twice that of
+  /// the spring as it is at first. One thousandth of its length if that does not happen up to
+  /// strains of a fiftieth.
   double reach() const;
 
  private:
@@ -38,9 +40,11 @@ struct PathPoint {
   double dissipated(const PathPoint& before) const { return work - (stored - before.stored); }
 };
 
-/// Through these elongations one after the other, evenly, in pieces of `step` metres and `time_step` seconds. Starts at nothing.
+/// Through these elongations one after the other, evenly, in pieces of `step` metres and
+/// `time_step` seconds. Starts at nothing.
 std::vector<double> path_through(const std::vector<double>& turns, double step);
-std::vector<PathPoint> follow(LoneSpring spring, const std::vector<double>& elongations, double time_step);
+std::vector<PathPoint> follow(LoneSpring spring, const std::vector<double>& elongations,
+                              double time_step);
 
 /// Loaded, unloaded, loaded on, compressed, and back: the turns of the path that pictures show.
 std::vector<double> usual_turns(double reach);

@@ -1,5 +1,6 @@
-// What every law must do: its force is the derivative of its energy, it gives back no more than it took, it does not know how the body is
-// turned, and the kernels made of it keep the books and the bits.
+// What every law must do: its force is the derivative of its energy, it gives back no more than it
+// took, it does not know how the body is turned, and the kernels made of it keep the books and the
+// bits.
 #include <contract/families.hpp>
 #include <contract/lone_spring.hpp>
 #include <model/kernel_calls.hpp>
@@ -16,7 +17,8 @@ namespace {
 
 double largest_force(const std::vector<PathPoint>& path) {
   std::vector<double> forces(path.size());
-  std::transform(path.begin(), path.end(), forces.begin(), [](const PathPoint& point) { return point.force; });
+  std::transform(path.begin(), path.end(), forces.begin(),
+                 [](const PathPoint& point) { return point.force; });
   return largest(forces);
 }
 
@@ -30,7 +32,8 @@ Finding force_from_energy(const LoneSpring& lone) {
     spring.move(path[n], n == 0 ? 0 : time_step);
     if (n % 10 != 5) continue;
     LoneSpring held = spring;
-    const double force = held.move(path[n], time_step).force, slope = (held.energy(path[n] + h) - held.energy(path[n] - h)) / (2 * h);
+    const double force = held.move(path[n], time_step).force,
+                 slope = (held.energy(path[n] + h) - held.energy(path[n] - h)) / (2 * h);
     take_largest(scale, force);
     if (const double error = force - slope; !(std::abs(error) <= worst)) {
       take_largest(worst, error);
@@ -41,38 +44,44 @@ Finding force_from_energy(const LoneSpring& lone) {
   }
   return passes_if(
       scale > 0 && std::isfinite(scale) && worst <= 1e-4 * scale,
-      fmt::format(
-          "largest difference {:.1e} of the largest force; at an elongation of {:.3g} m the force is {:.4g} N, the slope of the energy {:.4g} N",
-          worst / scale, at, force_there, slope_there));
+      fmt::format("largest difference {:.1e} of the largest force; at an elongation of {:.3g} m "
+                  "the force is {:.4g} N, the slope of the energy {:.4g} N",
+                  worst / scale, at, force_there, slope_there));
 }
 
-/// Where a lagging force meets a rate that turns, the work of a step is off by the square of the step.
+/// Where a lagging force meets a rate that turns, the work of a step is off by the square of the
+/// step.
 Finding dissipates(const LoneSpring& spring) {
   constexpr double allowed = 1e-3;
   double gained = 0, spent = 0, scale = 0;
   const auto add = [&](const std::vector<PathPoint>& path) {
     for (std::size_t n = 1; n < path.size(); ++n) {
       const double dissipated = path[n].dissipated(path[n - 1]);
-      (dissipated >= 0 ? spent : gained) += std::abs(dissipated);  // what is no number passes nothing
+      (dissipated >= 0 ? spent : gained) +=
+          std::abs(dissipated);  // what is no number passes nothing
       scale += std::abs(path[n].work);
     }
   };
   add(usual_path(spring));
   for (const std::uint64_t seed : {1U, 2U, 3U}) add(random_path(spring, seed));
   return passes_if(scale > 0 && gained <= allowed * scale,
-                   fmt::format("loaded, unloaded, compressed and at random: {:.3g} of the work is dissipated, {:.1e} of it given back out of nothing",
+                   fmt::format("loaded, unloaded, compressed and at random: {:.3g} of the work is "
+                               "dissipated, {:.1e} of it given back out of nothing",
                                spent / scale, gained / scale));
 }
 
-/// Of laws that static solvers can use: `axial` and `pull` of a row of one spring, see kernels/tangent.hpp.
+/// Of laws that static solvers can use: `axial` and `pull` of a row of one spring, see
+/// kernels/tangent.hpp.
 Finding tangent(const Model& model, const LoneSpring& lone) {
   if (model.kernels.linearise == nullptr)
-    return not_applicable("static solvers have no tangent of this law, which has constants or a memory of its own");
+    return not_applicable(
+        "static solvers have no tangent of this law, which has constants or a memory of its own");
   const NeighbourGeometry& neighbour = model.neighbours.front();
   const double length = neighbour.rest_length;
   const auto linearised = [&](double elongation) {
     constexpr int padded = lanes_of<float>;
-    double zero[padded] = {}, there[padded] = {}, one[padded] = {1}, stiffness[padded] = {}, cross[padded] = {}, results[4][padded] = {};
+    double zero[padded] = {}, there[padded] = {}, one[padded] = {1}, stiffness[padded] = {},
+           cross[padded] = {}, results[4][padded] = {};
     there[0] = elongation;
     std::fill_n(stiffness, padded, model.spring(0, 0, neighbour.site.spring_class).stiffness);
     SpringRow row;
@@ -96,33 +105,44 @@ Finding tangent(const Model& model, const LoneSpring& lone) {
     struct Answer {
       double force, slope;
     };
-    return Answer{results[0][0] * now, results[1][0] * now * now / (length * length) + results[0][0]};
+    return Answer{results[0][0] * now,
+                  results[1][0] * now * now / (length * length) + results[0][0]};
   };
   const double reach = lone.reach(), h = 1e-4 * reach;
   double worst = 0;
   for (const double share : {-0.5, 0.1, 0.6, 1.7, 2.5}) {
-    const double u = share * reach, slope = (linearised(u + h).force - linearised(u - h).force) / (2 * h);
+    const double u = share * reach,
+                 slope = (linearised(u + h).force - linearised(u - h).force) / (2 * h);
     const double force = LoneSpring(lone).move(u, 0).force;
-    for (const double error : {linearised(u).slope / slope - 1, linearised(u).force / force - 1}) take_largest(worst, error);
+    for (const double error : {linearised(u).slope / slope - 1, linearised(u).force / force - 1})
+      take_largest(worst, error);
   }
-  return passes_if(worst < 1e-5, fmt::format("against differences of the force, and the force against the law: {:.1e}", worst));
+  return passes_if(
+      worst < 1e-5,
+      fmt::format("against differences of the force, and the force against the law: {:.1e}",
+                  worst));
 }
 
 /// The pair of particles of one spring, led along the usual path, against the spring alone.
 Finding kernels_follow_the_law(const Model& model, const LoneSpring& spring, double allowed) {
   if (model.choice.membrane != KernelChoice::Membrane::none)
-    return not_applicable("the example has springs in the fourth dimension beside each base spring");
+    return not_applicable(
+        "the example has springs in the fourth dimension beside each base spring");
   std::vector<double> elongations = path_through(usual_turns(spring.reach()), spring.reach() / 100);
-  for (double& elongation : elongations) elongation = double{static_cast<float>(elongation)};  // the same in every precision
+  for (double& elongation : elongations)
+    elongation = double{static_cast<float>(elongation)};  // the same in every precision
   const std::vector<PathPoint> path = follow(spring, elongations, spring.period() / 10);
   Led pair(model);
   double worst = 0;
   for (std::size_t n = 0; n < path.size(); ++n) {
-    const std::vector<double> forces = pair.forces({0, 0, 0, path[n].elongation, 0, 0}, spring.period() / 10);
-    for (const double error : {forces[0] - path[n].force, forces[3] + path[n].force}) take_largest(worst, error);
+    const std::vector<double> forces =
+        pair.forces({0, 0, 0, path[n].elongation, 0, 0}, spring.period() / 10);
+    for (const double error : {forces[0] - path[n].force, forces[3] + path[n].force})
+      take_largest(worst, error);
   }
   return passes_if(std::isfinite(worst) && worst <= allowed * largest_force(path),
-                   fmt::format("two particles along the path: {:.1e} of the largest force", worst / largest_force(path)));
+                   fmt::format("two particles along the path: {:.1e} of the largest force",
+                               worst / largest_force(path)));
 }
 
 std::vector<double> turned(const Model& model, const std::vector<double>& displacements) {
@@ -131,7 +151,9 @@ std::vector<double> turned(const Model& model, const std::vector<double>& displa
   const Vec3 axis{along, 2 * along, 3 * along};
   std::vector<double> result;
   for (Particle p = 0; p < displacements.size() / 3; ++p) {
-    const Vec3 rest = model.body.position(p), at = rest + Vec3{displacements[3 * p], displacements[3 * p + 1], displacements[3 * p + 2]};
+    const Vec3 rest = model.body.position(p),
+               at = rest +
+                    Vec3{displacements[3 * p], displacements[3 * p + 1], displacements[3 * p + 2]};
     const Vec3 moved = c * at + s * cross(axis, at) + ((1 - c) * dot(axis, at)) * axis - rest;
     result.insert(result.end(), {moved.x, moved.y, moved.z});
   }
@@ -149,19 +171,25 @@ Finding objective(const Model& model, const LoneSpring& spring) {
     forces = upright.forces(u, time_step);
     seen = leaning.forces(turned(model, u), time_step);
   }
-  // forces turn as the places do: the body's rest position drops out of the difference of two turned states
+  // forces turn as the places do: the body's rest position drops out of the difference of two
+  // turned states
   const std::vector<double> origin = turned(model, std::vector<double>(count, 0.0));
   expected = turned(model, forces);
   for (std::size_t n = 0; n < count; ++n) expected[n] -= origin[n];
   const double error = distance(expected, seen) / largest(forces);
-  return passes_if(error < 1e-7, fmt::format("a cell turned by a radian: forces turn with it, but for {:.1e} of the largest", error));
+  return passes_if(
+      error < 1e-7,
+      fmt::format("a cell turned by a radian: forces turn with it, but for {:.1e} of the largest",
+                  error));
 }
 
 Finding books(const Model& model, const LoneSpring& spring) {
   const double speed = spring.reach() / (2 * spring.period());
   const Shaken coarse = shake(model, {speed, 0.4}), fine = shake(model, {speed, 0.1});
-  return passes_if(coarse.largest_error < 0.02 && fine.largest_error < std::max(1e-10, coarse.largest_error / 2.5),
-                   fmt::format("a block set in motion: relative error of the energy balance {:.1e} at 0.4 of the critical step, {:.1e} at 0.1",
+  return passes_if(coarse.largest_error < 0.02 &&
+                       fine.largest_error < std::max(1e-10, coarse.largest_error / 2.5),
+                   fmt::format("a block set in motion: relative error of the energy balance {:.1e} "
+                               "at 0.4 of the critical step, {:.1e} at 0.1",
                                coarse.largest_error, fine.largest_error));
 }
 
@@ -179,12 +207,14 @@ Finding restart(const Model& model, const LoneSpring& spring) {
   const Shaken whole = shake(model, how);
   how.cut_off = true;
   const Shaken cut_off = shake(model, how);
-  return passes_if(whole.is_finite() && cut_off.hash == whole.hash && cut_off.balance.error == whole.balance.error,
+  return passes_if(whole.is_finite() && cut_off.hash == whole.hash &&
+                       cut_off.balance.error == whole.balance.error,
                    "the same bits, and the same books, when it is cut off half-way and goes on");
 }
 
 /// What a scene with the material is refused for; empty: it is not.
-std::string refusal_of(const Scenes& scenes, const std::vector<Json>& stages, std::unique_ptr<Plan>& plan, const char* precision = "double") {
+std::string refusal_of(const Scenes& scenes, const std::vector<Json>& stages,
+                       std::unique_ptr<Plan>& plan, const char* precision = "double") {
   try {
     plan = scenes.plan_of(stages, 1, precision);
   } catch (const InputError& error) {
@@ -195,23 +225,29 @@ std::string refusal_of(const Scenes& scenes, const std::vector<Json>& stages, st
 
 Finding in_floats(const Trial& trial, const LoneSpring& spring) {
   std::unique_ptr<Plan> plan;
-  if (std::string refused = refusal_of(trial.scenes, {trial.scenes.grid_box(2, 1, 1), trial.example}, plan, "float"); !refused.empty())
+  if (std::string refused =
+          refusal_of(trial.scenes, {trial.scenes.grid_box(2, 1, 1), trial.example}, plan, "float");
+      !refused.empty())
     return not_applicable(std::move(refused));
   return kernels_follow_the_law(*plan->model, spring, 1e-5);
 }
 
 Finding in_a_list(const Trial& trial, const LoneSpring& spring) {
   std::unique_ptr<Plan> plan;
-  if (std::string refused = refusal_of(trial.scenes, {trial.scenes.listed_box(5, 4, 6), trial.example}, plan); !refused.empty())
+  if (std::string refused =
+          refusal_of(trial.scenes, {trial.scenes.listed_box(5, 4, 6), trial.example}, plan);
+      !refused.empty())
     return not_applicable(std::move(refused));
   const Finding kept = books(*plan->model, spring), same = same_bits(*plan->model, spring);
-  return passes_if(kept.verdict == Verdict::passed && same.verdict == Verdict::passed, kept.detail + "; the same bits " + same.detail);
+  return passes_if(kept.verdict == Verdict::passed && same.verdict == Verdict::passed,
+                   kept.detail + "; the same bits " + same.detail);
 }
 
 Finding path_and_picture(const Trial& trial, const LoneSpring& spring) {
   const std::vector<PathPoint> path = usual_path(spring);
   const double force = largest_force(path);
-  std::string detail = fmt::format("to an elongation of {:.3g} m and a force of {:.3g} N", 2.5 * spring.reach(), force);
+  std::string detail = fmt::format("to an elongation of {:.3g} m and a force of {:.3g} N",
+                                   2.5 * spring.reach(), force);
   if (!trial.pictures.empty()) {
     std::filesystem::create_directories(trial.pictures);
     const std::filesystem::path file = trial.pictures / (trial.component.type() + ".svg");
@@ -221,12 +257,14 @@ Finding path_and_picture(const Trial& trial, const LoneSpring& spring) {
   return passes_if(std::isfinite(force) && force > 0, std::move(detail));
 }
 
-/// What a cell of a large body takes until nothing is left of it, pulled along x without contraction.
+/// What a cell of a large body takes until nothing is left of it, pulled along x without
+/// contraction.
 Finding fracture_energy(const Scenes& scenes, const Json& material) {
   const auto plan = scenes.plan_of({scenes.grid_box(1, 1, 1, "cells"), material});
   const Model& model = *plan->model;
   const LoneSpring spring(model);
-  const double piece = spring.reach() / 100, time_step = spring.period() / 10, area = model.body.grid.spacing * model.body.grid.spacing;
+  const double piece = spring.reach() / 100, time_step = spring.period() / 10,
+               area = model.body.grid.spacing * model.body.grid.spacing;
   constexpr int most = 10000;
   Led cell(model);
   double work = 0, last = 0, strongest = 0;
@@ -242,28 +280,34 @@ Finding fracture_energy(const Scenes& scenes, const Json& material) {
     strongest = std::max(strongest, pull);
     if (pull < 1e-9 * strongest) {
       const Json resolved = Json::parse(plan->scene->resolved).at("pipeline").at(1);
-      const std::string took = fmt::format("a cell pulled apart along [100] takes {:.4g} J/m2", work / area);
-      if (!resolved.contains("fracture_energy") || !resolved["fracture_energy"].is_number()) return passes_if(work > 0, took + "; none is declared");
+      const std::string took =
+          fmt::format("a cell pulled apart along [100] takes {:.4g} J/m2", work / area);
+      if (!resolved.contains("fracture_energy") || !resolved["fracture_energy"].is_number())
+        return passes_if(work > 0, took + "; none is declared");
       const double declared = resolved["fracture_energy"].get<double>();
-      return passes_if(std::abs(work / area / declared - 1) < 0.01, fmt::format("{}, declared are {:.4g}", took, declared));
+      return passes_if(std::abs(work / area / declared - 1) < 0.01,
+                       fmt::format("{}, declared are {:.4g}", took, declared));
     }
     last = pull;
   }
-  return not_applicable(fmt::format("springs hold up to a strain of {:.2g}", most * piece / spring.rest_length()));
+  return not_applicable(
+      fmt::format("springs hold up to a strain of {:.2g}", most * piece / spring.rest_length()));
 }
 
 }  // namespace
 
 void check_material(Trial& trial) {
   const Scenes& scenes = trial.scenes;
-  const auto pair = scenes.plan_of({scenes.grid_box(2, 1, 1), trial.example}), cell = scenes.plan_of({scenes.grid_box(2, 2, 2), trial.example});
+  const auto pair = scenes.plan_of({scenes.grid_box(2, 1, 1), trial.example}),
+             cell = scenes.plan_of({scenes.grid_box(2, 2, 2), trial.example});
   const auto block = scenes.plan_of({scenes.grid_box(5, 4, 6), trial.example});
   const LoneSpring spring(*pair->model);
   trial.check("one-spring path", [&] { return path_and_picture(trial, spring); });
   trial.check("force is the derivative of the energy", [&] { return force_from_energy(spring); });
   trial.check("dissipation is never negative", [&] { return dissipates(spring); });
   trial.check("tangent", [&] { return tangent(*pair->model, spring); });
-  trial.check("kernels follow the law", [&] { return kernels_follow_the_law(*pair->model, spring, 1e-9); });
+  trial.check("kernels follow the law",
+              [&] { return kernels_follow_the_law(*pair->model, spring, 1e-9); });
   trial.check("in floats", [&] { return in_floats(trial, spring); });
   trial.check("objectivity", [&] { return objective(*cell->model, spring); });
   trial.check("fracture energy", [&] { return fracture_energy(scenes, trial.example); });

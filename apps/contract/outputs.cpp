@@ -1,4 +1,5 @@
-// What every writer and probe must do: whole files and nothing else, numbers that are numbers, and on a full disk a sentence in place of half a file.
+// What every writer and probe must do: whole files and nothing else, numbers that are numbers, and
+// on a full disk a sentence in place of half a file.
 #include <base/csv.hpp>
 #include <contract/families.hpp>
 #include <contract/small_disk.hpp>
@@ -24,7 +25,8 @@ class Folder {
  public:
   Folder() {
     static int count = 0;
-    path_ = fs::temp_directory_path() / fmt::format("hyperlattice_contract_{}_{}", ::getpid(), count++);
+    path_ =
+        fs::temp_directory_path() / fmt::format("hyperlattice_contract_{}_{}", ::getpid(), count++);
     fs::create_directories(path_);
   }
   Folder(const Folder&) = delete;
@@ -55,7 +57,10 @@ class Folder {
 class Watched {
  public:
   Watched(const Plan& plan, const Folder& folder)
-      : plan_(plan), folder_(folder), model_(*plan.model), simulation_(std::make_unique<Simulation>(model_, plan.threads)) {
+      : plan_(plan),
+        folder_(folder),
+        model_(*plan.model),
+        simulation_(std::make_unique<Simulation>(model_, plan.threads)) {
     const std::size_t particles = model_.body.particles;
     simulation_->set_velocities(noise(3 * particles, 1), std::vector<double>(particles, 0.0));
     run_folder_ = std::make_unique<RunFolder>(folder.path(), true);
@@ -75,7 +80,9 @@ class Watched {
     run_folder_ = std::make_unique<RunFolder>(folder_.path(), false);
     run_folder_->go_on(marks);
     simulation_ = restarted(*simulation_, model_, plan_.threads);
-    restore(shown, [&](Archive& archive) { outputs_ = std::make_unique<Outputs>(model_, *simulation_, *run_folder_, 1e-4, &archive); });
+    restore(shown, [&](Archive& archive) {
+      outputs_ = std::make_unique<Outputs>(model_, *simulation_, *run_folder_, 1e-4, &archive);
+    });
   }
 
  private:
@@ -88,11 +95,14 @@ class Watched {
 };
 
 std::unique_ptr<Plan> plan_with(const Trial& trial, int threads = 1) {
-  return trial.scenes.plan_of({trial.scenes.grid_box(6, 5, 4), trial.scenes.brittle(usual_membrane, 1e-7), trial.example}, threads);
+  return trial.scenes.plan_of(
+      {trial.scenes.grid_box(6, 5, 4), trial.scenes.brittle(usual_membrane, 1e-7), trial.example},
+      threads);
 }
 
 /// What three frames leave.
-std::map<std::string, std::string> written(const Plan& plan, bool cut_off = false, std::string* unannounced = nullptr) {
+std::map<std::string, std::string> written(const Plan& plan, bool cut_off = false,
+                                           std::string* unannounced = nullptr) {
   const Folder folder;
   Watched watched(plan, folder);
   for (int n = 0; n < 3; ++n) {
@@ -117,15 +127,19 @@ std::string partial(const std::map<std::string, std::string>& files) {
 Finding finishes_files(const Plan& plan) {
   std::string unannounced;
   const auto files = written(plan, false, &unannounced);
-  if (!unannounced.empty()) return passes_if(false, unannounced + " was not announced to the context");
+  if (!unannounced.empty())
+    return passes_if(false, unannounced + " was not announced to the context");
   std::size_t bytes = 0;
   for (const auto& [name, content] : files) bytes += content.size();
-  if (const std::string name = partial(files); !name.empty()) return passes_if(false, name + " is empty, or was not finished");
-  return passes_if(!files.empty(), fmt::format("three frames leave {} files, {} bytes", files.size(), bytes));
+  if (const std::string name = partial(files); !name.empty())
+    return passes_if(false, name + " is empty, or was not finished");
+  return passes_if(!files.empty(),
+                   fmt::format("three frames leave {} files, {} bytes", files.size(), bytes));
 }
 
 /// Other files, or other bytes, of the same frames.
-std::string difference(const std::map<std::string, std::string>& a, const std::map<std::string, std::string>& b) {
+std::string difference(const std::map<std::string, std::string>& a,
+                       const std::map<std::string, std::string>& b) {
   for (const auto& [name, bytes] : a)
     if (const auto other = b.find(name); other == b.end() || other->second != bytes) return name;
   for (const auto& [name, bytes] : b)
@@ -154,11 +168,13 @@ Finding full_disk(const Plan& plan) {
   }
   if (sentence.empty()) return passes_if(false, "a frame that cannot be written is no error");
   if (const std::string name = difference(before, folder.files()); !name.empty())
-    return passes_if(false, fmt::format("it complains (\"{}\"), but {} is not as it was before", sentence, name));
+    return passes_if(false, fmt::format("it complains (\"{}\"), but {} is not as it was before",
+                                        sentence, name));
   watched.move();
   watched.show();
-  return passes_if(folder.files().size() >= before.size(),
-                   "it says \"" + sentence + "\", leaves no half-written file, and goes on when there is room");
+  return passes_if(
+      folder.files().size() >= before.size(),
+      "it says \"" + sentence + "\", leaves no half-written file, and goes on when there is room");
 }
 
 Finding table(const Plan& plan) {
@@ -167,23 +183,31 @@ Finding table(const Plan& plan) {
   const CsvTable table = parse_csv(files.begin()->second);
   for (const auto& row : table.rows)
     for (std::size_t c = 0; c < table.columns.size(); ++c)
-      if (!csv_number(row[c])) return passes_if(false, fmt::format("'{}' in the column {} is no number", row[c], table.columns[c]));
+      if (!csv_number(row[c]))
+        return passes_if(
+            false, fmt::format("'{}' in the column {} is no number", row[c], table.columns[c]));
   for (std::size_t c = 1; c < table.columns.size(); ++c)
-    if (std::find(table.columns.begin(), table.columns.end(), table.columns[c]) != table.columns.begin() + static_cast<std::ptrdiff_t>(c))
+    if (std::find(table.columns.begin(), table.columns.end(), table.columns[c]) !=
+        table.columns.begin() + static_cast<std::ptrdiff_t>(c))
       return passes_if(false, "two columns are called " + table.columns[c]);
   return passes_if(table.columns.size() > 1 && !table.rows.empty(),
-                   fmt::format("three samples: {} numbers in {} columns read back", table.rows.size() * table.columns.size(), table.columns.size()));
+                   fmt::format("three samples: {} numbers in {} columns read back",
+                               table.rows.size() * table.columns.size(), table.columns.size()));
 }
 
 Finding same_bytes(const Plan& one, const Plan& three) {
   const std::string name = difference(written(one), written(three));
-  return passes_if(name.empty(), name.empty() ? "with 1 and 3 threads" : name + " differs with 1 and 3 threads");
+  return passes_if(name.empty(),
+                   name.empty() ? "with 1 and 3 threads" : name + " differs with 1 and 3 threads");
 }
 
 Finding restart(const Plan& plan) {
   const std::string name = difference(written(plan), written(plan, true));
-  return passes_if(name.empty(), name.empty() ? "the same files when it is cut off after two frames and goes on"
-                                              : name + " is another when it is cut off after two frames and goes on, see OutputContext::earlier");
+  return passes_if(name.empty(),
+                   name.empty() ? "the same files when it is cut off after two frames and goes on"
+                                : name +
+                                      " is another when it is cut off after two frames and goes "
+                                      "on, see OutputContext::earlier");
 }
 
 }  // namespace

@@ -22,7 +22,8 @@ struct Axis {
     low = std::min(low, value);
     high = std::max(high, value);
   }
-  /// In tenths of a pixel. Rounded twice: kernels of other instruction sets differ in the last bits, which must not tip a half.
+  /// In tenths of a pixel. Rounded twice: kernels of other instruction sets differ in the last
+  /// bits, which must not tip a half.
   double place(double value) const {
     const double at = from + (to - from) * (value - low) / (high > low ? high - low : 1);
     return std::round(std::round(at * 1e6) / 1e6 * 10) / 10 + 0.0;
@@ -48,19 +49,25 @@ std::string picture(const std::string& title, const std::vector<PathPoint>& path
     y.include(point.force);
   }
   std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" font-family=\"sans-serif\" font-size=\"12\" "
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" "
+      "height=\"{1}\" font-family=\"sans-serif\" font-size=\"12\" "
       "fill=\"none\">\n<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>\n",
       width, height);
-  svg += line(left, y.place(0), width - right, y.place(0), "#bbb") + line(x.place(0), top, x.place(0), height - bottom, "#bbb");
+  svg += line(left, y.place(0), width - right, y.place(0), "#bbb") +
+         line(x.place(0), top, x.place(0), height - bottom, "#bbb");
   svg += "<path stroke=\"#1b6ca8\" stroke-width=\"1.6\" d=\"";
   for (std::size_t n = 0; n < path.size(); n += 5)
-    fmt::format_to(std::back_inserter(svg), "{}{} {}", n == 0 ? "M" : "L", x.place(path[n].elongation), y.place(path[n].force));
+    fmt::format_to(std::back_inserter(svg), "{}{} {}", n == 0 ? "M" : "L",
+                   x.place(path[n].elongation), y.place(path[n].force));
   svg += "\"/>\n<g fill=\"#333\">\n";
   svg += text(width / 2, 18, "middle", title);
   svg += text((left + width - right) / 2, height - 10, "middle", "elongation in um");
   svg += text(left, 18, "middle", "force in N");
-  for (const double end : {x.low, x.high}) svg += text(x.place(end), height - bottom + 16, end == x.low ? "start" : "end", label(end, micrometre));
-  for (const double end : {y.low, y.high}) svg += text(left - 6, y.place(end) + 4, "end", label(end, 1));
+  for (const double end : {x.low, x.high})
+    svg += text(x.place(end), height - bottom + 16, end == x.low ? "start" : "end",
+                label(end, micrometre));
+  for (const double end : {y.low, y.high})
+    svg += text(left - 6, y.place(end) + 4, "end", label(end, 1));
   return svg + "</g>\n</svg>\n";
 }
 

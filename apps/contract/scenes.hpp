@@ -13,7 +13,8 @@
 
 namespace hyperlattice::contract {
 
-/// The membrane that a body has whose material is not what is tested: springs of all kinds, a Poisson ratio of 0.1.
+/// The membrane that a body has whose material is not what is tested: springs of all kinds, a
+/// Poisson ratio of 0.1.
 inline constexpr const char* usual_membrane = "I-m";
 
 /// Makes stages of the components around, and plans of stages.
@@ -36,8 +37,10 @@ class Scenes {
   /// Leads a face along z that far, m, within 0.01 ms.
   Json platen(const char* face, double way) const;
 
-  /// Plans a scene of these stages, stepped in time if there is no solver. InputError with the faults.
-  std::unique_ptr<Plan> plan_of(const std::vector<Json>& stages, int threads = 1, const char* precision = "double") const;
+  /// Plans a scene of these stages, stepped in time if there is no solver. InputError with the
+  /// faults.
+  std::unique_ptr<Plan> plan_of(const std::vector<Json>& stages, int threads = 1,
+                                const char* precision = "double") const;
 
  private:
   Host& host_;
@@ -50,9 +53,11 @@ std::vector<double> noise(std::size_t count, double amplitude, std::uint64_t see
 /// What a body that starts with random velocities has come to.
 struct Shaken {
   double largest_error = 0;  ///< of the energy balance, relative
-  Balance balance;
+  EnergyBalance balance;
   std::uint64_t hash = 0;
-  bool is_finite() const { return std::isfinite(largest_error); }  ///< equal bits of what is no number prove nothing
+  bool is_finite() const {
+    return std::isfinite(largest_error);
+  }  ///< equal bits of what is no number prove nothing
 };
 struct Shaking {
   double speed = 1;      ///< largest component of a velocity at the start, m/s
@@ -75,7 +80,8 @@ class Led {
  public:
   explicit Led(const Model& model) : model_(model), simulation_(model, 1) {}
 
-  /// Puts all particles where they are told, heights at rest, one step after the last. The forces of the springs on them, x y z each, N.
+  /// Puts all particles where they are told, heights at rest, one step after the last. The forces
+  /// of the springs on them, x y z each, N.
   std::vector<double> forces(const std::vector<double>& displacements, double time_step);
   Simulation& simulation() { return simulation_; }
 
@@ -85,7 +91,8 @@ class Led {
   double last_step_ = 0;
 };
 
-/// Makes `largest` the larger of itself and a number's size; infinite for ever after a value that is no number, so that it passes no comparison.
+/// Makes `largest` the larger of itself and a number's size; infinite for ever after a value that
+/// is no number, so that it passes no comparison.
 void take_largest(double& largest, double value);
 double largest(const std::vector<double>& values);  ///< size; infinite if one is no number
 double distance(const std::vector<double>& a, const std::vector<double>& b);

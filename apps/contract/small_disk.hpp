@@ -7,7 +7,8 @@
 
 namespace hyperlattice::contract {
 
-/// No file may grow beyond `bytes` while this lives; a write beyond fails as on a full disk, with "File too large".
+/// No file may grow beyond `bytes` while this lives; a write beyond fails as on a full disk, with
+/// "File too large".
 class SmallDisk {
  public:
   explicit SmallDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {

@@ -1,4 +1,5 @@
-// What every solver must do: keep to the stable step that it states, come to its end, and not depend on the number of threads.
+// What every solver must do: keep to the stable step that it states, come to its end, and not
+// depend on the number of threads.
 #include <contract/families.hpp>
 #include <engine/stage_calls.hpp>
 
@@ -12,7 +13,8 @@ namespace {
 
 /// A bar held at its low end and shortened from the other.
 std::vector<Json> pressed_bar(const Scenes& scenes) {
-  return {scenes.grid_box(4, 4, 8), scenes.material(usual_membrane), scenes.platen("z_min", 0), scenes.platen("z_max", -1e-6)};
+  return {scenes.grid_box(4, 4, 8), scenes.material(usual_membrane), scenes.platen("z_min", 0),
+          scenes.platen("z_max", -1e-6)};
 }
 
 struct Solved {
@@ -30,7 +32,8 @@ Solved solve(const Plan& plan, std::uint64_t cut_off = 0) {
     StageCalls::Hooks hooks;
     hooks.report = [&](const RestReport& report) { solved.rest = report; };
     if (end > 0) hooks.must_stop = [&] { return simulation->steps() >= end; };
-    StageCalls(*plan.model, *simulation, plan.stages.front(), plan.threads, std::move(hooks), done).run();
+    StageCalls(*plan.model, *simulation, plan.stages.front(), plan.threads, std::move(hooks), done)
+        .run();
   };
   if (cut_off > 0) {
     run(0, cut_off);
@@ -47,7 +50,8 @@ Solved solve(const Plan& plan, std::uint64_t cut_off = 0) {
 Finding stable(const SolverPlan& plan) {
   if (!(plan.time_step > 0)) return not_applicable("it takes no steps in time");
   return passes_if(plan.time_step <= plan.stable_time_step,
-                   fmt::format("steps of {:.4g} s, stable below {:.4g} s", plan.time_step, plan.stable_time_step));
+                   fmt::format("steps of {:.4g} s, stable below {:.4g} s", plan.time_step,
+                               plan.stable_time_step));
 }
 
 Finding comes_to_its_end(const SolverPlan& plan, const Solved& solved) {
@@ -58,7 +62,8 @@ Finding comes_to_its_end(const SolverPlan& plan, const Solved& solved) {
   }
   return passes_if(
       std::abs(solved.time / plan.end_time - 1) < 1e-9 && std::abs(solved.relative_error) < 0.01,
-      fmt::format("{} steps to {:.6g} s, relative error of the energy balance {:.1e}", solved.steps, solved.time, solved.relative_error));
+      fmt::format("{} steps to {:.6g} s, relative error of the energy balance {:.1e}", solved.steps,
+                  solved.time, solved.relative_error));
 }
 
 }  // namespace
@@ -73,10 +78,14 @@ void check_solver(Trial& trial) {
     solved = solve(*plan);
     return comes_to_its_end(plan->stages.front().plan, *solved);
   });
-  trial.check("same bits", [&] { return passes_if(solved && solve(*with_three).hash == solved->hash, "with 1 and 3 threads"); });
+  trial.check("same bits", [&] {
+    return passes_if(solved && solve(*with_three).hash == solved->hash, "with 1 and 3 threads");
+  });
   trial.check("restart", [&] {
-    if (!plan->stages.front().plan.resumes) return not_applicable("a stage that is cut off begins anew");
-    return passes_if(solved && solve(*plan, solved->steps / 2).hash == solved->hash, "the same bits when it is cut off half-way and goes on");
+    if (!plan->stages.front().plan.resumes)
+      return not_applicable("a stage that is cut off begins anew");
+    return passes_if(solved && solve(*plan, solved->steps / 2).hash == solved->hash,
+                     "the same bits when it is cut off half-way and goes on");
   });
 }
 

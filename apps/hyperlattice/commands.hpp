@@ -1,4 +1,5 @@
-// The commands of the program, one file each. A command declares its arguments, and acts when it was the one named.
+// The commands of the program, one file each. A command declares its arguments, and acts when it
+// was the one named.
 #pragma once
 
 #include "components.hpp"
@@ -29,17 +30,22 @@ Command calibrate_command(CLI::App& program);
 Command study_command(CLI::App& program);
 Command report_command(CLI::App& program);
 
-/// Writes the project of a plugin of that type into a new folder, by default ./<name>. InputError if there is no such family, or the folder is there.
+/// Writes the project of a plugin of that type into a new folder, by default ./<name>. InputError
+/// if there is no such family, or the folder is there.
 int write_new_plugin(const std::string& type, std::filesystem::path folder);
 
-/// Prints a line for each check of the components' contracts, and the counts; exit_run if one failed. `pictures`: see contract::check.
-int test_plugins(Host& host, const std::vector<const Component*>& components, const std::filesystem::path& pictures, bool json);
+/// Prints a line for each check of the components' contracts, and the counts; exit_run if one
+/// failed. `pictures`: see contract::check.
+int test_plugins(Host& host, const std::vector<const Component*>& components,
+                 const std::filesystem::path& pictures, bool json);
 
-/// The folder of the results: <input>_out here, if none was given. InputError if something else stands there.
+/// The folder of the results: <input>_out here, if none was given. InputError if something else
+/// stands there.
 void choose_directory(std::filesystem::path& directory, const std::filesystem::path& input);
 
-/// A signal that would end the program stops the run after its present step instead: an interruption, the end of a terminal or a batch system's
-/// time, a closed pipe. A second interruption ends the program at once.
+/// A signal that would end the program stops the run after its present step instead: an
+/// interruption, the end of a terminal or a batch system's time, a closed pipe. A second
+/// interruption ends the program at once.
 void stop_gently_when_interrupted();
 
 /// --threads.

@@ -1,4 +1,5 @@
-// The components that the commands bring along: what their scenes are made of where a user has named nothing.
+// The components that the commands bring along: what their scenes are made of where a user has
+// named nothing.
 #pragma once
 
 #include <analyze/virtual_test.hpp>
@@ -20,6 +21,8 @@ inline const contract::Surroundings surroundings{
 };
 
 /// Of `calibrate --measure`.
-inline const VirtualTest::Components virtual_test{.material = "materials.elastic", .displacement = "loads.displacement", .solver = "solvers.static"};
+inline const VirtualTest::Components virtual_test{.material = "materials.elastic",
+                                                  .displacement = "loads.displacement",
+                                                  .solver = "solvers.static"};
 
 }  // namespace hyperlattice::bundled

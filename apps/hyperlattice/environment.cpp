@@ -21,7 +21,8 @@ void check_load_seconds(Faults& faults) {
   if (text.empty()) {
     unsetenv(name);
   } else if (text.find_first_not_of("0123456789") != text.npos) {
-    faults.add(name, std::string(text), "in the environment, whole seconds that a plugin may take to load; 0: no limit");
+    faults.add(name, std::string(text),
+               "in the environment, whole seconds that a plugin may take to load; 0: no limit");
   }
 }
 
@@ -33,7 +34,9 @@ void check_environment() {
     std::vector<std::string> values;
   };
   static const Variable variables[] = {
-      {"HYPERLATTICE_INSTRUCTIONS", {"baseline", "avx2", "avx512"}}, {"HYPERLATTICE_SPRINGS", {"exact"}}, {"HYPERLATTICE_PROGRESS", {"json"}}};
+      {"HYPERLATTICE_INSTRUCTIONS", {"baseline", "avx2", "avx512"}},
+      {"HYPERLATTICE_SPRINGS", {"exact"}},
+      {"HYPERLATTICE_PROGRESS", {"json"}}};
   Faults faults;
   for (const auto& [name, values] : variables) {
     const char* value = std::getenv(name);
@@ -44,7 +47,9 @@ void check_environment() {
     }
     if (std::find(values.begin(), values.end(), value) != values.end()) continue;
     const std::string near = nearest(value, values);
-    faults.add(name, value, fmt::format("in the environment, {}{}", fmt::join(values, ", "), near.empty() ? "" : "; did you mean '" + near + "'?"));
+    faults.add(name, value,
+               fmt::format("in the environment, {}{}", fmt::join(values, ", "),
+                           near.empty() ? "" : "; did you mean '" + near + "'?"));
   }
   check_load_seconds(faults);
   faults.throw_if_any();

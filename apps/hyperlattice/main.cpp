@@ -27,40 +27,50 @@ int complain(int code, const std::string& message) {
 }
 
 void suggest(const std::string& word, const std::vector<std::string>& names) {
-  if (const std::string near = hyperlattice::nearest(word, names); !near.empty()) std::cerr << "Did you mean '" << near << "'?\n";
+  if (const std::string near = hyperlattice::nearest(word, names); !near.empty())
+    std::cerr << "Did you mean '" << near << "'?\n";
 }
 
 /// Names the command that was most likely meant by a word that is none.
 void suggest_command(const CLI::App& program, const std::string& word) {
   std::vector<std::string> names;
-  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) names.push_back(command->get_name());
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
   suggest(word, names);
 }
 
 /// Names the options that were most likely meant by words that are none.
-void suggest_options(const CLI::App& program, const CLI::App& command, std::span<char* const> words) {
+void suggest_options(const CLI::App& program, const CLI::App& command,
+                     std::span<char* const> words) {
   std::vector<std::string> names;
   for (const CLI::App* known : {&program, &command})
     for (const CLI::Option* option : known->get_options())
       for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   for (const char* const word : words) {
     const std::string name = std::string(word).substr(0, std::string_view(word).find('='));
-    if (name.starts_with("--") && name.size() > 2 && std::find(names.begin(), names.end(), name) == names.end()) suggest(name, names);
+    if (name.starts_with("--") && name.size() > 2 &&
+        std::find(names.begin(), names.end(), name) == names.end())
+      suggest(name, names);
   }
 }
 
 /// Input or a run that only lack of memory made fail is not at fault.
 int complain_of_scene(int code, const std::string& message) {
-  return memory_ran_out() ? complain(exit_outside, lack_of_memory() + "\n" + message) : complain(code, message);
+  return memory_ran_out() ? complain(exit_outside, lack_of_memory() + "\n" + message)
+                          : complain(code, message);
 }
 
 /// CLI11 reads nan and inf as numbers, and nothing as a file.
 void refuse_odd_values(CLI::App& command) {
   const auto finite = [](const std::string& text) {
     double number = 0;
-    return CLI::detail::lexical_cast(text, number) && !std::isfinite(number) ? text + " is not a finite number" : std::string();
+    return CLI::detail::lexical_cast(text, number) && !std::isfinite(number)
+               ? text + " is not a finite number"
+               : std::string();
   };
-  const auto named = [](const std::string& text) { return text.empty() ? std::string("a name that is not empty was expected") : std::string(); };
+  const auto named = [](const std::string& text) {
+    return text.empty() ? std::string("a name that is not empty was expected") : std::string();
+  };
   for (CLI::Option* option : command.get_options()) {
     if (option->get_type_name().find("FLOAT") != std::string::npos) option->check(finite);
     if (option->get_name() == "--out") option->check(named);
@@ -68,16 +78,24 @@ void refuse_odd_values(CLI::App& command) {
 }
 
 int obey(int count, char** words) {
-  spdlog::set_default_logger(spdlog::stderr_logger_mt("hyperlattice"));  // standard output is for what a command prints
+  spdlog::set_default_logger(
+      spdlog::stderr_logger_mt("hyperlattice"));  // standard output is for what a command prints
   spdlog::set_pattern("hyperlattice: %v");
-  CLI::App program("Simulates solids with the four-dimensional lattice spring model.", "hyperlattice");
+  CLI::App program("Simulates solids with the four-dimensional lattice spring model.",
+                   "hyperlattice");
   program.set_version_flag("--version", "hyperlattice " HYPERLATTICE_VERSION);
-  program.footer("Exit codes: 0 done, 2 wrong input, 3 the run failed, 4 the outside failed (disk, memory, plugin), 130 interrupted.");
+  program.footer(
+      "Exit codes: 0 done, 2 wrong input, 3 the run failed, 4 the outside failed (disk, memory, "
+      "plugin), 130 interrupted.");
   program.fallthrough();  // an option of the program may stand behind a command
   bool no_plugins = false;
-  program.add_flag("--no-plugins", no_plugins, "refuse scenes that name \"plugins\", whose code would run: for scenes from elsewhere");
-  const Command commands[] = {run_command(program),     plan_command(program),      plugins_command(program), schema_command(program),
-                              analyze_command(program), calibrate_command(program), study_command(program),   report_command(program)};
+  program.add_flag(
+      "--no-plugins", no_plugins,
+      "refuse scenes that name \"plugins\", whose code would run: for scenes from elsewhere");
+  const Command commands[] = {run_command(program),     plan_command(program),
+                              plugins_command(program), schema_command(program),
+                              analyze_command(program), calibrate_command(program),
+                              study_command(program),   report_command(program)};
   for (const Command& command : commands) refuse_odd_values(*command.arguments);
   try {
     program.parse(count, words);
@@ -89,14 +107,17 @@ int obey(int count, char** words) {
     const int code = program.exit(error);
     const auto named = program.get_subcommands();
     if (code != 0 && named.empty() && count > 1) suggest_command(program, words[1]);
-    if (code != 0 && !named.empty()) suggest_options(program, *named.front(), {words + 1, static_cast<std::size_t>(count - 1)});
+    if (code != 0 && !named.empty())
+      suggest_options(program, *named.front(), {words + 1, static_cast<std::size_t>(count - 1)});
     return code == 0 ? exit_done : exit_input;
   } catch (const InputError& error) {
-    return complain_of_scene(exit_input, "wrong input, nothing was written\n" + std::string(error.what()));
+    return complain_of_scene(exit_input,
+                             "wrong input, nothing was written\n" + std::string(error.what()));
   } catch (const RunError& error) {
     return complain_of_scene(exit_run, error.what());
   } catch (const std::bad_alloc&) {
-    return complain(exit_outside, lack_of_memory() + "\n`hyperlattice plan SCENE` says how much a scene needs");
+    return complain(exit_outside,
+                    lack_of_memory() + "\n`hyperlattice plan SCENE` says how much a scene needs");
   } catch (const std::exception& error) {
     return complain(exit_outside, error.what());
   }
@@ -113,6 +134,8 @@ int main(int count, char** words) {
   report_crashes();
   const int code = obey(count, words);
   if (std::cout.flush()) return code;
-  complain(exit_outside, "cannot write all of what was to be printed: standard output is closed, or the device behind it is full or gone");
+  complain(exit_outside,
+           "cannot write all of what was to be printed: standard output is closed, or the device "
+           "behind it is full or gone");
   return code == exit_done ? exit_outside : code;
 }

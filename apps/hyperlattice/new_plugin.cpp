@@ -1,4 +1,5 @@
-// hyperlattice plugins --new failures.tearing: a project that builds, tests and shows a plugin of that name.
+// hyperlattice plugins --new failures.tearing: a project that builds, tests and shows a plugin of
+// that name.
 #include "commands.hpp"
 #include "starters.hpp"
 
@@ -20,53 +21,68 @@ std::string class_name(std::string_view name) {
   std::string result;
   bool begins = true;
   for (const char letter : name) {
-    if (letter != '_') result += begins && letter >= 'a' ? static_cast<char>(letter - 'a' + 'A') : letter;
+    if (letter != '_')
+      result += begins && letter >= 'a' ? static_cast<char>(letter - 'a' + 'A') : letter;
     begins = letter == '_';
   }
   return result;
 }
 
 std::string replaced(std::string text, std::string_view from, const std::string& to) {
-  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) text.replace(at, from.size(), to);
+  for (std::size_t at = text.find(from); at != std::string::npos;
+       at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
   return text;
 }
 
 /// What a family's starter is called, by its source: "my_law".
 std::string starter_name(const std::string& family) {
   for (const StarterFile& file : starter_files)
-    if (file.path.starts_with(family + "/my_") && file.path.ends_with(".cpp")) return std::filesystem::path(file.path).stem().string();
+    if (file.path.starts_with(family + "/my_") && file.path.ends_with(".cpp"))
+      return std::filesystem::path(file.path).stem().string();
   return "";
 }
 
 bool is_name(std::string_view name) {
-  const auto fits = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
-  return !name.empty() && name.front() >= 'a' && name.front() <= 'z' && std::all_of(name.begin(), name.end(), fits);
+  const auto fits = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  };
+  return !name.empty() && name.front() >= 'a' && name.front() <= 'z' &&
+         std::all_of(name.begin(), name.end(), fits);
 }
 
 }  // namespace
 
 int write_new_plugin(const std::string& type, std::filesystem::path folder) {
   const std::size_t dot = type.find('.');
-  const std::string family = type.substr(0, dot), name = dot == std::string::npos ? "" : type.substr(dot + 1);
+  const std::string family = type.substr(0, dot),
+                    name = dot == std::string::npos ? "" : type.substr(dot + 1);
   std::set<std::string_view> families;
-  for (const StarterFile& file : starter_files) families.insert(file.path.substr(0, file.path.find('/')));
+  for (const StarterFile& file : starter_files)
+    families.insert(file.path.substr(0, file.path.find('/')));
   if (families.count(family) == 0 || !is_name(name))
     throw InputError(
-        {{"--new", type, fmt::format("one of {}, a dot, and a name of small letters, digits and underscores", fmt::join(families, ", "))}});
+        {{"--new", type,
+          fmt::format("one of {}, a dot, and a name of small letters, digits and underscores",
+                      fmt::join(families, ", "))}});
   if (folder.empty()) folder = name;
-  if (std::filesystem::exists(folder)) throw InputError({{"--out", folder.string(), "a folder that is not there yet"}});
+  if (std::filesystem::exists(folder))
+    throw InputError({{"--out", folder.string(), "a folder that is not there yet"}});
 
   const std::string starter = starter_name(family);
   std::filesystem::create_directories(folder);
   for (const StarterFile& file : starter_files) {
     if (file.path.substr(0, file.path.find('/')) != family) continue;
     const auto named = [&](std::string_view text) {
-      return replaced(replaced(std::string(text), starter, name), class_name(starter), class_name(name));
+      return replaced(replaced(std::string(text), starter, name), class_name(starter),
+                      class_name(name));
     };
     write_file((folder / named(file.path.substr(family.size() + 1))).string(), named(file.text));
   }
-  spdlog::info("{} in {}: build and test it with\n  cmake -S {} -B {}/build && cmake --build {}/build && ctest --test-dir {}/build", type,
-               folder.string(), folder.string(), folder.string(), folder.string(), folder.string());
+  spdlog::info(
+      "{} in {}: build and test it with\n  cmake -S {} -B {}/build && cmake --build {}/build && "
+      "ctest --test-dir {}/build",
+      type, folder.string(), folder.string(), folder.string(), folder.string(), folder.string());
   return exit_done;
 }
 

@@ -28,10 +28,14 @@ Patience::~Patience() {
 void Patience::watch() noexcept {
   constexpr int every = 5;  // s
   std::unique_lock lock(mutex_);
-  for (int seconds = every; !ended_.wait_for(lock, std::chrono::seconds(every), [this] { return over_; }); seconds += every) {
+  for (int seconds = every;
+       !ended_.wait_for(lock, std::chrono::seconds(every), [this] { return over_; });
+       seconds += every) {
     char line[80];
-    const int length = std::snprintf(line, sizeof line, "hyperlattice: planning the body, %d s so far\n", seconds);
-    [[maybe_unused]] const auto written = ::write(STDERR_FILENO, line, static_cast<std::size_t>(length));
+    const int length =
+        std::snprintf(line, sizeof line, "hyperlattice: planning the body, %d s so far\n", seconds);
+    [[maybe_unused]] const auto written =
+        ::write(STDERR_FILENO, line, static_cast<std::size_t>(length));
   }
 }
 

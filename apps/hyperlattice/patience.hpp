@@ -7,7 +7,8 @@
 
 namespace hyperlattice {
 
-/// While it lives, a line on standard error every few seconds says how long it has been. Short work says nothing.
+/// While it lives, a line on standard error every few seconds says how long it has been. Short work
+/// says nothing.
 class Patience {
  public:
   Patience();

@@ -1,4 +1,5 @@
-// hyperlattice plan: what a run will load, allocate and compute, and what it leaves out; writes nothing.
+// hyperlattice plan: what a run will load, allocate and compute, and what it leaves out; writes
+// nothing.
 #include "commands.hpp"
 #include "patience.hpp"
 
@@ -33,9 +34,9 @@ std::filesystem::path results_by_default(const std::filesystem::path& scene) {
 
 void ThreadArgument::declare(CLI::App& command) {
   command
-      .add_option(
-          "--threads", threads,
-          "threads to run on; results do not depend on it (default: OMP_NUM_THREADS, else every processor that it may use, but few for a small body)")
+      .add_option("--threads", threads,
+                  "threads to run on; results do not depend on it (default: OMP_NUM_THREADS, else "
+                  "every processor that it may use, but few for a small body)")
       ->check(CLI::Range(1, most_threads));
 }
 
@@ -43,17 +44,24 @@ Threads ThreadArgument::count() const {
   if (threads > 0) return threads;
   const char* wish = std::getenv("OMP_NUM_THREADS");
   if (wish == nullptr || *wish == '\0') return Threads::up_to(std::min(processors(), most_threads));
-  const std::string_view list = wish, first = list.substr(0, list.find(','));  // a number for each level of nesting
+  const std::string_view list = wish, first = list.substr(
+                                          0, list.find(','));  // a number for each level of nesting
   int number = 0;
   const auto [end, error] = std::from_chars(first.data(), first.data() + first.size(), number);
-  if (error != std::errc() || end != first.data() + first.size() || number < 1 || number > most_threads)
-    throw InputError({{"OMP_NUM_THREADS", std::string(list), "in the environment, a number of threads from 1 to " + std::to_string(most_threads)}});
+  if (error != std::errc() || end != first.data() + first.size() || number < 1 ||
+      number > most_threads)
+    throw InputError(
+        {{"OMP_NUM_THREADS", std::string(list),
+          "in the environment, a number of threads from 1 to " + std::to_string(most_threads)}});
   return number;
 }
 
 void SceneArguments::declare(CLI::App& command) {
   command.add_option("SCENE", scene, "the scene file (JSON)")->required();
-  command.add_option("--set", settings, "replace a value of the scene, e.g. --set /pipeline/1/poisson=0.23; may be repeated")
+  command
+      .add_option(
+          "--set", settings,
+          "replace a value of the scene, e.g. --set /pipeline/1/poisson=0.23; may be repeated")
       ->type_name("/POINTER=VALUE")
       ->allow_extra_args(false);
   threads.declare(command);
@@ -69,15 +77,18 @@ Command plan_command(CLI::App& program) {
     bool json = false;
   };
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = program.add_subcommand("plan", "check a scene and say what a run of it will do");
+  CLI::App* command =
+      program.add_subcommand("plan", "check a scene and say what a run of it will do");
   arguments->declare(*command);
   command->add_flag("--json", arguments->json, "print it for machines");
   return {command, [arguments] {
             Host host;
             const auto plan = arguments->plan(host);
-            for (std::string& missing : shortages(*plan, results_by_default(arguments->scene))) plan->model->warnings.push_back(std::move(missing));
+            for (std::string& missing : shortages(*plan, results_by_default(arguments->scene)))
+              plan->model->warnings.push_back(std::move(missing));
             calibrate_run_time(*plan);
-            std::cout << (arguments->json ? json_text(plan_json(*plan)) : plan_text(*plan)) << std::flush;
+            std::cout << (arguments->json ? json_text(plan_json(*plan)) : plan_text(*plan))
+                      << std::flush;
             return exit_done;
           }};
 }

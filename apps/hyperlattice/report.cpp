@@ -21,14 +21,21 @@ Command report_command(CLI::App& program) {
     bool json = false;
   };
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = program.add_subcommand("report", "one page (HTML, with all that it needs) of one or more runs, also of runs that go on");
+  CLI::App* command = program.add_subcommand(
+      "report",
+      "one page (HTML, with all that it needs) of one or more runs, also of runs that go on");
   command->add_option("DIR", arguments->folders, "folders that runs or studies left")->required();
-  command->add_option("--out", arguments->file, "the page (default: DIR/report.html of one folder, report.html here of several)")->type_name("FILE");
+  command
+      ->add_option("--out", arguments->file,
+                   "the page (default: DIR/report.html of one folder, report.html here of several)")
+      ->type_name("FILE");
   command->add_flag("--json", arguments->json, "print what the page says for machines");
   return {command, [arguments] {
             auto& [folders, file, json] = *arguments;
             const bool is_default = file.empty();
-            if (is_default) file = (folders.size() == 1 ? folders.front() : std::filesystem::path()) / "report.html";
+            if (is_default)
+              file =
+                  (folders.size() == 1 ? folders.front() : std::filesystem::path()) / "report.html";
             Faults faults;
             check_output_file({"--out", file, {".html", ".htm"}, is_default}, {}, faults);
             faults.throw_if_any();

@@ -6,11 +6,14 @@
 namespace hyperlattice {
 void choose_directory(std::filesystem::path& directory, const std::filesystem::path& input) {
   if (directory.empty()) directory = input.stem().string() + "_out";
-  std::error_code unreadable;  // of a link to itself, of a folder above that is closed: creating the folder says why
+  std::error_code unreadable;  // of a link to itself, of a folder above that is closed: creating
+                               // the folder says why
   const bool is_link = std::filesystem::is_symlink(directory, unreadable);
-  if ((is_link || std::filesystem::exists(directory, unreadable)) && !std::filesystem::is_directory(directory, unreadable))
-    throw InputError(
-        {{"--out", directory.string(), is_link ? "a folder, a link to one, or a name that is free" : "a folder, or a name that is free"}});
+  if ((is_link || std::filesystem::exists(directory, unreadable)) &&
+      !std::filesystem::is_directory(directory, unreadable))
+    throw InputError({{"--out", directory.string(),
+                       is_link ? "a folder, a link to one, or a name that is free"
+                               : "a folder, or a name that is free"}});
 }
 
 Command run_command(CLI::App& program) {
@@ -20,18 +23,27 @@ Command run_command(CLI::App& program) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command = program.add_subcommand("run", "run a scene and write its results");
   arguments->declare(*command);
-  command->add_option("--out", arguments->options.directory, "folder for the results (default: <scene>_out here)")->type_name("DIR");
-  command->add_flag("--resume", arguments->options.resume, "go on with a run that was interrupted or cut off, from the checkpoint in its folder");
-  command->add_flag("--overwrite", arguments->options.overwrite,
-                    "give up an interrupted run in the folder, and replace files there that no run's list names");
   command
-      ->add_option("--checkpoint-every", arguments->options.checkpoint_every, "seconds between checkpoints (default: 600; 0: only when interrupted)")
+      ->add_option("--out", arguments->options.directory,
+                   "folder for the results (default: <scene>_out here)")
+      ->type_name("DIR");
+  command->add_flag(
+      "--resume", arguments->options.resume,
+      "go on with a run that was interrupted or cut off, from the checkpoint in its folder");
+  command->add_flag(
+      "--overwrite", arguments->options.overwrite,
+      "give up an interrupted run in the folder, and replace files there that no run's list names");
+  command
+      ->add_option("--checkpoint-every", arguments->options.checkpoint_every,
+                   "seconds between checkpoints (default: 600; 0: only when interrupted)")
       ->check(CLI::Range(0.0, 1e12));  // no nan
   command->add_flag("--quiet", arguments->options.quiet, "no progress lines");
   return {command, [arguments] {
             RunOptions& options = arguments->options;
             if (options.resume && options.overwrite)
-              throw InputError({{"--overwrite", "", "either --resume or --overwrite: one keeps the run in the folder, the other gives it up"}});
+              throw InputError({{"--overwrite", "",
+                                 "either --resume or --overwrite: one keeps the run in the folder, "
+                                 "the other gives it up"}});
             choose_directory(options.directory, arguments->scene);
             Host host;
             const auto plan = arguments->plan(host);

@@ -1,4 +1,5 @@
-// The projects that `plugins --new` writes: one folder a family, of a plugin called my_law, my_lattice, ...
+// The projects that `plugins --new` writes: one folder a family, of a plugin called my_law,
+// my_lattice, ...
 #pragma once
 
 #include <string_view>

@@ -1,4 +1,5 @@
-// hyperlattice study: error against run time. Runs a scene over a grid of settings and compares each with the truth.
+// hyperlattice study: error against run time. Runs a scene over a grid of settings and compares
+// each with the truth.
 #include "commands.hpp"
 
 #include <base/gnuplot.hpp>
@@ -33,11 +34,13 @@ struct Arguments {
 double read_target(const std::string& text) {
   const auto plain = csv_number(text);
   const Quantity share = plain ? Quantity{*plain, ""} : read_quantity(text, "");
-  if (!share.problem.empty() || !(share.value > 0)) throw InputError({{"--target-error", text, "an error above 0 such as 1% or 0.01"}});
+  if (!share.problem.empty() || !(share.value > 0))
+    throw InputError({{"--target-error", text, "an error above 0 such as 1% or 0.01"}});
   return share.value;
 }
 
-void write_results(const Study& study, const std::vector<Row>& rows, const Findings& findings, const std::filesystem::path& directory) {
+void write_results(const Study& study, const std::vector<Row>& rows, const Findings& findings,
+                   const std::filesystem::path& directory) {
   write_file((directory / "study.csv").string(), study_csv(study, rows, findings));
   write_file((directory / "study.json").string(), json_text(study_json(study, rows, findings)));
   const std::string script = study_script(study, rows, findings);
@@ -72,8 +75,12 @@ int run_study(Arguments a) {
   auto limits = find_errors(study, options.directory, done.rows);
   const Findings findings = find(study, done.rows, std::move(limits));
   write_results(study, done.rows, findings, options.directory);
-  std::cout << (a.json ? json_text(study_json(study, done.rows, findings)) : study_text(study, done.rows, findings)) << std::flush;
-  spdlog::info("{}, results in {}", done.interrupted ? "interrupted; the same command goes on from here" : "done", options.directory.string());
+  std::cout << (a.json ? json_text(study_json(study, done.rows, findings))
+                       : study_text(study, done.rows, findings))
+            << std::flush;
+  spdlog::info("{}, results in {}",
+               done.interrupted ? "interrupted; the same command goes on from here" : "done",
+               options.directory.string());
   return exit_code(done);
 }
 
@@ -81,16 +88,29 @@ int run_study(Arguments a) {
 
 Command study_command(CLI::App& program) {
   const auto a = std::make_shared<Arguments>();
-  CLI::App* command = program.add_subcommand("study", "error against run time: run a scene over a grid of settings and compare it with the truth");
+  CLI::App* command = program.add_subcommand(
+      "study",
+      "error against run time: run a scene over a grid of settings and compare it with the truth");
   command->add_option("STUDY", a->study, "the study file (JSON)")->required();
-  command->add_option("--set", a->settings, "replace a value of the study, e.g. --set /repeats=1; may be repeated")
+  command
+      ->add_option("--set", a->settings,
+                   "replace a value of the study, e.g. --set /repeats=1; may be repeated")
       ->type_name("/POINTER=VALUE")
       ->allow_extra_args(false);
-  command->add_option("--out", a->options.directory, "folder for the results (default: <study>_out here); what it holds is not run again")
+  command
+      ->add_option(
+          "--out", a->options.directory,
+          "folder for the results (default: <study>_out here); what it holds is not run again")
       ->type_name("DIR");
   command->add_flag("--fresh", a->options.fresh, "run again what is there already");
-  command->add_option("--target-error", a->target_error, "find the cheapest setting with at most this error, e.g. 1%")->type_name("ERROR");
-  command->add_option("--peers", a->peers, "put other programs' errors and times, label,error,seconds, into the plot; may be repeated")
+  command
+      ->add_option("--target-error", a->target_error,
+                   "find the cheapest setting with at most this error, e.g. 1%")
+      ->type_name("ERROR");
+  command
+      ->add_option("--peers", a->peers,
+                   "put other programs' errors and times, label,error,seconds, into the plot; may "
+                   "be repeated")
       ->type_name("CSV")
       ->allow_extra_args(false);
   a->threads.declare(*command);

@@ -42,13 +42,15 @@ Columns read_columns(const std::filesystem::path& file, std::string_view text, F
     }
     const std::string place = fmt::format("{} line {}", file.string(), line);
     if (cells.size() != columns.names.size()) {
-      faults.add(place, fmt::format("{} cells", cells.size()), fmt::format("{}, as in the first line", columns.names.size()));
+      faults.add(place, fmt::format("{} cells", cells.size()),
+                 fmt::format("{}, as in the first line", columns.names.size()));
       return columns;
     }
     std::vector<double> numbers(cells.size());
     for (std::size_t c = 0; c < cells.size(); ++c)
       if (!read_number(cells[c], numbers[c])) {
-        faults.add(place, fmt::format("\"{}\"", cells[c]), fmt::format("a number in column \"{}\"", columns.names[c]));
+        faults.add(place, fmt::format("\"{}\"", cells[c]),
+                   fmt::format("a number in column \"{}\"", columns.names[c]));
         return columns;
       }
     for (std::size_t c = 0; c < cells.size(); ++c) columns.values[c].push_back(numbers[c]);

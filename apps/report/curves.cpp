@@ -13,7 +13,10 @@ struct Quantity {
   const char* column;
   const char* name;
 };
-constexpr Quantity energies[] = {{"kinetic", "kinetic"}, {"stored", "stored"}, {"dissipated", "dissipated"}, {"injected", "injected"}};
+constexpr Quantity energies[] = {{"kinetic", "kinetic"},
+                                 {"stored", "stored"},
+                                 {"dissipated", "dissipated"},
+                                 {"injected", "injected"}};
 constexpr Quantity broken[] = {{"broken_open", "open"}, {"broken_closed", "closed"}};
 
 /// Whether anything happened in time; in states of rest all may stand at one instant.
@@ -26,12 +29,14 @@ Axis axis_over(bool over_time) { return over_time ? Axis{"time", "s"} : Axis{"st
 
 Series series_of(const RunRecord& run, bool over_time, const char* column, std::string label) {
   const auto *x = run.history.find(over_time ? "time" : "step"), *y = run.history.find(column);
-  return x != nullptr && y != nullptr ? Series{std::move(label), *x, *y} : Series{std::move(label), {}, {}};
+  return x != nullptr && y != nullptr ? Series{std::move(label), *x, *y}
+                                      : Series{std::move(label), {}, {}};
 }
 
 bool any_above_zero(const Plot& plot) {
-  return std::any_of(plot.series.begin(), plot.series.end(),
-                     [](const Series& series) { return std::any_of(series.y.begin(), series.y.end(), [](double y) { return y != 0; }); });
+  return std::any_of(plot.series.begin(), plot.series.end(), [](const Series& series) {
+    return std::any_of(series.y.begin(), series.y.end(), [](double y) { return y != 0; });
+  });
 }
 
 void keep(std::vector<Plot>& plots, Plot plot) {
@@ -45,12 +50,17 @@ std::vector<Plot> plots_of(const RunRecord& run) {
   const Axis x = axis_over(over_time);
   std::vector<Plot> plots;
   Plot energy{"Energies", x, {"energy", "J"}, {}};
-  for (const auto& [column, name] : energies) energy.series.push_back(series_of(run, over_time, column, name));
+  for (const auto& [column, name] : energies)
+    energy.series.push_back(series_of(run, over_time, column, name));
   energy.series.back().is_dashed = true;  // often all that is injected is stored
   keep(plots, std::move(energy));
-  keep(plots, {"Error of the energy balance", x, {"share of the largest energy", ""}, {series_of(run, over_time, "relative_error", "error")}});
+  keep(plots, {"Error of the energy balance",
+               x,
+               {"share of the largest energy", ""},
+               {series_of(run, over_time, "relative_error", "error")}});
   Plot breakage{"Broken springs", x, {"springs", "", true}, {}};
-  for (const auto& [column, name] : broken) breakage.series.push_back(series_of(run, over_time, column, name));
+  for (const auto& [column, name] : broken)
+    breakage.series.push_back(series_of(run, over_time, column, name));
   if (any_above_zero(breakage)) keep(plots, std::move(breakage));
   for (const Probe& probe : run.probes)
     for (Plot& plot : plots_of(probe)) keep(plots, std::move(plot));
@@ -61,14 +71,19 @@ std::vector<Plot> plots_together(std::span<const RunRecord> runs) {
   const bool over_time = std::any_of(runs.begin(), runs.end(), has_time);
   const auto together = [&](std::string title, Axis y, const char* column) {
     Plot plot{std::move(title), axis_over(over_time), std::move(y), {}};
-    for (const RunRecord& run : runs) plot.series.push_back(series_of(run, over_time, column, run.label));
+    for (const RunRecord& run : runs)
+      plot.series.push_back(series_of(run, over_time, column, run.label));
     return plot;
   };
   std::vector<Plot> plots;
-  for (const auto& [column, name] : energies) keep(plots, together(fmt::format("Energy, {}", name), {"energy", "J"}, column));
-  keep(plots, together("Error of the energy balance", {"share of the largest energy", ""}, "relative_error"));
+  for (const auto& [column, name] : energies)
+    keep(plots, together(fmt::format("Energy, {}", name), {"energy", "J"}, column));
+  keep(plots, together("Error of the energy balance", {"share of the largest energy", ""},
+                       "relative_error"));
   for (const auto& [column, name] : broken)
-    if (Plot plot = together(fmt::format("Broken springs, {}", name), {"springs", "", true}, column); any_above_zero(plot))
+    if (Plot plot =
+            together(fmt::format("Broken springs, {}", name), {"springs", "", true}, column);
+        any_above_zero(plot))
       keep(plots, std::move(plot));
   for (Plot& plot : probes_together(runs)) keep(plots, std::move(plot));
   return plots;

@@ -14,11 +14,13 @@ const Json none;
 using Values = std::vector<const Json*>;
 
 bool all(const Values& values, bool (*holds)(const Json&)) {
-  return std::all_of(values.begin(), values.end(), [&](const Json* value) { return holds(*value); });
+  return std::all_of(values.begin(), values.end(),
+                     [&](const Json* value) { return holds(*value); });
 }
 
 bool are_alike(const Values& values) {
-  return std::all_of(values.begin(), values.end(), [&](const Json* value) { return *value == *values.front(); });
+  return std::all_of(values.begin(), values.end(),
+                     [&](const Json* value) { return *value == *values.front(); });
 }
 
 const Json& in(const Json& object, const std::string& key) {
@@ -28,14 +30,17 @@ const Json& in(const Json& object, const std::string& key) {
 
 /// One value, not a vector: its parts can be told apart.
 bool has_structure(const Json& value) {
-  return value.is_array() && std::any_of(value.begin(), value.end(), [](const Json& part) { return part.is_structured(); });
+  return value.is_array() && std::any_of(value.begin(), value.end(),
+                                         [](const Json& part) { return part.is_structured(); });
 }
 
 class Comparison {
  public:
   void compare(const std::string& pointer, const Values& values) {
     if (are_alike(values)) return;
-    if (all(values, [](const Json& value) { return value.is_object(); }) && are_alike(at(values, "type"))) return compare_members(pointer, values);
+    if (all(values, [](const Json& value) { return value.is_object(); }) &&
+        are_alike(at(values, "type")))
+      return compare_members(pointer, values);
     if (all(values, has_structure)) return compare_elements(pointer, values);
     Difference& difference = found_.emplace_back(Difference{pointer, {}});
     for (const Json* value : values) difference.values.push_back(*value);
@@ -82,7 +87,9 @@ std::vector<Difference> differences(const std::vector<Json>& scenes) {
   std::vector<Difference> found = comparison.take();
   for (Difference& difference : found)
     for (std::size_t s = 0; s < scenes.size(); ++s)
-      if (scenes[s].is_null()) difference.values.insert(difference.values.begin() + static_cast<std::ptrdiff_t>(s), Json());
+      if (scenes[s].is_null())
+        difference.values.insert(difference.values.begin() + static_cast<std::ptrdiff_t>(s),
+                                 Json());
   return found;
 }
 

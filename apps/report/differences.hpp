@@ -14,8 +14,8 @@ struct Difference {
   std::vector<Json> values;  ///< one a scene; null if it has none there
 };
 
-/// The innermost places at which not all scenes have the same. Of what one of them lacks, or has as another type of stage, the whole is one
-/// difference. Scenes that are null are not compared.
+/// The innermost places at which not all scenes have the same. Of what one of them lacks, or has as
+/// another type of stage, the whole is one difference. Scenes that are null are not compared.
 std::vector<Difference> differences(const std::vector<Json>& scenes);
 
 }  // namespace hyperlattice::report

@@ -72,7 +72,8 @@ std::string text_of(const RunRecord& run, const Shown& figure) {
     case Kind::unit:
       return quantity_text(*number, figure.unit);
     case Kind::step:
-      return *number > 0 ? quantity_text(*number, figure.unit) : "";  // a search for rest may have none
+      return *number > 0 ? quantity_text(*number, figure.unit)
+                         : "";  // a search for rest may have none
     default:
       return short_number(*number, 4) + figure.unit;
   }
@@ -82,7 +83,8 @@ std::string text_of(const RunRecord& run, const Shown& figure) {
 
 std::vector<Fact> facts(const RunRecord& run) {
   std::vector<Fact> found;
-  for (const Shown& figure : shown_figures) found.push_back({figure.name, figure.pointer, text_of(run, figure)});
+  for (const Shown& figure : shown_figures)
+    found.push_back({figure.name, figure.pointer, text_of(run, figure)});
   if (run.summary.is_null()) found.front().text = run.status();
   return found;
 }
@@ -91,7 +93,8 @@ Json figures(const RunRecord& run) {
   Json found = Json::object();
   for (const Shown& figure : shown_figures) {
     const Json::json_pointer place(figure.pointer);
-    if (run.summary.is_object() && run.summary.contains(place)) found[place] = run.summary.at(place);
+    if (run.summary.is_object() && run.summary.contains(place))
+      found[place] = run.summary.at(place);
   }
   return found;
 }

@@ -7,13 +7,15 @@
 
 namespace hyperlattice::report {
 
-/// Text that can stand between tags or in quotes. What is not UTF-8, or a character that XML does not allow, becomes U+FFFD.
+/// Text that can stand between tags or in quotes. What is not UTF-8, or a character that XML does
+/// not allow, becomes U+FFFD.
 std::string escaped(std::string_view text);
 
 /// "data:image/png;base64,...".
 std::string data_uri(std::string_view media_type, std::string_view bytes);
 
-/// One row a vector. The first cell of each names the row; with `head`, those are the names of the columns. Cells are plain text.
+/// One row a vector. The first cell of each names the row; with `head`, those are the names of the
+/// columns. Cells are plain text.
 struct HtmlTable {
   std::vector<std::string> head;
   std::vector<std::vector<std::string>> rows;

@@ -34,22 +34,27 @@ void put(std::string& page, fmt::format_string<Values...> format, Values&&... va
 void put_plots(std::string& page, const std::vector<Plot>& plots) {
   if (plots.empty()) return;
   page += "<div class=\"columns\">\n";
-  for (const Plot& plot : plots) put(page, "<figure><figcaption>{}</figcaption>\n{}</figure>\n", escaped(plot.title), svg(plot));
+  for (const Plot& plot : plots)
+    put(page, "<figure><figcaption>{}</figcaption>\n{}</figure>\n", escaped(plot.title), svg(plot));
   page += "</div>\n";
 }
 
 void put_pictures(std::string& page, const RunRecord& run) {
   for (const PictureSeries& series : run.pictures) {
     put(page, "<h3>Pictures: {}</h3>\n", escaped(series.name));
-    if (series.files.size() < series.count) put(page, "<p class=\"soft\">{} of {}, evenly chosen.</p>\n", series.files.size(), series.count);
+    if (series.files.size() < series.count)
+      put(page, "<p class=\"soft\">{} of {}, evenly chosen.</p>\n", series.files.size(),
+          series.count);
     page += "<div class=\"columns pictures\">\n";
     for (const auto& [file, time] : series.files) {
-      const std::string name = file.generic_string(), caption = time ? name + " at " + quantity_text(*time, "s") : name;
+      const std::string name = file.generic_string(),
+                        caption = time ? name + " at " + quantity_text(*time, "s") : name;
       const std::string bytes = read_picture(run.folder, file);
       if (bytes.empty())
         put(page, "<p class=\"soft\">{} is too large to be shown.</p>\n", escaped(caption));
       else
-        put(page, "<figure><img alt=\"{0}\" src=\"{1}\"/><figcaption>{0}</figcaption></figure>\n", escaped(caption), data_uri("image/png", bytes));
+        put(page, "<figure><img alt=\"{0}\" src=\"{1}\"/><figcaption>{0}</figcaption></figure>\n",
+            escaped(caption), data_uri("image/png", bytes));
     }
     page += "</div>\n";
   }
@@ -59,7 +64,8 @@ void put_verdict(std::string& page, const RunRecord& run) {
   page += "<ul class=\"verdict\">\n";
   for (const Finding& finding : verdict(run)) {
     const Mark& mark = marks[static_cast<std::size_t>(finding.judgement)];
-    put(page, "<li class=\"{}\"><b>{}</b>{}</li>\n", mark.style, mark.sign, escaped(finding.sentence));
+    put(page, "<li class=\"{}\"><b>{}</b>{}</li>\n", mark.style, mark.sign,
+        escaped(finding.sentence));
   }
   page += "</ul>\n";
 }
@@ -77,28 +83,38 @@ void put_facts(std::string& page, const RunRecord& run) {
 
 HtmlTable plugins_table(const RunRecord& run) {
   HtmlTable table{{"Plugin", "Version", "Path"}, {}};
-  const Json plugins = run.summary.is_object() ? run.summary.value("plugins", Json::array()) : Json::array();
-  for (const Json& plugin : plugins) table.rows.push_back({word_in(plugin, "name"), word_in(plugin, "version"), word_in(plugin, "path")});
+  const Json plugins =
+      run.summary.is_object() ? run.summary.value("plugins", Json::array()) : Json::array();
+  for (const Json& plugin : plugins)
+    table.rows.push_back(
+        {word_in(plugin, "name"), word_in(plugin, "version"), word_in(plugin, "path")});
   return table;
 }
 
 void put_run(std::string& page, const RunRecord& run, bool is_only) {
   const bool is_done = run.status() == "done";
   const Mark& mark = is_done ? marks[0] : run.status() == "failed" ? marks[2] : marks[1];
-  put(page, "<section class=\"run\">\n<{0}>{1}</{0}>\n<p class=\"{2}\"><b>{3} {4}</b></p>\n<p class=\"soft\">{5}</p>\n", is_only ? "h1" : "h2",
-      escaped(is_only ? run.title() : run.label + ": " + run.title()), mark.style, mark.sign, escaped(run.status()), escaped(run.folder.string()));
+  put(page,
+      "<section class=\"run\">\n<{0}>{1}</{0}>\n<p class=\"{2}\"><b>{3} {4}</b></p>\n<p "
+      "class=\"soft\">{5}</p>\n",
+      is_only ? "h1" : "h2", escaped(is_only ? run.title() : run.label + ": " + run.title()),
+      mark.style, mark.sign, escaped(run.status()), escaped(run.folder.string()));
   page += "<h3>Is it stable, and is it right?</h3>\n";
   put_verdict(page, run);
   page += "<h3>What ran</h3>\n";
   put_facts(page, run);
-  if (const HtmlTable plugins = plugins_table(run); !plugins.rows.empty()) page += "<h3>Plugins</h3>\n" + table_html(plugins);
+  if (const HtmlTable plugins = plugins_table(run); !plugins.rows.empty())
+    page += "<h3>Plugins</h3>\n" + table_html(plugins);
   if (const auto plots = plots_of(run); !plots.empty()) {
     page += "<h3>What happened</h3>\n";
     put_plots(page, plots);
   }
   put_pictures(page, run);
   if (!run.scene.is_null())
-    put(page, "<details><summary>The scene, with every default filled in, in SI</summary>\n<pre>{}</pre></details>\n", escaped(run.scene.dump(2)));
+    put(page,
+        "<details><summary>The scene, with every default filled in, in "
+        "SI</summary>\n<pre>{}</pre></details>\n",
+        escaped(run.scene.dump(2)));
   page += "</section>\n";
 }
 
@@ -114,7 +130,9 @@ HtmlTable comparison(const Report& report) {
       table.rows[f].push_back(figures[f].text);
     }
   }
-  std::erase_if(table.rows, [](const auto& row) { return std::all_of(row.begin() + 1, row.end(), [](const auto& cell) { return cell.empty(); }); });
+  std::erase_if(table.rows, [](const auto& row) {
+    return std::all_of(row.begin() + 1, row.end(), [](const auto& cell) { return cell.empty(); });
+  });
   return table;
 }
 
@@ -129,7 +147,8 @@ HtmlTable differing(const Report& report) {
 }
 
 void put_together(std::string& page, const Report& report) {
-  page += "<section>\n<h2>Side by side</h2>\n" + table_html(comparison(report)) + "<h3>In what their scenes differ</h3>\n";
+  page += "<section>\n<h2>Side by side</h2>\n" + table_html(comparison(report)) +
+          "<h3>In what their scenes differ</h3>\n";
   page += report.differing.empty() ? "<p>In nothing.</p>\n" : table_html(differing(report));
   page += "<h3>Together</h3>\n";
   put_plots(page, plots_together(report.runs));
@@ -137,14 +156,17 @@ void put_together(std::string& page, const Report& report) {
 }
 
 void put_study(std::string& page, const StudyRecord& study, bool is_only) {
-  put(page, "<section class=\"study\">\n<{0}>{1}</{0}>\n<p class=\"soft\">A study, {2}</p>\n", is_only ? "h1" : "h2", escaped(study.title()),
-      escaped(study.folder.string()));
+  put(page, "<section class=\"study\">\n<{0}>{1}</{0}>\n<p class=\"soft\">A study, {2}</p>\n",
+      is_only ? "h1" : "h2", escaped(study.title()), escaped(study.folder.string()));
   put(page, "<p>{}</p>\n", escaped(word_in(study.found, "sentence")));
-  if (!study.plot.empty()) put(page, "<figure><img alt=\"error against run time\" src=\"{}\"/></figure>\n", data_uri("image/svg+xml", study.plot));
+  if (!study.plot.empty())
+    put(page, "<figure><img alt=\"error against run time\" src=\"{}\"/></figure>\n",
+        data_uri("image/svg+xml", study.plot));
   HtmlTable table{study.table.columns, study.table.rows};
   for (auto& row : table.rows)
     for (std::string& cell : row)
-      if (const auto number = csv_number(cell); number && *number != std::round(*number)) cell = short_number(*number, 4);
+      if (const auto number = csv_number(cell); number && *number != std::round(*number))
+        cell = short_number(*number, 4);
   page += table_html(table);
   page += "</section>\n";
 }
@@ -154,13 +176,17 @@ void put_study(std::string& page, const StudyRecord& study, bool is_only) {
 std::string report_page(const Report& report) {
   const std::size_t count = report.runs.size() + report.studies.size();
   const bool is_only = count == 1;
-  const std::string title = !is_only              ? fmt::format("Report of {} {}", count, report.studies.empty() ? "runs" : "runs and studies")
+  const std::string title = !is_only
+                                ? fmt::format("Report of {} {}", count,
+                                              report.studies.empty() ? "runs" : "runs and studies")
                             : report.runs.empty() ? report.studies.front().title()
                                                   : report.runs.front().title();
   std::string page;
   put(page,
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n<meta name=\"viewport\" content=\"width=device-width, "
-      "initial-scale=1\"/>\n<meta name=\"generator\" content=\"Hyperlattice {}\"/>\n<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n",
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n<meta "
+      "name=\"viewport\" content=\"width=device-width, "
+      "initial-scale=1\"/>\n<meta name=\"generator\" content=\"Hyperlattice "
+      "{}\"/>\n<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n",
       HYPERLATTICE_VERSION, escaped(title), style);
   if (!is_only) put(page, "<h1>{}</h1>\n", title);
   if (report.runs.size() > 1) put_together(page, report);

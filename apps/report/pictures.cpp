@@ -31,17 +31,20 @@ std::string fault_of(const FolderFile& file) {
   return file.text.starts_with(signature) ? "" : "no PNG picture";
 }
 
-/// Whether a file is one of the folder's, or of folders in it, with no link on the way. What is wrong with the way is wrong for every frame.
+/// Whether a file is one of the folder's, or of folders in it, with no link on the way. What is
+/// wrong with the way is wrong for every frame.
 bool stands_inside(const fs::path& folder, const fs::path& name) {
   fs::path way = folder;
   std::error_code error;
   for (const fs::path& part : name.parent_path())
-    if (part == ".." || part == "." || !fs::is_directory(fs::symlink_status(way /= part, error))) return false;
+    if (part == ".." || part == "." || !fs::is_directory(fs::symlink_status(way /= part, error)))
+      return false;
   return !name.is_absolute();
 }
 
 /// The writer's frames in their order; those that cannot be shown are left out.
-std::vector<PictureFile> frames(const fs::path& folder, const fs::path& base, double end_time, std::vector<std::string>& notes) {
+std::vector<PictureFile> frames(const fs::path& folder, const fs::path& base, double end_time,
+                                std::vector<std::string>& notes) {
   std::vector<PictureFile> found;
   std::optional<double> last;
   std::size_t left_out = 0;
@@ -50,7 +53,9 @@ std::vector<PictureFile> frames(const fs::path& folder, const fs::path& base, do
     const auto file = read_folder_file(folder, picture.name, head_bytes, true);
     if (!file) break;
     if (const std::string fault = fault_of(*file); !fault.empty()) {
-      if (++left_out <= most_told) notes.push_back(fmt::format("{} is {}, and is not shown.", picture.name.generic_string(), fault));
+      if (++left_out <= most_told)
+        notes.push_back(
+            fmt::format("{} is {}, and is not shown.", picture.name.generic_string(), fault));
       if (!stands_inside(folder, picture.name)) break;
       continue;
     }
@@ -60,7 +65,8 @@ std::vector<PictureFile> frames(const fs::path& folder, const fs::path& base, do
     found.push_back(std::move(picture));
   }
   if (left_out > most_told)
-    notes.push_back(fmt::format("{} more files of the pictures {} are not shown.", left_out - most_told, base.generic_string()));
+    notes.push_back(fmt::format("{} more files of the pictures {} are not shown.",
+                                left_out - most_told, base.generic_string()));
   return found;
 }
 
@@ -74,7 +80,8 @@ std::string read_picture(const fs::path& folder, const fs::path& name) {
 std::vector<std::size_t> evenly(std::size_t count, std::size_t most) {
   std::vector<std::size_t> chosen;
   const std::size_t kept = std::min(count, most);
-  for (std::size_t n = 0; n < kept; ++n) chosen.push_back(kept == 1 ? count - 1 : (n * (count - 1) + (kept - 1) / 2) / (kept - 1));
+  for (std::size_t n = 0; n < kept; ++n)
+    chosen.push_back(kept == 1 ? count - 1 : (n * (count - 1) + (kept - 1) / 2) / (kept - 1));
   return chosen;
 }
 
@@ -83,14 +90,18 @@ std::vector<std::pair<std::string, std::string>> png_texts(std::string_view byte
   if (!bytes.starts_with(signature)) return texts;
   for (std::size_t at = 8; at + 8 <= bytes.size();) {
     std::size_t length = 0;
-    for (std::size_t n = 0; n < 4; ++n) length = length << 8 | static_cast<unsigned char>(bytes[at + n]);
+    for (std::size_t n = 0; n < 4; ++n)
+      length = length << 8 | static_cast<unsigned char>(bytes[at + n]);
     const std::string_view kind = bytes.substr(at + 4, 4);
     if (kind == "IDAT" || at + 12 + length > bytes.size()) break;
     const std::string_view content = bytes.substr(at + 8, length);
     const auto end = content.find('\0');
-    if (kind == "tEXt" && end != std::string_view::npos) texts.emplace_back(content.substr(0, end), content.substr(end + 1));
-    if (kind == "iTXt" && end != std::string_view::npos && end + 2 < content.size() && content[end + 1] == 0) {  // not compressed
-      const auto language = content.find('\0', end + 3), translated = content.find('\0', language + 1);
+    if (kind == "tEXt" && end != std::string_view::npos)
+      texts.emplace_back(content.substr(0, end), content.substr(end + 1));
+    if (kind == "iTXt" && end != std::string_view::npos && end + 2 < content.size() &&
+        content[end + 1] == 0) {  // not compressed
+      const auto language = content.find('\0', end + 3),
+                 translated = content.find('\0', language + 1);
       if (language != std::string_view::npos && translated != std::string_view::npos)
         texts.emplace_back(content.substr(0, end), content.substr(translated + 1));
     }
@@ -99,7 +110,9 @@ std::vector<std::pair<std::string, std::string>> png_texts(std::string_view byte
   return texts;
 }
 
-std::vector<PictureSeries> find_pictures(const fs::path& folder, const Json& scene, std::optional<double> end_time, std::vector<std::string>& notes) {
+std::vector<PictureSeries> find_pictures(const fs::path& folder, const Json& scene,
+                                         std::optional<double> end_time,
+                                         std::vector<std::string>& notes) {
   constexpr double rounding = 1e-9, always = std::numeric_limits<double>::infinity();
   std::vector<PictureSeries> all;
   if (!scene.is_object() || !scene.contains("pipeline")) return all;
@@ -107,11 +120,14 @@ std::vector<PictureSeries> find_pictures(const fs::path& folder, const Json& sce
     const std::string type = word_in(stage, "type"), file = word_in(stage, "file");
     if (!type.starts_with("writers.") || file.empty()) continue;
     PictureSeries series{word_in(stage, "name"), {}, 0};
-    const bool is_labelled = series.name != type.substr(type.find('.') + 1);  // it then writes into a folder of that name
-    const auto found =
-        frames(folder, is_labelled ? fs::path(series.name) / file : fs::path(file), end_time ? *end_time * (1 + rounding) : always, notes);
+    const bool is_labelled =
+        series.name !=
+        type.substr(type.find('.') + 1);  // it then writes into a folder of that name
+    const auto found = frames(folder, is_labelled ? fs::path(series.name) / file : fs::path(file),
+                              end_time ? *end_time * (1 + rounding) : always, notes);
     series.count = found.size();
-    for (const std::size_t n : evenly(found.size(), most_pictures)) series.files.push_back(found[n]);
+    for (const std::size_t n : evenly(found.size(), most_pictures))
+      series.files.push_back(found[n]);
     if (series.count > 0) all.push_back(std::move(series));
   }
   return all;

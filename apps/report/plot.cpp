@@ -15,16 +15,21 @@ namespace hyperlattice::report {
 
 namespace {
 
-constexpr double width = 640, inner_height = 270, line_height = 18, letter = 6.6, right = 18, bottom = 40, sample = 22;
+constexpr double width = 640, inner_height = 270, line_height = 18, letter = 6.6, right = 18,
+                 bottom = 40, sample = 22;
 constexpr std::size_t few = 24;  // points that get a dot each
 
 /// Whether a number has a place; beyond, differences overflow.
 bool is_drawable(double value) { return std::abs(value) < 1e300; }
-bool has_point(const Series& series, std::size_t n) { return is_drawable(series.x[n]) && is_drawable(series.y[n]); }
+bool has_point(const Series& series, std::size_t n) {
+  return is_drawable(series.x[n]) && is_drawable(series.y[n]);
+}
 
 /// Letters of UTF-8 text.
 double letters(const std::string& text) {
-  return static_cast<double>(std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+  return static_cast<double>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+  }));
 }
 
 struct Range {
@@ -54,7 +59,9 @@ struct Drawn {
   double begin = 0, end = 0;  ///< on the picture
   std::vector<Tick> ticks;
 
-  double place(double value) const { return begin + (value / scale.factor - range.low) / (range.high - range.low) * (end - begin); }
+  double place(double value) const {
+    return begin + (value / scale.factor - range.low) / (range.high - range.low) * (end - begin);
+  }
   double place_of_tick(const Tick& tick) const { return place(tick.value * scale.factor); }
 };
 
@@ -63,21 +70,26 @@ Drawn drawn(const Axis& axis, Range range, int ticks) {
   range.widen();
   result.scale = scale_for(range.largest(), axis.unit);
   result.range = {range.low / result.scale.factor, range.high / result.scale.factor, false};
-  result.ticks = round_ticks(result.range.low, result.range.high, ticks, axis.is_count && result.scale.factor == 1);
+  result.ticks = round_ticks(result.range.low, result.range.high, ticks,
+                             axis.is_count && result.scale.factor == 1);
   return result;
 }
 
-std::string axis_label(const Axis& axis, const Scale& scale) { return scale.unit.empty() ? axis.name : axis.name + " in " + scale.unit; }
+std::string axis_label(const Axis& axis, const Scale& scale) {
+  return scale.unit.empty() ? axis.name : axis.name + " in " + scale.unit;
+}
 
 /// Curves over a little more than their range; from zero on, if they come near it.
 Range padded(Range range) {
   const double margin = 0.05 * (range.high - range.low);
-  const bool from_zero = range.low >= 0 && range.low < 0.3 * range.high, to_zero = range.high <= 0 && range.high > 0.3 * range.low;
+  const bool from_zero = range.low >= 0 && range.low < 0.3 * range.high,
+             to_zero = range.high <= 0 && range.high > 0.3 * range.low;
   return {from_zero ? 0 : range.low - margin, to_zero ? 0 : range.high + margin, false};
 }
 
 std::string style_class(const Series& series, std::size_t number) {
-  return fmt::format("c{} d{}", number % curve_colours, (number / curve_colours + (series.is_dashed ? 1 : 0)) % curve_dashes);
+  return fmt::format("c{} d{}", number % curve_colours,
+                     (number / curve_colours + (series.is_dashed ? 1 : 0)) % curve_dashes);
 }
 
 class Picture {
@@ -104,8 +116,8 @@ class Picture {
     y_.begin = y_.end + inner_height;
     draw_axes();
     for (std::size_t n = 0; n < plot_.series.size(); ++n) draw_curve(plot_.series[n], n);
-    return fmt::format("<svg viewBox=\"0 0 {} {:.0f}\" role=\"img\" aria-label=\"{}\">\n{}</svg>\n", width, y_.begin + bottom, escaped(plot_.title),
-                       body_);
+    return fmt::format("<svg viewBox=\"0 0 {} {:.0f}\" role=\"img\" aria-label=\"{}\">\n{}</svg>\n",
+                       width, y_.begin + bottom, escaped(plot_.title), body_);
   }
 
  private:
@@ -125,29 +137,35 @@ class Picture {
           x = 4;
           top_ += line_height;
         }
-        put("<path class=\"curve {}\" d=\"M{:.1f} {:.1f}h{}\"/><text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", style_class(plot_.series[n], n), x,
-            top_ - 9, sample, x + sample + 6, top_ - 5, escaped(label));
+        put("<path class=\"curve {}\" d=\"M{:.1f} {:.1f}h{}\"/><text x=\"{:.1f}\" "
+            "y=\"{:.1f}\">{}</text>\n",
+            style_class(plot_.series[n], n), x, top_ - 9, sample, x + sample + 6, top_ - 5,
+            escaped(label));
         x += needed;
       }
     }
     top_ += line_height;
-    put("<text class=\"axis\" x=\"4\" y=\"{:.1f}\">{}</text>\n", top_ - 4, escaped(axis_label(plot_.y, y_.scale)));
+    put("<text class=\"axis\" x=\"4\" y=\"{:.1f}\">{}</text>\n", top_ - 4,
+        escaped(axis_label(plot_.y, y_.scale)));
   }
 
   void draw_axes() {
     for (const Tick& tick : y_.ticks) {
       const double y = y_.place_of_tick(tick);
-      put("<path class=\"{}\" d=\"M{:.1f} {:.1f}H{:.1f}\"/><text class=\"end\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n",
+      put("<path class=\"{}\" d=\"M{:.1f} {:.1f}H{:.1f}\"/><text class=\"end\" x=\"{:.1f}\" "
+          "y=\"{:.1f}\">{}</text>\n",
           tick.value == 0 ? "zero" : "grid", x_.begin, y, x_.end, x_.begin - 6, y + 4, tick.label);
     }
     for (const Tick& tick : x_.ticks) {
       const double x = x_.place_of_tick(tick);
-      put("<path class=\"grid\" d=\"M{:.1f} {:.1f}V{:.1f}\"/><text class=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x, y_.begin, y_.end, x,
-          y_.begin + 16, tick.label);
+      put("<path class=\"grid\" d=\"M{:.1f} {:.1f}V{:.1f}\"/><text class=\"middle\" x=\"{:.1f}\" "
+          "y=\"{:.1f}\">{}</text>\n",
+          x, y_.begin, y_.end, x, y_.begin + 16, tick.label);
     }
-    put("<path class=\"frame\" d=\"M{:.1f} {:.1f}V{:.1f}H{:.1f}\"/>\n", x_.begin, y_.end, y_.begin, x_.end);
-    put("<text class=\"axis middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", 0.5 * (x_.begin + x_.end), y_.begin + 34,
-        escaped(axis_label(plot_.x, x_.scale)));
+    put("<path class=\"frame\" d=\"M{:.1f} {:.1f}V{:.1f}H{:.1f}\"/>\n", x_.begin, y_.end, y_.begin,
+        x_.end);
+    put("<text class=\"axis middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n",
+        0.5 * (x_.begin + x_.end), y_.begin + 34, escaped(axis_label(plot_.x, x_.scale)));
   }
 
   void draw_curve(const Series& series, std::size_t number) {
@@ -161,12 +179,15 @@ class Picture {
       }
       const double x = x_.place(series.x[n]), y = y_.place(series.y[n]);
       fmt::format_to(std::back_inserter(path), "{}{:.1f} {:.1f}", is_down ? "L" : "M", x, y);
-      if (series.x.size() <= few) fmt::format_to(std::back_inserter(dots), "M{:.1f} {:.1f}h0", x, y);
+      if (series.x.size() <= few)
+        fmt::format_to(std::back_inserter(dots), "M{:.1f} {:.1f}h0", x, y);
       is_down = true;
     }
     if (path.empty()) return;
-    put("<path class=\"curve {}\" d=\"{}\"><title>{}</title></path>\n", style_class(series, number), path, escaped(series.label));
-    if (!dots.empty()) put("<path class=\"dots {}\" d=\"{}\"/>\n", style_class(series, number), dots);
+    put("<path class=\"curve {}\" d=\"{}\"><title>{}</title></path>\n", style_class(series, number),
+        path, escaped(series.label));
+    if (!dots.empty())
+      put("<path class=\"dots {}\" d=\"{}\"/>\n", style_class(series, number), dots);
   }
 
   const Plot& plot_;

@@ -1,6 +1,7 @@
-// A plot as an SVG element of a page: curves, axes, ticks in round numbers, units, legend. Its colours come from the page's style (style.hpp), so
-// that they suit light, dark and paper. (Pictures that are files of their own, with logarithmic axes and labels at points, are drawn by gnuplot:
-// base/gnuplot.hpp. A report has to work without it.)
+// A plot as an SVG element of a page: curves, axes, ticks in round numbers, units, legend. Its
+// colours come from the page's style (style.hpp), so that they suit light, dark and paper.
+// (Pictures that are files of their own, with logarithmic axes and labels at points, are drawn by
+// gnuplot: base/gnuplot.hpp. A report has to work without it.)
 #pragma once
 
 #include <string>

@@ -16,26 +16,33 @@ namespace {
 constexpr std::size_t most_profiles = 5;
 
 std::string unit_of(const std::string& column) {
-  if (column.starts_with("displacement") || column.starts_with("height") || column.starts_with("radius")) return "m";
+  if (column.starts_with("displacement") || column.starts_with("height") ||
+      column.starts_with("radius"))
+    return "m";
   return column.starts_with("velocity") ? "m/s" : "";
 }
 
 bool ends_in(const std::string& name, std::initializer_list<const char*> endings) {
-  return std::any_of(endings.begin(), endings.end(), [&](const char* ending) { return name.ends_with(ending); });
+  return std::any_of(endings.begin(), endings.end(),
+                     [&](const char* ending) { return name.ends_with(ending); });
 }
 
 /// What stands in one plot: the statistics of a number, or the components of a vector.
 std::string quantity_of(const std::string& name) {
   const bool is_statistic = ends_in(name, {"_mean", "_min", "_max"});
-  return is_statistic || (!unit_of(name).empty() && ends_in(name, {"_x", "_y", "_z"})) ? name.substr(0, name.rfind('_')) : name;
+  return is_statistic || (!unit_of(name).empty() && ends_in(name, {"_x", "_y", "_z"}))
+             ? name.substr(0, name.rfind('_'))
+             : name;
 }
 
 /// Columns of a probe by a name for each, in the order of the table.
-std::vector<std::pair<std::string, std::vector<std::size_t>>> grouped(const Columns& table, std::string (*key)(const std::string&)) {
+std::vector<std::pair<std::string, std::vector<std::size_t>>> grouped(
+    const Columns& table, std::string (*key)(const std::string&)) {
   std::vector<std::pair<std::string, std::vector<std::size_t>>> groups;
   for (std::size_t c = 1; c < table.names.size(); ++c) {
     const std::string name = key(table.names[c]);
-    const auto found = std::find_if(groups.begin(), groups.end(), [&](const auto& group) { return group.first == name; });
+    const auto found = std::find_if(groups.begin(), groups.end(),
+                                    [&](const auto& group) { return group.first == name; });
     if (found == groups.end())
       groups.push_back({name, {c}});
     else
@@ -46,12 +53,15 @@ std::vector<std::pair<std::string, std::vector<std::size_t>>> grouped(const Colu
 
 bool is_along_places(const Columns& table) {
   const auto groups = grouped(table, column_name);
-  return std::any_of(groups.begin(), groups.end(), [&](const auto& group) { return group.second.size() > 1; }) &&
-         std::all_of(table.names.begin() + 1, table.names.end(), [](const std::string& name) { return column_place(name).has_value(); });
+  return std::any_of(groups.begin(), groups.end(),
+                     [&](const auto& group) { return group.second.size() > 1; }) &&
+         std::all_of(table.names.begin() + 1, table.names.end(),
+                     [](const std::string& name) { return column_place(name).has_value(); });
 }
 
 /// The columns at one row, over the distance of their places from the first.
-Series profile(const Columns& table, const std::vector<std::size_t>& columns, std::size_t row, std::string label) {
+Series profile(const Columns& table, const std::vector<std::size_t>& columns, std::size_t row,
+               std::string label) {
   Series series{std::move(label), {}, {}};
   const auto first = *column_place(table.names[columns.front()]);
   for (const std::size_t c : columns) {
@@ -74,7 +84,10 @@ std::vector<std::size_t> chosen_rows(const Columns& table) {
 }
 
 Plot along(const std::string& probe, const std::string& name) {
-  return {fmt::format("Probe {}: {}", probe, name), {"distance from the first place", "m"}, {name, unit_of(name)}, {}};
+  return {fmt::format("Probe {}: {}", probe, name),
+          {"distance from the first place", "m"},
+          {name, unit_of(name)},
+          {}};
 }
 
 Plot over_time(const std::string& probe, const std::string& name) {
@@ -91,14 +104,18 @@ std::vector<Plot> plots_of(const Probe& probe) {
     for (const auto& [name, columns] : grouped(table, column_name)) {
       Plot& plot = plots.emplace_back(along(probe.name, name));
       for (const std::size_t row : chosen_rows(table))
-        plot.series.push_back(profile(table, columns, row, "at " + quantity_text(table.values.front()[row], "s")));
+        plot.series.push_back(
+            profile(table, columns, row, "at " + quantity_text(table.values.front()[row], "s")));
     }
     return plots;
   }
-  for (const auto& [name, columns] : grouped(table, [](const std::string& column) { return quantity_of(column_name(column)); })) {
+  for (const auto& [name, columns] :
+       grouped(table, [](const std::string& column) { return quantity_of(column_name(column)); })) {
     // a number alone has no legend: its own name says which it is
-    Plot& plot = plots.emplace_back(over_time(probe.name, columns.size() == 1 ? column_name(table.names[columns.front()]) : name));
-    for (const std::size_t c : columns) plot.series.push_back({table.names[c], table.values.front(), table.values[c]});
+    Plot& plot = plots.emplace_back(over_time(
+        probe.name, columns.size() == 1 ? column_name(table.names[columns.front()]) : name));
+    for (const std::size_t c : columns)
+      plot.series.push_back({table.names[c], table.values.front(), table.values[c]});
   }
   return plots;
 }
@@ -114,11 +131,13 @@ std::vector<Plot> probes_together(std::span<const RunRecord> runs) {
       for (const auto& [name, columns] : grouped(table, column_name)) {
         if (ends_in(name, {"_min", "_max"})) continue;  // the mean will do
         const auto [found, is_new] = place.try_emplace({probe.name, name}, plots.size());
-        if (is_new) plots.push_back(is_profile ? along(probe.name, name) : over_time(probe.name, name));
+        if (is_new)
+          plots.push_back(is_profile ? along(probe.name, name) : over_time(probe.name, name));
         Plot& plot = plots[found->second];
         if (is_profile != (plot.x.unit == "m")) continue;  // another kind of probe by the same name
-        plot.series.push_back(is_profile ? profile(table, columns, table.rows() - 1, run.label)
-                                         : Series{run.label, table.values.front(), table.values[columns.front()]});
+        plot.series.push_back(
+            is_profile ? profile(table, columns, table.rows() - 1, run.label)
+                       : Series{run.label, table.values.front(), table.values[columns.front()]});
       }
     }
   std::erase_if(plots, [](const Plot& plot) { return plot.series.size() < 2; });

@@ -20,8 +20,9 @@ void label(std::vector<RunRecord>& runs) {
     return (whole.has_filename() ? whole.filename() : whole.parent_path().filename()).string();
   };
   for (RunRecord& run : runs) {
-    const auto alike =
-        std::count_if(runs.begin(), runs.end(), [&](const RunRecord& other) { return last_part(other.folder) == last_part(run.folder); });
+    const auto alike = std::count_if(runs.begin(), runs.end(), [&](const RunRecord& other) {
+      return last_part(other.folder) == last_part(run.folder);
+    });
     run.label = alike > 1 ? run.folder.string() : last_part(run.folder);
   }
 }
@@ -49,7 +50,8 @@ Report read_report(const std::vector<fs::path>& folders) {
     else if (is_study(folder))
       report.studies.push_back(read_study_record(folder, faults));
     else
-      faults.add(folder.string(), "", "a run's summary.json or history.csv in it, or a study's study.json");
+      faults.add(folder.string(), "",
+                 "a run's summary.json or history.csv in it, or a study's study.json");
   }
   faults.throw_if_any();
   label(report.runs);
@@ -68,28 +70,33 @@ Json report_json(const Report& report) {
                 {"status", record.status()},
                 {"findings", Json::array()}};
     for (const Finding& finding : verdict(record))
-      run["findings"].push_back({{"about", finding.about},
-                                 {"judgement", judgement_names[static_cast<std::size_t>(finding.judgement)]},
-                                 {"sentence", finding.sentence},
-                                 {"numbers", finding.numbers}});
+      run["findings"].push_back(
+          {{"about", finding.about},
+           {"judgement", judgement_names[static_cast<std::size_t>(finding.judgement)]},
+           {"sentence", finding.sentence},
+           {"numbers", finding.numbers}});
     run["figures"] = figures(record);
     json["runs"].push_back(std::move(run));
   }
   for (const Difference& difference : report.differing)
     json["differences"].push_back({{"pointer", difference.pointer}, {"values", difference.values}});
   for (const StudyRecord& study : report.studies)
-    json["studies"].push_back({{"folder", study.folder.string()}, {"title", study.title()}, {"found", study.found}});
+    json["studies"].push_back(
+        {{"folder", study.folder.string()}, {"title", study.title()}, {"found", study.found}});
   return json;
 }
 
 std::string report_text(const Report& report) {
   std::string text;
   for (const RunRecord& record : report.runs) {
-    fmt::format_to(std::back_inserter(text), "{}{}: {}\n", text.empty() ? "" : "\n", record.title(), record.status());
-    for (const Finding& finding : verdict(record)) fmt::format_to(std::back_inserter(text), "  {}\n", finding.sentence);
+    fmt::format_to(std::back_inserter(text), "{}{}: {}\n", text.empty() ? "" : "\n", record.title(),
+                   record.status());
+    for (const Finding& finding : verdict(record))
+      fmt::format_to(std::back_inserter(text), "  {}\n", finding.sentence);
   }
   for (const StudyRecord& study : report.studies)
-    fmt::format_to(std::back_inserter(text), "{}{}: a study\n", text.empty() ? "" : "\n", study.title());
+    fmt::format_to(std::back_inserter(text), "{}{}: a study\n", text.empty() ? "" : "\n",
+                   study.title());
   return text;
 }
 

@@ -12,11 +12,12 @@ struct Report {
   std::vector<Difference> differing;  ///< of the runs' scenes
 };
 
-/// Reads the folders. InputError with every fault of all of them: no folder, nothing of a run or a study in it, a file that cannot be understood.
+/// Reads the folders. InputError with every fault of all of them: no folder, nothing of a run or a
+/// study in it, a file that cannot be understood.
 Report read_report(const std::vector<std::filesystem::path>& folders);
 
-/// A page that needs no other file and no network: style, plots and pictures are in it. HTML that is well-formed XML, too; the same bits for the same
-/// results.
+/// A page that needs no other file and no network: style, plots and pictures are in it. HTML that
+/// is well-formed XML, too; the same bits for the same results.
 std::string report_page(const Report& report);
 
 Json report_json(const Report& report);

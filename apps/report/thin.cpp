@@ -9,7 +9,8 @@ namespace hyperlattice::report {
 namespace {
 
 /// Points that stand for [begin, end), which is one column.
-void keep_column(std::span<const double> y, std::size_t begin, std::size_t end, std::vector<std::size_t>& kept) {
+void keep_column(std::span<const double> y, std::size_t begin, std::size_t end,
+                 std::vector<std::size_t>& kept) {
   std::vector<std::size_t> some{begin, end - 1};
   std::size_t least = end, greatest = end, gap = end;
   for (std::size_t n = begin; n < end; ++n) {
@@ -29,10 +30,13 @@ void keep_column(std::span<const double> y, std::size_t begin, std::size_t end, 
 
 }  // namespace
 
-std::vector<std::size_t> thinned(std::span<const double> x, std::span<const double> y, std::size_t columns) {
+std::vector<std::size_t> thinned(std::span<const double> x, std::span<const double> y,
+                                 std::size_t columns) {
   const std::size_t count = std::min(x.size(), y.size());
-  const bool is_finite = std::all_of(x.begin(), x.end(), [](double value) { return std::isfinite(value); });
-  if (count <= 4 * columns || !is_finite || !std::is_sorted(x.begin(), x.end()) || !(x.back() > x.front())) {
+  const bool is_finite =
+      std::all_of(x.begin(), x.end(), [](double value) { return std::isfinite(value); });
+  if (count <= 4 * columns || !is_finite || !std::is_sorted(x.begin(), x.end()) ||
+      !(x.back() > x.front())) {
     std::vector<std::size_t> all(count);
     std::iota(all.begin(), all.end(), std::size_t{0});
     return all;

@@ -12,7 +12,8 @@ namespace hyperlattice::report {
 
 namespace {
 
-/// Up to these a number is called fine. A run's own tolerances may be wider: they say where it stops.
+/// Up to these a number is called fine. A run's own tolerances may be wider: they say where it
+/// stops.
 constexpr double fine_balance = 0.01;   ///< of the largest energy
 constexpr double fine_residual = 1e-3;  ///< of the mean force on held or loaded particles
 constexpr double fine_displacement = 0.01;
@@ -29,13 +30,15 @@ std::vector<Json> solvers(const RunRecord& run) {
   std::vector<Json> found;
   if (run.scene.is_object() && run.scene.contains("pipeline"))
     for (const Json& stage : run.scene["pipeline"])
-      if (stage.is_object() && word_in(stage, "type").starts_with("solvers.")) found.push_back(stage);
+      if (stage.is_object() && word_in(stage, "type").starts_with("solvers."))
+        found.push_back(stage);
   return found;
 }
 
 std::optional<double> last_of(const Columns& table, const char* name) {
   const auto* column = table.find(name);
-  return column == nullptr || column->empty() ? std::nullopt : std::optional<double>(column->back());
+  return column == nullptr || column->empty() ? std::nullopt
+                                              : std::optional<double>(column->back());
 }
 
 double largest_of(const Columns& table, const char* name) {
@@ -48,7 +51,8 @@ double largest_of(const Columns& table, const char* name) {
 class Sceptic {
  public:
   explicit Sceptic(const RunRecord& run) : run_(run), solvers_(solvers(run)) {
-    if (run.summary.is_object() && run.summary.contains("stages") && run.summary["stages"].is_array())
+    if (run.summary.is_object() && run.summary.contains("stages") &&
+        run.summary["stages"].is_array())
       for (const Json& stage : run.summary["stages"])
         if (stage.is_object()) stages_.push_back(stage);
     all_at_rest_ = !stages_.empty() && std::all_of(stages_.begin(), stages_.end(), is_at_rest);
@@ -59,17 +63,20 @@ class Sceptic {
       add("reason", run_.status() == "failed" ? Judgement::wrong : Judgement::doubtful, reason, {});
     ask_progress();
     if (run_.has_checkpoint && run_.status() != "done")
-      add("checkpoint", Judgement::plain, "Its checkpoint.bin is there, from which `hyperlattice run --resume` goes on.", {});
+      add("checkpoint", Judgement::plain,
+          "Its checkpoint.bin is there, from which `hyperlattice run --resume` goes on.", {});
     for (const Json& stage : stages_) ask_time_step(stage);
     ask_rest();
     ask_energy();
     if (!all_at_rest_) ask_momentum();
     ask_breakage();
     if (run_.has_failing_motion)
-      add("failing_motion", Judgement::doubtful, "A solver found no state of rest; failing_motion.csv says how the body moves.", {});
+      add("failing_motion", Judgement::doubtful,
+          "A solver found no state of rest; failing_motion.csv says how the body moves.", {});
     if (run_.summary.contains("warnings") && run_.summary["warnings"].is_array())
       for (const Json& warning : run_.summary["warnings"])
-        if (warning.is_string()) add("warning", Judgement::doubtful, "Warning: " + warning.get<std::string>(), {});
+        if (warning.is_string())
+          add("warning", Judgement::doubtful, "Warning: " + warning.get<std::string>(), {});
     for (const std::string& note : run_.notes) add("note", Judgement::doubtful, note, {});
     return std::move(findings_);
   }
@@ -78,7 +85,8 @@ class Sceptic {
   static bool is_at_rest(const Json& stage) { return stage.value("at_rest", Json(false)) == true; }
 
   void add(std::string about, Judgement judgement, std::string sentence, Json numbers) {
-    findings_.push_back({std::move(about), judgement, std::move(sentence), numbers.is_null() ? Json::object() : std::move(numbers)});
+    findings_.push_back({std::move(about), judgement, std::move(sentence),
+                         numbers.is_null() ? Json::object() : std::move(numbers)});
   }
 
   /// How far a run came that did not end.
@@ -89,8 +97,8 @@ class Sceptic {
     Json numbers = Json::object();
     if (time && step) {
       const double end = solvers_.empty() ? 0 : number_in(solvers_.back(), "end_time", 0);
-      sentence +=
-          fmt::format(" Its latest record is of step {} at {}{}.", count_text_of(*step), seconds(*time), end > 0 ? " of " + seconds(end) : "");
+      sentence += fmt::format(" Its latest record is of step {} at {}{}.", count_text_of(*step),
+                              seconds(*time), end > 0 ? " of " + seconds(end) : "");
       numbers = {{"time", *time}, {"step", *step}};
       if (end > 0) numbers["planned_end_time"] = end;
     }
@@ -98,15 +106,23 @@ class Sceptic {
   }
 
   void ask_time_step(const Json& stage) {
-    const double step = number_in(stage, "time_step", 0), stable = number_in(stage, "stable_time_step", 0);
+    const double step = number_in(stage, "time_step", 0),
+                 stable = number_in(stage, "stable_time_step", 0);
     if (!(step > 0) || !(stable > 0)) return;
     const double share = step / stable;
     const std::string because = run_.word("/critical_because");
     const double critical = run_.number("/critical_time_step").value_or(stable);
     add("time_step", share <= 1 ? Judgement::fine : Judgement::wrong,
-        fmt::format("Time step ({}): at most {}, {} of the stable {}{}.", word_in(stage, "type"), seconds(step), short_number(share, 3),
-                    seconds(stable), because.empty() ? "" : fmt::format("; the critical step of the body is {}, by {}", seconds(critical), because)),
-        {{"stage", word_in(stage, "name")}, {"time_step", step}, {"stable_time_step", stable}, {"critical_time_step", critical}, {"share", share}});
+        fmt::format("Time step ({}): at most {}, {} of the stable {}{}.", word_in(stage, "type"),
+                    seconds(step), short_number(share, 3), seconds(stable),
+                    because.empty() ? ""
+                                    : fmt::format("; the critical step of the body is {}, by {}",
+                                                  seconds(critical), because)),
+        {{"stage", word_in(stage, "name")},
+         {"time_step", step},
+         {"stable_time_step", stable},
+         {"critical_time_step", critical},
+         {"share", share}});
   }
 
   void ask_rest() {
@@ -115,9 +131,12 @@ class Sceptic {
     Json numbers = {{"residual", *residual}};
     double tolerance = 0;
     for (std::size_t n = 0; n < stages_.size() && n < solvers_.size(); ++n)
-      if (is_at_rest(stages_[n])) tolerance = number_in(solvers_[n], "tolerance", 0);  // the last counts, as in the summary
-    std::string sentence =
-        fmt::format("At rest: the largest force out of balance is {} of the mean force on held or loaded particles", short_number(*residual, 3));
+      if (is_at_rest(stages_[n]))
+        tolerance = number_in(solvers_[n], "tolerance", 0);  // the last counts, as in the summary
+    std::string sentence = fmt::format(
+        "At rest: the largest force out of balance is {} of the mean force on held or loaded "
+        "particles",
+        short_number(*residual, 3));
     if (tolerance > 0) {
       sentence += fmt::format("; the solver's tolerance is {}", short_number(tolerance, 3));
       numbers["tolerance"] = tolerance;
@@ -130,9 +149,11 @@ class Sceptic {
       sentence += fmt::format(" ({} iterations)", short_number(*iterations));
       numbers["iterations"] = *iterations;
     }
-    const bool is_fine = *residual <= fine_residual && run_.number("/rest/displacement_error").value_or(0) <= fine_displacement &&
+    const bool is_fine = *residual <= fine_residual &&
+                         run_.number("/rest/displacement_error").value_or(0) <= fine_displacement &&
                          (tolerance == 0 || *residual <= tolerance);
-    sentence += fmt::format(". Fine are at most {} and {}", short_number(fine_residual, 3), percent_text(fine_displacement));
+    sentence += fmt::format(". Fine are at most {} and {}", short_number(fine_residual, 3),
+                            percent_text(fine_displacement));
     add("rest", is_fine ? Judgement::fine : Judgement::doubtful, sentence + ".", numbers);
   }
 
@@ -142,7 +163,8 @@ class Sceptic {
     for (std::size_t n = 0; n < solvers_.size(); ++n) {
       const double tolerance = number_in(solvers_[n], "energy_tolerance", 0);
       const bool minds = n >= stages_.size() || !is_at_rest(stages_[n]);
-      if (minds && tolerance > 0 && (strictest == 0 || tolerance < strictest)) strictest = tolerance;
+      if (minds && tolerance > 0 && (strictest == 0 || tolerance < strictest))
+        strictest = tolerance;
     }
     return strictest;
   }
@@ -152,14 +174,21 @@ class Sceptic {
     if (!at_end) at_end = last_of(run_.history, "relative_error");
     if (!at_end) return;
     const double largest =
-        std::max(std::abs(*at_end), run_.number("/energy/largest_relative_error").value_or(largest_of(run_.history, "relative_error")));
+        std::max(std::abs(*at_end), run_.number("/energy/largest_relative_error")
+                                        .value_or(largest_of(run_.history, "relative_error")));
     const double tolerance = energy_tolerance();
-    std::string sentence = fmt::format("Energy balance: off by {} of the largest energy {}, by {} at most", percent_text(std::abs(*at_end)), now_,
-                                       percent_text(largest));
-    sentence += all_at_rest_ ? "; along states of rest it is a measure of how finely the loads were stepped."
-                : tolerance > 0
-                    ? fmt::format("; fine is at most {}, and the run stops at {}.", percent_text(fine_balance), percent_text(tolerance))
-                    : fmt::format("; fine is at most {}, and the scene sets no tolerance at which the run stops.", percent_text(fine_balance));
+    std::string sentence =
+        fmt::format("Energy balance: off by {} of the largest energy {}, by {} at most",
+                    percent_text(std::abs(*at_end)), now_, percent_text(largest));
+    sentence +=
+        all_at_rest_
+            ? "; along states of rest it is a measure of how finely the loads were stepped."
+        : tolerance > 0
+            ? fmt::format("; fine is at most {}, and the run stops at {}.",
+                          percent_text(fine_balance), percent_text(tolerance))
+            : fmt::format(
+                  "; fine is at most {}, and the scene sets no tolerance at which the run stops.",
+                  percent_text(fine_balance));
     Json numbers = {{"relative_error", *at_end}, {"largest_relative_error", largest}};
     if (tolerance > 0) numbers["energy_tolerance"] = tolerance;
     const Judgement judgement = all_at_rest_                               ? Judgement::plain
@@ -170,21 +199,25 @@ class Sceptic {
   }
 
   void ask_momentum() {
-    const auto x = last_of(run_.history, "momentum_x"), y = last_of(run_.history, "momentum_y"), z = last_of(run_.history, "momentum_z");
+    const auto x = last_of(run_.history, "momentum_x"), y = last_of(run_.history, "momentum_y"),
+               z = last_of(run_.history, "momentum_z");
     if (!x || !y || !z) return;
     double largest = 0;
     for (std::size_t n = 0; n < run_.history.rows(); ++n)
-      largest = std::max(
-          largest, std::hypot((*run_.history.find("momentum_x"))[n], (*run_.history.find("momentum_y"))[n], (*run_.history.find("momentum_z"))[n]));
+      largest = std::max(largest, std::hypot((*run_.history.find("momentum_x"))[n],
+                                             (*run_.history.find("momentum_y"))[n],
+                                             (*run_.history.find("momentum_z"))[n]));
     const double size = std::hypot(*x, *y, *z);
     add("momentum", Judgement::plain,
-        fmt::format("Momentum: {} N s {}, at most {} N s. Only loads, supports and damping can change it.", short_number(size, 3), now_,
-                    short_number(largest, 3)),
+        fmt::format(
+            "Momentum: {} N s {}, at most {} N s. Only loads, supports and damping can change it.",
+            short_number(size, 3), now_, short_number(largest, 3)),
         {{"at_end", {*x, *y, *z}}, {"largest", largest}});
   }
 
   void ask_breakage() {
-    std::optional<double> open = run_.number("/broken_springs/open"), closed = run_.number("/broken_springs/closed");
+    std::optional<double> open = run_.number("/broken_springs/open"),
+                          closed = run_.number("/broken_springs/closed");
     if (!open || !closed) {
       open = last_of(run_.history, "broken_open");
       closed = last_of(run_.history, "broken_closed");
@@ -193,14 +226,18 @@ class Sceptic {
     const double broken = *open + *closed;
     Json numbers = {{"open", *open}, {"closed", *closed}};
     if (broken == 0) {
-      const bool unbreakable = run_.summary.is_object() && run_.summary.value("breakable", Json()) == false;
-      return add("broken_springs", Judgement::plain, unbreakable ? "No spring of this scene can break." : "No spring broke.", numbers);
+      const bool unbreakable =
+          run_.summary.is_object() && run_.summary.value("breakable", Json()) == false;
+      return add("broken_springs", Judgement::plain,
+                 unbreakable ? "No spring of this scene can break." : "No spring broke.", numbers);
     }
     const auto springs = run_.number("/springs");
-    std::string sentence =
-        fmt::format("Broken springs: {}{}, {} open and {} closed", count_text_of(broken),
-                    springs && *springs > 0 ? fmt::format(" of {} ({})", count_text_of(*springs), percent_text(broken / *springs)) : "",
-                    count_text_of(*open), count_text_of(*closed));
+    std::string sentence = fmt::format(
+        "Broken springs: {}{}, {} open and {} closed", count_text_of(broken),
+        springs && *springs > 0
+            ? fmt::format(" of {} ({})", count_text_of(*springs), percent_text(broken / *springs))
+            : "",
+        count_text_of(*open), count_text_of(*closed));
     if (run_.first_break) {
       sentence += fmt::format("; the first broke at {}", seconds(*run_.first_break));
       numbers["first_time"] = *run_.first_break;

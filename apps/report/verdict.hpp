@@ -5,12 +5,17 @@
 
 namespace hyperlattice::report {
 
-enum class Judgement { fine, doubtful, wrong, plain };  ///< plain: a fact that speaks neither for nor against
+enum class Judgement {
+  fine,
+  doubtful,
+  wrong,
+  plain
+};  ///< plain: a fact that speaks neither for nor against
 inline constexpr std::string_view judgement_names[] = {"fine", "doubtful", "wrong", "plain"};
 
 struct Finding {
-  std::string about;  ///< "time_step", "energy_balance", "rest", "momentum", "broken_springs", "warning", "failing_motion", "progress", "checkpoint",
-                      ///< "reason", "note"
+  std::string about;  ///< "time_step", "energy_balance", "rest", "momentum", "broken_springs",
+                      ///< "warning", "failing_motion", "progress", "checkpoint", "reason", "note"
   Judgement judgement = Judgement::plain;
   std::string sentence;
   Json numbers;  ///< what the sentence tells, in SI

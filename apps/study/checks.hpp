@@ -10,8 +10,9 @@ namespace hyperlattice::study {
 /// Faults that runs have: what is common to all is said once, the rest with the runs that have it.
 class RunFaults {
  public:
-  void add(const InputError& error, const std::string& run, const std::string& prefix);  ///< the prefix says whose pointers they are
-  void throw_if_any(std::size_t runs) const;                                             ///< InputError; `runs`: how many there are
+  void add(const InputError& error, const std::string& run,
+           const std::string& prefix);        ///< the prefix says whose pointers they are
+  void throw_if_any(std::size_t runs) const;  ///< InputError; `runs`: how many there are
 
  private:
   struct Found {
@@ -31,15 +32,17 @@ struct Foreseen {
   double step = 0;             ///< s, by less than which a solver may pass the end
 };
 
-/// The truth of a row must be there, must not be zero and must not lie at times alone that the run does not reach, as far as that is known before its
-/// run: `foreseen` is null if nothing is. Throws InputError.
+/// The truth of a row must be there, must not be zero and must not lie at times alone that the run
+/// does not reach, as far as that is known before its run: `foreseen` is null if nothing is. Throws
+/// InputError.
 void check_truth(const Study& study, const Row& row, const Foreseen* foreseen);
 
 /// The tables that the scene's probes left in a finished run; nothing if one is missing.
-std::optional<std::vector<PlannedTable>> tables_in(const std::filesystem::path& run_directory, const Scene& scene);
+std::optional<std::vector<PlannedTable>> tables_in(const std::filesystem::path& run_directory,
+                                                   const Scene& scene);
 
-/// Why the tables of a scene's probes are not as the run that is done left them, by its list of files: "probes/point.csv has changed"; empty: they
-/// are.
+/// Why the tables of a scene's probes are not as the run that is done left them, by its list of
+/// files: "probes/point.csv has changed"; empty: they are.
 std::string changed_table(const std::filesystem::path& run_directory, const Scene& scene);
 
 }  // namespace hyperlattice::study

@@ -45,16 +45,20 @@ struct Earlier {
   std::string changed;  ///< why a run that is done cannot be taken
 };
 
-/// The run in a folder, if it is done and depends on the same as a run of now, with as many threads: these do not change results, but times.
-Earlier find_earlier(const fs::path& folder, const Scene& scene, const Identity& identity, Threads threads) {
+/// The run in a folder, if it is done and depends on the same as a run of now, with as many
+/// threads: these do not change results, but times.
+Earlier find_earlier(const fs::path& folder, const Scene& scene, const Identity& identity,
+                     Threads threads) {
   Earlier earlier{summary_in(folder), ""};
   if (earlier.summary.is_discarded()) return {nullptr, "its summary.json cannot be read"};
   const Json status = earlier.summary.is_null() ? Json() : earlier.summary.value("status", Json());
   if (status != "done") return {};
-  const Json counted = earlier.summary.value("threads", Json()), wall = earlier.summary.value("wall_seconds", Json());
+  const Json counted = earlier.summary.value("threads", Json()),
+             wall = earlier.summary.value("wall_seconds", Json());
   if (!counted.is_number_integer() || !threads.allow(counted.get<std::int64_t>()))
     earlier.changed = fmt::format("it was run with {} threads", counted.dump());
-  else if (!wall.is_object() || !wall.value("solve", Json()).is_number() || !wall.value("setup", Json()).is_number())
+  else if (!wall.is_object() || !wall.value("solve", Json()).is_number() ||
+           !wall.value("setup", Json()).is_number())
     earlier.changed = "its summary.json is not whole";
   else if (!earlier.summary.contains("identity"))
     earlier.changed = "it does not say what it depended on";
@@ -73,7 +77,8 @@ std::uint64_t count_in(const Json& summary, const char* key) {
 
 class Conductor {
  public:
-  Conductor(const Study& study, const std::vector<Point>& points, const ConductOptions& options, Host& host)
+  Conductor(const Study& study, const std::vector<Point>& points, const ConductOptions& options,
+            Host& host)
       : study_(study), points_(points), options_(options), host_(host) {}
 
   void check() {
@@ -145,32 +150,47 @@ class Conductor {
       if (!fs::exists(status)) continue;
       if (!fs::is_regular_file(status))
         faults.add("--out", file.string(), "a regular file, or nothing, of that name");
-      else if (std::any_of(inputs.begin(), inputs.end(), [&](const fs::path& input) { return fs::equivalent(file, input, error); }))
-        faults.add("--out", file.string(), "a folder in which the study replaces nothing that it needs; it reads this file, or it is the study");
+      else if (std::any_of(inputs.begin(), inputs.end(), [&](const fs::path& input) {
+                 return fs::equivalent(file, input, error);
+               }))
+        faults.add("--out", file.string(),
+                   "a folder in which the study replaces nothing that it needs; it reads this "
+                   "file, or it is the study");
       else if (file.filename() == "study.json" && !has_study(folder))
-        faults.add("--out", file.string(), "the results of a study, or nothing, of that name; another file is there");
+        faults.add("--out", file.string(),
+                   "the results of a study, or nothing, of that name; another file is there");
     }
-    if (const fs::file_status runs = fs::status(folder / "runs", error); fs::exists(runs) && !fs::is_directory(runs))
+    if (const fs::file_status runs = fs::status(folder / "runs", error);
+        fs::exists(runs) && !fs::is_directory(runs))
       faults.add("--out", (folder / "runs").string(), "a folder, or nothing, of that name");
     faults.throw_if_any();
   }
 
-  Threads threads(const Point& point) const { return point.threads ? Threads(*point.threads) : options_.threads; }
-  std::unique_ptr<Scene> read(const Point& point) const { return read_scene_text(point.scene.dump(), study_.scene_file, host_); }
+  Threads threads(const Point& point) const {
+    return point.threads ? Threads(*point.threads) : options_.threads;
+  }
+  std::unique_ptr<Scene> read(const Point& point) const {
+    return read_scene_text(point.scene.dump(), study_.scene_file, host_);
+  }
 
-  /// What the run left, or will leave; nothing if it is too large for this machine: its row will say so, and the others go on.
+  /// What the run left, or will leave; nothing if it is too large for this machine: its row will
+  /// say so, and the others go on.
   std::optional<Foreseen> foresee(const Point& point, std::unique_ptr<Scene> scene) const {
     const fs::path folder = run_directory(options_.directory, point.name, 1);
     if (!options_.fresh)
-      if (const Json summary = find_earlier(folder, *scene, identity_of(*scene), threads(point)).summary; !summary.is_null())
+      if (const Json summary =
+              find_earlier(folder, *scene, identity_of(*scene), threads(point)).summary;
+          !summary.is_null())
         if (auto tables = tables_in(folder, *scene)) {
           const Json end_time = summary.value("end_time", Json());
-          return Foreseen{std::move(*tables), end_time.is_number() ? end_time.get<double>() : infinity, 0};
+          return Foreseen{std::move(*tables),
+                          end_time.is_number() ? end_time.get<double>() : infinity, 0};
         }
     forget_lack_of_memory();
     try {
       const auto plan = make_plan(std::move(scene), threads(point));
-      return Foreseen{std::move(plan->tables), plan->end_time(), plan->stages.empty() ? 0 : plan->stages.back().plan.time_step};
+      return Foreseen{std::move(plan->tables), plan->end_time(),
+                      plan->stages.empty() ? 0 : plan->stages.back().plan.time_step};
     } catch (const OutsideError&) {
       return std::nullopt;
     } catch (const std::bad_alloc&) {
@@ -189,7 +209,8 @@ class Conductor {
         continue;
       }
       const Json::json_pointer place(axis.pointers.front());
-      if (resolved.contains(place) && resolved[place].is_number()) number = resolved[place].get<double>();
+      if (resolved.contains(place) && resolved[place].is_number())
+        number = resolved[place].get<double>();
     }
     return found;
   }
@@ -199,9 +220,12 @@ class Conductor {
     const Axis& axis = study_.axes[*study_.refinement];
     Faults faults;
     for (const Row& row : result_.rows)
-      if (const auto& size = row.numbers[*study_.refinement]; faults.empty() && !(size && *size > 0))
+      if (const auto& size = row.numbers[*study_.refinement];
+          faults.empty() && !(size && *size > 0))
         faults.add(member("/vary", axis.name), axis.labels[row.choice[*study_.refinement]],
-                   fmt::format("sizes above 0 in the first of its pointers, because \"{}\" is the axis that refines", axis.name));
+                   fmt::format("sizes above 0 in the first of its pointers, because \"{}\" is the "
+                               "axis that refines",
+                               axis.name));
     faults.throw_if_any();
   }
 
@@ -210,7 +234,9 @@ class Conductor {
     run_options.overwrite = true;  // the folder is the study's
     auto scene = read(point);
     Identity identity = identity_of(*scene);
-    auto [summary, changed] = options_.fresh ? Earlier() : find_earlier(run_options.directory, *scene, identity, threads(point));
+    auto [summary, changed] =
+        options_.fresh ? Earlier()
+                       : find_earlier(run_options.directory, *scene, identity, threads(point));
     const bool there = !summary.is_null();
     if (!changed.empty()) spdlog::info("{}: runs again: {}", title, changed);
     row.identity = identity_hash(identity);
@@ -238,7 +264,8 @@ class Conductor {
       summary = summary_in(run_options.directory);
       if (summary.is_discarded()) summary = nullptr;
       if (code != exit_done || summary.is_null()) {
-        if (reason.empty()) reason = summary.is_null() ? "summary.json cannot be read" : word_in(summary, "reason");
+        if (reason.empty())
+          reason = summary.is_null() ? "summary.json cannot be read" : word_in(summary, "reason");
         row.fail(reason, code == exit_done ? exit_outside : code);
         return spdlog::error("{}: failed: {}", title, row.reason);
       }
@@ -247,7 +274,8 @@ class Conductor {
     if (there)
       spdlog::info("{}: there already", title);
     else
-      spdlog::info("{}: {:.3g} s, {} particles, {} steps", title, row.solve_seconds.back(), row.particles, row.steps);
+      spdlog::info("{}: {:.3g} s, {} particles, {} steps", title, row.solve_seconds.back(),
+                   row.particles, row.steps);
   }
 
   static void take(Row& row, const Json& summary, std::int64_t repeat) {
@@ -273,7 +301,8 @@ fs::path run_directory(const fs::path& directory, const std::string& run, std::i
   return repeat == 1 ? folder : folder / fmt::format("repeat_{}", repeat);
 }
 
-Conducted conduct(const Study& study, const std::vector<Point>& points, const ConductOptions& options, Host& host) {
+Conducted conduct(const Study& study, const std::vector<Point>& points,
+                  const ConductOptions& options, Host& host) {
   Conductor conductor(study, points, options, host);
   conductor.check();
   conductor.run_all();

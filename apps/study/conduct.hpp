@@ -11,7 +11,8 @@
 namespace hyperlattice::study {
 
 struct ConductOptions {
-  std::filesystem::path directory;  ///< of the study's results; the runs are in runs/<name>/, further repeats of one in runs/<name>/repeat_2/ ...
+  std::filesystem::path directory;  ///< of the study's results; the runs are in runs/<name>/,
+                                    ///< further repeats of one in runs/<name>/repeat_2/ ...
   Threads threads = 1;              ///< of runs whose threads the study does not vary
   bool fresh = false;               ///< run again what is there already
 };
@@ -22,13 +23,17 @@ struct Conducted {
   FolderLock lock;           ///< on the study's folder, as long as its results are written
 };
 
-/// Checks the folder, which holds no run and no other file of the names of a study's results, and then every scene; throws InputError with all
-/// faults, before anything is written. Then locks the folder and runs the points in turn, once around for each repeat, so that a machine that changes
-/// its speed is unfair to none. A run that is there, done, with the same threads and of the same identity (plan/identity.hpp), is taken as it is; of
-/// another one the log says what changed. A run that fails is a row with its reason.
-Conducted conduct(const Study& study, const std::vector<Point>& points, const ConductOptions& options, Host& host);
+/// Checks the folder, which holds no run and no other file of the names of a study's results, and
+/// then every scene; throws InputError with all faults, before anything is written. Then locks the
+/// folder and runs the points in turn, once around for each repeat, so that a machine that changes
+/// its speed is unfair to none. A run that is there, done, with the same threads and of the same
+/// identity (plan/identity.hpp), is taken as it is; of another one the log says what changed. A run
+/// that fails is a row with its reason.
+Conducted conduct(const Study& study, const std::vector<Point>& points,
+                  const ConductOptions& options, Host& host);
 
 /// Where the files of a repeat (from 1) are.
-std::filesystem::path run_directory(const std::filesystem::path& directory, const std::string& run, std::int64_t repeat);
+std::filesystem::path run_directory(const std::filesystem::path& directory, const std::string& run,
+                                    std::int64_t repeat);
 
 }  // namespace hyperlattice::study

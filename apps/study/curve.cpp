@@ -15,7 +15,8 @@ namespace {
 /// The integral over the curve's range, by trapezoids.
 double integral(const Curve& curve) {
   double sum = 0;
-  for (std::size_t n = 1; n < curve.over.size(); ++n) sum += (curve.over[n] - curve.over[n - 1]) * (curve.values[n] + curve.values[n - 1]) / 2;
+  for (std::size_t n = 1; n < curve.over.size(); ++n)
+    sum += (curve.over[n] - curve.over[n - 1]) * (curve.values[n] + curve.values[n - 1]) / 2;
   return sum;
 }
 
@@ -24,7 +25,8 @@ double integral(const Curve& curve) {
 Curve sorted(Curve curve) {
   std::vector<std::size_t> order(curve.over.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return curve.over[a] < curve.over[b]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return curve.over[a] < curve.over[b]; });
   Curve result;
   double count = 0;
   for (const std::size_t n : order) {
@@ -76,7 +78,8 @@ Curve reduced(Curve curve, Reduction reduction) {
 
 double Distance::relative(Norm norm) const {
   if (size == 0) throw std::runtime_error("the truth is zero, so that there is no relative error");
-  return norm == Norm::relative_l2 || norm == Norm::together_l2 ? std::sqrt(difference / size) : difference / size;
+  return norm == Norm::relative_l2 || norm == Norm::together_l2 ? std::sqrt(difference / size)
+                                                                : difference / size;
 }
 
 Distance distance(const Curve& observed, const Curve& truth, Norm norm) {
@@ -105,10 +108,13 @@ Distance distance(const Curve& observed, const Curve& truth, Norm norm) {
   }
   if (common == 0) {
     const auto range = [](const Curve& curve) {
-      return curve.over.empty() ? std::string("nowhere") : fmt::format("from {:g} to {:g}", curve.over.front(), curve.over.back());
+      return curve.over.empty()
+                 ? std::string("nowhere")
+                 : fmt::format("from {:g} to {:g}", curve.over.front(), curve.over.back());
     };
-    throw std::runtime_error(
-        fmt::format("the run and the truth have nothing in common: the run is known {}, the truth {}", range(observed), range(truth)));
+    throw std::runtime_error(fmt::format(
+        "the run and the truth have nothing in common: the run is known {}, the truth {}",
+        range(observed), range(truth)));
   }
   return {difference, size};
 }

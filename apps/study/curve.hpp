@@ -31,9 +31,11 @@ enum class Norm {
   relative_l2,   ///< sqrt(sum (u - t)^2 / sum t^2)
   relative_max,  ///< max |u - t| / max |t|
   relative_end,  ///< |u - t| at the last of them / max |t|: the truth may pass zero there
-  together_l2    ///< as relative_l2, with the sums over the points of all curves that are compared, as of the components of one vector
+  together_l2    ///< as relative_l2, with the sums over the points of all curves that are compared,
+                 ///< as of the components of one vector
 };
-inline constexpr std::string_view norm_names[] = {"relative_l2", "relative_max", "relative_end", "together_l2"};
+inline constexpr std::string_view norm_names[] = {"relative_l2", "relative_max", "relative_end",
+                                                  "together_l2"};
 
 /// How far a curve is from its truth, and how large that is: squares summed, or magnitudes.
 struct Distance {

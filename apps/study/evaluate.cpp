@@ -63,19 +63,26 @@ class Evaluation {
   }
 
   const Truth& truth_of(const Row& row) const {
-    return *std::find_if(study_.truths.begin(), study_.truths.end(), [&](const Truth& truth) { return truth.when.holds(row.choice); });
+    return *std::find_if(study_.truths.begin(), study_.truths.end(),
+                         [&](const Truth& truth) { return truth.when.holds(row.choice); });
   }
 
   void observe(std::size_t r) {
     const bool number = truth_of(rows_[r]).kind == Truth::Kind::numbers;
     for (const Comparison& comparison : study_.comparisons) {
       const auto name = std::filesystem::path("probes") / (comparison.probe + ".csv");
-      const auto file = read_folder_file(run_directory(directory_, rows_[r].run, 1), name, largest_table);
+      const auto file =
+          read_folder_file(run_directory(directory_, rows_[r].run, 1), name, largest_table);
       if (!file || !file->refusal.empty())
-        throw std::runtime_error(fmt::format("{} is {}", name.string(), file ? file->refusal + ", and only regular files are read" : "not there"));
+        throw std::runtime_error(
+            fmt::format("{} is {}", name.string(),
+                        file ? file->refusal + ", and only regular files are read" : "not there"));
       const CsvTable table = parse_csv(file->text);
-      const Reduction reduction = number && comparison.reduction == Reduction::none ? Reduction::last : comparison.reduction;
-      curves_[r].push_back({reduced(observed_curve(comparison, table), reduction), place_of(comparison, table)});
+      const Reduction reduction = number && comparison.reduction == Reduction::none
+                                      ? Reduction::last
+                                      : comparison.reduction;
+      curves_[r].push_back(
+          {reduced(observed_curve(comparison, table), reduction), place_of(comparison, table)});
     }
   }
 
@@ -86,7 +93,8 @@ class Evaluation {
       const Comparison& comparison = study_.comparisons[c];
       try {
         apart.push_back(distance(curves_[r][c].curve, truth_curve(r, c), study_.norm));
-        if (study_.norm != Norm::together_l2) row.errors.push_back(apart.back().relative(study_.norm));
+        if (study_.norm != Norm::together_l2)
+          row.errors.push_back(apart.back().relative(study_.norm));
       } catch (const NoLimit& error) {
         throw NoLimit(comparison.name + ": " + error.what());
       } catch (const std::runtime_error& error) {
@@ -98,32 +106,39 @@ class Evaluation {
       whole = compare_together(row, apart);
     else
       whole = *std::max_element(row.errors.begin(), row.errors.end());
-    const bool is_finite = std::all_of(row.errors.begin(), row.errors.end(), [](double error) { return std::isfinite(error); });
-    if (!is_finite || !std::isfinite(whole)) throw std::runtime_error("the error is no finite number");
+    const bool is_finite = std::all_of(row.errors.begin(), row.errors.end(),
+                                       [](double error) { return std::isfinite(error); });
+    if (!is_finite || !std::isfinite(whole))
+      throw std::runtime_error("the error is no finite number");
     row.error = whole;
   }
 
-  /// All quantities are one: each of their errors is in relation to the whole, so that their squares add up.
+  /// All quantities are one: each of their errors is in relation to the whole, so that their
+  /// squares add up.
   static double compare_together(Row& row, const std::vector<Distance>& apart) {
     const Distance whole = sum(apart);
-    for (const Distance& one : apart) row.errors.push_back(Distance{one.difference, whole.size}.relative(Norm::together_l2));
+    for (const Distance& one : apart)
+      row.errors.push_back(Distance{one.difference, whole.size}.relative(Norm::together_l2));
     return whole.relative(Norm::together_l2);
   }
 
   static Distance sum(const std::vector<Distance>& parts) {
     Distance whole;
-    for (const Distance& one : parts) whole = {whole.difference + one.difference, whole.size + one.size};
+    for (const Distance& one : parts)
+      whole = {whole.difference + one.difference, whole.size + one.size};
     return whole;
   }
 
-  /// The limits of two rows' families, as an error of one against the other; nothing where they cannot be compared.
+  /// The limits of two rows' families, as an error of one against the other; nothing where they
+  /// cannot be compared.
   std::optional<double> apart(std::size_t r, std::size_t other) const {
     std::vector<Distance> parts;
     double largest = 0;
     try {
       for (std::size_t c = 0; c < study_.comparisons.size(); ++c) {
         parts.push_back(distance(limit(r, c), limit(other, c), study_.norm));
-        if (study_.norm != Norm::together_l2) largest = std::max(largest, parts.back().relative(study_.norm));
+        if (study_.norm != Norm::together_l2)
+          largest = std::max(largest, parts.back().relative(study_.norm));
       }
       return study_.norm == Norm::together_l2 ? sum(parts).relative(study_.norm) : largest;
     } catch (const std::runtime_error&) {
@@ -131,21 +146,28 @@ class Evaluation {
     }
   }
 
-  /// Each setting's limit against that of the first setting of the same case: if both answer the same question, they should be one.
+  /// Each setting's limit against that of the first setting of the same case: if both answer the
+  /// same question, they should be one.
   std::vector<LimitGap> compare_limits() const {
     std::vector<LimitGap> gaps;
     if (!study_.refinement) return gaps;
     std::vector<std::size_t> firsts;  // rows: one a family
     for (std::size_t r = 0; r < rows_.size(); ++r) {
-      const auto same_family = [&](std::size_t first) { return same_but({*study_.refinement}, rows_[first].choice, rows_[r].choice); };
-      if (!rows_[r].error || truth_of(rows_[r]).kind != Truth::Kind::finest || std::any_of(firsts.begin(), firsts.end(), same_family)) continue;
+      const auto same_family = [&](std::size_t first) {
+        return same_but({*study_.refinement}, rows_[first].choice, rows_[r].choice);
+      };
+      if (!rows_[r].error || truth_of(rows_[r]).kind != Truth::Kind::finest ||
+          std::any_of(firsts.begin(), firsts.end(), same_family))
+        continue;
       const auto same_case = [&](std::size_t first) {
-        return std::all_of(study_.cases.begin(), study_.cases.end(),
-                           [&](std::size_t axis) { return rows_[first].choice[axis] == rows_[r].choice[axis]; });
+        return std::all_of(study_.cases.begin(), study_.cases.end(), [&](std::size_t axis) {
+          return rows_[first].choice[axis] == rows_[r].choice[axis];
+        });
       };
       const auto rival = std::find_if(firsts.begin(), firsts.end(), same_case);
       if (rival != firsts.end())
-        if (const auto gap = apart(r, *rival)) gaps.push_back({rows_[r].choice, rows_[*rival].choice, *gap});
+        if (const auto gap = apart(r, *rival))
+          gaps.push_back({rows_[r].choice, rows_[*rival].choice, *gap});
       firsts.push_back(r);
     }
     return gaps;
@@ -153,16 +175,20 @@ class Evaluation {
 
   Curve truth_curve(std::size_t r, std::size_t c) const {
     const Truth& truth = truth_of(rows_[r]);
-    return truth.kind == Truth::Kind::finest ? limit(r, c) : true_curve(study_.comparisons[c], truth, curves_[r][c].place, rows_[r].numbers);
+    return truth.kind == Truth::Kind::finest
+               ? limit(r, c)
+               : true_curve(study_.comparisons[c], truth, curves_[r][c].place, rows_[r].numbers);
   }
 
   /// Where the runs lead that differ from this one in the refinement alone.
   Curve limit(std::size_t r, std::size_t c) const {
     std::vector<SizedCurve> family;
     for (std::size_t other = 0; other < rows_.size(); ++other)
-      if (curves_[other].size() > c && same_but({*study_.refinement}, rows_[other].choice, rows_[r].choice))
+      if (curves_[other].size() > c &&
+          same_but({*study_.refinement}, rows_[other].choice, rows_[r].choice))
         family.push_back({*rows_[other].numbers[*study_.refinement], curves_[other][c].curve});
-    std::sort(family.begin(), family.end(), [](const SizedCurve& a, const SizedCurve& b) { return a.size > b.size; });
+    std::sort(family.begin(), family.end(),
+              [](const SizedCurve& a, const SizedCurve& b) { return a.size > b.size; });
     return extrapolated(family, truth_of(rows_[r]).order);
   }
 
@@ -181,14 +207,17 @@ std::vector<ChoiceOrder> find_orders(std::size_t refinement, const std::vector<R
     for (std::size_t other = r; other < rows.size(); ++other) {
       if (!same_but({refinement}, rows[other].choice, rows[r].choice)) continue;
       taken[other] = true;
-      if (rows[other].error) errors.push_back({*rows[other].numbers[refinement], *rows[other].error});
+      if (rows[other].error)
+        errors.push_back({*rows[other].numbers[refinement], *rows[other].error});
     }
-    if (auto observed = observed_order(std::move(errors))) orders.push_back({rows[r].choice, std::move(*observed)});
+    if (auto observed = observed_order(std::move(errors)))
+      orders.push_back({rows[r].choice, std::move(*observed)});
   }
   return orders;
 }
 
-/// A setting that must do for several cases costs what they take together, and its error is the largest; `row` has it.
+/// A setting that must do for several cases costs what they take together, and its error is the
+/// largest; `row` has it.
 struct Setting {
   std::size_t row = 0;
   Cost cost;
@@ -210,7 +239,8 @@ std::vector<Setting> settings_of(const Study& study, const std::vector<Row>& row
       ++answered;
       known = known && rows[other].error.has_value();
       if (!known) continue;
-      if (*rows[other].error >= setting.cost.error) setting = {other, {*rows[other].error, setting.cost.seconds}};
+      if (*rows[other].error >= setting.cost.error)
+        setting = {other, {*rows[other].error, setting.cost.seconds}};
       setting.cost.seconds += rows[other].seconds();
     }
     if (known && answered == cases) settings.push_back(setting);
@@ -220,7 +250,8 @@ std::vector<Setting> settings_of(const Study& study, const std::vector<Row>& row
 
 }  // namespace
 
-std::vector<LimitGap> find_errors(const Study& study, const std::filesystem::path& directory, std::vector<Row>& rows) {
+std::vector<LimitGap> find_errors(const Study& study, const std::filesystem::path& directory,
+                                  std::vector<Row>& rows) {
   return Evaluation(study, directory, rows).run();
 }
 
@@ -244,7 +275,8 @@ Findings find(const Study& study, const std::vector<Row>& rows, std::vector<Limi
   if (const auto best = most_accurate(of_settings)) findings.best = settings[*best].row;
   findings.target = study.target_error;
   if (findings.target)
-    if (const auto found = cheapest(of_settings, *findings.target)) findings.cheapest = settings[*found].row;
+    if (const auto found = cheapest(of_settings, *findings.target))
+      findings.cheapest = settings[*found].row;
   if (study.refinement) findings.orders = find_orders(*study.refinement, rows);
   return findings;
 }

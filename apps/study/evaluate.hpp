@@ -1,4 +1,5 @@
-// From runs that are done to what they teach: errors, orders of convergence, the Pareto front, the cheapest setting.
+// From runs that are done to what they teach: errors, orders of convergence, the Pareto front, the
+// cheapest setting.
 #pragma once
 
 #include <study/front.hpp>
@@ -21,17 +22,20 @@ struct LimitGap {
 };
 
 struct Findings {
-  std::vector<bool> pareto;             ///< of each row
-  std::vector<ChoiceOrder> orders;      ///< none without a refinement
-  std::vector<LimitGap> limits;         ///< only where the truth is the finest run: each setting's against the first one of the same case
-  std::optional<double> target;         ///< the error sought
+  std::vector<bool> pareto;         ///< of each row
+  std::vector<ChoiceOrder> orders;  ///< none without a refinement
+  std::vector<LimitGap> limits;  ///< only where the truth is the finest run: each setting's against
+                                 ///< the first one of the same case
+  std::optional<double> target;  ///< the error sought
   std::optional<std::size_t> cheapest;  ///< row with an error of at most the target
   std::optional<std::size_t> best;      ///< the most accurate row
 };
 
-/// Fills the rows' errors from the tables in `directory`, and returns how far limits are apart. A run that cannot be compared fails with the reason;
-/// one whose truth would be a limit that the runs do not show stays done, has no error, and a reason.
-std::vector<LimitGap> find_errors(const Study& study, const std::filesystem::path& directory, std::vector<Row>& rows);
+/// Fills the rows' errors from the tables in `directory`, and returns how far limits are apart. A
+/// run that cannot be compared fails with the reason; one whose truth would be a limit that the
+/// runs do not show stays done, has no error, and a reason.
+std::vector<LimitGap> find_errors(const Study& study, const std::filesystem::path& directory,
+                                  std::vector<Row>& rows);
 
 Findings find(const Study& study, const std::vector<Row>& rows, std::vector<LimitGap> limits = {});
 

@@ -13,7 +13,8 @@ namespace hyperlattice::study {
 
 namespace {
 
-/// Reads the numbers of a truth's rows, and throws std::runtime_error with the first few rows that have none.
+/// Reads the numbers of a truth's rows, and throws std::runtime_error with the first few rows that
+/// have none.
 class RowNumbers {
  public:
   explicit RowNumbers(const Truth& truth) : truth_(truth) {}
@@ -24,15 +25,18 @@ class RowNumbers {
     if (!number && row_ != row) {
       row_ = row;
       if (++count_ <= most_shown)
-        faults_ += fmt::format("{}line {}: expected a finite number in column \"{}\", not \"{}\"", faults_.empty() ? "" : "; ",
-                               truth_.table->lines[row], truth_.table->columns[column], shown_cell(cell));
+        faults_ += fmt::format("{}line {}: expected a finite number in column \"{}\", not \"{}\"",
+                               faults_.empty() ? "" : "; ", truth_.table->lines[row],
+                               truth_.table->columns[column], shown_cell(cell));
     }
     return number;
   }
   void throw_if_any() const {
     if (count_ == 0) return;
-    const std::string more = count_ > most_shown ? fmt::format("; and {} such lines more", count_ - most_shown) : "";
-    throw std::runtime_error(fmt::format("{}, {}{}", truth_.file.filename().string(), faults_, more));
+    const std::string more =
+        count_ > most_shown ? fmt::format("; and {} such lines more", count_ - most_shown) : "";
+    throw std::runtime_error(
+        fmt::format("{}, {}{}", truth_.file.filename().string(), faults_, more));
   }
 
  private:
@@ -44,25 +48,30 @@ class RowNumbers {
   std::string faults_;
 };
 
-/// A row's number in a column that may be one of several at known places: straight between the two around the place.
+/// A row's number in a column that may be one of several at known places: straight between the two
+/// around the place.
 class RowValue {
  public:
-  RowValue(const Comparison& comparison, const Truth& truth, std::optional<double> place) : table_(*truth.table) {
+  RowValue(const Comparison& comparison, const Truth& truth, std::optional<double> place)
+      : table_(*truth.table) {
     if (!place) {
       parts_ = {{table_.column(comparison.truth).value(), 1}};
       return;
     }
     const auto columns = placed_columns(table_, comparison.truth);
-    const double first = columns.front().first, last = columns.back().first, slack = 1e-9 * std::max(std::abs(first), std::abs(last));
+    const double first = columns.front().first, last = columns.back().first,
+                 slack = 1e-9 * std::max(std::abs(first), std::abs(last));
     if (!(*place >= first - slack && *place <= last + slack))
-      throw std::runtime_error(fmt::format("the truth is known from {} to {} m, not at {:g} m", first, last, *place));
+      throw std::runtime_error(
+          fmt::format("the truth is known from {} to {} m, not at {:g} m", first, last, *place));
     std::size_t right = columns.size() > 1 ? 1 : 0;
     while (right + 1 < columns.size() && columns[right].first < *place) ++right;
     if (right == 0) {
       parts_ = {{columns[0].second, 1}};
       return;
     }
-    const double left = columns[right - 1].first, share = std::clamp((*place - left) / (columns[right].first - left), 0.0, 1.0);
+    const double left = columns[right - 1].first,
+                 share = std::clamp((*place - left) / (columns[right].first - left), 0.0, 1.0);
     parts_ = {{columns[right - 1].second, 1 - share}, {columns[right].second, share}};
   }
 
@@ -81,7 +90,8 @@ class RowValue {
   std::vector<std::pair<std::size_t, double>> parts_;
 };
 
-Curve table_curve(const Comparison& comparison, const Truth& truth, std::optional<double> place, const std::vector<std::optional<double>>& numbers) {
+Curve table_curve(const Comparison& comparison, const Truth& truth, std::optional<double> place,
+                  const std::vector<std::optional<double>>& numbers) {
   const CsvTable& table = *truth.table;
   const std::size_t over = table.column(over_column(comparison, truth)).value();
   const double over_scale = comparison.over_scale.value_or(truth.over_scale);
@@ -89,14 +99,17 @@ Curve table_curve(const Comparison& comparison, const Truth& truth, std::optiona
   RowNumbers number_in(truth);
   Curve curve;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    if (!passes(table, row, truth.where, numbers) || !passes(table, row, comparison.where, numbers)) continue;
+    if (!passes(table, row, truth.where, numbers) || !passes(table, row, comparison.where, numbers))
+      continue;
     const auto x = number_in(row, over), y = value(row, number_in);
     if (!x || !y) continue;
     curve.over.push_back(*x * over_scale);
     curve.values.push_back(*y * comparison.scale);
   }
   number_in.throw_if_any();
-  if (curve.over.empty()) throw std::runtime_error(fmt::format("no row of {} fits \"where\"", truth.file.filename().string()));
+  if (curve.over.empty())
+    throw std::runtime_error(
+        fmt::format("no row of {} fits \"where\"", truth.file.filename().string()));
   return reduced(sorted(std::move(curve)), comparison.reduction);
 }
 
@@ -120,21 +133,31 @@ std::vector<double> difference(const Curve& where, const Curve& a, const Curve& 
 
 }  // namespace
 
-Curve true_curve(const Comparison& comparison, const Truth& truth, std::optional<double> place, const std::vector<std::optional<double>>& numbers) {
+Curve true_curve(const Comparison& comparison, const Truth& truth, std::optional<double> place,
+                 const std::vector<std::optional<double>>& numbers) {
   if (truth.kind == Truth::Kind::table) return table_curve(comparison, truth, place, numbers);
   return {{0}, {comparison.scale * truth.numbers.at(comparison.truth)}};
 }
 
 double order_of(const SizedCurve& coarse, const SizedCurve& middle, const SizedCurve& fine) {
   const Curve where = common_part(common_part(coarse.curve, middle.curve), fine.curve);
-  const auto first = difference(where, coarse.curve, middle.curve), second = difference(where, middle.curve, fine.curve);
-  const auto product = [](const auto& a, const auto& b) { return std::inner_product(a.begin(), a.end(), b.begin(), 0.0); };
-  if (product(second, second) == 0) throw NoLimit("the finest two runs are the same, so that they show no order of convergence");
-  const std::string advice = ", so that nothing can be extrapolated from them: refine further, or state the order";
-  if (product(first, second) <= 0) throw NoLimit("the finest three runs lie on both sides of where they lead" + advice);
+  const auto first = difference(where, coarse.curve, middle.curve),
+             second = difference(where, middle.curve, fine.curve);
+  const auto product = [](const auto& a, const auto& b) {
+    return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+  };
+  if (product(second, second) == 0)
+    throw NoLimit("the finest two runs are the same, so that they show no order of convergence");
+  const std::string advice =
+      ", so that nothing can be extrapolated from them: refine further, or state the order";
+  if (product(first, second) <= 0)
+    throw NoLimit("the finest three runs lie on both sides of where they lead" + advice);
   const double fall = std::sqrt(product(first, first) / product(second, second));
   // (h1^p - h2^p) / (h2^p - h3^p) grows with p; it is the ratio of the differences.
-  const auto ratio = [&](double p) { return (std::pow(coarse.size / middle.size, p) - 1) / (1 - std::pow(fine.size / middle.size, p)); };
+  const auto ratio = [&](double p) {
+    return (std::pow(coarse.size / middle.size, p) - 1) /
+           (1 - std::pow(fine.size / middle.size, p));
+  };
   double low = 1e-3, high = 20;
   for (int n = 0; n < 100; ++n) {
     const double p = (low + high) / 2;
@@ -144,18 +167,25 @@ double order_of(const SizedCurve& coarse, const SizedCurve& middle, const SizedC
   if (low < least) throw NoLimit("the finest three runs do not converge" + advice);
   if (low > greatest_order)
     throw NoLimit(
-        fmt::format("the finest three runs show an order of {:.2f}, more than the method can have, which is of second order{}", low, advice));
+        fmt::format("the finest three runs show an order of {:.2f}, more than the method can have, "
+                    "which is of second order{}",
+                    low, advice));
   return low;
 }
 
 Curve extrapolated(const std::vector<SizedCurve>& curves, std::optional<double> order) {
   const std::size_t count = curves.size(), needed = order ? 2 : 3;
-  if (count < needed) throw NoLimit(fmt::format("there are {} finished runs to extrapolate from, and {} are needed", count, needed));
+  if (count < needed)
+    throw NoLimit(fmt::format("there are {} finished runs to extrapolate from, and {} are needed",
+                              count, needed));
   const SizedCurve &fine = curves[count - 1], &middle = curves[count - 2];
   const double p = order ? *order : order_of(curves[count - 3], middle, fine);
   const double gain = 1 / (std::pow(middle.size / fine.size, p) - 1);
-  Curve result = common_part(middle.curve, fine.curve);  // the middle's points: where lattices nest, the fine one has them too
-  for (std::size_t n = 0; n < result.over.size(); ++n) result.values[n] += gain * (result.values[n] - value_at(middle.curve, result.over[n]));
+  Curve result = common_part(
+      middle.curve,
+      fine.curve);  // the middle's points: where lattices nest, the fine one has them too
+  for (std::size_t n = 0; n < result.over.size(); ++n)
+    result.values[n] += gain * (result.values[n] - value_at(middle.curve, result.over[n]));
   return result;
 }
 

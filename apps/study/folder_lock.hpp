@@ -7,8 +7,8 @@
 
 namespace hyperlattice::study {
 
-/// While it lives, no other study runs in the folder. It leaves no file, and ends with the process. OutsideError if another study has the lock; where
-/// the file system knows no locks, it warns.
+/// While it lives, no other study runs in the folder. It leaves no file, and ends with the process.
+/// OutsideError if another study has the lock; where the file system knows no locks, it warns.
 class FolderLock {
  public:
   FolderLock() = default;

@@ -23,16 +23,19 @@ bool next(Choice& choice, const std::vector<Axis>& axes) {
 std::string folder_text(const std::string& text) {
   std::string plain;
   for (const char c : text)
-    if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-' || c == '+') plain += c;
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-' || c == '+')
+      plain += c;
   return plain;
 }
 
 /// A plain name for a folder, made unique by a number at its end if need be.
-std::string name_of(const std::vector<Axis>& axes, const Choice& choice, std::map<std::string, int>& taken) {
+std::string name_of(const std::vector<Axis>& axes, const Choice& choice,
+                    std::map<std::string, int>& taken) {
   constexpr std::size_t longest = 150;
   std::string name;
   for (std::size_t a = 0; a < axes.size(); ++a)
-    name += fmt::format("{}{}-{}", name.empty() ? "" : "_", folder_text(axes[a].name), folder_text(axes[a].labels[choice[a]]));
+    name += fmt::format("{}{}-{}", name.empty() ? "" : "_", folder_text(axes[a].name),
+                        folder_text(axes[a].labels[choice[a]]));
   name.resize(std::min(name.size(), longest));
   const int count = ++taken[name];
   return count == 1 ? name : fmt::format("{}_{}", name, count);
@@ -68,11 +71,16 @@ std::vector<Point> grid(const Study& study) {
   std::map<std::string, int> taken;
   Choice choice(study.axes.size(), 0);
   do {
-    if (std::any_of(study.excluded.begin(), study.excluded.end(), [&](const Condition& condition) { return condition.holds(choice); })) continue;
-    Point& point = points.emplace_back(Point{choice, name_of(study.axes, choice, taken), study.scene, std::nullopt});
+    if (std::any_of(study.excluded.begin(), study.excluded.end(),
+                    [&](const Condition& condition) { return condition.holds(choice); }))
+      continue;
+    Point& point = points.emplace_back(
+        Point{choice, name_of(study.axes, choice, taken), study.scene, std::nullopt});
     for (std::size_t a = 0; a < study.axes.size(); ++a) setter.set(point, study.axes[a], choice[a]);
-    if (std::none_of(study.truths.begin(), study.truths.end(), [&](const Truth& truth) { return truth.when.holds(choice); }))
-      faults.add("/truth", choice_text(study.axes, choice), "a truth for every run; none of them has a \"when\" that holds for this one");
+    if (std::none_of(study.truths.begin(), study.truths.end(),
+                     [&](const Truth& truth) { return truth.when.holds(choice); }))
+      faults.add("/truth", choice_text(study.axes, choice),
+                 "a truth for every run; none of them has a \"when\" that holds for this one");
   } while (next(choice, study.axes));
   if (points.empty()) faults.add("/exclude", "", "at least one run that is not excluded");
   faults.throw_if_any();

@@ -1,4 +1,5 @@
-// The runs of a study: every combination of the axes' values that is not excluded, each with its own scene.
+// The runs of a study: every combination of the axes' values that is not excluded, each with its
+// own scene.
 #pragma once
 
 #include <study/study_file.hpp>
@@ -12,7 +13,8 @@ struct Point {
   std::optional<int> threads;  ///< if the study varies them
 };
 
-/// The first axis varies slowest. Throws InputError if a value cannot be put into the scene, or if nothing is left to run.
+/// The first axis varies slowest. Throws InputError if a value cannot be put into the scene, or if
+/// nothing is left to run.
 std::vector<Point> grid(const Study& study);
 
 }  // namespace hyperlattice::study

@@ -14,8 +14,9 @@ struct Peer {
   double error = 0, seconds = 0;
 };
 
-/// Appends the rows of a CSV file with the columns label, error and seconds; more columns may stand beside. What is wrong with it is added to the
-/// faults.
-void append_peers(std::vector<Peer>& peers, const std::filesystem::path& file, const std::string& pointer, Faults& faults);
+/// Appends the rows of a CSV file with the columns label, error and seconds; more columns may stand
+/// beside. What is wrong with it is added to the faults.
+void append_peers(std::vector<Peer>& peers, const std::filesystem::path& file,
+                  const std::string& pointer, Faults& faults);
 
 }  // namespace hyperlattice::study

@@ -1,4 +1,5 @@
-// Objects of a study file whose options are plain: declared by Schema<Options> and read as those of a scene, without regions or shapes.
+// Objects of a study file whose options are plain: declared by Schema<Options> and read as those of
+// a scene, without regions or shapes.
 #pragma once
 
 #include <scene/option_reader.hpp>
@@ -9,14 +10,16 @@ namespace hyperlattice::study {
 
 class PlainReader {
  public:
-  explicit PlainReader(Faults& faults) : faults_(faults), region_reader_(none_, regions_, faults, texts_) {}
+  explicit PlainReader(Faults& faults)
+      : faults_(faults), region_reader_(none_, regions_, faults, texts_) {}
 
   Faults& faults() { return faults_; }
 
-  /// The options of a class that has `struct Options` and `static Schema<Options> schema()`; none after faults. Keys that are neither options nor
-  /// among `others` are faults.
+  /// The options of a class that has `struct Options` and `static Schema<Options> schema()`; none
+  /// after faults. Keys that are neither options nor among `others` are faults.
   template <class Declared>
-  std::optional<typename Declared::Options> read(const Json& object, const std::string& pointer, std::vector<std::string> others = {}) {
+  std::optional<typename Declared::Options> read(const Json& object, const std::string& pointer,
+                                                 std::vector<std::string> others = {}) {
     if (!object.is_object()) {
       faults_.add(pointer.empty() ? "study" : pointer, shown(object), "an object");
       return std::nullopt;

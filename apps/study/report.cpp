@@ -17,7 +17,8 @@ std::string shown_whole(const std::string& text) { return visible(text, std::str
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
 /// What was varied, as keys of an object.
-void append_choice(Json& json, const std::vector<Axis>& axes, const Choice& choice, std::size_t except) {
+void append_choice(Json& json, const std::vector<Axis>& axes, const Choice& choice,
+                   std::size_t except) {
   for (std::size_t a = 0; a < axes.size(); ++a) {
     if (a == except) continue;
     const Json& value = axes[a].values[choice[a]].front();
@@ -25,7 +26,9 @@ void append_choice(Json& json, const std::vector<Axis>& axes, const Choice& choi
   }
 }
 
-std::size_t refinement_of(const Study& study) { return study.refinement.value_or(study.axes.size()); }
+std::size_t refinement_of(const Study& study) {
+  return study.refinement.value_or(study.axes.size());
+}
 
 Json row_json(const Study& study, const Row& row, bool pareto) {
   Json json;
@@ -37,7 +40,8 @@ Json row_json(const Study& study, const Row& row, bool pareto) {
   if (study.refinement) json["size"] = row.numbers[*study.refinement].value_or(0);
   json["pareto"] = pareto;
   json["errors"] = Json::object();
-  for (std::size_t c = 0; c < row.errors.size(); ++c) json["errors"][study.comparisons[c].name] = row.errors[c];
+  for (std::size_t c = 0; c < row.errors.size(); ++c)
+    json["errors"][study.comparisons[c].name] = row.errors[c];
   json["setup_seconds"] = row.setup_seconds;
   json["repeats"] = row.solve_seconds;
   json["run"] = "runs/" + row.run;
@@ -55,13 +59,16 @@ Json order_json(const Study& study, const ChoiceOrder& order) {
   json["pairs"] = Json::array();
   const auto& errors = order.observed.errors;
   for (std::size_t n = 1; n < errors.size(); ++n)
-    json["pairs"].push_back({{"from", errors[n - 1].size}, {"to", errors[n].size}, {"order", order.observed.pairs[n - 1]}});
+    json["pairs"].push_back({{"from", errors[n - 1].size},
+                             {"to", errors[n].size},
+                             {"order", order.observed.pairs[n - 1]}});
   return json;
 }
 
 using Lines = std::vector<std::vector<std::string>>;
 
-/// Columns as wide as their widest cell; the first `left` of them begin at the left, the others end at the right.
+/// Columns as wide as their widest cell; the first `left` of them begin at the left, the others end
+/// at the right.
 std::string aligned(const Lines& lines, std::size_t left) {
   std::vector<std::size_t> widths;
   for (const auto& line : lines) {
@@ -72,7 +79,8 @@ std::string aligned(const Lines& lines, std::size_t left) {
   for (const auto& line : lines) {
     std::string row;
     for (std::size_t c = 0; c < line.size(); ++c)
-      row += c < left ? fmt::format("  {:<{}}", line[c], widths[c]) : fmt::format("  {:>{}}", line[c], widths[c]);
+      row += c < left ? fmt::format("  {:<{}}", line[c], widths[c])
+                      : fmt::format("  {:>{}}", line[c], widths[c]);
     row.erase(row.find_last_not_of(' ') + 1);
     text += row + '\n';
   }
@@ -82,11 +90,13 @@ std::string aligned(const Lines& lines, std::size_t left) {
 std::string table_text(const Study& study, const std::vector<Row>& rows, const Findings& findings) {
   Lines lines(1);
   for (const Axis& axis : study.axes) lines[0].push_back(shown_whole(axis.name));
-  for (const char* name : {"particles", "steps", "error", "seconds", ""}) lines[0].emplace_back(name);
+  for (const char* name : {"particles", "steps", "error", "seconds", ""})
+    lines[0].emplace_back(name);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const Row& row = rows[r];
     auto& line = lines.emplace_back();
-    for (std::size_t a = 0; a < study.axes.size(); ++a) line.push_back(shown_whole(study.axes[a].labels[row.choice[a]]));
+    for (std::size_t a = 0; a < study.axes.size(); ++a)
+      line.push_back(shown_whole(study.axes[a].labels[row.choice[a]]));
     line.push_back(row.is_done() ? fmt::format("{}", row.particles) : "");
     line.push_back(row.is_done() ? fmt::format("{}", row.steps) : "");
     line.push_back(row.error ? percent(*row.error) : row.is_done() ? "not compared" : row.status);
@@ -98,12 +108,17 @@ std::string table_text(const Study& study, const std::vector<Row>& rows, const F
 
 std::string orders_text(const Study& study, const Findings& findings) {
   if (findings.orders.empty()) return "";
-  std::string text = fmt::format("\nObserved order of convergence in \"{}\"\n", study.axes[*study.refinement].name);
+  std::string text = fmt::format("\nObserved order of convergence in \"{}\"\n",
+                                 study.axes[*study.refinement].name);
   for (const ChoiceOrder& order : findings.orders) {
     const std::string choice = choice_text(study.axes, order.choice, {*study.refinement});
-    fmt::format_to(std::back_inserter(text), "  {}{:.2f}", choice.empty() ? "" : choice + ": ", order.observed.order);
-    if (order.observed.pairs.size() > 1) fmt::format_to(std::back_inserter(text), " (step by step {:.2f})", fmt::join(order.observed.pairs, ", "));
-    if (!order.observed.doubt.empty()) fmt::format_to(std::back_inserter(text), ": not to be trusted, for {}", order.observed.doubt);
+    fmt::format_to(std::back_inserter(text), "  {}{:.2f}", choice.empty() ? "" : choice + ": ",
+                   order.observed.order);
+    if (order.observed.pairs.size() > 1)
+      fmt::format_to(std::back_inserter(text), " (step by step {:.2f})",
+                     fmt::join(order.observed.pairs, ", "));
+    if (!order.observed.doubt.empty())
+      fmt::format_to(std::back_inserter(text), ": not to be trusted, for {}", order.observed.doubt);
     text += '\n';
   }
   return text;
@@ -117,34 +132,45 @@ std::string setting_text(const Study& study, const Choice& choice) {
 
 std::string limits_text(const Study& study, const Findings& findings) {
   if (findings.limits.empty()) return "";
-  std::string text = "\nLimits to which the finest runs lead: those that answer the same should be the same\n";
+  std::string text =
+      "\nLimits to which the finest runs lead: those that answer the same should be the same\n";
   for (const LimitGap& gap : findings.limits)
-    fmt::format_to(std::back_inserter(text), "  {} and {}: {} apart\n", setting_text(study, gap.other), setting_text(study, gap.one),
+    fmt::format_to(std::back_inserter(text), "  {} and {}: {} apart\n",
+                   setting_text(study, gap.other), setting_text(study, gap.one),
                    percent(gap.apart));
-  return text + "  An error is counted against the own limit; one smaller than this says nothing of the truth.\n";
+  return text +
+         "  An error is counted against the own limit; one smaller than this says nothing of the "
+         "truth.\n";
 }
 
 /// What is said of a row whose error is smaller than its limit is uncertain; empty: nothing.
 std::string limit_warning(const Study& study, const Findings& findings, const Row& row) {
   const LimitGap* widest = nullptr;
   for (const LimitGap& gap : findings.limits)
-    if (study.refinement && (same_but({*study.refinement}, gap.one, row.choice) || same_but({*study.refinement}, gap.other, row.choice)) &&
+    if (study.refinement &&
+        (same_but({*study.refinement}, gap.one, row.choice) ||
+         same_but({*study.refinement}, gap.other, row.choice)) &&
         (widest == nullptr || gap.apart > widest->apart))
       widest = &gap;
   if (widest == nullptr || !row.error || widest->apart <= *row.error) return "";
-  return fmt::format(" The limits of {} and {} are {} apart, though, so that such an error says nothing of the truth.",
-                     setting_text(study, widest->other), setting_text(study, widest->one), percent(widest->apart));
+  return fmt::format(
+      " The limits of {} and {} are {} apart, though, so that such an error says nothing of the "
+      "truth.",
+      setting_text(study, widest->other), setting_text(study, widest->one), percent(widest->apart));
 }
 
 std::string peers_text(const Study& study) {
   if (study.peers.empty()) return "";
   Lines lines{{"peer", "error", "seconds"}};
-  for (const Peer& peer : study.peers) lines.push_back({shown_whole(peer.label), percent(peer.error), fmt::format("{:.3g}", peer.seconds)});
+  for (const Peer& peer : study.peers)
+    lines.push_back(
+        {shown_whole(peer.label), percent(peer.error), fmt::format("{:.3g}", peer.seconds)});
   return '\n' + aligned(lines, 1);
 }
 
-/// Where the settings that do not meet the target would meet it, by their observed orders: the coarsest size is the cheapest promise. A setting meets
-/// it at the size that its hardest case needs.
+/// Where the settings that do not meet the target would meet it, by their observed orders: the
+/// coarsest size is the cheapest promise. A setting meets it at the size that its hardest case
+/// needs.
 std::string promise(const Study& study, const std::vector<Row>& rows, const Findings& findings) {
   const std::size_t cases = count_cases(study, rows);
   std::vector<std::size_t> free = study.cases;  // axes in which the cases of a setting differ
@@ -165,8 +191,10 @@ std::string promise(const Study& study, const std::vector<Row>& rows, const Find
   }
   if (best == nullptr) return "";
   const std::string choice = choice_text(study.axes, best->choice, free);
-  return fmt::format(" By its observed order, {} would meet it{} at a {} of about {:.2g} (SI).", choice.empty() ? "the scene" : choice,
-                     study.cases.empty() ? "" : " in every case", study.axes[*study.refinement].name, size);
+  return fmt::format(" By its observed order, {} would meet it{} at a {} of about {:.2g} (SI).",
+                     choice.empty() ? "the scene" : choice,
+                     study.cases.empty() ? "" : " in every case",
+                     study.axes[*study.refinement].name, size);
 }
 
 }  // namespace
@@ -177,7 +205,8 @@ std::vector<std::vector<std::size_t>> families(const Study& study, const std::ve
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const auto family = std::find_if(found.begin(), found.end(), [&](const auto& members) {
       return study.refinement &&
-             choice_text(study.axes, rows[members.front()].choice, {refinement}) == choice_text(study.axes, rows[r].choice, {refinement});
+             choice_text(study.axes, rows[members.front()].choice, {refinement}) ==
+                 choice_text(study.axes, rows[r].choice, {refinement});
     });
     if (family == found.end())
       found.push_back({r});
@@ -186,38 +215,51 @@ std::vector<std::vector<std::size_t>> families(const Study& study, const std::ve
   }
   if (study.refinement)
     for (auto& members : found)
-      std::stable_sort(members.begin(), members.end(),
-                       [&](std::size_t a, std::size_t b) { return rows[a].numbers[refinement] > rows[b].numbers[refinement]; });
+      std::stable_sort(members.begin(), members.end(), [&](std::size_t a, std::size_t b) {
+        return rows[a].numbers[refinement] > rows[b].numbers[refinement];
+      });
   return found;
 }
 
-std::string cheapest_sentence(const Study& study, const std::vector<Row>& rows, const Findings& findings) {
+std::string cheapest_sentence(const Study& study, const std::vector<Row>& rows,
+                              const Findings& findings) {
   if (!findings.target) return "";
   const auto setting = [&](std::size_t r) {
     std::vector<std::size_t> settings(study.axes.size());
     std::iota(settings.begin(), settings.end(), std::size_t{0});
-    std::erase_if(settings, [&](std::size_t a) { return std::find(study.cases.begin(), study.cases.end(), a) != study.cases.end(); });
+    std::erase_if(settings, [&](std::size_t a) {
+      return std::find(study.cases.begin(), study.cases.end(), a) != study.cases.end();
+    });
     const std::string cases = choice_text(study.axes, rows[r].choice, settings);
     double seconds = 0;
     for (const Row& row : rows)
       if (same_but(study.cases, row.choice, rows[r].choice)) seconds += row.seconds();
-    return fmt::format("{}: error {}{}, {:.3g} s{}, {} particles", choice_text(study.axes, rows[r].choice, study.cases), percent(*rows[r].error),
-                       cases.empty() ? "" : " at most, with " + cases, seconds, cases.empty() ? "" : " for all cases together", rows[r].particles);
+    return fmt::format("{}: error {}{}, {:.3g} s{}, {} particles",
+                       choice_text(study.axes, rows[r].choice, study.cases),
+                       percent(*rows[r].error), cases.empty() ? "" : " at most, with " + cases,
+                       seconds, cases.empty() ? "" : " for all cases together", rows[r].particles);
   };
   const std::string target = percent(*findings.target);
   if (findings.cheapest)
-    return fmt::format("The cheapest setting for an error of {} is {}.", target, setting(*findings.cheapest)) +
+    return fmt::format("The cheapest setting for an error of {} is {}.", target,
+                       setting(*findings.cheapest)) +
            limit_warning(study, findings, rows[*findings.cheapest]);
-  if (!findings.best) return fmt::format("No setting was compared, so none is known to have an error of {}.", target);
-  return fmt::format("No setting has an error of {} or less; the most accurate is {}.", target, setting(*findings.best)) +
+  if (!findings.best)
+    return fmt::format("No setting was compared, so none is known to have an error of {}.", target);
+  return fmt::format("No setting has an error of {} or less; the most accurate is {}.", target,
+                     setting(*findings.best)) +
          (study.refinement ? promise(study, rows, findings) : "");
 }
 
 Json study_json(const Study& study, const std::vector<Row>& rows, const Findings& findings) {
-  Json json = {
-      {"title", study.title}, {"norm", norm_names[static_cast<std::size_t>(study.norm)]}, {"rows", Json::array()}, {"orders", Json::array()}};
-  for (std::size_t r = 0; r < rows.size(); ++r) json["rows"].push_back(row_json(study, rows[r], findings.pareto[r]));
-  for (const ChoiceOrder& order : findings.orders) json["orders"].push_back(order_json(study, order));
+  Json json = {{"title", study.title},
+               {"norm", norm_names[static_cast<std::size_t>(study.norm)]},
+               {"rows", Json::array()},
+               {"orders", Json::array()}};
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    json["rows"].push_back(row_json(study, rows[r], findings.pareto[r]));
+  for (const ChoiceOrder& order : findings.orders)
+    json["orders"].push_back(order_json(study, order));
   json["limits"] = Json::array();
   for (const LimitGap& gap : findings.limits) {
     Json one = Json::object(), other = Json::object();
@@ -226,10 +268,14 @@ Json study_json(const Study& study, const std::vector<Row>& rows, const Findings
     json["limits"].push_back({{"of", one}, {"against", other}, {"apart", gap.apart}});
   }
   json["target_error"] = findings.target ? Json(*findings.target) : Json(nullptr);
-  json["cheapest"] = findings.cheapest ? row_json(study, rows[*findings.cheapest], findings.pareto[*findings.cheapest]) : Json(nullptr);
+  json["cheapest"] = findings.cheapest ? row_json(study, rows[*findings.cheapest],
+                                                  findings.pareto[*findings.cheapest])
+                                       : Json(nullptr);
   json["sentence"] = cheapest_sentence(study, rows, findings);
   json["peers"] = Json::array();
-  for (const Peer& peer : study.peers) json["peers"].push_back({{"label", peer.label}, {"error", peer.error}, {"seconds", peer.seconds}});
+  for (const Peer& peer : study.peers)
+    json["peers"].push_back(
+        {{"label", peer.label}, {"error", peer.error}, {"seconds", peer.seconds}});
   return json;
 }
 
@@ -241,23 +287,31 @@ std::string study_csv(const Study& study, const std::vector<Row>& rows, const Fi
   text += '\n';
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const Row& row = rows[r];
-    for (std::size_t a = 0; a < study.axes.size(); ++a) text += study.axes[a].labels[row.choice[a]] + ',';
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{}", row.particles, row.steps, row.error ? fmt::format("{}", *row.error) : "",
-                   row.seconds(), row.setup_seconds, findings.pareto[r] ? 1 : 0, row.status);
-    for (std::size_t c = 0; c < study.comparisons.size(); ++c) text += c < row.errors.size() ? fmt::format(",{}", row.errors[c]) : ",";
+    for (std::size_t a = 0; a < study.axes.size(); ++a)
+      text += study.axes[a].labels[row.choice[a]] + ',';
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{}", row.particles, row.steps,
+                   row.error ? fmt::format("{}", *row.error) : "", row.seconds(), row.setup_seconds,
+                   findings.pareto[r] ? 1 : 0, row.status);
+    for (std::size_t c = 0; c < study.comparisons.size(); ++c)
+      text += c < row.errors.size() ? fmt::format(",{}", row.errors[c]) : ",";
     text += '\n';
   }
   return text;
 }
 
 std::string study_text(const Study& study, const std::vector<Row>& rows, const Findings& findings) {
-  std::string text = (study.title.empty() ? "" : study.title + "\n\n") + table_text(study, rows, findings) + peers_text(study);
+  std::string text = (study.title.empty() ? "" : study.title + "\n\n") +
+                     table_text(study, rows, findings) + peers_text(study);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const auto same = [&](const Row& row) { return row.reason == rows[r].reason; };
-    if (rows[r].reason.empty() || std::find_if(rows.begin(), rows.end(), same) != rows.begin() + static_cast<std::ptrdiff_t>(r)) continue;
+    if (rows[r].reason.empty() || std::find_if(rows.begin(), rows.end(), same) !=
+                                      rows.begin() + static_cast<std::ptrdiff_t>(r))
+      continue;
     const auto more = std::count_if(rows.begin(), rows.end(), same) - 1;
-    fmt::format_to(std::back_inserter(text), "\n{}{}{}: {}\n", choice_text(study.axes, rows[r].choice),
-                   more > 0 ? fmt::format(" and {} more", more) : "", rows[r].is_done() ? "" : " failed", rows[r].reason);
+    fmt::format_to(std::back_inserter(text), "\n{}{}{}: {}\n",
+                   choice_text(study.axes, rows[r].choice),
+                   more > 0 ? fmt::format(" and {} more", more) : "",
+                   rows[r].is_done() ? "" : " failed", rows[r].reason);
   }
   text += orders_text(study, findings) + limits_text(study, findings);
   const std::string sentence = cheapest_sentence(study, rows, findings);

@@ -26,7 +26,8 @@ struct Heading {
         .choices(formats)
         .add<&Options::title>("title", "", "what the study shows")
         .fallback("\"\"")
-        .add<&Options::refine>("refine", "", "the axis that refines; the one that varies a spacing if left out")
+        .add<&Options::refine>("refine", "",
+                               "the axis that refines; the one that varies a spacing if left out")
         .add<&Options::error>("error", "", "how the error is counted")
         .choices(norm_names)
         .fallback("\"relative_l2\"")
@@ -34,11 +35,16 @@ struct Heading {
         .at_least(1)
         .at_most(99)
         .fallback("3")
-        .add<&Options::cases>("cases", "", "axes that change what is asked, such as a material: the cheapest setting has to do for all their values")
+        .add<&Options::cases>("cases", "",
+                              "axes that change what is asked, such as a material: the cheapest "
+                              "setting has to do for all their values")
         .fallback("[]")
-        .add<&Options::target_error>("target_error", "", "the error for which the cheapest setting is sought")
+        .add<&Options::target_error>("target_error", "",
+                                     "the error for which the cheapest setting is sought")
         .positive()
-        .add<&Options::peers>("peers", "", "tables of other programs' errors and times: label, error, seconds; relative to the study")
+        .add<&Options::peers>("peers", "",
+                              "tables of other programs' errors and times: label, error, seconds; "
+                              "relative to the study")
         .fallback("[]");
   }
 };
@@ -48,15 +54,19 @@ class StudyReader {
   StudyReader(const Json& given, Study& study) : given_(given), study_(study) {}
 
   void read() {
-    const auto heading = reader_.read<Heading>(given_, "", {"scene", "set", "vary", "exclude", "truth", "compare"});
+    const auto heading =
+        reader_.read<Heading>(given_, "", {"scene", "set", "vary", "exclude", "truth", "compare"});
     if (!given_.is_object()) return faults_.throw_if_any();
     for (const char* key : {"scene", "vary", "truth", "compare"})
-      if (!given_.contains(key)) faults_.add(member("", key), "", fmt::format("\"{}\" (it is required, but missing)", key));
+      if (!given_.contains(key))
+        faults_.add(member("", key), "", fmt::format("\"{}\" (it is required, but missing)", key));
     if (given_.contains("scene")) read_scene_json(given_["scene"]);
     if (given_.contains("vary")) study_.axes = read_axes(given_["vary"], faults_);
     if (given_.contains("exclude")) read_excluded(given_["exclude"]);
-    if (given_.contains("truth")) study_.truths = read_truths(given_["truth"], folder(), study_.axes, reader_);
-    if (given_.contains("compare")) study_.comparisons = read_comparisons(given_["compare"], study_.truths, study_.axes, reader_);
+    if (given_.contains("truth"))
+      study_.truths = read_truths(given_["truth"], folder(), study_.axes, reader_);
+    if (given_.contains("compare"))
+      study_.comparisons = read_comparisons(given_["compare"], study_.truths, study_.axes, reader_);
     if (heading) take(*heading);
     check_finest();
     faults_.throw_if_any();
@@ -70,9 +80,11 @@ class StudyReader {
     study_.norm = heading.error;
     study_.repeats = heading.repeats;
     study_.target_error = heading.target_error;
-    for (std::size_t n = 0; n < heading.peers.size(); ++n) append_peers(study_.peers, folder() / heading.peers[n], member("/peers", n), faults_);
+    for (std::size_t n = 0; n < heading.peers.size(); ++n)
+      append_peers(study_.peers, folder() / heading.peers[n], member("/peers", n), faults_);
     for (std::size_t n = 0; n < heading.cases.size(); ++n) {
-      const std::size_t axis = find_axis(heading.cases[n], member("/cases", n), study_.axes, faults_);
+      const std::size_t axis =
+          find_axis(heading.cases[n], member("/cases", n), study_.axes, faults_);
       if (axis < study_.axes.size()) study_.cases.push_back(axis);
     }
     if (!heading.refine) return find_spacing();
@@ -98,12 +110,15 @@ class StudyReader {
     if (given.is_string()) {
       study_.scene_file = folder() / given.get<std::string>();
       try {
-        const std::string text = read_input_file(study_.scene_file, "/scene", "the path of a scene, relative to the study");
+        const std::string text = read_input_file(study_.scene_file, "/scene",
+                                                 "the path of a scene, relative to the study");
         Faults faults;
         parse_json(text, study_.scene, faults);
-        for (const Fault& fault : faults.all()) faults_.add("scene " + fault.pointer, fault.value, fault.expected);
+        for (const Fault& fault : faults.all())
+          faults_.add("scene " + fault.pointer, fault.value, fault.expected);
       } catch (const InputError& error) {
-        for (const Fault& fault : error.faults()) faults_.add(fault.pointer, fault.value, fault.expected);
+        for (const Fault& fault : error.faults())
+          faults_.add(fault.pointer, fault.value, fault.expected);
       }
     } else if (given.is_object()) {
       study_.scene = given;
@@ -114,15 +129,23 @@ class StudyReader {
   }
 
   void set(const Json& changes) {
-    if (!changes.is_object()) return faults_.add("/set", shown(changes), "an object of JSON pointers into the scene, each with a value");
+    if (!changes.is_object())
+      return faults_.add("/set", shown(changes),
+                         "an object of JSON pointers into the scene, each with a value");
     for (const auto& item : changes.items())
-      if (const std::string expected = set_value(study_.scene, item.key(), item.value()); !expected.empty())
+      if (const std::string expected = set_value(study_.scene, item.key(), item.value());
+          !expected.empty())
         faults_.add(member("/set", item.key()), shown(item.value()), expected);
   }
 
   void read_excluded(const Json& list) {
-    if (!list.is_array()) return faults_.add("/exclude", shown(list), "a list of objects such as {\"boundary\": \"cells\", \"stiffness\": \"eq15\"}");
-    for (std::size_t n = 0; n < list.size(); ++n) study_.excluded.push_back(read_condition(list[n], member("/exclude", n), study_.axes, faults_));
+    if (!list.is_array())
+      return faults_.add(
+          "/exclude", shown(list),
+          "a list of objects such as {\"boundary\": \"cells\", \"stiffness\": \"eq15\"}");
+    for (std::size_t n = 0; n < list.size(); ++n)
+      study_.excluded.push_back(
+          read_condition(list[n], member("/exclude", n), study_.axes, faults_));
   }
 
   /// A truth by extrapolation needs sizes to extrapolate from.
@@ -130,14 +153,21 @@ class StudyReader {
     for (const Truth& truth : study_.truths) {
       if (truth.kind != Truth::Kind::finest) continue;
       if (!study_.refinement) {
-        faults_.add(truth.pointer, "\"finest\"", "an axis that varies a spacing, or \"refine\" with the name of the axis that refines");
+        faults_.add(
+            truth.pointer, "\"finest\"",
+            "an axis that varies a spacing, or \"refine\" with the name of the axis that refines");
         continue;
       }
-      const std::size_t needed = truth.order ? 2 : 3, given = study_.axes[*study_.refinement].values.size();
+      const std::size_t needed = truth.order ? 2 : 3,
+                        given = study_.axes[*study_.refinement].values.size();
       if (given < needed)
-        faults_.add(truth.pointer, "\"finest\"",
-                    fmt::format("at least {} values of \"{}\" to extrapolate from{}", needed, study_.axes[*study_.refinement].name,
-                                truth.order ? "" : ", or 2 and the order of convergence: {\"finest\": {\"order\": 2}}"));
+        faults_.add(
+            truth.pointer, "\"finest\"",
+            fmt::format("at least {} values of \"{}\" to extrapolate from{}", needed,
+                        study_.axes[*study_.refinement].name,
+                        truth.order
+                            ? ""
+                            : ", or 2 and the order of convergence: {\"finest\": {\"order\": 2}}"));
     }
   }
 

@@ -19,9 +19,11 @@ struct TableTruth {
   };
   static Schema<Options> schema() {
     return Schema<Options>("", "")
-        .add<&Options::csv>("csv", "", "a table, its columns named in the first line; relative to the study")
+        .add<&Options::csv>("csv", "",
+                            "a table, its columns named in the first line; relative to the study")
         .add<&Options::over>("over", "", "the column of time or place")
-        .add<&Options::over_scale>("over_scale", "", "what stands there, times this, is the run's time or place in SI")
+        .add<&Options::over_scale>(
+            "over_scale", "", "what stands there, times this, is the run's time or place in SI")
         .positive()
         .fallback("1");
   }
@@ -32,7 +34,9 @@ struct FinestTruth {
     std::optional<double> order;
   };
   static Schema<Options> schema() {
-    return Schema<Options>("", "").add<&Options::order>("order", "", "the order of convergence; the observed one if left out").positive();
+    return Schema<Options>("", "")
+        .add<&Options::order>("order", "", "the order of convergence; the observed one if left out")
+        .positive();
   }
 };
 
@@ -50,17 +54,22 @@ struct AxisValue {
 };
 
 constexpr const char* kinds[] = {"csv", "value", "values", "finest"};
-constexpr const char* kinds_text = "one of \"csv\", a table; \"value\" or \"values\", numbers; \"finest\", the finest run extrapolated";
+constexpr const char* kinds_text =
+    "one of \"csv\", a table; \"value\" or \"values\", numbers; \"finest\", the finest run "
+    "extrapolated";
 
-std::optional<double> read_plain_number(const Json& given, const std::string& pointer, Faults& faults) {
+std::optional<double> read_plain_number(const Json& given, const std::string& pointer,
+                                        Faults& faults) {
   if (given.is_number() && std::isfinite(given.get<double>())) return given.get<double>();
   faults.add(pointer, shown(given), "a number in SI");
   return std::nullopt;
 }
 
-void read_table(Truth& truth, const Json& given, const std::filesystem::path& folder, const std::vector<Axis>& axes, PlainReader& reader) {
+void read_table(Truth& truth, const Json& given, const std::filesystem::path& folder,
+                const std::vector<Axis>& axes, PlainReader& reader) {
   truth.kind = Truth::Kind::table;
-  if (given.contains("where")) truth.where = read_filters(given["where"], truth.pointer + "/where", axes, reader);
+  if (given.contains("where"))
+    truth.where = read_filters(given["where"], truth.pointer + "/where", axes, reader);
   const auto options = reader.read<TableTruth>(given, truth.pointer, {"when", "where"});
   if (!options) return;
   truth.file = folder / options->csv;
@@ -68,38 +77,47 @@ void read_table(Truth& truth, const Json& given, const std::filesystem::path& fo
   truth.over_scale = options->over_scale;
   const std::size_t before = reader.faults().size();
   try {
-    auto table = std::make_shared<CsvTable>(read_outside_table(truth.file, truth.pointer + "/csv", "a table", reader.faults()));
+    auto table = std::make_shared<CsvTable>(
+        read_outside_table(truth.file, truth.pointer + "/csv", "a table", reader.faults()));
     if (table->columns.empty() && reader.faults().size() > before) return;  // it is no table at all
     if (table->rows.empty() && reader.faults().size() == before)
-      reader.faults().add(truth.pointer + "/csv", shown(options->csv), "a table with at least one row below the columns' names");
+      reader.faults().add(truth.pointer + "/csv", shown(options->csv),
+                          "a table with at least one row below the columns' names");
     truth.table = std::move(table);
   } catch (const InputError& error) {
-    for (const Fault& fault : error.faults()) reader.faults().add(fault.pointer, fault.value, fault.expected);
+    for (const Fault& fault : error.faults())
+      reader.faults().add(fault.pointer, fault.value, fault.expected);
   }
 }
 
 void read_numbers(Truth& truth, const Json& given, PlainReader& reader) {
   truth.kind = Truth::Kind::numbers;
   if (given.contains("value")) {
-    truth.numbers[""] = read_plain_number(given["value"], truth.pointer + "/value", reader.faults()).value_or(0);
+    truth.numbers[""] =
+        read_plain_number(given["value"], truth.pointer + "/value", reader.faults()).value_or(0);
     return;
   }
   const Json& values = given["values"];
   if (!values.is_object() || values.empty())
-    return reader.faults().add(truth.pointer + "/values", shown(values), "an object of names with numbers in SI");
+    return reader.faults().add(truth.pointer + "/values", shown(values),
+                               "an object of names with numbers in SI");
   for (const auto& item : values.items())
-    truth.numbers[item.key()] = read_plain_number(item.value(), member(truth.pointer + "/values", item.key()), reader.faults()).value_or(0);
+    truth.numbers[item.key()] =
+        read_plain_number(item.value(), member(truth.pointer + "/values", item.key()),
+                          reader.faults())
+            .value_or(0);
 }
 
 void reject_others(const Json& given, const Truth& truth, const std::string& kind, Faults& faults) {
   const std::vector<std::string> known{"when", kind};
   for (const auto& item : given.items())
     if (std::find(known.begin(), known.end(), item.key()) == known.end())
-      faults.add(member(truth.pointer, item.key()), shown(item.value()), fmt::format("no key beside \"{}\" but \"when\"", kind));
+      faults.add(member(truth.pointer, item.key()), shown(item.value()),
+                 fmt::format("no key beside \"{}\" but \"when\"", kind));
 }
 
-Truth read_truth(const Json& given, const std::string& pointer, const std::filesystem::path& folder, const std::vector<Axis>& axes,
-                 PlainReader& reader) {
+Truth read_truth(const Json& given, const std::string& pointer, const std::filesystem::path& folder,
+                 const std::vector<Axis>& axes, PlainReader& reader) {
   Faults& faults = reader.faults();
   Truth truth;
   truth.pointer = pointer;
@@ -108,10 +126,12 @@ Truth read_truth(const Json& given, const std::string& pointer, const std::files
     return truth;
   }
   if (!given.is_object()) {
-    faults.add(pointer, shown(given), std::string("an object with ") + kinds_text + "; or \"finest\"");
+    faults.add(pointer, shown(given),
+               std::string("an object with ") + kinds_text + "; or \"finest\"");
     return truth;
   }
-  if (given.contains("when")) truth.when = read_condition(given["when"], pointer + "/when", axes, faults);
+  if (given.contains("when"))
+    truth.when = read_condition(given["when"], pointer + "/when", axes, faults);
   std::vector<std::string> present;
   for (const char* kind : kinds)
     if (given.contains(kind)) present.emplace_back(kind);
@@ -126,7 +146,8 @@ Truth read_truth(const Json& given, const std::string& pointer, const std::files
   reject_others(given, truth, present.front(), faults);
   if (present.front() == "finest") {
     truth.kind = Truth::Kind::finest;
-    if (const auto options = reader.read<FinestTruth>(given["finest"], pointer + "/finest")) truth.order = options->order;
+    if (const auto options = reader.read<FinestTruth>(given["finest"], pointer + "/finest"))
+      truth.order = options->order;
   } else {
     read_numbers(truth, given, reader);
   }
@@ -135,18 +156,22 @@ Truth read_truth(const Json& given, const std::string& pointer, const std::files
 
 }  // namespace
 
-std::vector<Truth> read_truths(const Json& given, const std::filesystem::path& folder, const std::vector<Axis>& axes, PlainReader& reader) {
+std::vector<Truth> read_truths(const Json& given, const std::filesystem::path& folder,
+                               const std::vector<Axis>& axes, PlainReader& reader) {
   std::vector<Truth> truths;
   if (!given.is_array()) return {read_truth(given, "/truth", folder, axes, reader)};
   if (given.empty()) reader.faults().add("/truth", "[]", "at least one truth");
-  for (std::size_t n = 0; n < given.size(); ++n) truths.push_back(read_truth(given[n], member("/truth", n), folder, axes, reader));
+  for (std::size_t n = 0; n < given.size(); ++n)
+    truths.push_back(read_truth(given[n], member("/truth", n), folder, axes, reader));
   return truths;
 }
 
-std::vector<RowFilter> read_filters(const Json& given, const std::string& pointer, const std::vector<Axis>& axes, PlainReader& reader) {
+std::vector<RowFilter> read_filters(const Json& given, const std::string& pointer,
+                                    const std::vector<Axis>& axes, PlainReader& reader) {
   std::vector<RowFilter> filters;
   if (!given.is_object()) {
-    reader.faults().add(pointer, shown(given), "an object of the table's columns, each with a value or {\"axis\": name}");
+    reader.faults().add(pointer, shown(given),
+                        "an object of the table's columns, each with a value or {\"axis\": name}");
     return filters;
   }
   for (const auto& item : given.items()) {
@@ -174,7 +199,8 @@ std::vector<RowFilter> read_filters(const Json& given, const std::string& pointe
   return filters;
 }
 
-bool passes(const CsvTable& table, std::size_t row, const std::vector<RowFilter>& filters, const std::vector<std::optional<double>>& numbers) {
+bool passes(const CsvTable& table, std::size_t row, const std::vector<RowFilter>& filters,
+            const std::vector<std::optional<double>>& numbers) {
   constexpr double rounding = 1e-9;
   return std::all_of(filters.begin(), filters.end(), [&](const RowFilter& filter) {
     const auto column = table.column(filter.column);
@@ -184,7 +210,8 @@ bool passes(const CsvTable& table, std::size_t row, const std::vector<RowFilter>
     if (filter.axis && numbers[*filter.axis]) wanted = *numbers[*filter.axis] * filter.scale;
     if (!wanted) return cell == filter.text;
     const auto number = csv_number(cell);
-    return number && std::abs(*number - *wanted) <= rounding * std::max(std::abs(*number), std::abs(*wanted));
+    return number &&
+           std::abs(*number - *wanted) <= rounding * std::max(std::abs(*number), std::abs(*wanted));
   });
 }
 

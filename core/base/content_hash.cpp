@@ -25,7 +25,9 @@ struct ContentHash::State {
 
 ContentHash::ContentHash() : state_(std::make_shared<State>()) {}
 
-void ContentHash::add(std::string_view bytes) { XXH3_128bits_update(state_->state, bytes.data(), bytes.size()); }
+void ContentHash::add(std::string_view bytes) {
+  XXH3_128bits_update(state_->state, bytes.data(), bytes.size());
+}
 
 std::string ContentHash::text() const {
   const XXH128_hash_t hash = XXH3_128bits_digest(state_->state);
@@ -40,7 +42,8 @@ std::string hash_of_text(std::string_view text) {
 
 std::string hash_of_file(const std::filesystem::path& file) {
   constexpr std::size_t piece = 1 << 20;
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(file.c_str(), "rb"), &std::fclose);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(file.c_str(), "rb"),
+                                                               &std::fclose);
   ContentHash hash;
   std::vector<char> bytes(piece);
   for (std::size_t count = piece; stream && count > 0;) {
@@ -48,7 +51,8 @@ std::string hash_of_file(const std::filesystem::path& file) {
     hash.add({bytes.data(), count});
   }
   if (!stream || std::ferror(stream.get()) != 0)
-    throw OutsideError(fmt::format("{} cannot be read: {}", file.string(), std::generic_category().message(errno)));
+    throw OutsideError(fmt::format("{} cannot be read: {}", file.string(),
+                                   std::generic_category().message(errno)));
   return hash.text();
 }
 

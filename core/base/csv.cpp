@@ -10,7 +10,9 @@ std::vector<std::string> csv_cells(std::string_view line) { return TableColumns(
 
 std::optional<double> csv_number(std::string_view cell) { return table_number(cell); }
 
-std::optional<std::size_t> CsvTable::column(std::string_view name) const { return find_column(columns, name); }
+std::optional<std::size_t> CsvTable::column(std::string_view name) const {
+  return find_column(columns, name);
+}
 
 std::optional<std::string> name_of_several(const CsvTable& table) {
   std::set<std::string_view> seen;
@@ -24,12 +26,14 @@ namespace {
 constexpr std::size_t most_faults = 5;
 
 bool holds_number(const std::vector<std::string>& cells) {
-  return std::any_of(cells.begin(), cells.end(), [](const std::string& cell) { return table_number(cell).has_value(); });
+  return std::any_of(cells.begin(), cells.end(),
+                     [](const std::string& cell) { return table_number(cell).has_value(); });
 }
 
 /// Cuts the first line off the text.
 std::string_view take_line(std::string_view& text) {
-  const auto* const ending = std::find_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; });
+  const auto* const ending =
+      std::find_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; });
   const auto end = static_cast<std::size_t>(ending - text.begin());
   const std::string_view line = text.substr(0, end);
   text.remove_prefix(end);
@@ -37,14 +41,18 @@ std::string_view take_line(std::string_view& text) {
   return line;
 }
 
-/// What is wrong with the number of a row's cells; empty: nothing. Columns without a name at the end need no cell.
+/// What is wrong with the number of a row's cells; empty: nothing. Columns without a name at the
+/// end need no cell.
 std::string fault_of_length(const TableColumns& columns, const std::vector<std::string>& cells) {
   if (std::string excess = columns.excess(cells); !excess.empty()) return excess;
   const std::size_t needed = columns.count();
-  return cells.size() < needed ? "a row of " + std::to_string(needed) + " cells, not of " + std::to_string(cells.size()) : "";
+  return cells.size() < needed ? "a row of " + std::to_string(needed) + " cells, not of " +
+                                     std::to_string(cells.size())
+                               : "";
 }
 
-/// The columns that a comment among these lines names for the row that follows them; nothing if there is no comment.
+/// The columns that a comment among these lines names for the row that follows them; nothing if
+/// there is no comment.
 std::optional<TableColumns> columns_in_comments(std::string_view lines, std::string_view row) {
   std::optional<TableColumns> found;
   bool found_fits = false;
@@ -68,7 +76,8 @@ CsvTable parse_csv(std::string_view text) {
   std::size_t number = 0;
   for (std::string_view rest = text; !rest.empty();) {
     ++number;
-    const std::string_view above = text.substr(0, text.size() - rest.size()), line = take_line(rest);
+    const std::string_view above = text.substr(0, text.size() - rest.size()),
+                           line = take_line(rest);
     if (TableColumns::is_empty(line)) continue;
     bool is_row = true;
     if (!columns) {
@@ -81,7 +90,8 @@ CsvTable parse_csv(std::string_view text) {
     table.rows.push_back(columns->cells(line));
     table.lines.push_back(number);
     if (table.faults.size() < most_faults)
-      if (std::string fault = fault_of_length(*columns, table.rows.back()); !fault.empty()) table.faults.push_back({number, std::move(fault)});
+      if (std::string fault = fault_of_length(*columns, table.rows.back()); !fault.empty())
+        table.faults.push_back({number, std::move(fault)});
     table.rows.back().resize(table.columns.size());
   }
   return table;

@@ -13,7 +13,8 @@ namespace hyperlattice {
 void sync_directory(const std::filesystem::path& directory) {
   const Descriptor folder(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (!folder || (::fsync(folder.number()) != 0 && errno != EINVAL && errno != EROFS))
-    throw OutsideError(fmt::format("cannot write {}: {}", directory.string(), std::generic_category().message(errno)));
+    throw OutsideError(fmt::format("cannot write {}: {}", directory.string(),
+                                   std::generic_category().message(errno)));
 }
 
 }  // namespace hyperlattice

@@ -27,8 +27,8 @@ class Descriptor {
   int number_;
 };
 
-/// Waits until a folder's entries are on the disk: new names, renamed and removed files. OutsideError if the system refuses; file systems that know
-/// no such thing pass.
+/// Waits until a folder's entries are on the disk: new names, renamed and removed files.
+/// OutsideError if the system refuses; file systems that know no such thing pass.
 void sync_directory(const std::filesystem::path& directory);
 
 }  // namespace hyperlattice

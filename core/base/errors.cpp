@@ -8,8 +8,9 @@ namespace hyperlattice {
 
 namespace {
 
-constexpr std::size_t longest_place = 200, longest_value = 300, longest_expectation = 2000;  // bytes: an input may be 4 GB of one name
-constexpr std::size_t most_lines = 100, most_kept = 1000;                                    // faults
+constexpr std::size_t longest_place = 200, longest_value = 300,
+                      longest_expectation = 2000;  // bytes: an input may be 4 GB of one name
+constexpr std::size_t most_lines = 100, most_kept = 1000;  // faults
 
 std::string lines(const std::vector<Fault>& faults) {
   std::string text;
@@ -20,11 +21,13 @@ std::string lines(const std::vector<Fault>& faults) {
     if (!fault.value.empty()) text += ": " + visible(fault.value, longest_value);
     text += ": expected " + visible(fault.expected, longest_expectation);
   }
-  if (faults.size() > most_lines) text += "\n... and " + std::to_string(faults.size() - most_lines) + " faults more";
+  if (faults.size() > most_lines)
+    text += "\n... and " + std::to_string(faults.size() - most_lines) + " faults more";
   return text;
 }
 
-/// Edits (insert, delete, replace, swap of neighbours) that turn a into b: Damerau-Levenshtein, restricted.
+/// Edits (insert, delete, replace, swap of neighbours) that turn a into b: Damerau-Levenshtein,
+/// restricted.
 std::size_t edits(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before, above(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -32,8 +35,10 @@ std::size_t edits(std::string_view a, std::string_view b) {
     before = std::exchange(above, row);
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      row[j] = std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + (a[i - 1] == b[j - 1] ? 0u : 1u)});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], before[j - 2] + 1);
+      row[j] =
+          std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + (a[i - 1] == b[j - 1] ? 0u : 1u)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before[j - 2] + 1);
     }
   }
   return row[b.size()];
@@ -41,7 +46,8 @@ std::size_t edits(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-InputError::InputError(std::vector<Fault> faults) : std::runtime_error(lines(faults)), faults_(std::move(faults)) {}
+InputError::InputError(std::vector<Fault> faults)
+    : std::runtime_error(lines(faults)), faults_(std::move(faults)) {}
 
 void Faults::add(std::string pointer, std::string value, std::string expected) {
   if (faults_.size() < most_kept)
@@ -55,12 +61,15 @@ void Faults::throw_if_any() const {
 }
 
 std::string nearest(std::string_view name, const std::vector<std::string>& candidates) {
-  constexpr std::size_t longest = 100, most = 1000;  // comparing takes the product of both lengths, for each candidate
+  constexpr std::size_t
+      longest = 100,
+      most = 1000;  // comparing takes the product of both lengths, for each candidate
   if (name.size() > longest || candidates.size() > most) return "";
   std::string best;
   std::size_t fewest = 2 + name.size() / 3;  // one more than what still counts as near
   for (const std::string& candidate : candidates) {
-    const std::size_t apart = std::max(name.size(), candidate.size()) - std::min(name.size(), candidate.size());
+    const std::size_t apart =
+        std::max(name.size(), candidate.size()) - std::min(name.size(), candidate.size());
     if (apart >= fewest) continue;
     const std::size_t count = edits(name, candidate);
     if (count < fewest && count < candidate.size()) {  // not if every letter would have to change

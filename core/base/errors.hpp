@@ -10,8 +10,8 @@ namespace hyperlattice {
 
 /// One thing wrong with the input.
 struct Fault {
-  std::string pointer;   ///< JSON pointer, e.g. "/pipeline/2/peak"; or an option of the command line
-  std::string value;     ///< the offending value as written; may be empty
+  std::string pointer;  ///< JSON pointer, e.g. "/pipeline/2/peak"; or an option of the command line
+  std::string value;    ///< the offending value as written; may be empty
   std::string expected;  ///< what was expected, with the nearest valid name where there is one
 };
 
@@ -35,7 +35,13 @@ class OutsideError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-enum ExitCode : int { exit_done = 0, exit_input = 2, exit_run = 3, exit_outside = 4, exit_interrupted = 130 };
+enum ExitCode : int {
+  exit_done = 0,
+  exit_input = 2,
+  exit_run = 3,
+  exit_outside = 4,
+  exit_interrupted = 130
+};
 
 /// Collects faults, so that a user sees all of them at once.
 class Faults {

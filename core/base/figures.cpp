@@ -22,7 +22,8 @@ std::string superscript(int number) {
   return text;
 }
 
-/// Whether its first unit stands alone and to the first power: the prefix of "m2" would be squared with it.
+/// Whether its first unit stands alone and to the first power: the prefix of "m2" would be squared
+/// with it.
 bool bears_prefix(std::string_view unit) {
   static constexpr std::array<std::string_view, 7> units = {"s", "m", "N", "J", "Pa", "Hz", "W"};
   const std::string_view first = unit.substr(0, unit.find_first_of(" /"));
@@ -30,7 +31,9 @@ bool bears_prefix(std::string_view unit) {
 }
 
 /// The multiple of three at or below the magnitude's power of ten.
-int power_of_thousand(double largest) { return 3 * static_cast<int>(std::floor(std::log10(largest) / 3 + 1e-12)); }
+int power_of_thousand(double largest) {
+  return 3 * static_cast<int>(std::floor(std::log10(largest) / 3 + 1e-12));
+}
 
 }  // namespace
 
@@ -39,7 +42,10 @@ std::string count_text(std::uint64_t number) {
   return fmt::format("{} {:03}", count_text(number / 1000), number % 1000);
 }
 
-std::string count_text_of(double number) { return count_text(number > 0 ? static_cast<std::uint64_t>(std::min(std::round(number), 1e18)) : 0); }
+std::string count_text_of(double number) {
+  return count_text(number > 0 ? static_cast<std::uint64_t>(std::min(std::round(number), 1e18))
+                               : 0);
+}
 
 std::string bytes_text(double bytes) {
   static constexpr const char* units[] = {"B", "kB", "MB", "GB", "TB"};

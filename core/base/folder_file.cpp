@@ -39,9 +39,10 @@ bool leads_out(const std::filesystem::path& name) {
   return false;
 }
 
-/// Opens each part of the name by itself, so that no part may be a link. Returns 0 or the system's error. A pipe is opened without waiting for a
-/// writer.
-int open_within(Descriptor& file, const std::filesystem::path& folder, const std::filesystem::path& name) {
+/// Opens each part of the name by itself, so that no part may be a link. Returns 0 or the system's
+/// error. A pipe is opened without waiting for a writer.
+int open_within(Descriptor& file, const std::filesystem::path& folder,
+                const std::filesystem::path& name) {
   constexpr int flags = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
   file.reset(::open(folder.c_str(), flags | O_DIRECTORY));
   for (const auto& part : name) {
@@ -67,9 +68,12 @@ int fill(const Descriptor& file, std::string& text) {
 
 }  // namespace
 
-std::optional<FolderFile> read_folder_file(const std::filesystem::path& folder, const std::filesystem::path& name, std::uint64_t most, bool head) {
+std::optional<FolderFile> read_folder_file(const std::filesystem::path& folder,
+                                           const std::filesystem::path& name, std::uint64_t most,
+                                           bool head) {
   const auto fail = [&](int error) {
-    return OutsideError(fmt::format("{} cannot be read: {}", (folder / name).string(), std::generic_category().message(error)));
+    return OutsideError(fmt::format("{} cannot be read: {}", (folder / name).string(),
+                                    std::generic_category().message(error)));
   };
   FolderFile found;
   if (leads_out(name)) {
@@ -103,7 +107,8 @@ bool has_folder_file(const std::filesystem::path& folder, const std::filesystem:
   if (leads_out(name)) return false;
   Descriptor file(-1);
   struct stat status {};
-  return open_within(file, folder, name) == 0 && ::fstat(file.number(), &status) == 0 && S_ISREG(status.st_mode);
+  return open_within(file, folder, name) == 0 && ::fstat(file.number(), &status) == 0 &&
+         S_ISREG(status.st_mode);
 }
 
 }  // namespace hyperlattice

@@ -32,7 +32,8 @@ std::string reason(int error) { return std::system_category().message(error); }
 /// A file in memory, which has no name that another program could know.
 class MemoryFile {
  public:
-  explicit MemoryFile(const std::filesystem::path& picture) : picture_(picture), descriptor_(::memfd_create("hyperlattice", MFD_CLOEXEC)) {
+  explicit MemoryFile(const std::filesystem::path& picture)
+      : picture_(picture), descriptor_(::memfd_create("hyperlattice", MFD_CLOEXEC)) {
     if (descriptor_ < 0) fail(picture_, reason(errno));
   }
   MemoryFile(const MemoryFile&) = delete;
@@ -43,7 +44,8 @@ class MemoryFile {
 
   void write(const std::string& text) {
     for (std::size_t written = 0; written < text.size();) {
-      const ssize_t count = ::pwrite(descriptor_, text.data() + written, text.size() - written, static_cast<off_t>(written));
+      const ssize_t count = ::pwrite(descriptor_, text.data() + written, text.size() - written,
+                                     static_cast<off_t>(written));
       if (count < 0 && errno == EINTR) continue;
       if (count < 0) fail(picture_, reason(errno));
       written += static_cast<std::size_t>(count);
@@ -53,7 +55,8 @@ class MemoryFile {
     std::string text;
     std::array<char, 1 << 16> bytes{};
     for (;;) {
-      const ssize_t count = ::pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(text.size()));
+      const ssize_t count =
+          ::pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(text.size()));
       if (count < 0 && errno == EINTR) continue;
       if (count < 0) fail(picture_, reason(errno));
       if (count == 0) return text;
@@ -71,7 +74,9 @@ std::vector<char*> environment() {
   std::vector<char*> kept;
   for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
     const std::string_view text = *entry;
-    if (!text.starts_with("GNUPLOT") && !text.starts_with("GNUTERM") && !text.starts_with("GNUHELP")) kept.push_back(*entry);
+    if (!text.starts_with("GNUPLOT") && !text.starts_with("GNUTERM") &&
+        !text.starts_with("GNUHELP"))
+      kept.push_back(*entry);
   }
   kept.push_back(nullptr);
   return kept;
@@ -97,15 +102,18 @@ std::string last_line(const std::string& text) {
   const auto end = text.find_last_not_of(" \n\r\t");
   if (end == std::string::npos) return "";
   const auto begin = text.rfind('\n', end);
-  return text.substr(begin == std::string::npos ? 0 : begin + 1, end - (begin == std::string::npos ? std::size_t(-1) : begin));
+  return text.substr(begin == std::string::npos ? 0 : begin + 1,
+                     end - (begin == std::string::npos ? std::size_t(-1) : begin));
 }
 
 }  // namespace
 
 std::string gnuplot_text(std::string_view text) {
-  // Double quotes: gnuplot 5.4 loses a plot whose single-quoted texts hold or begin with single quotes. Within double quotes it runs what stands in
-  // backquotes, and reads backslashes. So all such marks stand as octal numbers; those of three digits need no look at what follows them.
-  const std::string quoted = nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  // Double quotes: gnuplot 5.4 loses a plot whose single-quoted texts hold or begin with single
+  // quotes. Within double quotes it runs what stands in backquotes, and reads backslashes. So all
+  // such marks stand as octal numbers; those of three digits need no look at what follows them.
+  const std::string quoted =
+      nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   std::string out = "\"";
   for (const char c : nlohmann::json::parse(quoted).get<std::string>()) {
     const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
@@ -121,9 +129,12 @@ std::string gnuplot_text(std::string_view text) {
   return out + '"';
 }
 
-std::string svg_picture(const std::filesystem::path& file, const std::string& commands, int width, int height, std::chrono::milliseconds patience) {
+std::string svg_picture(const std::filesystem::path& file, const std::string& commands, int width,
+                        int height, std::chrono::milliseconds patience) {
   MemoryFile script(file), picture(file), words(file);
-  script.write(fmt::format("set terminal svg size {},{} font 'Helvetica,13' background 'white'\n{}\n", width, height, commands));
+  script.write(
+      fmt::format("set terminal svg size {},{} font 'Helvetica,13' background 'white'\n{}\n", width,
+                  height, commands));
   std::string program = "gnuplot", plain = "--default-settings";
   char* arguments[] = {program.data(), plain.data(), nullptr};
   posix_spawn_file_actions_t streams;
@@ -132,20 +143,23 @@ std::string svg_picture(const std::filesystem::path& file, const std::string& co
   posix_spawn_file_actions_adddup2(&streams, picture.descriptor(), STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&streams, words.descriptor(), STDERR_FILENO);
   pid_t child = 0;
-  const int error = ::posix_spawnp(&child, program.c_str(), &streams, nullptr, arguments, environment().data());
+  const int error =
+      ::posix_spawnp(&child, program.c_str(), &streams, nullptr, arguments, environment().data());
   posix_spawn_file_actions_destroy(&streams);
   if (error == ENOENT) fail(file, "gnuplot is not installed (Debian's package gnuplot-nox)");
   if (error != 0) fail(file, "gnuplot: " + reason(error));
   int status = 0;
   if (!wait_for(child, status, patience))
-    fail(file, fmt::format("gnuplot took longer than {:g} s, and was ended", 1e-3 * static_cast<double>(patience.count())));
+    fail(file, fmt::format("gnuplot took longer than {:g} s, and was ended",
+                           1e-3 * static_cast<double>(patience.count())));
   std::string drawn = picture.read();
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || drawn.find("</svg>") == std::string::npos)
     fail(file, "gnuplot failed: " + last_line(words.read()));
   return drawn;
 }
 
-void draw_svg(const std::filesystem::path& file, const std::string& commands, int width, int height, std::chrono::milliseconds patience) {
+void draw_svg(const std::filesystem::path& file, const std::string& commands, int width, int height,
+              std::chrono::milliseconds patience) {
   const std::string drawn = svg_picture(file, commands, width, height, patience);
   try {
     write_file(file.string(), drawn);

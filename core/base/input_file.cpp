@@ -25,12 +25,15 @@ std::string fault_of(const struct stat& file) {
 }
 
 std::string fault_of_error(int error) {
-  return error == ENOENT || error == ENOTDIR || error == ELOOP || error == ENAMETOOLONG ? "there is no such file" : "";
+  return error == ENOENT || error == ENOTDIR || error == ELOOP || error == ENAMETOOLONG
+             ? "there is no such file"
+             : "";
 }
 
 class Descriptor {
  public:
-  explicit Descriptor(const std::filesystem::path& file) : number_(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)) {}
+  explicit Descriptor(const std::filesystem::path& file)
+      : number_(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)) {}
   ~Descriptor() {
     if (number_ >= 0) ::close(number_);
   }
@@ -49,12 +52,16 @@ std::string input_file_fault(const std::filesystem::path& file) {
   return ::stat(file.c_str(), &status) == 0 ? fault_of(status) : fault_of_error(errno);
 }
 
-std::string read_input_file(const std::filesystem::path& file, const std::string& pointer, const std::string& what) {
+std::string read_input_file(const std::filesystem::path& file, const std::string& pointer,
+                            const std::string& what) {
   const auto refuse = [&](const std::string& why) {
-    return why.empty() ? void() : throw InputError({{pointer, fmt::format("\"{}\"", file.string()), what + "; " + why}});
+    return why.empty() ? void()
+                       : throw InputError(
+                             {{pointer, fmt::format("\"{}\"", file.string()), what + "; " + why}});
   };
   const auto fail = [&](int error) {
-    return OutsideError(fmt::format("{} cannot be read: {}", file.string(), std::generic_category().message(error)));
+    return OutsideError(fmt::format("{} cannot be read: {}", file.string(),
+                                    std::generic_category().message(error)));
   };
   refuse(input_file_fault(file));  // before it is opened, which itself may act on a device
   const Descriptor descriptor(file);
@@ -64,7 +71,8 @@ std::string read_input_file(const std::filesystem::path& file, const std::string
   refuse(fault_of(status));
   std::string text;
   std::size_t filled = 0;
-  text.resize(static_cast<std::size_t>(status.st_size) + 1);  // one more, to see the end without another block
+  text.resize(static_cast<std::size_t>(status.st_size) +
+              1);  // one more, to see the end without another block
   for (;;) {
     const ssize_t count = ::read(descriptor.number(), text.data() + filled, text.size() - filled);
     if (count < 0 && errno == EINTR) continue;
@@ -72,7 +80,9 @@ std::string read_input_file(const std::filesystem::path& file, const std::string
     if (count == 0) break;
     filled += static_cast<std::size_t>(count);
     if (filled > largest_input) refuse(too_large);
-    if (filled == text.size()) text.resize(std::max<std::size_t>(2 * filled, 4096));  // it grows, or its size is not known, as in /proc
+    if (filled == text.size())
+      text.resize(std::max<std::size_t>(2 * filled,
+                                        4096));  // it grows, or its size is not known, as in /proc
   }
   text.resize(filled);
   return text;

@@ -17,7 +17,8 @@ namespace fs = std::filesystem;
 /// What is written to is neither made nor replaced.
 void write_into(const fs::path& file, std::string_view bytes) {
   const auto fail = [&](const char* what) {
-    throw OutsideError(std::string("cannot ") + what + " " + file.string() + ": " + std::generic_category().message(errno));
+    throw OutsideError(std::string("cannot ") + what + " " + file.string() + ": " +
+                       std::generic_category().message(errno));
   };
   const int stream = open(file.c_str(), O_WRONLY | O_TRUNC | O_NOCTTY | O_CLOEXEC);
   if (stream < 0) fail("open");

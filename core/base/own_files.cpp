@@ -17,14 +17,18 @@ namespace hyperlattice {
 
 std::optional<OwnFiles> read_own_files(const std::filesystem::path& directory) {
   const std::filesystem::path path = directory / own_files_list;
-  const auto fail = [&] { return OutsideError(fmt::format("{} cannot be read: {}", path.string(), std::generic_category().message(errno))); };
+  const auto fail = [&] {
+    return OutsideError(fmt::format("{} cannot be read: {}", path.string(),
+                                    std::generic_category().message(errno)));
+  };
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0 && (errno == ENOENT || errno == ENOTDIR)) return std::nullopt;
   if (descriptor < 0) throw fail();
   std::string text;
   std::array<char, 1 << 16> bytes{};
   ssize_t count = 0;
-  while ((count = ::read(descriptor, bytes.data(), bytes.size())) > 0 || (count < 0 && errno == EINTR))
+  while ((count = ::read(descriptor, bytes.data(), bytes.size())) > 0 ||
+         (count < 0 && errno == EINTR))
     if (count > 0) text.append(bytes.data(), static_cast<std::size_t>(count));
   const int error = errno;
   ::close(descriptor);
@@ -35,9 +39,11 @@ std::optional<OwnFiles> read_own_files(const std::filesystem::path& directory) {
 
 OwnFiles parse_own_files(std::string_view text) {
   OwnFiles files;
-  for (std::size_t begin = 0, end = 0; (end = text.find('\n', begin)) != std::string_view::npos; begin = end + 1) {
+  for (std::size_t begin = 0, end = 0; (end = text.find('\n', begin)) != std::string_view::npos;
+       begin = end + 1) {
     const std::string_view line = text.substr(begin, end - begin);
-    const auto first = line.find(','), second = first == std::string_view::npos ? first : line.find(',', first + 1);
+    const auto first = line.find(','),
+               second = first == std::string_view::npos ? first : line.find(',', first + 1);
     if (second == std::string_view::npos) continue;
     const std::string_view size = line.substr(0, first), name = line.substr(second + 1);
     OwnFile file;
@@ -51,14 +57,19 @@ OwnFiles parse_own_files(std::string_view text) {
 }
 
 std::string own_file_line(std::string_view name, const OwnFile& file) {
-  return file.hash.empty() ? fmt::format(",,{}\n", name) : fmt::format("{},{},{}\n", file.bytes, file.hash, name);
+  return file.hash.empty() ? fmt::format(",,{}\n", name)
+                           : fmt::format("{},{},{}\n", file.bytes, file.hash, name);
 }
 
 bool is_own_name(std::string_view name) {
   const std::filesystem::path path(name);
-  if (path.empty() || path.is_absolute() || !path.has_filename() || name == own_files_list) return false;
-  if (std::any_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; })) return false;
-  return std::all_of(path.begin(), path.end(), [](const auto& part) { return part != "." && part != ".." && !part.empty(); });
+  if (path.empty() || path.is_absolute() || !path.has_filename() || name == own_files_list)
+    return false;
+  if (std::any_of(name.begin(), name.end(),
+                  [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }))
+    return false;
+  return std::all_of(path.begin(), path.end(),
+                     [](const auto& part) { return part != "." && part != ".." && !part.empty(); });
 }
 
 }  // namespace hyperlattice

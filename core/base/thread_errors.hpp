@@ -8,7 +8,8 @@
 
 namespace hyperlattice {
 
-/// Keeps what the parts of a parallel loop throw. The exception of the part that comes first goes on after the loop, whatever the number of threads.
+/// Keeps what the parts of a parallel loop throw. The exception of the part that comes first goes
+/// on after the loop, whatever the number of threads.
 class ThreadErrors {
  public:
   template <class Code>

@@ -6,8 +6,9 @@
 
 namespace hyperlattice {
 
-/// The text, characters that nobody sees (control characters but the end of a line, no-break spaces, marks without width) as "U+00A0", cut behind
-/// `most` bytes with "...". Bytes that are no UTF-8 stay as they are.
+/// The text, characters that nobody sees (control characters but the end of a line, no-break
+/// spaces, marks without width) as "U+00A0", cut behind `most` bytes with "...". Bytes that are no
+/// UTF-8 stay as they are.
 std::string visible(std::string_view text, std::size_t most);
 
 /// The same in one line: ends of lines are spaces, and none stands at the end.

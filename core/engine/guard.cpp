@@ -11,21 +11,23 @@ void Guard::check_motion(double time_step) const {
   bool finite = true;
   simulation_.fastest(speed, finite);
   if (!finite) fail("the state is no longer finite", time_step);
-  constexpr double spacings = 100;  // a body may fly faster than its own waves; nothing sound does this
-  if (speed * time_step > spacings * model_.body.grid.spacing) fail("a particle moves by more than 100 lattice spacings in one step", time_step);
+  constexpr double spacings =
+      100;  // a body may fly faster than its own waves; nothing sound does this
+  if (speed * time_step > spacings * model_.body.grid.spacing)
+    fail("a particle moves by more than 100 lattice spacings in one step", time_step);
 }
 
-void Guard::check_finite(const Balance& balance, double time_step) const {
+void Guard::check_finite(const EnergyBalance& balance, double time_step) const {
   const double total = balance.kinetic + balance.stored + balance.dissipated() + balance.injected;
   if (!std::isfinite(total)) fail("the energy is no longer finite", time_step);
 }
 
-void Guard::check_balance(const Balance& balance, double time_step) const {
+void Guard::check_balance(const EnergyBalance& balance, double time_step) const {
   const double tolerance = stage_->stage->energy_tolerance;
   if (tolerance > 0 && std::abs(balance.relative_error()) > tolerance)
-    fail(fmt::format(
-             "the energy balance is lost: an error of {:.3g} J is {:.3g} of the largest energy so far, {:.3g} J, and energy_tolerance is {:.3g}",
-             balance.error, std::abs(balance.relative_error()), balance.scale, tolerance),
+    fail(fmt::format("the energy balance is lost: an error of {:.3g} J is {:.3g} of the largest "
+                     "energy so far, {:.3g} J, and energy_tolerance is {:.3g}",
+                     balance.error, std::abs(balance.relative_error()), balance.scale, tolerance),
          time_step);
 }
 
@@ -35,14 +37,17 @@ void Guard::fail(const std::string& what, double time_step) const {
   const Particle particle = simulation_.fastest(speed, finite);
   const Vec3 x = model_.body.position(particle);
   const Material& material = model_.materials[model_.material(particle)];
-  std::string law = fmt::format("{} ({})", material.stage->component->type(), material.stage->pointer);
-  if (material.failure_stage != nullptr) law += fmt::format(" with {}", material.failure_stage->component->type());
-  throw RunError(
-      fmt::format("step {}, t = {:.6g} s: {}. {} particle {} at ({:.4g}, {:.4g}, {:.4g}) m{}, law {}. "
-                  "The step was {:.4g} s, {:.3g} of the critical {:.4g} s.",
-                  simulation_.steps(), simulation_.time(), what, finite ? "The fastest is" : "The first bad one is", particle, x.x, x.y, x.z,
-                  finite ? fmt::format(" with {:.4g} m/s", speed) : std::string(), law, time_step, time_step / model_.critical_time_step,
-                  model_.critical_time_step));
+  std::string law =
+      fmt::format("{} ({})", material.stage->component->type(), material.stage->pointer);
+  if (material.failure_stage != nullptr)
+    law += fmt::format(" with {}", material.failure_stage->component->type());
+  throw RunError(fmt::format(
+      "step {}, t = {:.6g} s: {}. {} particle {} at ({:.4g}, {:.4g}, {:.4g}) m{}, law {}. "
+      "The step was {:.4g} s, {:.3g} of the critical {:.4g} s.",
+      simulation_.steps(), simulation_.time(), what,
+      finite ? "The fastest is" : "The first bad one is", particle, x.x, x.y, x.z,
+      finite ? fmt::format(" with {:.4g} m/s", speed) : std::string(), law, time_step,
+      time_step / model_.critical_time_step, model_.critical_time_step));
 }
 
 }  // namespace hyperlattice

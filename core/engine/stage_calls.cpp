@@ -19,19 +19,27 @@ bool StageCalls::guarded(Code&& code) noexcept {
 }
 
 Statics& StageCalls::statics() {
-  if (!statics_) statics_ = std::make_unique<Statics>(model_, simulation_, stage_.start_time, stage_.plan.end_time, threads_);
+  if (!statics_)
+    statics_ = std::make_unique<Statics>(model_, simulation_, stage_.start_time,
+                                         stage_.plan.end_time, threads_);
   return *statics_;
 }
 
-StageCalls::StageCalls(const Model& model, Simulation& simulation, const PlannedStage& stage, int threads, Hooks hooks, std::uint64_t steps_done)
-    : model_(model), simulation_(simulation), stage_(stage), threads_(threads), hooks_(std::move(hooks)) {
+StageCalls::StageCalls(const Model& model, Simulation& simulation, const PlannedStage& stage,
+                       int threads, Hooks hooks, std::uint64_t steps_done)
+    : model_(model),
+      simulation_(simulation),
+      stage_(stage),
+      threads_(threads),
+      hooks_(std::move(hooks)) {
   host_.self = this;
   host_.time = simulation.time();
   host_.steps_done = steps_done;
   host_.take_step = [](void* self, double time_step) noexcept {
     auto& calls = *static_cast<StageCalls*>(self);
     return calls.guarded([&] {
-      if (!(time_step > 0 && std::isfinite(time_step))) throw PluginMistake(fmt::format("it takes a step of {} s", time_step));
+      if (!(time_step > 0 && std::isfinite(time_step)))
+        throw PluginMistake(fmt::format("it takes a step of {} s", time_step));
       calls.simulation_.step(time_step);
       calls.meet_end(time_step);
       calls.host_.time = calls.simulation_.time();
@@ -73,7 +81,8 @@ StageCalls::StageCalls(const Model& model, Simulation& simulation, const Planned
   host_.set_damping_rate = [](void* self, double rate) noexcept {
     auto& calls = *static_cast<StageCalls*>(self);
     calls.guarded([&] {
-      if (!(rate >= 0 && std::isfinite(rate))) throw PluginMistake(fmt::format("it damps at a rate of {} 1/s", rate));
+      if (!(rate >= 0 && std::isfinite(rate)))
+        throw PluginMistake(fmt::format("it damps at a rate of {} 1/s", rate));
       calls.simulation_.set_damping(calls.stage_.plan.damping, rate);
     });
   };
@@ -89,7 +98,9 @@ StageCalls::StageCalls(const Model& model, Simulation& simulation, const Planned
       if (!calls.hooks_.failing_motion) return;
       const Statics& statics = calls.statics();
       const bool has_heights = statics.problem().grid.components == 4;
-      calls.hooks_.failing_motion(statics.of_particles(motion, 0, 3), has_heights ? statics.of_particles(motion, 3, 1) : std::vector<double>());
+      calls.hooks_.failing_motion(
+          statics.of_particles(motion, 0, 3),
+          has_heights ? statics.of_particles(motion, 3, 1) : std::vector<double>());
     });
   };
 }
@@ -104,14 +115,18 @@ void StageCalls::meet_end(double time_step) {
 void StageCalls::run() {
   const Stage& stage = *stage_.stage;
   simulation_.set_damping(stage_.plan.damping);
-  if (stage_.plan.at_rest && stage_.plan.time_step > 0) simulation_.hold_time(stage_.plan.end_time);  // else the solver says what time it is
+  if (stage_.plan.at_rest && stage_.plan.time_step > 0)
+    simulation_.hold_time(stage_.plan.end_time);  // else the solver says what time it is
   const SolverFacts facts = solver_facts(model_, stage_.start_time);
   const auto failed = refusal_of(stage, "run", [&](const Complaint& why) {
-    const bool done = stage.functions<SolverFunctions>().run(stage_.component.get(), facts, host_, why);
+    const bool done =
+        stage.functions<SolverFunctions>().run(stage_.component.get(), facts, host_, why);
     simulation_.release_time();
     return done;
   });
-  if (failed) throw RunError(fmt::format("{} ({}) failed: {}", stage.component->type(), stage.pointer, *failed));
+  if (failed)
+    throw RunError(
+        fmt::format("{} ({}) failed: {}", stage.component->type(), stage.pointer, *failed));
 }
 
 RestReport bring_to_rest(const Plan& plan, Simulation& simulation) {

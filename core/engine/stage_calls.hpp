@@ -1,5 +1,5 @@
-// What a solver calls while its stage runs. The solver is a plugin's: an exception thrown below it waits until its call has returned
-// (plugin_call.hpp).
+// What a solver calls while its stage runs. The solver is a plugin's: an exception thrown below it
+// waits until its call has returned (plugin_call.hpp).
 #pragma once
 
 #include <plan/plan.hpp>
@@ -20,14 +20,17 @@ class StageCalls {
     std::function<void()> observe;
     std::function<void(const RestReport&)> report;
     /// Three numbers a particle, and one of the height where membranes can move.
-    std::function<void(const std::vector<double>& motion, const std::vector<double>& heights)> failing_motion;
+    std::function<void(const std::vector<double>& motion, const std::vector<double>& heights)>
+        failing_motion;
     std::function<bool()> must_stop;
   };
-  StageCalls(const Model& model, Simulation& simulation, const PlannedStage& stage, int threads, Hooks hooks, std::uint64_t steps_done = 0);
+  StageCalls(const Model& model, Simulation& simulation, const PlannedStage& stage, int threads,
+             Hooks hooks, std::uint64_t steps_done = 0);
   StageCalls(const StageCalls&) = delete;
   StageCalls& operator=(const StageCalls&) = delete;
 
-  /// Runs the stage. RunError if the solver fails; what was thrown inside its calls, if anything was.
+  /// Runs the stage. RunError if the solver fails; what was thrown inside its calls, if anything
+  /// was.
   void run();
 
  private:
@@ -45,7 +48,8 @@ class StageCalls {
   std::unique_ptr<Statics> statics_;
 };
 
-/// Runs a stage that looks for rest, outside of a run: no history, no outputs. RunError if it fails.
+/// Runs a stage that looks for rest, outside of a run: no history, no outputs. RunError if it
+/// fails.
 RestReport bring_to_rest(const Plan& plan, Simulation& simulation);
 
 }  // namespace hyperlattice

@@ -1,6 +1,7 @@
-// The plane z = const cuts every facet that reaches from below it to it or above in one segment, from the edge that leads up to the edge that leads
-// down. The segments of a closed surface are closed polygons, since neighbours compute their common end alike; and so for the line y = const in that
-// plane.
+// The plane z = const cuts every facet that reaches from below it to it or above in one segment,
+// from the edge that leads up to the edge that leads down. The segments of a closed surface are
+// closed polygons, since neighbours compute their common end alike; and so for the line y = const
+// in that plane.
 #include <geometry/triangle_mesh.hpp>
 
 #include <algorithm>
@@ -10,7 +11,8 @@ namespace hyperlattice {
 
 namespace {
 
-/// Where the edge between two points crosses the plane: the same for both facets, since the lower point always comes first.
+/// Where the edge between two points crosses the plane: the same for both facets, since the lower
+/// point always comes first.
 struct Crossing {
   double x = 0, y = 0;
 };
@@ -20,41 +22,54 @@ Crossing crossing(Vec3 a, Vec3 b, double z) {
   return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)};
 }
 
-bool reaches(double z, double plane) { return z >= plane; }  // a point on the plane counts as above it, for all facets alike
+bool reaches(double z, double plane) {
+  return z >= plane;
+}  // a point on the plane counts as above it, for all facets alike
 
 }  // namespace
 
-InsideTest::InsideTest(TriangleMesh mesh) : mesh_(std::move(mesh)), low_{infinity, infinity, infinity}, high_{-infinity, -infinity, -infinity} {
+InsideTest::InsideTest(TriangleMesh mesh)
+    : mesh_(std::move(mesh)),
+      low_{infinity, infinity, infinity},
+      high_{-infinity, -infinity, -infinity} {
   for (const Vec3 p : mesh_.points) {
     low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y), std::min(low_.z, p.z)};
     high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y), std::max(high_.z, p.z)};
   }
   constexpr double finest = 512;
-  side_ = static_cast<std::size_t>(std::clamp(std::sqrt(static_cast<double>(mesh_.facets.size())), 1.0, finest));
+  side_ = static_cast<std::size_t>(
+      std::clamp(std::sqrt(static_cast<double>(mesh_.facets.size())), 1.0, finest));
   bins_.resize(side_ * side_);
-  const double slack = 1e-12 * std::max(high_.y - low_.y, high_.z - low_.z);  // a crossing may be off by its rounding
+  const double slack = 1e-12 * std::max(high_.y - low_.y,
+                                        high_.z - low_.z);  // a crossing may be off by its rounding
   for (std::uint32_t f = 0; f < mesh_.facets.size(); ++f) {
     const Facet& facet = mesh_.facets[f];
     const Vec3 a = mesh_.points[facet[0]], b = mesh_.points[facet[1]], c = mesh_.points[facet[2]];
-    const std::size_t last_row = row_of(std::max({a.z, b.z, c.z}) + slack), last_column = column_of(std::max({a.y, b.y, c.y}) + slack);
+    const std::size_t last_row = row_of(std::max({a.z, b.z, c.z}) + slack),
+                      last_column = column_of(std::max({a.y, b.y, c.y}) + slack);
     for (std::size_t row = row_of(std::min({a.z, b.z, c.z}) - slack); row <= last_row; ++row)
-      for (std::size_t column = column_of(std::min({a.y, b.y, c.y}) - slack); column <= last_column; ++column)
+      for (std::size_t column = column_of(std::min({a.y, b.y, c.y}) - slack); column <= last_column;
+           ++column)
         bins_[row * side_ + column].push_back(f);
   }
 }
 
 std::size_t InsideTest::column_of(double y) const {
   const double share = (y - low_.y) / (high_.y - low_.y);
-  return std::min(static_cast<std::size_t>(std::max(0.0, share) * static_cast<double>(side_)), side_ - 1);
+  return std::min(static_cast<std::size_t>(std::max(0.0, share) * static_cast<double>(side_)),
+                  side_ - 1);
 }
 
 std::size_t InsideTest::row_of(double z) const {
   const double share = (z - low_.z) / (high_.z - low_.z);
-  return std::min(static_cast<std::size_t>(std::max(0.0, share) * static_cast<double>(side_)), side_ - 1);
+  return std::min(static_cast<std::size_t>(std::max(0.0, share) * static_cast<double>(side_)),
+                  side_ - 1);
 }
 
 int InsideTest::winding(Vec3 p) const {
-  if (!(p.y >= low_.y && p.y <= high_.y && p.z >= low_.z && p.z <= high_.z && p.x >= low_.x && p.x <= high_.x)) return 0;
+  if (!(p.y >= low_.y && p.y <= high_.y && p.z >= low_.z && p.z <= high_.z && p.x >= low_.x &&
+        p.x <= high_.x))
+    return 0;
   int winding = 0;
   for (const std::uint32_t f : bins_[row_of(p.z) * side_ + column_of(p.y)]) {
     const Facet& facet = mesh_.facets[f];

@@ -30,7 +30,8 @@ struct Box {
     std::optional<Vec3> low, high, centre, size;
   };
   static Schema<Options> schema() {
-    return Schema<Options>("box", "Box with edges along the axes, by two corners or by centre and size")
+    return Schema<Options>("box",
+                           "Box with edges along the axes, by two corners or by centre and size")
         .add<&Options::low>("low", "m", "corner with the smallest coordinates")
         .add<&Options::high>("high", "m", "corner with the largest coordinates")
         .add<&Options::centre>("centre", "m", "centre, with size; the origin if left out")
@@ -38,19 +39,23 @@ struct Box {
         .positive()
         .check([](const Options& box, const FaultSink& faults) {
           if (box.size) {
-            if (box.low || box.high) faults.fault("size", "either low and high, or centre and size, not both");
+            if (box.low || box.high)
+              faults.fault("size", "either low and high, or centre and size, not both");
           } else if (!box.low || !box.high || box.centre) {
             faults.fault("", "a box by low and high, or by centre and size");
-          } else if (!(box.low->x < box.high->x && box.low->y < box.high->y && box.low->z < box.high->z)) {
+          } else if (!(box.low->x < box.high->x && box.low->y < box.high->y &&
+                       box.low->z < box.high->z)) {
             faults.fault("high", "a corner above low in every coordinate");
           }
         });
   }
   static Region make(const Options& box) {
     const Vec3 middle = box.centre.value_or(Vec3{});
-    const Vec3 low = box.size ? middle - 0.5 * *box.size : *box.low, high = box.size ? middle + 0.5 * *box.size : *box.high;
+    const Vec3 low = box.size ? middle - 0.5 * *box.size : *box.low,
+               high = box.size ? middle + 0.5 * *box.size : *box.high;
     Region region = solid(low, high, low, 0.5 * (low + high), [low, high](Vec3 p) {
-      return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y && low.z <= p.z && p.z <= high.z;
+      return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y && low.z <= p.z &&
+             p.z <= high.z;
     });
     const Vec3 edge = high - low;
     region.volume = edge.x * edge.y * edge.z;
@@ -74,7 +79,8 @@ struct Sphere {
   static Region make(const Options& sphere) {
     const Vec3 c = sphere.centre;
     const double r = sphere.radius;
-    Region region = solid(c - Vec3{r, r, r}, c + Vec3{r, r, r}, c, c, [c, r](Vec3 p) { return dot(p - c, p - c) <= r * r; });
+    Region region = solid(c - Vec3{r, r, r}, c + Vec3{r, r, r}, c, c,
+                          [c, r](Vec3 p) { return dot(p - c, p - c) <= r * r; });
     region.volume = 4 * pi / 3 * r * r * r;
     region.outer_area = 4 * pi * r * r;
     return region;
@@ -95,7 +101,8 @@ struct HollowSphere {
         .add<&Options::outer_radius>("outer_radius", "m", "radius of the ball")
         .positive()
         .check([](const Options& sphere, const FaultSink& faults) {
-          if (sphere.outer_radius <= sphere.inner_radius) faults.fault("outer_radius", "a radius above inner_radius");
+          if (sphere.outer_radius <= sphere.inner_radius)
+            faults.fault("outer_radius", "a radius above inner_radius");
         });
   }
   static Region make(const Options& sphere) {
@@ -112,7 +119,8 @@ struct HollowSphere {
   }
 };
 
-/// Anchored at its start: on the axis across, at the end along, so that whole cells fill an upright cylinder's length exactly.
+/// Anchored at its start: on the axis across, at the end along, so that whole cells fill an upright
+/// cylinder's length exactly.
 struct Cylinder {
   struct Options {
     Vec3 start, end;
@@ -132,15 +140,20 @@ struct Cylinder {
     const Vec3 start = cylinder.start, axis = cylinder.end - start;
     const double length = norm(axis), r = cylinder.radius;
     const Vec3 d = (1 / length) * axis;
-    const auto reach = [r](double cosine) { return r * std::sqrt(std::max(0.0, 1 - cosine * cosine)); };
+    const auto reach = [r](double cosine) {
+      return r * std::sqrt(std::max(0.0, 1 - cosine * cosine));
+    };
     const Vec3 wide{reach(d.x), reach(d.y), reach(d.z)};
-    const Vec3 low{std::fmin(start.x, cylinder.end.x), std::fmin(start.y, cylinder.end.y), std::fmin(start.z, cylinder.end.z)};
-    const Vec3 high{std::fmax(start.x, cylinder.end.x), std::fmax(start.y, cylinder.end.y), std::fmax(start.z, cylinder.end.z)};
-    Region region = solid(low - wide, high + wide, start, start + 0.5 * axis, [start, d, length, r](Vec3 p) {
-      const double along = dot(p - start, d);
-      const Vec3 across = p - start - along * d;
-      return 0 <= along && along <= length && dot(across, across) <= r * r;
-    });
+    const Vec3 low{std::fmin(start.x, cylinder.end.x), std::fmin(start.y, cylinder.end.y),
+                   std::fmin(start.z, cylinder.end.z)};
+    const Vec3 high{std::fmax(start.x, cylinder.end.x), std::fmax(start.y, cylinder.end.y),
+                    std::fmax(start.z, cylinder.end.z)};
+    Region region =
+        solid(low - wide, high + wide, start, start + 0.5 * axis, [start, d, length, r](Vec3 p) {
+          const double along = dot(p - start, d);
+          const Vec3 across = p - start - along * d;
+          return 0 <= along && along <= length && dot(across, across) <= r * r;
+        });
     region.volume = pi * r * r * length;
     return region;
   }
@@ -152,10 +165,12 @@ struct HalfSpace {
     Vec3 point, normal;
   };
   static Schema<Options> schema() {
-    return Schema<Options>("half_space", "Everything on one side of a plane: where (x - point) . normal <= 0")
+    return Schema<Options>("half_space",
+                           "Everything on one side of a plane: where (x - point) . normal <= 0")
         .add<&Options::point>("point", "m", "a point of the plane")
         .fallback("[0, 0, 0]")
-        .add<&Options::normal>("normal", "", "direction that points out of the half-space, of any length")
+        .add<&Options::normal>("normal", "",
+                               "direction that points out of the half-space, of any length")
         .check([](const Options& half, const FaultSink& faults) {
           if (half.normal == Vec3{}) faults.fault("normal", "a direction other than [0, 0, 0]");
         });
@@ -163,7 +178,9 @@ struct HalfSpace {
   static Region make(const Options& half) {
     const Vec3 point = half.point, n = half.normal;
     Vec3 low{-infinity, -infinity, -infinity}, high{infinity, infinity, infinity};
-    const auto bound = [](double normal, double at, double& below, double& above) { (normal > 0 ? above : below) = at; };
+    const auto bound = [](double normal, double at, double& below, double& above) {
+      (normal > 0 ? above : below) = at;
+    };
     if (n.y == 0 && n.z == 0) bound(n.x, point.x, low.x, high.x);
     if (n.z == 0 && n.x == 0) bound(n.y, point.y, low.y, high.y);
     if (n.x == 0 && n.y == 0) bound(n.z, point.z, low.z, high.z);
@@ -179,10 +196,13 @@ struct Stl {
     double scale = 1;
   };
   static Schema<Options> schema() {
-    return Schema<Options>("stl", "Solid bounded by the facets of an STL file, ASCII or binary; its surface must be closed")
+    return Schema<Options>("stl",
+                           "Solid bounded by the facets of an STL file, ASCII or binary; its "
+                           "surface must be closed")
         .add<&Options::file>(path_option, "", "the file, relative to the scene")
         .file()
-        .add<&Options::scale>("scale", "m", "what a length of 1 in the file is: \"1 mm\" for a file in millimetres")
+        .add<&Options::scale>(
+            "scale", "m", "what a length of 1 in the file is: \"1 mm\" for a file in millimetres")
         .positive()
         .fallback("1");
   }
@@ -190,18 +210,22 @@ struct Stl {
     TriangleMesh mesh = read_stl(read_input_file(stl.file, "", "an STL file"), stl.scale);
     const std::string fault = solid_fault(mesh);
     if (!fault.empty() && !sections_are_solids(mesh)) throw std::runtime_error(fault);
-    const SurfaceAreas areas = fault.empty() ? surface_areas(mesh) : SurfaceAreas();  // unknown where solids touch
+    const SurfaceAreas areas =
+        fault.empty() ? surface_areas(mesh) : SurfaceAreas();  // unknown where solids touch
     const auto inside = std::make_shared<const InsideTest>(std::move(mesh));
-    if (const std::string turned = orientation_fault(*inside); !turned.empty()) throw std::runtime_error(turned);
+    if (const std::string turned = orientation_fault(*inside); !turned.empty())
+      throw std::runtime_error(turned);
     const Vec3 low = inside->low(), high = inside->high();
-    Region region = solid(low, high, low, 0.5 * (low + high), [inside](Vec3 p) { return (*inside)(p); });
+    Region region =
+        solid(low, high, low, 0.5 * (low + high), [inside](Vec3 p) { return (*inside)(p); });
     region.outer_area = areas.outer;
     region.inner_area = areas.inner;
     return region;
   }
 };
 
-/// What an image shows; anchored at the image's corner, so that cells of the voxels' size are the voxels.
+/// What an image shows; anchored at the image's corner, so that cells of the voxels' size are the
+/// voxels.
 struct Voxels {
   static constexpr std::string_view file_holds = "such an image";
   struct Options {
@@ -214,7 +238,8 @@ struct Voxels {
   static constexpr std::string_view type_names[] = {"uint8", "uint16"};
   static Schema<Options> schema() {
     return Schema<Options>("voxels",
-                           "Voxels of an image that have one of some values: raw numbers without a header, x running fastest, then y, then z")
+                           "Voxels of an image that have one of some values: raw numbers without a "
+                           "header, x running fastest, then y, then z")
         .add<&Options::file>(path_option, "", "the file, relative to the scene")
         .file()
         .add<&Options::counts>("counts", "", "voxels along x, y and z")
@@ -231,30 +256,35 @@ struct Voxels {
         .check([](const Options& image, const FaultSink& faults) {
           constexpr double most = 1e5;
           for (const double count : {image.counts.x, image.counts.y, image.counts.z})
-            if (count != std::floor(count) || count > most) return faults.fault("counts", "whole numbers of voxels, up to 100000");
+            if (count != std::floor(count) || count > most)
+              return faults.fault("counts", "whole numbers of voxels, up to 100000");
           const double largest = image.type == VoxelType::uint8 ? 255 : 65535;
           for (const double value : image.values)
             if (!(value >= 0 && value <= largest && value == std::floor(value)))
-              return faults.fault("values", "whole numbers from 0 to " + std::to_string(static_cast<int>(largest)));
+              return faults.fault(
+                  "values", "whole numbers from 0 to " + std::to_string(static_cast<int>(largest)));
         });
   }
   static Region make(const Options& image) {
     const auto count = [](double number) { return static_cast<std::int64_t>(number); };
-    const auto set = std::make_shared<const VoxelSet>(read_input_file(image.file, "", "a voxel image"),
-                                                      std::array{count(image.counts.x), count(image.counts.y), count(image.counts.z)}, image.type,
-                                                      image.values, image.low, image.voxel);
-    return solid(set->low(), set->high(), image.low, 0.5 * (set->low() + set->high()), [set](Vec3 p) { return set->contains(p); });
+    const auto set = std::make_shared<const VoxelSet>(
+        read_input_file(image.file, "", "a voxel image"),
+        std::array{count(image.counts.x), count(image.counts.y), count(image.counts.z)}, image.type,
+        image.values, image.low, image.voxel);
+    return solid(set->low(), set->high(), image.low, 0.5 * (set->low() + set->high()),
+                 [set](Vec3 p) { return set->contains(p); });
   }
 };
 
 template <class Solid>
 Primitive describe() {
   static const auto schema = Solid::schema();
-  Primitive primitive{schema.name(), schema.summary(), option_set<Solid>(), {}, [](const void* options) {
-                        Region region = Solid::make(*static_cast<const typename Solid::Options*>(options));
-                        region.primitive = schema.name();
-                        return region;
-                      }};
+  Primitive primitive{
+      schema.name(), schema.summary(), option_set<Solid>(), {}, [](const void* options) {
+        Region region = Solid::make(*static_cast<const typename Solid::Options*>(options));
+        region.primitive = schema.name();
+        return region;
+      }};
   if constexpr (requires { Solid::file_holds; }) primitive.file_holds = Solid::file_holds;
   return primitive;
 }
@@ -262,8 +292,9 @@ Primitive describe() {
 }  // namespace
 
 std::span<const Primitive> primitives() {
-  static const std::array all{describe<Box>(),       describe<Sphere>(), describe<HollowSphere>(), describe<Cylinder>(),
-                              describe<HalfSpace>(), describe<Stl>(),    describe<Voxels>()};
+  static const std::array all{describe<Box>(),      describe<Sphere>(),    describe<HollowSphere>(),
+                              describe<Cylinder>(), describe<HalfSpace>(), describe<Stl>(),
+                              describe<Voxels>()};
   return all;
 }
 

@@ -1,4 +1,5 @@
-// The solids that a scene can describe by a key and a few lengths. Each declares its parameters once, like a component its options.
+// The solids that a scene can describe by a key and a few lengths. Each declares its parameters
+// once, like a component its options.
 #pragma once
 
 #include <base/option_set.hpp>
@@ -9,8 +10,9 @@ namespace hyperlattice {
 struct Primitive {
   std::string_view name, summary;
   OptionSet options;
-  std::string_view file_holds;                    ///< what the file that the options name must hold, if they name one
-  Region (*make)(const void* options) = nullptr;  ///< throws std::runtime_error if a file that the options name is no solid, and says why
+  std::string_view file_holds;  ///< what the file that the options name must hold, if they name one
+  Region (*make)(const void* options) = nullptr;  ///< throws std::runtime_error if a file that the
+                                                  ///< options name is no solid, and says why
 };
 
 std::span<const Primitive> primitives();

@@ -34,7 +34,8 @@ constexpr Axis axes[] = {&Vec3::x, &Vec3::y, &Vec3::z};
 /// Whether a solid is all of its box: a box, or a half-space along an axis.
 bool fills_its_box(const Region& region) {
   if (region.primitive == "box") return true;
-  return region.primitive == "half_space" && std::any_of(std::begin(axes), std::end(axes), [&](Axis axis) {
+  return region.primitive == "half_space" &&
+         std::any_of(std::begin(axes), std::end(axes), [&](Axis axis) {
            return std::isfinite(region.low.*axis) || std::isfinite(region.high.*axis);
          });
 }
@@ -44,9 +45,13 @@ void cut(SolidExtent& extent, const Region& part) {
   if (part.kind == Region::Kind::set_union)
     for (const auto& piece : part.parts) cut(extent, *piece);
   if (!fills_its_box(part)) return;
-  const auto covers = [&](Axis axis) { return part.low.*axis <= extent.low.*axis && part.high.*axis >= extent.high.*axis; };
+  const auto covers = [&](Axis axis) {
+    return part.low.*axis <= extent.low.*axis && part.high.*axis >= extent.high.*axis;
+  };
   for (const Axis along : axes) {
-    if (!std::all_of(std::begin(axes), std::end(axes), [&](Axis axis) { return axis == along || covers(axis); })) continue;
+    if (!std::all_of(std::begin(axes), std::end(axes),
+                     [&](Axis axis) { return axis == along || covers(axis); }))
+      continue;
     if (part.low.*along <= extent.low.*along)
       extent.low.*along = std::clamp(part.high.*along, extent.low.*along, extent.high.*along);
     else if (part.high.*along >= extent.high.*along)
@@ -56,14 +61,18 @@ void cut(SolidExtent& extent, const Region& part) {
 
 /// Whether some point close to a side, one of many laid out evenly, is inside.
 bool reaches(const Region& solid, const SolidExtent& extent, std::size_t along, bool upper_side) {
-  constexpr int points = 24;                   // along each of the side's edges
-  constexpr double in_from_the_side = 2.5e-3;  // of the width: so near are some points to the summit of a round side
+  constexpr int points = 24;  // along each of the side's edges
+  constexpr double in_from_the_side =
+      2.5e-3;  // of the width: so near are some points to the summit of a round side
   const Vec3 size = extent.high - extent.low;
-  const auto at = [&](int n, Axis axis) { return extent.low.*axis + (n + 0.5) / points * (size.*axis); };
+  const auto at = [&](int n, Axis axis) {
+    return extent.low.*axis + (n + 0.5) / points * (size.*axis);
+  };
   const Axis one = axes[(along + 1) % 3], other = axes[(along + 2) % 3];
   Vec3 point;
-  point.*axes[along] = upper_side ? extent.high.*axes[along] - in_from_the_side * (size.*axes[along])
-                                  : extent.low.*axes[along] + in_from_the_side * (size.*axes[along]);
+  point.*axes[along] = upper_side
+                           ? extent.high.*axes[along] - in_from_the_side * (size.*axes[along])
+                           : extent.low.*axes[along] + in_from_the_side * (size.*axes[along]);
   for (int i = 0; i < points; ++i)
     for (int j = 0; j < points; ++j) {
       point.*one = at(i, one);
@@ -84,7 +93,8 @@ bool reaches_all_sides(const Region& solid, const SolidExtent& extent) {
 
 bool Region::is_solid() const {
   if (kind == Kind::solid) return true;
-  return !parts.empty() && std::all_of(parts.begin(), parts.end(), [](const auto& part) { return part->is_solid(); });
+  return !parts.empty() &&
+         std::all_of(parts.begin(), parts.end(), [](const auto& part) { return part->is_solid(); });
 }
 
 bool Region::contains(Vec3 point) const {
@@ -123,7 +133,8 @@ const std::vector<std::string>& built_in_region_names() {
   return names;
 }
 
-std::shared_ptr<const Region> make_set(Region::Kind kind, std::vector<std::shared_ptr<const Region>> parts) {
+std::shared_ptr<const Region> make_set(Region::Kind kind,
+                                       std::vector<std::shared_ptr<const Region>> parts) {
   auto set = std::make_shared<Region>();
   set->kind = kind;
   set->parts = std::move(parts);
@@ -143,7 +154,9 @@ std::shared_ptr<const Region> make_set(Region::Kind kind, std::vector<std::share
 }
 
 SolidExtent extent_of(const Region& solid) {
-  SolidExtent extent{solid.low, solid.high, solid.kind == Region::Kind::solid && is_finite(solid.low) && is_finite(solid.high)};
+  SolidExtent extent{
+      solid.low, solid.high,
+      solid.kind == Region::Kind::solid && is_finite(solid.low) && is_finite(solid.high)};
   if (solid.parts.empty()) return extent;
   extent = extent_of(*solid.parts.front());
   for (auto part = solid.parts.begin() + 1; part != solid.parts.end(); ++part) {
@@ -157,7 +170,8 @@ SolidExtent extent_of(const Region& solid) {
     extent.high = wider ? upper(extent.high, other.high) : lower(extent.high, other.high);
     extent.attained = extent.attained && other.attained;
   }
-  if (solid.kind != Region::Kind::set_union || !extent.attained) extent.attained = reaches_all_sides(solid, extent);
+  if (solid.kind != Region::Kind::set_union || !extent.attained)
+    extent.attained = reaches_all_sides(solid, extent);
   return extent;
 }
 
@@ -181,11 +195,15 @@ std::vector<std::string> Regions::names() const {
 }
 
 const Shape* Regions::shape(std::shared_ptr<const Region> region) {
-  auto& kept = shapes_.emplace_back(std::make_unique<std::pair<std::shared_ptr<const Region>, Shape>>());
+  auto& kept =
+      shapes_.emplace_back(std::make_unique<std::pair<std::shared_ptr<const Region>, Shape>>());
   kept->first = std::move(region);
   const Region& solid = *kept->first;
-  kept->second = {&solid, [](const void* self, Vec3 point) noexcept { return static_cast<const Region*>(self)->contains(point); }, solid.low,
-                  solid.high, solid.anchor};
+  kept->second = {&solid,
+                  [](const void* self, Vec3 point) noexcept {
+                    return static_cast<const Region*>(self)->contains(point);
+                  },
+                  solid.low, solid.high, solid.anchor};
   return &kept->second;
 }
 

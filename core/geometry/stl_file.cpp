@@ -22,9 +22,11 @@ class MeshBuilder {
   explicit MeshBuilder(double scale) : scale_(scale) {}
 
   void corner(double x, double y, double z, const std::string& where) {
-    if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) throw std::runtime_error(where + ": a coordinate is not finite");
+    if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z))
+      throw std::runtime_error(where + ": a coordinate is not finite");
     const std::array<double, 3> key{x + 0.0, y + 0.0, z + 0.0};  // -0 and 0 are one place
-    const auto [found, is_new] = known_.emplace(key, static_cast<std::uint32_t>(mesh_.points.size()));
+    const auto [found, is_new] =
+        known_.emplace(key, static_cast<std::uint32_t>(mesh_.points.size()));
     if (is_new) mesh_.points.push_back(scale_ * Vec3{key[0], key[1], key[2]});
     facet_[corners_++] = found->second;
     if (corners_ < 3) return;
@@ -60,32 +62,44 @@ Number little_endian(const char* bytes) {
   return number;
 }
 
-/// No byte of a text is 0, while the count behind a binary file's header has one up to 16 million facets.
-bool looks_like_text(std::string_view bytes) { return bytes.substr(0, header_bytes + 4).find('\0') == std::string_view::npos; }
+/// No byte of a text is 0, while the count behind a binary file's header has one up to 16 million
+/// facets.
+bool looks_like_text(std::string_view bytes) {
+  return bytes.substr(0, header_bytes + 4).find('\0') == std::string_view::npos;
+}
 
 TriangleMesh read_binary(std::string_view bytes, double scale) {
-  if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) throw std::runtime_error("it is a text in UTF-16: save it in ASCII or UTF-8");
+  if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF"))
+    throw std::runtime_error("it is a text in UTF-16: save it in ASCII or UTF-8");
   if (bytes.size() < header_bytes + 4)
-    throw std::runtime_error(fmt::format("it is cut short: {} bytes are less than the header of a binary STL", bytes.size()));
-  const std::size_t facets = little_endian<std::uint32_t>(bytes.data() + header_bytes), needed = header_bytes + 4 + facets * facet_bytes;
+    throw std::runtime_error(fmt::format(
+        "it is cut short: {} bytes are less than the header of a binary STL", bytes.size()));
+  const std::size_t facets = little_endian<std::uint32_t>(bytes.data() + header_bytes),
+                    needed = header_bytes + 4 + facets * facet_bytes;
   if (bytes.size() < needed)
-    throw std::runtime_error(fmt::format("it is cut short: {} facets need {} bytes, and it has {}{}", facets, needed, bytes.size(),
-                                         looks_like_text(bytes) ? "; a text would begin with \"solid\"" : ""));
+    throw std::runtime_error(fmt::format(
+        "it is cut short: {} facets need {} bytes, and it has {}{}", facets, needed, bytes.size(),
+        looks_like_text(bytes) ? "; a text would begin with \"solid\"" : ""));
   const std::string_view behind = bytes.substr(needed);  // some programs fill the file up
   if (behind.find_first_not_of(std::string_view(" \t\r\n\0", 5)) != std::string_view::npos)
     throw std::runtime_error(
-        fmt::format("it counts {} facets, and {} bytes stand behind them: are these several solids, or is the count wrong?", facets, behind.size()));
+        fmt::format("it counts {} facets, and {} bytes stand behind them: are these several "
+                    "solids, or is the count wrong?",
+                    facets, behind.size()));
   MeshBuilder builder(scale);
   builder.begin_section();
   for (std::size_t facet = 0; facet < facets; ++facet)
     for (std::size_t corner = 0; corner < 3; ++corner) {
-      const char* at = bytes.data() + header_bytes + 4 + facet * facet_bytes + 12 * (corner + 1);  // after the normal
-      builder.corner(little_endian<float>(at), little_endian<float>(at + 4), little_endian<float>(at + 8), fmt::format("facet {}", facet + 1));
+      const char* at = bytes.data() + header_bytes + 4 + facet * facet_bytes +
+                       12 * (corner + 1);  // after the normal
+      builder.corner(little_endian<float>(at), little_endian<float>(at + 4),
+                     little_endian<float>(at + 8), fmt::format("facet {}", facet + 1));
     }
   return builder.take();
 }
 
-/// Words between blanks, with the line that they stand in. Capital letters are as good as small ones; lines end with LF, CR or both.
+/// Words between blanks, with the line that they stand in. Capital letters are as good as small
+/// ones; lines end with LF, CR or both.
 class Words {
  public:
   explicit Words(std::string_view text) : text_(text) {}
@@ -116,19 +130,25 @@ class Words {
     return value;
   }
   [[noreturn]] void fail(const std::string& expected, std::string_view found) const {
-    throw std::runtime_error(fmt::format("line {}: {} was expected, {}", line_, expected,
-                                         found.empty() ? "but it ends" : fmt::format("not \"{}\"", visible(found.substr(0, 40), 200))));
+    throw std::runtime_error(
+        fmt::format("line {}: {} was expected, {}", line_, expected,
+                    found.empty() ? "but it ends"
+                                  : fmt::format("not \"{}\"", visible(found.substr(0, 40), 200))));
   }
   std::string place() const { return fmt::format("line {}", line_); }
 
   static bool is(std::string_view found, std::string_view word) {
-    const auto same = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b; };
+    const auto same = [](char a, char b) {
+      return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b;
+    };
     return std::equal(found.begin(), found.end(), word.begin(), word.end(), same);
   }
   static bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
  private:
-  bool ends_line() const { return text_[at_] == '\n' || (text_[at_] == '\r' && text_.substr(at_ + 1, 1) != "\n"); }
+  bool ends_line() const {
+    return text_[at_] == '\n' || (text_[at_] == '\r' && text_.substr(at_ + 1, 1) != "\n");
+  }
 
   std::string_view text_;
   std::size_t at_ = 0, line_ = 1;
@@ -148,7 +168,8 @@ void read_facet(Words& words, MeshBuilder& builder) {
   words.expect_end("facet");
 }
 
-/// Sections from "solid" to "endsolid", one after the other: several solids, or patches of one surface.
+/// Sections from "solid" to "endsolid", one after the other: several solids, or patches of one
+/// surface.
 TriangleMesh read_text(std::string_view text, double scale) {
   MeshBuilder builder(scale);
   Words words(text);
@@ -169,16 +190,19 @@ TriangleMesh read_text(std::string_view text, double scale) {
   return builder.take();
 }
 
-/// The text behind a byte order mark and blanks, if the file is one. Binary files may begin with "solid" too: their length and their count tell.
+/// The text behind a byte order mark and blanks, if the file is one. Binary files may begin with
+/// "solid" too: their length and their count tell.
 std::optional<std::string_view> text_in(std::string_view bytes) {
   constexpr std::string_view mark = "\xEF\xBB\xBF", solid = "solid";
-  const std::string_view whole = bytes.substr(bytes.starts_with(mark) ? mark.size() : 0);  // lines are counted from here
+  const std::string_view whole =
+      bytes.substr(bytes.starts_with(mark) ? mark.size() : 0);  // lines are counted from here
   std::string_view text = whole;
   while (!text.empty() && Words::is_blank(text.front())) text.remove_prefix(1);
   if (!Words::is(text.substr(0, solid.size()), solid)) return std::nullopt;
   if (bytes.size() < header_bytes + 4) return whole;
   const std::size_t facets = little_endian<std::uint32_t>(bytes.data() + header_bytes);
-  const bool is_binary = bytes.size() == header_bytes + 4 + facets * facet_bytes || !looks_like_text(bytes);
+  const bool is_binary =
+      bytes.size() == header_bytes + 4 + facets * facet_bytes || !looks_like_text(bytes);
   return is_binary ? std::nullopt : std::optional(whole);
 }
 

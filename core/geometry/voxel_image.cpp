@@ -15,7 +15,9 @@ constexpr std::size_t different = 1 << 16;  // values
 std::size_t bytes_of(VoxelType type) { return type == VoxelType::uint8 ? 1 : 2; }
 
 std::size_t value_at(std::string_view bytes, std::size_t voxel, VoxelType type) {
-  const auto byte = [&](std::size_t n) { return std::size_t{static_cast<unsigned char>(bytes[n])}; };
+  const auto byte = [&](std::size_t n) {
+    return std::size_t{static_cast<unsigned char>(bytes[n])};
+  };
   return type == VoxelType::uint8 ? byte(voxel) : byte(2 * voxel) + 256 * byte(2 * voxel + 1);
 }
 
@@ -38,17 +40,23 @@ std::string hint(std::size_t bytes, std::size_t voxels, VoxelType type) {
   const std::size_t needed = voxels * bytes_of(type);
   if (bytes == voxels * bytes_of(is_short ? VoxelType::uint16 : VoxelType::uint8))
     return fmt::format("; its size is that of {}", is_short ? "uint16" : "uint8");
-  return bytes > needed && bytes - needed <= 65536 ? fmt::format("; if it begins with a header of {} bytes, cut that off", bytes - needed) : "";
+  return bytes > needed && bytes - needed <= 65536
+             ? fmt::format("; if it begins with a header of {} bytes, cut that off", bytes - needed)
+             : "";
 }
 
 }  // namespace
 
-VoxelSet::VoxelSet(std::string_view bytes, const Index& counts, VoxelType type, const std::vector<double>& values, Vec3 low, double edge)
+VoxelSet::VoxelSet(std::string_view bytes, const Index& counts, VoxelType type,
+                   const std::vector<double>& values, Vec3 low, double edge)
     : counts_(counts), low_(low), edge_(edge) {
-  const auto voxels = static_cast<std::size_t>(counts[0] * counts[1] * counts[2]), needed = voxels * bytes_of(type);
+  const auto voxels = static_cast<std::size_t>(counts[0] * counts[1] * counts[2]),
+             needed = voxels * bytes_of(type);
   if (bytes.size() != needed)
-    throw std::runtime_error(fmt::format("{} x {} x {} voxels of {} need {} bytes, and it has {}{}", counts[0], counts[1], counts[2],
-                                         type == VoxelType::uint8 ? "1 byte" : "2 bytes", needed, bytes.size(), hint(bytes.size(), voxels, type)));
+    throw std::runtime_error(fmt::format("{} x {} x {} voxels of {} need {} bytes, and it has {}{}",
+                                         counts[0], counts[1], counts[2],
+                                         type == VoxelType::uint8 ? "1 byte" : "2 bytes", needed,
+                                         bytes.size(), hint(bytes.size(), voxels, type)));
   std::vector<bool> wanted(different, values.empty());
   wanted[0] = false;
   for (const double value : values) wanted[static_cast<std::size_t>(value)] = true;
@@ -61,8 +69,10 @@ VoxelSet::VoxelSet(std::string_view bytes, const Index& counts, VoxelType type, 
   }
   for (const double value : values)
     if (voxels_of[static_cast<std::size_t>(value)] == 0)
-      throw std::runtime_error(fmt::format("no voxel has the value {}; there are {}", value, values_text(voxels_of)));
-  if (voxels_of[0] == voxels && values.empty()) throw std::runtime_error("all its voxels are 0, which is outside");
+      throw std::runtime_error(
+          fmt::format("no voxel has the value {}; there are {}", value, values_text(voxels_of)));
+  if (voxels_of[0] == voxels && values.empty())
+    throw std::runtime_error("all its voxels are 0, which is outside");
   find_box();
 }
 

@@ -1,5 +1,5 @@
-// Whether triangles bound a solid. Each edge is run through once in each direction if every facet has one neighbour across it and both face the same
-// way.
+// Whether triangles bound a solid. Each edge is run through once in each direction if every facet
+// has one neighbour across it and both face the same way.
 #include <geometry/triangle_mesh.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -17,9 +17,11 @@ std::uint64_t key(std::uint32_t from, std::uint32_t to) { return (std::uint64_t{
 
 std::string place(Vec3 p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z); }
 
-/// Six times the volume of the tetrahedron of a facet and a point: summed over a closed surface, of what it encloses.
+/// Six times the volume of the tetrahedron of a facet and a point: summed over a closed surface, of
+/// what it encloses.
 double volume(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& facet, Vec3 origin) {
-  const Vec3 a = mesh.points[facet[0]] - origin, b = mesh.points[facet[1]] - origin, c = mesh.points[facet[2]] - origin;
+  const Vec3 a = mesh.points[facet[0]] - origin, b = mesh.points[facet[1]] - origin,
+             c = mesh.points[facet[2]] - origin;
   return dot(a, cross(b, c));
 }
 
@@ -60,42 +62,55 @@ std::string near_miss(const TriangleMesh& mesh, std::uint32_t a, std::uint32_t b
       if (p != end) distance = std::min(distance, norm(point - mesh.points[end]));
   }
   if (distance > close * norm(high - low)) return "";
-  return fmt::format("; another corner is {:.2g} m from there: corners of neighbours must be the same to the last digit", distance);
+  return fmt::format(
+      "; another corner is {:.2g} m from there: corners of neighbours must be the same to the last "
+      "digit",
+      distance);
 }
 
-/// What keeps the facets from `first` up to `last` from being a closed surface, each edge between two of them; empty: nothing.
+/// What keeps the facets from `first` up to `last` from being a closed surface, each edge between
+/// two of them; empty: nothing.
 std::string closed_fault(const TriangleMesh& mesh, std::size_t first, std::size_t last) {
   std::unordered_map<std::uint64_t, std::size_t> facet_of;  // of an edge in this direction
   const auto edge_text = [&](std::uint32_t a, std::uint32_t b) {
-    return fmt::format("the edge from {} to {} (metres)", place(mesh.points[a]), place(mesh.points[b]));
+    return fmt::format("the edge from {} to {} (metres)", place(mesh.points[a]),
+                       place(mesh.points[b]));
   };
   for (std::size_t f = first; f < last; ++f)
     for (std::size_t n = 0; n < 3; ++n) {
       const std::uint32_t a = mesh.facets[f][n], b = mesh.facets[f][(n + 1) % 3];
       const auto [found, is_new] = facet_of.emplace(key(a, b), f);
       if (!is_new)
-        return fmt::format("facets {} and {} run through {} in the same direction: one of them faces the wrong way, or more than two meet there",
-                           mesh.numbers[found->second], mesh.numbers[f], edge_text(a, b));
+        return fmt::format(
+            "facets {} and {} run through {} in the same direction: one of them faces the wrong "
+            "way, or more than two meet there",
+            mesh.numbers[found->second], mesh.numbers[f], edge_text(a, b));
     }
   for (std::size_t f = first; f < last; ++f)
     for (std::size_t n = 0; n < 3; ++n) {
       const std::uint32_t a = mesh.facets[f][n], b = mesh.facets[f][(n + 1) % 3];
       if (facet_of.count(key(b, a)) == 0)
-        return fmt::format("the surface is open: no other facet shares {} of facet {}{}", edge_text(a, b), mesh.numbers[f], near_miss(mesh, a, b));
+        return fmt::format("the surface is open: no other facet shares {} of facet {}{}",
+                           edge_text(a, b), mesh.numbers[f], near_miss(mesh, a, b));
     }
   double sum = 0;
-  for (std::size_t f = first; f < last; ++f) sum += volume(mesh, mesh.facets[f], mesh.points.front());
+  for (std::size_t f = first; f < last; ++f)
+    sum += volume(mesh, mesh.facets[f], mesh.points.front());
   return sum > 0 ? "" : "its facets point inwards: turn them round";
 }
 
 }  // namespace
 
-std::string solid_fault(const TriangleMesh& mesh) { return closed_fault(mesh, 0, mesh.facets.size()); }
+std::string solid_fault(const TriangleMesh& mesh) {
+  return closed_fault(mesh, 0, mesh.facets.size());
+}
 
 bool sections_are_solids(const TriangleMesh& mesh) {
   if (mesh.sections.size() < 2) return false;
   for (std::size_t n = 0; n < mesh.sections.size(); ++n) {
-    const std::size_t first = mesh.sections[n], last = n + 1 < mesh.sections.size() ? mesh.sections[n + 1] : mesh.facets.size();
+    const std::size_t first = mesh.sections[n], last = n + 1 < mesh.sections.size()
+                                                           ? mesh.sections[n + 1]
+                                                           : mesh.facets.size();
     if (first < last && !closed_fault(mesh, first, last).empty()) return false;
   }
   return true;
@@ -118,19 +133,26 @@ std::string orientation_fault(const InsideTest& inside) {
   const double step = 1e-7 * norm(inside.high() - inside.low());
   for (const auto& [point, part] : found) {
     const bool is_outer = part.volume > 0;
-    const auto is_right = [&](std::size_t f) {  // outside of an outer part is no material; beside a cavity there is some
+    const auto is_right = [&](std::size_t f) {  // outside of an outer part is no material; beside a
+                                                // cavity there is some
       const Vec3 normal = doubled_area(mesh, mesh.facets[f]);
       const double size = norm(normal);
       if (!(size > 0)) return false;
-      const int winding = inside.winding(centroid(mesh, mesh.facets[f]) + (is_outer ? step : -step) / size * normal);
+      const int winding = inside.winding(centroid(mesh, mesh.facets[f]) +
+                                         (is_outer ? step : -step) / size * normal);
       return is_outer ? winding <= 0 : winding > 0;
     };
     if (std::any_of(part.facets.begin(), part.facets.end(), is_right)) continue;
     const std::uint32_t number = mesh.numbers[part.facets.front()];
     if (is_outer)
-      return fmt::format("the closed surface that facet {} belongs to lies within another and faces outwards: around a cavity facets point into it",
-                         number);
-    return fmt::format("the closed surface that facet {} belongs to lies within no other and points inwards: turn its facets round", number);
+      return fmt::format(
+          "the closed surface that facet {} belongs to lies within another and faces outwards: "
+          "around a cavity facets point into it",
+          number);
+    return fmt::format(
+        "the closed surface that facet {} belongs to lies within no other and points inwards: turn "
+        "its facets round",
+        number);
   }
   return "";
 }
@@ -147,7 +169,8 @@ SurfaceAreas surface_areas(const TriangleMesh& mesh) {
     part.area += norm(doubled_area(mesh, facet)) / 2;
   }
   SurfaceAreas areas;
-  for (const auto& [point, part] : found) (part.volume > 0 ? areas.outer : areas.inner) += part.area;
+  for (const auto& [point, part] : found)
+    (part.volume > 0 ? areas.outer : areas.inner) += part.area;
   return areas;
 }
 

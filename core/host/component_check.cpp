@@ -15,7 +15,8 @@ namespace {
 bool is_identifier(std::string_view text) {
   const auto letter = [](char c) { return c >= 'a' && c <= 'z'; };
   return !text.empty() && letter(text.front()) &&
-         std::all_of(text.begin(), text.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '_'; });
+         std::all_of(text.begin(), text.end(),
+                     [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '_'; });
 }
 
 // Whether each function of a family's table is there.
@@ -29,7 +30,8 @@ bool whole(const ProbeFunctions& f) { return f.begin && f.sample; }
 
 template <class Functions>
 bool has_table(const ComponentInfo& info) {
-  return info.functions && info.functions_size == sizeof(Functions) && whole(*static_cast<const Functions*>(info.functions));
+  return info.functions && info.functions_size == sizeof(Functions) &&
+         whole(*static_cast<const Functions*>(info.functions));
 }
 
 bool has_functions(const ComponentInfo& info) {
@@ -53,29 +55,39 @@ bool has_functions(const ComponentInfo& info) {
   return false;
 }
 
-// Texts that a plugin hands over are shown to people; longer ones are an error, most likely a length that was never set.
+// Texts that a plugin hands over are shown to people; longer ones are an error, most likely a
+// length that was never set.
 constexpr std::size_t longest_name = 200, longest_text = 1 << 16;
 
-bool is_text(std::string_view text) { return text.size() <= longest_text && (text.empty() || text.data() != nullptr); }
+bool is_text(std::string_view text) {
+  return text.size() <= longest_text && (text.empty() || text.data() != nullptr);
+}
 
-/// Of a text that a scene repeats, or that is read as a unit: it cannot be shown otherwise than it is.
+/// Of a text that a scene repeats, or that is read as a unit: it cannot be shown otherwise than it
+/// is.
 bool is_seen(std::string_view text) { return visible_line(text, longest_text) == text; }
 
 std::string option_fault(const Option& option) {
-  for (const std::string_view text : {option.unit, option.help, option.fallback, option.word, option.example})
+  for (const std::string_view text :
+       {option.unit, option.help, option.fallback, option.word, option.example})
     if (!is_text(text)) return "one of its texts is no text";
-  if (!is_identifier(option.name)) return "its name must be small letters, digits and underscores, a letter first";
+  if (!is_identifier(option.name))
+    return "its name must be small letters, digits and underscores, a letter first";
   if (option.name == "type" || option.name == "name") return "a stage has that key already";
   if (option.kind > OptionKind::file || !option.set) return "it cannot be set";
   for (const std::string_view text : option.choices)
-    if (!is_text(text) || !is_seen(text)) return "one of its choices holds characters that nobody sees";
-  if (!is_seen(option.unit) || !is_seen(option.word) || visible(option.fallback, longest_text) != option.fallback)
+    if (!is_text(text) || !is_seen(text))
+      return "one of its choices holds characters that nobody sees";
+  if (!is_seen(option.unit) || !is_seen(option.word) ||
+      visible(option.fallback, longest_text) != option.fallback)
     return "its unit, word or fallback holds characters that nobody sees";
   if (option.kind == OptionKind::choice && option.choices.empty()) return "it has no choices";
   if (!(option.low <= option.high)) return "its range is empty";
-  for (const auto& [what, text] : {std::pair("example", option.example), std::pair("fallback", option.fallback)})
+  for (const auto& [what, text] :
+       {std::pair("example", option.example), std::pair("fallback", option.fallback)})
     if (!text.empty() && !nlohmann::json::accept(text))
-      return std::string("its ") + what + ", " + std::string(text.substr(0, longest_name)) + ", is not JSON: a text needs quotes, as in \"1 mm\"";
+      return std::string("its ") + what + ", " + std::string(text.substr(0, longest_name)) +
+             ", is not JSON: a text needs quotes, as in \"1 mm\"";
   return "";
 }
 
@@ -83,26 +95,36 @@ std::string option_fault(const Option& option) {
 
 bool is_type_name(std::string_view text) {
   const auto dot = text.find('.');
-  return dot != text.npos && std::find(std::begin(family_names), std::end(family_names), text.substr(0, dot)) != std::end(family_names) &&
+  return dot != text.npos &&
+         std::find(std::begin(family_names), std::end(family_names), text.substr(0, dot)) !=
+             std::end(family_names) &&
          is_identifier(text.substr(dot + 1));
 }
 
 std::string component_fault(const ComponentInfo& info) {
-  for (const std::string_view text : {info.name, info.summary, info.equation, info.source, info.restrictions})
+  for (const std::string_view text :
+       {info.name, info.summary, info.equation, info.source, info.restrictions})
     if (!is_text(text)) return "registers a component of which one of the texts is no text";
   const std::string name = std::string("'").append(info.name.substr(0, longest_name)) + "'";
-  if (!is_type_name(info.name)) return "registers the name " + name + ", which is not of the form <family>.<name> in small letters";
+  if (!is_type_name(info.name))
+    return "registers the name " + name +
+           ", which is not of the form <family>.<name> in small letters";
   const auto family = static_cast<std::size_t>(info.family);
-  if (family >= std::size(family_names) || !info.name.starts_with(family_names[family]) || info.name[family_names[family].size()] != '.')
+  if (family >= std::size(family_names) || !info.name.starts_with(family_names[family]) ||
+      info.name[family_names[family].size()] != '.')
     return "registers " + name + ", but the class is one of the family '" +
            (family < std::size(family_names) ? std::string(family_names[family]) : "unknown") + "'";
-  if (!has_functions(info)) return "registers " + name + " with a function missing: rebuild it against these headers";
+  if (!has_functions(info))
+    return "registers " + name + " with a function missing: rebuild it against these headers";
   std::set<std::string_view> names;
   for (const Option& option : info.options) {
-    if (option.name.size() > longest_name || !is_text(option.name)) return "registers " + name + " with an option whose name is no text";
+    if (option.name.size() > longest_name || !is_text(option.name))
+      return "registers " + name + " with an option whose name is no text";
     std::string fault = option_fault(option);
     if (!names.insert(option.name).second) fault = "it is declared twice";
-    if (!fault.empty()) return "registers " + name + " with a bad option '" + std::string(option.name) + "': " + fault;
+    if (!fault.empty())
+      return "registers " + name + " with a bad option '" + std::string(option.name) +
+             "': " + fault;
   }
   return "";
 }

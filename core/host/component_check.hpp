@@ -7,7 +7,8 @@
 
 namespace hyperlattice {
 
-/// Whether the text has the form "<family>.<name>", the name in small letters, digits and underscores.
+/// Whether the text has the form "<family>.<name>", the name in small letters, digits and
+/// underscores.
 bool is_type_name(std::string_view text);
 
 /// What is wrong with a component, or an empty text.

@@ -22,8 +22,11 @@ struct CrashSignal {
   std::string_view text;
   struct sigaction before {};
 };
-CrashSignal crash_signals[] = {
-    {SIGSEGV, "segmentation fault"}, {SIGBUS, "bus error"}, {SIGFPE, "arithmetic error"}, {SIGILL, "illegal instruction"}, {SIGABRT, "abort"}};
+CrashSignal crash_signals[] = {{SIGSEGV, "segmentation fault"},
+                               {SIGBUS, "bus error"},
+                               {SIGFPE, "arithmetic error"},
+                               {SIGILL, "illegal instruction"},
+                               {SIGABRT, "abort"}};
 
 const char* loading = nullptr;
 std::terminate_handler other_ends = nullptr;
@@ -50,15 +53,18 @@ class Line {
 
 void write_end_of(const PluginCall& call, std::string_view reason) {
   Line line;
-  line << "\nhyperlattice: " << call.name() << " (" << call.library() << ") ended the program in " << call.function() << "(): " << reason;
+  line << "\nhyperlattice: " << call.name() << " (" << call.library() << ") ended the program in "
+       << call.function() << "(): " << reason;
   line.write();
 }
 
 void on_crash(int number, siginfo_t* info, void* context) {
-  const auto found = std::find_if(std::begin(crash_signals), std::end(crash_signals), [&](const CrashSignal& s) { return s.number == number; });
+  const auto found = std::find_if(std::begin(crash_signals), std::end(crash_signals),
+                                  [&](const CrashSignal& s) { return s.number == number; });
   const PluginCall* call = PluginCall::running();
   if (call != nullptr) write_end_of(*call, found->text);
-  if ((found->before.sa_flags & SA_SIGINFO) != 0) return found->before.sa_sigaction(number, info, context);
+  if ((found->before.sa_flags & SA_SIGINFO) != 0)
+    return found->before.sa_sigaction(number, info, context);
   if (call != nullptr) _exit(exit_outside);
   std::signal(number, SIG_DFL);
   std::raise(number);
@@ -71,7 +77,8 @@ void on_exit_of_plugin() {
   _exit(exit_outside);
 }
 
-/// An exception that nothing can catch, as one thrown in a destructor. For others than lack of memory the signal of the abort follows.
+/// An exception that nothing can catch, as one thrown in a destructor. For others than lack of
+/// memory the signal of the abort follows.
 [[noreturn]] void on_terminate() {
   if (const PluginCall* call = PluginCall::running(); call != nullptr && ends_for_memory()) {
     write_end_of(*call, "not enough memory");
@@ -83,7 +90,8 @@ void on_exit_of_plugin() {
 
 void on_alarm(int) {
   Line line;
-  line << "\nhyperlattice: " << loading << " is still loading: a plugin must load within HYPERLATTICE_LOAD_SECONDS (60 by default)";
+  line << "\nhyperlattice: " << loading
+       << " is still loading: a plugin must load within HYPERLATTICE_LOAD_SECONDS (60 by default)";
   line.write();
   _exit(exit_outside);
 }

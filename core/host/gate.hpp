@@ -1,4 +1,5 @@
-// The gate: the numbers that decide whether a library may share objects with this program, read from its file before any of its code runs.
+// The gate: the numbers that decide whether a library may share objects with this program, read
+// from its file before any of its code runs.
 #pragma once
 
 #include <hyperlattice/boundary.hpp>
@@ -23,7 +24,8 @@ struct GateNumbers {
 /// Those that this program was compiled with.
 GateNumbers own_gate();
 
-/// Those that a library was compiled with. Reads the file, runs nothing; Refusal if it is no shared library of this machine or no plugin.
+/// Those that a library was compiled with. Reads the file, runs nothing; Refusal if it is no shared
+/// library of this machine or no plugin.
 GateNumbers read_gate(const std::filesystem::path& library);
 
 /// Every number in which a library differs, and what to do about it; empty if none.

@@ -31,7 +31,8 @@ fs::path resolved(const fs::path& path) {
   return result.has_filename() ? result : result.parent_path();
 }
 
-/// The entries of HYPERLATTICE_PLUGIN_PATH. An empty entry would mean the current directory, and is left out.
+/// The entries of HYPERLATTICE_PLUGIN_PATH. An empty entry would mean the current directory, and is
+/// left out.
 std::vector<fs::path> environment_folders() {
   std::vector<fs::path> folders;
   const char* value = std::getenv("HYPERLATTICE_PLUGIN_PATH");
@@ -45,29 +46,36 @@ std::vector<fs::path> environment_folders() {
 }
 
 /// The folder `hyperlattice` beside this library, in a build as in an installed tree.
-fs::path install_folder() { return resolved(boost::dll::this_line_location()).parent_path() / "hyperlattice"; }
+fs::path install_folder() {
+  return resolved(boost::dll::this_line_location()).parent_path() / "hyperlattice";
+}
 
-/// Boost's message holds the loader's between words of its own; the loader's names symbols as the linker does.
+/// Boost's message holds the loader's between words of its own; the loader's names symbols as the
+/// linker does.
 std::string loader_sentence(std::string message, const fs::path& library) {
   const std::string before = "dlerror system message: ";
   if (const auto begin = message.find(before); begin != message.npos) {
     message.erase(0, begin + before.size());
     if (const auto end = message.rfind("): "); end != message.npos) message.erase(end);
   }
-  if (const auto own = library.string() + ": "; message.starts_with(own)) message.erase(0, own.size());
+  if (const auto own = library.string() + ": "; message.starts_with(own))
+    message.erase(0, own.size());
   const std::string undefined = "undefined symbol: ";
   if (const auto begin = message.find(undefined); begin != message.npos) {
     const auto symbol = message.substr(begin + undefined.size());
-    return "cannot be loaded: undefined symbol " + boost::core::demangle(symbol.c_str()) + ": link the library that defines it";
+    return "cannot be loaded: undefined symbol " + boost::core::demangle(symbol.c_str()) +
+           ": link the library that defines it";
   }
   return "cannot be loaded: " + message;
 }
 
-/// Loads a library that has passed the gate. It stays loaded for as long as the process lives: code of it may be needed until the very end.
+/// Loads a library that has passed the gate. It stays loaded for as long as the process lives: code
+/// of it may be needed until the very end.
 const boost::dll::shared_library& open(const fs::path& path) {
   static auto& libraries = *new std::vector<std::unique_ptr<boost::dll::shared_library>>;
   try {
-    libraries.push_back(std::make_unique<boost::dll::shared_library>(path, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local));
+    libraries.push_back(std::make_unique<boost::dll::shared_library>(
+        path, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local));
   } catch (const std::system_error& error) {
     throw Refusal(loader_sentence(error.what(), path));
   }
@@ -80,36 +88,46 @@ const Component* keep(Component component) {
   return components.back().get();
 }
 
-constexpr std::size_t longest_text = 1 << 16, longest_refusal = 8192, longest_version = 200;  // bytes
+constexpr std::size_t longest_text = 1 << 16, longest_refusal = 8192,
+                      longest_version = 200;  // bytes
 
 /// A text as people are shown it. It stays for as long as the plugin, which is for ever.
 std::string_view kept(std::string_view text, std::string shown) {
   static auto& texts = *new std::deque<std::string>;
   return shown == text ? text : texts.emplace_back(std::move(shown));
 }
-std::string_view shown_line(std::string_view text) { return kept(text, visible_line(text, longest_text)); }
-std::string_view shown_lines(std::string_view text) { return kept(text, visible(text, longest_text)); }
+std::string_view shown_line(std::string_view text) {
+  return kept(text, visible_line(text, longest_text));
+}
+std::string_view shown_lines(std::string_view text) {
+  return kept(text, visible(text, longest_text));
+}
 
 /// A sound component, its texts as people are shown them.
 ComponentInfo shown(ComponentInfo info) {
   static auto& lists = *new std::deque<std::vector<Option>>;
   info.summary = shown_line(info.summary);
-  for (std::string_view* text : {&info.equation, &info.source, &info.restrictions}) *text = shown_lines(*text);
+  for (std::string_view* text : {&info.equation, &info.source, &info.restrictions})
+    *text = shown_lines(*text);
   auto& options = lists.emplace_back(info.options.begin(), info.options.end());
   for (Option& option : options)
-    for (std::string_view* text : {&option.help, &option.fallback}) *text = shown_line(*text);  // JSON may have ends of lines between values only
+    for (std::string_view* text : {&option.help, &option.fallback})
+      *text = shown_line(*text);  // JSON may have ends of lines between values only
   info.options = options;
   return info;
 }
 
-/// What a library registers, in the order of its registration. Each is sound by itself and none comes twice.
+/// What a library registers, in the order of its registration. Each is sound by itself and none
+/// comes twice.
 std::vector<Component> registered(const fs::path& path) {
-  if (const std::string mismatch = gate_mismatch(read_gate(path), own_gate()); !mismatch.empty()) throw Refusal(mismatch);
+  if (const std::string mismatch = gate_mismatch(read_gate(path), own_gate()); !mismatch.empty())
+    throw Refusal(mismatch);
   const LoadWatch watch(path.c_str());
   const std::string name = path.stem().string();
   PluginCall call(name, path.c_str(), "load");
   const auto& library = open(path);
-  if (!library.has("hyperlattice_plugin")) throw Refusal("has a gate but no plugin behind it: write HYPERLATTICE_PLUGIN in it");
+  if (!library.has("hyperlattice_plugin"))
+    throw Refusal("has a gate but no plugin behind it: write HYPERLATTICE_PLUGIN in it");
   const auto& plugin = library.get<const PluginInfo>("hyperlattice_plugin");
 
   std::vector<ComponentInfo> infos;
@@ -124,8 +142,10 @@ std::vector<Component> registered(const fs::path& path) {
   std::set<std::string_view> names;
   for (const ComponentInfo& info : infos) {
     if (const std::string fault = component_fault(info); !fault.empty()) throw Refusal(fault);
-    if (!names.insert(info.name).second) throw Refusal("registers " + std::string(info.name) + " twice");
-    components.push_back({shown(info), path.stem().string(), visible_line(plugin.version, longest_version), path});
+    if (!names.insert(info.name).second)
+      throw Refusal("registers " + std::string(info.name) + " twice");
+    components.push_back(
+        {shown(info), path.stem().string(), visible_line(plugin.version, longest_version), path});
   }
   return components;
 }
@@ -139,7 +159,8 @@ Host::Host(std::vector<fs::path> scene_paths) {
   add_scene_paths({scene_paths.begin(), scene_paths.end()}, fs::current_path());
 }
 
-std::vector<SearchOutcome> Host::add_scene_paths(const std::vector<std::string>& entries, const fs::path& scene_folder) {
+std::vector<SearchOutcome> Host::add_scene_paths(const std::vector<std::string>& entries,
+                                                 const fs::path& scene_folder) {
   std::vector<SearchOutcome> outcomes;
   std::vector<fs::path> folders;
   for (const std::string& entry : entries) {
@@ -162,9 +183,12 @@ SearchOutcome Host::look_into(const fs::path& folder) const {
   if (!fs::exists(folder, error)) return {folder, false, true, "no such file or folder"};
   const fs::directory_iterator files(folder, error);
   if (error) return {folder, false, false, "cannot be searched: " + error.message()};
-  const auto count = std::count_if(begin(files), end(files),
-                                   [](const auto& file) { return file.path().extension() == suffix && is_type_name(file.path().stem().string()); });
-  return {folder, true, false, "has " + std::to_string(count) + (count == 1 ? " library" : " libraries") + " named after a type"};
+  const auto count = std::count_if(begin(files), end(files), [](const auto& file) {
+    return file.path().extension() == suffix && is_type_name(file.path().stem().string());
+  });
+  return {folder, true, false,
+          "has " + std::to_string(count) + (count == 1 ? " library" : " libraries") +
+              " named after a type"};
 }
 
 std::vector<fs::path> Host::libraries_of(const std::string& type) const {
@@ -172,7 +196,8 @@ std::vector<fs::path> Host::libraries_of(const std::string& type) const {
   for (const fs::path& folder : folders_) {
     const fs::path library = resolved(folder / (type + suffix));
     std::error_code error;
-    if (fs::exists(library, error) && std::find(found.begin(), found.end(), library) == found.end()) found.push_back(library);
+    if (fs::exists(library, error) && std::find(found.begin(), found.end(), library) == found.end())
+      found.push_back(library);
   }
   return found;
 }
@@ -183,7 +208,8 @@ std::string Host::dangling(const std::string& type) {
     const fs::path library = folder / (type + suffix);
     std::error_code error;
     if (fs::exists(library, error) || !fs::is_symlink(fs::symlink_status(library, error))) continue;
-    std::string reason = library.filename().string() + ": is a link to " + fs::read_symlink(library, error).string() + ", where nothing is";
+    std::string reason = library.filename().string() + ": is a link to " +
+                         fs::read_symlink(library, error).string() + ", where nothing is";
     searched_.push_back({library, false, false, reason});
     return reason;
   }
@@ -199,10 +225,12 @@ const Component* Host::find(const std::string& type) {
   if (!is_type_name(type) || refused(type)) return nullptr;
   auto libraries = libraries_of(type);
   const auto known = components_.find(type);
-  if (known != components_.end() && std::find(libraries.begin(), libraries.end(), known->second->path) == libraries.end())
+  if (known != components_.end() &&
+      std::find(libraries.begin(), libraries.end(), known->second->path) == libraries.end())
     libraries.insert(libraries.begin(), known->second->path);
   if (libraries.size() > 1)
-    return refuse(type, "two libraries have " + type + ", " + libraries[0].string() + " and " + libraries[1].string() + ": remove or rename one");
+    return refuse(type, "two libraries have " + type + ", " + libraries[0].string() + " and " +
+                            libraries[1].string() + ": remove or rename one");
   if (known != components_.end()) return known->second;
   if (libraries.empty()) {
     const std::string reason = dangling(type);
@@ -210,20 +238,25 @@ const Component* Host::find(const std::string& type) {
   }
   const SearchOutcome& outcome = load(libraries.front(), type);
   if (!outcome.accepted) return refuse(type, outcome.reason);
-  const auto given = components_.find(type);  // a library that was named directly may have been loaded before, for other types
-  return given != components_.end() ? given->second
-                                    : refuse(type, outcome.path.filename().string() + ": " + outcome.reason + ", not the type it is named after");
+  const auto given = components_.find(
+      type);  // a library that was named directly may have been loaded before, for other types
+  return given != components_.end()
+             ? given->second
+             : refuse(type, outcome.path.filename().string() + ": " + outcome.reason +
+                                ", not the type it is named after");
 }
 
 std::string Host::why_not(const std::string& type) const {
   if (const auto refusal = refusals_.find(type); refusal != refusals_.end()) return refusal->second;
   if (!is_type_name(type)) {
     std::string families;
-    for (const std::string_view family : family_names) families += (families.empty() ? "" : ", ") + std::string(family);
+    for (const std::string_view family : family_names)
+      families += (families.empty() ? "" : ", ") + std::string(family);
     return "a type has the form <family>.<name> in small letters, the family one of " + families;
   }
   std::string folders;
-  for (const fs::path& folder : folders_) folders += (folders.empty() ? "" : ", ") + folder.string();
+  for (const fs::path& folder : folders_)
+    folders += (folders.empty() ? "" : ", ") + folder.string();
   return "no library " + type + suffix + " in " + folders;
 }
 
@@ -233,7 +266,8 @@ std::vector<std::string> Host::known_types() const {
   for (const fs::path& folder : folders_) {
     std::error_code error;
     for (const auto& file : fs::directory_iterator(folder, error))
-      if (file.path().extension() == suffix && is_type_name(file.path().stem().string())) types.insert(file.path().stem().string());
+      if (file.path().extension() == suffix && is_type_name(file.path().stem().string()))
+        types.insert(file.path().stem().string());
   }
   return {types.begin(), types.end()};
 }
@@ -254,11 +288,14 @@ const SearchOutcome& Host::load(const fs::path& library, const std::string& expe
     bool expected = expected_type.empty();
     for (const Component& component : components) {
       if (const auto other = components_.find(component.type()); other != components_.end())
-        throw Refusal("registers " + component.type() + ", which " + other->second->path.string() + " registered before: remove or rename one");
+        throw Refusal("registers " + component.type() + ", which " + other->second->path.string() +
+                      " registered before: remove or rename one");
       expected = expected || component.type() == expected_type;
       names += (names.empty() ? "" : ", ") + component.type();
     }
-    if (!expected) throw Refusal("does not register " + expected_type + ", the type it is named after, but " + names);
+    if (!expected)
+      throw Refusal("does not register " + expected_type + ", the type it is named after, but " +
+                    names);
     for (Component& component : components) {
       order_.push_back(keep(std::move(component)));
       components_[order_.back()->type()] = order_.back();
@@ -266,7 +303,8 @@ const SearchOutcome& Host::load(const fs::path& library, const std::string& expe
     outcome.accepted = true;
     outcome.reason = "gives " + names;
   } catch (const Refusal& refusal) {
-    outcome.reason = visible_line(library.filename().string() + ": " + refusal.what(), longest_refusal);
+    outcome.reason =
+        visible_line(library.filename().string() + ": " + refusal.what(), longest_refusal);
   } catch (const OutsideError& error) {
     outcome.reason = error.what();
   } catch (const std::exception& error) {

@@ -1,5 +1,6 @@
-// The plugin host: finds the library of a type by its name, checks the gate before any of its code runs, loads it with immediate binding,
-// and registers its components, all or none. Libraries are never unloaded.
+// The plugin host: finds the library of a type by its name, checks the gate before any of its code
+// runs, loads it with immediate binding, and registers its components, all or none. Libraries are
+// never unloaded.
 #pragma once
 
 #include <hyperlattice/component.hpp>
@@ -30,13 +31,16 @@ struct SearchOutcome {
 
 class Host {
  public:
-  /// Folders are searched in this order: those of the scene's "plugins", HYPERLATTICE_PLUGIN_PATH, the install's. A missing folder is no error.
+  /// Folders are searched in this order: those of the scene's "plugins", HYPERLATTICE_PLUGIN_PATH,
+  /// the install's. A missing folder is no error.
   explicit Host(std::vector<std::filesystem::path> scene_paths = {});
 
-  /// Adds the entries of a scene's "plugins" (folders or libraries, relative to `scene_folder`), searched before all others. A library named
-  /// directly is loaded at once, so that it may give any type. One outcome an entry: an absent one is the scene's fault, a refused one the
+  /// Adds the entries of a scene's "plugins" (folders or libraries, relative to `scene_folder`),
+  /// searched before all others. A library named directly is loaded at once, so that it may give
+  /// any type. One outcome an entry: an absent one is the scene's fault, a refused one the
   /// library's.
-  std::vector<SearchOutcome> add_scene_paths(const std::vector<std::string>& entries, const std::filesystem::path& scene_folder);
+  std::vector<SearchOutcome> add_scene_paths(const std::vector<std::string>& entries,
+                                             const std::filesystem::path& scene_folder);
 
   /// The component of that type, loading only `<type>.so` unless a library named directly gave it.
   /// Null if there is none; then why_not(type) says why in a sentence.

@@ -16,13 +16,15 @@ constexpr std::size_t longest_sentence = 4096;
 
 }  // namespace
 
-OutsideError plugin_failure(std::string_view name, std::string_view place, std::string_view library, std::string_view function,
-                            std::string_view sentence) {
-  return OutsideError(fmt::format("{} ({}{}{}) failed in {}(): {}", name, place, place.empty() ? "" : ", ", library, function,
+OutsideError plugin_failure(std::string_view name, std::string_view place, std::string_view library,
+                            std::string_view function, std::string_view sentence) {
+  return OutsideError(fmt::format("{} ({}{}{}) failed in {}(): {}", name, place,
+                                  place.empty() ? "" : ", ", library, function,
                                   visible_line(sentence, longest_sentence)));
 }
 
-PluginCall::PluginCall(std::string_view name, const char* library, const char* function, std::string_view place) noexcept
+PluginCall::PluginCall(std::string_view name, const char* library, const char* function,
+                       std::string_view place) noexcept
     : name_(name),
       place_(place),
       library_(library),
@@ -45,7 +47,8 @@ const std::string* PluginCall::failure(bool done) {
   if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
   if (done) return nullptr;
   if (sentence_ == out_of_memory && name_.empty()) throw std::bad_alloc();
-  if (sentence_ == out_of_memory) throw plugin_failure(name_, place_, library_, function_, lack_of_memory());
+  if (sentence_ == out_of_memory)
+    throw plugin_failure(name_, place_, library_, function_, lack_of_memory());
   sentence_ = visible_line(sentence_, longest_sentence);
   if (sentence_.empty()) sentence_ = "it does not say why";
   return &sentence_;

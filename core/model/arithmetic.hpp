@@ -1,5 +1,6 @@
-// How kernels compute springs: by series where these are exact to rounding, or by roots and divisions everywhere. The environment asks for the latter
-// by HYPERLATTICE_SPRINGS=exact; it is the oracle of tests.
+// How kernels compute springs: by series where these are exact to rounding, or by roots and
+// divisions everywhere. The environment asks for the latter by HYPERLATTICE_SPRINGS=exact; it is
+// the oracle of tests.
 #pragma once
 
 #include <cstdlib>

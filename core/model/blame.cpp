@@ -12,7 +12,9 @@ namespace {
 std::string text_of(const Model& model, const Stage& stage) {
   std::string text;
   const nlohmann::json resolved = nlohmann::json::parse(model.scene->resolved, nullptr, false);
-  if (const nlohmann::json::json_pointer at(stage.pointer); !resolved.is_discarded() && resolved.contains(at)) text = resolved.at(at).dump();
+  if (const nlohmann::json::json_pointer at(stage.pointer);
+      !resolved.is_discarded() && resolved.contains(at))
+    text = resolved.at(at).dump();
   constexpr std::size_t most = 300;
   return text.size() > most ? text.substr(0, most) + "..." : text;
 }
@@ -21,7 +23,8 @@ std::string text_of(const Model& model, const Stage& stage) {
 
 void blame_load(const Model& model, std::size_t load, const std::string& what) {
   const Stage& stage = *model.loads[load].stage;
-  throw RunError(fmt::format("{} ({}): {}. The load is {}", stage.component->type(), stage.pointer, what, text_of(model, stage)));
+  throw RunError(fmt::format("{} ({}): {}. The load is {}", stage.component->type(), stage.pointer,
+                             what, text_of(model, stage)));
 }
 
 }  // namespace hyperlattice

@@ -12,13 +12,16 @@ namespace {
 
 /// The place at which a particle stands in its run.
 Site site_in(std::span<const Run> runs, Particle particle) {
-  const auto after = std::upper_bound(runs.begin(), runs.end(), particle, [](Particle p, const Run& run) { return p < run.first; });
+  const auto after = std::upper_bound(runs.begin(), runs.end(), particle,
+                                      [](Particle p, const Run& run) { return p < run.first; });
   const Run& run = *(after - 1);
   return {run.begin + static_cast<std::int32_t>(particle - run.first), run.j, run.k};
 }
 
 /// Follows (dx, dy, dz) in the order z, y, x.
-bool is_forward(const Neighbour& n) { return n.dz != 0 ? n.dz > 0 : n.dy != 0 ? n.dy > 0 : n.dx > 0; }
+bool is_forward(const Neighbour& n) {
+  return n.dz != 0 ? n.dz > 0 : n.dy != 0 ? n.dy > 0 : n.dx > 0;
+}
 
 /// Positive and finite.
 bool is_size(double value) { return value > 0 && std::isfinite(value); }
@@ -29,16 +32,21 @@ struct Builder {
   bool has_grid = false;
 
   void grid(const Grid& grid) {
-    if (has_grid || body.is_listed()) throw std::invalid_argument("the lattice gave two grids, or a grid and a list");
+    if (has_grid || body.is_listed())
+      throw std::invalid_argument("the lattice gave two grids, or a grid and a list");
     if (!(is_size(grid.spacing) && is_size(grid.site_volume) && is_size(grid.membrane_distance)) ||
         *std::min_element(grid.sites.begin(), grid.sites.end()) < 1)
       throw std::invalid_argument("the lattice's box has no sites");
-    if (grid.neighbours.size() > max_neighbours || grid.spring_classes < 1 || grid.spring_classes > max_spring_classes)
-      throw std::invalid_argument("the lattice has more neighbours or spring classes than a kernel can hold");
+    if (grid.neighbours.size() > max_neighbours || grid.spring_classes < 1 ||
+        grid.spring_classes > max_spring_classes)
+      throw std::invalid_argument(
+          "the lattice has more neighbours or spring classes than a kernel can hold");
     if (!(std::abs(dot(grid.basis[0], cross(grid.basis[1], grid.basis[2]))) > 1e-9))
       throw std::invalid_argument("the lattice's basis does not span space");
-    if (!std::isfinite(grid.origin.x + grid.origin.y + grid.origin.z)) throw std::invalid_argument("the lattice's origin is not finite");
-    if (grid.boundary == Boundary::cells && grid.basis != cubic_basis) throw std::invalid_argument("the lattice has boundary cells and is not cubic");
+    if (!std::isfinite(grid.origin.x + grid.origin.y + grid.origin.z))
+      throw std::invalid_argument("the lattice's origin is not finite");
+    if (grid.boundary == Boundary::cells && grid.basis != cubic_basis)
+      throw std::invalid_argument("the lattice has boundary cells and is not cubic");
     for (std::uint32_t c = 0; c < grid.spring_classes; ++c)
       if (!(grid.class_stiffness[c] > 0 && std::isfinite(grid.class_stiffness[c])))
         throw std::invalid_argument("the lattice has a class of springs without stiffness");
@@ -49,7 +57,8 @@ struct Builder {
       if (!is_forward(n) || n.spring_class >= grid.spring_classes)
         throw std::invalid_argument("the lattice has a neighbour that does not follow its site");
       if (grid.boundary == Boundary::cells && std::max({std::abs(n.dx), std::abs(n.dy), n.dz}) > 1)
-        throw std::invalid_argument("the lattice has boundary cells and a spring that is longer than a cell");
+        throw std::invalid_argument(
+            "the lattice has boundary cells and a spring that is longer than a cell");
       body.reach = std::max(body.reach, n.dz);
     }
     body.row_runs.reserve(row_count() + 1);
@@ -59,22 +68,29 @@ struct Builder {
   void run(std::int32_t j, std::int32_t k, std::int32_t begin, std::int32_t end) {
     if (!has_grid) throw std::invalid_argument("the lattice gave particles before its grid");
     const auto& [nx, ny, nz] = body.grid.sites;
-    const std::int32_t last = body.grid.boundary == Boundary::cells && body.cells.empty() ? 1 : 0;  // a cell ends at the next site
-    if (j < 0 || j >= ny - last || k < 0 || k >= nz - last || begin < 0 || end > nx - last || begin >= end)
+    const std::int32_t last = body.grid.boundary == Boundary::cells && body.cells.empty()
+                                  ? 1
+                                  : 0;  // a cell ends at the next site
+    if (j < 0 || j >= ny - last || k < 0 || k >= nz - last || begin < 0 || end > nx - last ||
+        begin >= end)
       throw std::invalid_argument("the lattice gave particles outside its box");
     const std::size_t row = row_of(j, k);
-    if (row + 1 < body.row_runs.size() || (row + 1 == body.row_runs.size() && begin < body.runs.back().end))
+    if (row + 1 < body.row_runs.size() ||
+        (row + 1 == body.row_runs.size() && begin < body.runs.back().end))
       throw std::invalid_argument("the lattice gave particles out of the order z, y, x");
     body.row_runs.resize(row + 1, body.runs.size());
     const bool first = body.runs.empty();
-    body.low = first ? Site{begin, j, k} : Site{std::min(body.low.i, begin), std::min(body.low.j, j), body.low.k};
-    body.high = first ? Site{end - 1, j, k} : Site{std::max(body.high.i, end - 1), std::max(body.high.j, j), k};
+    body.low = first ? Site{begin, j, k}
+                     : Site{std::min(body.low.i, begin), std::min(body.low.j, j), body.low.k};
+    body.high = first ? Site{end - 1, j, k}
+                      : Site{std::max(body.high.i, end - 1), std::max(body.high.j, j), k};
     body.runs.push_back({j, k, begin, end, body.particles});
     body.particles += static_cast<std::uint64_t>(end - begin);
   }
 
   void points(const PointList& points) {
-    if (has_grid || body.is_listed()) throw std::invalid_argument("the lattice gave two lists, or a grid and a list");
+    if (has_grid || body.is_listed())
+      throw std::invalid_argument("the lattice gave two lists, or a grid and a list");
     body.listed = sorted(points);
     body.grid.spacing = points.spacing;
     body.grid.site_volume = points.site_volume;
@@ -100,16 +116,22 @@ struct Builder {
   }
 
  private:
-  std::size_t row_count() const { return static_cast<std::size_t>(body.grid.sites[1]) * static_cast<std::size_t>(body.grid.sites[2]); }
+  std::size_t row_count() const {
+    return static_cast<std::size_t>(body.grid.sites[1]) *
+           static_cast<std::size_t>(body.grid.sites[2]);
+  }
   std::size_t row_of(std::int32_t j, std::int32_t k) const {
-    return static_cast<std::size_t>(k) * static_cast<std::size_t>(body.grid.sites[1]) + static_cast<std::size_t>(j);
+    return static_cast<std::size_t>(k) * static_cast<std::size_t>(body.grid.sites[1]) +
+           static_cast<std::size_t>(j);
   }
 
   void find_box() {
     body.lowest = body.highest = body.position(Particle{0});
     const auto widen = [this](Vec3 x) {
-      body.lowest = {std::min(body.lowest.x, x.x), std::min(body.lowest.y, x.y), std::min(body.lowest.z, x.z)};
-      body.highest = {std::max(body.highest.x, x.x), std::max(body.highest.y, x.y), std::max(body.highest.z, x.z)};
+      body.lowest = {std::min(body.lowest.x, x.x), std::min(body.lowest.y, x.y),
+                     std::min(body.lowest.z, x.z)};
+      body.highest = {std::max(body.highest.x, x.x), std::max(body.highest.y, x.y),
+                      std::max(body.highest.z, x.z)};
     };
     for (const Vec3 x : body.listed.positions) widen(x);
     for (const Run& run : body.runs) {
@@ -122,7 +144,8 @@ struct Builder {
 
   /// The runs were of cells: particles stand at their corners.
   void take_corners() {
-    body.cells = Cells(std::exchange(body.runs, {}), std::exchange(body.row_runs, {}), body.grid.sites[1]);
+    body.cells =
+        Cells(std::exchange(body.runs, {}), std::exchange(body.row_runs, {}), body.grid.sites[1]);
     body.particles = 0;
     for (std::int32_t k = 0; k < body.grid.sites[2]; ++k)
       for (std::int32_t j = 0; j < body.grid.sites[1]; ++j)
@@ -134,7 +157,8 @@ struct Builder {
     for (std::int32_t k = 0; k < body.grid.sites[2]; ++k)
       for (std::int32_t j = 0; j < body.grid.sites[1]; ++j)
         for (const Neighbour& n : body.neighbours)
-          for (const Range& range : body.springs_of(j, k, n)) body.springs[n.spring_class] += static_cast<std::uint64_t>(range.end - range.begin);
+          for (const Range& range : body.springs_of(j, k, n))
+            body.springs[n.spring_class] += static_cast<std::uint64_t>(range.end - range.begin);
   }
 };
 
@@ -142,17 +166,22 @@ struct Builder {
 
 Site Body::site(Particle particle) const { return site_in(runs, particle); }
 
-Vec3 Body::centre_of_cell(Particle cell) const { return position(site_in(cells.runs(), cell)) + 0.5 * grid.spacing * Vec3{1, 1, 1}; }
+Vec3 Body::centre_of_cell(Particle cell) const {
+  return position(site_in(cells.runs(), cell)) + 0.5 * grid.spacing * Vec3{1, 1, 1};
+}
 
 Particle Body::at(Site site) const {
   for (const Run& run : row(site.j, site.k))
-    if (site.i < run.end) return site.i < run.begin ? no_particle : run.first + static_cast<Particle>(site.i - run.begin);
+    if (site.i < run.end)
+      return site.i < run.begin ? no_particle
+                                : run.first + static_cast<Particle>(site.i - run.begin);
   return no_particle;
 }
 
 std::span<const Run> Body::row(std::int32_t j, std::int32_t k) const {
   if (j < 0 || k < 0 || j >= grid.sites[1] || k >= grid.sites[2]) return {};
-  const std::size_t row = static_cast<std::size_t>(k) * static_cast<std::size_t>(grid.sites[1]) + static_cast<std::size_t>(j);
+  const std::size_t row = static_cast<std::size_t>(k) * static_cast<std::size_t>(grid.sites[1]) +
+                          static_cast<std::size_t>(j);
   return {runs.data() + row_runs[row], runs.data() + row_runs[row + 1]};
 }
 
@@ -161,26 +190,37 @@ std::vector<Range> Body::springs_of(std::int32_t j, std::int32_t k, const Neighb
   std::vector<Range> found;
   for (const Run& run : row(j, k))
     for (const Run& other : row(j + to.dy, k + to.dz)) {
-      const Range common{std::max(run.begin, other.begin - to.dx), std::min(run.end, other.end - to.dx)};
+      const Range common{std::max(run.begin, other.begin - to.dx),
+                         std::min(run.end, other.end - to.dx)};
       if (common.begin < common.end) found.push_back(common);
     }
   return found;
 }
 
-Body build_body(const LatticeFunctions& functions, const void* lattice, bool for_analysis, const Component* component) {
+Body build_body(const LatticeFunctions& functions, const void* lattice, bool for_analysis,
+                const Component* component) {
   Builder builder;
   const LatticeSink sink{
       &builder,
       for_analysis,
-      [](void* self, const Grid& grid) noexcept { PluginCall::answer([&] { static_cast<Builder*>(self)->grid(grid); }); },
-      [](void* self, std::int32_t j, std::int32_t k, std::int32_t begin, std::int32_t end) noexcept {
+      [](void* self, const Grid& grid) noexcept {
+        PluginCall::answer([&] { static_cast<Builder*>(self)->grid(grid); });
+      },
+      [](void* self, std::int32_t j, std::int32_t k, std::int32_t begin,
+         std::int32_t end) noexcept {
         PluginCall::answer([&] { static_cast<Builder*>(self)->run(j, k, begin, end); });
       },
-      [](void* self, const PointList& points) noexcept { PluginCall::answer([&] { static_cast<Builder*>(self)->points(points); }); },
-      [](void* self, const PeriodicSample& sample) noexcept { PluginCall::answer([&] { static_cast<Builder*>(self)->sample(sample); }); }};
+      [](void* self, const PointList& points) noexcept {
+        PluginCall::answer([&] { static_cast<Builder*>(self)->points(points); });
+      },
+      [](void* self, const PeriodicSample& sample) noexcept {
+        PluginCall::answer([&] { static_cast<Builder*>(self)->sample(sample); });
+      }};
   const bool named = component != nullptr;
-  PluginCall call(named ? component->info.name : std::string_view(), named ? component->path.c_str() : "", "build");
-  if (const std::string* sentence = call.failure(functions.build(lattice, sink, call.why()))) throw std::invalid_argument(*sentence);
+  PluginCall call(named ? component->info.name : std::string_view(),
+                  named ? component->path.c_str() : "", "build");
+  if (const std::string* sentence = call.failure(functions.build(lattice, sink, call.why())))
+    throw std::invalid_argument(*sentence);
   builder.finish();
   return std::move(builder.body);
 }

@@ -10,7 +10,8 @@ namespace hyperlattice {
 
 namespace {
 
-/// How far apart the lattice's planes of sites are along each axis, m: a particle stands for half of that on both sides.
+/// How far apart the lattice's planes of sites are along each axis, m: a particle stands for half
+/// of that on both sides.
 Vec3 between_planes(const Grid& grid) {
   const auto least = [&](double Vec3::*axis) {
     double step = 1;
@@ -22,10 +23,12 @@ Vec3 between_planes(const Grid& grid) {
 }
 
 template <class Value, class Text>
-std::string beside(const Value& is, const std::optional<Value>& asked, const Text& text, std::string_view more = "", bool at_most = false) {
+std::string beside(const Value& is, const std::optional<Value>& asked, const Text& text,
+                   std::string_view more = "", bool at_most = false) {
   std::string made = text(is);
   if (!asked || text(*asked) == made) return fmt::format("{}{}", made, more);
-  return fmt::format("{}{}; its shape asks for {}{}", made, more, at_most ? "at most " : "", text(*asked));
+  return fmt::format("{}{}; its shape asks for {}{}", made, more, at_most ? "at most " : "",
+                     text(*asked));
 }
 
 }  // namespace
@@ -36,8 +39,10 @@ BodyFigures body_figures(const Model& model) {
   figures.size = body.highest - body.lowest;
   figures.of_particles = body.is_listed();
   figures.is_centred = !body.is_listed() && !body.is_cubic();
-  if (!body.is_listed() && body.cells.empty()) figures.size = figures.size + between_planes(body.grid);
-  double particles = static_cast<double>(body.cells.empty() ? body.particles : body.cells.count());  // whole ones
+  if (!body.is_listed() && body.cells.empty())
+    figures.size = figures.size + between_planes(body.grid);
+  double particles =
+      static_cast<double>(body.cells.empty() ? body.particles : body.cells.count());  // whole ones
   if (!body.listed.shares.empty()) {
     particles = 0;
     for (const double share : body.listed.shares) particles += share;
@@ -46,15 +51,18 @@ BodyFigures body_figures(const Model& model) {
   if (model.materials.size() == 1)
     figures.mass = particles * model.masses.front();
   else
-    for (Particle particle = 0; particle < body.particles; ++particle) figures.mass += model.mass(particle);
+    for (Particle particle = 0; particle < body.particles; ++particle)
+      figures.mass += model.mass(particle);
   figures.parts = count_parts(body);
   if (body.grid.shape == nullptr) return figures;
   const auto& shape = *static_cast<const Region*>(body.grid.shape->self);
   const SolidExtent extent = extent_of(shape);
-  if (const Vec3 asked = extent.high - extent.low; std::isfinite(norm(asked))) figures.asked_size = asked;
+  if (const Vec3 asked = extent.high - extent.low; std::isfinite(norm(asked)))
+    figures.asked_size = asked;
   figures.asked_at_most = !extent.attained;
   if (shape.volume > 0) figures.asked_volume = shape.volume;
-  if (shape.volume > 0 && model.materials.size() == 1) figures.asked_mass = shape.volume * model.materials.front().constants.density;
+  if (shape.volume > 0 && model.materials.size() == 1)
+    figures.asked_mass = shape.volume * model.materials.front().constants.density;
   return figures;
 }
 
@@ -62,10 +70,15 @@ std::vector<std::pair<std::string, std::string>> body_lines(const BodyFigures& f
   std::vector<std::pair<std::string, std::string>> lines;
   const auto size = [](Vec3 v) { return fmt::format("{:.6g} x {:.6g} x {:.6g} m", v.x, v.y, v.z); };
   const std::string_view of = figures.of_particles ? " between its outermost particles" : "";
-  lines.emplace_back("size", beside(figures.size, figures.asked_size, size, of, figures.asked_at_most));
-  lines.emplace_back("volume", beside(figures.volume, figures.asked_volume, [](double v) { return fmt::format("{:.6g} m3", v); }));
-  lines.emplace_back("mass", beside(figures.mass, figures.asked_mass, [](double m) { return fmt::format("{:.6g} kg", m); }));
-  lines.emplace_back("bodies", figures.parts == 1 ? "1: springs join all particles" : fmt::format("{}, which no spring joins", figures.parts));
+  lines.emplace_back("size",
+                     beside(figures.size, figures.asked_size, size, of, figures.asked_at_most));
+  lines.emplace_back("volume", beside(figures.volume, figures.asked_volume,
+                                      [](double v) { return fmt::format("{:.6g} m3", v); }));
+  lines.emplace_back("mass", beside(figures.mass, figures.asked_mass,
+                                    [](double m) { return fmt::format("{:.6g} kg", m); }));
+  lines.emplace_back("bodies", figures.parts == 1
+                                   ? "1: springs join all particles"
+                                   : fmt::format("{}, which no spring joins", figures.parts));
   return lines;
 }
 
@@ -76,9 +89,11 @@ std::vector<std::string> size_warnings(const BodyFigures& figures, double spacin
   const auto compare = [&](char axis, double width, double asked) {
     const double error = width / asked - 1;
     if (std::abs(error) <= noticeable || (figures.asked_at_most && error < 0)) return;
-    warnings.push_back(fmt::format(
-        "along {} the body is {:.6g} m wide, {:.3g} % {} than the {:.6g} m that its shape asks for{}: cells of {:.6g} m do not fill that evenly",
-        axis, width, 100 * std::abs(error), error > 0 ? "more" : "less", asked, figures.asked_at_most ? " at most" : "", spacing));
+    warnings.push_back(
+        fmt::format("along {} the body is {:.6g} m wide, {:.3g} % {} than the {:.6g} m that its "
+                    "shape asks for{}: cells of {:.6g} m do not fill that evenly",
+                    axis, width, 100 * std::abs(error), error > 0 ? "more" : "less", asked,
+                    figures.asked_at_most ? " at most" : "", spacing));
   };
   if (figures.asked_size) {
     compare('x', figures.size.x, figures.asked_size->x);
@@ -86,9 +101,12 @@ std::vector<std::string> size_warnings(const BodyFigures& figures, double spacin
     compare('z', figures.size.z, figures.asked_size->z);
   }
   if (!warnings.empty() || !figures.is_centred || !figures.asked_volume) return warnings;
-  if (const double error = figures.volume / *figures.asked_volume - 1; std::abs(error) > noticeable_volume)
-    warnings.push_back(fmt::format("the body has {:.3g} % {} volume than its shape asks for: cells of {:.6g} m do not fill that evenly",
-                                   100 * std::abs(error), error > 0 ? "more" : "less", spacing));
+  if (const double error = figures.volume / *figures.asked_volume - 1;
+      std::abs(error) > noticeable_volume)
+    warnings.push_back(
+        fmt::format("the body has {:.3g} % {} volume than its shape asks for: cells of {:.6g} m do "
+                    "not fill that evenly",
+                    100 * std::abs(error), error > 0 ? "more" : "less", spacing));
   return warnings;
 }
 

@@ -9,17 +9,20 @@ namespace hyperlattice {
 
 /// What a component said when it refused, as a fault of its stage.
 inline InputError refusal(const Stage& stage, const std::string& sentence) {
-  return InputError({{stage.pointer, stage.component->type(), "what the component accepts; it says: " + sentence}});
+  return InputError({{stage.pointer, stage.component->type(),
+                      "what the component accepts; it says: " + sentence}});
 }
 
-/// The same of an objection to how it was configured: a fault of the option that the sentence's first word names, if it names one.
+/// The same of an objection to how it was configured: a fault of the option that the sentence's
+/// first word names, if it names one.
 InputError objection(const Scene& scene, const Stage& stage, const std::string& sentence);
 
 inline void add_all(Faults& faults, const InputError& error) {
   for (const Fault& fault : error.faults()) faults.add(fault.pointer, fault.value, fault.expected);
 }
 
-// The steps, in their order. Each adds its faults and leaves the model usable for the next where it can.
+// The steps, in their order. Each adds its faults and leaves the model usable for the next where it
+// can.
 
 /// Makes the materials and their failure criteria, and says which particle is of which.
 void add_materials(Model& model, RegionIndex& regions, Faults& faults);
@@ -36,7 +39,8 @@ void add_loads(Model& model, RegionIndex& regions, Faults& faults);
 /// Shortens the critical step to one that is stable with what the loads answer.
 void limit_step_by_loads(Model& model);
 
-/// The base springs with one end or both among the particles, which ascend; each once, by a, then b.
+/// The base springs with one end or both among the particles, which ascend; each once, by a, then
+/// b.
 std::vector<RestSpring> springs_at(const Model& model, std::span<const Particle> particles);
 
 }  // namespace hyperlattice

@@ -1,5 +1,6 @@
-// Waves of the endless lattice do not bound those of a body of cells: at its edges and corners a particle has less mass, but its springs help
-// each other less than inside, where they pull from all sides.
+// Waves of the endless lattice do not bound those of a body of cells: at its edges and corners a
+// particle has less mass, but its springs help each other less than inside, where they pull from
+// all sides.
 #include <model/critical_step.hpp>
 #include <numerics/symmetric_eigen.hpp>
 
@@ -20,7 +21,8 @@ double stiffest(const Model& model, std::uint8_t material) {
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(corners * size, corners * size);
   Eigen::VectorXd mass(corners * size);
   const auto add = [&](int a, int b, double k, Vec3 r, double height, double length) {
-    Eigen::VectorXd growth = Eigen::VectorXd::Zero(corners * size);  // of the spring's length by each displacement
+    Eigen::VectorXd growth =
+        Eigen::VectorXd::Zero(corners * size);  // of the spring's length by each displacement
     growth.segment<3>(size * b) = Eigen::Vector3d(r.x, r.y, r.z) / length;
     growth.segment<3>(size * a) = -growth.segment<3>(size * b);
     if (size == 4) growth(size * a + 3) = growth(size * b + 3) = height / length;
@@ -30,18 +32,23 @@ double stiffest(const Model& model, std::uint8_t material) {
     int cells = 0;  // that share a spring
     for_cells_of(n.site, [&](int, int, int) { ++cells; });
     for_cells_of(n.site, [&](int di, int dj, int dk) {
-      const int a = number({-di, -dj, -dk}), b = number({n.site.dx - di, n.site.dy - dj, n.site.dz - dk});
+      const int a = number({-di, -dj, -dk}),
+                b = number({n.site.dx - di, n.site.dy - dj, n.site.dz - dk});
       const SpringConstants& spring = model.spring(material, material, n.site.spring_class);
       add(a, b, spring.stiffness / cells, n.rest, 0, n.rest_length);
       if (model.choice.membrane != Membrane::none)
-        add(a, b, spring.cross_stiffness / cells, n.rest, model.body.grid.membrane_distance, n.cross_rest_length);
+        add(a, b, spring.cross_stiffness / cells, n.rest, model.body.grid.membrane_distance,
+            n.cross_rest_length);
     });
   }
   mass.setConstant(model.masses[material] / corners);
-  for (int n = 0; n < corners && size == 4; ++n) stiffness(size * n + 3, size * n + 3) += 2 * model.alphas[material] / corners;
+  for (int n = 0; n < corners && size == 4; ++n)
+    stiffness(size * n + 3, size * n + 3) += 2 * model.alphas[material] / corners;
   const Eigen::VectorXd root = mass.cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = root.asDiagonal() * stiffness * root.asDiagonal();
-  return numerics::SymmetricEigen<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+  return numerics::SymmetricEigen<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .maxCoeff();
 }
 
 }  // namespace

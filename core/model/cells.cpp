@@ -11,19 +11,23 @@ Cells::Cells(std::vector<Run> runs, std::vector<std::size_t> row_runs, std::int3
 
 std::span<const Run> Cells::row(std::int32_t j, std::int32_t k) const {
   if (j < 0 || j >= rows_ || k < 0) return {};
-  const std::size_t row = static_cast<std::size_t>(k) * static_cast<std::size_t>(rows_) + static_cast<std::size_t>(j);
+  const std::size_t row =
+      static_cast<std::size_t>(k) * static_cast<std::size_t>(rows_) + static_cast<std::size_t>(j);
   if (row + 1 >= row_runs_.size()) return {};
   return {runs_.data() + row_runs_[row], runs_.data() + row_runs_[row + 1]};
 }
 
 Particle Cells::at(Site cell) const {
   for (const Run& run : row(cell.j, cell.k))
-    if (run.begin <= cell.i && cell.i < run.end) return run.first + static_cast<Particle>(cell.i - run.begin);
+    if (run.begin <= cell.i && cell.i < run.end)
+      return run.first + static_cast<Particle>(cell.i - run.begin);
   return ~Particle{0};
 }
 
 double Cells::share(Site site, const Neighbour& to) const {
-  return share_of_cells(to, [&](int di, int dj, int dk) { return holds({site.i + di, site.j + dj, site.k + dk}); });
+  return share_of_cells(to, [&](int di, int dj, int dk) {
+    return holds({site.i + di, site.j + dj, site.k + dk});
+  });
 }
 
 std::vector<Range> Cells::sites(std::int32_t j, std::int32_t k, const Neighbour& to) const {
@@ -31,7 +35,8 @@ std::vector<Range> Cells::sites(std::int32_t j, std::int32_t k, const Neighbour&
   for_cells_of(to, [&](int di, int dj, int dk) {
     for (const Run& run : row(j + dj, k + dk)) found.push_back({run.begin - di, run.end - di});
   });
-  std::sort(found.begin(), found.end(), [](const Range& a, const Range& b) { return a.begin < b.begin; });
+  std::sort(found.begin(), found.end(),
+            [](const Range& a, const Range& b) { return a.begin < b.begin; });
   std::vector<Range> apart;
   for (const Range& range : found) {
     if (!apart.empty() && range.begin <= apart.back().end)

@@ -1,6 +1,7 @@
-// The cells whose union is a body with boundary "cells". Cell (i, j, k) spans the sites from (i, j, k) to (i + 1, j + 1, k + 1): particles stand
-// at its corners, springs are its edges and diagonals. A particle or spring inside the body belongs to several cells; what counts of it at a
-// surface is the share of them that are there. See docs/theory/boundaries.md.
+// The cells whose union is a body with boundary "cells". Cell (i, j, k) spans the sites from (i, j,
+// k) to (i + 1, j + 1, k + 1): particles stand at its corners, springs are its edges and diagonals.
+// A particle or spring inside the body belongs to several cells; what counts of it at a surface is
+// the share of them that are there. See docs/theory/boundaries.md.
 #pragma once
 
 #include <model/sites.hpp>
@@ -12,7 +13,8 @@
 
 namespace hyperlattice {
 
-/// Calls visit(di, dj, dk) with the offset, from a site's own, of each cell that the spring from the site to a neighbour belongs to; with `to`
+/// Calls visit(di, dj, dk) with the offset, from a site's own, of each cell that the spring from
+/// the site to a neighbour belongs to; with `to`
 /// {}: of each cell around the site. A neighbour's steps are -1, 0 or 1.
 template <class Visit>
 void for_cells_of(const Neighbour& to, const Visit& visit) {
@@ -35,7 +37,8 @@ double share_of_cells(const Neighbour& to, const Present& present) {
 class Cells {
  public:
   Cells() = default;
-  /// Runs in the order z, y, x, and the first run of each row [k * rows + j], with one more entry at the end.
+  /// Runs in the order z, y, x, and the first run of each row [k * rows + j], with one more entry
+  /// at the end.
   Cells(std::vector<Run> runs, std::vector<std::size_t> row_runs, std::int32_t rows);
 
   bool empty() const { return runs_.empty(); }
@@ -45,7 +48,8 @@ class Cells {
   bool holds(Site cell) const { return at(cell) != ~Particle{0}; }
   Particle at(Site cell) const;  ///< its place in the order of runs(); ~0: there is none
 
-  double share(Site site, const Neighbour& to = {}) const;  ///< of a spring, or with `to` {} of the particle at the site
+  double share(Site site, const Neighbour& to = {})
+      const;  ///< of a spring, or with `to` {} of the particle at the site
   /// Sites of row (j, k) where that share is not nothing, ascending and apart.
   std::vector<Range> sites(std::int32_t j, std::int32_t k, const Neighbour& to = {}) const;
 

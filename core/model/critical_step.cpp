@@ -15,7 +15,8 @@ InfiniteLattice lattice_of(const Model& model, std::size_t material) {
   const std::size_t classes = model.body.grid.spring_classes;
   const MaterialConstants& constants = model.materials[material].constants;
   return {model.neighbours,
-          std::span(model.springs).subspan((material * model.materials.size() + material) * classes, classes),
+          std::span(model.springs)
+              .subspan((material * model.materials.size() + material) * classes, classes),
           constants.alpha_ratio * constants.base_stiffness,
           model.body.grid.membrane_distance,
           model.choice.membrane,
@@ -23,7 +24,8 @@ InfiniteLattice lattice_of(const Model& model, std::size_t material) {
           model.body.grid.basis};
 }
 
-/// A particle's material, and those of its neighbours on both sides; absent neighbours count as more of its own, which is on the safe side.
+/// A particle's material, and those of its neighbours on both sides; absent neighbours count as
+/// more of its own, which is on the safe side.
 using Environment = std::array<std::uint8_t, 1 + 2 * max_neighbours>;
 
 Environment uniform(std::uint8_t material) {
@@ -40,13 +42,16 @@ double bound(const Model& model, const Environment& environment) {
     for (const int side : {1, -1}) {
       const NeighbourGeometry& neighbour = model.neighbours[n];
       const std::uint8_t other = environment[1 + 2 * n + (side < 0 ? 1 : 0)];
-      sum.add(neighbour, side, model.spring(own, other, neighbour.site.spring_class), model.body.grid.membrane_distance, model.choice.membrane);
+      sum.add(neighbour, side, model.spring(own, other, neighbour.site.spring_class),
+              model.body.grid.membrane_distance, model.choice.membrane);
     }
-  if (model.choice.membrane == KernelChoice::Membrane::free) sum.add_alpha(constants.alpha_ratio * constants.base_stiffness);
+  if (model.choice.membrane == KernelChoice::Membrane::free)
+    sum.add_alpha(constants.alpha_ratio * constants.base_stiffness);
   return sum.value();
 }
 
-/// Every environment that occurs, with one particle that has it. Most particles are surrounded by their own material and are passed over.
+/// Every environment that occurs, with one particle that has it. Most particles are surrounded by
+/// their own material and are passed over.
 std::map<Environment, Particle> environments(const Model& model) {
   std::map<Environment, Particle> found;
   for (std::size_t material = 0; material < model.materials.size(); ++material)
@@ -59,7 +64,8 @@ std::map<Environment, Particle> environments(const Model& model) {
       for (std::size_t n = 0; n < model.neighbours.size(); ++n)
         for (const int side : {1, -1}) {
           const Neighbour& step = model.neighbours[n].site;
-          const Particle other = model.body.at({i + side * step.dx, run.j + side * step.dy, run.k + side * step.dz});
+          const Particle other =
+              model.body.at({i + side * step.dx, run.j + side * step.dy, run.k + side * step.dz});
           if (other == Body::no_particle || model.material_of[other] == here[0]) continue;
           here[1 + 2 * n + (side < 0 ? 1 : 0)] = model.material_of[other];
           mixed = true;
@@ -77,25 +83,36 @@ void find_critical_step_of_list(Model& model, Faults& faults) {
   const Stage& stage = *model.materials.front().stage;
   if (!bound.all_positive && !model.scene->allow_unstable)
     return faults.add(stage.pointer, stage.component->type(),
-                      "springs of positive stiffness, or allow_unstable in the scene: a listed lattice with negative ones is not known to be stable");
-  if (!bound.all_positive) model.warnings.emplace_back("a listed lattice with springs of negative stiffness is not known to be stable");
-  if (!(bound.square > 0)) return faults.add("/pipeline", "", "a lattice with springs; this one's particles are all alone");
+                      "springs of positive stiffness, or allow_unstable in the scene: a listed "
+                      "lattice with negative ones is not known to be stable");
+  if (!bound.all_positive)
+    model.warnings.emplace_back(
+        "a listed lattice with springs of negative stiffness is not known to be stable");
+  if (!(bound.square > 0))
+    return faults.add("/pipeline", "",
+                      "a lattice with springs; this one's particles are all alone");
   const Vec3 at = model.body.position(bound.particle);
-  for (Material& material : model.materials) material.critical_time_step = 2 / std::sqrt(bound.square);
+  for (Material& material : model.materials)
+    material.critical_time_step = 2 / std::sqrt(bound.square);
   model.critical_time_step = 2 / std::sqrt(bound.square);
-  model.critical_because =
-      fmt::format("a safe bound for a listed lattice: the springs of the particle at ({:.4g}, {:.4g}, {:.4g}) m", at.x, at.y, at.z);
+  model.critical_because = fmt::format(
+      "a safe bound for a listed lattice: the springs of the particle at ({:.4g}, {:.4g}, {:.4g}) "
+      "m",
+      at.x, at.y, at.z);
 }
 
 bool has_negative_springs(const InfiniteLattice& lattice) {
-  return std::any_of(lattice.springs.begin(), lattice.springs.end(), [](const SpringConstants& spring) { return spring.cross_stiffness < 0; });
+  return std::any_of(lattice.springs.begin(), lattice.springs.end(),
+                     [](const SpringConstants& spring) { return spring.cross_stiffness < 0; });
 }
 
-/// For a material by itself. Waves that grow limit no step; if all do, springs of the opposite sign stand for them.
+/// For a material by itself. Waves that grow limit no step; if all do, springs of the opposite sign
+/// stand for them.
 void limit_step(Model& model, std::size_t n, const InfiniteLattice& lattice, bool unstable) {
   Material& material = model.materials[n];
   const Wave wave = stiffest_wave(lattice);
-  const char* which = unstable ? "the stiffest of all waves of the lattice that do not grow: " : "the stiffest of all waves of the lattice: ";
+  const char* which = unstable ? "the stiffest of all waves of the lattice that do not grow: "
+                               : "the stiffest of all waves of the lattice: ";
   model.critical_because = which + describe(wave);
   double stiffness = wave.stiffness;
   if (stiffness <= 0) {
@@ -112,12 +129,17 @@ void limit_by_laws(Model& model) {
     const auto stable_step = material.stage->functions<MaterialFunctions>().stable_step;
     if (stable_step == nullptr) continue;
     double step = 0;
-    call(*material.stage, "stable_time_step", [&](const Complaint& why) { return stable_step(material.component.get(), elastic, step, why); });
-    if (!(step > 0)) throw plugin_error(*material.stage, "stable_time_step", fmt::format("it gives a time step of {} s", step));
+    call(*material.stage, "stable_time_step", [&](const Complaint& why) {
+      return stable_step(material.component.get(), elastic, step, why);
+    });
+    if (!(step > 0))
+      throw plugin_error(*material.stage, "stable_time_step",
+                         fmt::format("it gives a time step of {} s", step));
     if (!(step < model.critical_time_step)) continue;
     model.critical_time_step = step;
     model.critical_because +=
-        fmt::format("; of its {:.4g} s the law of {} ({}) leaves {:.4g} s", elastic, material.stage->name, material.stage->pointer, step);
+        fmt::format("; of its {:.4g} s the law of {} ({}) leaves {:.4g} s", elastic,
+                    material.stage->name, material.stage->pointer, step);
   }
 }
 
@@ -129,21 +151,26 @@ void find_elastic_step(Model& model, Faults& faults) {
     const InfiniteLattice lattice = lattice_of(model, n);
     const auto unstable = find_instability(lattice, Sector::mirrored);
     if (unstable && !model.scene->allow_unstable) {
-      faults.add(material.stage->pointer, material.stage->component->type(),
-                 "springs that make a stable lattice, or allow_unstable in the scene; with these, " + describe(*unstable));
+      faults.add(
+          material.stage->pointer, material.stage->component->type(),
+          "springs that make a stable lattice, or allow_unstable in the scene; with these, " +
+              describe(*unstable));
       continue;
     }
     if (unstable)
-      model.warnings.push_back(
-          fmt::format("the lattice of {} ({}) is unstable: {}", material.stage->name, material.stage->pointer, describe(*unstable)));
+      model.warnings.push_back(fmt::format("the lattice of {} ({}) is unstable: {}",
+                                           material.stage->name, material.stage->pointer,
+                                           describe(*unstable)));
     else if (model.two_layers_grow.empty() && has_negative_springs(lattice))
-      if (const auto opposed = find_instability(lattice, Sector::opposed)) model.two_layers_grow = describe(*opposed);
+      if (const auto opposed = find_instability(lattice, Sector::opposed))
+        model.two_layers_grow = describe(*opposed);
     limit_step(model, n, lattice, unstable.has_value());
   }
   if (faults.size() > before) return;
   if (!model.body.cells.empty()) {
     model.critical_time_step = 2 / std::sqrt(cell_bound(model));
-    model.critical_because = "a safe bound for a body of cells: the stiffest motion of a cell that moves alone";
+    model.critical_because =
+        "a safe bound for a body of cells: the stiffest motion of a cell that moves alone";
     return;
   }
   if (model.materials.size() == 1) return;
@@ -156,7 +183,8 @@ void find_elastic_step(Model& model, Faults& faults) {
     model.critical_time_step = step;
     const std::string where = particle == Body::no_particle ? "inside" : "at the border of";
     model.critical_because =
-        fmt::format("a safe bound for several materials: the springs of a particle {} {} ({})", where, own.stage->name, own.stage->pointer);
+        fmt::format("a safe bound for several materials: the springs of a particle {} {} ({})",
+                    where, own.stage->name, own.stage->pointer);
   }
 }
 

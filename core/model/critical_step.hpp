@@ -1,16 +1,20 @@
-// Stability and the critical time step of central differences, 2 / omega_max, from the lattice's waves.
+// Stability and the critical time step of central differences, 2 / omega_max, from the lattice's
+// waves.
 #pragma once
 
 #include <model/waves.hpp>
 
 namespace hyperlattice {
 
-/// Bound of m omega^2 for any body of springs: twice the largest eigenvalue of the sum of |k| n n^T over the springs of a particle,
-/// n in four dimensions. It holds because (n.a - n.b)^2 <= 2 (n.a)^2 + 2 (n.b)^2 for every spring.
+/// Bound of m omega^2 for any body of springs: twice the largest eigenvalue of the sum of |k| n n^T
+/// over the springs of a particle, n in four dimensions. It holds because (n.a - n.b)^2 <= 2
+/// (n.a)^2 + 2 (n.b)^2 for every spring.
 class StiffnessBound {
  public:
-  /// Adds the springs from the particle to a neighbour: side 1, or to the one on the opposite side: side -1.
-  void add(const NeighbourGeometry& neighbour, int side, const SpringConstants& spring, double membrane_distance, KernelChoice::Membrane membrane);
+  /// Adds the springs from the particle to a neighbour: side 1, or to the one on the opposite side:
+  /// side -1.
+  void add(const NeighbourGeometry& neighbour, int side, const SpringConstants& spring,
+           double membrane_distance, KernelChoice::Membrane membrane);
   void add_alpha(double alpha);  ///< N/m
   double value() const;          ///< N/m
 
@@ -18,11 +22,13 @@ class StiffnessBound {
   double sum_[10] = {};  // lower triangle of the 4 x 4 matrix, by rows
 };
 
-/// Bound of omega^2 for a body of cells. Its stiffness and its mass are sums over its cells, so that for any motion u.K.u / u.M.u is at most the
-/// largest of its cells' own: those of a cell that moves alone. Exact for a body of one cell.
+/// Bound of omega^2 for a body of cells. Its stiffness and its mass are sums over its cells, so
+/// that for any motion u.K.u / u.M.u is at most the largest of its cells' own: those of a cell that
+/// moves alone. Exact for a body of one cell.
 double cell_bound(const Model& model);
 
-/// Bound of omega^2 for a listed body: the largest of its particles' StiffnessBound over their mass.
+/// Bound of omega^2 for a listed body: the largest of its particles' StiffnessBound over their
+/// mass.
 struct ListedBound {
   double square = 0;  ///< omega^2, 1/s2
   Particle particle = 0;
@@ -30,8 +36,8 @@ struct ListedBound {
 };
 ListedBound listed_bound(const Model& model);
 
-/// Sets the model's critical time step and what limits it: exact for one material and whole particles, a safe bound otherwise. A fault for each
-/// unstable material.
+/// Sets the model's critical time step and what limits it: exact for one material and whole
+/// particles, a safe bound otherwise. A fault for each unstable material.
 void find_critical_step(Model& model, Faults& faults);
 
 }  // namespace hyperlattice

@@ -1,7 +1,9 @@
-// A spring with rest vector R grows by (R.e.R + R.(u_b - u_a)) / |R| under the uniform strain e and the particles' own displacements u; a cross
-// spring by (R.e.R + R.(u_b - u_a) + Delta (h_a + h_b)) / sqrt(R^2 + Delta^2), h the heights over the mirror plane's rest. The energy
+// A spring with rest vector R grows by (R.e.R + R.(u_b - u_a)) / |R| under the uniform strain e and
+// the particles' own displacements u; a cross spring by (R.e.R + R.(u_b - u_a) + Delta (h_a + h_b))
+// / sqrt(R^2 + Delta^2), h the heights over the mirror plane's rest. The energy
 //   V e.C.e / 2 = e.A.e / 2 - f(e).u + u.K.u / 2
-// is least where K u = f(e), which conjugate gradients find for each of six strains; there C = (A - f.u) / V.
+// is least where K u = f(e), which conjugate gradients find for each of six strains; there C = (A -
+// f.u) / V.
 #include <model/homogenise.hpp>
 
 #include <Eigen/Dense>
@@ -15,14 +17,16 @@ namespace {
 constexpr int strains = 6;  // xx, yy, zz, 2 yz, 2 xz, 2 xy
 using Strains = Eigen::Matrix<double, strains, 1>;
 using Stiffness = Eigen::Matrix<double, strains, strains>;
-using Field = Eigen::Matrix<double, Eigen::Dynamic, strains, Eigen::RowMajor>;  ///< a row a degree of freedom, a column a strain
+using Field = Eigen::Matrix<double, Eigen::Dynamic, strains,
+                            Eigen::RowMajor>;  ///< a row a degree of freedom, a column a strain
 
 /// A spring of a pair of particles: how its length grows.
 struct Growth {
   std::uint32_t a = 0, b = 0;
   double stiffness = 0;
   Strains by_strain;
-  double by_b[4] = {};  ///< by b's displacement x y z and height; a's displacement is opposite, its height counts alike
+  double by_b[4] = {};  ///< by b's displacement x y z and height; a's displacement is opposite, its
+                        ///< height counts alike
 };
 
 class Sample {
@@ -46,17 +50,22 @@ class Sample {
     return affine_ - common_load_ * common_load_.transpose() / common_stiffness_;
   }
 
-  /// Times the volume; each particle at its own rest, which conjugate gradients find for all strains at once.
+  /// Times the volume; each particle at its own rest, which conjugate gradients find for all
+  /// strains at once.
   Stiffness relaxed() const {
     constexpr double tolerance = 1e-8;  // of the load; its square is about the error of the energy
     constexpr int most = 20000;
     const Field load = this->load();
     const Eigen::VectorXd inverse = diagonal().cwiseInverse();
-    Field moved = Field::Zero(load.rows(), strains), rest = load, direction = inverse.asDiagonal() * rest;
+    Field moved = Field::Zero(load.rows(), strains), rest = load,
+          direction = inverse.asDiagonal() * rest;
     Strains product = columns(rest, direction);
     const Strains enough = tolerance * tolerance * load.colwise().squaredNorm().transpose();
-    for (int n = 0; (rest.colwise().squaredNorm().transpose().array() > enough.array()).any(); ++n) {
-      if (n == most) throw std::invalid_argument("the lattice's springs make no solid: its sample finds no rest under a strain");
+    for (int n = 0; (rest.colwise().squaredNorm().transpose().array() > enough.array()).any();
+         ++n) {
+      if (n == most)
+        throw std::invalid_argument(
+            "the lattice's springs make no solid: its sample finds no rest under a strain");
       const Field resisted = resistance(direction);
       const Strains length = ratio(product, columns(direction, resisted));
       moved += direction * length.asDiagonal();
@@ -72,11 +81,17 @@ class Sample {
 
  private:
   /// Scalar products, column by column.
-  static Strains columns(const Field& a, const Field& b) { return a.cwiseProduct(b).colwise().sum().transpose(); }
+  static Strains columns(const Field& a, const Field& b) {
+    return a.cwiseProduct(b).colwise().sum().transpose();
+  }
   /// 0 where there is nothing left to do.
-  static Strains ratio(const Strains& a, const Strains& b) { return (b.array() != 0).select(a.array() / b.array(), 0.0).matrix(); }
+  static Strains ratio(const Strains& a, const Strains& b) {
+    return (b.array() != 0).select(a.array() / b.array(), 0.0).matrix();
+  }
 
-  Eigen::Index at(std::uint32_t particle) const { return static_cast<Eigen::Index>(particle) * components_; }
+  Eigen::Index at(std::uint32_t particle) const {
+    return static_cast<Eigen::Index>(particle) * components_;
+  }
   /// Adds to the rows of both ends what a row vector pulls along the spring.
   template <class Pull>
   void spread(Field& field, const Growth& growth, const Pull& pull) const {
@@ -88,7 +103,8 @@ class Sample {
   }
   Field load() const {
     Field load = Field::Zero(at(particles_), strains);
-    for (const Growth& growth : springs_) spread(load, growth, -growth.stiffness * growth.by_strain.transpose());
+    for (const Growth& growth : springs_)
+      spread(load, growth, -growth.stiffness * growth.by_strain.transpose());
     return load;
   }
   Field resistance(const Field& moved) const {
@@ -96,18 +112,22 @@ class Sample {
     for (const Growth& growth : springs_) {
       Eigen::Matrix<double, 1, strains> grown = Eigen::Matrix<double, 1, strains>::Zero();
       for (int c = 0; c < components_; ++c)
-        grown += growth.by_b[c] * (c == 3 ? moved.row(at(growth.b) + c) + moved.row(at(growth.a) + c)
-                                          : Eigen::Matrix<double, 1, strains>(moved.row(at(growth.b) + c) - moved.row(at(growth.a) + c)));
+        grown += growth.by_b[c] *
+                 (c == 3 ? moved.row(at(growth.b) + c) + moved.row(at(growth.a) + c)
+                         : Eigen::Matrix<double, 1, strains>(moved.row(at(growth.b) + c) -
+                                                             moved.row(at(growth.a) + c)));
       spread(forces, growth, growth.stiffness * grown);
     }
-    for (std::uint32_t p = 0; components_ == 4 && p < particles_; ++p) forces.row(at(p) + 3) += 2 * alpha_ * moved.row(at(p) + 3);
+    for (std::uint32_t p = 0; components_ == 4 && p < particles_; ++p)
+      forces.row(at(p) + 3) += 2 * alpha_ * moved.row(at(p) + 3);
     return forces;
   }
   Eigen::VectorXd diagonal() const {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(at(particles_));
     for (const Growth& growth : springs_)
       for (int c = 0; c < components_; ++c)
-        for (const std::uint32_t end : {growth.a, growth.b}) sum(at(end) + c) += growth.stiffness * growth.by_b[c] * growth.by_b[c];
+        for (const std::uint32_t end : {growth.a, growth.b})
+          sum(at(end) + c) += growth.stiffness * growth.by_b[c] * growth.by_b[c];
     for (std::uint32_t p = 0; components_ == 4 && p < particles_; ++p) sum(at(p) + 3) += 2 * alpha_;
     for (double& value : sum)
       if (value == 0) value = 1;  // a particle that nothing holds
@@ -123,45 +143,60 @@ class Sample {
   double common_stiffness_ = 0;
 };
 
-Growth growth_of(std::uint32_t a, std::uint32_t b, Vec3 rest, double length, double height, double stiffness) {
+Growth growth_of(std::uint32_t a, std::uint32_t b, Vec3 rest, double length, double height,
+                 double stiffness) {
   const double n = 1 / length;
   Growth growth{a, b, stiffness, {}, {n * rest.x, n * rest.y, n * rest.z, n * height}};
-  growth.by_strain << n * rest.x * rest.x, n * rest.y * rest.y, n * rest.z * rest.z, n * rest.y * rest.z, n * rest.x * rest.z, n * rest.x * rest.y;
+  growth.by_strain << n * rest.x * rest.x, n * rest.y * rest.y, n * rest.z * rest.z,
+      n * rest.y * rest.z, n * rest.x * rest.z, n * rest.x * rest.y;
   return growth;
 }
 
 /// The isotropic constants nearest to these in Voigt's sense.
 ElasticConstants isotropic(const Stiffness& c) {
-  const double C11 = (c(0, 0) + c(1, 1) + c(2, 2)) / 3, C12 = (c(0, 1) + c(0, 2) + c(1, 2)) / 3, C44 = (c(3, 3) + c(4, 4) + c(5, 5)) / 3;
+  const double C11 = (c(0, 0) + c(1, 1) + c(2, 2)) / 3, C12 = (c(0, 1) + c(0, 2) + c(1, 2)) / 3,
+               C44 = (c(3, 3) + c(4, 4) + c(5, 5)) / 3;
   const double bulk = (C11 + 2 * C12) / 3, shear = (C11 - C12 + 3 * C44) / 5;
   return {bulk + 4 * shear / 3, bulk - 2 * shear / 3, shear};
 }
 
-Sample sample_of(const Listed& listed, double membrane_distance, const MaterialConstants& constants) {
+Sample sample_of(const Listed& listed, double membrane_distance,
+                 const MaterialConstants& constants) {
   const bool cross = constants.has_cross_springs(), free = cross && !constants.clamped;
-  Sample sample(listed.sample_particles > 0 ? listed.sample_particles : static_cast<std::uint32_t>(listed.positions.size()), free);
+  Sample sample(listed.sample_particles > 0 ? listed.sample_particles
+                                            : static_cast<std::uint32_t>(listed.positions.size()),
+                free);
   const auto add = [&](std::uint32_t a, std::uint32_t b, Vec3 rest, double factor) {
     const double k = factor * constants.base_stiffness, length = norm(rest);
     sample.add(growth_of(a, b, rest, length, 0, k));
-    if (cross) sample.add(growth_of(a, b, rest, std::hypot(length, membrane_distance), free ? membrane_distance : 0, constants.cross_ratio[0] * k));
+    if (cross)
+      sample.add(growth_of(a, b, rest, std::hypot(length, membrane_distance),
+                           free ? membrane_distance : 0, constants.cross_ratio[0] * k));
   };
-  for (const SampleSpring& spring : listed.sample) add(spring.a, spring.b, spring.rest, spring.stiffness);
+  for (const SampleSpring& spring : listed.sample)
+    add(spring.a, spring.b, spring.rest, spring.stiffness);
   if (listed.sample_particles == 0)
     for (const ListedSpring& spring : listed.springs)
-      add(spring.a, spring.b, listed.positions[spring.b] - listed.positions[spring.a], spring.stiffness);
+      add(spring.a, spring.b, listed.positions[spring.b] - listed.positions[spring.a],
+          spring.stiffness);
   if (free) sample.set_alpha(constants.alpha_ratio * constants.base_stiffness);
   return sample;
 }
 
 }  // namespace
 
-ElasticConstants homogenise(const Listed& listed, double volume, double membrane_distance, const MaterialConstants& constants) {
-  if (listed.sample_particles == 0) return strained_alike(listed, volume, membrane_distance, constants);
-  return isotropic(sample_of(listed, membrane_distance, constants).relaxed() / listed.sample_volume);
+ElasticConstants homogenise(const Listed& listed, double volume, double membrane_distance,
+                            const MaterialConstants& constants) {
+  if (listed.sample_particles == 0)
+    return strained_alike(listed, volume, membrane_distance, constants);
+  return isotropic(sample_of(listed, membrane_distance, constants).relaxed() /
+                   listed.sample_volume);
 }
 
-ElasticConstants strained_alike(const Listed& listed, double volume, double membrane_distance, const MaterialConstants& constants) {
-  return isotropic(sample_of(listed, membrane_distance, constants).strained_alike() / (listed.sample_particles > 0 ? listed.sample_volume : volume));
+ElasticConstants strained_alike(const Listed& listed, double volume, double membrane_distance,
+                                const MaterialConstants& constants) {
+  return isotropic(sample_of(listed, membrane_distance, constants).strained_alike() /
+                   (listed.sample_particles > 0 ? listed.sample_volume : volume));
 }
 
 }  // namespace hyperlattice

@@ -1,4 +1,5 @@
-// The particles and springs of a listed lattice, sorted so that neighbours stand close to each other in memory.
+// The particles and springs of a listed lattice, sorted so that neighbours stand close to each
+// other in memory.
 #pragma once
 
 #include <hyperlattice/lattice.hpp>
@@ -8,8 +9,8 @@
 
 namespace hyperlattice {
 
-/// Springs a particle, on the mean, from which a lattice in no order is stiff for certain. It takes more than 6 (Maxwell 1864); between, chance
-/// decides.
+/// Springs a particle, on the mean, from which a lattice in no order is stiff for certain. It takes
+/// more than 6 (Maxwell 1864); between, chance decides.
 inline constexpr double stiff_coordination = 7;
 
 struct Listed {
@@ -26,9 +27,11 @@ struct Listed {
   bool empty() const { return positions.empty(); }
 };
 
-/// Sorts the list by slabs of one spacing along z, within them by strips along y, within them by x; and each stretch of particles, which lie close
-/// together, by their number of springs, so that those that follow each other have about as many. Throws std::invalid_argument for what is no
-/// lattice: numbers that are not finite, springs to nobody, to oneself, given twice, without length, of no stiffness.
+/// Sorts the list by slabs of one spacing along z, within them by strips along y, within them by x;
+/// and each stretch of particles, which lie close together, by their number of springs, so that
+/// those that follow each other have about as many. Throws std::invalid_argument for what is no
+/// lattice: numbers that are not finite, springs to nobody, to oneself, given twice, without
+/// length, of no stiffness.
 Listed sorted(const PointList& points);
 
 /// Keeps the sample. Throws std::invalid_argument as sorted() does.

@@ -4,7 +4,9 @@ namespace hyperlattice {
 
 namespace {
 
-NeighbourGeometry geometry_of(const Joint& joint) { return {{}, joint.rest, joint.rest_length, joint.cross_rest_length}; }
+NeighbourGeometry geometry_of(const SpringProperties& properties) {
+  return {{}, properties.rest, properties.rest_length, properties.cross_rest_length};
+}
 
 }  // namespace
 
@@ -14,11 +16,13 @@ ListedBound listed_bound(const Model& model) {
   ListedBound found;
   for (std::uint32_t n = 0; n < body.listed.springs.size(); ++n) {
     const ListedSpring& spring = body.listed.springs[n];
-    const Joint joint = model.joint(spring.a, spring.b, n);
-    found.all_positive &= joint.stiffness > 0 && joint.cross_stiffness >= 0;
-    const SpringConstants constants{joint.stiffness, joint.cross_stiffness, infinity};
-    sums[spring.a].add(geometry_of(joint), 1, constants, body.grid.membrane_distance, model.choice.membrane);
-    sums[spring.b].add(geometry_of(joint), -1, constants, body.grid.membrane_distance, model.choice.membrane);
+    const SpringProperties properties = model.spring_properties(spring.a, spring.b, n);
+    found.all_positive &= properties.stiffness > 0 && properties.cross_stiffness >= 0;
+    const SpringConstants constants{properties.stiffness, properties.cross_stiffness, infinity};
+    sums[spring.a].add(geometry_of(properties), 1, constants, body.grid.membrane_distance,
+                       model.choice.membrane);
+    sums[spring.b].add(geometry_of(properties), -1, constants, body.grid.membrane_distance,
+                       model.choice.membrane);
   }
   for (Particle p = 0; p < body.particles; ++p) {
     const MaterialConstants& constants = model.materials[model.material(p)].constants;

@@ -1,9 +1,12 @@
-// The stable step with loads that answer to the motion. If the answers change with displacement by at most c and with velocity by at most d on a
-// particle of mass m, central differences with the velocity of half a step before are stable while
+// The stable step with loads that answer to the motion. If the answers change with displacement by
+// at most c and with velocity by at most d on a particle of mass m, central differences with the
+// velocity of half a step before are stable while
 //
-//   M - dt D / 2 - dt^2 (K + C) / 4 > 0,   which  1 > dt max(d / m) / 2 + dt^2 (omega_max^2 + max(c / m)) / 4  ensures:
+//   M - dt D / 2 - dt^2 (K + C) / 4 > 0,   which  1 > dt max(d / m) / 2 + dt^2 (omega_max^2 + max(c
+//   / m)) / 4  ensures:
 //
-// with a velocity of the step's middle in place of the one before, M - dt D / 2 stands for the mass.
+// with a velocity of the step's middle in place of the one before, M - dt D / 2 stands for the
+// mass.
 #include <model/build.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -15,18 +18,20 @@
 namespace hyperlattice {
 
 void limit_step_by_loads(Model& model) {
-  std::map<Particle, Reaction> reactions;
+  std::map<Particle, LoadStiffnessBound> reactions;
   std::string names;
   for (const Load& load : model.loads) {
     bool reacts = false;
     for (const WatchedParticle& watched : load.watched) {
       if (watched.reaction.stiffness == 0 && watched.reaction.viscosity == 0) continue;
-      Reaction& sum = reactions[watched.particle];
+      LoadStiffnessBound& sum = reactions[watched.particle];
       sum.stiffness += watched.reaction.stiffness;
       sum.viscosity += watched.reaction.viscosity;
       reacts = true;
     }
-    if (reacts) names += fmt::format("{}{} ({})", names.empty() ? "" : ", ", load.stage->component->type(), load.stage->pointer);
+    if (reacts)
+      names += fmt::format("{}{} ({})", names.empty() ? "" : ", ", load.stage->component->type(),
+                           load.stage->pointer);
   }
   if (reactions.empty()) return;
   double stiffer = 0, rate = 0;  // 1/s2, 1/s
@@ -36,7 +41,9 @@ void limit_step_by_loads(Model& model) {
   }
   const double alone = model.critical_time_step, square = 4 / (alone * alone) + stiffer;
   model.critical_time_step = 2 / (0.5 * rate + std::sqrt(0.25 * rate * rate + square));
-  model.critical_because += fmt::format("; shortened to {:.3g} of that, a safe bound, for what {} answers", model.critical_time_step / alone, names);
+  model.critical_because +=
+      fmt::format("; shortened to {:.3g} of that, a safe bound, for what {} answers",
+                  model.critical_time_step / alone, names);
 }
 
 }  // namespace hyperlattice

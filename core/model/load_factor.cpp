@@ -1,5 +1,5 @@
-// A load's factor of time over an interval. Corners cut the interval into pieces; in each the factor is smooth and is taken at points inside, never
-// at a corner itself, where it may jump.
+// A load's factor of time over an interval. Corners cut the interval into pieces; in each the
+// factor is smooth and is taken at points inside, never at a corner itself, where it may jump.
 #include <model/model.hpp>
 
 #include <boost/math/quadrature/gauss.hpp>
@@ -12,15 +12,18 @@ namespace hyperlattice {
 
 namespace {
 
-/// By Gauss's rule with an odd number of points. Exact for constants to the last bit: the mean is the middle value and weighted differences from it.
+/// By Gauss's rule with an odd number of points. Exact for constants to the last bit: the mean is
+/// the middle value and weighted differences from it.
 template <unsigned points>
 double mean_of_piece(const Load& load, double from, double to) {
   using Gauss = boost::math::quadrature::gauss<double, points>;
-  const double middle = 0.5 * (from + to), half = 0.5 * (to - from), at_middle = load.factor(middle);
+  const double middle = 0.5 * (from + to), half = 0.5 * (to - from),
+               at_middle = load.factor(middle);
   double differences = 0;
   for (std::size_t n = 1; n < Gauss::abscissa().size(); ++n) {  // point 0 is the middle
     const double away = half * Gauss::abscissa()[n];
-    differences += Gauss::weights()[n] * ((load.factor(middle - away) - at_middle) + (load.factor(middle + away) - at_middle));
+    differences += Gauss::weights()[n] * ((load.factor(middle - away) - at_middle) +
+                                          (load.factor(middle + away) - at_middle));
   }
   return at_middle + 0.5 * differences;
 }
@@ -28,7 +31,8 @@ double mean_of_piece(const Load& load, double from, double to) {
 /// Calls visit(from, to) for each piece between corners.
 template <class Visit>
 void for_pieces(const std::vector<double>& corners, double from, double to, const Visit& visit) {
-  for (auto corner = std::upper_bound(corners.begin(), corners.end(), from); corner != corners.end() && *corner < to; ++corner) {
+  for (auto corner = std::upper_bound(corners.begin(), corners.end(), from);
+       corner != corners.end() && *corner < to; ++corner) {
     visit(from, *corner);
     from = *corner;
   }
@@ -38,7 +42,9 @@ void for_pieces(const std::vector<double>& corners, double from, double to, cons
 }  // namespace
 
 double Load::after(double time) const {
-  return factor(std::binary_search(corners.begin(), corners.end(), time) ? std::nextafter(time, infinity) : time);
+  return factor(std::binary_search(corners.begin(), corners.end(), time)
+                    ? std::nextafter(time, infinity)
+                    : time);
 }
 
 double Load::mean(double from, double to) const {
@@ -61,9 +67,10 @@ double Load::integral(double from, double to) const {
   double sum = 0;
   for_pieces(corners, from, to, [&](double begin, double end) {
     constexpr unsigned halvings = 12;
-    constexpr double tolerance = 1e-9;  // of the difference of two rules, the better of which errs far less; time itself is known to little more
-    sum +=
-        boost::math::quadrature::gauss_kronrod<double, 15>::integrate([this](double time) { return factor(time); }, begin, end, halvings, tolerance);
+    constexpr double tolerance = 1e-9;  // of the difference of two rules, the better of which errs
+                                        // far less; time itself is known to little more
+    sum += boost::math::quadrature::gauss_kronrod<double, 15>::integrate(
+        [this](double time) { return factor(time); }, begin, end, halvings, tolerance);
   });
   return sum;
 }
@@ -74,7 +81,8 @@ Load::Limit Load::limit(double time, double reach) const {
   const auto to = std::upper_bound(from, corners.end(), time + nearby);
   if (reach > 0 && to != corners.end()) reach = std::min(reach, *to - time);
   if (reach < 0 && from != corners.begin()) reach = std::max(reach, *std::prev(from) - time);
-  const double apart = reach / 4, a = factor(time + apart), b = factor(time + 2 * apart), c = factor(time + 3 * apart);  // on a parabola
+  const double apart = reach / 4, a = factor(time + apart), b = factor(time + 2 * apart),
+               c = factor(time + 3 * apart);  // on a parabola
   const double value = from == to ? factor(time) : a + 2 * (a - b) + (c - b);
   return {value, (2.5 * (b - a) + 1.5 * (b - c)) / apart};
 }

@@ -35,14 +35,16 @@ struct View {
   }
 
   Particle existing(Particle particle) const {
-    if (particle >= model.body.particles) throw PluginMistake("it asks about a particle that does not exist");
+    if (particle >= model.body.particles)
+      throw PluginMistake("it asks about a particle that does not exist");
     return particle;
   }
 
   /// Answers the load, which gets `otherwise` if the answer fails.
   template <class Result, class Code>
   static Result answer(void* self, Result otherwise, Code&& code) noexcept {
-    return PluginCall::answer(otherwise, [&]() -> Result { return code(*static_cast<View*>(self)); });
+    return PluginCall::answer(otherwise,
+                              [&]() -> Result { return code(*static_cast<View*>(self)); });
   }
 
   LoadBody body() {
@@ -51,22 +53,30 @@ struct View {
     seen.spacing = model.body.grid.spacing;
     seen.rim = model.body.cells.empty() ? 0.5 * model.body.grid.spacing : 0;
     seen.region_particles = [](void* self, RegionId region) noexcept {
-      return answer(self, std::span<const Particle>(), [&](View& view) { return view.particles(region); });
+      return answer(self, std::span<const Particle>(),
+                    [&](View& view) { return view.particles(region); });
     };
     seen.particle_position = [](void* self, Particle particle) noexcept {
-      return answer(self, Vec3(), [&](View& view) { return view.model.body.position(view.existing(particle)); });
+      return answer(self, Vec3(),
+                    [&](View& view) { return view.model.body.position(view.existing(particle)); });
     };
     seen.particle_mass = [](void* self, Particle particle) noexcept {
       return answer(self, 0.0, [&](View& view) {
-        return view.model.masses.empty() ? 0 : view.model.mass(view.existing(particle));  // none only if the materials have faults: nothing runs
+        return view.model.masses.empty()
+                   ? 0
+                   : view.model.mass(view.existing(
+                         particle));  // none only if the materials have faults: nothing runs
       });
     };
     seen.particle_share = [](void* self, Particle particle) noexcept {
-      return answer(self, 1.0, [&](View& view) { return view.model.body.share(view.existing(particle)); });
+      return answer(self, 1.0,
+                    [&](View& view) { return view.model.body.share(view.existing(particle)); });
     };
     seen.region_open_areas = [](void* self, RegionId region) noexcept {
-      return answer(self, std::span<const OpenArea>(),
-                    [&](View& view) { return view.particles(region).empty() ? std::span<const OpenArea>() : view.regions.open_areas(region); });
+      return answer(self, std::span<const OpenArea>(), [&](View& view) {
+        return view.particles(region).empty() ? std::span<const OpenArea>()
+                                              : view.regions.open_areas(region);
+      });
     };
     seen.region_true_area = [](void* self, RegionId region) noexcept {
       return answer(self, 0.0, [&](View& view) { return view.regions.true_area(region); });
@@ -75,12 +85,14 @@ struct View {
       return answer(self, Vec3(), [&](View& view) { return view.regions.centre(region); });
     };
     seen.region_springs = [](void* self, RegionId region) noexcept {
-      return answer(self, std::span<const RestSpring>(), [&](View& view) -> std::span<const RestSpring> {
-        const auto [found, fresh] = view.springs.try_emplace(region.index);
-        view.springs_unknown |= view.model.springs.empty();
-        if (fresh && !view.springs_unknown) found->second = springs_at(view.model, view.particles(region));
-        return found->second;
-      });
+      return answer(self, std::span<const RestSpring>(),
+                    [&](View& view) -> std::span<const RestSpring> {
+                      const auto [found, fresh] = view.springs.try_emplace(region.index);
+                      view.springs_unknown |= view.model.springs.empty();
+                      if (fresh && !view.springs_unknown)
+                        found->second = springs_at(view.model, view.particles(region));
+                      return found->second;
+                    });
     };
     return seen;
   }
@@ -101,23 +113,28 @@ struct Collector {
   std::string fault{};       ///< of what the load handed over
 
   LoadedParticle& at(Particle particle, Vec3 amplitude) {
-    if (particle >= body.particles) throw std::out_of_range("it loads a particle that does not exist");
+    if (particle >= body.particles)
+      throw std::out_of_range("it loads a particle that does not exist");
     if (!is_finite(amplitude)) throw std::range_error("it gives an amplitude that is not finite");
     LoadedParticle& loaded = particles[particle];
     loaded.particle = particle;
     return loaded;
   }
 
-  static void prescribe(LoadedParticle& loaded, Axes axes, Axes& kind, Vec3& value, Vec3 amplitude) {
-    if (axes == 0 || (axes & ~all_axes) != 0) throw std::out_of_range("it prescribes an axis that does not exist, or none");
-    if (((loaded.displaced | loaded.driven) & axes) != 0) throw std::invalid_argument("it prescribes an axis of a particle twice");
+  static void prescribe(LoadedParticle& loaded, Axes axes, Axes& kind, Vec3& value,
+                        Vec3 amplitude) {
+    if (axes == 0 || (axes & ~all_axes) != 0)
+      throw std::out_of_range("it prescribes an axis that does not exist, or none");
+    if (((loaded.displaced | loaded.driven) & axes) != 0)
+      throw std::invalid_argument("it prescribes an axis of a particle twice");
     kind |= axes;
     if (axes & 1U) value.x = amplitude.x;
     if (axes & 2U) value.y = amplitude.y;
     if (axes & 4U) value.z = amplitude.z;
   }
 
-  /// What the load hands over that cannot be used is its fault: the first one is told, and what follows is not taken.
+  /// What the load hands over that cannot be used is its fault: the first one is told, and what
+  /// follows is not taken.
   template <class Code>
   static void take(void* self, Code&& code) noexcept {
     auto& collector = *static_cast<Collector*>(self);
@@ -142,7 +159,8 @@ struct Collector {
         loaded.force = loaded.force + amplitude;
       });
     };
-    to.receive_displacement = [](void* self, Particle particle, Axes axes, Vec3 amplitude) noexcept {
+    to.receive_displacement = [](void* self, Particle particle, Axes axes,
+                                 Vec3 amplitude) noexcept {
       take(self, [&](Collector& c) {
         LoadedParticle& loaded = c.at(particle, amplitude);
         prescribe(loaded, axes, loaded.displaced, loaded.displacement, amplitude);
@@ -156,7 +174,8 @@ struct Collector {
     };
     to.receive_acceleration = [](void* self, Vec3 value) noexcept {
       take(self, [&](Collector& c) {
-        if (!is_finite(value)) throw std::range_error("it gives an acceleration that is not finite");
+        if (!is_finite(value))
+          throw std::range_error("it gives an acceleration that is not finite");
         c.acceleration = c.acceleration + value;
       });
     };
@@ -167,11 +186,15 @@ struct Collector {
         c.start_velocities[particle] = c.start_velocities[particle] + velocity;
       });
     };
-    to.receive_watched = [](void* self, Particle particle, bool answered, const Reaction& reaction) noexcept {
+    to.receive_watched = [](void* self, Particle particle, bool answered,
+                            const LoadStiffnessBound& reaction) noexcept {
       take(self, [&](Collector& c) {
-        if (particle >= c.body.particles) throw std::out_of_range("it watches a particle that does not exist");
-        if (!c.watching.insert(particle).second) throw std::invalid_argument("it watches a particle twice");
-        if (!(reaction.stiffness >= 0 && reaction.viscosity >= 0 && std::isfinite(reaction.stiffness + reaction.viscosity)))
+        if (particle >= c.body.particles)
+          throw std::out_of_range("it watches a particle that does not exist");
+        if (!c.watching.insert(particle).second)
+          throw std::invalid_argument("it watches a particle twice");
+        if (!(reaction.stiffness >= 0 && reaction.viscosity >= 0 &&
+              std::isfinite(reaction.stiffness + reaction.viscosity)))
           throw std::range_error("it gives a reaction that is negative or not finite");
         c.watched.push_back({particle, answered, reaction});
       });
@@ -184,13 +207,15 @@ struct Collector {
     };
     to.receive_corner = [](void* self, double time) noexcept {
       take(self, [&](Collector& c) {
-        if (std::isnan(time)) throw std::range_error("it gives a corner at a time that is no number");
+        if (std::isnan(time))
+          throw std::range_error("it gives a corner at a time that is no number");
         if (time > 0 && std::isfinite(time)) c.corners.push_back(time);
       });
     };
     to.receive_frequency = [](void* self, double hertz) noexcept {
       take(self, [&](Collector& c) {
-        if (!(hertz >= 0 && std::isfinite(hertz))) throw std::range_error("it gives a frequency that is negative or not finite");
+        if (!(hertz >= 0 && std::isfinite(hertz)))
+          throw std::range_error("it gives a frequency that is negative or not finite");
         c.frequency = std::max(c.frequency, hertz);
       });
     };
@@ -198,11 +223,14 @@ struct Collector {
   }
 };
 
-std::vector<LoadedParticle> in_order(const std::unordered_map<Particle, LoadedParticle>& particles) {
+std::vector<LoadedParticle> in_order(
+    const std::unordered_map<Particle, LoadedParticle>& particles) {
   std::vector<LoadedParticle> all;
   all.reserve(particles.size());
   for (const auto& entry : particles) all.push_back(entry.second);
-  std::sort(all.begin(), all.end(), [](const LoadedParticle& a, const LoadedParticle& b) { return a.particle < b.particle; });
+  std::sort(all.begin(), all.end(), [](const LoadedParticle& a, const LoadedParticle& b) {
+    return a.particle < b.particle;
+  });
   return all;
 }
 
@@ -211,10 +239,12 @@ void sort_once(std::vector<double>& times) {
   times.erase(std::unique(times.begin(), times.end()), times.end());
 }
 
-/// Whether both loads hold the particle where it is, along all of these axes: they agree at all times, whatever their factors are.
+/// Whether both loads hold the particle where it is, along all of these axes: they agree at all
+/// times, whatever their factors are.
 bool both_hold(const LoadedParticle& a, const LoadedParticle& b, Axes axes) {
   const auto holds = [axes](const LoadedParticle& loaded) {
-    const double amplitudes[3] = {std::abs(loaded.displacement.x), std::abs(loaded.displacement.y), std::abs(loaded.displacement.z)};
+    const double amplitudes[3] = {std::abs(loaded.displacement.x), std::abs(loaded.displacement.y),
+                                  std::abs(loaded.displacement.z)};
     for (unsigned axis = 0; axis < 3; ++axis)
       if ((axes >> axis & 1U) != 0 && amplitudes[axis] != 0) return false;
     return (axes & ~loaded.displaced) == 0;
@@ -222,18 +252,21 @@ bool both_hold(const LoadedParticle& a, const LoadedParticle& b, Axes axes) {
   return holds(a) && holds(b);
 }
 
-/// Two loads that prescribe one axis of one particle contradict each other, unless both hold it where it is: then the earlier one does.
+/// Two loads that prescribe one axis of one particle contradict each other, unless both hold it
+/// where it is: then the earlier one does.
 void check_conflicts(Model& model, Faults& faults) {
   struct Conflict {
     Axes axes = 0;
     std::uint64_t particles = 0;
     Particle first = 0;
   };
-  std::map<std::pair<std::size_t, std::size_t>, Conflict> conflicts;       // (earlier load, later load)
-  std::unordered_map<Particle, std::array<std::size_t, 3>> prescribed_by;  // load + 1 of each axis; 0: free
+  std::map<std::pair<std::size_t, std::size_t>, Conflict> conflicts;  // (earlier load, later load)
+  std::unordered_map<Particle, std::array<std::size_t, 3>>
+      prescribed_by;  // load + 1 of each axis; 0: free
   const auto of = [&](std::size_t load, Particle particle) {
     const auto& all = model.loads[load].particles;
-    return *std::lower_bound(all.begin(), all.end(), particle, [](const LoadedParticle& l, Particle p) { return l.particle < p; });
+    return *std::lower_bound(all.begin(), all.end(), particle,
+                             [](const LoadedParticle& l, Particle p) { return l.particle < p; });
   };
   for (std::size_t later = 0; later < model.loads.size(); ++later)
     for (LoadedParticle& loaded : model.loads[later].particles) {
@@ -262,8 +295,10 @@ void check_conflicts(Model& model, Faults& faults) {
     const Stage &earlier = *model.loads[pair.first].stage, &later = *model.loads[pair.second].stage;
     const Vec3 at = model.body.position(conflict.first);
     faults.add(later.pointer, later.component->type(),
-               fmt::format("axes that no other load prescribes; {} of {} particles, the first at ({:.6g}, {:.6g}, {:.6g}) m, already follows {} ({})",
-                           axis_names(conflict.axes), conflict.particles, at.x, at.y, at.z, earlier.pointer, earlier.component->type()));
+               fmt::format("axes that no other load prescribes; {} of {} particles, the first at "
+                           "({:.6g}, {:.6g}, {:.6g}) m, already follows {} ({})",
+                           axis_names(conflict.axes), conflict.particles, at.x, at.y, at.z,
+                           earlier.pointer, earlier.component->type()));
   }
 }
 
@@ -271,17 +306,23 @@ void check_conflicts(Model& model, Faults& faults) {
 
 double Load::factor(double time) const {
   double factor = 0;
-  call(*stage, "factor", [&](const Complaint& why) { return stage->functions<LoadFunctions>().factor(component.get(), time, factor, why); });
+  call(*stage, "factor", [&](const Complaint& why) {
+    return stage->functions<LoadFunctions>().factor(component.get(), time, factor, why);
+  });
   return factor;
 }
 
 void Load::prepare(const WatchedMotion& motion) const {
-  call(*stage, "prepare", [&](const Complaint& why) { return stage->functions<LoadFunctions>().prepare(component.get(), motion, why); });
+  call(*stage, "prepare", [&](const Complaint& why) {
+    return stage->functions<LoadFunctions>().prepare(component.get(), motion, why);
+  });
 }
 
 Vec3 Load::answer(const WatchedMotion& motion, std::size_t n) const {
   Vec3 force;
-  call(*stage, "answer", [&](const Complaint& why) { return stage->functions<LoadFunctions>().answer(component.get(), motion, n, force, why); });
+  call(*stage, "answer", [&](const Complaint& why) {
+    return stage->functions<LoadFunctions>().answer(component.get(), motion, n, force, why);
+  });
   return force;
 }
 
@@ -294,10 +335,12 @@ void add_loads(Model& model, RegionIndex& regions, Faults& faults) {
       View view{model, regions, std::nullopt, {}, false};
       Collector collector{.body = model.body};
       const auto refused = refusal_of(*stage, "declare", [&](const Complaint& why) {
-        return stage->functions<LoadFunctions>().declare(load.component.get(), view.body(), collector.sink(), why);
+        return stage->functions<LoadFunctions>().declare(load.component.get(), view.body(),
+                                                         collector.sink(), why);
       });
       if (view.empty) {
-        faults.add(stage->pointer, stage->component->type(), regions.expected_particles(*view.empty));
+        faults.add(stage->pointer, stage->component->type(),
+                   regions.expected_particles(*view.empty));
         continue;
       }
       if (view.springs_unknown) continue;
@@ -310,11 +353,13 @@ void add_loads(Model& model, RegionIndex& regions, Faults& faults) {
       load.particles = in_order(collector.particles);
       load.acceleration = collector.acceleration;
       model.acceleration = model.acceleration + load.acceleration;
-      for (const auto& [particle, velocity] : collector.start_velocities) start_velocities[particle] = start_velocities[particle] + velocity;
+      for (const auto& [particle, velocity] : collector.start_velocities)
+        start_velocities[particle] = start_velocities[particle] + velocity;
       for (const std::string& warning : collector.warnings)
         model.warnings.push_back(fmt::format("{} ({}): {}", stage->name, stage->pointer, warning));
       if (const auto more = collector.warned - collector.warnings.size(); more > 0)
-        model.warnings.push_back(fmt::format("{} ({}): and {} more such warnings", stage->name, stage->pointer, more));
+        model.warnings.push_back(
+            fmt::format("{} ({}): and {} more such warnings", stage->name, stage->pointer, more));
       load.corners = std::move(collector.corners);
       sort_once(load.corners);
       load.frequency = collector.frequency;

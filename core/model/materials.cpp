@@ -14,9 +14,13 @@ constexpr std::uint8_t no_material = 255;
 /// Base springs of a class, in whole ones.
 double whole_springs(const Body& body, std::uint32_t spring_class) {
   if (body.cells.empty()) return static_cast<double>(body.springs[spring_class]);
-  const auto of_class = [spring_class](const Neighbour& to) { return to.spring_class == spring_class; };
+  const auto of_class = [spring_class](const Neighbour& to) {
+    return to.spring_class == spring_class;
+  };
   const auto neighbours = std::count_if(body.neighbours.begin(), body.neighbours.end(), of_class);
-  return static_cast<double>(neighbours) * static_cast<double>(body.cells.count());  // a cell's shares sum to one spring to each neighbour
+  return static_cast<double>(neighbours) *
+         static_cast<double>(
+             body.cells.count());  // a cell's shares sum to one spring to each neighbour
 }
 
 LatticeFacts facts_of(const Model& model, const LatticeGeometry& geometry) {
@@ -24,15 +28,18 @@ LatticeFacts facts_of(const Model& model, const LatticeGeometry& geometry) {
   LatticeFacts facts = facts_of(geometry);
   facts.neighbours = body.neighbours;
   facts.allow_unstable = model.scene->allow_unstable;
-  facts.particles = body.cells.empty() ? body.particles : body.cells.count();  // a cell's shares sum to one particle
+  facts.particles = body.cells.empty() ? body.particles
+                                       : body.cells.count();  // a cell's shares sum to one particle
   for (std::uint32_t c = 0; c < facts.spring_classes; ++c)
     for (const NeighbourGeometry& n : geometry.neighbours)
       if (n.site.spring_class == c) {
-        facts.squared_lengths += facts.class_stiffness[c] * whole_springs(body, c) * n.rest_length * n.rest_length;
+        facts.squared_lengths +=
+            facts.class_stiffness[c] * whole_springs(body, c) * n.rest_length * n.rest_length;
         break;  // all of a class are of one length
       }
   if (!body.is_listed()) return facts;
-  facts.particles = static_cast<std::uint64_t>(std::llround(geometry.volume / body.grid.site_volume));
+  facts.particles =
+      static_cast<std::uint64_t>(std::llround(geometry.volume / body.grid.site_volume));
   for (const ListedSpring& spring : body.listed.springs) {
     const double length = norm(body.listed.positions[spring.b] - body.listed.positions[spring.a]);
     facts.lengths += spring.stiffness * length;
@@ -44,7 +51,8 @@ LatticeFacts facts_of(const Model& model, const LatticeGeometry& geometry) {
 
 /// What the core counts on. A law's own constants may be infinite: a limit that is never reached.
 void check_constants(const Stage& stage, const MaterialConstants& constants) {
-  if (!(constants.density > 0 && constants.base_stiffness > 0 && std::isfinite(constants.density) && std::isfinite(constants.base_stiffness)))
+  if (!(constants.density > 0 && constants.base_stiffness > 0 && std::isfinite(constants.density) &&
+        std::isfinite(constants.base_stiffness)))
     throw refusal(stage, "its density or its stiffness came out as not positive or not finite");
   bool good = constants.clamped || std::isfinite(constants.alpha_ratio);
   for (std::uint32_t c = 0; c < max_spring_classes; ++c) {
@@ -52,18 +60,23 @@ void check_constants(const Stage& stage, const MaterialConstants& constants) {
     for (const auto& of_law : constants.law[c])
       for (const double number : of_law) good = good && !std::isnan(number);
   }
-  if (!good) throw refusal(stage, "the stiffness of its cross springs or a constant of its law came out as no number");
+  if (!good)
+    throw refusal(
+        stage, "the stiffness of its cross springs or a constant of its law came out as no number");
 }
 
 /// What else there is to say of a Poisson ratio that a random body does not reach.
 std::string reach_of_sample(const Body& body, const std::string& sentence) {
   if (body.listed.sample_particles == 0 || !sentence.starts_with("poisson ")) return "";
-  const double mean = 2 * static_cast<double>(body.listed.springs.size()) / static_cast<double>(body.particles);
+  const double mean =
+      2 * static_cast<double>(body.listed.springs.size()) / static_cast<double>(body.particles);
   if (mean < stiff_coordination)
     return fmt::format(
-        ". The body has {:.3g} springs a particle on the mean, too few to be stiff for certain: expected a coordination of {:g} or more", mean,
-        stiff_coordination);
-  return ". This reach is the body's own: particles at its surface have fewer springs, so those inside have more, which lowers the largest Poisson "
+        ". The body has {:.3g} springs a particle on the mean, too few to be stiff for certain: "
+        "expected a coordination of {:g} or more",
+        mean, stiff_coordination);
+  return ". This reach is the body's own: particles at its surface have fewer springs, so those "
+         "inside have more, which lowers the largest Poisson "
          "ratio; a body more spacings across reaches further";
 }
 
@@ -76,9 +89,11 @@ Material make_material(const Model& model, const Stage& stage, const LatticeFact
     material.failure = make_component(*stage.failure);
   }
   const auto refused = refusal_of(stage, "constants", [&](const Complaint& why) {
-    return stage.functions<MaterialFunctions>().constants(material.component.get(), facts, material.constants, why);
+    return stage.functions<MaterialFunctions>().constants(material.component.get(), facts,
+                                                          material.constants, why);
   });
-  if (refused) throw objection(*model.scene, stage, *refused + reach_of_sample(model.body, *refused));
+  if (refused)
+    throw objection(*model.scene, stage, *refused + reach_of_sample(model.body, *refused));
   check_constants(stage, material.constants);
   const MaterialConstants& constants = material.constants;
   material.mass = constants.density * facts.site_volume;
@@ -92,24 +107,32 @@ void check_laws(const std::vector<Material>& materials, Faults& faults) {
     const std::string_view other = material.stage->functions<MaterialFunctions>().law;
     if (other != law)
       faults.add(material.stage->pointer, material.stage->component->type(),
-                 fmt::format("a material with the law \"{}\" of {}, because one body has one law; this one has \"{}\"", law,
-                             materials[0].stage->pointer, other));
+                 fmt::format("a material with the law \"{}\" of {}, because one body has one law; "
+                             "this one has \"{}\"",
+                             law, materials[0].stage->pointer, other));
   }
 }
 
-/// Says of which material each particle is, or each cell of a body of cells. Later stages take over what earlier ones had.
+/// Says of which material each particle is, or each cell of a body of cells. Later stages take over
+/// what earlier ones had.
 void assign(Model& model, RegionIndex& regions, Faults& faults) {
-  const auto has_all = [&](const Material& material) { return model.scene->regions[material.stage->region].kind == Region::Kind::all; };
-  if (model.materials.size() == 1 && has_all(model.materials[0])) return;  // nobody asks which particles these are, not even in a large body
+  const auto has_all = [&](const Material& material) {
+    return model.scene->regions[material.stage->region].kind == Region::Kind::all;
+  };
+  if (model.materials.size() == 1 && has_all(model.materials[0]))
+    return;  // nobody asks which particles these are, not even in a large body
   const bool of_cells = !model.body.cells.empty();
   const char* member = of_cells ? "cell" : "particle";
-  std::vector<std::uint8_t> material_of(of_cells ? model.body.cells.count() : model.body.particles, no_material);
+  std::vector<std::uint8_t> material_of(of_cells ? model.body.cells.count() : model.body.particles,
+                                        no_material);
   std::vector<std::uint64_t> count(no_material + std::size_t{1});
   for (std::size_t n = 0; n < model.materials.size(); ++n) {
     const Stage& stage = *model.materials[n].stage;
     const auto take = [&](std::span<const Particle> members) {
       if (members.empty())
-        faults.add(stage.pointer + "/region", "", of_cells ? regions.expected_cells(stage.region) : regions.expected_particles(stage.region));
+        faults.add(stage.pointer + "/region", "",
+                   of_cells ? regions.expected_cells(stage.region)
+                            : regions.expected_particles(stage.region));
       for (const Particle taken : members) material_of[taken] = static_cast<std::uint8_t>(n);
     };
     if (of_cells)
@@ -121,13 +144,16 @@ void assign(Model& model, RegionIndex& regions, Faults& faults) {
   for (const std::uint8_t material : material_of) ++count[material];
   for (std::size_t n = 0; n < model.materials.size(); ++n)
     if (count[n] == 0)
-      faults.add(model.materials[n].stage->pointer + "/region", "", fmt::format("{}s of its own; later materials take all of this one's", member));
+      faults.add(model.materials[n].stage->pointer + "/region", "",
+                 fmt::format("{}s of its own; later materials take all of this one's", member));
   if (count[no_material] > 0) {
-    const auto first = static_cast<Particle>(std::find(material_of.begin(), material_of.end(), no_material) - material_of.begin());
+    const auto first = static_cast<Particle>(
+        std::find(material_of.begin(), material_of.end(), no_material) - material_of.begin());
     const Vec3 at = of_cells ? model.body.centre_of_cell(first) : model.body.position(first);
-    faults.add(
-        "/pipeline", "",
-        fmt::format("a material for every {}; {} have none, the first at ({:.6g}, {:.6g}, {:.6g}) m", member, count[no_material], at.x, at.y, at.z));
+    faults.add("/pipeline", "",
+               fmt::format(
+                   "a material for every {}; {} have none, the first at ({:.6g}, {:.6g}, {:.6g}) m",
+                   member, count[no_material], at.x, at.y, at.z));
   }
   if (!faults.empty() || model.materials.size() == 1) return;
   if (of_cells)
@@ -141,7 +167,8 @@ void assign(Model& model, RegionIndex& regions, Faults& faults) {
 void add_materials(Model& model, RegionIndex& regions, Faults& faults) {
   const std::vector<const Stage*> stages = model.scene->of(Family::materials);
   if (stages.empty()) faults.add("/pipeline", "", "a stage that is a material");
-  if (stages.size() >= no_material) faults.add(stages.back()->pointer, "", fmt::format("at most {} materials", no_material - 1));
+  if (stages.size() >= no_material)
+    faults.add(stages.back()->pointer, "", fmt::format("at most {} materials", no_material - 1));
   if (!faults.empty()) return;
   const LatticeGeometry geometry = geometry_from(model.body);
   const LatticeFacts facts = facts_of(model, geometry);

@@ -1,8 +1,10 @@
-// What a region means in terms of points and faces, whatever these are in a body. `Places` answers for one kind of body:
+// What a region means in terms of points and faces, whatever these are in a body. `Places` answers
+// for one kind of body:
 //   Point, Face                                         a particle; an open piece of the surface
 //   bool in_solid(region, point), has_face(region, point), is_outermost(point, direction)
-//   bool is_open(region, face)                          whether the face is open to the side that the region means
-//   void for_points(face, visit)                        the particles that the face belongs to
+//   bool is_open(region, face)                          whether the face is open to the side that
+//   the region means void for_points(face, visit)                        the particles that the
+//   face belongs to
 #pragma once
 
 #include <geometry/region.hpp>
@@ -37,7 +39,8 @@ class Meaning {
       case Region::Kind::intersection:
         return std::all_of(region.parts.begin(), region.parts.end(), part_holds);
       case Region::Kind::difference:
-        return part_holds(region.parts.front()) && std::none_of(region.parts.begin() + 1, region.parts.end(), part_holds);
+        return part_holds(region.parts.front()) &&
+               std::none_of(region.parts.begin() + 1, region.parts.end(), part_holds);
     }
     return false;
   }
@@ -52,7 +55,8 @@ class Meaning {
       case Region::Kind::intersection:
         return std::all_of(region.parts.begin(), region.parts.end(), part_means);
       case Region::Kind::difference:
-        return part_means(region.parts.front()) && std::none_of(region.parts.begin() + 1, region.parts.end(), part_holds);
+        return part_means(region.parts.front()) &&
+               std::none_of(region.parts.begin() + 1, region.parts.end(), part_holds);
       default:
         return places_.is_open(region, face) && holds_all(region, face);
     }

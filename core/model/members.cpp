@@ -20,7 +20,8 @@ struct Sites {
   const Surfaces& surfaces;
 
   bool in_solid(const Region& region, Site particle) const {
-    return body.cells.empty() ? region.inside(body.position(particle)) : touches(region, body.position(particle));
+    return body.cells.empty() ? region.inside(body.position(particle))
+                              : touches(region, body.position(particle));
   }
 
   /// Whether the face is open to the side that the region means.
@@ -38,17 +39,22 @@ struct Sites {
     }
   }
 
-  /// Calls visit(site) for each particle that the face belongs to: its corners, or the one whose cell it is.
+  /// Calls visit(site) for each particle that the face belongs to: its corners, or the one whose
+  /// cell it is.
   template <class Visit>
   void for_points(const Face& face, const Visit& visit) const {
     const Site cell = face.cell;
     if (body.cells.empty()) return visit(cell);
-    const auto corner = [&](int axis, int along, int across) {  // 0 or 1 cells from the low corner, along one axis
-      return axis == face.direction / 2 ? face.direction % 2 : axis == (face.direction / 2 + 1) % 3 ? along : across;
+    const auto corner = [&](int axis, int along,
+                            int across) {  // 0 or 1 cells from the low corner, along one axis
+      return axis == face.direction / 2             ? face.direction % 2
+             : axis == (face.direction / 2 + 1) % 3 ? along
+                                                    : across;
     };
     for (const int along : {0, 1})
       for (const int across : {0, 1})
-        visit(Site{cell.i + corner(0, along, across), cell.j + corner(1, along, across), cell.k + corner(2, along, across)});
+        visit(Site{cell.i + corner(0, along, across), cell.j + corner(1, along, across),
+                   cell.k + corner(2, along, across)});
   }
 
   /// Whether a face that belongs to the particle is open to the side that the region means.
@@ -62,8 +68,11 @@ struct Sites {
     bool found = false;
     for_cells_of({}, [&](int di, int dj, int dk) {
       const Site cell{particle.i + di, particle.j + dj, particle.k + dk};
-      const int offset[3] = {di, dj, dk};  // of a cell below the particle, that is at the cell's upper face
-      found = found || (body.cells.holds(cell) && any_open(cell, [&](int direction) { return (direction % 2 == 1) == (offset[direction / 2] < 0); }));
+      const int offset[3] = {di, dj,
+                             dk};  // of a cell below the particle, that is at the cell's upper face
+      found = found || (body.cells.holds(cell) && any_open(cell, [&](int direction) {
+                          return (direction % 2 == 1) == (offset[direction / 2] < 0);
+                        }));
     });
     return found;
   }
@@ -72,7 +81,9 @@ struct Sites {
   bool touches(const Region& solid, Vec3 point) const {
     const double rounding = 1e-6 * body.grid.spacing;
     const Vec3 low = solid.low - point, high = solid.high - point;
-    if (std::max({low.x, low.y, low.z}) > rounding || std::min({high.x, high.y, high.z}) < -rounding) return false;
+    if (std::max({low.x, low.y, low.z}) > rounding ||
+        std::min({high.x, high.y, high.z}) < -rounding)
+      return false;
     if (solid.inside(point)) return true;
     for (const double x : {-rounding, 0.0, rounding})
       for (const double y : {-rounding, 0.0, rounding})
@@ -82,7 +93,8 @@ struct Sites {
   }
 
   bool is_outermost(Site site, int direction) const {
-    const Vec3 outward = face_normals[direction], farthest = direction % 2 == 0 ? body.lowest : body.highest;
+    const Vec3 outward = face_normals[direction],
+               farthest = direction % 2 == 0 ? body.lowest : body.highest;
     return dot(body.position(site) - farthest, outward) > -1e-6 * body.grid.spacing;
   }
 };
@@ -94,7 +106,9 @@ struct Centres {
 
   const Sites& sites;
 
-  Vec3 centre(Site cell) const { return sites.body.position(cell) + 0.5 * sites.body.grid.spacing * Vec3{1, 1, 1}; }
+  Vec3 centre(Site cell) const {
+    return sites.body.position(cell) + 0.5 * sites.body.grid.spacing * Vec3{1, 1, 1};
+  }
   bool in_solid(const Region& region, Site cell) const { return region.inside(centre(cell)); }
   bool has_face(const Region& region, Site cell) const {
     for (int direction = 0; direction < 6; ++direction)
@@ -102,7 +116,8 @@ struct Centres {
     return false;
   }
   bool is_outermost(Site cell, int direction) const {
-    return sites.is_outermost(direction % 2 == 0 ? cell : Site{cell.i + 1, cell.j + 1, cell.k + 1}, direction);
+    return sites.is_outermost(direction % 2 == 0 ? cell : Site{cell.i + 1, cell.j + 1, cell.k + 1},
+                              direction);
   }
 };
 
@@ -115,24 +130,28 @@ std::vector<Particle> cells_in(const Body& body, const Surfaces& surfaces, const
   std::vector<Particle> found;
   for (const Run& run : body.cells.runs())
     for (std::int32_t i = run.begin; i < run.end; ++i)
-      if (meaning.holds(region, {i, run.j, run.k})) found.push_back(run.first + static_cast<Particle>(i - run.begin));
+      if (meaning.holds(region, {i, run.j, run.k}))
+        found.push_back(run.first + static_cast<Particle>(i - run.begin));
   return found;
 }
 
-std::vector<Particle> particles_in(const Body& body, const Surfaces& surfaces, const Region& region) {
+std::vector<Particle> particles_in(const Body& body, const Surfaces& surfaces,
+                                   const Region& region) {
   const Sites sites{body, surfaces};
   const Meaning<Sites> meaning(sites);
   std::vector<Particle> found;
   for (const Run& run : body.runs)
     for (std::int32_t i = run.begin; i < run.end; ++i)
-      if (meaning.holds(region, {i, run.j, run.k})) found.push_back(run.first + static_cast<Particle>(i - run.begin));
+      if (meaning.holds(region, {i, run.j, run.k}))
+        found.push_back(run.first + static_cast<Particle>(i - run.begin));
   return found;
 }
 
 std::vector<OpenArea> open_areas(const Body& body, const Surfaces& surfaces, const Region& region) {
   const Sites sites{body, surfaces};
   const Meaning<Sites> meaning(sites);
-  const double face_area = body.grid.spacing * body.grid.spacing, share = body.cells.empty() ? 1 : 0.25;
+  const double face_area = body.grid.spacing * body.grid.spacing,
+               share = body.cells.empty() ? 1 : 0.25;
   std::map<Particle, Vec3> areas;
   for (const Run& run : body.cells.empty() ? std::span(body.runs) : body.cells.runs())
     for (Site cell{run.begin, run.j, run.k}; cell.i < run.end; ++cell.i) {

@@ -5,8 +5,10 @@
 
 namespace hyperlattice {
 
-Mixtures::Mixtures(const Body& body, std::span<const std::uint8_t> material_of, std::size_t materials) {
-  for (std::size_t material = 0; material < materials; ++material) around_.emplace_back().fill(static_cast<std::uint8_t>(material));
+Mixtures::Mixtures(const Body& body, std::span<const std::uint8_t> material_of,
+                   std::size_t materials) {
+  for (std::size_t material = 0; material < materials; ++material)
+    around_.emplace_back().fill(static_cast<std::uint8_t>(material));
   std::map<Around, std::uint32_t> known;
   of_particle_.reserve(body.particles);
   for (const Run& run : body.runs)
@@ -26,7 +28,8 @@ Mixtures::Mixtures(const Body& body, std::span<const std::uint8_t> material_of, 
         of_particle_.push_back(first);
         continue;
       }
-      const auto [entry, is_new] = known.try_emplace(here, static_cast<std::uint32_t>(around_.size()));
+      const auto [entry, is_new] =
+          known.try_emplace(here, static_cast<std::uint32_t>(around_.size()));
       if (is_new) around_.push_back(here);
       of_particle_.push_back(entry->second);
     }
@@ -44,12 +47,17 @@ std::uint8_t Mixtures::commonest(std::uint32_t mixture) const {
   return found;
 }
 
-double Mixtures::bytes() const { return static_cast<double>(of_particle_.size() * sizeof(std::uint32_t) + around_.size() * sizeof(Around)); }
+double Mixtures::bytes() const {
+  return static_cast<double>(of_particle_.size() * sizeof(std::uint32_t) +
+                             around_.size() * sizeof(Around));
+}
 
 namespace {
 
-/// Constants of the springs that are the mean of cells of these materials. The weakest material says when they break.
-SpringConstants mean_spring(const Model& model, const std::vector<std::uint8_t>& cells, std::uint32_t spring_class) {
+/// Constants of the springs that are the mean of cells of these materials. The weakest material
+/// says when they break.
+SpringConstants mean_spring(const Model& model, const std::vector<std::uint8_t>& cells,
+                            std::uint32_t spring_class) {
   const double part = 1 / static_cast<double>(cells.size());
   SpringConstants mean;
   for (const std::uint8_t material : cells) {
@@ -58,7 +66,8 @@ SpringConstants mean_spring(const Model& model, const std::vector<std::uint8_t>&
     mean.cross_stiffness += part * own.cross_stiffness;
     mean.alarm = std::min(mean.alarm, own.alarm);
     for (int cross = 0; cross < 2; ++cross)
-      for (std::size_t n = 0; n < max_law_constants; ++n) mean.law[cross][n] += part * own.law[cross][n];
+      for (std::size_t n = 0; n < max_law_constants; ++n)
+        mean.law[cross][n] += part * own.law[cross][n];
   }
   return mean;
 }
@@ -66,18 +75,23 @@ SpringConstants mean_spring(const Model& model, const std::vector<std::uint8_t>&
 }  // namespace
 
 void add_mixtures(Model& model) {
-  const auto mixtures = static_cast<std::uint32_t>(model.mixtures.count()), materials = static_cast<std::uint32_t>(model.materials.size());
-  std::map<std::pair<std::uint32_t, std::vector<std::uint8_t>>, std::uint32_t> known;  // by class and materials
+  const auto mixtures = static_cast<std::uint32_t>(model.mixtures.count()),
+             materials = static_cast<std::uint32_t>(model.materials.size());
+  std::map<std::pair<std::uint32_t, std::vector<std::uint8_t>>, std::uint32_t>
+      known;  // by class and materials
   std::vector<std::uint8_t> cells;
   for (std::uint32_t mixture = 0; mixture < mixtures; ++mixture) {
     for (const Neighbour& to : model.body.neighbours) {
       cells.clear();
-      model.mixtures.for_cells(mixture, to, [&](std::uint8_t material) { cells.push_back(material); });
+      model.mixtures.for_cells(mixture, to,
+                               [&](std::uint8_t material) { cells.push_back(material); });
       std::sort(cells.begin(), cells.end());  // sums do not depend on where a cell is
       const std::uint8_t first = cells.empty() ? std::uint8_t{0} : cells.front();
-      std::uint32_t place = (first * materials + first) * model.body.grid.spring_classes + to.spring_class;
+      std::uint32_t place =
+          (first * materials + first) * model.body.grid.spring_classes + to.spring_class;
       if (!cells.empty() && cells.back() != first) {
-        const auto [entry, is_new] = known.try_emplace({to.spring_class, cells}, static_cast<std::uint32_t>(model.springs.size()));
+        const auto [entry, is_new] = known.try_emplace(
+            {to.spring_class, cells}, static_cast<std::uint32_t>(model.springs.size()));
         if (is_new) model.springs.push_back(mean_spring(model, cells, to.spring_class));
         place = entry->second;
       }
@@ -85,7 +99,8 @@ void add_mixtures(Model& model) {
     }
     if (mixture < materials) continue;
     cells.clear();
-    model.mixtures.for_cells(mixture, {}, [&](std::uint8_t material) { cells.push_back(material); });
+    model.mixtures.for_cells(mixture, {},
+                             [&](std::uint8_t material) { cells.push_back(material); });
     double mass = 0, alpha = 0;
     for (const std::uint8_t material : cells) {
       mass += model.masses[material];

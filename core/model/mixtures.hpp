@@ -1,5 +1,7 @@
-// Bodies of cells of several materials. A cell is of the material at its centre; a particle or a spring is the mean of the cells that it belongs to,
-// so that the body is the sum of its cells. What the cells around a particle are of, its mixture, says what its mass is and which springs it has.
+// Bodies of cells of several materials. A cell is of the material at its centre; a particle or a
+// spring is the mean of the cells that it belongs to, so that the body is the sum of its cells.
+// What the cells around a particle are of, its mixture, says what its mass is and which springs it
+// has.
 #pragma once
 
 #include <model/body.hpp>
@@ -28,7 +30,8 @@ class SpringMaterials {
 class Mixtures {
  public:
   static constexpr std::uint8_t no_cell = 255;
-  using Around = std::array<std::uint8_t, 8>;  ///< materials of the cells around a particle, x fastest; no_cell where none is
+  using Around = std::array<std::uint8_t, 8>;  ///< materials of the cells around a particle, x
+                                               ///< fastest; no_cell where none is
 
   Mixtures() = default;
   /// `material_of`: of each cell, in the order of the body's runs of cells.
@@ -39,20 +42,24 @@ class Mixtures {
   /// The first mixtures are of one material alone, in the order of the materials.
   std::uint32_t of(Particle particle) const { return of_particle_[particle]; }
   const Around& around(std::uint32_t mixture) const { return around_[mixture]; }
-  std::uint8_t commonest(std::uint32_t mixture) const;  ///< the material that most of its cells are of; of equals the first
+  std::uint8_t commonest(std::uint32_t mixture)
+      const;  ///< the material that most of its cells are of; of equals the first
   double bytes() const;
 
-  /// Calls visit(material) for each cell that is there of the spring to a neighbour; with `to` {}: for each around the particle.
+  /// Calls visit(material) for each cell that is there of the spring to a neighbour; with `to` {}:
+  /// for each around the particle.
   template <class Visit>
   void for_cells(std::uint32_t mixture, const Neighbour& to, const Visit& visit) const {
     for_cells_of(to, [&](int di, int dj, int dk) {
-      if (const std::uint8_t material = around_[mixture][place(di, dj, dk)]; material != no_cell) visit(material);
+      if (const std::uint8_t material = around_[mixture][place(di, dj, dk)]; material != no_cell)
+        visit(material);
     });
   }
 
  private:
   static std::size_t place(int di, int dj, int dk) {
-    return 4 * static_cast<std::size_t>(dk + 1) + 2 * static_cast<std::size_t>(dj + 1) + static_cast<std::size_t>(di + 1);
+    return 4 * static_cast<std::size_t>(dk + 1) + 2 * static_cast<std::size_t>(dj + 1) +
+           static_cast<std::size_t>(di + 1);
   }
 
   std::vector<std::uint32_t> of_particle_;

@@ -25,11 +25,13 @@ Body make_body(const Scene& scene) {
   Faults faults;
   const std::vector<const Stage*> lattices = scene.of(Family::lattices);
   if (lattices.empty()) faults.add("/pipeline", "", "a stage that is a lattice");
-  for (std::size_t n = 1; n < lattices.size(); ++n) faults.add(lattices[n]->pointer, lattices[n]->component->type(), "one lattice only");
+  for (std::size_t n = 1; n < lattices.size(); ++n)
+    faults.add(lattices[n]->pointer, lattices[n]->component->type(), "one lattice only");
   faults.throw_if_any();
   const ComponentPointer lattice = make_component(*lattices[0]);
   try {
-    return build_body(lattices[0]->functions<LatticeFunctions>(), lattice.get(), false, lattices[0]->component);
+    return build_body(lattices[0]->functions<LatticeFunctions>(), lattice.get(), false,
+                      lattices[0]->component);
   } catch (const std::invalid_argument& refused) {
     throw refusal(*lattices[0], refused.what());
   }

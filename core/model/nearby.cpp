@@ -21,31 +21,40 @@ Nearby::Nearby(const Body& body) : body_(body), width_(body.grid.spacing) {
 
 Nearby::Cell Nearby::cell_of(Vec3 point) const {
   const Vec3 steps = (1 / width_) * (point - body_.lowest);
-  return {static_cast<std::int64_t>(std::floor(steps.x)), static_cast<std::int64_t>(std::floor(steps.y)),
+  return {static_cast<std::int64_t>(std::floor(steps.x)),
+          static_cast<std::int64_t>(std::floor(steps.y)),
           static_cast<std::int64_t>(std::floor(steps.z))};
 }
 
 std::span<const Particle> Nearby::particles(Cell cell) const {
-  if (cell.i < 0 || cell.j < 0 || cell.k < 0 || cell.i >= size_.i || cell.j >= size_.j || cell.k >= size_.k) return {};
+  if (cell.i < 0 || cell.j < 0 || cell.k < 0 || cell.i >= size_.i || cell.j >= size_.j ||
+      cell.k >= size_.k)
+    return {};
   const auto number = static_cast<std::size_t>((cell.k * size_.j + cell.j) * size_.i + cell.i);
   return {sorted_.data() + first_[number], sorted_.data() + first_[number + 1]};
 }
 
-/// Shell by shell of cells, until none farther out can hold a nearer one. Of several as near, the first in the particles' order.
+/// Shell by shell of cells, until none farther out can hold a nearer one. Of several as near, the
+/// first in the particles' order.
 Nearby::Found Nearby::nearest(Vec3 point) const {
   const Cell centre = cell_of(point);
-  const auto beyond = [](std::int64_t at, std::int64_t size) { return std::max({std::int64_t{0}, -at, at - (size - 1)}); };
-  const std::int64_t first = std::max({beyond(centre.i, size_.i), beyond(centre.j, size_.j), beyond(centre.k, size_.k)});
+  const auto beyond = [](std::int64_t at, std::int64_t size) {
+    return std::max({std::int64_t{0}, -at, at - (size - 1)});
+  };
+  const std::int64_t first =
+      std::max({beyond(centre.i, size_.i), beyond(centre.j, size_.j), beyond(centre.k, size_.k)});
   const std::int64_t last = first + std::max({size_.i, size_.j, size_.k});
   Found found;
-  for (std::int64_t shell = first; shell <= last && static_cast<double>(shell - 1) * width_ <= found.distance; ++shell)
+  for (std::int64_t shell = first;
+       shell <= last && static_cast<double>(shell - 1) * width_ <= found.distance; ++shell)
     for (std::int64_t k = -shell; k <= shell; ++k)
       for (std::int64_t j = -shell; j <= shell; ++j) {
         const bool on_shell = std::max(std::abs(k), std::abs(j)) == shell;
         for (std::int64_t i = -shell; i <= shell; i += on_shell || shell == 0 ? 1 : 2 * shell)
           for (const Particle p : particles({centre.i + i, centre.j + j, centre.k + k})) {
             const double distance = norm(body_.position(p) - point);
-            if (distance < found.distance || (distance == found.distance && p < found.particle)) found = {p, distance};
+            if (distance < found.distance || (distance == found.distance && p < found.particle))
+              found = {p, distance};
           }
       }
   return found;

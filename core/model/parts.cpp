@@ -1,5 +1,5 @@
-// Which particles springs join. Most bodies are long rows of particles that springs along x join: those are joined as one, so that a body of many
-// millions of particles is counted by its rows.
+// Which particles springs join. Most bodies are long rows of particles that springs along x join:
+// those are joined as one, so that a body of many millions of particles is counted by its rows.
 #include <model/body_figures.hpp>
 
 #include <algorithm>
@@ -11,7 +11,9 @@ namespace {
 
 class Sets {
  public:
-  explicit Sets(std::size_t count) : parent_(count), sets_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+  explicit Sets(std::size_t count) : parent_(count), sets_(count) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  }
 
   void join(std::size_t a, std::size_t b) {
     a = root(a);
@@ -44,16 +46,20 @@ struct Pieces {
 
   explicit Pieces(const Body& body) {
     const auto along_x =
-        std::find_if(body.neighbours.begin(), body.neighbours.end(), [](const Neighbour& n) { return n.dx == 1 && n.dy == 0 && n.dz == 0; });
+        std::find_if(body.neighbours.begin(), body.neighbours.end(),
+                     [](const Neighbour& n) { return n.dx == 1 && n.dy == 0 && n.dz == 0; });
     for (std::int32_t k = 0; k < body.grid.sites[2]; ++k)
       for (std::int32_t j = 0; j < body.grid.sites[1]; ++j) {
         rows.push_back(all.size());
-        const std::vector<Range> springs = along_x == body.neighbours.end() ? std::vector<Range>{} : body.springs_of(j, k, *along_x);
+        const std::vector<Range> springs = along_x == body.neighbours.end()
+                                               ? std::vector<Range>{}
+                                               : body.springs_of(j, k, *along_x);
         auto spring = springs.begin();
         for (const Run& run : body.row(j, k))
           for (std::int32_t i = run.begin; i < run.end;) {
             while (spring != springs.end() && spring->end <= i) ++spring;
-            const std::int32_t end = spring != springs.end() && spring->begin <= i ? spring->end + 1 : i + 1;
+            const std::int32_t end =
+                spring != springs.end() && spring->begin <= i ? spring->end + 1 : i + 1;
             all.push_back({i, end});
             i = end;
           }
@@ -63,9 +69,12 @@ struct Pieces {
 
   /// The first piece of a row that ends beyond the site.
   std::size_t from(std::size_t row, std::int32_t site) const {
-    const auto first = all.begin() + static_cast<std::ptrdiff_t>(rows[row]), last = all.begin() + static_cast<std::ptrdiff_t>(rows[row + 1]);
-    return static_cast<std::size_t>(std::upper_bound(first, last, site, [](std::int32_t i, const Piece& piece) { return i < piece.end; }) -
-                                    all.begin());
+    const auto first = all.begin() + static_cast<std::ptrdiff_t>(rows[row]),
+               last = all.begin() + static_cast<std::ptrdiff_t>(rows[row + 1]);
+    return static_cast<std::size_t>(
+        std::upper_bound(first, last, site,
+                         [](std::int32_t i, const Piece& piece) { return i < piece.end; }) -
+        all.begin());
   }
 };
 
@@ -79,17 +88,20 @@ std::uint64_t count_parts(const Body& body) {
   }
   const Pieces pieces(body);
   const auto row_of = [&](std::int32_t j, std::int32_t k) {
-    return static_cast<std::size_t>(k) * static_cast<std::size_t>(body.grid.sites[1]) + static_cast<std::size_t>(j);
+    return static_cast<std::size_t>(k) * static_cast<std::size_t>(body.grid.sites[1]) +
+           static_cast<std::size_t>(j);
   };
   Sets sets(pieces.all.size());
   for (std::int32_t k = 0; k < body.grid.sites[2]; ++k)
     for (std::int32_t j = 0; j < body.grid.sites[1]; ++j)
       for (const Neighbour& to : body.neighbours)
         for (const Range& range : body.springs_of(j, k, to)) {
-          std::size_t here = pieces.from(row_of(j, k), range.begin), there = pieces.from(row_of(j + to.dy, k + to.dz), range.begin + to.dx);
+          std::size_t here = pieces.from(row_of(j, k), range.begin),
+                      there = pieces.from(row_of(j + to.dy, k + to.dz), range.begin + to.dx);
           for (std::int32_t i = range.begin; i < range.end;) {
             sets.join(here, there);
-            const std::int32_t here_ends = pieces.all[here].end, there_ends = pieces.all[there].end - to.dx;
+            const std::int32_t here_ends = pieces.all[here].end,
+                               there_ends = pieces.all[there].end - to.dx;
             i = std::min(here_ends, there_ends);
             if (here_ends <= i) ++here;
             if (there_ends <= i) ++there;

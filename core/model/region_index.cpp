@@ -8,7 +8,8 @@ namespace hyperlattice {
 namespace {
 
 bool is_surface(const Region& region) {
-  return region.kind == Region::Kind::surface || region.kind == Region::Kind::inner_surface || region.kind == Region::Kind::outer_surface;
+  return region.kind == Region::Kind::surface || region.kind == Region::Kind::inner_surface ||
+         region.kind == Region::Kind::outer_surface;
 }
 
 bool is_set(const Region& region) { return !region.parts.empty(); }
@@ -28,20 +29,25 @@ std::string what(const Region& region) {
     case Region::Kind::face:
       return "the outermost layer of one side";
     case Region::Kind::solid:
-      return fmt::format("a {} between {} and {} m", region.primitive, text(region.low), text(region.high));
+      return fmt::format("a {} between {} and {} m", region.primitive, text(region.low),
+                         text(region.high));
     default:
       break;
   }
   std::string parts;
   for (const auto& part : region.parts) parts += (parts.empty() ? "" : "; ") + what(*part);
-  const char* name = region.kind == Region::Kind::set_union ? "union" : region.kind == Region::Kind::intersection ? "intersection" : "difference";
+  const char* name = region.kind == Region::Kind::set_union      ? "union"
+                     : region.kind == Region::Kind::intersection ? "intersection"
+                                                                 : "difference";
   return fmt::format("the {} of ({})", name, parts);
 }
 
 }  // namespace
 
 const Region& RegionIndex::existing(RegionId region) const {
-  if (region.index >= regions_.size()) throw PluginMistake(fmt::format("it asks about region {}; there are {}", region.index, regions_.size()));
+  if (region.index >= regions_.size())
+    throw PluginMistake(
+        fmt::format("it asks about region {}; there are {}", region.index, regions_.size()));
   return regions_[region];
 }
 
@@ -56,28 +62,34 @@ const Skin& RegionIndex::skin() {
 }
 
 const Region* RegionIndex::filled() const {
-  return body_.grid.shape == nullptr ? nullptr : static_cast<const Region*>(body_.grid.shape->self);  // see Regions::shape
+  return body_.grid.shape == nullptr
+             ? nullptr
+             : static_cast<const Region*>(body_.grid.shape->self);  // see Regions::shape
 }
 
 std::span<const Particle> RegionIndex::particles(RegionId region) {
   const Region& wanted = existing(region);  // before an entry stands for it
   const auto [entry, is_new] = particles_.try_emplace(region.index);
   if (is_new)
-    entry->second = body_.is_cubic() ? particles_in(body_, surfaces(), wanted)
-                                     : particles_in(
-                                           body_, [this]() -> const Skin& { return skin(); }, wanted);
+    entry->second = body_.is_cubic()
+                        ? particles_in(body_, surfaces(), wanted)
+                        : particles_in(
+                              body_, [this]() -> const Skin& { return skin(); }, wanted);
   return entry->second;
 }
 
-std::vector<Particle> RegionIndex::cells(RegionId region) { return cells_in(body_, surfaces(), regions_[region]); }
+std::vector<Particle> RegionIndex::cells(RegionId region) {
+  return cells_in(body_, surfaces(), regions_[region]);
+}
 
 std::span<const OpenArea> RegionIndex::open_areas(RegionId region) {
   const Region& wanted = existing(region);
   const auto [entry, is_new] = open_areas_.try_emplace(region.index);
   if (is_new)
-    entry->second = body_.is_cubic() ? hyperlattice::open_areas(body_, surfaces(), wanted)
-                                     : hyperlattice::open_areas(
-                                           body_, [this]() -> const Skin& { return skin(); }, wanted);
+    entry->second = body_.is_cubic()
+                        ? hyperlattice::open_areas(body_, surfaces(), wanted)
+                        : hyperlattice::open_areas(
+                              body_, [this]() -> const Skin& { return skin(); }, wanted);
   return entry->second;
 }
 
@@ -107,7 +119,9 @@ Vec3 RegionIndex::centre(RegionId region) {
   return count == 0 ? sum : (1 / static_cast<double>(count)) * sum;
 }
 
-std::string RegionIndex::expected_particles(RegionId region) const { return expected(region, "particles", "none of the body's, which stand"); }
+std::string RegionIndex::expected_particles(RegionId region) const {
+  return expected(region, "particles", "none of the body's, which stand");
+}
 
 std::string RegionIndex::expected_cells(RegionId region) const {
   return expected(region, "cells", "the centre of none of the body's, whose corners stand");
@@ -115,9 +129,12 @@ std::string RegionIndex::expected_cells(RegionId region) const {
 
 std::string RegionIndex::expected(RegionId region, const char* members, const char* held) const {
   const std::string& name = regions_.name(region);
-  const std::string named = name.starts_with('{') ? "" : fmt::format("\"{}\", ", name);  // one that the scene describes in place has no name
-  return fmt::format("a region with {}; {}{}, holds {} between {} and {} m", members, named, what(regions_[region]), held, text(body_.lowest),
-                     text(body_.highest));
+  const std::string named =
+      name.starts_with('{')
+          ? ""
+          : fmt::format("\"{}\", ", name);  // one that the scene describes in place has no name
+  return fmt::format("a region with {}; {}{}, holds {} between {} and {} m", members, named,
+                     what(regions_[region]), held, text(body_.lowest), text(body_.highest));
 }
 
 }  // namespace hyperlattice

@@ -14,12 +14,15 @@ class RegionIndex {
   RegionIndex(const Body& body, const Regions& regions) : body_(body), regions_(regions) {}
 
   std::span<const Particle> particles(RegionId region);  ///< ascending
-  std::vector<Particle> cells(RegionId region);          ///< places in the body's cells, ascending: a solid holds those whose centres are inside
+  std::vector<Particle> cells(RegionId region);  ///< places in the body's cells, ascending: a solid
+                                                 ///< holds those whose centres are inside
   std::span<const OpenArea> open_areas(RegionId region);
-  double true_area(RegionId region) const;  ///< m2, of a surface of the shape that the lattice filled; 0 if unknown
-  Vec3 centre(RegionId region);             ///< of the shape behind the region; else of its particles
+  double true_area(RegionId region)
+      const;  ///< m2, of a surface of the shape that the lattice filled; 0 if unknown
+  Vec3 centre(RegionId region);  ///< of the shape behind the region; else of its particles
 
-  /// What an empty region is and where the body is, for a fault: "a region with particles; "slab", a box ..., holds none ...".
+  /// What an empty region is and where the body is, for a fault: "a region with particles; "slab",
+  /// a box ..., holds none ...".
   std::string expected_particles(RegionId region) const;
   /// The same of a region that holds no cell.
   std::string expected_cells(RegionId region) const;

@@ -1,5 +1,6 @@
-// The surface of a body that is not made of cubic cells: that of the small cubes which fill its shape, each open face given to the nearest particle.
-// Its area is right where the shape's faces are flat and fit the cubes, whatever the particles are like behind it.
+// The surface of a body that is not made of cubic cells: that of the small cubes which fill its
+// shape, each open face given to the nearest particle. Its area is right where the shape's faces
+// are flat and fit the cubes, whatever the particles are like behind it.
 #pragma once
 
 #include <model/surfaces.hpp>
@@ -10,7 +11,8 @@ namespace hyperlattice {
 
 class Skin {
  public:
-  /// Cubes half a spacing wide inside the shape that the lattice filled; without one, those near to a particle.
+  /// Cubes half a spacing wide inside the shape that the lattice filled; without one, those near to
+  /// a particle.
   explicit Skin(const Body& body);
 
   struct Face {
@@ -30,7 +32,9 @@ class Skin {
 };
 
 /// As those of surfaces.hpp. The skin is asked for only by regions that mean a surface.
-std::vector<Particle> particles_in(const Body& body, const std::function<const Skin&()>& skin, const Region& region);
-std::vector<OpenArea> open_areas(const Body& body, const std::function<const Skin&()>& skin, const Region& region);
+std::vector<Particle> particles_in(const Body& body, const std::function<const Skin&()>& skin,
+                                   const Region& region);
+std::vector<OpenArea> open_areas(const Body& body, const std::function<const Skin&()>& skin,
+                                 const Region& region);
 
 }  // namespace hyperlattice

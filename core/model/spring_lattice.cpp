@@ -12,11 +12,14 @@ using Membrane = KernelChoice::Membrane;
 
 Membrane membrane_of(const MaterialConstants& constants) {
   if (constants.clamped) return constants.has_cross_springs() ? Membrane::clamped : Membrane::none;
-  return constants.has_cross_springs() || constants.alpha_ratio != 0 ? Membrane::free : Membrane::none;
+  return constants.has_cross_springs() || constants.alpha_ratio != 0 ? Membrane::free
+                                                                     : Membrane::none;
 }
 
-/// No number if the springs make no solid: a plugin asks, and nothing may be thrown across its library.
-ElasticConstants list_constants(const LatticeGeometry& of, const MaterialConstants& constants) noexcept {
+/// No number if the springs make no solid: a plugin asks, and nothing may be thrown across its
+/// library.
+ElasticConstants list_constants(const LatticeGeometry& of,
+                                const MaterialConstants& constants) noexcept {
   try {
     return homogenise(*of.listed, of.volume, of.membrane_distance, constants);
   } catch (...) {
@@ -28,26 +31,37 @@ ElasticConstants list_constants(const LatticeGeometry& of, const MaterialConstan
 }  // namespace
 
 LatticeGeometry geometry_from(const Grid& grid) {
-  return {geometry_of(grid), grid.spring_classes, grid.spacing, grid.site_volume, grid.membrane_distance, grid.basis, grid.class_stiffness, {}, 0};
+  return {geometry_of(grid),
+          grid.spring_classes,
+          grid.spacing,
+          grid.site_volume,
+          grid.membrane_distance,
+          grid.basis,
+          grid.class_stiffness,
+          {},
+          0};
 }
 
 LatticeGeometry geometry_from(const Body& body) {
   LatticeGeometry geometry = geometry_from(body.grid);
   if (!body.is_listed()) return geometry;
   geometry.listed = {std::shared_ptr<void>(), &body.listed};  // no owner
-  for (Particle p = 0; p < body.particles; ++p) geometry.volume += body.share(p) * body.grid.site_volume;
+  for (Particle p = 0; p < body.particles; ++p)
+    geometry.volume += body.share(p) * body.grid.site_volume;
   return geometry;
 }
 
 SpringLattice::SpringLattice(LatticeGeometry geometry, const MaterialConstants& constants)
     : geometry_(std::move(geometry)), constants_(constants), membrane_(membrane_of(constants)) {
   for (std::uint32_t c = 0; c < geometry_.spring_classes; ++c)
-    springs_.push_back({geometry_.class_stiffness[c] * constants.base_stiffness, constants.cross_ratio[c] * constants.base_stiffness, infinity});
+    springs_.push_back({geometry_.class_stiffness[c] * constants.base_stiffness,
+                        constants.cross_ratio[c] * constants.base_stiffness, infinity});
   alpha_ = constants.clamped ? 0 : constants.alpha_ratio * constants.base_stiffness;
 }
 
 InfiniteLattice SpringLattice::endless() const {
-  return {geometry_.neighbours, springs_, alpha_, geometry_.membrane_distance, membrane_, geometry_.spacing, geometry_.basis};
+  return {geometry_.neighbours, springs_,       alpha_, geometry_.membrane_distance, membrane_,
+          geometry_.spacing,    geometry_.basis};
 }
 
 LatticeFacts facts_of(const LatticeGeometry& geometry) {
@@ -63,13 +77,16 @@ LatticeFacts facts_of(const LatticeGeometry& geometry) {
     return PluginCall::answer(ElasticConstants(), [&] {
       const auto& of = *static_cast<const LatticeGeometry*>(self);
       if (of.listed) return list_constants(of, constants);
-      return mean_constants(layer_stiffness(SpringLattice(of, constants).endless(), of.site_volume));
+      return mean_constants(
+          layer_stiffness(SpringLattice(of, constants).endless(), of.site_volume));
     });
   };
   facts.get_stable = [](void* self, const MaterialConstants& constants) noexcept {
     return PluginCall::answer(false, [&] {
       const auto& of = *static_cast<const LatticeGeometry*>(self);
-      if (of.listed) return constants.cross_ratio[0] >= 0 && (constants.clamped || constants.alpha_ratio >= 0);  // no more is known
+      if (of.listed)
+        return constants.cross_ratio[0] >= 0 &&
+               (constants.clamped || constants.alpha_ratio >= 0);  // no more is known
       return !find_instability(SpringLattice(of, constants).endless(), Sector::mirrored);
     });
   };

@@ -1,4 +1,5 @@
-// An endless lattice: any grid's neighbours, or a list's sample, with the springs that a material's constants make of them.
+// An endless lattice: any grid's neighbours, or a list's sample, with the springs that a material's
+// constants make of them.
 #pragma once
 
 #include <model/waves.hpp>
@@ -15,8 +16,9 @@ struct LatticeGeometry {
   double membrane_distance = 0;  ///< Delta, metres
   Basis basis = cubic_basis;     ///< in units of the spacing
   std::array<double, max_spring_classes> class_stiffness{1, 1, 1, 1};
-  std::shared_ptr<const Listed> listed;  ///< in place of neighbours; null: the lattice is structured
-  double volume = 0;                     ///< m3, of the list's own particles
+  std::shared_ptr<const Listed>
+      listed;         ///< in place of neighbours; null: the lattice is structured
+  double volume = 0;  ///< m3, of the list's own particles
 };
 
 LatticeGeometry geometry_from(const Grid& grid);
@@ -41,7 +43,8 @@ class SpringLattice {
   KernelChoice::Membrane membrane_;
 };
 
-/// What a material may ask about a geometry, which must outlive the facts; those of the body are left empty.
+/// What a material may ask about a geometry, which must outlive the facts; those of the body are
+/// left empty.
 LatticeFacts facts_of(const LatticeGeometry& geometry);
 
 }  // namespace hyperlattice

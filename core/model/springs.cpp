@@ -1,8 +1,8 @@
-// Springs between all pairs of materials, and those of mixtures. A spring between two particles of two materials is half of each: two half springs in
-// series,
+// Springs between all pairs of materials, and those of mixtures. A spring between two particles of
+// two materials is half of each: two half springs in series,
 //   k = 2 a b / (a + b),
-// nothing if either has none; constants of the law are the mean of both. (Stiffnesses of opposite sign, which only some membranes have, add up to no
-// series; they take the mean.)
+// nothing if either has none; constants of the law are the mean of both. (Stiffnesses of opposite
+// sign, which only some membranes have, add up to no series; they take the mean.)
 #include <model/build.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -24,7 +24,9 @@ double between(double a, double b) {
 
 /// Of a class; of a listed body, whose springs are of all lengths, nothing.
 double rest_length(const Model& model, std::uint32_t spring_class) {
-  const auto of_class = [spring_class](const NeighbourGeometry& n) { return n.site.spring_class == spring_class; };
+  const auto of_class = [spring_class](const NeighbourGeometry& n) {
+    return n.site.spring_class == spring_class;
+  };
   const auto found = std::find_if(model.neighbours.begin(), model.neighbours.end(), of_class);
   return found == model.neighbours.end() ? 0 : found->rest_length;
 }
@@ -34,40 +36,55 @@ double alarm_of(const Material& material, const SpringFacts& facts) {
   if (!material.failure) return infinity;
   const Stage& stage = *material.failure_stage;
   double alarm = 0;
-  call(stage, "alarm", [&](const Complaint& why) { return stage.functions<FailureFunctions>().alarm(material.failure.get(), facts, alarm, why); });
-  if (std::isnan(alarm)) throw plugin_error(stage, "alarm", "it gives an elongation that is no number (nan)");
+  call(stage, "alarm", [&](const Complaint& why) {
+    return stage.functions<FailureFunctions>().alarm(material.failure.get(), facts, alarm, why);
+  });
+  if (std::isnan(alarm))
+    throw plugin_error(stage, "alarm", "it gives an elongation that is no number (nan)");
   return std::max(alarm, -facts.rest_length);  // no spring is shorter than nothing
 }
 
 KernelSet kernels_of(const Stage& stage, const KernelChoice& choice) {
   KernelSet kernels;
-  call(stage, "kernels", [&](const Complaint& why) { return stage.functions<MaterialFunctions>().kernels(choice, kernels, why); });
+  call(stage, "kernels", [&](const Complaint& why) {
+    return stage.functions<MaterialFunctions>().kernels(choice, kernels, why);
+  });
   const bool remembers = kernels.memory > 0;
-  if (kernels.ask == nullptr || kernels.take == nullptr || kernels.memory > max_law_memory + 2 || (kernels.start != nullptr && !remembers))
-    throw plugin_error(stage, "kernels", "it lacks the functions of one spring, or its springs keep more numbers than they may");
+  if (kernels.ask == nullptr || kernels.take == nullptr || kernels.memory > max_law_memory + 2 ||
+      (kernels.start != nullptr && !remembers))
+    throw plugin_error(
+        stage, "kernels",
+        "it lacks the functions of one spring, or its springs keep more numbers than they may");
   return kernels;
 }
 
-SpringConstants spring_between(const Model& model, const Material& a, const Material& b, std::uint32_t spring_class) {
+SpringConstants spring_between(const Model& model, const Material& a, const Material& b,
+                               std::uint32_t spring_class) {
   const MaterialConstants &left = a.constants, &right = b.constants;
   SpringConstants spring;
-  spring.stiffness = model.body.grid.class_stiffness[spring_class] * between(left.base_stiffness, right.base_stiffness);
-  spring.cross_stiffness = between(left.cross_ratio[spring_class] * left.base_stiffness, right.cross_ratio[spring_class] * right.base_stiffness);
-  const SpringFacts facts{rest_length(model, spring_class), spring.stiffness, model.body.grid.spacing, spring_class, model.crossings};
+  spring.stiffness = model.body.grid.class_stiffness[spring_class] *
+                     between(left.base_stiffness, right.base_stiffness);
+  spring.cross_stiffness = between(left.cross_ratio[spring_class] * left.base_stiffness,
+                                   right.cross_ratio[spring_class] * right.base_stiffness);
+  const SpringFacts facts{rest_length(model, spring_class), spring.stiffness,
+                          model.body.grid.spacing, spring_class, model.crossings};
   spring.alarm = std::min(alarm_of(a, facts), alarm_of(b, facts));
   for (int cross = 0; cross < 2; ++cross)
     for (std::size_t n = 0; n < max_law_constants; ++n)
-      spring.law[cross][n] = 0.5 * (left.law[spring_class][cross][n] + right.law[spring_class][cross][n]);
+      spring.law[cross][n] =
+          0.5 * (left.law[spring_class][cross][n] + right.law[spring_class][cross][n]);
   return spring;
 }
 
-/// A spring of length L crosses a plane that is nearer than its own part along the normal, L / 2 in the mean of all directions.
+/// A spring of length L crosses a plane that is nearer than its own part along the normal, L / 2 in
+/// the mean of all directions.
 double crossings(const Model& model) {
   double length = 0;  // of a particle's springs
   for (const NeighbourGeometry& neighbour : model.neighbours) length += neighbour.rest_length;
   const Listed& listed = model.body.listed;
   for (const ListedSpring& spring : listed.springs)
-    length += norm(listed.positions[spring.b] - listed.positions[spring.a]) / static_cast<double>(model.body.particles);
+    length += norm(listed.positions[spring.b] - listed.positions[spring.a]) /
+              static_cast<double>(model.body.particles);
   return length / (2 * model.body.grid.site_volume);
 }
 
@@ -75,58 +92,65 @@ double crossings(const Model& model) {
 Membrane membrane_of(const std::vector<Material>& materials, Faults& faults) {
   const Material *clamped = nullptr, *free = nullptr;
   for (const Material& material : materials)
-    if (material.constants.has_cross_springs()) (material.constants.clamped ? clamped : free) = &material;
+    if (material.constants.has_cross_springs())
+      (material.constants.clamped ? clamped : free) = &material;
   if (clamped != nullptr && free != nullptr)
     faults.add(clamped->stage->pointer, clamped->stage->component->type(),
-               fmt::format("a membrane that can move in the fourth dimension, as that of {}: clamped and free ones cannot stand in one body",
+               fmt::format("a membrane that can move in the fourth dimension, as that of {}: "
+                           "clamped and free ones cannot stand in one body",
                            free->stage->pointer));
   return free != nullptr ? Membrane::free : clamped != nullptr ? Membrane::clamped : Membrane::none;
 }
 
-/// Where a membrane can move, a material without one still has heights, which nothing would hold. An alpha spring holds them at rest; as
-/// stiff as the sum of the base springs along an axis, it changes neither the body's elasticity nor its time step.
+/// Where a membrane can move, a material without one still has heights, which nothing would hold.
+/// An alpha spring holds them at rest; as stiff as the sum of the base springs along an axis, it
+/// changes neither the body's elasticity nor its time step.
 void hold_heights(Model& model) {
   for (Material& material : model.materials) {
     if (material.constants.has_cross_springs()) continue;
     double ratio = 0;
     for (const NeighbourGeometry& n : model.neighbours)
-      ratio += 2 * model.body.grid.class_stiffness[n.site.spring_class] * n.rest.x * n.rest.x / (n.rest_length * n.rest_length);
+      ratio += 2 * model.body.grid.class_stiffness[n.site.spring_class] * n.rest.x * n.rest.x /
+               (n.rest_length * n.rest_length);
     if (model.body.is_listed())  // as the mean particle has it
-      ratio = 2 * static_cast<double>(model.body.listed.springs.size()) / static_cast<double>(model.body.particles) / 3;
+      ratio = 2 * static_cast<double>(model.body.listed.springs.size()) /
+              static_cast<double>(model.body.particles) / 3;
     material.constants.alpha_ratio = std::max(material.constants.alpha_ratio, ratio);
   }
 }
 
 }  // namespace
 
-Joint Model::joint(Particle a, Particle b, std::uint32_t neighbour) const {
-  Joint joint;
+SpringProperties Model::spring_properties(Particle a, Particle b, std::uint32_t neighbour) const {
+  SpringProperties properties;
   double stiffness = 1;
   if (body.is_listed()) {
-    joint.rest = body.listed.positions[b] - body.listed.positions[a];
-    joint.rest_length = norm(joint.rest);
-    joint.cross_rest_length = std::hypot(joint.rest_length, body.grid.membrane_distance);
+    properties.rest = body.listed.positions[b] - body.listed.positions[a];
+    properties.rest_length = norm(properties.rest);
+    properties.cross_rest_length = std::hypot(properties.rest_length, body.grid.membrane_distance);
     stiffness = body.listed.springs[neighbour].stiffness;
   } else {
     const NeighbourGeometry& to = neighbours[neighbour];
-    joint.rest = to.rest;
-    joint.rest_length = to.rest_length;
-    joint.cross_rest_length = to.cross_rest_length;
-    joint.spring_class = to.site.spring_class;
-    if (!body.cells.empty()) joint.share = body.share(body.site(a), to.site);
+    properties.rest = to.rest;
+    properties.rest_length = to.rest_length;
+    properties.cross_rest_length = to.cross_rest_length;
+    properties.spring_class = to.site.spring_class;
+    if (!body.cells.empty()) properties.share = body.share(body.site(a), to.site);
   }
-  const SpringConstants& constants = body.is_listed() ? spring(material(a), material(b), 0) : spring_to(neighbour, kind(a), kind(b));
-  joint.stiffness = stiffness * constants.stiffness;
-  joint.cross_stiffness = stiffness * constants.cross_stiffness;
-  joint.law = constants.law[0];
-  joint.cross_law = constants.law[1];
-  return joint;
+  const SpringConstants& constants = body.is_listed() ? spring(material(a), material(b), 0)
+                                                      : spring_to(neighbour, kind(a), kind(b));
+  properties.stiffness = stiffness * constants.stiffness;
+  properties.cross_stiffness = stiffness * constants.cross_stiffness;
+  properties.law = constants.law[0];
+  properties.cross_law = constants.law[1];
+  return properties;
 }
 
 SpringMaterials Model::materials_of(Particle a, Particle b, std::uint32_t neighbour) const {
   SpringMaterials found;
   if (!mixtures.empty()) {
-    mixtures.for_cells(mixtures.of(a), body.neighbours[neighbour], [&](std::uint8_t material) { found.add(material); });
+    mixtures.for_cells(mixtures.of(a), body.neighbours[neighbour],
+                       [&](std::uint8_t material) { found.add(material); });
   } else {
     found.add(material(a));
     found.add(material(b));
@@ -134,9 +158,11 @@ SpringMaterials Model::materials_of(Particle a, Particle b, std::uint32_t neighb
   return found;
 }
 
-double Model::alarm(Particle a, Particle b, std::uint32_t neighbour, const Joint& joint) const {
+double Model::alarm(Particle a, Particle b, std::uint32_t neighbour,
+                    const SpringProperties& properties) const {
   double lowest = infinity;
-  for (const std::uint8_t material : materials_of(a, b, neighbour)) lowest = std::min(lowest, alarm_of(materials[material], facts(joint, material)));
+  for (const std::uint8_t material : materials_of(a, b, neighbour))
+    lowest = std::min(lowest, alarm_of(materials[material], facts(properties, material)));
   return lowest;
 }
 
@@ -170,23 +196,29 @@ void set_springs(Model& model, Faults& faults) {
   model.kernels = kernels_of(*model.materials[0].stage, model.choice);
   KernelChoice row = model.choice;  // a listed spring is a row of one
   row.listed = false;
-  if (model.choice.listed) model.kernels.linearise = kernels_of(*model.materials[0].stage, row).linearise;
-  if (model.kernels.step == nullptr || model.kernels.step_damped == nullptr || model.kernels.measure == nullptr) {
+  if (model.choice.listed)
+    model.kernels.linearise = kernels_of(*model.materials[0].stage, row).linearise;
+  if (model.kernels.step == nullptr || model.kernels.step_damped == nullptr ||
+      model.kernels.measure == nullptr) {
     if (model.choice.precision == Precision::floats)
       throw InputError({{"/precision", "float",
-                         fmt::format("double; {} has no kernel in floats for {}", model.materials[0].stage->component->type(),
+                         fmt::format("double; {} has no kernel in floats for {}",
+                                     model.materials[0].stage->component->type(),
                                      model.choice.listed ? "lists of springs" : "this lattice")}});
-    throw refusal(*model.materials[0].stage,
-                  model.choice.listed ? "its law has no kernel for lists of springs" : "its library has no kernel for this membrane");
+    throw refusal(*model.materials[0].stage, model.choice.listed
+                                                 ? "its law has no kernel for lists of springs"
+                                                 : "its library has no kernel for this membrane");
   }
 
   for (const Material& a : model.materials)
     for (const Material& b : model.materials)
-      for (std::uint32_t c = 0; c < model.body.grid.spring_classes; ++c) model.springs.push_back(spring_between(model, a, b, c));
+      for (std::uint32_t c = 0; c < model.body.grid.spring_classes; ++c)
+        model.springs.push_back(spring_between(model, a, b, c));
   for (const Material& material : model.materials) {
     const MaterialConstants& constants = material.constants;
     model.masses.push_back(material.mass);
-    model.alphas.push_back(constants.clamped ? 0 : constants.alpha_ratio * constants.base_stiffness);
+    model.alphas.push_back(constants.clamped ? 0
+                                             : constants.alpha_ratio * constants.base_stiffness);
   }
   if (!model.mixtures.empty()) add_mixtures(model);
 }

@@ -11,10 +11,11 @@ namespace hyperlattice {
 struct Instability {
   bool homogeneous = false;                      ///< a uniform strain; else a wave
   std::array<double, uniform_strains> strain{};  ///< homogeneous: the share of each
-  Wave wave;                                     ///< if not homogeneous; its sector says which lattice has it
+  Wave wave;  ///< if not homogeneous; its sector says which lattice has it
 };
 
-/// What grows in the mirrored layer (Sector::mirrored), or in the full two-layer lattice besides that (Sector::opposed); nothing if stable.
+/// What grows in the mirrored layer (Sector::mirrored), or in the full two-layer lattice besides
+/// that (Sector::opposed); nothing if stable.
 std::optional<Instability> find_instability(const InfiniteLattice& lattice, Sector sector);
 
 /// A sentence that names what grows.

@@ -3,14 +3,17 @@
 
 namespace hyperlattice {
 
-void StiffnessBound::add(const NeighbourGeometry& neighbour, int side, const SpringConstants& spring, double membrane_distance,
+void StiffnessBound::add(const NeighbourGeometry& neighbour, int side,
+                         const SpringConstants& spring, double membrane_distance,
                          KernelChoice::Membrane membrane) {
   const auto add_square = [this](double stiffness, const std::array<double, 4>& n) {
     for (int row = 0, at = 0; row < 4; ++row)
       for (int column = 0; column <= row; ++column)
-        sum_[at++] += std::abs(stiffness) * n[static_cast<std::size_t>(row)] * n[static_cast<std::size_t>(column)];
+        sum_[at++] += std::abs(stiffness) * n[static_cast<std::size_t>(row)] *
+                      n[static_cast<std::size_t>(column)];
   };
-  const auto [x, y, z] = -side * neighbour.rest;  // a particle that goes away from its neighbour lengthens the spring
+  const auto [x, y, z] =
+      -side * neighbour.rest;  // a particle that goes away from its neighbour lengthens the spring
   const double base = neighbour.rest_length, cross = neighbour.cross_rest_length;
   add_square(spring.stiffness, {x / base, y / base, z / base, 0});
   if (membrane == KernelChoice::Membrane::none) return;
@@ -24,7 +27,8 @@ double StiffnessBound::value() const {
   Eigen::Matrix4d sum;
   for (int row = 0, at = 0; row < 4; ++row)
     for (int column = 0; column <= row; ++column) sum(row, column) = sum_[at++];
-  return 2 * numerics::SymmetricEigen<Eigen::Matrix4d>(sum, Eigen::EigenvaluesOnly).eigenvalues()(3);  // reads the lower triangle
+  return 2 * numerics::SymmetricEigen<Eigen::Matrix4d>(sum, Eigen::EigenvaluesOnly)
+                 .eigenvalues()(3);  // reads the lower triangle
 }
 
 }  // namespace hyperlattice

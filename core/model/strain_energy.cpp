@@ -1,5 +1,5 @@
-// A spring of direction n and length L takes up K (L n.e.n)^2 / 2. A site of a layer has every forward base spring, one cross spring beside
-// each, and half of its alpha spring.
+// A spring of direction n and length L takes up K (L n.e.n)^2 / 2. A site of a layer has every
+// forward base spring, one cross spring beside each, and half of its alpha spring.
 #include <model/strain_energy.hpp>
 
 namespace hyperlattice {
@@ -21,9 +21,11 @@ StrainEnergy strain_energy(const InfiniteLattice& lattice) {
   for (const NeighbourGeometry& n : lattice.neighbours) {
     const SpringConstants& spring = lattice.springs[n.site.spring_class];
     const auto [x, y, z] = n.rest;
-    add(sum, spring.stiffness / (n.rest_length * n.rest_length), {x * x, y * y, z * z, y * z, x * z, x * y, 0});
+    add(sum, spring.stiffness / (n.rest_length * n.rest_length),
+        {x * x, y * y, z * z, y * z, x * z, x * y, 0});
     if (lattice.membrane == KernelChoice::Membrane::none) continue;
-    add(sum, spring.cross_stiffness / (n.cross_rest_length * n.cross_rest_length), {x * x, y * y, z * z, y * z, x * z, x * y, square});
+    add(sum, spring.cross_stiffness / (n.cross_rest_length * n.cross_rest_length),
+        {x * x, y * y, z * z, y * z, x * z, x * y, square});
   }
   sum[ww][ww] += lattice.alpha * square / 2;
   return sum;
@@ -36,14 +38,16 @@ LayerStiffness layer_stiffness(const InfiniteLattice& lattice, double site_volum
   for (std::size_t i = 0; i < ww; ++i)
     for (std::size_t j = 0; j < ww; ++j) {
       const double height = energy[i][ww] * energy[j][ww];  // what the free height takes away
-      stiffness[i][j] = (energy[i][j] - (relaxes && height != 0 ? height / energy[ww][ww] : 0)) / site_volume;
+      stiffness[i][j] =
+          (energy[i][j] - (relaxes && height != 0 ? height / energy[ww][ww] : 0)) / site_volume;
     }
   return stiffness;
 }
 
 ElasticConstants mean_constants(const LayerStiffness& s) {
   const auto mean = [](double a, double b, double c) { return (a + b + c) / 3; };
-  return {mean(s[0][0], s[1][1], s[2][2]), mean(s[1][2], s[0][2], s[0][1]), mean(s[3][3], s[4][4], s[5][5])};
+  return {mean(s[0][0], s[1][1], s[2][2]), mean(s[1][2], s[0][2], s[0][1]),
+          mean(s[3][3], s[4][4], s[5][5])};
 }
 
 }  // namespace hyperlattice

@@ -6,14 +6,19 @@ namespace hyperlattice {
 
 namespace {
 
-constexpr std::array<Site, 6> steps{{{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};  // as face_normals
+constexpr std::array<Site, 6> steps{
+    {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};  // as face_normals
 
-Site beside(Site site, std::size_t face) { return {site.i + steps[face].i, site.j + steps[face].j, site.k + steps[face].k}; }
+Site beside(Site site, std::size_t face) {
+  return {site.i + steps[face].i, site.j + steps[face].j, site.k + steps[face].k};
+}
 
 }  // namespace
 
 Surfaces::Surfaces(const Body& body)
-    : body_(body), widened_{body.grid.sites[0] + std::int64_t{2}, body.grid.sites[1] + std::int64_t{2}, body.grid.sites[2] + std::int64_t{2}} {}
+    : body_(body),
+      widened_{body.grid.sites[0] + std::int64_t{2}, body.grid.sites[1] + std::int64_t{2},
+               body.grid.sites[2] + std::int64_t{2}} {}
 
 void Surfaces::flood() const {
   const auto [nx, ny, nz] = widened_;
@@ -21,7 +26,8 @@ void Surfaces::flood() const {
   std::vector<bool> blocked(size);  // a cell that is there, or reached by the flood
   for (const Run& run : body_.cells.empty() ? std::span(body_.runs) : body_.cells.runs()) {
     const auto row = static_cast<std::size_t>(((run.k + 1) * ny + run.j + 1) * nx + 1);
-    std::fill(blocked.begin() + static_cast<std::ptrdiff_t>(row) + run.begin, blocked.begin() + static_cast<std::ptrdiff_t>(row) + run.end, true);
+    std::fill(blocked.begin() + static_cast<std::ptrdiff_t>(row) + run.begin,
+              blocked.begin() + static_cast<std::ptrdiff_t>(row) + run.end, true);
   }
   outside_.assign(size, false);
   std::vector<std::int64_t> front{0};  // a corner of the widened box is outside
@@ -46,14 +52,16 @@ void Surfaces::flood() const {
 
 bool Surfaces::is_outside(Site site) const {
   if (outside_.empty()) flood();
-  return outside_[static_cast<std::size_t>(((site.k + 1) * widened_[1] + site.j + 1) * widened_[0] + site.i + 1)];
+  return outside_[static_cast<std::size_t>(((site.k + 1) * widened_[1] + site.j + 1) * widened_[0] +
+                                           site.i + 1)];
 }
 
 OpenFaces Surfaces::faces(Site cell) const {
   OpenFaces open = 0;
   for (std::size_t face = 0; face < 6; ++face) {
     const Site other = beside(cell, face);
-    const bool covered = body_.cells.empty() ? body_.at(other) != Body::no_particle : body_.cells.holds(other);
+    const bool covered =
+        body_.cells.empty() ? body_.at(other) != Body::no_particle : body_.cells.holds(other);
     if (!covered) open |= 1U << face;
   }
   return open;

@@ -1,5 +1,6 @@
-// Phases t_i = q . a_i of a wave have the period 2 pi, whatever the basis. With A the matrix whose columns are the basis, q = A^-T t, and a symmetry
-// q -> S q of the lattice takes phases to A^T S A^-T t, a matrix of integers: it maps a grid of phases onto itself.
+// Phases t_i = q . a_i of a wave have the period 2 pi, whatever the basis. With A the matrix whose
+// columns are the basis, q = A^-T t, and a symmetry q -> S q of the lattice takes phases to A^T S
+// A^-T t, a matrix of integers: it maps a grid of phases onto itself.
 #include <model/zone.hpp>
 
 #include <Eigen/Dense>
@@ -27,7 +28,8 @@ std::vector<Eigen::Matrix3d> operations_of_a_cube() {
   do
     for (int signs = 0; signs < 8; ++signs) {
       Eigen::Matrix3d operation = Eigen::Matrix3d::Zero();
-      for (int n = 0; n < 3; ++n) operation(n, axes[static_cast<std::size_t>(n)]) = (signs >> n & 1) != 0 ? -1 : 1;
+      for (int n = 0; n < 3; ++n)
+        operation(n, axes[static_cast<std::size_t>(n)]) = (signs >> n & 1) != 0 ? -1 : 1;
       all.push_back(operation);
     }
   while (std::next_permutation(axes.begin(), axes.end()));
@@ -38,10 +40,13 @@ std::vector<Eigen::Matrix3d> operations_of_a_cube() {
 bool keeps_springs(const Eigen::Matrix3d& operation, const InfiniteLattice& lattice) {
   const auto on_another = [&](const NeighbourGeometry& n) {
     const Eigen::Vector3d turned = operation * vector(n.rest);
-    return std::any_of(lattice.neighbours.begin(), lattice.neighbours.end(), [&](const NeighbourGeometry& other) {
-      const Eigen::Vector3d rest = vector(other.rest);
-      return other.site.spring_class == n.site.spring_class && std::min((turned - rest).norm(), (turned + rest).norm()) < nearby * lattice.spacing;
-    });
+    return std::any_of(lattice.neighbours.begin(), lattice.neighbours.end(),
+                       [&](const NeighbourGeometry& other) {
+                         const Eigen::Vector3d rest = vector(other.rest);
+                         return other.site.spring_class == n.site.spring_class &&
+                                std::min((turned - rest).norm(), (turned + rest).norm()) <
+                                    nearby * lattice.spacing;
+                       });
   };
   return std::all_of(lattice.neighbours.begin(), lattice.neighbours.end(), on_another);
 }
@@ -51,7 +56,9 @@ std::optional<PhaseMap> on_phases(const Eigen::Matrix3d& operation, const Eigen:
   PhaseMap map{};
   for (std::size_t row = 0; row < 3; ++row)
     for (std::size_t column = 0; column < 3; ++column) {
-      const double exact = acting(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)), whole = std::round(exact);
+      const double exact =
+                       acting(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)),
+                   whole = std::round(exact);
       if (std::abs(exact - whole) > nearby) return std::nullopt;
       map[row][column] = static_cast<int>(whole);
     }
@@ -63,7 +70,8 @@ std::optional<PhaseMap> on_phases(const Eigen::Matrix3d& operation, const Eigen:
 Basis reciprocal(const Basis& basis) {
   const Eigen::Matrix3d columns = matrix(basis).inverse().transpose();
   Basis found;
-  for (int n = 0; n < 3; ++n) found[static_cast<std::size_t>(n)] = {columns(0, n), columns(1, n), columns(2, n)};
+  for (int n = 0; n < 3; ++n)
+    found[static_cast<std::size_t>(n)] = {columns(0, n), columns(1, n), columns(2, n)};
   return found;
 }
 
@@ -104,7 +112,9 @@ Vec3 in_first_zone(const Basis& basis, Vec3 q) {
 
 std::vector<Vec3> zone_grid(const InfiniteLattice& lattice, int half) {
   const int period = 2 * half;
-  const auto wrapped = [period](int n) { return static_cast<std::size_t>((n % period + period) % period); };
+  const auto wrapped = [period](int n) {
+    return static_cast<std::size_t>((n % period + period) % period);
+  };
   const auto place = [&](int i, int j, int k) {
     const auto side = static_cast<std::size_t>(period);
     return (wrapped(k) * side + wrapped(j)) * side + wrapped(i);
@@ -118,8 +128,11 @@ std::vector<Vec3> zone_grid(const InfiniteLattice& lattice, int half) {
       for (int i = 0; i < period; ++i) {
         if (known[place(i, j, k)]) continue;
         found.push_back(pi / half * combined(b, i, j, k));
-        const auto mapped = [&](const std::array<int, 3>& row) { return row[0] * i + row[1] * j + row[2] * k; };
-        for (const PhaseMap& map : maps) known[place(mapped(map[0]), mapped(map[1]), mapped(map[2]))] = true;
+        const auto mapped = [&](const std::array<int, 3>& row) {
+          return row[0] * i + row[1] * j + row[2] * k;
+        };
+        for (const PhaseMap& map : maps)
+          known[place(mapped(map[0]), mapped(map[1]), mapped(map[2]))] = true;
       }
   return found;
 }

@@ -1,4 +1,5 @@
-// Searching the Brillouin zone: where a function of the wave vector that has the lattice's symmetry is largest.
+// Searching the Brillouin zone: where a function of the wave vector that has the lattice's symmetry
+// is largest.
 #pragma once
 
 #include <model/waves.hpp>
@@ -14,10 +15,12 @@ inline constexpr double pi = std::numbers::pi;
 /// The reciprocal basis in radians a spacing over 2 pi: b_i . a_j is 1 for i = j, else 0.
 Basis reciprocal(const Basis& basis);
 
-/// A turn or reflection that maps the lattice onto itself, as it acts on the phases of a wave along a1, a2, a3: integers, by rows.
+/// A turn or reflection that maps the lattice onto itself, as it acts on the phases of a wave along
+/// a1, a2, a3: integers, by rows.
 using PhaseMap = std::array<std::array<int, 3>, 3>;
 
-/// Those of the 48 of a cube that map springs onto springs of their class. At least there and back, q -> -q.
+/// Those of the 48 of a cube that map springs onto springs of their class. At least there and back,
+/// q -> -q.
 std::vector<PhaseMap> symmetries(const InfiniteLattice& lattice);
 
 /// The 27 steps of -1, 0 or 1 along each axis.
@@ -26,16 +29,19 @@ const std::array<Vec3, 27>& steps_around();
 /// The shortest of the vectors that give the same wave.
 Vec3 in_first_zone(const Basis& basis, Vec3 q);
 
-/// Wave vectors, radians a spacing, on a grid over the zone: of each set that symmetry makes equal, one.
+/// Wave vectors, radians a spacing, on a grid over the zone: of each set that symmetry makes equal,
+/// one.
 std::vector<Vec3> zone_grid(const InfiniteLattice& lattice, int half);
 
-/// The wave vector where `value` is largest: the zone on a grid, then each of the best climbed by halved steps.
+/// The wave vector where `value` is largest: the zone on a grid, then each of the best climbed by
+/// halved steps.
 template <class Value>
 Vec3 zone_peak(const InfiniteLattice& lattice, const Value& value) {
   constexpr int half = 12;        // steps from 0 to pi along an axis
   constexpr int refined = 4;      // how many of the best are climbed
   constexpr double fine = 1e-6;   // radians, the last step
-  constexpr double gain = 1e-11;  // of the largest value on the grid: less is rounding, which would lead a climb along flat ridges for ever
+  constexpr double gain = 1e-11;  // of the largest value on the grid: less is rounding, which would
+                                  // lead a climb along flat ridges for ever
   struct Candidate {
     double value;
     Vec3 q;
@@ -53,7 +59,8 @@ Vec3 zone_peak(const InfiniteLattice& lattice, const Value& value) {
   for (Candidate& candidate : best)
     for (double step = pi / half / 2; step > fine;) {
       Candidate next = candidate;
-      for (const Vec3 direction : steps_around()) {  // along edges and diagonals too: ridges run along the lattice's axes of symmetry
+      for (const Vec3 direction : steps_around()) {  // along edges and diagonals too: ridges run
+                                                     // along the lattice's axes of symmetry
         const Vec3 q = candidate.q + step * direction;
         if (const double here = value(q); here > next.value) next = {here, q};
       }

@@ -17,7 +17,8 @@ template <class Visit>
 void for_entries(const SparseRows& K, int node, int components, const Visit& visit) {
   for (int a = 0; a < components; ++a)
     for (SparseRows::InnerIterator entry(K, node * components + a); entry; ++entry)
-      visit(static_cast<int>(entry.col()) / components, a, static_cast<int>(entry.col()) % components, entry.value());
+      visit(static_cast<int>(entry.col()) / components, a,
+            static_cast<int>(entry.col()) % components, entry.value());
 }
 
 std::vector<double> units_of_height(const SparseRows& K, int components) {
@@ -32,7 +33,8 @@ std::vector<double> units_of_height(const SparseRows& K, int components) {
   return units;
 }
 
-/// How stiffly nodes are joined: the norm of the block between them, other than 0, with heights in each node's own unit.
+/// How stiffly nodes are joined: the norm of the block between them, other than 0, with heights in
+/// each node's own unit.
 struct Graph {
   std::vector<int> first{0}, other;
   std::vector<double> norm, own;
@@ -42,7 +44,9 @@ struct Graph {
     std::vector<double> sum(static_cast<std::size_t>(nodes), 0);
     std::vector<int> met;
     const std::vector<double> height = units_of_height(K, components);
-    const auto unit = [&](int node, int component) { return component == 3 ? height[static_cast<std::size_t>(node)] : 1; };
+    const auto unit = [&](int node, int component) {
+      return component == 3 ? height[static_cast<std::size_t>(node)] : 1;
+    };
     for (int node = 0; node < nodes; ++node) {
       met.clear();
       for_entries(K, node, components, [&](int there, int a, int b, double value) {
@@ -65,15 +69,16 @@ struct Graph {
   }
 };
 
-/// The aggregate of each node, or none of those that nothing is joined to. Whole neighbourhoods first, then what is left goes to the stiffest
-/// neighbour.
+/// The aggregate of each node, or none of those that nothing is joined to. Whole neighbourhoods
+/// first, then what is left goes to the stiffest neighbour.
 int aggregate(const Graph& graph, double threshold, std::vector<int>& of) {
   const int nodes = static_cast<int>(graph.first.size()) - 1;
   of.assign(static_cast<std::size_t>(nodes), none);
   const auto at = [&](int node) -> int& { return of[static_cast<std::size_t>(node)]; };
   const auto own = [&](int node) { return graph.own[static_cast<std::size_t>(node)]; };
   const auto for_strong = [&](int node, const auto& visit) {
-    for (int n = graph.first[static_cast<std::size_t>(node)]; n < graph.first[static_cast<std::size_t>(node) + 1]; ++n) {
+    for (int n = graph.first[static_cast<std::size_t>(node)];
+         n < graph.first[static_cast<std::size_t>(node) + 1]; ++n) {
       const int there = graph.other[static_cast<std::size_t>(n)];
       const double norm = graph.norm[static_cast<std::size_t>(n)];
       if (norm > threshold * std::sqrt(own(node) * own(there))) visit(there, norm);
@@ -119,13 +124,15 @@ void times_blocks(const NodeBlocks& blocks, const Eigen::VectorXd& r, Eigen::Vec
   for (std::size_t row = 0; row < static_cast<std::size_t>(r.size()); ++row) {
     double sum = 0;
     const std::size_t first = row / size * size;
-    for (std::size_t b = 0; b < size; ++b) sum += blocks.inverse[row * size + b] * r[static_cast<Eigen::Index>(first + b)];
+    for (std::size_t b = 0; b < size; ++b)
+      sum += blocks.inverse[row * size + b] * r[static_cast<Eigen::Index>(first + b)];
     z[static_cast<Eigen::Index>(row)] = sum;
   }
 }
 
 NodeBlocks blocks_of(const SparseRows& K, std::size_t components) {
-  NodeBlocks blocks{components, std::vector<double>(static_cast<std::size_t>(K.rows()) * components, 0)};
+  NodeBlocks blocks{components,
+                    std::vector<double>(static_cast<std::size_t>(K.rows()) * components, 0)};
   const auto size = static_cast<Eigen::Index>(components);
   for (int node = 0; node < static_cast<int>(K.rows() / size); ++node) {
     Eigen::Matrix4d block = Eigen::Matrix4d::Zero();
@@ -135,8 +142,9 @@ NodeBlocks blocks_of(const SparseRows& K, std::size_t components) {
     const Eigen::Matrix4d inverse = BlockInverse(block).inverse;
     for (Eigen::Index a = 0; a < size; ++a)
       for (Eigen::Index b = 0; b < size; ++b)
-        blocks.inverse[(static_cast<std::size_t>(node) * components + static_cast<std::size_t>(a)) * components + static_cast<std::size_t>(b)] =
-            inverse(a, b);
+        blocks.inverse[(static_cast<std::size_t>(node) * components + static_cast<std::size_t>(a)) *
+                           components +
+                       static_cast<std::size_t>(b)] = inverse(a, b);
   }
   Eigen::VectorXd x(K.rows()), y(K.rows());
   RandomStream random;
@@ -145,12 +153,14 @@ NodeBlocks blocks_of(const SparseRows& K, std::size_t components) {
     y = K * x;
     times_blocks(blocks, y, x);
   };
-  blocks.largest = PowerIteration{}.largest_eigenvalue([&] { return x.norm(); }, [&](double length) { x /= length; }, apply);
+  blocks.largest = PowerIteration{}.largest_eigenvalue([&] { return x.norm(); },
+                                                       [&](double length) { x /= length; }, apply);
   return blocks;
 }
 
 /// What each aggregate's components do to the nodes, smoothed.
-SparseRows interpolation(const SparseRows& K, const NodeBlocks& blocks, const std::vector<int>& aggregates, int count) {
+SparseRows interpolation(const SparseRows& K, const NodeBlocks& blocks,
+                         const std::vector<int>& aggregates, int count) {
   const auto size = static_cast<int>(blocks.components);
   SparseRows sharp(K.rows(), static_cast<Eigen::Index>(count) * size), damped(K.rows(), K.rows());
   sharp.reserve(Eigen::VectorXi::Constant(K.rows(), 1));
@@ -159,10 +169,13 @@ SparseRows interpolation(const SparseRows& K, const NodeBlocks& blocks, const st
   for (int row = 0; row < static_cast<int>(K.rows()); ++row) {
     const int node = row / size, aggregate = aggregates[static_cast<std::size_t>(node)];
     const bool moves =
-        std::any_of(blocks.inverse.begin() + row * size, blocks.inverse.begin() + (row + 1) * size, [](double value) { return value != 0; });
+        std::any_of(blocks.inverse.begin() + row * size, blocks.inverse.begin() + (row + 1) * size,
+                    [](double value) { return value != 0; });
     if (aggregate != none && moves) sharp.insert(row, aggregate * size + row % size) = 1;
     for (int b = 0; b < size; ++b)
-      damped.insert(row, node * size + b) = omega * blocks.inverse[static_cast<std::size_t>(row) * blocks.components + static_cast<std::size_t>(b)];
+      damped.insert(row, node * size + b) =
+          omega * blocks.inverse[static_cast<std::size_t>(row) * blocks.components +
+                                 static_cast<std::size_t>(b)];
   }
   sharp.makeCompressed();
   damped.makeCompressed();
@@ -184,20 +197,24 @@ struct AggregationMultigrid::Level {
       const bool zero = from_zero && n == 0;
       rest = zero ? b : Eigen::VectorXd(b - K * x);
       times_blocks(blocks, rest, product);
-      step = n == 0 ? Eigen::VectorXd(weights.take * product) : Eigen::VectorXd(weights.keep * step + weights.take * product);
+      step = n == 0 ? Eigen::VectorXd(weights.take * product)
+                    : Eigen::VectorXd(weights.keep * step + weights.take * product);
       x = zero ? step : Eigen::VectorXd(x + step);
     }
   }
 };
 
-AggregationMultigrid::AggregationMultigrid(const SparseRows& finest, const NodeBlocks& finest_blocks) {
+AggregationMultigrid::AggregationMultigrid(const SparseRows& finest,
+                                           const NodeBlocks& finest_blocks) {
   constexpr double threshold = 0.08;  // on the finest level; aggregates are joined to few others
   const SparseRows* K = &finest;
   const NodeBlocks* blocks = &finest_blocks;
   std::vector<int> aggregates;
   do {
-    const int count = aggregate(Graph(*K, static_cast<int>(blocks->components)), levels_.empty() ? threshold : 0, aggregates);
-    const Eigen::Index rows = static_cast<Eigen::Index>(count) * static_cast<Eigen::Index>(blocks->components);
+    const int count = aggregate(Graph(*K, static_cast<int>(blocks->components)),
+                                levels_.empty() ? threshold : 0, aggregates);
+    const Eigen::Index rows =
+        static_cast<Eigen::Index>(count) * static_cast<Eigen::Index>(blocks->components);
     if (count == 0 || rows >= K->rows()) break;
     auto level = std::make_unique<Level>();
     level->from_coarse = interpolation(*K, *blocks, aggregates, count);
@@ -207,7 +224,9 @@ AggregationMultigrid::AggregationMultigrid(const SparseRows& finest, const NodeB
       if (!(level->K.coeff(row, row) > 0)) level->K.coeffRef(row, row) = 1;
     level->K.makeCompressed();
     level->blocks = blocks_of(level->K, blocks->components);
-    for (Eigen::VectorXd* field : {&level->b, &level->x, &level->rest, &level->step, &level->product}) field->setZero(rows);
+    for (Eigen::VectorXd* field :
+         {&level->b, &level->x, &level->rest, &level->step, &level->product})
+      field->setZero(rows);
     levels_.push_back(std::move(level));
     K = &levels_.back()->K;
     blocks = &levels_.back()->blocks;

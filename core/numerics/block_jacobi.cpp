@@ -3,8 +3,13 @@
 
 namespace hyperlattice::numerics {
 
-BlockJacobi::BlockJacobi(std::size_t nodes, std::size_t components, int threads, const BlockOf& block_of)
-    : nodes_(nodes), components_(components), threads_(threads), inverse_(nodes * components * components, 0), added_(inverse_) {
+BlockJacobi::BlockJacobi(std::size_t nodes, std::size_t components, int threads,
+                         const BlockOf& block_of)
+    : nodes_(nodes),
+      components_(components),
+      threads_(threads),
+      inverse_(nodes * components * components, 0),
+      added_(inverse_) {
   in_pieces(nodes_, threads_, [&](std::size_t first, std::size_t last) {
     for (std::size_t p = first; p < last; ++p) {
       const Block block = block_of(p);

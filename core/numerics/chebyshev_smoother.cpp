@@ -10,18 +10,22 @@ ChebyshevSmoother::ChebyshevSmoother(const LinearOperator& A, BlockJacobi diagon
   estimate_largest();
 }
 
-/// It is at most 2 of a sum of positive terms between two nodes each: the energy of one is at most twice that of its ends moving alone.
+/// It is at most 2 of a sum of positive terms between two nodes each: the energy of one is at most
+/// twice that of its ends moving alone.
 void ChebyshevSmoother::estimate_largest() {
   RandomStream random;
   for (double& value : step_) value = random.next();
   A_.mask(step_.data());
-  const auto length = [&] { return std::sqrt(product(step_.data(), step_.data(), step_.size(), A_.threads())); };
+  const auto length = [&] {
+    return std::sqrt(product(step_.data(), step_.data(), step_.size(), A_.threads()));
+  };
   const auto divide = [&](double by) {
     for (double& value : step_) value /= by;
   };
   const auto apply = [&] {
     A_.multiply(step_.data(), rest_.data());
-    diagonal_.for_inverse_times(rest_, [&](std::size_t number, double value) { step_[number] = value; });
+    diagonal_.for_inverse_times(rest_,
+                                [&](std::size_t number, double value) { step_[number] = value; });
   };
   largest_ = std::max(largest_, PowerIteration{}.largest_eigenvalue(length, divide, apply));
 }

@@ -26,7 +26,9 @@ double GridLevel::power_iteration() const {
 /// Zeros everywhere but at the sites of the box, and where something can move.
 void GridLevel::clear_margin(Field& x) const {
   std::vector<bool> inside(static_cast<std::size_t>(layout_.places), false);
-  layout_.for_sites([&](std::int64_t i, std::int64_t j, std::int64_t k) { inside[static_cast<std::size_t>(layout_.place(i, j, k))] = true; });
+  layout_.for_sites([&](std::int64_t i, std::int64_t j, std::int64_t k) {
+    inside[static_cast<std::size_t>(layout_.place(i, j, k))] = true;
+  });
   const auto components = static_cast<std::int64_t>(layout_.numbers()) / layout_.places;
   for (std::int64_t p = 0; p < layout_.places; ++p)
     for (std::int64_t c = 0; c < components && !inside[static_cast<std::size_t>(p)]; ++c)

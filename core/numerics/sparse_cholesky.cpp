@@ -13,13 +13,15 @@ void SparseCholesky::compute(const Eigen::SparseMatrix<double>& matrix, double s
   const Eigen::VectorXd diagonal = matrix.diagonal();
   for (double added = shift; added <= most; added *= more) {
     Eigen::SparseMatrix<double> shifted = matrix;
-    for (Eigen::Index row = 0; row < matrix.rows(); ++row) shifted.coeffRef(row, row) = diagonal[row] * (1 + added);
+    for (Eigen::Index row = 0; row < matrix.rows(); ++row)
+      shifted.coeffRef(row, row) = diagonal[row] * (1 + added);
     factors_.compute(shifted);
     computed_ = factors_.info() == Eigen::Success && factors_.vectorD().allFinite();
     if (computed_) return;
   }
   throw std::runtime_error("the stiffness of " + std::to_string(matrix.rows()) +
-                           " numbers cannot be factorised: " + (diagonal.allFinite() ? "a pivot is zero" : "it is not finite"));
+                           " numbers cannot be factorised: " +
+                           (diagonal.allFinite() ? "a pivot is zero" : "it is not finite"));
 }
 
 Eigen::VectorXd SparseCholesky::solve(const Eigen::VectorXd& b) const {

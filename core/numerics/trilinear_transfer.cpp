@@ -13,7 +13,8 @@ struct Children {
   double weight[3] = {};
 };
 
-Children children(const TrilinearTransfer& transfer, int axis, std::int64_t at, std::int64_t sites) {
+Children children(const TrilinearTransfer& transfer, int axis, std::int64_t at,
+                  std::int64_t sites) {
   Children found;
   const auto add = [&](std::int64_t i, double weight) {
     if (i < 0 || i >= sites) return;
@@ -39,7 +40,8 @@ TrilinearTransfer::TrilinearTransfer(const std::array<std::int64_t, 3>& fine) : 
   }
 }
 
-void TrilinearTransfer::restrict_to(const GridLevel& coarse, double* to, const GridLevel& fine, const double* from) const {
+void TrilinearTransfer::restrict_to(const GridLevel& coarse, double* to, const GridLevel& fine,
+                                    const double* from) const {
   const GridLayout &c = coarse.layout(), &f = fine.layout();
   const std::int64_t rows = coarse_[1] * coarse_[2];
 #pragma omp parallel num_threads(fine.threads())
@@ -56,22 +58,27 @@ void TrilinearTransfer::restrict_to(const GridLevel& coarse, double* to, const G
           const std::int64_t first = f.place(0, js.at[a], ks.at[b]) * f.of_place;
           for (int component = 0; component < f.components; ++component) {
             const double* row = from + first + component * f.of_component;
-            for (std::int64_t i = 0; i < fine_[0]; ++i) sum[static_cast<std::size_t>(4 * (i + 1) + component)] += weight * row[i * f.of_place];
+            for (std::int64_t i = 0; i < fine_[0]; ++i)
+              sum[static_cast<std::size_t>(4 * (i + 1) + component)] +=
+                  weight * row[i * f.of_place];
           }
         }
       double* row = to + 4 * c.place(0, J, K);
       for (std::int64_t I = 0; I < coarse_[0]; ++I)
         for (std::int64_t component = 0; component < 4; ++component) {
           const double* s = sum.data() + 4 * ((halved_[0] ? 2 * I : I) + 1) + component;
-          const bool beyond = halved_[0] && 2 * I >= fine_[0];  // the last coarse site may stand past the end
-          const double here = beyond ? 0.0 : s[0], right = halved_[0] && !beyond && 2 * I + 1 < fine_[0] ? s[4] : 0.0;
+          const bool beyond =
+              halved_[0] && 2 * I >= fine_[0];  // the last coarse site may stand past the end
+          const double here = beyond ? 0.0 : s[0],
+                       right = halved_[0] && !beyond && 2 * I + 1 < fine_[0] ? s[4] : 0.0;
           row[4 * I + component] = halved_[0] ? here + 0.5 * (s[-4] + right) : here;
         }
     }
   }
 }
 
-void TrilinearTransfer::prolong_from(const GridLevel& coarse, const double* from, const GridLevel& fine, double* to) const {
+void TrilinearTransfer::prolong_from(const GridLevel& coarse, const double* from,
+                                     const GridLevel& fine, double* to) const {
   const GridLayout &c = coarse.layout(), &f = fine.layout();
   const std::int64_t rows = fine_[1] * fine_[2];
 #pragma omp parallel num_threads(fine.threads())
@@ -86,15 +93,17 @@ void TrilinearTransfer::prolong_from(const GridLevel& coarse, const double* from
         for (int a = 0; a < js.count; ++a) {
           const double weight = ks.weight[b] * js.weight[a];
           const double* row = from + 4 * c.place(0, js.at[a], ks.at[b]);
-          for (std::int64_t n = 0; n < 4 * coarse_[0]; ++n) sum[static_cast<std::size_t>(n)] += weight * row[n];
+          for (std::int64_t n = 0; n < 4 * coarse_[0]; ++n)
+            sum[static_cast<std::size_t>(n)] += weight * row[n];
         }
       const std::int64_t first = f.place(0, j, k) * f.of_place;
       for (int component = 0; component < f.components; ++component) {
         double* row = to + first + component * f.of_component;
         for (std::int64_t i = 0; i < fine_[0]; ++i) {
           const Parents is = parents(0, i);
-          row[i * f.of_place] += is.weight[0] * sum[static_cast<std::size_t>(4 * is.at[0] + component)] +
-                                 is.weight[1] * sum[static_cast<std::size_t>(4 * is.at[1] + component)];
+          row[i * f.of_place] +=
+              is.weight[0] * sum[static_cast<std::size_t>(4 * is.at[0] + component)] +
+              is.weight[1] * sum[static_cast<std::size_t>(4 * is.at[1] + component)];
         }
       }
     }

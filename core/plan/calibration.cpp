@@ -12,15 +12,19 @@ namespace hyperlattice {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
-/// Seconds a step; the least mean of several spells, because other work on the machine only ever adds to it.
+/// Seconds a step; the least mean of several spells, because other work on the machine only ever
+/// adds to it.
 double measure_step(const Plan& plan) {
   constexpr double spell = 0.05;  // s
   constexpr int spells = 5, most_steps = 200;
   Simulation simulation(*plan.model, plan.threads);
-  const double shortest = 1e-6 * plan.model->critical_time_step;  // the body stays where it is, whatever acts on it
-  simulation.step(shortest);                                      // the first one finds the start of the energy books
+  const double shortest =
+      1e-6 * plan.model->critical_time_step;  // the body stays where it is, whatever acts on it
+  simulation.step(shortest);                  // the first one finds the start of the energy books
   double least = infinity;
   for (int n = 0; n < spells; ++n) {
     const auto start = Clock::now();
@@ -44,7 +48,8 @@ void calibrate_run_time(Plan& plan) try {
   if (state > most_bytes || 2 * state > memory_room().bytes) return;
   const double step = measure_step(plan);
   double seconds = 0;
-  for (const PlannedStage& stage : plan.stages) seconds += step * static_cast<double>(stage.plan.steps) * stage.plan.sweeps_per_step;
+  for (const PlannedStage& stage : plan.stages)
+    seconds += step * static_cast<double>(stage.plan.steps) * stage.plan.sweeps_per_step;
   plan.expected_seconds = seconds + output_seconds(plan, step, true);
 } catch (const std::exception&) {  // steps that fail are the run's to tell
 }

@@ -5,8 +5,9 @@
 
 namespace hyperlattice {
 
-/// Replaces the expected run time by one from steps of the body at rest, a quarter of a second of them, and from the frames that its writers wrote in
-/// trial. A plan whose state is too large to be made in passing keeps its time, from a table.
+/// Replaces the expected run time by one from steps of the body at rest, a quarter of a second of
+/// them, and from the frames that its writers wrote in trial. A plan whose state is too large to be
+/// made in passing keeps its time, from a table.
 void calibrate_run_time(Plan& plan);
 
 }  // namespace hyperlattice

@@ -11,23 +11,28 @@
 
 namespace hyperlattice {
 
-/// A name that any reader of tables can take: at most 200 printable characters, no comma, quote or line end.
+/// A name that any reader of tables can take: at most 200 printable characters, no comma, quote or
+/// line end.
 inline bool is_column_name(std::string_view name) {
   constexpr std::size_t longest = 200;
-  const auto breaks_table = [](char c) { return c == ',' || c == '"' || static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
-  return !name.empty() && name.size() <= longest && std::none_of(name.begin(), name.end(), breaks_table);
+  const auto breaks_table = [](char c) {
+    return c == ',' || c == '"' || static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+  };
+  return !name.empty() && name.size() <= longest &&
+         std::none_of(name.begin(), name.end(), breaks_table);
 }
 
 /// Appends what the probe names to `columns`, which outlive the sink.
 inline ColumnSink columns_into(std::vector<std::string>& columns) {
-  return {&columns, [](void* self, std::string_view name) noexcept {
-            PluginCall::answer([&] {
-              if (!is_column_name(name))
-                throw PluginMistake("it names a column \"" + std::string(name.substr(0, 40)) +
-                                    "\"; expected 1 to 200 characters, no comma, quote or line end");
-              static_cast<std::vector<std::string>*>(self)->emplace_back(name);
-            });
-          }};
+  return {
+      &columns, [](void* self, std::string_view name) noexcept {
+        PluginCall::answer([&] {
+          if (!is_column_name(name))
+            throw PluginMistake("it names a column \"" + std::string(name.substr(0, 40)) +
+                                "\"; expected 1 to 200 characters, no comma, quote or line end");
+          static_cast<std::vector<std::string>*>(self)->emplace_back(name);
+        });
+      }};
 }
 
 }  // namespace hyperlattice

@@ -1,4 +1,5 @@
-// How many springs hold each particle of a list: a particle on fewer than three swings, and a body with too few on the mean gives way.
+// How many springs hold each particle of a list: a particle on fewer than three swings, and a body
+// with too few on the mean gives way.
 #pragma once
 
 #include <model/body.hpp>
@@ -12,8 +13,9 @@ struct Coordination {
 
 Coordination coordination_of(const Body& body);  ///< of a listed body
 
-/// What there is to say of a listed body with too few springs to be stiff: fewer than its particles' coordinates (Maxwell 1864), or hardly more.
-/// Cross springs in the fourth dimension stand beside those and add nothing. "": they are enough.
+/// What there is to say of a listed body with too few springs to be stiff: fewer than its
+/// particles' coordinates (Maxwell 1864), or hardly more. Cross springs in the fourth dimension
+/// stand beside those and add nothing. "": they are enough.
 std::string coordination_warning(const Body& body);
 
 }  // namespace hyperlattice

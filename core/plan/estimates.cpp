@@ -13,7 +13,8 @@ namespace {
 /// Numbers a particle that the asked fields hold.
 double numbers_per_particle(const Plan& plan, const Stage& output) {
   double numbers = 0;
-  for (const std::string& name : plan.asked_fields.at(&output)) numbers += name == "displacement" || name == "velocity" ? 3 : 1;
+  for (const std::string& name : plan.asked_fields.at(&output))
+    numbers += name == "displacement" || name == "velocity" ? 3 : 1;
   return numbers;
 }
 
@@ -22,20 +23,23 @@ double particles_of(const Plan& plan) { return static_cast<double>(plan.model->b
 }  // namespace
 
 double frames_of(const Plan& plan, const Stage& output) {
-  const double every = output_interval(output, plan.end_time()), intervals = every > 0 ? plan.end_time() / every : 0;
+  const double every = output_interval(output, plan.end_time()),
+               intervals = every > 0 ? plan.end_time() / every : 0;
   constexpr double nearly = 1e-6;  // of an interval
   double frames = std::floor(intervals + nearly) + (output.cadence.first ? 1 : 0);
   for (const PlannedStage& stage : plan.stages)  // a state of rest is shown whatever its time
     if (stage.plan.at_rest && &stage != &plan.stages.back()) ++frames;
   const bool ends_between = intervals == 0 || intervals - std::floor(intervals + nearly) > nearly;
-  const bool shows_end = output.cadence.last || (!plan.stages.empty() && plan.stages.back().plan.at_rest);
+  const bool shows_end =
+      output.cadence.last || (!plan.stages.empty() && plan.stages.back().plan.at_rest);
   if (ends_between && shows_end) ++frames;
   return std::min(frames, static_cast<double>(plan.steps()) + 1);
 }
 
 double frame_bytes(const Plan& plan, const Stage& writer) {
   constexpr double bytes_per_number = 12;  // binary has 8, text 20
-  if (const auto cost = plan.frame_costs.find(&writer); cost != plan.frame_costs.end()) return cost->second.bytes;
+  if (const auto cost = plan.frame_costs.find(&writer); cost != plan.frame_costs.end())
+    return cost->second.bytes;
   return particles_of(plan) * (3 + numbers_per_particle(plan, writer)) * bytes_per_number;
 }
 
@@ -44,16 +48,21 @@ double records_of(const PlannedStage& stage) {
     const std::uint64_t whole = stage.plan.steps / record_steps(stage);
     return static_cast<double>(whole) + 1;
   }
-  return std::min((stage.plan.end_time - stage.start_time) / record_interval(stage), static_cast<double>(stage.plan.steps)) + 1;
+  return std::min((stage.plan.end_time - stage.start_time) / record_interval(stage),
+                  static_cast<double>(stage.plan.steps)) +
+         1;
 }
 
 double model_bytes(const Model& model) {
   const std::size_t runs = model.body.runs.size() + model.body.cells.runs().size();
-  auto bytes = static_cast<double>(model.body.listed.springs.size() * sizeof(ListedSpring) + model.body.listed.positions.size() * sizeof(Vec3) +
-                                   runs * sizeof(Run) + model.body.row_runs.size() * sizeof(std::size_t) + model.material_of.size()) +
+  auto bytes = static_cast<double>(
+                   model.body.listed.springs.size() * sizeof(ListedSpring) +
+                   model.body.listed.positions.size() * sizeof(Vec3) + runs * sizeof(Run) +
+                   model.body.row_runs.size() * sizeof(std::size_t) + model.material_of.size()) +
                model.mixtures.bytes();
   for (const Load& load : model.loads)
-    bytes += static_cast<double>(load.particles.size() * sizeof(LoadedParticle) + load.watched.size() * sizeof(WatchedParticle));
+    bytes += static_cast<double>(load.particles.size() * sizeof(LoadedParticle) +
+                                 load.watched.size() * sizeof(WatchedParticle));
   return bytes;
 }
 
@@ -65,33 +74,45 @@ void estimate_memory(Plan& plan) {
 
   double bytes = model_bytes(model);
   for (const Load& load : model.loads)
-    bytes += static_cast<double>(load.particles.size() * sizeof(Support) + load.watched.size() * (sizeof(Support) + 2 * sizeof(Vec3)));
-  for (const BlockLayout& block : layout->blocks) bytes += static_cast<double>(block.rows.size() * 2 * sizeof(Row));
+    bytes +=
+        static_cast<double>(load.particles.size() * sizeof(BoundaryParticle) +
+                            load.watched.size() * (sizeof(BoundaryParticle) + 2 * sizeof(Vec3)));
+  for (const BlockLayout& block : layout->blocks)
+    bytes += static_cast<double>(block.rows.size() * 2 * sizeof(Row));
 
   double output_numbers = 0;  // positions, and the fields of the most demanding output
   for (const Family family : {Family::writers, Family::probes})
-    for (const Stage* stage : plan.scene->of(family)) output_numbers = std::max(output_numbers, 3 + numbers_per_particle(plan, *stage));
+    for (const Stage* stage : plan.scene->of(family))
+      output_numbers = std::max(output_numbers, 3 + numbers_per_particle(plan, *stage));
   double solver_bytes = 0;
-  for (const PlannedStage& stage : plan.stages) solver_bytes = std::max(solver_bytes, stage.plan.bytes_per_site);
+  for (const PlannedStage& stage : plan.stages)
+    solver_bytes = std::max(solver_bytes, stage.plan.bytes_per_site);
   const Site low = model.body.low, high = model.body.high;
-  solver_bytes *= model.body.is_listed() ? particles : (high.i - low.i + 1.0) * (high.j - low.j + 1.0) * (high.k - low.k + 1.0);
-  plan.memory_bytes =
-      solver_bytes + layout->state_bytes() + layout->scratch_bytes() + bytes + CellWatch::bytes(model) + output_numbers * sizeof(double) * particles;
+  solver_bytes *= model.body.is_listed()
+                      ? particles
+                      : (high.i - low.i + 1.0) * (high.j - low.j + 1.0) * (high.k - low.k + 1.0);
+  plan.memory_bytes = solver_bytes + layout->state_bytes() + layout->scratch_bytes() + bytes +
+                      CellWatch::bytes(model) + output_numbers * sizeof(double) * particles;
 }
 
 void estimate_output(Plan& plan) {
   constexpr double bytes_per_text_number = 19, history_numbers = 16;
-  constexpr double share_at_rest = 0.3;                 // of the bytes of a frame in motion
-  constexpr double own_files = 12e3, listed_file = 90;  // bytes: scene.resolved.json and summary.json; a line of files.csv
+  constexpr double share_at_rest = 0.3;  // of the bytes of a frame in motion
+  constexpr double own_files = 12e3,
+                   listed_file =
+                       90;  // bytes: scene.resolved.json and summary.json; a line of files.csv
   plan.output_bytes = own_files;
   for (const Stage* stage : plan.scene->of(Family::writers)) {
-    const double frames = frames_of(plan, *stage), saved = stage->cadence.first ? 1 - share_at_rest : 0;
+    const double frames = frames_of(plan, *stage),
+                 saved = stage->cadence.first ? 1 - share_at_rest : 0;
     plan.output_bytes += (frames - saved) * frame_bytes(plan, *stage) + frames * listed_file;
   }
   const auto probes = plan.scene->of(Family::probes);
   for (std::size_t n = 0; n < probes.size() && n < plan.tables.size(); ++n)
-    plan.output_bytes += (1 + frames_of(plan, *probes[n])) * static_cast<double>(plan.tables[n].columns.size()) * bytes_per_text_number;
-  for (const PlannedStage& stage : plan.stages) plan.output_bytes += records_of(stage) * history_numbers * bytes_per_text_number;
+    plan.output_bytes += (1 + frames_of(plan, *probes[n])) *
+                         static_cast<double>(plan.tables[n].columns.size()) * bytes_per_text_number;
+  for (const PlannedStage& stage : plan.stages)
+    plan.output_bytes += records_of(stage) * history_numbers * bytes_per_text_number;
 }
 
 double output_seconds(const Plan& plan, double sweep, bool measured) {
@@ -100,20 +121,25 @@ double output_seconds(const Plan& plan, double sweep, bool measured) {
   for (const Stage* stage : plan.scene->of(Family::writers)) {
     const auto cost = plan.frame_costs.find(stage);
     const bool known = measured && cost != plan.frame_costs.end();
-    seconds += frames_of(plan, *stage) * (known ? cost->second.seconds : particles_of(plan) * (3 + numbers_per_particle(plan, *stage)) * write);
+    seconds += frames_of(plan, *stage) *
+               (known ? cost->second.seconds
+                      : particles_of(plan) * (3 + numbers_per_particle(plan, *stage)) * write);
   }
   for (const PlannedStage& stage : plan.stages) seconds += sweep * records_of(stage);
   return seconds;
 }
 
 double slowest(const Model& model) {
-  constexpr double breaking = 3, answering = 5;  // measured on a sphere that a blast breaks, and whose pieces collide
+  constexpr double breaking = 3,
+                   answering =
+                       5;  // measured on a sphere that a blast breaks, and whose pieces collide
   return (model.choice.breakable ? breaking : 1) * (model.answering ? answering : 1);
 }
 
 void estimate_time(Plan& plan) {
   constexpr double baseline = 4, avx2 = 1.4, avx512 = 0.9;  // ns a base spring and step
-  constexpr double fourth_dimension = 1.8, damped = 1.1, floats = 0.6, listed = 4, second_thread = 0.6;
+  constexpr double fourth_dimension = 1.8, damped = 1.1, floats = 0.6, listed = 4,
+                   second_thread = 0.6;
   const Model& model = *plan.model;
   const std::string_view instructions = model.kernels.instructions;
   plan.expected_seconds = 0;
@@ -121,9 +147,11 @@ void estimate_time(Plan& plan) {
   if (model.degrees_of_freedom == 4) spring *= fourth_dimension;
   if (model.body.is_listed()) spring *= listed;
   if (model.choice.precision == Precision::floats) spring *= floats;
-  const double step = 1e-9 * spring * static_cast<double>(model.body.base_springs()) / (1 + second_thread * (plan.threads - 1));
+  const double step = 1e-9 * spring * static_cast<double>(model.body.base_springs()) /
+                      (1 + second_thread * (plan.threads - 1));
   for (const PlannedStage& stage : plan.stages)
-    plan.expected_seconds += step * static_cast<double>(stage.plan.steps) * stage.plan.sweeps_per_step * (stage.plan.damping > 0 ? damped : 1);
+    plan.expected_seconds += step * static_cast<double>(stage.plan.steps) *
+                             stage.plan.sweeps_per_step * (stage.plan.damping > 0 ? damped : 1);
   plan.expected_seconds += output_seconds(plan, step, false);
 }
 

@@ -10,7 +10,8 @@
 
 namespace hyperlattice {
 
-/// Whether a run has the field: no height without a membrane that moves, nothing broken without a failure law.
+/// Whether a run has the field: no height without a membrane that moves, nothing broken without a
+/// failure law.
 bool has_field(const Model& model, std::string_view name);
 
 /// The fields that each writer and probe names in any of its options.

@@ -11,7 +11,8 @@ namespace hyperlattice {
 
 namespace {
 
-/// A writer that has no label of its own puts its files into the run's folder; another has a folder called like its label.
+/// A writer that has no label of its own puts its files into the run's folder; another has a folder
+/// called like its label.
 bool has_folder(const Stage& writer) {
   const std::string type = writer.component->type();
   return writer.name != type.substr(type.find('.') + 1);
@@ -24,11 +25,13 @@ struct Named {
 };
 
 /// The writers that have an option `file`.
-std::vector<Named> named_of(const std::vector<const Stage*>& writers, const nlohmann::json& resolved) {
+std::vector<Named> named_of(const std::vector<const Stage*>& writers,
+                            const nlohmann::json& resolved) {
   std::vector<Named> named;
   for (const Stage* writer : writers) {
     const nlohmann::json::json_pointer place(writer->pointer + "/file");
-    if (resolved.contains(place) && resolved[place].is_string()) named.push_back({writer, resolved[place].get<std::string>()});
+    if (resolved.contains(place) && resolved[place].is_string())
+      named.push_back({writer, resolved[place].get<std::string>()});
   }
   return named;
 }
@@ -40,8 +43,10 @@ bool OutputName::may_be(std::string_view name) const {
   name.remove_prefix(base.size());
   if (name.starts_with('.')) return true;
   std::uint64_t number = 0;
-  const auto [end, error] = std::from_chars(name.data() + std::min<std::size_t>(1, name.size()), name.data() + name.size(), number);
-  return name.starts_with('_') && error == std::errc() && end != name.data() + name.size() && *end == '.' && static_cast<double>(number) < frames;
+  const auto [end, error] = std::from_chars(name.data() + std::min<std::size_t>(1, name.size()),
+                                            name.data() + name.size(), number);
+  return name.starts_with('_') && error == std::errc() && end != name.data() + name.size() &&
+         *end == '.' && static_cast<double>(number) < frames;
 }
 
 std::vector<OutputName> output_names(const Plan& plan) {
@@ -49,7 +54,8 @@ std::vector<OutputName> output_names(const Plan& plan) {
   const auto resolved = nlohmann::json::parse(plan.scene->resolved, nullptr, false);
   for (const auto& [writer, base] : named_of(plan.scene->of(Family::writers), resolved))
     names.push_back({has_folder(*writer) ? writer->name : "", base, 1 + frames_of(plan, *writer)});
-  for (const Stage* probe : plan.scene->of(Family::probes)) names.push_back({"probes", probe->name + ".csv"});
+  for (const Stage* probe : plan.scene->of(Family::probes))
+    names.push_back({"probes", probe->name + ".csv"});
   return names;
 }
 
@@ -61,12 +67,16 @@ void check_file_names(const Scene& scene, Faults& faults) {
   for (const Stage* writer : writers) {
     if (!has_folder(*writer)) continue;
     const std::string& name = writer->name;
-    if (std::find(std::begin(run_file_names), std::end(run_file_names), name) != std::end(run_file_names))
-      faults.add(writer->pointer + "/name", name, fmt::format("a label that is no file of the run; those are {}", fmt::join(run_file_names, ", ")));
+    if (std::find(std::begin(run_file_names), std::end(run_file_names), name) !=
+        std::end(run_file_names))
+      faults.add(writer->pointer + "/name", name,
+                 fmt::format("a label that is no file of the run; those are {}",
+                             fmt::join(run_file_names, ", ")));
     for (const auto& [other, base] : unlabelled) {
       if (name.starts_with(base) && name.find('.', base.size()) != std::string::npos)
         faults.add(writer->pointer + "/name", name,
-                   fmt::format("a label that is no file of {} ({}), which are called {}...", other->pointer, other->component->type(), base));
+                   fmt::format("a label that is no file of {} ({}), which are called {}...",
+                               other->pointer, other->component->type(), base));
     }
   }
 }

@@ -25,7 +25,8 @@ using Kind = Dependence::Kind;
 constexpr std::string_view kind_names[] = {"scene", "file", "plugin", "program", "mode"};
 constexpr std::string_view instruction_names[] = {"baseline", "avx2", "avx512"};
 
-/// The hash of code that this process runs. It is taken once: what is loaded stays, whatever becomes of the file.
+/// The hash of code that this process runs. It is taken once: what is loaded stays, whatever
+/// becomes of the file.
 std::string hash_of_code(const std::filesystem::path& file) {
   static std::mutex mutex;
   static std::map<std::filesystem::path, std::string> known;
@@ -42,7 +43,8 @@ std::filesystem::path core_library() {
   return dladdr(&here, &info) != 0 && info.dli_fname != nullptr ? info.dli_fname : "/proc/self/exe";
 }
 
-/// Each part of the scene by itself, so that a change can be named. Where files stand does not count.
+/// Each part of the scene by itself, so that a change can be named. Where files stand does not
+/// count.
 void add_scene(Identity& identity, const Scene& scene) {
   Json parts = Json::parse(scene.resolved);
   parts.erase("plugins");
@@ -56,14 +58,18 @@ void add_scene(Identity& identity, const Scene& scene) {
     }
     std::size_t place = 0;
     for (const auto& [name, inner] : part.items())
-      identity.push_back({Kind::scene, part.is_array() ? member(pointer, place++) : member(pointer, name), {}, hash_of_text(inner.dump())});
+      identity.push_back({Kind::scene,
+                          part.is_array() ? member(pointer, place++) : member(pointer, name),
+                          {},
+                          hash_of_text(inner.dump())});
   }
 }
 
 /// Adds the plugin of a component, unless it is among the `known`.
 void add_plugin(Identity& identity, std::set<std::string>& known, const Component& component) {
   if (known.insert(component.plugin).second)
-    identity.push_back({Kind::plugin, component.plugin, component.path, component.path.empty() ? component.version : hash_of_code(component.path)});
+    identity.push_back({Kind::plugin, component.plugin, component.path,
+                        component.path.empty() ? component.version : hash_of_code(component.path)});
 }
 
 std::string shown(const Dependence& one) {
@@ -100,14 +106,22 @@ class Index {
 Identity identity_of(const Scene& scene) {
   Identity identity;
   add_scene(identity, scene);
-  for (const InputFile& file : scene.files) identity.push_back({Kind::file, file.pointer, file.path, hash_of_file(file.path)});
+  for (const InputFile& file : scene.files)
+    identity.push_back({Kind::file, file.pointer, file.path, hash_of_file(file.path)});
   std::set<std::string> plugins;
   for (const Stage& stage : scene.stages) {
     add_plugin(identity, plugins, *stage.component);
     if (stage.failure) add_plugin(identity, plugins, *stage.failure->component);
   }
-  identity.push_back({Kind::program, "program", {}, hash_of_text(hash_of_code("/proc/self/exe") + hash_of_code(core_library()))});
-  identity.push_back({Kind::mode, "instruction set", {}, std::string(instruction_names[static_cast<std::size_t>(processor_instructions())])});
+  identity.push_back({Kind::program,
+                      "program",
+                      {},
+                      hash_of_text(hash_of_code("/proc/self/exe") + hash_of_code(core_library()))});
+  identity.push_back(
+      {Kind::mode,
+       "instruction set",
+       {},
+       std::string(instruction_names[static_cast<std::size_t>(processor_instructions())])});
   identity.push_back({Kind::mode, "way of computing springs", {}, spring_arithmetic()});
   return identity;
 }
@@ -120,7 +134,8 @@ std::string changes(const Identity& before, const Identity& now) {
     if (other == nullptr)
       found.push_back(shown(one) + " is new");
     else if (other->content != one.content)
-      found.push_back(one.kind == Kind::mode ? fmt::format("{} is {} in place of {}", shown(one), one.content, other->content)
+      found.push_back(one.kind == Kind::mode ? fmt::format("{} is {} in place of {}", shown(one),
+                                                           one.content, other->content)
                                              : shown(one) + " has changed");
   }
   for (const Dependence& one : before)
@@ -141,7 +156,9 @@ nlohmann::json identity_json(const Identity& identity) {
   auto list = nlohmann::json::array();
   for (const Dependence& one : identity) {
     auto& entry =
-        list.emplace_back(nlohmann::json{{"what", kind_names[static_cast<std::size_t>(one.kind)]}, {"name", one.name}, {"content", one.content}});
+        list.emplace_back(nlohmann::json{{"what", kind_names[static_cast<std::size_t>(one.kind)]},
+                                         {"name", one.name},
+                                         {"content", one.content}});
     if (!one.path.empty()) entry["path"] = one.path.string();
   }
   return list;
@@ -157,14 +174,16 @@ Identity read_identity(const nlohmann::json& json) {
     };
     const auto kind = std::find(std::begin(kind_names), std::end(kind_names), word("what"));
     if (kind == std::end(kind_names)) return {};
-    identity.push_back({static_cast<Kind>(kind - std::begin(kind_names)), word("name"), word("path"), word("content")});
+    identity.push_back({static_cast<Kind>(kind - std::begin(kind_names)), word("name"),
+                        word("path"), word("content")});
   }
   return identity;
 }
 
 std::string identity_hash(const Identity& identity) {
   ContentHash hash;
-  for (const Dependence& one : identity) hash.add(fmt::format("{} {} {}\n", static_cast<int>(one.kind), one.name, one.content));
+  for (const Dependence& one : identity)
+    hash.add(fmt::format("{} {} {}\n", static_cast<int>(one.kind), one.name, one.content));
   return hash.text();
 }
 

@@ -15,25 +15,43 @@ namespace {
 void leave_out_kernel_parts(const Plan& plan, std::vector<LeftOut>& out) {
   const Model& model = *plan.model;
   using Membrane = KernelChoice::Membrane;
-  if (model.choice.membrane == Membrane::none) out.push_back({"fourth dimension", "the membrane is none: no spring leaves the three dimensions"});
-  if (model.choice.membrane == Membrane::clamped)
-    out.push_back({"motion in the fourth dimension", "the membrane is clamped: its cross springs act, but each particle keeps its height"});
-  if (model.choice.membrane != Membrane::none)
+  if (model.choice.membrane == Membrane::none)
     out.push_back(
-        {"second layer of the membrane", "it mirrors the first exactly, so one layer is computed" +
-                                             (model.two_layers_grow.empty() ? "" : "; two free ones would not stay so: " + model.two_layers_grow)});
-  if (!model.choice.breakable) out.push_back({"failure", "no material names a failure law: no spring is tested"});
-  const auto is_static = [](const PlannedStage& stage) { return stage.plan.at_rest && stage.plan.time_step == 0; };
+        {"fourth dimension", "the membrane is none: no spring leaves the three dimensions"});
+  if (model.choice.membrane == Membrane::clamped)
+    out.push_back(
+        {"motion in the fourth dimension",
+         "the membrane is clamped: its cross springs act, but each particle keeps its height"});
+  if (model.choice.membrane != Membrane::none)
+    out.push_back({"second layer of the membrane",
+                   "it mirrors the first exactly, so one layer is computed" +
+                       (model.two_layers_grow.empty()
+                            ? ""
+                            : "; two free ones would not stay so: " + model.two_layers_grow)});
+  if (!model.choice.breakable)
+    out.push_back({"failure", "no material names a failure law: no spring is tested"});
+  const auto is_static = [](const PlannedStage& stage) {
+    return stage.plan.at_rest && stage.plan.time_step == 0;
+  };
   if (model.choice.breakable && std::any_of(plan.stages.begin(), plan.stages.end(), is_static))
-    out.push_back({"failure during static stages", "springs beyond their limit break in the first step in time that follows"});
-  if (model.kernels.memory == 0) out.push_back({"memory of springs", "the law of this material has none: a spring is where its ends are"});
-  if (!model.choice.mixed) out.push_back({"mixed materials", "there is one material: no particle stores which"});
+    out.push_back({"failure during static stages",
+                   "springs beyond their limit break in the first step in time that follows"});
+  if (model.kernels.memory == 0)
+    out.push_back(
+        {"memory of springs", "the law of this material has none: a spring is where its ends are"});
+  if (!model.choice.mixed)
+    out.push_back({"mixed materials", "there is one material: no particle stores which"});
   const auto is_damped = [](const PlannedStage& stage) { return stage.plan.damping > 0; };
-  if (std::none_of(plan.stages.begin(), plan.stages.end(), is_damped)) out.push_back({"local damping", "no solver stage asks for it"});
-  if (model.acceleration == Vec3{}) out.push_back({"body acceleration", "no load accelerates the whole body"});
+  if (std::none_of(plan.stages.begin(), plan.stages.end(), is_damped))
+    out.push_back({"local damping", "no solver stage asks for it"});
+  if (model.acceleration == Vec3{})
+    out.push_back({"body acceleration", "no load accelerates the whole body"});
   if (model.body.cells.empty() && model.body.listed.shares.empty())
-    out.push_back({"weights at the surface", "the boundary is particles: each particle and spring counts in full"});
-  if (!model.body.is_listed()) out.push_back({"list of springs", "every site has the same neighbours, so springs are bits, not records"});
+    out.push_back({"weights at the surface",
+                   "the boundary is particles: each particle and spring counts in full"});
+  if (!model.body.is_listed())
+    out.push_back({"list of springs",
+                   "every site has the same neighbours, so springs are bits, not records"});
 }
 
 void leave_out_loads(const Plan& plan, std::vector<LeftOut>& out) {
@@ -44,7 +62,8 @@ void leave_out_loads(const Plan& plan, std::vector<LeftOut>& out) {
       if (particle.displaced != 0 || particle.driven != 0) any_motion = true;
     }
   if (!any_force) out.push_back({"external forces", "no load applies one"});
-  if (!plan.model->answering) out.push_back({"forces that answer to the motion", "no load watches particles"});
+  if (!plan.model->answering)
+    out.push_back({"forces that answer to the motion", "no load watches particles"});
   if (!any_motion) out.push_back({"prescribed motion", "no load prescribes any"});
 }
 
@@ -57,7 +76,8 @@ void leave_out_outputs(const Plan& plan, std::vector<LeftOut>& out) {
       const std::vector<std::string>& names = plan.asked_fields.at(stage);
       asked.insert(names.begin(), names.end());
     }
-  if (plan.scene->of(Family::writers).empty()) out.push_back({"writers", "the scene has none: only tables and the summary are written"});
+  if (plan.scene->of(Family::writers).empty())
+    out.push_back({"writers", "the scene has none: only tables and the summary are written"});
   if (plan.scene->of(Family::probes).empty()) out.push_back({"probes", "the scene has none"});
   if (outputs == 0) return;
   for (const std::string_view name : field_names) {

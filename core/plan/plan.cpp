@@ -32,10 +32,17 @@ void check_plan(const Stage& stage, const PlannedStage& planned) {
   const SolverPlan& plan = planned.plan;
   const auto counts = [](double number) { return std::isfinite(number) && number >= 0; };
   if (!std::isfinite(plan.end_time) || plan.end_time < planned.start_time)
-    throw plugin_error(stage, "plan", fmt::format("it ends at {} s and starts at {} s", plan.end_time, planned.start_time));
-  if (!counts(plan.time_step) || (plan.time_step == 0 && !plan.at_rest) || !counts(plan.damping) || !counts(plan.bytes_per_site) ||
-      !counts(plan.sweeps_per_step) || std::isnan(plan.stable_time_step))
-    throw plugin_error(stage, "plan", fmt::format("it gives a time step of {} s, or another number that is negative or not finite", plan.time_step));
+    throw plugin_error(
+        stage, "plan",
+        fmt::format("it ends at {} s and starts at {} s", plan.end_time, planned.start_time));
+  if (!counts(plan.time_step) || (plan.time_step == 0 && !plan.at_rest) || !counts(plan.damping) ||
+      !counts(plan.bytes_per_site) || !counts(plan.sweeps_per_step) ||
+      std::isnan(plan.stable_time_step))
+    throw plugin_error(
+        stage, "plan",
+        fmt::format(
+            "it gives a time step of {} s, or another number that is negative or not finite",
+            plan.time_step));
 }
 
 /// Each stage starts where the one before ends.
@@ -48,7 +55,8 @@ void plan_stages(Plan& plan, Faults& faults) {
     planned.start_time = start;
     const SolverFacts facts = solver_facts(*plan.model, start);
     const auto refused = refusal_of(*stage, "plan", [&](const Complaint& why) {
-      return stage->functions<SolverFunctions>().plan(planned.component.get(), facts, planned.plan, why);
+      return stage->functions<SolverFunctions>().plan(planned.component.get(), facts, planned.plan,
+                                                      why);
     });
     if (refused)
       add_all(faults, objection(*plan.scene, *stage, *refused));
@@ -66,7 +74,9 @@ void check_fields(const Plan& plan, Faults& faults) {
     if (has_field(*plan.model, name)) present.push_back(name);
   for (const auto& [stage, names] : plan.asked_fields)
     for (const std::string& name : names)
-      if (!has_field(*plan.model, name)) faults.add(stage->pointer, name, fmt::format("fields that this run has: {}", fmt::join(present, ", ")));
+      if (!has_field(*plan.model, name))
+        faults.add(stage->pointer, name,
+                   fmt::format("fields that this run has: {}", fmt::join(present, ", ")));
 }
 
 }  // namespace
@@ -81,7 +91,8 @@ double Plan::end_time() const { return stages.empty() ? 0 : stages.back().plan.e
 
 double output_interval(const Stage& output, double end_time) {
   constexpr double frames = 20, samples = 200;
-  return output.cadence.every.value_or(end_time / (output.family() == Family::writers ? frames : samples));
+  return output.cadence.every.value_or(end_time /
+                                       (output.family() == Family::writers ? frames : samples));
 }
 
 double record_interval(const PlannedStage& stage) {
@@ -90,7 +101,9 @@ double record_interval(const PlannedStage& stage) {
   return std::max((stage.plan.end_time - stage.start_time) / records, steps * stage.plan.time_step);
 }
 
-std::uint64_t record_steps(const PlannedStage& stage) { return std::max<std::uint64_t>(1, stage.plan.time_step > 0 ? stage.plan.steps / 200 : 1); }
+std::uint64_t record_steps(const PlannedStage& stage) {
+  return std::max<std::uint64_t>(1, stage.plan.time_step > 0 ? stage.plan.steps / 200 : 1);
+}
 
 void set_threads(Plan& plan, int threads) {
   plan.threads = threads;
@@ -106,12 +119,16 @@ std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, Threads threads) {
   try {
     plan->model = build_model(*plan->scene);
   } catch (const std::bad_alloc&) {
-    throw OutsideError("out of memory while the lattice was built: too many particles for this machine; " + lack_of_memory());
+    throw OutsideError(
+        "out of memory while the lattice was built: too many particles for this machine; " +
+        lack_of_memory());
   }
   plan->body = body_figures(*plan->model);
-  for (std::string& warning : size_warnings(plan->body, plan->model->body.grid.spacing)) plan->model->warnings.push_back(std::move(warning));
+  for (std::string& warning : size_warnings(plan->body, plan->model->body.grid.spacing))
+    plan->model->warnings.push_back(std::move(warning));
   if (plan->model->body.is_listed())
-    if (std::string warning = coordination_warning(plan->model->body); !warning.empty()) plan->model->warnings.push_back(std::move(warning));
+    if (std::string warning = coordination_warning(plan->model->body); !warning.empty())
+      plan->model->warnings.push_back(std::move(warning));
   Faults faults;
   plan->asked_fields = asked_fields(*plan->scene);
   plan_stages(*plan, faults);
@@ -125,7 +142,8 @@ std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, Threads threads) {
   estimate_output(*plan);
   set_threads(*plan, threads.of(plan->model->body.particles));
   plan->left_out = left_out(*plan);
-  plan->setup_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  plan->setup_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return plan;
 }
 

@@ -1,4 +1,5 @@
-// The plan: what a run will load, allocate and compute, and what it leaves out; known before anything is computed.
+// The plan: what a run will load, allocate and compute, and what it leaves out; known before
+// anything is computed.
 #pragma once
 
 #include <model/body_figures.hpp>
@@ -61,13 +62,15 @@ struct Plan {
   double end_time() const;
 };
 
-/// Validates everything, writes nothing. Throws as read_scene and build_model do, and InputError if a solver refuses its time step.
+/// Validates everything, writes nothing. Throws as read_scene and build_model do, and InputError if
+/// a solver refuses its time step.
 std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, Threads threads);
 
 /// Gives a plan another number of threads, and estimates anew what depends on it.
 void set_threads(Plan& plan, int threads);
 
-/// Seconds between the outputs of a writer or probe in a run of `end_time` seconds; a scene that does not say gets 20 frames, 200 samples.
+/// Seconds between the outputs of a writer or probe in a run of `end_time` seconds; a scene that
+/// does not say gets 20 frames, 200 samples.
 double output_interval(const Stage& output, double end_time);
 
 /// Seconds between the records of a stage's history; a scene that does not say gets 200.
@@ -75,7 +78,8 @@ double record_interval(const PlannedStage& stage);
 /// The same in steps, of a stage that looks for rest.
 std::uint64_t record_steps(const PlannedStage& stage);
 
-std::string plan_text(const Plan& plan);     ///< for people
-nlohmann::json plan_json(const Plan& plan);  ///< the keys of summary.json that are known before a run, and left_out
+std::string plan_text(const Plan& plan);  ///< for people
+nlohmann::json plan_json(
+    const Plan& plan);  ///< the keys of summary.json that are known before a run, and left_out
 
 }  // namespace hyperlattice

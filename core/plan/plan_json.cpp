@@ -16,7 +16,9 @@ namespace {
 nlohmann::json plugins_json(const Scene& scene) {
   auto list = nlohmann::json::array();
   const auto add = [&](const Component& component) {
-    const nlohmann::json entry = {{"name", component.plugin}, {"version", component.version}, {"path", component.path.string()}};
+    const nlohmann::json entry = {{"name", component.plugin},
+                                  {"version", component.version},
+                                  {"path", component.path.string()}};
     if (std::find(list.begin(), list.end(), entry) == list.end()) list.push_back(entry);
   };
   for (const Stage& stage : scene.stages) {
@@ -44,17 +46,24 @@ std::string membrane_name(const Model& model) {
   for (const Material& material : model.materials) {
     const auto& stage = resolved.at(nlohmann::json::json_pointer(material.stage->pointer));
     const auto name = stage.find("membrane");
-    if (name == stage.end() || !name->is_string() || std::find(names.begin(), names.end(), *name) != names.end()) continue;
+    if (name == stage.end() || !name->is_string() ||
+        std::find(names.begin(), names.end(), *name) != names.end())
+      continue;
     names.push_back(*name);
   }
-  return names.empty() ? motion_name(model.choice.membrane) : fmt::format("{}", fmt::join(names, ", "));
+  return names.empty() ? motion_name(model.choice.membrane)
+                       : fmt::format("{}", fmt::join(names, ", "));
 }
 
 /// What the body is, beside what its shape asks for where that is known.
 nlohmann::json body_json(const BodyFigures& body) {
   const auto vector = [](Vec3 v) { return nlohmann::json{v.x, v.y, v.z}; };
-  nlohmann::json json = {{"size", vector(body.size)}, {"volume", body.volume}, {"mass", body.mass}, {"parts", body.parts}};
-  if (body.asked_size) json[body.asked_at_most ? "asked_size_at_most" : "asked_size"] = vector(*body.asked_size);
+  nlohmann::json json = {{"size", vector(body.size)},
+                         {"volume", body.volume},
+                         {"mass", body.mass},
+                         {"parts", body.parts}};
+  if (body.asked_size)
+    json[body.asked_at_most ? "asked_size_at_most" : "asked_size"] = vector(*body.asked_size);
   if (body.asked_volume) json["asked_volume"] = *body.asked_volume;
   if (body.asked_mass) json["asked_mass"] = *body.asked_mass;
   return json;
@@ -78,9 +87,11 @@ nlohmann::json common_facts(const Plan& plan) {
                       {"at_rest", stage.plan.at_rest}});
   }
   auto left_out = nlohmann::json::array();
-  for (const LeftOut& left : plan.left_out) left_out.push_back({{"what", left.what}, {"why", left.why}});
+  for (const LeftOut& left : plan.left_out)
+    left_out.push_back({{"what", left.what}, {"why", left.why}});
 
-  const double particles = static_cast<double>(model.body.particles), springs = static_cast<double>(model.body.base_springs());
+  const double particles = static_cast<double>(model.body.particles),
+               springs = static_cast<double>(model.body.base_springs());
   return {{"title", plan.scene->title},
           {"version", HYPERLATTICE_VERSION},
           {"particles", model.body.particles},
@@ -119,7 +130,8 @@ nlohmann::json plan_json(const Plan& plan) {
   nlohmann::json facts = common_facts(plan);
   if (!plan.model->body.is_listed()) return facts;
   const Coordination springs = coordination_of(plan.model->body);
-  facts["springs_of_a_particle"] = {{"fewest", springs.fewest}, {"most", springs.most}, {"fewer_than_three", springs.swinging}};
+  facts["springs_of_a_particle"] = {
+      {"fewest", springs.fewest}, {"most", springs.most}, {"fewer_than_three", springs.swinging}};
   return facts;
 }
 

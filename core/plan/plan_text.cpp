@@ -1,4 +1,5 @@
-// The plan as a page for people; every number comes from the JSON form, so that the two never differ.
+// The plan as a page for people; every number comes from the JSON form, so that the two never
+// differ.
 #include <base/figures.hpp>
 #include <plan/estimates.hpp>
 #include <state/simulation.hpp>
@@ -21,14 +22,19 @@ std::string duration_text(double seconds) {
 
 std::string stage_text(const PlannedStage& stage) {
   const SolverPlan& plan = stage.plan;
-  const std::string damped = plan.damping > 0 ? fmt::format(", local damping {:g}", plan.damping) : "";
+  const std::string damped =
+      plan.damping > 0 ? fmt::format(", local damping {:g}", plan.damping) : "";
   if (plan.at_rest && plan.time_step == 0)
-    return fmt::format("to rest under the loads of {:.6g} s, in {} step{} of load", plan.end_time, count_text(plan.steps),
-                       plan.steps == 1 ? "" : "s");
-  const std::string steps = fmt::format("steps of at most {:.6g} s, {:.3g} of the stable {:.6g} s{}", plan.time_step,
-                                        plan.time_step / plan.stable_time_step, plan.stable_time_step, damped);
-  if (plan.at_rest) return fmt::format("to rest under the loads of {:.6g} s, in about {} {}", plan.end_time, count_text(plan.steps), steps);
-  return fmt::format("{:.6g} s to {:.6g} s in {} {}", stage.start_time, plan.end_time, count_text(plan.steps), steps);
+    return fmt::format("to rest under the loads of {:.6g} s, in {} step{} of load", plan.end_time,
+                       count_text(plan.steps), plan.steps == 1 ? "" : "s");
+  const std::string steps =
+      fmt::format("steps of at most {:.6g} s, {:.3g} of the stable {:.6g} s{}", plan.time_step,
+                  plan.time_step / plan.stable_time_step, plan.stable_time_step, damped);
+  if (plan.at_rest)
+    return fmt::format("to rest under the loads of {:.6g} s, in about {} {}", plan.end_time,
+                       count_text(plan.steps), steps);
+  return fmt::format("{:.6g} s to {:.6g} s in {} {}", stage.start_time, plan.end_time,
+                     count_text(plan.steps), steps);
 }
 
 std::string run_time_text(const Plan& plan) {
@@ -43,8 +49,12 @@ std::string run_time_text(const Plan& plan) {
 
 class Page {
  public:
-  void section(std::string_view title) { fmt::format_to(std::back_inserter(text_), "\n{}\n", title); }
-  void line(std::string_view name, std::string_view value) { fmt::format_to(std::back_inserter(text_), "  {:<30} {}\n", name, value); }
+  void section(std::string_view title) {
+    fmt::format_to(std::back_inserter(text_), "\n{}\n", title);
+  }
+  void line(std::string_view name, std::string_view value) {
+    fmt::format_to(std::back_inserter(text_), "  {:<30} {}\n", name, value);
+  }
   std::string take() { return std::move(text_); }
   void title(std::string_view text) { text_ = fmt::format("{}\n", text); }
 
@@ -57,7 +67,9 @@ class Page {
 std::string plan_text(const Plan& plan) {
   const nlohmann::json facts = plan_json(plan);
   const auto number = [&](const char* key) { return facts.at(key).get<double>(); };
-  const auto count = [&](const char* key) { return count_text(facts.at(key).get<std::uint64_t>()); };
+  const auto count = [&](const char* key) {
+    return count_text(facts.at(key).get<std::uint64_t>());
+  };
   const auto word = [&](const char* key) { return facts.at(key).get<std::string>(); };
 
   Page page;
@@ -66,7 +78,8 @@ std::string plan_text(const Plan& plan) {
   page.section("Loaded");
   for (const auto& plugin : facts.at("plugins"))
     page.line(plugin.at("name").get<std::string>(),
-              fmt::format("{}  {}", plugin.at("version").get<std::string>(), plugin.at("path").get<std::string>()));
+              fmt::format("{}  {}", plugin.at("version").get<std::string>(),
+                          plugin.at("path").get<std::string>()));
 
   page.section("Body");
   for (const auto& [name, value] : body_lines(plan.body)) page.line(name, value);
@@ -74,24 +87,38 @@ std::string plan_text(const Plan& plan) {
   page.section("Allocated");
   page.line("particles", count("particles"));
   page.line("state", fmt::format("{:.1f} bytes per particle", number("bytes_per_particle")));
-  page.line("memory", bytes_text(number("memory_bytes")) +
-                          (facts.at("breakable").get<bool>() ? fmt::format(", and {} bytes for each spring that breaks", sizeof(Breakage)) : ""));
+  page.line("memory",
+            bytes_text(number("memory_bytes")) +
+                (facts.at("breakable").get<bool>()
+                     ? fmt::format(", and {} bytes for each spring that breaks", sizeof(Breakage))
+                     : ""));
 
   page.section("Computed");
-  page.line("springs", fmt::format("{}, {:.2f} per particle", count("springs"), number("springs_per_particle")));
+  page.line("springs", fmt::format("{}, {:.2f} per particle", count("springs"),
+                                   number("springs_per_particle")));
   if (facts.contains("springs_of_a_particle")) {
     const nlohmann::json& of = facts.at("springs_of_a_particle");
     const auto swinging = of.at("fewer_than_three").get<std::uint64_t>();
-    page.line("springs of a particle",
-              fmt::format("{} to {}{}", of.at("fewest").get<std::uint64_t>(), of.at("most").get<std::uint64_t>(),
-                          swinging == 0 ? "" : fmt::format("; {} have fewer than three, and swing where a load reaches them", count_text(swinging))));
+    page.line(
+        "springs of a particle",
+        fmt::format(
+            "{} to {}{}", of.at("fewest").get<std::uint64_t>(), of.at("most").get<std::uint64_t>(),
+            swinging == 0
+                ? ""
+                : fmt::format("; {} have fewer than three, and swing where a load reaches them",
+                              count_text(swinging))));
   }
-  page.line("kernel",
-            fmt::format("{} degrees of freedom, membrane {}, {}, {} precision, {} instructions, {} thread{}",
-                        facts.at("degrees_of_freedom").get<int>(), word("membrane"), facts.at("breakable").get<bool>() ? "breakable" : "unbreakable",
-                        word("precision"), word("instructions"), plan.threads, plan.threads == 1 ? "" : "s"));
-  page.line("critical time step", fmt::format("{:.6g} s: {}", number("critical_time_step"), word("critical_because")));
-  for (const PlannedStage& stage : plan.stages) page.line(stage.stage->component->type(), stage_text(stage));
+  page.line(
+      "kernel",
+      fmt::format(
+          "{} degrees of freedom, membrane {}, {}, {} precision, {} instructions, {} thread{}",
+          facts.at("degrees_of_freedom").get<int>(), word("membrane"),
+          facts.at("breakable").get<bool>() ? "breakable" : "unbreakable", word("precision"),
+          word("instructions"), plan.threads, plan.threads == 1 ? "" : "s"));
+  page.line("critical time step",
+            fmt::format("{:.6g} s: {}", number("critical_time_step"), word("critical_because")));
+  for (const PlannedStage& stage : plan.stages)
+    page.line(stage.stage->component->type(), stage_text(stage));
   page.line("steps", count("steps"));
   page.line("output", fmt::format("about {}", bytes_text(number("output_bytes"))));
   page.line("run time", run_time_text(plan));

@@ -10,7 +10,8 @@
 namespace hyperlattice {
 namespace {
 
-/// How far the start velocities, at most, move a particle until `end`. What turns as one body goes round in circles, no wider than it is.
+/// How far the start velocities, at most, move a particle until `end`. What turns as one body goes
+/// round in circles, no wider than it is.
 double started(const Model& model, double end) {
   const auto vector = [](Vec3 v) { return Eigen::Vector3d(v.x, v.y, v.z); };
   const double count = static_cast<double>(model.start_velocities.size());
@@ -44,9 +45,11 @@ double farthest(const Plan& plan) {
   double travel = 0;
   for (const Load& load : model.loads) {
     double factor = std::max(std::abs(load.factor(0)), std::abs(load.factor(end)));
-    for (const double corner : model.corners) factor = std::max(factor, std::abs(load.factor(corner)));
+    for (const double corner : model.corners)
+      factor = std::max(factor, std::abs(load.factor(corner)));
     for (const LoadedParticle& loaded : load.particles)
-      travel = std::max(travel, factor * std::max(norm(loaded.displacement), norm(loaded.velocity) * end));
+      travel = std::max(travel,
+                        factor * std::max(norm(loaded.displacement), norm(loaded.velocity) * end));
   }
   return std::max(travel, started(model, end));
 }
@@ -56,14 +59,19 @@ double least_breaking_strain(const Model& model) {
   for (const NeighbourGeometry& to : model.neighbours)
     for (std::size_t n = 0; n < model.materials.size(); ++n) {
       const auto material = static_cast<std::uint8_t>(n);
-      strain = std::min(strain, model.spring(material, material, to.site.spring_class).alarm / to.rest_length);
+      strain = std::min(
+          strain, model.spring(material, material, to.site.spring_class).alarm / to.rest_length);
     }
   return strain;
 }
 
-double most_rounding(const Model& model) { return std::min(1e-6, std::max(least_breaking_strain(model), 0.0) / 100); }
+double most_rounding(const Model& model) {
+  return std::min(1e-6, std::max(least_breaking_strain(model), 0.0) / 100);
+}
 
-double rounding_strain(const Model& model, double travel) { return std::ldexp(travel, -24) / model.body.grid.spacing; }
+double rounding_strain(const Model& model, double travel) {
+  return std::ldexp(travel, -24) / model.body.grid.spacing;
+}
 
 }  // namespace
 
@@ -71,18 +79,22 @@ std::string precision_warning(const Model& model, double travel) {
   const double lost = rounding_strain(model, travel);
   if (!(lost > most_rounding(model))) return "";
   return fmt::format(
-      "floats are coarse here: a particle moved by {:.3g} m, {:.3g} spacings, where they know strains to {:.2g}; compare with precision double",
+      "floats are coarse here: a particle moved by {:.3g} m, {:.3g} spacings, where they know "
+      "strains to {:.2g}; compare with precision double",
       travel, travel / model.body.grid.spacing, lost);
 }
 
 void check_precision(const Plan& plan, Faults& faults) {
   if (plan.model->choice.precision != Precision::floats) return;
-  const double travel = farthest(plan), lost = rounding_strain(*plan.model, travel), breaking = least_breaking_strain(*plan.model);
+  const double travel = farthest(plan), lost = rounding_strain(*plan.model, travel),
+               breaking = least_breaking_strain(*plan.model);
   if (lost <= most_rounding(*plan.model)) return;
   faults.add("/precision", "float",
-             fmt::format("double: the loads move particles by up to {:.3g} m, {:.3g} spacings, where floats know strains to {:.2g} only{}", travel,
-                         travel / plan.model->body.grid.spacing, lost,
-                         breaking < 1e-4 ? fmt::format(", and springs break at {:.2g}", breaking) : std::string()));
+             fmt::format("double: the loads move particles by up to {:.3g} m, {:.3g} spacings, "
+                         "where floats know strains to {:.2g} only{}",
+                         travel, travel / plan.model->body.grid.spacing, lost,
+                         breaking < 1e-4 ? fmt::format(", and springs break at {:.2g}", breaking)
+                                         : std::string()));
 }
 
 }  // namespace hyperlattice

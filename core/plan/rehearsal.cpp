@@ -82,7 +82,8 @@ class AtRest {
     const double needed = 6.0 * sizeof(double) * static_cast<double>(model_.body.particles);
     if (const Room room = memory_room(); needed > room.bytes)
       throw OutsideError(
-          fmt::format("not enough memory to try the probes: {} are needed, {} left; {}", bytes_text(needed), bytes_text(room.bytes), room.bound));
+          fmt::format("not enough memory to try the probes: {} are needed, {} left; {}",
+                      bytes_text(needed), bytes_text(room.bytes), room.bound));
   }
 
   const Model& model_;
@@ -92,14 +93,18 @@ class AtRest {
   std::vector<double> positions_, zeros_;
 };
 
-/// A few of a body's particles, spread over all that a writer shows, in a motion that fills every digit of its numbers.
+/// A few of a body's particles, spread over all that a writer shows, in a motion that fills every
+/// digit of its numbers.
 class Sample {
  public:
-  /// `regions`: those that the writer asks for; the largest of them is what it shows, and of none the whole body.
-  Sample(const Model& model, AtRest& rest, const std::vector<RegionId>& regions, std::size_t most) : model_(model), rest_(rest) {
+  /// `regions`: those that the writer asks for; the largest of them is what it shows, and of none
+  /// the whole body.
+  Sample(const Model& model, AtRest& rest, const std::vector<RegionId>& regions, std::size_t most)
+      : model_(model), rest_(rest) {
     std::span<const Particle> shown;
     for (const RegionId region : regions)
-      if (const auto particles = rest.particles(region); particles.size() > shown.size()) shown = particles;
+      if (const auto particles = rest.particles(region); particles.size() > shown.size())
+        shown = particles;
     all_ = regions.empty() ? model.body.particles : shown.size();
     const std::size_t size = std::min(most, all_);
     for (std::size_t n = 0; n < size; ++n) {
@@ -123,7 +128,8 @@ class Sample {
     context.directory = directory;
     context.self = this;
     context.region_particles = [](void* self, RegionId region) noexcept {
-      return PluginCall::answer(std::span<const Particle>(), [&] { return static_cast<Sample*>(self)->particles(region); });
+      return PluginCall::answer(std::span<const Particle>(),
+                                [&] { return static_cast<Sample*>(self)->particles(region); });
     };
     return context;
   }
@@ -133,11 +139,13 @@ class Sample {
     snapshot.time = 1e-4 / 3;
     snapshot.step = 1000;
     snapshot.particles = size();
-    snapshot.spacing = model_.body.grid.spacing * std::cbrt(static_cast<double>(all_) / static_cast<double>(size()));
+    snapshot.spacing = model_.body.grid.spacing *
+                       std::cbrt(static_cast<double>(all_) / static_cast<double>(size()));
     snapshot.positions = positions_;
     snapshot.self = this;
     snapshot.get_field = [](void* self, std::string_view name, Field& field) noexcept {
-      return PluginCall::answer(false, [&] { return static_cast<Sample*>(self)->field(name, field); });
+      return PluginCall::answer(false,
+                                [&] { return static_cast<Sample*>(self)->field(name, field); });
     };
     return snapshot;
   }
@@ -149,7 +157,8 @@ class Sample {
     if (!is_new) return entry->second;
     const auto members = rest_.particles(region);
     for (std::size_t n = 0; n < particles_.size(); ++n)
-      if (std::binary_search(members.begin(), members.end(), particles_[n])) entry->second.push_back(static_cast<Particle>(n));
+      if (std::binary_search(members.begin(), members.end(), particles_[n]))
+        entry->second.push_back(static_cast<Particle>(n));
     return entry->second;
   }
 
@@ -159,27 +168,33 @@ class Sample {
     field.components = name == "displacement" || name == "velocity" ? 3 : 1;
     values.assign(field.components * size(), 0.0);  // nothing is broken
     if (name == "material")
-      std::transform(particles_.begin(), particles_.end(), values.begin(), [this](Particle particle) { return model_.material(particle); });
+      std::transform(particles_.begin(), particles_.end(), values.begin(),
+                     [this](Particle particle) { return model_.material(particle); });
     else if (name == "source")
-      std::transform(particles_.begin(), particles_.end(), values.begin(), [this](Particle particle) { return model_.body.listed.source[particle]; });
+      std::transform(particles_.begin(), particles_.end(), values.begin(),
+                     [this](Particle particle) { return model_.body.listed.source[particle]; });
     else if (name == "velocity" || name == "displacement" || name == "height")
       fill(values, name == "velocity" ? 1.0 : 1e-3 * model_.body.grid.spacing);
     field.values = values;
     return true;
   }
 
-  /// Numbers that change slowly along the body, and whose last digits are noise. Their last bits are left out: so they pack about as well as those of
-  /// a body whose parts move partly alike, and have as many decimal digits as any.
+  /// Numbers that change slowly along the body, and whose last digits are noise. Their last bits
+  /// are left out: so they pack about as well as those of a body whose parts move partly alike, and
+  /// have as many decimal digits as any.
   void fill(std::vector<double>& values, double size) const {
-    constexpr double roughness = 1e-4, middle = 0.37;  // a bit more than half of the numbers have no sign
+    constexpr double roughness = 1e-4,
+                     middle = 0.37;  // a bit more than half of the numbers have no sign
     std::uint64_t noise = 1;
     for (std::size_t n = 0; n < values.size(); ++n) {
       noise = noise * 6364136223846793005U + 1442695040888963407U;  // Knuth's
       const double along = static_cast<double>(n) / static_cast<double>(values.size());
-      const double value = size * (along - middle + roughness * std::ldexp(static_cast<double>(noise >> 11), -53));
+      const double value =
+          size * (along - middle + roughness * std::ldexp(static_cast<double>(noise >> 11), -53));
       constexpr std::uint64_t left_out = (1U << 16) - 1;
-      values[n] = model_.choice.precision == Precision::floats ? static_cast<double>(static_cast<float>(value))
-                                                               : std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) & ~left_out);
+      values[n] = model_.choice.precision == Precision::floats
+                      ? static_cast<double>(static_cast<float>(value))
+                      : std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) & ~left_out);
     }
   }
 
@@ -195,7 +210,8 @@ class Sample {
 /// A folder of its own in the system's folder for such, which ends with this object.
 class TrialFolder {
  public:
-  TrialFolder() : path_((std::filesystem::temp_directory_path() / "hyperlattice_trial_XXXXXX").string()) {
+  TrialFolder()
+      : path_((std::filesystem::temp_directory_path() / "hyperlattice_trial_XXXXXX").string()) {
     if (::mkdtemp(path_.data()) == nullptr) throw OutsideError(path_ + ": cannot make the folder");
   }
   TrialFolder(const TrialFolder&) = delete;
@@ -220,46 +236,60 @@ class TrialFolder {
 /// What a frame of the sample takes. None if it cannot be written here, for whatever reason.
 std::optional<FrameCost> try_frame(const Stage& stage, Sample& sample) try {
   using Clock = std::chrono::steady_clock;
-  constexpr double quick = 0.01;  // s, below which the first frame may have waited for what later ones find ready
+  constexpr double quick =
+      0.01;  // s, below which the first frame may have waited for what later ones find ready
   const FileLimitGuard file_limit;
   const TrialFolder folder;
   const auto& writer = stage.functions<WriterFunctions>();
   const ComponentPointer component = make_component(stage);
   const OutputContext context = sample.context(folder.path());
-  if (refusal_of(stage, "begin", [&](const Complaint& why) { return writer.begin(component.get(), context, why); })) return std::nullopt;
+  if (refusal_of(stage, "begin",
+                 [&](const Complaint& why) { return writer.begin(component.get(), context, why); }))
+    return std::nullopt;
   const Snapshot snapshot = sample.snapshot();
   FrameCost cost{0, infinity};
   for (int n = 0; n < 2 && (n == 0 || cost.seconds < quick); ++n) {
     const auto start = Clock::now();
-    if (refusal_of(stage, "frame", [&](const Complaint& why) { return writer.frame(component.get(), snapshot, why); })) return std::nullopt;
-    cost.seconds = std::min(cost.seconds, std::chrono::duration<double>(Clock::now() - start).count());
+    if (refusal_of(stage, "frame", [&](const Complaint& why) {
+          return writer.frame(component.get(), snapshot, why);
+        }))
+      return std::nullopt;
+    cost.seconds =
+        std::min(cost.seconds, std::chrono::duration<double>(Clock::now() - start).count());
     if (n == 0) cost.bytes = folder.bytes();
   }
-  if (refusal_of(stage, "end", [&](const Complaint& why) { return writer.end(component.get(), why); })) return std::nullopt;
+  if (refusal_of(stage, "end",
+                 [&](const Complaint& why) { return writer.end(component.get(), why); }))
+    return std::nullopt;
   return cost;
 } catch (const std::exception&) {
   return std::nullopt;
 }
 
-/// The same. The run tells of a failure if it meets it too; that memory ran out here does not count.
+/// The same. The run tells of a failure if it meets it too; that memory ran out here does not
+/// count.
 std::optional<FrameCost> cost_of(const Stage& stage, Sample& sample) {
   const auto cost = try_frame(stage, sample);
   if (!cost) forget_lack_of_memory();
   return cost;
 }
 
-/// A cost of all particles, which grows as a power of their number: 1 of a table, nearly 0 of a picture.
+/// A cost of all particles, which grows as a power of their number: 1 of a table, nearly 0 of a
+/// picture.
 double of_all(double all, double few, double cost_of_few, double some, double cost_of_some) {
   const bool grows = cost_of_few > 0 && cost_of_some > cost_of_few;
-  const double power = grows ? std::min(1.0, std::log(cost_of_some / cost_of_few) / std::log(some / few)) : 0.0;
+  const double power =
+      grows ? std::min(1.0, std::log(cost_of_some / cost_of_few) / std::log(some / few)) : 0.0;
   return cost_of_some * std::pow(all / some, power);
 }
 
-/// The cost of a frame of all particles that the writer shows, from frames of a few and of some. Few alone count, each particle alike, where some
-/// leave no file: files may be limited in size.
-std::optional<FrameCost> frame_cost(const Model& model, AtRest& rest, const Stage& stage, const std::vector<RegionId>& regions) {
+/// The cost of a frame of all particles that the writer shows, from frames of a few and of some.
+/// Few alone count, each particle alike, where some leave no file: files may be limited in size.
+std::optional<FrameCost> frame_cost(const Model& model, AtRest& rest, const Stage& stage,
+                                    const std::vector<RegionId>& regions) {
   constexpr std::size_t few_particles = 256, some_particles = 8192;
-  constexpr double long_time = 0.5;  // s: much longer than so few particles take, whose number then matters little
+  constexpr double long_time =
+      0.5;  // s: much longer than so few particles take, whose number then matters little
   Sample some(model, rest, regions, some_particles);
   const auto all = static_cast<double>(some.all());
   if (all == 0) return std::nullopt;
@@ -271,7 +301,8 @@ std::optional<FrameCost> frame_cost(const Model& model, AtRest& rest, const Stag
   const auto number = static_cast<double>(few.size());
   if (!cost) return FrameCost{least->bytes * all / number, least->seconds * all / number};
   const auto more = static_cast<double>(some.size());
-  return FrameCost{of_all(all, number, least->bytes, more, cost->bytes), of_all(all, number, least->seconds, more, cost->seconds)};
+  return FrameCost{of_all(all, number, least->bytes, more, cost->bytes),
+                   of_all(all, number, least->seconds, more, cost->seconds)};
 }
 
 }  // namespace
@@ -284,10 +315,12 @@ void rehearse_outputs(Plan& plan, Faults& faults) {
   for (const Stage* stage : writers) {
     const ComponentPointer writer = make_component(*stage);
     rest.take_asked();
-    const auto refused =
-        refusal_of(*stage, "begin", [&](const Complaint& why) { return stage->functions<WriterFunctions>().begin(writer.get(), context, why); });
+    const auto refused = refusal_of(*stage, "begin", [&](const Complaint& why) {
+      return stage->functions<WriterFunctions>().begin(writer.get(), context, why);
+    });
     if (refused)
-      faults.add(stage->pointer, stage->component->type(), "an output that fits the body: " + *refused);
+      faults.add(stage->pointer, stage->component->type(),
+                 "an output that fits the body: " + *refused);
     else if (const auto cost = frame_cost(*plan.model, rest, *stage, rest.take_asked()))
       plan.frame_costs[stage] = *cost;
   }
@@ -295,14 +328,20 @@ void rehearse_outputs(Plan& plan, Faults& faults) {
   const Snapshot snapshot = rest.snapshot();
   for (const Stage* stage : probes) {
     const ComponentPointer probe = make_component(*stage);
-    std::vector<std::string>& names = plan.tables.emplace_back(PlannedTable{stage->name, {"time"}}).columns;
+    std::vector<std::string>& names =
+        plan.tables.emplace_back(PlannedTable{stage->name, {"time"}}).columns;
     const auto refused = refusal_of(*stage, "begin", [&](const Complaint& why) {
-      return stage->functions<ProbeFunctions>().begin(probe.get(), context, snapshot, columns_into(names), why);
+      return stage->functions<ProbeFunctions>().begin(probe.get(), context, snapshot,
+                                                      columns_into(names), why);
     });
     std::set<std::string_view> different;
     for (const std::string& name : names)
-      if (!different.insert(name).second) throw plugin_error(*stage, "begin", fmt::format("it gives two columns the name \"{}\"", name));
-    if (refused) faults.add(stage->pointer, stage->component->type(), "an output that fits the body: " + *refused);
+      if (!different.insert(name).second)
+        throw plugin_error(*stage, "begin",
+                           fmt::format("it gives two columns the name \"{}\"", name));
+    if (refused)
+      faults.add(stage->pointer, stage->component->type(),
+                 "an output that fits the body: " + *refused);
   }
 }
 

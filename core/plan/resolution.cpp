@@ -10,13 +10,15 @@
 namespace hyperlattice {
 namespace {
 
-/// By which share the mean over a step, of sin(2 pi f t) with so many steps a period, is below its amplitude.
+/// By which share the mean over a step, of sin(2 pi f t) with so many steps a period, is below its
+/// amplitude.
 double lost_by_mean(double steps_a_period) {
   const double half_phase = std::numbers::pi / steps_a_period;
   return 1 - std::sin(half_phase) / half_phase;
 }
 
-/// Two corners of a load, less than two steps apart, between which or at which its factor changes by more than a tenth of its largest value.
+/// Two corners of a load, less than two steps apart, between which or at which its factor changes
+/// by more than a tenth of its largest value.
 struct ShortPiece {
   double from = 0, to = 0;  ///< s
   bool found = false;
@@ -33,7 +35,8 @@ Pieces pieces_of(const Load& load) {
   pieces.ends.push_back(0);
   pieces.ends.insert(pieces.ends.end(), load.corners.begin(), load.corners.end());
   for (std::size_t n = 0; n + 1 < pieces.ends.size(); ++n)
-    pieces.largest = std::max(pieces.largest, std::abs(load.factor(0.5 * (pieces.ends[n] + pieces.ends[n + 1]))));
+    pieces.largest = std::max(pieces.largest,
+                              std::abs(load.factor(0.5 * (pieces.ends[n] + pieces.ends[n + 1]))));
   return pieces;
 }
 
@@ -57,16 +60,20 @@ ShortPiece shortest(const Load& load, const Pieces& pieces, const PlannedStage& 
   return shortest;
 }
 
-/// An instant about which a load's mean over a step is not that of the step's two halves: it changes too fast for the points at which it is looked
-/// at. Nothing if there is none among some steps of the stage.
-std::optional<double> too_fast_at(const Load& load, const PlannedStage& stage, std::uint64_t most_steps) {
+/// An instant about which a load's mean over a step is not that of the step's two halves: it
+/// changes too fast for the points at which it is looked at. Nothing if there is none among some
+/// steps of the stage.
+std::optional<double> too_fast_at(const Load& load, const PlannedStage& stage,
+                                  std::uint64_t most_steps) {
   constexpr double share = 1e-3;
   const double step = stage.plan.time_step;
   const std::uint64_t stride = std::max<std::uint64_t>(1, stage.plan.steps / most_steps);
   double largest = 0, worst = 0, at = 0;
   for (std::uint64_t n = 0; n < stage.plan.steps; n += stride) {
-    const double from = stage.start_time + static_cast<double>(n) * step, middle = from + 0.5 * step, to = from + step;
-    const double whole = load.mean(from, to), halves = 0.5 * (load.mean(from, middle) + load.mean(middle, to));
+    const double from = stage.start_time + static_cast<double>(n) * step,
+                 middle = from + 0.5 * step, to = from + step;
+    const double whole = load.mean(from, to),
+                 halves = 0.5 * (load.mean(from, middle) + load.mean(middle, to));
     largest = std::max({largest, std::abs(whole), std::abs(halves)});
     if (!(std::abs(whole - halves) > worst)) continue;
     worst = std::abs(whole - halves);
@@ -79,7 +86,8 @@ std::optional<double> too_fast_at(const Load& load, const PlannedStage& stage, s
 const PlannedStage* coarsest_of(const Plan& plan) {
   const PlannedStage* coarsest = nullptr;
   for (const PlannedStage& stage : plan.stages)
-    if (!stage.plan.at_rest && stage.plan.time_step > 0 && (coarsest == nullptr || stage.plan.time_step > coarsest->plan.time_step))
+    if (!stage.plan.at_rest && stage.plan.time_step > 0 &&
+        (coarsest == nullptr || stage.plan.time_step > coarsest->plan.time_step))
       coarsest = &stage;
   return coarsest;
 }
@@ -90,27 +98,34 @@ void check_resolution(Plan& plan, Faults& faults) {
   constexpr double fewest = 2, good = 20;  // steps a period
   const PlannedStage* coarsest = coarsest_of(plan);
   if (coarsest == nullptr) return;
-  const std::uint64_t most_steps = std::clamp<std::uint64_t>(200'000 / (1 + plan.model->loads.size()), 16, 4096);
+  const std::uint64_t most_steps =
+      std::clamp<std::uint64_t>(200'000 / (1 + plan.model->loads.size()), 16, 4096);
   for (const Load& load : plan.model->loads) {
-    const std::string name = fmt::format("{} ({})", load.stage->component->type(), load.stage->pointer);
+    const std::string name =
+        fmt::format("{} ({})", load.stage->component->type(), load.stage->pointer);
     const double step = coarsest->plan.time_step;
     if (load.frequency > 0) {
       const double steps = 1 / (load.frequency * step);
       if (steps < fewest * (1 - 1e-9))
         faults.add(load.stage->pointer, fmt::format("{:.6g} Hz", load.frequency),
-                   fmt::format("at most {:.4g} Hz, half a period a step of {:.4g} s ({}); or a time_step of at most {:.4g} s, 20 steps a period",
-                               1 / (fewest * step), step, coarsest->stage->pointer, 1 / (good * load.frequency)));
+                   fmt::format("at most {:.4g} Hz, half a period a step of {:.4g} s ({}); or a "
+                               "time_step of at most {:.4g} s, 20 steps a period",
+                               1 / (fewest * step), step, coarsest->stage->pointer,
+                               1 / (good * load.frequency)));
       else if (steps < good)
         plan.model->warnings.push_back(
-            fmt::format("{}: a period of its {:.4g} Hz is {:.3g} steps of {}; the mean over a step takes {:.2g} % off its amplitude. 20 steps a "
+            fmt::format("{}: a period of its {:.4g} Hz is {:.3g} steps of {}; the mean over a step "
+                        "takes {:.2g} % off its amplitude. 20 steps a "
                         "period take off 0.4 %: a time_step of {:.4g} s",
-                        name, load.frequency, steps, coarsest->stage->pointer, 100 * lost_by_mean(steps), 1 / (good * load.frequency)));
+                        name, load.frequency, steps, coarsest->stage->pointer,
+                        100 * lost_by_mean(steps), 1 / (good * load.frequency)));
     }
     if (const auto at = too_fast_at(load, *coarsest, most_steps))
-      plan.model->warnings.push_back(fmt::format(
-          "{}: about {:.4g} s it changes faster than the steps of {}, {:.4g} s, can tell, so its impulse is not exact. It needs shorter steps, or "
-          "corners where it has kinks and jumps",
-          name, *at, coarsest->stage->pointer, step));
+      plan.model->warnings.push_back(
+          fmt::format("{}: about {:.4g} s it changes faster than the steps of {}, {:.4g} s, can "
+                      "tell, so its impulse is not exact. It needs shorter steps, or "
+                      "corners where it has kinks and jumps",
+                      name, *at, coarsest->stage->pointer, step));
     const Pieces pieces = pieces_of(load);
     ShortPiece piece;
     for (const PlannedStage& stage : plan.stages) {
@@ -118,9 +133,11 @@ void check_resolution(Plan& plan, Faults& faults) {
       piece = shortest(load, pieces, stage);
       if (!piece.found) continue;
       plan.model->warnings.push_back(
-          fmt::format("{}: from {:.4g} s to {:.4g} s it changes within {:.2g} steps of {}. Its impulse is exact, but its shape needs two steps or "
+          fmt::format("{}: from {:.4g} s to {:.4g} s it changes within {:.2g} steps of {}. Its "
+                      "impulse is exact, but its shape needs two steps or "
                       "more: a time_step of at most {:.3g} s",
-                      name, piece.from, piece.to, (piece.to - piece.from) / stage.plan.time_step, stage.stage->pointer, (piece.to - piece.from) / 2));
+                      name, piece.from, piece.to, (piece.to - piece.from) / stage.plan.time_step,
+                      stage.stage->pointer, (piece.to - piece.from) / 2));
       break;
     }
   }

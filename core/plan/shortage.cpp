@@ -13,8 +13,8 @@ namespace hyperlattice {
 
 namespace {
 
-/// Bytes of the files that an earlier run's list names: a new run replaces them, a resumed one has written them already. A list that
-/// cannot be read names none; the run itself says why.
+/// Bytes of the files that an earlier run's list names: a new run replaces them, a resumed one has
+/// written them already. A list that cannot be read names none; the run itself says why.
 double own_bytes(const std::filesystem::path& directory) {
   namespace fs = std::filesystem;
   double bytes = 0;
@@ -33,7 +33,8 @@ double own_bytes(const std::filesystem::path& directory) {
   return bytes;
 }
 
-/// The share of an estimate that a run writes at least, as a rule: a run that may fit is not refused.
+/// The share of an estimate that a run writes at least, as a rule: a run that may fit is not
+/// refused.
 constexpr double surely = 0.7;
 
 }  // namespace
@@ -42,21 +43,28 @@ std::vector<std::string> shortages(const Plan& plan, const std::filesystem::path
   std::vector<std::string> found;
   const double missing = plan.memory_bytes - model_bytes(*plan.model);
   if (const Room memory = memory_room(); missing > memory.bytes)
-    found.push_back(fmt::format("too little memory: the run needs {}, {} more than it has now; there are {} ({})", bytes_text(plan.memory_bytes),
-                                bytes_text(missing), bytes_text(memory.bytes), memory.bound));
+    found.push_back(fmt::format(
+        "too little memory: the run needs {}, {} more than it has now; there are {} ({})",
+        bytes_text(plan.memory_bytes), bytes_text(missing), bytes_text(memory.bytes),
+        memory.bound));
   if (const Room disk = disk_room(directory);
-      surely * plan.output_bytes > disk.bytes && surely * plan.output_bytes > disk.bytes + own_bytes(directory))
-    found.push_back(fmt::format("too little disk: the run will write about {}, and {}", bytes_text(plan.output_bytes), disk.bound));
+      surely * plan.output_bytes > disk.bytes &&
+      surely * plan.output_bytes > disk.bytes + own_bytes(directory))
+    found.push_back(fmt::format("too little disk: the run will write about {}, and {}",
+                                bytes_text(plan.output_bytes), disk.bound));
   double frame = 0;
-  for (const Stage* writer : plan.scene->of(Family::writers)) frame = std::max(frame, frame_bytes(plan, *writer));
+  for (const Stage* writer : plan.scene->of(Family::writers))
+    frame = std::max(frame, frame_bytes(plan, *writer));
   if (const Room file = file_room(); surely * frame > file.bytes)
-    found.push_back(fmt::format("too small files: a frame will have about {}, and {}", bytes_text(frame), file.bound));
+    found.push_back(fmt::format("too small files: a frame will have about {}, and {}",
+                                bytes_text(frame), file.bound));
   return found;
 }
 
 void refuse_shortage(const Plan& plan, const std::filesystem::path& directory) {
   const std::vector<std::string> found = shortages(plan, directory);
-  if (!found.empty()) throw OutsideError(fmt::format("nothing was written; {}", fmt::join(found, "\n")));
+  if (!found.empty())
+    throw OutsideError(fmt::format("nothing was written; {}", fmt::join(found, "\n")));
 }
 
 }  // namespace hyperlattice

@@ -9,8 +9,9 @@
 
 namespace hyperlattice {
 
-/// Sentences, one for each thing that this process has too little of for the run: memory that is not allocated yet, disk where the results go, or the
-/// size of a file. Each has what the run needs and what there is. Empty if all fits. The files of an earlier run in `directory`, which the run
+/// Sentences, one for each thing that this process has too little of for the run: memory that is
+/// not allocated yet, disk where the results go, or the size of a file. Each has what the run needs
+/// and what there is. Empty if all fits. The files of an earlier run in `directory`, which the run
 /// replaces, count as free disk.
 std::vector<std::string> shortages(const Plan& plan, const std::filesystem::path& directory);
 

@@ -9,10 +9,15 @@ namespace hyperlattice {
 SolverFacts solver_facts(const Model& model, double start_time) {
   const Site low = model.body.low, high = model.body.high;
   const double most = std::numeric_limits<std::int32_t>::max() - 1.0;
-  const auto count = [most](double sites) { return 1 + static_cast<std::int32_t>(std::min(sites, most)); };
-  const auto sites = [](std::int32_t from, std::int32_t to) { return static_cast<double>(to) - from; };
-  SolverFacts facts{start_time, model.critical_time_step, model.corners,
-                    count(std::max({sites(low.i, high.i), sites(low.j, high.j), sites(low.k, high.k)}))};
+  const auto count = [most](double sites) {
+    return 1 + static_cast<std::int32_t>(std::min(sites, most));
+  };
+  const auto sites = [](std::int32_t from, std::int32_t to) {
+    return static_cast<double>(to) - from;
+  };
+  SolverFacts facts{
+      start_time, model.critical_time_step, model.corners,
+      count(std::max({sites(low.i, high.i), sites(low.j, high.j), sites(low.k, high.k)}))};
   facts.listed = model.body.is_listed();
   if (facts.listed) {
     const Vec3 size = model.body.highest - model.body.lowest;

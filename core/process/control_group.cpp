@@ -27,8 +27,8 @@ double sum_of(const fs::path& file, std::initializer_list<std::string_view> keys
   return sum;
 }
 
-/// From a group's folder up to where its controller is mounted. In a container the group may stand elsewhere than it is called: its own files are
-/// then at the mount.
+/// From a group's folder up to where its controller is mounted. In a container the group may stand
+/// elsewhere than it is called: its own files are then at the mount.
 std::vector<fs::path> folders_of(const fs::path& mount, const fs::path& group) {
   std::error_code ignored;
   if (!fs::is_directory(mount, ignored)) return {};
@@ -52,8 +52,9 @@ std::optional<ControlGroups::Memory> memory_of(const fs::path& folder) {
   const auto limit = number_in(folder / (unified ? "memory.max" : "memory.limit_in_bytes"));
   const auto used = number_in(folder / (unified ? "memory.current" : "memory.usage_in_bytes"));
   if (!limit || !used) return std::nullopt;
-  const double files = unified ? sum_of(folder / "memory.stat", {"inactive_file", "active_file", "slab_reclaimable"})
-                               : sum_of(folder / "memory.stat", {"total_inactive_file", "total_active_file"});
+  const double files =
+      unified ? sum_of(folder / "memory.stat", {"inactive_file", "active_file", "slab_reclaimable"})
+              : sum_of(folder / "memory.stat", {"total_inactive_file", "total_active_file"});
   return ControlGroups::Memory{*limit, std::max(0.0, *used - files), folder};
 }
 
@@ -61,7 +62,8 @@ std::optional<double> processors_of(const fs::path& folder) {
   std::ifstream both(folder / "cpu.max");  // "max 100000" without a limit
   double quota = 0, period = 0;
   if (both >> quota >> period) return quota / period;
-  const auto old_quota = number_in(folder / "cpu.cfs_quota_us"), old_period = number_in(folder / "cpu.cfs_period_us");
+  const auto old_quota = number_in(folder / "cpu.cfs_quota_us"),
+             old_period = number_in(folder / "cpu.cfs_period_us");
   if (!old_quota || !old_period || *old_quota <= 0) return std::nullopt;
   return *old_quota / *old_period;
 }
@@ -69,7 +71,9 @@ std::optional<double> processors_of(const fs::path& folder) {
 }  // namespace
 
 ControlGroups::ControlGroups(const fs::path& root) {
-  std::ifstream stream(root / "proc/self/cgroup");  // lines "number:controllers:/group"; version 2 has no controllers there
+  std::ifstream stream(
+      root /
+      "proc/self/cgroup");  // lines "number:controllers:/group"; version 2 has no controllers there
   const fs::path mounts = root / "sys/fs/cgroup";
   for (std::string line; std::getline(stream, line);) {
     const auto first = line.find(':'), second = line.find(':', first + 1);
@@ -77,11 +81,14 @@ ControlGroups::ControlGroups(const fs::path& root) {
     const std::string controllers = line.substr(first + 1, second - first - 1);
     const fs::path group = line.substr(second + 1);
     std::error_code ignored;
-    const fs::path unified = fs::is_directory(mounts / "unified", ignored) ? mounts / "unified" : mounts;
+    const fs::path unified =
+        fs::is_directory(mounts / "unified", ignored) ? mounts / "unified" : mounts;
     const auto add = [&](std::vector<fs::path>& folders, const char* controller) {
       if (!controllers.empty() && !lists(controllers, controller)) return;
       const fs::path named = mounts / controllers;
-      const fs::path mount = controllers.empty() ? unified : fs::is_directory(named, ignored) ? named : mounts / controller;
+      const fs::path mount = controllers.empty()                ? unified
+                             : fs::is_directory(named, ignored) ? named
+                                                                : mounts / controller;
       for (fs::path& folder : folders_of(mount, group)) folders.push_back(std::move(folder));
     };
     add(memory_, "memory");
@@ -92,7 +99,8 @@ ControlGroups::ControlGroups(const fs::path& root) {
 std::optional<ControlGroups::Memory> ControlGroups::memory() const {
   std::optional<Memory> tightest;
   for (const fs::path& folder : memory_)
-    if (const auto memory = memory_of(folder); memory && (!tightest || memory->limit - memory->used < tightest->limit - tightest->used))
+    if (const auto memory = memory_of(folder);
+        memory && (!tightest || memory->limit - memory->used < tightest->limit - tightest->used))
       tightest = memory;
   return tightest;
 }
@@ -100,7 +108,8 @@ std::optional<ControlGroups::Memory> ControlGroups::memory() const {
 std::optional<double> ControlGroups::processors() const {
   std::optional<double> least;
   for (const fs::path& folder : processor_)
-    if (const auto granted = processors_of(folder); granted && (!least || *granted < *least)) least = granted;
+    if (const auto granted = processors_of(folder); granted && (!least || *granted < *least))
+      least = granted;
   return least;
 }
 

@@ -1,4 +1,5 @@
-// What the control groups of this process allow it, of either version of them: containers and batch systems set such limits.
+// What the control groups of this process allow it, of either version of them: containers and batch
+// systems set such limits.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +11,8 @@ namespace hyperlattice {
 
 class ControlGroups {
  public:
-  /// The limits of this process. `root`: where the system's files are looked for. A file that cannot be read sets no limit.
+  /// The limits of this process. `root`: where the system's files are looked for. A file that
+  /// cannot be read sets no limit.
   explicit ControlGroups(const std::filesystem::path& root = "/");
 
   struct Memory {

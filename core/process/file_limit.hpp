@@ -5,7 +5,8 @@
 
 namespace hyperlattice {
 
-/// While it lives, a write past the limit on the size of files is an error of the write, and not the end of the program.
+/// While it lives, a write past the limit on the size of files is an error of the write, and not
+/// the end of the program.
 class FileLimitGuard {
  public:
   FileLimitGuard();

@@ -1,12 +1,13 @@
-// Lack of memory is a failure of the outside, whatever the code that met it made of it: a refused option, a failed law, an exception where none may
-// be.
+// Lack of memory is a failure of the outside, whatever the code that met it made of it: a refused
+// option, a failed law, an exception where none may be.
 #pragma once
 
 #include <string>
 
 namespace hyperlattice {
 
-/// From now on memory_ran_out() knows, and an exception for lack of memory that nothing can catch ends the program with exit code 4 and a sentence.
+/// From now on memory_ran_out() knows, and an exception for lack of memory that nothing can catch
+/// ends the program with exit code 4 and a sentence.
 void watch_memory() noexcept;
 
 /// For a handler of std::terminate: whether the program ends because it lacks memory.

@@ -38,15 +38,19 @@ Room memory_room(const fs::path& root) {
   Room least{infinite, ""};
   const auto consider = [&](double limit, double used, const auto& bound) {
     const double left = std::max(0.0, limit - used);
-    if (left < least.bytes) least = {left, fmt::format("{} is {}, {} of it in use", bound, bytes_text(limit), bytes_text(used))};
+    if (left < least.bytes)
+      least = {left, fmt::format("{} is {}, {} of it in use", bound, bytes_text(limit),
+                                 bytes_text(used))};
   };
   const fs::path status = root / "proc/self/status";
   if (const double limit = limit_of(RLIMIT_AS); limit < infinite)
-    consider(limit, kilobytes_in(status, "VmSize:", 0), "the limit on the address space (ulimit -v)");
+    consider(limit, kilobytes_in(status, "VmSize:", 0),
+             "the limit on the address space (ulimit -v)");
   if (const double limit = limit_of(RLIMIT_DATA); limit < infinite)
     consider(limit, kilobytes_in(status, "VmData:", 0), "the limit on data (ulimit -d)");
   if (const auto group = ControlGroups(root).memory())
-    consider(group->limit, group->used, fmt::format("the memory limit of the control group {}", group->group.string()));
+    consider(group->limit, group->used,
+             fmt::format("the memory limit of the control group {}", group->group.string()));
   const double machine = kilobytes_in(root / "proc/meminfo", "MemTotal:", 0),
                available = kilobytes_in(root / "proc/meminfo", "MemAvailable:", infinite);
   if (available < infinite) consider(machine, machine - available, "the memory of this machine");
@@ -65,7 +69,8 @@ Room disk_room(const fs::path& path) {
 
 Room file_room() {
   const double limit = limit_of(RLIMIT_FSIZE);
-  return {limit, fmt::format("the limit on the size of files (ulimit -f) is {}", bytes_text(limit))};
+  return {limit,
+          fmt::format("the limit on the size of files (ulimit -f) is {}", bytes_text(limit))};
 }
 
 }  // namespace hyperlattice

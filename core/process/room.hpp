@@ -12,8 +12,9 @@ struct Room {
   std::string bound;  ///< "the limit on address space (ulimit -v)"
 };
 
-/// The least that limits of the process, its control groups and the machine leave. What the kernel can take back from its caches counts as left,
-/// space to swap to does not. `root`: where the system's files are looked for.
+/// The least that limits of the process, its control groups and the machine leave. What the kernel
+/// can take back from its caches counts as left, space to swap to does not. `root`: where the
+/// system's files are looked for.
 Room memory_room(const std::filesystem::path& root = "/");
 
 /// What the file system has left where the path is, or will be.

@@ -1,4 +1,5 @@
-// A stack for signal handlers. A function that calls itself without end uses up its thread's own stack, and a handler needs another one.
+// A stack for signal handlers. A function that calls itself without end uses up its thread's own
+// stack, and a handler needs another one.
 #pragma once
 
 #include <csignal>
@@ -6,15 +7,16 @@
 
 namespace hyperlattice {
 
-/// A signal stack of the thread that constructs and destroys it; each thread needs its own. A thread that has a signal stack already, as under a
-/// sanitizer, keeps that one.
+/// A signal stack of the thread that constructs and destroys it; each thread needs its own. A
+/// thread that has a signal stack already, as under a sanitizer, keeps that one.
 class SignalStack {
  public:
   SignalStack() noexcept {
     stack_t own{}, present{};
     own.ss_sp = bytes_;
     own.ss_size = sizeof bytes_;
-    is_installed_ = sigaltstack(nullptr, &present) == 0 && (present.ss_flags & SS_DISABLE) != 0 && sigaltstack(&own, nullptr) == 0;
+    is_installed_ = sigaltstack(nullptr, &present) == 0 && (present.ss_flags & SS_DISABLE) != 0 &&
+                    sigaltstack(&own, nullptr) == 0;
   }
   SignalStack(const SignalStack&) = delete;
   SignalStack& operator=(const SignalStack&) = delete;

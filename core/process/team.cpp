@@ -11,8 +11,12 @@ namespace {
 
 constexpr std::uint64_t left_bits = 0xffffffff;
 
-constexpr std::uint64_t left_of(std::uint32_t round, std::size_t count) { return std::uint64_t{round} << 32 | count; }
-constexpr bool is_of(std::uint64_t left, std::uint32_t round) { return left >> 32 == round && (left & left_bits) > 0; }
+constexpr std::uint64_t left_of(std::uint32_t round, std::size_t count) {
+  return std::uint64_t{round} << 32 | count;
+}
+constexpr bool is_of(std::uint64_t left, std::uint32_t round) {
+  return left >> 32 == round && (left & left_bits) > 0;
+}
 
 void pause() noexcept {
 #if defined(__x86_64__)
@@ -22,14 +26,17 @@ void pause() noexcept {
 
 }  // namespace
 
-Team::Team(int threads) : threads_(static_cast<std::size_t>(threads)), ranges_(std::make_unique<Range[]>(threads_)) {
-  // A thread that sleeps takes some 10 us to wake, longer than equal shares of work wait for each other. A thread that looks for long takes the
-  // processor from the one that it waits for, as soon as other work shares the machine.
+Team::Team(int threads)
+    : threads_(static_cast<std::size_t>(threads)), ranges_(std::make_unique<Range[]>(threads_)) {
+  // A thread that sleeps takes some 10 us to wake, longer than equal shares of work wait for each
+  // other. A thread that looks for long takes the processor from the one that it waits for, as soon
+  // as other work shares the machine.
   constexpr int looks = 2000;  // some 20 to 60 us
   looks_ = threads <= processors() ? looks : 0;
   others_.reserve(threads_ - 1);
   try {
-    while (others_.size() + 1 < threads_) others_.emplace_back([this, thread = others_.size() + 1] { serve(thread); });
+    while (others_.size() + 1 < threads_)
+      others_.emplace_back([this, thread = others_.size() + 1] { serve(thread); });
   } catch (const std::system_error& error) {
     const std::size_t started = others_.size() + 1;
     stop();
@@ -59,7 +66,8 @@ void Team::share(std::size_t size, bool helping, Call call, const void* work_to_
   open_.now.store(size, std::memory_order_relaxed);
   const std::uint32_t before = round_.now.load(std::memory_order_relaxed), round = before + 1;
   for (std::size_t range = 0; range < threads_; ++range)
-    ranges_[range].now.store(left_of(round, end_of(range) - size_ * range / threads_), std::memory_order_release);
+    ranges_[range].now.store(left_of(round, end_of(range) - size_ * range / threads_),
+                             std::memory_order_release);
   round_.now.store(round, std::memory_order_release);
   round_.now.notify_all();
   work(0, round);
@@ -77,7 +85,9 @@ void Team::work(std::size_t thread, std::uint32_t round) noexcept {
 void Team::do_range(std::size_t range, std::uint32_t round) noexcept {
   std::atomic<std::uint64_t>& left = ranges_[range].now;
   for (std::uint64_t now = left.load(std::memory_order_acquire); is_of(now, round);) {
-    if (!left.compare_exchange_weak(now, now - 1, std::memory_order_acq_rel, std::memory_order_acquire)) continue;
+    if (!left.compare_exchange_weak(now, now - 1, std::memory_order_acq_rel,
+                                    std::memory_order_acquire))
+      continue;
     const std::size_t n = end_of(range) - (now & left_bits);
     try {
       call_(work_, n);
@@ -98,7 +108,10 @@ void Team::fail(std::size_t range, std::uint32_t round, std::size_t n) noexcept 
       failure_ = std::current_exception();
     }
   }
-  if (const std::uint64_t rest = ranges_[range].now.exchange(left_of(round, 0), std::memory_order_acq_rel) & left_bits; rest > 0) finish(round, rest);
+  if (const std::uint64_t rest =
+          ranges_[range].now.exchange(left_of(round, 0), std::memory_order_acq_rel) & left_bits;
+      rest > 0)
+    finish(round, rest);
 }
 
 void Team::finish(std::uint32_t round, std::size_t count) noexcept {
@@ -117,7 +130,8 @@ void Team::serve(std::size_t thread) noexcept {
   }
 }
 
-void Team::wait_for_change(const std::atomic<std::uint32_t>& number, std::uint32_t from) const noexcept {
+void Team::wait_for_change(const std::atomic<std::uint32_t>& number,
+                           std::uint32_t from) const noexcept {
   for (int look = 0; look < looks_; ++look) {
     if (number.load(std::memory_order_acquire) != from) return;
     pause();

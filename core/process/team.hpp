@@ -1,5 +1,6 @@
-// The threads of a run. They are started once. Work is cut into ranges of equal size, one a thread; a thread that is done with its own goes on with
-// what the others have not begun, so that none waits for one that the system lets wait. Results do not depend on who did what.
+// The threads of a run. They are started once. Work is cut into ranges of equal size, one a thread;
+// a thread that is done with its own goes on with what the others have not begun, so that none
+// waits for one that the system lets wait. Results do not depend on who did what.
 #pragma once
 
 #include <atomic>
@@ -22,7 +23,8 @@ struct Apart {
 
 class Team {
  public:
-  /// Starts all threads but the first, which is the one that asks for work. Throws OutsideError if the system refuses one.
+  /// Starts all threads but the first, which is the one that asks for work. Throws OutsideError if
+  /// the system refuses one.
   explicit Team(int threads);
   ~Team();
   Team(const Team&) = delete;
@@ -30,13 +32,15 @@ class Team {
 
   int count() const { return static_cast<int>(threads_); }
 
-  /// Calls work(n) for each n below `size`, at most 2^32 - 1. An exception ends its range; the one of the least n is thrown here when all are done.
-  /// For work of one thread at a time, not from within such work.
+  /// Calls work(n) for each n below `size`, at most 2^32 - 1. An exception ends its range; the one
+  /// of the least n is thrown here when all are done. For work of one thread at a time, not from
+  /// within such work.
   template <class Work>
   void for_each(std::size_t size, const Work& work) {
     share(size, true, &call<Work>, &work);
   }
-  /// The same, but each thread does its own range and no other: memory that it is the first to touch lies near it.
+  /// The same, but each thread does its own range and no other: memory that it is the first to
+  /// touch lies near it.
   template <class Work>
   void for_own(std::size_t size, const Work& work) {
     share(size, false, &call<Work>, &work);
@@ -49,7 +53,8 @@ class Team {
     (*static_cast<const Work*>(work))(n);
   }
 
-  /// What is left of a thread's range: the round in the upper half, how many in the lower. Who counts it down by one has taken the first of these.
+  /// What is left of a thread's range: the round in the upper half, how many in the lower. Who
+  /// counts it down by one has taken the first of these.
   using Range = Apart<std::uint64_t>;
 
   void share(std::size_t size, bool helping, Call call, const void* work);
@@ -67,7 +72,8 @@ class Team {
   int looks_ = 0;  ///< how often a waiting thread looks before it sleeps
   std::vector<std::thread> others_;
 
-  // The work that is shared out now. Who has taken a part of it may read this: the round does not end before that part is done.
+  // The work that is shared out now. Who has taken a part of it may read this: the round does not
+  // end before that part is done.
   std::size_t size_ = 0;
   Call call_ = nullptr;
   const void* work_ = nullptr;

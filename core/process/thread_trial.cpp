@@ -12,7 +12,8 @@ namespace hyperlattice {
 
 namespace {
 
-/// Bytes that OMP_STACKSIZE asks for: a number of KiB, or with B, K, M or G behind it; 0 if it says nothing.
+/// Bytes that OMP_STACKSIZE asks for: a number of KiB, or with B, K, M or G behind it; 0 if it says
+/// nothing.
 std::size_t openmp_stack() {
   const char* text = std::getenv("OMP_STACKSIZE");
   if (text == nullptr) text = std::getenv("GOMP_STACKSIZE");
@@ -44,7 +45,8 @@ void* wait_for(void* end) {
 
 OutsideError refused_threads(std::size_t started, std::size_t asked, const std::error_code& why) {
   return OutsideError(
-      fmt::format("the system starts no more than {} of {} threads ({}): limits on memory (ulimit -v, ulimit -s) or processes "
+      fmt::format("the system starts no more than {} of {} threads ({}): limits on memory (ulimit "
+                  "-v, ulimit -s) or processes "
                   "(ulimit -u) may be the cause; `--threads {}` asks for fewer",
                   started, asked, why.message(), started));
 }
@@ -53,7 +55,8 @@ void try_openmp_threads(int threads) {
   pthread_attr_t attributes;
   if (pthread_attr_init(&attributes) != 0) throw std::bad_alloc();
   if (const std::size_t stack = openmp_stack(); stack > 0)
-    pthread_attr_setstacksize(&attributes, stack);  // as OpenMP does: what is too small is not taken
+    pthread_attr_setstacksize(&attributes,
+                              stack);  // as OpenMP does: what is too small is not taken
   std::latch end(1);
   const auto asked = static_cast<std::size_t>(threads);
   std::vector<pthread_t> started;
@@ -67,7 +70,8 @@ void try_openmp_threads(int threads) {
   end.count_down();
   for (const pthread_t thread : started) pthread_join(thread, nullptr);
   pthread_attr_destroy(&attributes);
-  if (error != 0) throw refused_threads(started.size() + 1, asked, {error, std::generic_category()});
+  if (error != 0)
+    throw refused_threads(started.size() + 1, asked, {error, std::generic_category()});
 }
 
 }  // namespace hyperlattice

@@ -23,22 +23,30 @@ constexpr std::string_view head_tag = "head", state_tag = "stat";
 constexpr int version = 2;  // of what a checkpoint holds
 
 std::string text_of(const CheckpointHead& head) {
-  nlohmann::json json{{"version", version}, {"identity", identity_json(head.identity)}, {"threads", head.threads}, {"at_start", head.at_start}};
+  nlohmann::json json{{"version", version},
+                      {"identity", identity_json(head.identity)},
+                      {"threads", head.threads},
+                      {"at_start", head.at_start}};
   auto& tables = json["tables"] = nlohmann::json::array();
-  for (const TableMark& table : head.tables) tables.push_back({{"name", table.name}, {"bytes", table.extent.bytes}, {"hash", table.extent.hash}});
+  for (const TableMark& table : head.tables)
+    tables.push_back(
+        {{"name", table.name}, {"bytes", table.extent.bytes}, {"hash", table.extent.hash}});
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 CheckpointHead read_head(RecordReader& records, const fs::path& file) {
   try {
     const auto json = nlohmann::json::parse(records.take_all(head_tag));
-    if (json.at("version") != version) throw std::runtime_error(file.string() + ": a checkpoint of another version of the program");
+    if (json.at("version") != version)
+      throw std::runtime_error(file.string() + ": a checkpoint of another version of the program");
     CheckpointHead head;
     head.identity = read_identity(json.at("identity"));
     head.threads = json.at("threads").get<std::int32_t>();
     head.at_start = json.at("at_start").get<bool>();
     for (const auto& table : json.at("tables"))
-      head.tables.push_back({table.at("name").get<std::string>(), {table.at("bytes").get<std::uint64_t>(), table.at("hash").get<std::string>()}});
+      head.tables.push_back(
+          {table.at("name").get<std::string>(),
+           {table.at("bytes").get<std::uint64_t>(), table.at("hash").get<std::string>()}});
     return head;
   } catch (const nlohmann::json::exception&) {
     throw std::runtime_error(file.string() + ": no checkpoint of this version of the program");
@@ -65,9 +73,11 @@ Checkpoint newest(const fs::path& directory) {
     try {
       Checkpoint found = verified(file);
       if (!faults.empty())
-        spdlog::warn("warning: {}; the run goes on from the checkpoint before it", faults.front().expected);
+        spdlog::warn("warning: {}; the run goes on from the checkpoint before it",
+                     faults.front().expected);
       else if (name == earlier_checkpoint_file)
-        spdlog::warn("warning: {} is missing; the run goes on from the checkpoint before it", (directory / checkpoint_file).string());
+        spdlog::warn("warning: {} is missing; the run goes on from the checkpoint before it",
+                     (directory / checkpoint_file).string());
       return found;
     } catch (const std::runtime_error& error) {
       faults.push_back({"--resume", file.string(), error.what()});
@@ -79,20 +89,25 @@ Checkpoint newest(const fs::path& directory) {
 
 }  // namespace
 
-CheckpointHead checkpoint_head(const Plan& plan, bool at_start) { return {plan.identity, plan.threads, at_start, {}}; }
+CheckpointHead checkpoint_head(const Plan& plan, bool at_start) {
+  return {plan.identity, plan.threads, at_start, {}};
+}
 
 Checkpoint find_checkpoint(const Plan& plan, const fs::path& directory) {
   Checkpoint found = newest(directory);
   if (const std::string changed = changes(found.head.identity, plan.identity); !changed.empty())
-    throw InputError({{"--resume", found.file.string(), "a checkpoint of this scene and of all that it uses, but " + changed}});
+    throw InputError({{"--resume", found.file.string(),
+                       "a checkpoint of this scene and of all that it uses, but " + changed}});
   return found;
 }
 
 void must_be_resumable(const fs::path& directory) {
   if (!is_there(directory / checkpoint_file) && !is_there(directory / earlier_checkpoint_file))
-    throw InputError({{"--resume", (directory / checkpoint_file).string(), "the checkpoint of a run that was cut off; there is none"}});
+    throw InputError({{"--resume", (directory / checkpoint_file).string(),
+                       "the checkpoint of a run that was cut off; there is none"}});
   if (!is_there(directory / own_files_list))
-    throw InputError({{"--resume", (directory / own_files_list).string(), "the list of the run's files; it was removed"}});
+    throw InputError({{"--resume", (directory / own_files_list).string(),
+                       "the list of the run's files; it was removed"}});
 }
 
 bool holds_progress(const fs::path& directory) {
@@ -119,8 +134,10 @@ void write_checkpoint(const fs::path& directory, const CheckpointHead& head, con
   if (!head.at_start) state(archive);
   records.end();
   file.sync();
-  if (std::rename(path.c_str(), (directory / earlier_checkpoint_file).c_str()) != 0 && errno != ENOENT)
-    throw std::runtime_error(fmt::format("cannot rename {}: {}", path.string(), std::generic_category().message(errno)));
+  if (std::rename(path.c_str(), (directory / earlier_checkpoint_file).c_str()) != 0 &&
+      errno != ENOENT)
+    throw std::runtime_error(
+        fmt::format("cannot rename {}: {}", path.string(), std::generic_category().message(errno)));
   file.commit();
   sync_directory(directory);
 }
@@ -135,7 +152,8 @@ void read_checkpoint(const Checkpoint& checkpoint, const Visit& state) {
 void remove_checkpoints(const fs::path& directory) {
   for (const char* name : {earlier_checkpoint_file, checkpoint_file})
     if (::unlink((directory / name).c_str()) != 0 && errno != ENOENT)
-      throw OutsideError(fmt::format("cannot remove {}: {}", (directory / name).string(), std::generic_category().message(errno)));
+      throw OutsideError(fmt::format("cannot remove {}: {}", (directory / name).string(),
+                                     std::generic_category().message(errno)));
 }
 
 }  // namespace hyperlattice

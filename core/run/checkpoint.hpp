@@ -1,5 +1,6 @@
-// checkpoint.bin: a run at a point from which it can go on, so that nothing tells that it was ever cut off. It belongs to one scene, one version of
-// the program and its plugins, and one number of threads. The checkpoint before it stays beside it, for the case that the newest is damaged.
+// checkpoint.bin: a run at a point from which it can go on, so that nothing tells that it was ever
+// cut off. It belongs to one scene, one version of the program and its plugins, and one number of
+// threads. The checkpoint before it stays beside it, for the case that the newest is damaged.
 #pragma once
 
 #include <plan/file_names.hpp>
@@ -27,8 +28,8 @@ struct Checkpoint {
 /// The head for this plan, without tables.
 CheckpointHead checkpoint_head(const Plan& plan, bool at_start);
 
-/// The newest checkpoint in a folder of which every byte is as it was written. Says so if that is not the newest of all. InputError if there is none,
-/// or none of this plan.
+/// The newest checkpoint in a folder of which every byte is as it was written. Says so if that is
+/// not the newest of all. InputError if there is none, or none of this plan.
 Checkpoint find_checkpoint(const Plan& plan, const std::filesystem::path& directory);
 
 /// InputError if a folder has no checkpoint, or no list of the run's files.
@@ -38,9 +39,11 @@ void must_be_resumable(const std::filesystem::path& directory);
 bool holds_progress(const std::filesystem::path& directory);
 
 using Visit = std::function<void(Archive&)>;
-/// Writes head and state. When this returns, the checkpoint is on the disk under its name, and the one before it under the other. std::runtime_error
-/// if the disk refuses: the newest of the checkpoints before is then there, under one of the two names.
-void write_checkpoint(const std::filesystem::path& directory, const CheckpointHead& head, const Visit& state);
+/// Writes head and state. When this returns, the checkpoint is on the disk under its name, and the
+/// one before it under the other. std::runtime_error if the disk refuses: the newest of the
+/// checkpoints before is then there, under one of the two names.
+void write_checkpoint(const std::filesystem::path& directory, const CheckpointHead& head,
+                      const Visit& state);
 /// Restores the state. std::runtime_error if the checkpoint does not fit.
 void read_checkpoint(const Checkpoint& checkpoint, const Visit& state);
 /// Removes both. OutsideError if the system refuses.

@@ -8,12 +8,14 @@
 namespace hyperlattice {
 
 History::History(RunFolder& folder)
-    : table_(folder.table("history.csv",
-                          {"time", "step", "kinetic", "kinetic_mean", "stored", "dissipated", "dissipated_failure", "dissipated_damping", "injected",
-                           "balance_error", "relative_error", "momentum_x", "momentum_y", "momentum_z", "broken_open", "broken_closed"})) {}
+    : table_(folder.table(
+          "history.csv",
+          {"time", "step", "kinetic", "kinetic_mean", "stored", "dissipated", "dissipated_failure",
+           "dissipated_damping", "injected", "balance_error", "relative_error", "momentum_x",
+           "momentum_y", "momentum_z", "broken_open", "broken_closed"})) {}
 
 void History::write(const Record& record) {
-  const Balance& b = record.balance;
+  const EnergyBalance& b = record.balance;
   const double values[] = {record.time,
                            static_cast<double>(record.step),
                            b.kinetic,
@@ -34,7 +36,8 @@ void History::write(const Record& record) {
 }
 
 FailureLog::FailureLog(RunFolder& folder, Archive* resumed)
-    : table_(folder.table("failures.csv", {"step", "time", "particle_a", "particle_b", "elongation"})) {
+    : table_(folder.table("failures.csv",
+                          {"step", "time", "particle_a", "particle_b", "elongation"})) {
   if (resumed != nullptr) (*resumed)(written_);
 }
 
@@ -45,7 +48,8 @@ void FailureLog::write_new(const std::vector<Breakage>& breakages) {
   std::string lines;
   for (; written_ < breakages.size(); ++written_) {
     const Breakage& b = breakages[written_];
-    fmt::format_to(std::back_inserter(lines), "{},{},{},{},{}\n", b.step, b.time, b.a, b.b, b.elongation);
+    fmt::format_to(std::back_inserter(lines), "{},{},{},{},{}\n", b.step, b.time, b.a, b.b,
+                   b.elongation);
   }
   table_.lines(lines);
 }

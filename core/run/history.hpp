@@ -1,4 +1,5 @@
-// history.csv: the energy books, the momentum and the broken springs at every record; failures.csv: every spring that broke.
+// history.csv: the energy books, the momentum and the broken springs at every record; failures.csv:
+// every spring that broke.
 #pragma once
 
 #include <run/folder.hpp>
@@ -10,7 +11,7 @@ namespace hyperlattice {
 struct Record {
   double time = 0;  ///< s
   std::uint64_t step = 0;
-  Balance balance;
+  EnergyBalance balance;
   std::uint64_t broken_open = 0, broken_closed = 0;
 };
 

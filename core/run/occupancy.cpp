@@ -1,7 +1,7 @@
 #include <base/descriptor.hpp>
 #include <base/folder_file.hpp>
-#include <run/occupancy.hpp>
 #include <base/own_files.hpp>
+#include <run/occupancy.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -36,8 +36,10 @@ std::string study_in(const fs::path& folder) {
 }
 
 std::string run_in(const fs::path& folder) {
-  if (const auto own = read_own_files(folder); own && !own->empty()) return "the results of a run are there (files.csv)";
-  return has_folder_file(folder, "summary.json") ? "the results of a run are there (summary.json)" : "";
+  if (const auto own = read_own_files(folder); own && !own->empty())
+    return "the results of a run are there (files.csv)";
+  return has_folder_file(folder, "summary.json") ? "the results of a run are there (summary.json)"
+                                                 : "";
 }
 
 bool is_written(const fs::path& folder) { return is_locked(folder / own_files_list, O_NOFOLLOW); }

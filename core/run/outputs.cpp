@@ -9,8 +9,13 @@
 
 namespace hyperlattice {
 
-Outputs::Outputs(const Model& model, const Simulation& simulation, RunFolder& folder, double end_time, Archive* resumed)
-    : model_(model), simulation_(simulation), source_(model, simulation), folder_(folder), regions_(model.body, model.scene->regions) {
+Outputs::Outputs(const Model& model, const Simulation& simulation, RunFolder& folder,
+                 double end_time, Archive* resumed)
+    : model_(model),
+      simulation_(simulation),
+      source_(model, simulation),
+      folder_(folder),
+      regions_(model.body, model.scene->regions) {
   for (const std::string_view name : field_names)
     if (has_field(model, name)) fields_.push_back(name);
   for (const Family family : {Family::writers, Family::probes})
@@ -37,9 +42,12 @@ void Outputs::begin(Output& output) {
   const Stage& stage = *output.stage;
   const bool is_probe = stage.family() == Family::probes;
   const std::string type = stage.component->type();
-  const bool is_labelled = stage.name != type.substr(type.find('.') + 1);  // two writers of a type must not share their files
+  const bool is_labelled =
+      stage.name !=
+      type.substr(type.find('.') + 1);  // two writers of a type must not share their files
   output.name = is_probe ? "probes" : is_labelled ? stage.name : "";
-  output.directory = (output.name.empty() ? folder_.directory() : folder_.subfolder(output.name)).string();
+  output.directory =
+      (output.name.empty() ? folder_.directory() : folder_.subfolder(output.name)).string();
   OutputContext context;
   context.directory = output.directory;
   context.title = model_.scene->title;
@@ -47,7 +55,9 @@ void Outputs::begin(Output& output) {
   context.earlier = output.shown;
   context.self = this;
   context.region_particles = [](void* self, RegionId region) noexcept {
-    return PluginCall::answer(std::span<const Particle>(), [&] { return static_cast<Outputs*>(self)->regions_.particles(region); });
+    return PluginCall::answer(std::span<const Particle>(), [&] {
+      return static_cast<Outputs*>(self)->regions_.particles(region);
+    });
   };
   context.announce_file = [](void* self, std::string_view file, bool rewritten) noexcept {
     return PluginCall::answer(false, [&] {
@@ -56,20 +66,27 @@ void Outputs::begin(Output& output) {
     });
   };
   if (!is_probe) {
-    call(stage, "begin", [&](const Complaint& why) { return stage.functions<WriterFunctions>().begin(output.component.get(), context, why); });
+    call(stage, "begin", [&](const Complaint& why) {
+      return stage.functions<WriterFunctions>().begin(output.component.get(), context, why);
+    });
     return;
   }
   std::vector<std::string> columns{"time"};
   const ColumnSink sink = columns_into(columns);
-  call(stage, "begin",
-       [&](const Complaint& why) { return stage.functions<ProbeFunctions>().begin(output.component.get(), context, source_.take(), sink, why); });
+  call(stage, "begin", [&](const Complaint& why) {
+    return stage.functions<ProbeFunctions>().begin(output.component.get(), context, source_.take(),
+                                                   sink, why);
+  });
   output.row.resize(columns.size());
   output.table = &folder_.table("probes/" + stage.name + ".csv", columns);
 }
 
 void Outputs::announce(std::string_view file, bool rewritten) {
-  if (writing_ == nullptr) throw PluginMistake("it announced a file when it was not asked to write");
-  folder_.claim(writing_->name.empty() ? std::string(file) : fmt::format("{}/{}", writing_->name, file), rewritten);
+  if (writing_ == nullptr)
+    throw PluginMistake("it announced a file when it was not asked to write");
+  folder_.claim(
+      writing_->name.empty() ? std::string(file) : fmt::format("{}/{}", writing_->name, file),
+      rewritten);
 }
 
 void Outputs::show(double time_step) {
@@ -92,8 +109,10 @@ void Outputs::show_to(Output& output) {
   const Stage& stage = *output.stage;
   writing_ = &output;
   call(stage, output.table != nullptr ? "sample" : "frame", [&](const Complaint& why) {
-    return output.table != nullptr ? stage.functions<ProbeFunctions>().sample(output.component.get(), snapshot, output.row.data() + 1, why)
-                                   : stage.functions<WriterFunctions>().frame(output.component.get(), snapshot, why);
+    return output.table != nullptr
+               ? stage.functions<ProbeFunctions>().sample(output.component.get(), snapshot,
+                                                          output.row.data() + 1, why)
+               : stage.functions<WriterFunctions>().frame(output.component.get(), snapshot, why);
   });
   if (output.table != nullptr) output.shown.clear();
   output.shown.push_back({snapshot.step, snapshot.time});
@@ -106,7 +125,9 @@ void Outputs::end() {
   for (Output& output : outputs_) {
     if (output.table != nullptr) continue;
     writing_ = &output;
-    call(*output.stage, "end", [&](const Complaint& why) { return output.stage->functions<WriterFunctions>().end(output.component.get(), why); });
+    call(*output.stage, "end", [&](const Complaint& why) {
+      return output.stage->functions<WriterFunctions>().end(output.component.get(), why);
+    });
   }
 }
 

@@ -13,8 +13,10 @@ namespace hyperlattice {
 /// Everything here throws OutsideError when a writer, a probe or the disk refuses.
 class Outputs {
  public:
-  /// Begins every writer and probe, or goes on with them. `end_time` is the run's, for those that do not say how often.
-  Outputs(const Model& model, const Simulation& simulation, RunFolder& folder, double end_time, Archive* resumed = nullptr);
+  /// Begins every writer and probe, or goes on with them. `end_time` is the run's, for those that
+  /// do not say how often.
+  Outputs(const Model& model, const Simulation& simulation, RunFolder& folder, double end_time,
+          Archive* resumed = nullptr);
   void save(Archive& archive);
 
   void show(double time_step);  ///< to those that are due, at the present state
@@ -36,7 +38,9 @@ class Outputs {
   void begin(Output& output);
   void announce(std::string_view file, bool rewritten);
   static void visit(Archive& archive, Output& output);
-  bool has_seen_this(const Output& output) const { return !output.shown.empty() && output.shown.back().step == simulation_.steps(); }
+  bool has_seen_this(const Output& output) const {
+    return !output.shown.empty() && output.shown.back().step == simulation_.steps();
+  }
   void show_to(Output& output);
 
   const Model& model_;

@@ -1,5 +1,5 @@
-// The progress of a run on standard error: one line that renews itself on a terminal, else a line every few seconds, or JSON lines for
-// programs (HYPERLATTICE_PROGRESS=json).
+// The progress of a run on standard error: one line that renews itself on a terminal, else a line
+// every few seconds, or JSON lines for programs (HYPERLATTICE_PROGRESS=json).
 #pragma once
 
 #include <chrono>
@@ -13,8 +13,10 @@ class Progress {
   Progress(std::uint64_t steps, bool quiet);
   ~Progress();  ///< leaves a terminal's line
 
-  /// Shows the state if the last time is long enough ago. `residual`: of a search for rest; below 0: there is none.
-  void update(std::uint64_t step, double time, double time_step, std::uint64_t broken, double residual = -1);
+  /// Shows the state if the last time is long enough ago. `residual`: of a search for rest; below
+  /// 0: there is none.
+  void update(std::uint64_t step, double time, double time_step, std::uint64_t broken,
+              double residual = -1);
 
  private:
   using Clock = std::chrono::steady_clock;

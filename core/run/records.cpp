@@ -29,7 +29,8 @@ struct Head {
 static_assert(sizeof(Head) == 24);
 
 std::uint64_t checksum(const Head& head, const char* content, std::uint64_t nonce) {
-  return XXH3_64bits_withSeed(content, head.size, XXH3_64bits_withSeed(&head, offsetof(Head, checksum), nonce));
+  return XXH3_64bits_withSeed(content, head.size,
+                              XXH3_64bits_withSeed(&head, offsetof(Head, checksum), nonce));
 }
 
 }  // namespace
@@ -81,7 +82,8 @@ void RecordReader::verify(const std::filesystem::path& file) {
 }
 
 RecordReader::RecordReader(std::filesystem::path file)
-    : path_(std::move(file)), file_(::open(path_.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC)) {
+    : path_(std::move(file)),
+      file_(::open(path_.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC)) {
   if (!file_) fail(std::generic_category().message(errno));
   struct stat status {};
   if (::fstat(file_.number(), &status) != 0 || !S_ISREG(status.st_mode)) fail("no regular file");
@@ -95,10 +97,12 @@ RecordReader::RecordReader(std::filesystem::path file)
 bool RecordReader::next() {
   Head head{};
   read(&head, sizeof head);
-  if (head.size > largest || head.number != number_) fail(fmt::format("damaged in record {}", number_));
+  if (head.size > largest || head.number != number_)
+    fail(fmt::format("damaged in record {}", number_));
   content_.resize(head.size);
   read(content_.data(), head.size);
-  if (checksum(head, content_.data(), nonce_) != head.checksum) fail(fmt::format("damaged in record {}", number_));
+  if (checksum(head, content_.data(), nonce_) != head.checksum)
+    fail(fmt::format("damaged in record {}", number_));
   ++number_;
   used_ = 0;
   tag_.assign(head.tag, sizeof head.tag);
@@ -145,6 +149,8 @@ void RecordReader::read(void* data, std::size_t size) {
   }
 }
 
-void RecordReader::fail(const std::string& what) const { throw std::runtime_error(fmt::format("{}: {}", path_.string(), what)); }
+void RecordReader::fail(const std::string& what) const {
+  throw std::runtime_error(fmt::format("{}: {}", path_.string(), what));
+}
 
 }  // namespace hyperlattice

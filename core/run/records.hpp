@@ -1,6 +1,7 @@
-// A file of records, each with a tag, a size, its number and a checksum, so that a damaged file is known before anything of it is used:
-//   "HLRECORD", nonce (8 bytes), then records: tag (4), size of the content (4), number (8), checksum (8), content; the last is "end." without
-//   content.
+// A file of records, each with a tag, a size, its number and a checksum, so that a damaged file is
+// known before anything of it is used:
+//   "HLRECORD", nonce (8 bytes), then records: tag (4), size of the content (4), number (8),
+//   checksum (8), content; the last is "end." without content.
 // The nonce is random and enters every checksum, so that a record of another file does not fit.
 #pragma once
 
@@ -20,7 +21,8 @@ namespace hyperlattice {
 class RecordWriter {
  public:
   explicit RecordWriter(AtomicFile& file);
-  void put(std::string_view tag, const void* data, std::size_t size);  ///< std::runtime_error if the disk refuses
+  void put(std::string_view tag, const void* data,
+           std::size_t size);  ///< std::runtime_error if the disk refuses
   void end();
 
  private:
@@ -39,8 +41,9 @@ class RecordReader {
   static void verify(const std::filesystem::path& file);
 
   explicit RecordReader(std::filesystem::path file);
-  void take(std::string_view tag, void* data, std::size_t size);  ///< std::runtime_error if there is no such content
-  std::string take_all(std::string_view tag);                     ///< all that is left of a tag's content
+  void take(std::string_view tag, void* data,
+            std::size_t size);                 ///< std::runtime_error if there is no such content
+  std::string take_all(std::string_view tag);  ///< all that is left of a tag's content
 
  private:
   bool next();  ///< reads the next record whole; false at the end

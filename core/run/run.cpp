@@ -1,4 +1,5 @@
-// The run: planned solver stages one after the other. Each step belongs to the solver; records, outputs, guards and the end are here.
+// The run: planned solver stages one after the other. Each step belongs to the solver; records,
+// outputs, guards and the end are here.
 #include <base/descriptor.hpp>
 #include <engine/guard.hpp>
 #include <engine/stage_calls.hpp>
@@ -30,12 +31,15 @@ namespace hyperlattice {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 class Running {
  public:
   /// `simulation`: null if it is still to be built.
-  Running(Plan& plan, const RunOptions& options, RunFolder& folder, std::unique_ptr<Simulation> simulation)
+  Running(Plan& plan, const RunOptions& options, RunFolder& folder,
+          std::unique_ptr<Simulation> simulation)
       : plan_(plan), options_(options), folder_(folder), simulation_(std::move(simulation)) {}
 
   /// `resumed`: where an earlier run had come to.
@@ -46,7 +50,8 @@ class Running {
   void note(Outcome& outcome);  ///< what became of it, at any point
 
  private:
-  static constexpr std::uint64_t guard_every = 50;  ///< steps; a guard reads the velocities once, a fraction of a step's work
+  static constexpr std::uint64_t guard_every =
+      50;  ///< steps; a guard reads the velocities once, a fraction of a step's work
 
   void open(Archive* resumed);
   void visit(Archive& archive);
@@ -98,7 +103,8 @@ void Running::timed(Output&& output) {
 /// Adds what was solved since the last call.
 void Running::clock() {
   const auto now = Clock::now();
-  solve_seconds_ += std::chrono::duration<double>(now - clocked_).count() - (output_seconds_ - output_then_);
+  solve_seconds_ +=
+      std::chrono::duration<double>(now - clocked_).count() - (output_seconds_ - output_then_);
   clocked_ = now;
   output_then_ = output_seconds_;
 }
@@ -121,7 +127,8 @@ void Running::start(Outcome& outcome, const std::optional<Checkpoint>& resumed) 
 void Running::open(Archive* resumed) {
   history_ = std::make_unique<History>(folder_);
   if (plan_.model->choice.breakable) failures_ = std::make_unique<FailureLog>(folder_, resumed);
-  outputs_ = std::make_unique<Outputs>(*plan_.model, *simulation_, folder_, plan_.end_time(), resumed);
+  outputs_ =
+      std::make_unique<Outputs>(*plan_.model, *simulation_, folder_, plan_.end_time(), resumed);
 }
 
 /// All that a run is, at a point from which it can go on.
@@ -152,7 +159,8 @@ void Running::save() {
   clock();  // a run that goes on from here counts this part too
   timed([&] {
     CheckpointHead head = checkpoint_head(plan_, simulation_->steps() == 0);
-    if (!head.at_start) head.tables = folder_.sync();  // what the checkpoint counts on is on the disk before it
+    if (!head.at_start)
+      head.tables = folder_.sync();  // what the checkpoint counts on is on the disk before it
     write_checkpoint(folder_.directory(), head, [this](Archive& archive) { visit(archive); });
   });
   saved_ = Clock::now();
@@ -160,7 +168,9 @@ void Running::save() {
 
 void Running::save_if_due() {
   constexpr std::uint64_t every = 16;  // steps; a clock costs about as much as a hundred particles
-  if (!stage_->plan.resumes || !(options_.checkpoint_every > 0) || stage_steps_ == 0 || stage_steps_ % every != 0) return;
+  if (!stage_->plan.resumes || !(options_.checkpoint_every > 0) || stage_steps_ == 0 ||
+      stage_steps_ % every != 0)
+    return;
   if (seconds_since(saved_) >= options_.checkpoint_every) save();
 }
 
@@ -196,14 +206,18 @@ void Running::solve_stage(const PlannedStage& stage) {
   hooks.stepped = [this](double time_step) { stepped(time_step); };
   hooks.observe = [this] { observe(); };
   hooks.report = [this](const RestReport& report) { rest_ = report; };
-  hooks.failing_motion = [this](const std::vector<double>& motion, const std::vector<double>& heights) {
+  hooks.failing_motion = [this](const std::vector<double>& motion,
+                                const std::vector<double>& heights) {
     folder_.claim(failing_motion_file, false);
     write_failing_motion(options_.directory, plan_.model->body, motion, heights);
-    spdlog::info("how the body moves is in {}", (options_.directory / failing_motion_file).string());
+    spdlog::info("how the body moves is in {}",
+                 (options_.directory / failing_motion_file).string());
   };
   hooks.must_stop = [] { return stop_requested(); };
-  StageCalls(*plan_.model, *simulation_, stage, plan_.threads, std::move(hooks), stage_steps_).run();
-  if (stop_requested() && !stage.plan.resumes) return;  // it is on no way in time: the stage begins anew
+  StageCalls(*plan_.model, *simulation_, stage, plan_.threads, std::move(hooks), stage_steps_)
+      .run();
+  if (stop_requested() && !stage.plan.resumes)
+    return;  // it is on no way in time: the stage begins anew
   if (stop_requested()) {
     if (observed_ != simulation_->steps()) observe();
     save();
@@ -212,7 +226,7 @@ void Running::solve_stage(const PlannedStage& stage) {
   if (stage.plan.at_rest) {
     look_at_cells();
     timed([&] { outputs_->show_now(); });  // at rest all instants are one
-    simulation_->close_books();
+    simulation_->reset_energy_balance();
   }
 }
 
@@ -224,11 +238,14 @@ void Running::stepped(double time_step) {
 
 void Running::observe() {
   observed_ = simulation_->steps();
-  if (stage_->plan.at_rest ? simulation_->steps() % record_steps(*stage_) == 0 : record_schedule_.due(simulation_->time(), time_step_)) record();
+  if (stage_->plan.at_rest ? simulation_->steps() % record_steps(*stage_) == 0
+                           : record_schedule_.due(simulation_->time(), time_step_))
+    record();
   // A share of a stage's time is rarely a round number: an instant is also met nearly.
   const double near_enough = 1e-6 * (stage_->plan.end_time - stage_->start_time);
   timed([&] { outputs_->show(stage_->plan.at_rest ? near_enough : time_step_); });
-  progress_->update(simulation_->steps(), simulation_->time(), time_step_, simulation_->breakages().size(),
+  progress_->update(simulation_->steps(), simulation_->time(), time_step_,
+                    simulation_->breakages().size(),
                     stage_->plan.at_rest && rest_ ? rest_->residual : -1);
   save_if_due();
 }
@@ -236,12 +253,14 @@ void Running::observe() {
 void Running::record() {
   if (recorded_ && last_.step == simulation_->steps()) return;
   const std::uint64_t open = simulation_->broken_open();
-  const Record record{simulation_->time(), simulation_->steps(), simulation_->balance(), open, simulation_->breakages().size() - open};
+  const Record record{simulation_->time(), simulation_->steps(), simulation_->balance(), open,
+                      simulation_->breakages().size() - open};
   if (record.step > 0) guard_->check_motion(time_step_);
   guard_->check_finite(record.balance, time_step_);
   last_ = record;
   recorded_ = true;
-  largest_relative_error_ = std::max(largest_relative_error_, std::abs(record.balance.relative_error()));
+  largest_relative_error_ =
+      std::max(largest_relative_error_, std::abs(record.balance.relative_error()));
   if (cells_->is_due(record.step)) look_at_cells();
   timed([&] {
     history_->write(record);
@@ -277,22 +296,26 @@ void Running::note(Outcome& outcome) {
   outcome.injected_by_load = simulation_->injected_by_load();
   outcome.state_hash = simulation_->hash();
   if (outcome.exit_code == exit_run) look_at_cells();  // it may be why
-  if (std::string sentence = cells_ ? cells_->sentence() : ""; !sentence.empty()) outcome.warnings.push_back(std::move(sentence));
+  if (std::string sentence = cells_ ? cells_->sentence() : ""; !sentence.empty())
+    outcome.warnings.push_back(std::move(sentence));
   if (plan_.model->choice.precision == Precision::doubles) return;
-  if (std::string warning = precision_warning(*plan_.model, simulation_->farthest()); !warning.empty())
+  if (std::string warning = precision_warning(*plan_.model, simulation_->farthest());
+      !warning.empty())
     outcome.warnings.push_back(std::move(warning));
 }
 
-/// Takes the memory and threads of a run before the results of an earlier one go. Null if the system refuses them where there are none: the run then
-/// meets that itself, and leaves a summary.
+/// Takes the memory and threads of a run before the results of an earlier one go. Null if the
+/// system refuses them where there are none: the run then meets that itself, and leaves a summary.
 std::unique_ptr<Simulation> build(const RunFolder& folder, const Plan& plan) {
   try {
     return std::make_unique<Simulation>(*plan.model, plan.threads);
   } catch (const std::bad_alloc&) {
     if (folder.has_results())
-      throw OutsideError(fmt::format("nothing was changed: this run needs about {:.0f} MB; {}", plan.memory_bytes / 1e6, lack_of_memory()));
+      throw OutsideError(fmt::format("nothing was changed: this run needs about {:.0f} MB; {}",
+                                     plan.memory_bytes / 1e6, lack_of_memory()));
   } catch (const OutsideError& error) {
-    if (folder.has_results()) throw OutsideError(fmt::format("nothing was changed: {}", error.what()));
+    if (folder.has_results())
+      throw OutsideError(fmt::format("nothing was changed: {}", error.what()));
   }
   return nullptr;
 }
@@ -306,7 +329,8 @@ std::vector<std::filesystem::path> inputs_of(const Plan& plan) {
 }
 
 /// Makes the folder ready, and says where the run goes on; nowhere if it begins.
-std::optional<Checkpoint> prepare(RunFolder& folder, Plan& plan, const RunOptions& options, std::unique_ptr<Simulation>& simulation) {
+std::optional<Checkpoint> prepare(RunFolder& folder, Plan& plan, const RunOptions& options,
+                                  std::unique_ptr<Simulation>& simulation) {
   std::optional<Checkpoint> resumed;
   if (options.resume) resumed = find_checkpoint(plan, options.directory);
   if (resumed && resumed->head.threads != plan.threads) {
@@ -323,11 +347,14 @@ std::optional<Checkpoint> prepare(RunFolder& folder, Plan& plan, const RunOption
 }
 
 /// Solves the plan; what went wrong is in the outcome.
-void carry_out(Plan& plan, const RunOptions& options, RunFolder& folder, const std::optional<Checkpoint>& resumed,
-               std::unique_ptr<Simulation> simulation, Outcome& outcome) {
+void carry_out(Plan& plan, const RunOptions& options, RunFolder& folder,
+               const std::optional<Checkpoint>& resumed, std::unique_ptr<Simulation> simulation,
+               Outcome& outcome) {
   Running running(plan, options, folder, std::move(simulation));
   const auto end_for_memory = [&] {
-    outcome.end("failed", exit_outside, fmt::format("this run needs about {:.0f} MB; {}", plan.memory_bytes / 1e6, lack_of_memory()));
+    outcome.end("failed", exit_outside,
+                fmt::format("this run needs about {:.0f} MB; {}", plan.memory_bytes / 1e6,
+                            lack_of_memory()));
   };
   const auto attempt = [&](const std::function<void()>& work) {
     try {
@@ -348,24 +375,29 @@ void carry_out(Plan& plan, const RunOptions& options, RunFolder& folder, const s
     folder.check_tables();
     // how many steps a search for rest takes is not known before
     const bool short_of = running.steps() < plan.steps() ||
-                          std::any_of(plan.stages.begin(), plan.stages.end(), [](const PlannedStage& stage) { return stage.plan.at_rest; });
-    if (stop_requested() && short_of) outcome.end("interrupted", exit_interrupted, "asked to stop by a signal");
+                          std::any_of(plan.stages.begin(), plan.stages.end(),
+                                      [](const PlannedStage& stage) { return stage.plan.at_rest; });
+    if (stop_requested() && short_of)
+      outcome.end("interrupted", exit_interrupted, "asked to stop by a signal");
   });
   attempt([&] { running.note(outcome); });
 }
 
-/// What follows the summary: it has said how the run ended, and that stays true if something here goes wrong.
+/// What follows the summary: it has said how the run ended, and that stays true if something here
+/// goes wrong.
 void tidy_up(RunFolder& folder, const Outcome& outcome, bool has_checkpoint) {
   try {
     folder.finish();
     if (has_checkpoint) sync_directory(folder.directory());
-    if (outcome.exit_code == exit_done || (outcome.exit_code == exit_run && !has_checkpoint)) remove_checkpoints(folder.directory());
+    if (outcome.exit_code == exit_done || (outcome.exit_code == exit_run && !has_checkpoint))
+      remove_checkpoints(folder.directory());
   } catch (const std::exception& error) {
     spdlog::warn("warning: after the end of the run: {}", error.what());
   }
 }
 
-/// Leaves the summary. A checkpoint goes when the run is done and this is on the disk; that of a run that failed is kept.
+/// Leaves the summary. A checkpoint goes when the run is done and this is on the disk; that of a
+/// run that failed is kept.
 void conclude(const Plan& plan, RunFolder& folder, Outcome& outcome) {
   const std::filesystem::path& directory = folder.directory();
   const bool has_checkpoint = holds_progress(directory);
@@ -386,11 +418,13 @@ void conclude(const Plan& plan, RunFolder& folder, Outcome& outcome) {
     if (outcome.exit_code == exit_done) outcome.end("failed", exit_outside, error.what());
   }
   if (outcome.exit_code == exit_done)
-    spdlog::info("done: {} steps in {:.3g} s, results in {}", outcome.steps, outcome.solve_seconds, directory.string());
+    spdlog::info("done: {} steps in {:.3g} s, results in {}", outcome.steps, outcome.solve_seconds,
+                 directory.string());
   else
     spdlog::error("{}: {}", outcome.status, outcome.reason);
   if (outcome.exit_code != exit_done && has_checkpoint)
-    spdlog::info("a checkpoint is in {}: --resume goes on from it, --overwrite gives it up", directory.string());
+    spdlog::info("a checkpoint is in {}: --resume goes on from it, --overwrite gives it up",
+                 directory.string());
 }
 
 }  // namespace
@@ -405,14 +439,18 @@ int run(Plan& plan, const RunOptions& options) {
   Outcome outcome;
   outcome.setup_seconds = plan.setup_seconds + seconds_since(start);
   std::string body;
-  for (const auto& [name, value] : body_lines(plan.body)) body += fmt::format("{}{} {}", body.empty() ? "" : ", ", name, value);
+  for (const auto& [name, value] : body_lines(plan.body))
+    body += fmt::format("{}{} {}", body.empty() ? "" : ", ", name, value);
   spdlog::info("the body: {}", body);
   for (const std::string& warning : plan.model->warnings) spdlog::warn("warning: {}", warning);
-  if (std::error_code unreadable; std::filesystem::exists(options.directory / "report.html", unreadable))
-    spdlog::warn("warning: {} shows an earlier state: make it anew by `hyperlattice report` after this run",
-                 (options.directory / "report.html").string());
+  if (std::error_code unreadable;
+      std::filesystem::exists(options.directory / "report.html", unreadable))
+    spdlog::warn(
+        "warning: {} shows an earlier state: make it anew by `hyperlattice report` after this run",
+        (options.directory / "report.html").string());
   carry_out(plan, options, folder, resumed, std::move(simulation), outcome);
-  if (outcome.exit_code == exit_interrupted) forget_stop();  // a request that came too late is for the next run of a study
+  if (outcome.exit_code == exit_interrupted)
+    forget_stop();  // a request that came too late is for the next run of a study
   conclude(plan, folder, outcome);
   return outcome.exit_code;
 }

@@ -11,9 +11,11 @@ class Schedule {
  public:
   Schedule() = default;
   /// Due at `start`, if `first`, and then every `every` seconds; 0: never again.
-  Schedule(double start, double every, bool first) : start_(start), every_(every), count_(first ? 0 : 1) {}
+  Schedule(double start, double every, bool first)
+      : start_(start), every_(every), count_(first ? 0 : 1) {}
 
-  /// Whether an instant has come, for a body at `time` whose steps are `time_step` long. Says so once for each instant.
+  /// Whether an instant has come, for a body at `time` whose steps are `time_step` long. Says so
+  /// once for each instant.
   bool due(double time, double time_step) {
     if (count_ > 0 && !(every_ > 0)) return false;
     const double reached = time + 0.5 * time_step - start_;

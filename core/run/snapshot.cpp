@@ -6,12 +6,14 @@
 
 namespace hyperlattice {
 
-SnapshotSource::SnapshotSource(const Model& model, const Simulation& simulation) : model_(model), simulation_(simulation) {
+SnapshotSource::SnapshotSource(const Model& model, const Simulation& simulation)
+    : model_(model), simulation_(simulation) {
   snapshot_.particles = model.body.particles;
   snapshot_.spacing = model.body.grid.spacing;
   snapshot_.self = this;
   snapshot_.get_field = [](void* self, std::string_view name, Field& out) noexcept {
-    return PluginCall::answer(false, [&] { return static_cast<SnapshotSource*>(self)->field(name, out); });
+    return PluginCall::answer(false,
+                              [&] { return static_cast<SnapshotSource*>(self)->field(name, out); });
   };
 }
 
@@ -49,7 +51,8 @@ bool SnapshotSource::compute(std::string_view name, Values& values) {
     simulation_.heights(values.numbers);
   else if (name == "material") {
     values.numbers.resize(model_.body.particles);
-    for (Particle particle = 0; particle < model_.body.particles; ++particle) values.numbers[particle] = model_.material(particle);
+    for (Particle particle = 0; particle < model_.body.particles; ++particle)
+      values.numbers[particle] = model_.material(particle);
   } else if (name == "source")
     values.numbers.assign(model_.body.listed.source.begin(), model_.body.listed.source.end());
   else if (name == "broken_open")

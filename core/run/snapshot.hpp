@@ -11,14 +11,16 @@
 
 namespace hyperlattice {
 
-/// Makes snapshots of the present state. A field is computed when it is first asked for at an instant; others cost nothing.
+/// Makes snapshots of the present state. A field is computed when it is first asked for at an
+/// instant; others cost nothing.
 class SnapshotSource {
  public:
   SnapshotSource(const Model& model, const Simulation& simulation);
   SnapshotSource(const SnapshotSource&) = delete;
   SnapshotSource& operator=(const SnapshotSource&) = delete;
 
-  /// The present state; valid until the next call, and while the simulation stands still. For a PluginCall, which keeps what its fields throw.
+  /// The present state; valid until the next call, and while the simulation stands still. For a
+  /// PluginCall, which keeps what its fields throw.
   const Snapshot& take();
 
  private:
@@ -37,7 +39,8 @@ class SnapshotSource {
   Snapshot snapshot_;
   std::vector<double> positions_;
   std::map<std::string, Values, std::less<>> fields_;
-  std::vector<std::uint32_t> springs_of_;  ///< of each particle at the start; filled when damage is first asked for
+  std::vector<std::uint32_t>
+      springs_of_;  ///< of each particle at the start; filled when damage is first asked for
 };
 
 }  // namespace hyperlattice

@@ -1,4 +1,5 @@
-// Tables: appended through the system's own calls, because they alone say how much of a line reached the disk.
+// Tables: appended through the system's own calls, because they alone say how much of a line
+// reached the disk.
 #include <base/errors.hpp>
 #include <run/table.hpp>
 
@@ -18,12 +19,14 @@ namespace hyperlattice {
 
 namespace {
 
-/// Adds a file's first bytes to a hash. Returns 0 or the system's error; EIO if the file is shorter.
+/// Adds a file's first bytes to a hash. Returns 0 or the system's error; EIO if the file is
+/// shorter.
 int add_bytes(ContentHash& hash, const Descriptor& file, std::uint64_t bytes) {
   constexpr std::uint64_t piece = 1 << 18;
   std::vector<char> buffer(std::min(piece, bytes));
   for (std::uint64_t done = 0; done < bytes;) {
-    const ssize_t count = ::pread(file.number(), buffer.data(), std::min(piece, bytes - done), static_cast<off_t>(done));
+    const ssize_t count = ::pread(file.number(), buffer.data(), std::min(piece, bytes - done),
+                                  static_cast<off_t>(done));
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) return count < 0 ? errno : EIO;
     hash.add({buffer.data(), static_cast<std::size_t>(count)});
@@ -52,7 +55,8 @@ bool has_extent(const std::filesystem::path& file, const Extent& extent) {
   return add_bytes(hash, there, extent.bytes) == 0 && hash.text() == extent.hash;
 }
 
-Table::Table(std::filesystem::path file, const std::vector<std::string>& columns) : file_(std::move(file)) {
+Table::Table(std::filesystem::path file, const std::vector<std::string>& columns)
+    : file_(std::move(file)) {
   const std::string header = fmt::format("{}\n", fmt::join(columns, ","));
   try {
     write_file(file_.string(), header);
@@ -69,7 +73,8 @@ Table Table::resumed(std::filesystem::path file, std::uint64_t bytes) {
   return table;
 }
 
-Table::Table(std::filesystem::path file, Descriptor descriptor, std::uint64_t bytes) : file_(std::move(file)), descriptor_(std::move(descriptor)) {
+Table::Table(std::filesystem::path file, Descriptor descriptor, std::uint64_t bytes)
+    : file_(std::move(file)), descriptor_(std::move(descriptor)) {
   if (!descriptor_) fail(errno);
   read(bytes);
 }
@@ -84,7 +89,8 @@ void Table::lines(std::string_view text) {
   std::size_t written = 0;
   int error = 0;
   while (written < text.size() && error == 0) {
-    const ssize_t count = ::write(descriptor_.number(), text.data() + written, text.size() - written);
+    const ssize_t count =
+        ::write(descriptor_.number(), text.data() + written, text.size() - written);
     if (count >= 0)
       written += static_cast<std::size_t>(count);
     else if (errno != EINTR)
@@ -95,7 +101,8 @@ void Table::lines(std::string_view text) {
   hash_.add(whole);
   bytes_ += whole.size();
   if (error == 0) return;
-  if (::ftruncate(descriptor_.number(), static_cast<off_t>(bytes_)) != 0) {  // nothing left to save with: the message stays the first error's
+  if (::ftruncate(descriptor_.number(), static_cast<off_t>(bytes_)) !=
+      0) {  // nothing left to save with: the message stays the first error's
   }
   fail(error);
 }
@@ -110,10 +117,13 @@ void Table::check() const {
   struct stat written {
   }, named{};
   if (::fstat(descriptor_.number(), &written) != 0) fail(errno);
-  if (::lstat(file_.c_str(), &named) != 0 || named.st_dev != written.st_dev || named.st_ino != written.st_ino)
-    throw OutsideError(fmt::format("{} was removed or replaced while the run wrote it", file_.string()));
+  if (::lstat(file_.c_str(), &named) != 0 || named.st_dev != written.st_dev ||
+      named.st_ino != written.st_ino)
+    throw OutsideError(
+        fmt::format("{} was removed or replaced while the run wrote it", file_.string()));
   if (static_cast<std::uint64_t>(written.st_size) != bytes_)
-    throw OutsideError(fmt::format("{} was changed by another program while the run wrote it", file_.string()));
+    throw OutsideError(
+        fmt::format("{} was changed by another program while the run wrote it", file_.string()));
 }
 
 void Table::cut(std::uint64_t bytes) {
@@ -127,6 +137,9 @@ void Table::read(std::uint64_t bytes) {
   if (const int error = add_bytes(hash_, descriptor_, bytes); error != 0) fail(error);
 }
 
-void Table::fail(int error) const { throw OutsideError(fmt::format("{}: cannot write: {}", file_.string(), std::system_category().message(error))); }
+void Table::fail(int error) const {
+  throw OutsideError(
+      fmt::format("{}: cannot write: {}", file_.string(), std::system_category().message(error)));
+}
 
 }  // namespace hyperlattice

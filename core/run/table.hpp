@@ -19,7 +19,8 @@ struct Extent {
   std::string hash;
 };
 
-/// Each append is one write; what a full disk cuts off is taken back to the last whole line. Every member throws OutsideError.
+/// Each append is one write; what a full disk cuts off is taken back to the last whole line. Every
+/// member throws OutsideError.
 class Table {
  public:
   /// Begins a table. The file stands under its name only when its header is in it.
@@ -33,7 +34,7 @@ class Table {
   void lines(std::string_view whole_lines);  ///< each ends with a newline
   void cut(std::uint64_t bytes);             ///< takes back all but the first bytes
   void sync();                               ///< waits until all lines are on the disk; checks
-  void check() const;                        ///< that its name still leads to it, and that nobody else wrote into it
+  void check() const;  ///< that its name still leads to it, and that nobody else wrote into it
   Extent extent() const { return {bytes_, hash_.text()}; }
   const std::filesystem::path& file() const { return file_; }
 

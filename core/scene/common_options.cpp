@@ -11,9 +11,11 @@ using Declaration = Schema<CommonOptions>;
 
 /// Whether a label will do as part of a file's name.
 bool is_label(const std::string& name) {
-  return !name.empty() && name.size() <= 80 && name.front() != '.' && std::all_of(name.begin(), name.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.';
-  });
+  return !name.empty() && name.size() <= 80 && name.front() != '.' &&
+         std::all_of(name.begin(), name.end(), [](char c) {
+           return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                  c == '_' || c == '-' || c == '.';
+         });
 }
 
 template <Family family>
@@ -22,28 +24,42 @@ struct Common {
   static Declaration schema() {
     Declaration declared("", "");
     if (family == Family::failures) return declared;
-    declared.add<&Options::name>("name", "", "label of the stage, for messages and names of files; the last part of its type if left out")
+    declared
+        .add<&Options::name>("name", "",
+                             "label of the stage, for messages and names of files; the last part "
+                             "of its type if left out")
         .check([](const Options& options, const FaultSink& faults) {
           if (options.name && !is_label(*options.name))
-            faults.fault("name", "a label of letters, digits, \"_\", \"-\" and \".\", not beginning with a dot");
+            faults.fault(
+                "name",
+                "a label of letters, digits, \"_\", \"-\" and \".\", not beginning with a dot");
         });
     if (family == Family::materials)
-      declared.add<&Options::region>("region", "", "where the material is; of several, the last one counts").fallback("\"all\"");
+      declared
+          .add<&Options::region>("region", "",
+                                 "where the material is; of several, the last one counts")
+          .fallback("\"all\"");
     if (family == Family::solvers)
       declared
-          .add<&Options::record_every>(
-              "record_every", "s", "time between records of the history; 200 records over the stage if left out, but no more than one in ten steps")
+          .add<&Options::record_every>("record_every", "s",
+                                       "time between records of the history; 200 records over the "
+                                       "stage if left out, but no more than one in ten steps")
           .positive()
-          .add<&Options::energy_tolerance>("energy_tolerance", "", "relative error of the energy balance at which the run stops; 0: never")
+          .add<&Options::energy_tolerance>(
+              "energy_tolerance", "",
+              "relative error of the energy balance at which the run stops; 0: never")
           .at_least(0)
           .fallback("0.05");
     if (family == Family::writers || family == Family::probes)
       declared
           .add<&Options::every>("every", "s",
                                 family == Family::writers
-                                    ? "time between frames; 20 over the run if left out; 0: only the first and the last"
-                                    : "time between samples; 200 over the run if left out; 0: only the first and the last. A sample is "
-                                      "of the step nearest to its time, which the table gives: times are even to within a step")
+                                    ? "time between frames; 20 over the run if left out; 0: only "
+                                      "the first and the last"
+                                    : "time between samples; 200 over the run if left out; 0: only "
+                                      "the first and the last. A sample is "
+                                      "of the step nearest to its time, which the table gives: "
+                                      "times are even to within a step")
           .at_least(0)
           .add<&Options::first>("first", "", "whether the state before the first step is written")
           .fallback("true")
@@ -56,15 +72,17 @@ struct Common {
 }  // namespace
 
 const OptionSet& common_options(Family family) {
-  static const std::array sets{option_set<Common<Family::lattices>>(), option_set<Common<Family::materials>>(),
-                               option_set<Common<Family::failures>>(), option_set<Common<Family::loads>>(),
-                               option_set<Common<Family::solvers>>(),  option_set<Common<Family::writers>>(),
-                               option_set<Common<Family::probes>>()};
+  static const std::array sets{
+      option_set<Common<Family::lattices>>(), option_set<Common<Family::materials>>(),
+      option_set<Common<Family::failures>>(), option_set<Common<Family::loads>>(),
+      option_set<Common<Family::solvers>>(),  option_set<Common<Family::writers>>(),
+      option_set<Common<Family::probes>>()};
   return sets[static_cast<std::size_t>(family)];
 }
 
 std::optional<Family> family_of(std::string_view type) {
-  const auto* const found = std::find(std::begin(family_names), std::end(family_names), type.substr(0, type.find('.')));
+  const auto* const found =
+      std::find(std::begin(family_names), std::end(family_names), type.substr(0, type.find('.')));
   if (found == std::end(family_names)) return std::nullopt;
   return static_cast<Family>(found - std::begin(family_names));
 }

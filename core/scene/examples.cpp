@@ -24,7 +24,8 @@ Json example_number(const Option& option) {
   return number;
 }
 
-/// Options that a component misses in a stage, though each may be left out: "exactly one of total and each".
+/// Options that a component misses in a stage, though each may be left out: "exactly one of total
+/// and each".
 std::vector<std::string> missing(const ComponentInfo& info, const Json& stage) {
   Faults faults;
   Regions regions;
@@ -33,7 +34,8 @@ std::vector<std::string> missing(const ComponentInfo& info, const Json& stage) {
   RegionReader region_reader(none, regions, faults, texts);
   std::vector<Option> options(info.options.begin(), info.options.end());
   for (Option& option : options)
-    if (option.kind == OptionKind::file) option.kind = OptionKind::text;  // the file need not be there
+    if (option.kind == OptionKind::file)
+      option.kind = OptionKind::text;  // the file need not be there
   OptionSet set = option_set(info, "");
   set.options = options;
   Json resolved;
@@ -53,7 +55,9 @@ Json example_value(const Option& option, std::size_t axis) {
     case OptionKind::number:
       return example_number(option);
     case OptionKind::integer:
-      return in_range(option, 1) || option.low == -infinity ? 1 : static_cast<std::int64_t>(std::ceil(option.low + (option.low_open ? 0.5 : 0)));
+      return in_range(option, 1) || option.low == -infinity
+                 ? 1
+                 : static_cast<std::int64_t>(std::ceil(option.low + (option.low_open ? 0.5 : 0)));
     case OptionKind::boolean:
       return true;
     case OptionKind::text:

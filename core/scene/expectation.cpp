@@ -19,7 +19,8 @@ std::string quantity(const Option& option) {
 
 std::string names(const Option& option) {
   std::string text;
-  for (const std::string_view choice : option.choices) text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", choice);
+  for (const std::string_view choice : option.choices)
+    text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", choice);
   return text;
 }
 
@@ -54,15 +55,20 @@ std::string value_expectation(const Option& option) {
 std::string range_text(const Option& option) {
   const std::string unit = option.unit.empty() ? "" : fmt::format(" {}", option.unit);
   const bool bounded_below = option.low != -infinity, bounded_above = option.high != infinity;
-  if (bounded_below && bounded_above && !option.low_open && !option.high_open) return fmt::format("from {} to {}{}", option.low, option.high, unit);
+  if (bounded_below && bounded_above && !option.low_open && !option.high_open)
+    return fmt::format("from {} to {}{}", option.low, option.high, unit);
   std::string text;
-  if (bounded_below) text = fmt::format("{} {}{}", option.low_open ? "above" : "of at least", option.low, unit);
-  if (bounded_above) text += fmt::format("{}{} {}{}", text.empty() ? "" : " and ", option.high_open ? "below" : "at most", option.high, unit);
+  if (bounded_below)
+    text = fmt::format("{} {}{}", option.low_open ? "above" : "of at least", option.low, unit);
+  if (bounded_above)
+    text += fmt::format("{}{} {}{}", text.empty() ? "" : " and ",
+                        option.high_open ? "below" : "at most", option.high, unit);
   return text;
 }
 
 bool in_range(const Option& option, double value) {
-  return (option.low_open ? value > option.low : value >= option.low) && (option.high_open ? value < option.high : value <= option.high);
+  return (option.low_open ? value > option.low : value >= option.low) &&
+         (option.high_open ? value < option.high : value <= option.high);
 }
 
 std::string expectation(const Option& option) {
@@ -71,7 +77,8 @@ std::string expectation(const Option& option) {
 }
 
 std::string entry_expectation(const Option& option) {
-  if (option.kind == OptionKind::texts) return option.choices.empty() ? "a text" : "one of " + names(option);
+  if (option.kind == OptionKind::texts)
+    return option.choices.empty() ? "a text" : "one of " + names(option);
   return quantity(option);
 }
 

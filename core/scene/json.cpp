@@ -8,8 +8,9 @@ namespace hyperlattice {
 
 namespace {
 
-constexpr std::size_t largest = 64;     // MB of a document
-constexpr std::size_t deepest = 64;     // levels of nesting; far more than a scene needs, far less than the stack bears
+constexpr std::size_t largest = 64;  // MB of a document
+constexpr std::size_t deepest =
+    64;  // levels of nesting; far more than a scene needs, far less than the stack bears
 constexpr std::size_t longest = 100;    // bytes of a value in a message
 constexpr std::size_t widest = 10'000;  // keys of an object, which are searched one by one
 
@@ -27,7 +28,8 @@ std::string place(std::string_view text, std::size_t offset) {
   return fmt::format("line {}, column {}", line, column);
 }
 
-/// Where the token whose last byte is at `last` begins: for a text its opening quote, for anything else that byte.
+/// Where the token whose last byte is at `last` begins: for a text its opening quote, for anything
+/// else that byte.
 std::size_t token_start(std::string_view text, std::size_t last) {
   if (last >= text.size() || text[last] != '"') return last;
   for (std::size_t n = last; n-- > 0 && text[n] != '\n';)
@@ -38,7 +40,8 @@ std::size_t token_start(std::string_view text, std::size_t last) {
 /// Builds the document and collects what is wrong with it (the interface of nlohmann's parser).
 class Builder {
  public:
-  Builder(std::string_view text, Json& root, Faults& faults) : text_(text), root_(root), faults_(faults) {}
+  Builder(std::string_view text, Json& root, Faults& faults)
+      : text_(text), root_(root), faults_(faults) {}
 
   bool null() { return put(nullptr); }
   bool boolean(bool value) { return put(value); }
@@ -58,13 +61,15 @@ class Builder {
       faults_.add(top.pointer, "", fmt::format("at most {} keys in an object", widest));
       return false;
     }
-    if (top.container->contains(name)) faults_.add(member(top.pointer, name), "", fmt::format("the key \"{}\" only once", name));
+    if (top.container->contains(name))
+      faults_.add(member(top.pointer, name), "", fmt::format("the key \"{}\" only once", name));
     key_ = std::move(name);
     return true;
   }
 
   bool parse_error(std::size_t read, const std::string&, const nlohmann::detail::exception& error) {
-    std::string reason = error.what();  // "[...] parse error at line 1, column 2: syntax error while ...", or "[...] number overflow ..."
+    std::string reason = error.what();  // "[...] parse error at line 1, column 2: syntax error
+                                        // while ...", or "[...] number overflow ..."
     if (const auto column = reason.find(", column "); column != std::string::npos)
       reason.erase(0, reason.find(": ", column) + 2);
     else if (const auto bracket = reason.find("] "); bracket != std::string::npos)
@@ -89,7 +94,8 @@ class Builder {
   std::string slot_pointer() const {
     if (levels_.empty()) return "";
     const Level& top = levels_.back();
-    return top.container->is_array() ? member(top.pointer, top.container->size()) : member(top.pointer, key_);
+    return top.container->is_array() ? member(top.pointer, top.container->size())
+                                     : member(top.pointer, key_);
   }
 
   bool put(Json value) {
@@ -127,7 +133,8 @@ bool parse_json(std::string_view text, Json& json, Faults& faults) {
     return false;
   }
   Builder builder(text, json, faults);
-  return Json::sax_parse(text.begin(), text.end(), &builder, nlohmann::detail::input_format_t::json, true, true);
+  return Json::sax_parse(text.begin(), text.end(), &builder, nlohmann::detail::input_format_t::json,
+                         true, true);
 }
 
 std::string member(const std::string& pointer, std::string_view key) {
@@ -143,21 +150,29 @@ std::string member(const std::string& pointer, std::string_view key) {
   return text;
 }
 
-std::string member(const std::string& pointer, std::size_t index) { return fmt::format("{}/{}", pointer, index); }
+std::string member(const std::string& pointer, std::size_t index) {
+  return fmt::format("{}/{}", pointer, index);
+}
 
 std::string word_in(const Json& object, const char* key) {
   const auto found = object.find(key);
   return found != object.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
-std::string json_text(const Json& document) { return document.dump(2, ' ', false, Json::error_handler_t::replace) + '\n'; }
-std::string json_text(const nlohmann::json& document) { return document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n'; }
+std::string json_text(const Json& document) {
+  return document.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+std::string json_text(const nlohmann::json& document) {
+  return document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
+}
 
 bool is_utf8(const std::string& text) {
   const Json value = text;
   return Json::parse(value.dump(-1, ' ', false, Json::error_handler_t::replace)) == value;
 }
 
-std::string shown(const Json& value) { return visible(value.dump(-1, ' ', false, Json::error_handler_t::replace), longest); }
+std::string shown(const Json& value) {
+  return visible(value.dump(-1, ' ', false, Json::error_handler_t::replace), longest);
+}
 
 }  // namespace hyperlattice

@@ -18,12 +18,14 @@ constexpr std::size_t most_shown = 4096;  // bytes of a plugin's text
 template <class Code>
 void call(const OptionSet& set, const char* function, Code&& code) {
   PluginCall call(set.name, set.library, function);
-  if (const std::string* sentence = call.failure(code(call.why()))) throw plugin_failure(set.name, "", set.library, function, *sentence);
+  if (const std::string* sentence = call.failure(code(call.why())))
+    throw plugin_failure(set.name, "", set.library, function, *sentence);
 }
 
 }  // namespace
 
-OptionReader::OptionReader(const Json& object, std::string pointer, Reading reading, std::vector<std::string> keys)
+OptionReader::OptionReader(const Json& object, std::string pointer, Reading reading,
+                           std::vector<std::string> keys)
     : object_(object), pointer_(std::move(pointer)), reading_(reading), known_(std::move(keys)) {}
 
 OptionsPointer OptionReader::fill(const OptionSet& set, Json& resolved) {
@@ -41,7 +43,8 @@ OptionsPointer OptionReader::fill(const OptionSet& set, Json& resolved) {
   return options;
 }
 
-bool OptionReader::fill_one(const OptionSet& set, const Option& option, void* options, Json& resolved) {
+bool OptionReader::fill_one(const OptionSet& set, const Option& option, void* options,
+                            Json& resolved) {
   const std::string name(option.name), pointer = member(pointer_, option.name);
   ReadValue value;
   const auto given = object_.find(name);
@@ -53,7 +56,9 @@ bool OptionReader::fill_one(const OptionSet& set, const Option& option, void* op
     value.plain.absent = true;
   } else {
     Json si;
-    if (!read_value(option, given != object_.end() ? *given : Json::parse(option.fallback), pointer, reading_, value, si)) return false;
+    if (!read_value(option, given != object_.end() ? *given : Json::parse(option.fallback), pointer,
+                    reading_, value, si))
+      return false;
     resolved[name] = std::move(si);
   }
   call(set, "Options", [&](const Complaint& why) { return option.set(options, value.plain, why); });
@@ -63,14 +68,19 @@ bool OptionReader::fill_one(const OptionSet& set, const Option& option, void* op
 bool OptionReader::check(const OptionSet& set, const void* options) {
   if (set.check == nullptr) return true;
   const std::size_t before = reading_.faults.size();
-  const FaultSink sink{this, [](void* self, std::string_view option, std::string_view expected) noexcept {
-                         PluginCall::answer([&] {
-                           const OptionReader& reader = *static_cast<OptionReader*>(self);
-                           const auto given = option.empty() ? reader.object_.end() : reader.object_.find(std::string(option));
-                           reader.reading_.faults.add(option.empty() ? reader.pointer_ : member(reader.pointer_, visible_line(option, most_shown)),
-                                                      given == reader.object_.end() ? "" : shown(*given), visible_line(expected, most_shown));
-                         });
-                       }};
+  const FaultSink sink{
+      this, [](void* self, std::string_view option, std::string_view expected) noexcept {
+        PluginCall::answer([&] {
+          const OptionReader& reader = *static_cast<OptionReader*>(self);
+          const auto given =
+              option.empty() ? reader.object_.end() : reader.object_.find(std::string(option));
+          reader.reading_.faults.add(
+              option.empty() ? reader.pointer_
+                             : member(reader.pointer_, visible_line(option, most_shown)),
+              given == reader.object_.end() ? "" : shown(*given),
+              visible_line(expected, most_shown));
+        });
+      }};
   call(set, "check", [&](const Complaint& why) { return set.check(options, sink, why); });
   return reading_.faults.size() == before;
 }
@@ -80,7 +90,8 @@ void OptionReader::reject_unknown() {
     if (std::find(known_.begin(), known_.end(), item.key()) != known_.end()) continue;
     const std::string near = did_you_mean(item.key(), known_);
     reading_.faults.add(member(pointer_, item.key()), shown(item.value()),
-                        near.empty() ? fmt::format("no key but {}", fmt::join(known_, ", ")) : "a known key" + near);
+                        near.empty() ? fmt::format("no key but {}", fmt::join(known_, ", "))
+                                     : "a known key" + near);
   }
 }
 

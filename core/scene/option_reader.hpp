@@ -1,4 +1,5 @@
-// Reads the options of one object of a scene: units, kinds, ranges, defaults, cross-checks. Everything wrong with it is added to the faults.
+// Reads the options of one object of a scene: units, kinds, ranges, defaults, cross-checks.
+// Everything wrong with it is added to the faults.
 #pragma once
 
 #include <base/option_set.hpp>
@@ -18,9 +19,11 @@ struct Reading {
 class OptionReader {
  public:
   /// `object` stands at `pointer`. `keys` are known without being options ("type").
-  OptionReader(const Json& object, std::string pointer, Reading reading, std::vector<std::string> keys = {});
+  OptionReader(const Json& object, std::string pointer, Reading reading,
+               std::vector<std::string> keys = {});
 
-  /// New options of the set, filled and checked; null after faults. Appends every value, given or default, in SI to `resolved`.
+  /// New options of the set, filled and checked; null after faults. Appends every value, given or
+  /// default, in SI to `resolved`.
   OptionsPointer fill(const OptionSet& set, Json& resolved);
   /// Faults for keys that no set filled so far declares.
   void reject_unknown();

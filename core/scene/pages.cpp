@@ -11,7 +11,9 @@ namespace hyperlattice {
 
 namespace {
 
-constexpr std::string_view kind_names[] = {"number", "integer", "boolean", "text", "choice", "vector", "numbers", "texts", "shape", "region", "file"};
+constexpr std::string_view kind_names[] = {"number", "integer", "boolean", "text",
+                                           "choice", "vector",  "numbers", "texts",
+                                           "shape",  "region",  "file"};
 
 std::string fallback_text(const Option& option) {
   if (!option.fallback.empty()) return fmt::format("`{}`", option.fallback);
@@ -31,26 +33,31 @@ std::string range_column(const Option& option) {
       text = range_text(plain);
       if (option.kind == OptionKind::number && text.empty()) text = "any number";
       if (option.kind == OptionKind::integer) text = text.empty() ? "integer" : "integer " + text;
-      if (option.kind == OptionKind::vector) text = text.empty() ? "[x, y, z]" : "[x, y, z], each " + text;
+      if (option.kind == OptionKind::vector)
+        text = text.empty() ? "[x, y, z]" : "[x, y, z], each " + text;
       if (option.kind == OptionKind::numbers) text = text.empty() ? "list" : "list, each " + text;
       break;
     }
     case OptionKind::choice:
     case OptionKind::texts:
-      for (const std::string_view choice : option.choices) text += fmt::format("{}`\"{}\"`", text.empty() ? "" : ", ", choice);
-      if (option.kind == OptionKind::texts) text = text.empty() ? "list of texts" : "list of " + text;
+      for (const std::string_view choice : option.choices)
+        text += fmt::format("{}`\"{}\"`", text.empty() ? "" : ", ", choice);
+      if (option.kind == OptionKind::texts)
+        text = text.empty() ? "list of texts" : "list of " + text;
       break;
     default:
       text = kind_names[static_cast<std::size_t>(option.kind)];
   }
-  if (!option.word.empty()) text += fmt::format("{}`\"{}\"`", text.empty() ? "" : ", or ", option.word);
+  if (!option.word.empty())
+    text += fmt::format("{}`\"{}\"`", text.empty() ? "" : ", or ", option.word);
   return text;
 }
 
 void table(std::string& page, std::span<const Option> options, bool failure) {
   page += "| option | unit | range | default | meaning |\n|---|---|---|---|---|\n";
   for (const Option& option : options)
-    page += fmt::format("| `{}` | {} | {} | {} | {} |\n", option.name, option.unit, range_column(option), fallback_text(option), option.help);
+    page += fmt::format("| `{}` | {} | {} | {} | {} |\n", option.name, option.unit,
+                        range_column(option), fallback_text(option), option.help);
   if (failure) page += fmt::format("| `failure` | | object | none | {} |\n", failure_help);
 }
 
@@ -59,11 +66,14 @@ void section(std::string& page, const char* title, std::string_view text) {
 }
 
 Json option_json(const Option& option) {
-  Json json{{"name", option.name}, {"kind", kind_names[static_cast<std::size_t>(option.kind)]}, {"help", option.help}};
+  Json json{{"name", option.name},
+            {"kind", kind_names[static_cast<std::size_t>(option.kind)]},
+            {"help", option.help}};
   if (!option.unit.empty()) json["unit"] = option.unit;
   if (option.low != -infinity) json[option.low_open ? "above" : "at_least"] = option.low;
   if (option.high != infinity) json[option.high_open ? "below" : "at_most"] = option.high;
-  if (!option.choices.empty()) json["choices"] = std::vector<std::string>(option.choices.begin(), option.choices.end());
+  if (!option.choices.empty())
+    json["choices"] = std::vector<std::string>(option.choices.begin(), option.choices.end());
   if (!option.word.empty()) json["word"] = option.word;
   if (!option.fallback.empty()) json["default"] = Json::parse(option.fallback);
   json["required"] = option.fallback.empty() && !option.optional;
@@ -82,7 +92,8 @@ std::string component_page(const Component& component) {
   const ComponentInfo& info = component.info;
   const auto common = common_options(info.family).options;
   std::string page = fmt::format("# {}\n\n{}\n", info.name, info.summary);
-  if (!info.equation.empty()) section(page, "Equation", fmt::format("```text\n{}\n```", info.equation));
+  if (!info.equation.empty())
+    section(page, "Equation", fmt::format("```text\n{}\n```", info.equation));
   page += "\n## Options\n\n";
   if (info.options.empty())
     page += "None of its own.\n";
@@ -94,7 +105,10 @@ std::string component_page(const Component& component) {
   }
   page += "\nNumbers are in the unit given; a text with a unit, such as \"1 mm\", is converted.\n";
   const Json stage = example_stage(info);
-  section(page, "Example", fmt::format("```json\n{}\n```", info.family == Family::failures ? "\"failure\": " + stage.dump() : stage.dump()));
+  section(
+      page, "Example",
+      fmt::format("```json\n{}\n```",
+                  info.family == Family::failures ? "\"failure\": " + stage.dump() : stage.dump()));
   section(page, "Restrictions", info.restrictions);
   section(page, "Source", info.source);
   return page;
@@ -103,7 +117,9 @@ std::string component_page(const Component& component) {
 std::string component_json(const Component& component) {
   const ComponentInfo& info = component.info;
   Json common = options_json(common_options(info.family).options);
-  if (info.family == Family::materials) common.push_back({{"name", "failure"}, {"kind", "stage"}, {"help", failure_help}, {"required", false}});
+  if (info.family == Family::materials)
+    common.push_back(
+        {{"name", "failure"}, {"kind", "stage"}, {"help", failure_help}, {"required", false}});
   return json_text(Json{{"type", info.name},
                         {"family", family_name(info.family)},
                         {"summary", info.summary},

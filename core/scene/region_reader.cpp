@@ -13,12 +13,15 @@ namespace hyperlattice {
 
 namespace {
 
-constexpr std::size_t deepest = 64;            // sets within sets, which are followed level by level for every particle
+constexpr std::size_t deepest =
+    64;  // sets within sets, which are followed level by level for every particle
 constexpr std::size_t most_suggestions = 100;  // faults whose name is compared with all others
-constexpr std::size_t largest = 10'000;        // regions of one set, all names written out, which may all be asked about every particle
+constexpr std::size_t largest = 10'000;  // regions of one set, all names written out, which may all
+                                         // be asked about every particle
 
 const std::string expected_region =
-    "a region: a name, or an object with one key out of box, sphere, hollow_sphere, cylinder, half_space, stl, voxels, union, intersection, "
+    "a region: a name, or an object with one key out of box, sphere, hollow_sphere, cylinder, "
+    "half_space, stl, voxels, union, intersection, "
     "difference";
 
 std::vector<std::string> expression_keys() {
@@ -29,15 +32,21 @@ std::vector<std::string> expression_keys() {
 }
 
 bool bounded(const Region& solid) {
-  const auto finite = [](Vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); };
+  const auto finite = [](Vec3 p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+  };
   return finite(solid.low) && finite(solid.high);
 }
 
-bool inverted(const Region& region) { return region.low.x > region.high.x || region.low.y > region.high.y || region.low.z > region.high.z; }
+bool inverted(const Region& region) {
+  return region.low.x > region.high.x || region.low.y > region.high.y ||
+         region.low.z > region.high.z;
+}
 
 }  // namespace
 
-RegionReader::RegionReader(const Json& named, Regions& regions, Faults& faults, std::deque<std::string>& texts, std::filesystem::path folder)
+RegionReader::RegionReader(const Json& named, Regions& regions, Faults& faults,
+                           std::deque<std::string>& texts, std::filesystem::path folder)
     : named_(named), regions_(regions), faults_(faults), texts_(texts), folder_(std::move(folder)) {
   for (const auto& item : named_.items()) expressions_.emplace(item.key(), &item.value());
   if (const auto all = regions_.find("all")) ids_.emplace("all", *all);
@@ -54,7 +63,8 @@ void RegionReader::read_named(Json& resolved) {
   }
 }
 
-std::shared_ptr<const Region> RegionReader::read_name(const std::string& name, const std::string& pointer) {
+std::shared_ptr<const Region> RegionReader::read_name(const std::string& name,
+                                                      const std::string& pointer) {
   if (auto region = built_in_region(name)) return region;
   if (const auto found = done_.find(name); found != done_.end()) return found->second;
   const auto expression = expressions_.find(name);
@@ -96,11 +106,13 @@ RegionId RegionReader::add(const std::shared_ptr<const Region>& region, const st
 /// One fault, however many regions are too deep.
 bool RegionReader::can_nest(const std::string& pointer, std::size_t depth) {
   if (depth <= deepest) return true;
-  if (!std::exchange(too_deep_, true)) faults_.add(pointer, "", fmt::format("at most {} levels of regions within regions", deepest));
+  if (!std::exchange(too_deep_, true))
+    faults_.add(pointer, "", fmt::format("at most {} levels of regions within regions", deepest));
   return false;
 }
 
-std::shared_ptr<const Region> RegionReader::read(const Json& expression, const std::string& pointer, Json& resolved) {
+std::shared_ptr<const Region> RegionReader::read(const Json& expression, const std::string& pointer,
+                                                 Json& resolved) {
   resolved = expression;
   if (expression.is_string()) return read_name(expression.get<std::string>(), pointer);
   if (!expression.is_object() || expression.size() != 1) {
@@ -113,18 +125,23 @@ std::shared_ptr<const Region> RegionReader::read(const Json& expression, const s
   for (const SetOperation& operation : set_operations)
     if (key == operation.name) return read_set(operation, content, inner, resolved[key]);
   const auto keys = expression_keys();
-  if (std::find(keys.begin(), keys.end(), key) != keys.end()) return read_primitive(key, content, inner, resolved[key]);
+  if (std::find(keys.begin(), keys.end(), key) != keys.end())
+    return read_primitive(key, content, inner, resolved[key]);
   faults_.add(inner, shown(content), expected_region + did_you_mean(key, keys));
   return nullptr;
 }
 
-std::shared_ptr<const Region> RegionReader::read_primitive(const std::string& key, const Json& parameters, const std::string& pointer,
+std::shared_ptr<const Region> RegionReader::read_primitive(const std::string& key,
+                                                           const Json& parameters,
+                                                           const std::string& pointer,
                                                            Json& resolved) {
   const auto all = primitives();
-  const Primitive& primitive = *std::find_if(all.begin(), all.end(), [&](const Primitive& p) { return p.name == key; });
+  const Primitive& primitive =
+      *std::find_if(all.begin(), all.end(), [&](const Primitive& p) { return p.name == key; });
   resolved = Json::object();
   if (!parameters.is_object()) {
-    faults_.add(pointer, shown(parameters), fmt::format("an object with the parameters of {}", key));
+    faults_.add(pointer, shown(parameters),
+                fmt::format("an object with the parameters of {}", key));
     return nullptr;
   }
   OptionReader reader(parameters, pointer, Reading{faults_, *this, texts_});
@@ -142,14 +159,17 @@ std::shared_ptr<const Region> RegionReader::read_primitive(const std::string& ke
   return nullptr;
 }
 
-std::shared_ptr<const Region> RegionReader::read_set(const SetOperation& operation, const Json& parts, const std::string& pointer, Json& resolved) {
+std::shared_ptr<const Region> RegionReader::read_set(const SetOperation& operation,
+                                                     const Json& parts, const std::string& pointer,
+                                                     Json& resolved) {
   if (!parts.is_array() || parts.empty()) {
     faults_.add(pointer, shown(parts), "a list of regions");
     return nullptr;
   }
   std::vector<std::shared_ptr<const Region>> regions;
   for (std::size_t n = 0; n < parts.size(); ++n)
-    if (auto region = read(parts[n], member(pointer, n), resolved[n])) regions.push_back(std::move(region));
+    if (auto region = read(parts[n], member(pointer, n), resolved[n]))
+      regions.push_back(std::move(region));
   if (regions.size() != parts.size()) return nullptr;
   Extent whole;
   for (const auto& region : regions) {
@@ -159,7 +179,9 @@ std::shared_ptr<const Region> RegionReader::read_set(const SetOperation& operati
   }
   if (!can_nest(pointer, whole.depth)) return nullptr;
   if (whole.size > largest) {
-    faults_.add(pointer, "", fmt::format("a set of at most {} regions; with all names written out it has {}", largest, whole.size));
+    faults_.add(pointer, "",
+                fmt::format("a set of at most {} regions; with all names written out it has {}",
+                            largest, whole.size));
     return nullptr;
   }
   auto set = make_set(operation.kind, std::move(regions));
@@ -171,7 +193,8 @@ std::shared_ptr<const Region> RegionReader::read_set(const SetOperation& operati
   return set;
 }
 
-std::optional<RegionId> RegionReader::read_id(const Json& expression, const std::string& pointer, Json& resolved) {
+std::optional<RegionId> RegionReader::read_id(const Json& expression, const std::string& pointer,
+                                              Json& resolved) {
   auto region = read(expression, pointer, resolved);
   if (!region) return std::nullopt;
   const std::string name = resolved.is_string() ? resolved.get<std::string>() : resolved.dump();
@@ -179,15 +202,19 @@ std::optional<RegionId> RegionReader::read_id(const Json& expression, const std:
   return add(region, name);
 }
 
-const Shape* RegionReader::read_shape(const Json& expression, const std::string& pointer, Json& resolved) {
+const Shape* RegionReader::read_shape(const Json& expression, const std::string& pointer,
+                                      Json& resolved) {
   auto region = read(expression, pointer, resolved);
   if (!region) return nullptr;
   if (!region->is_solid()) {
-    faults_.add(pointer, shown(expression), "a solid; surfaces and faces have no volume, and \"all\" is what the lattice fills");
+    faults_.add(
+        pointer, shown(expression),
+        "a solid; surfaces and faces have no volume, and \"all\" is what the lattice fills");
     return nullptr;
   }
   if (!bounded(*region)) {
-    faults_.add(pointer, shown(expression), "a bounded solid; a half-space needs an intersection with one");
+    faults_.add(pointer, shown(expression),
+                "a bounded solid; a half-space needs an intersection with one");
     return nullptr;
   }
   return regions_.shape(std::move(region));

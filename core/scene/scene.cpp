@@ -14,7 +14,8 @@ class HostCatalogue final : public Catalogue {
   bool refused(const std::string& type) const override { return host_.refused(type); }
   std::vector<std::string> known_types() const override { return host_.known_types(); }
   bool allows_scene_plugins() const override { return !refuses_scene_plugins(); }
-  std::vector<SearchOutcome> add_scene_paths(const std::vector<std::string>& entries, const std::filesystem::path& scene_folder) override {
+  std::vector<SearchOutcome> add_scene_paths(const std::vector<std::string>& entries,
+                                             const std::filesystem::path& scene_folder) override {
     return host_.add_scene_paths(entries, scene_folder);
   }
 
@@ -31,12 +32,15 @@ std::vector<const Stage*> Scene::of(Family family) const {
   return found;
 }
 
-std::unique_ptr<Scene> read_scene(const std::filesystem::path& file, const std::vector<std::string>& settings, Host& host) {
+std::unique_ptr<Scene> read_scene(const std::filesystem::path& file,
+                                  const std::vector<std::string>& settings, Host& host) {
   HostCatalogue catalogue(host);
-  return read_scene_text(read_input_file(file, "SCENE", "the path of a scene"), file, settings, catalogue);
+  return read_scene_text(read_input_file(file, "SCENE", "the path of a scene"), file, settings,
+                         catalogue);
 }
 
-std::unique_ptr<Scene> read_scene_text(std::string_view text, const std::filesystem::path& file, Host& host) {
+std::unique_ptr<Scene> read_scene_text(std::string_view text, const std::filesystem::path& file,
+                                       Host& host) {
   HostCatalogue catalogue(host);
   return read_scene_text(text, file, {}, catalogue);
 }

@@ -1,5 +1,5 @@
-// Plugins that a scene brings: the code of a library named in "plugins" runs as soon as the scene is read, so scenes from elsewhere may be refused
-// it.
+// Plugins that a scene brings: the code of a library named in "plugins" runs as soon as the scene
+// is read, so scenes from elsewhere may be refused it.
 #pragma once
 
 namespace hyperlattice {

@@ -32,7 +32,9 @@ struct HeadingSchema {
         .choices(formats)
         .add<&Heading::title>("title", "", "what the scene shows")
         .fallback("\"\"")
-        .add<&Heading::plugins>("plugins", "", "folders and libraries of plugins, relative to the scene's folder, searched before all others")
+        .add<&Heading::plugins>("plugins", "",
+                                "folders and libraries of plugins, relative to the scene's folder, "
+                                "searched before all others")
         .fallback("[]")
         .add<&Heading::allow_unstable>("allow_unstable", "", allow_unstable_help)
         .fallback("false")
@@ -52,11 +54,13 @@ class SceneReader {
         regions_(named_regions(), scene.regions, faults, scene.texts, scene.file.parent_path()) {}
 
   void read() {
-    if (!given_.is_object()) return faults_.add("", shown(given_), "an object with format and pipeline");
+    if (!given_.is_object())
+      return faults_.add("", shown(given_), "an object with format and pipeline");
     Json resolved;
     OptionReader reader(given_, "", reading(), {"$schema", "regions", "pipeline"});
     if (const auto schema = given_.find("$schema"); schema != given_.end() && !schema->is_string())
-      faults_.add("/$schema", shown(*schema), "the place of the JSON Schema that editors check the scene by");
+      faults_.add("/$schema", shown(*schema),
+                  "the place of the JSON Schema that editors check the scene by");
     const OptionsPointer heading = reader.fill(option_set<HeadingSchema>(), resolved);
     if (heading) {
       const auto& given = *static_cast<const Heading*>(heading.get());
@@ -82,26 +86,32 @@ class SceneReader {
 
   const Json& named_regions() const {
     static const Json none = Json::object();
-    if (!given_.is_object() || !given_.contains("regions") || !given_["regions"].is_object()) return none;
+    if (!given_.is_object() || !given_.contains("regions") || !given_["regions"].is_object())
+      return none;
     return given_["regions"];
   }
 
-  /// Also the entries that are well-formed when others are not: their components are needed to check the stages.
+  /// Also the entries that are well-formed when others are not: their components are needed to
+  /// check the stages.
   void read_plugins(Json& resolved) {
     if (!given_.contains("plugins") || !given_["plugins"].is_array()) return;
     const Json& entries = given_["plugins"];
     if (!catalogue_.allows_scene_plugins() && !entries.empty())
-      return faults_.add("/plugins", shown(entries), "no plugins of the scene's own, since --no-plugins was given");
+      return faults_.add("/plugins", shown(entries),
+                         "no plugins of the scene's own, since --no-plugins was given");
     for (std::size_t n = 0; n < entries.size(); ++n) {
       if (!entries[n].is_string()) continue;
-      const auto outcomes = catalogue_.add_scene_paths({entries[n].get<std::string>()}, scene_.file.parent_path());
+      const auto outcomes =
+          catalogue_.add_scene_paths({entries[n].get<std::string>()}, scene_.file.parent_path());
       const SearchOutcome& outcome = outcomes.front();
       if (outcome.absent)
-        faults_.add(member("/plugins", n), shown(entries[n]), fmt::format("a folder or library; there is no {}", outcome.path.string()));
+        faults_.add(member("/plugins", n), shown(entries[n]),
+                    fmt::format("a folder or library; there is no {}", outcome.path.string()));
       else if (!outcome.accepted)
         refusals_.push_back({member("/plugins", n), shown(entries[n]), outcome.reason});
       else if (!is_utf8(outcome.path.string()))
-        faults_.add(member("/plugins", n), shown(entries[n]), fmt::format("a path in UTF-8, and not {}", outcome.path.string()));
+        faults_.add(member("/plugins", n), shown(entries[n]),
+                    fmt::format("a path in UTF-8, and not {}", outcome.path.string()));
       if (resolved.contains("plugins")) resolved["plugins"][n] = outcome.path.string();
     }
   }
@@ -109,10 +119,14 @@ class SceneReader {
   /// Refused libraries are the outside's failure, unless the input is wrong as well.
   void finish() {
     if (!faults_.empty())
-      for (const Fault& refusal : refusals_) faults_.add(refusal.pointer, refusal.value, "a library that can be loaded (" + refusal.expected + ")");
+      for (const Fault& refusal : refusals_)
+        faults_.add(refusal.pointer, refusal.value,
+                    "a library that can be loaded (" + refusal.expected + ")");
     faults_.throw_if_any();
     std::string message;
-    for (const Fault& refusal : refusals_) message += fmt::format("{}{}: {}", message.empty() ? "" : "\n", refusal.pointer, refusal.expected);
+    for (const Fault& refusal : refusals_)
+      message +=
+          fmt::format("{}{}: {}", message.empty() ? "" : "\n", refusal.pointer, refusal.expected);
     if (!message.empty()) throw OutsideError(message);
   }
 
@@ -121,12 +135,14 @@ class SceneReader {
   Faults& faults_;
   Catalogue& catalogue_;
   RegionReader regions_;
-  std::vector<Fault> refusals_;  // of libraries: pointer and value of where they are named, and the reason
+  std::vector<Fault>
+      refusals_;  // of libraries: pointer and value of where they are named, and the reason
 };
 
 }  // namespace
 
-std::unique_ptr<Scene> read_scene_text(std::string_view text, const std::filesystem::path& file, const std::vector<std::string>& settings,
+std::unique_ptr<Scene> read_scene_text(std::string_view text, const std::filesystem::path& file,
+                                       const std::vector<std::string>& settings,
                                        Catalogue& catalogue) {
   Faults faults;
   Json json;

@@ -14,19 +14,27 @@ namespace {
 constexpr const char* number_with_unit =
     R"(^\s*[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?\s*[^\s0-9.,+-].*$|^\s*[-+]?[0-9.]+([eE][-+]?[0-9]+)?\s+1/.+$)";
 
-Json reference(const std::string& definition) { return {{"$ref", fmt::format("#/$defs/{}", definition)}}; }
+Json reference(const std::string& definition) {
+  return {{"$ref", fmt::format("#/$defs/{}", definition)}};
+}
 
 Json bounded(const Option& option, const char* type) {
   Json number{{"type", type}};
-  if (option.low != -infinity) number[option.low_open ? "exclusiveMinimum" : "minimum"] = option.low;
-  if (option.high != infinity) number[option.high_open ? "exclusiveMaximum" : "maximum"] = option.high;
+  if (option.low != -infinity)
+    number[option.low_open ? "exclusiveMinimum" : "minimum"] = option.low;
+  if (option.high != infinity)
+    number[option.high_open ? "exclusiveMaximum" : "maximum"] = option.high;
   return number;
 }
 
 /// A plain SI number, or a text with a unit.
-Json quantity(const Option& option) { return {{"anyOf", {bounded(option, "number"), reference("quantity")}}}; }
+Json quantity(const Option& option) {
+  return {{"anyOf", {bounded(option, "number"), reference("quantity")}}};
+}
 
-Json choices(const Option& option) { return {{"enum", std::vector<std::string>(option.choices.begin(), option.choices.end())}}; }
+Json choices(const Option& option) {
+  return {{"enum", std::vector<std::string>(option.choices.begin(), option.choices.end())}};
+}
 
 Json value_schema(const Option& option) {
   switch (option.kind) {
@@ -46,7 +54,8 @@ Json value_schema(const Option& option) {
     case OptionKind::numbers:
       return {{"type", "array"}, {"items", quantity(option)}};
     case OptionKind::texts:
-      return {{"type", "array"}, {"items", option.choices.empty() ? Json{{"type", "string"}} : choices(option)}};
+      return {{"type", "array"},
+              {"items", option.choices.empty() ? Json{{"type", "string"}} : choices(option)}};
     case OptionKind::shape:
       return reference("solid");
     case OptionKind::region:
@@ -58,7 +67,8 @@ Json value_schema(const Option& option) {
 Json option_schema(const Option& option) {
   Json value = value_schema(option);
   if (!option.word.empty()) value = {{"anyOf", {std::move(value), {{"const", option.word}}}}};
-  value["description"] = option.unit.empty() ? std::string(option.help) : fmt::format("{} [{}]", option.help, option.unit);
+  value["description"] = option.unit.empty() ? std::string(option.help)
+                                             : fmt::format("{} [{}]", option.help, option.unit);
   if (!option.fallback.empty()) value["default"] = Json::parse(option.fallback);
   return value;
 }
@@ -72,8 +82,11 @@ void declare(Json& object, std::span<const Option> options) {
 }
 
 Json object_schema(std::string_view description) {
-  return {
-      {"type", "object"}, {"description", description}, {"properties", Json::object()}, {"required", Json::array()}, {"additionalProperties", false}};
+  return {{"type", "object"},
+          {"description", description},
+          {"properties", Json::object()},
+          {"required", Json::array()},
+          {"additionalProperties", false}};
 }
 
 Json component_schema(const ComponentInfo& info) {
@@ -92,9 +105,14 @@ Json component_schema(const ComponentInfo& info) {
 /// An object whose "type" is one of the types; that type's schema then applies.
 Json one_of(const std::vector<std::string>& types) {
   if (types.empty()) return false;
-  Json schema{{"type", "object"}, {"required", {"type"}}, {"properties", {{"type", {{"enum", types}}}}}, {"allOf", Json::array()}};
+  Json schema{{"type", "object"},
+              {"required", {"type"}},
+              {"properties", {{"type", {{"enum", types}}}}},
+              {"allOf", Json::array()}};
   for (const std::string& type : types)
-    schema["allOf"].push_back({{"if", {{"properties", {{"type", {{"const", type}}}}}, {"required", {"type"}}}}, {"then", reference(type)}});
+    schema["allOf"].push_back(
+        {{"if", {{"properties", {{"type", {{"const", type}}}}}, {"required", {"type"}}}},
+         {"then", reference(type)}});
   return schema;
 }
 
@@ -113,7 +131,8 @@ Json expression(const std::string& definition, Json name) {
     declare(parameters, primitive.options.options);
     add(primitive.name, std::move(parameters));
   }
-  for (const SetOperation& operation : set_operations) add(operation.name, {{"type", "array"}, {"items", reference(definition)}, {"minItems", 1}});
+  for (const SetOperation& operation : set_operations)
+    add(operation.name, {{"type", "array"}, {"items", reference(definition)}, {"minItems", 1}});
   return {{"oneOf", std::move(alternatives)}};
 }
 
@@ -121,19 +140,26 @@ Json expression(const std::string& definition, Json name) {
 
 std::string scene_schema(const std::vector<const Component*>& components) {
   std::vector<std::string> of_family[std::size(family_names)], stages, later;
-  Json definitions{{"quantity", {{"type", "string"}, {"description", "a number with a unit, such as \"1 mm\""}, {"pattern", number_with_unit}}},
+  Json definitions{{"quantity",
+                    {{"type", "string"},
+                     {"description", "a number with a unit, such as \"1 mm\""},
+                     {"pattern", number_with_unit}}},
                    {"region", expression("region", {{"type", "string"}})},
-                   {"solid", expression("solid", {{"type", "string"}, {"not", {{"enum", built_in_region_names()}}}})}};
+                   {"solid", expression("solid", {{"type", "string"},
+                                                  {"not", {{"enum", built_in_region_names()}}}})}};
   for (const Component* component : components) {
     const Family family = component->info.family;
     definitions[component->type()] = component_schema(component->info);
     of_family[static_cast<std::size_t>(family)].push_back(component->type());
-    if (family != Family::failures && family != Family::lattices) later.push_back(component->type());
+    if (family != Family::failures && family != Family::lattices)
+      later.push_back(component->type());
   }
   const auto types = [&](Family family) { return of_family[static_cast<std::size_t>(family)]; };
   definitions["failure"] = one_of(types(Family::failures));
   const auto holds = [&](Family family) {
-    Json has{{"properties", {{"type", {{"pattern", fmt::format(R"(^{}\.)", family_name(family))}}}}}, {"required", {"type"}}};
+    Json has{
+        {"properties", {{"type", {{"pattern", fmt::format(R"(^{}\.)", family_name(family))}}}}},
+        {"required", {"type"}}};
     return Json{{"contains", std::move(has)}};
   };
   const Json pipeline{{"type", "array"},
@@ -142,22 +168,29 @@ std::string scene_schema(const std::vector<const Component*>& components) {
                       {"items", one_of(later)},
                       {"minItems", 1},
                       {"allOf", {holds(Family::materials), holds(Family::solvers)}}};
-  Json named{{"type", "object"}, {"propertyNames", {{"not", {{"enum", built_in_region_names()}}}}}, {"additionalProperties", reference("region")}};
-  const Json scene{{"$schema", "https://json-schema.org/draft/2020-12/schema"},
-                   {"title", "Hyperlattice scene"},
-                   {"type", "object"},
-                   {"properties",
-                    {{"$schema", {{"type", "string"}}},
-                     {"format", {{"const", "hyperlattice/1"}}},
-                     {"title", {{"type", "string"}}},
-                     {"plugins", {{"type", "array"}, {"items", {{"type", "string"}}}}},
-                     {"precision", {{"enum", precision_names}, {"description", precision_help}, {"default", precision_names[0]}}},
-                     {"allow_unstable", {{"type", "boolean"}, {"description", allow_unstable_help}, {"default", false}}},
-                     {"regions", std::move(named)},
-                     {"pipeline", pipeline}}},
-                   {"required", {"format", "pipeline"}},
-                   {"additionalProperties", false},
-                   {"$defs", std::move(definitions)}};
+  Json named{{"type", "object"},
+             {"propertyNames", {{"not", {{"enum", built_in_region_names()}}}}},
+             {"additionalProperties", reference("region")}};
+  const Json scene{
+      {"$schema", "https://json-schema.org/draft/2020-12/schema"},
+      {"title", "Hyperlattice scene"},
+      {"type", "object"},
+      {"properties",
+       {{"$schema", {{"type", "string"}}},
+        {"format", {{"const", "hyperlattice/1"}}},
+        {"title", {{"type", "string"}}},
+        {"plugins", {{"type", "array"}, {"items", {{"type", "string"}}}}},
+        {"precision",
+         {{"enum", precision_names},
+          {"description", precision_help},
+          {"default", precision_names[0]}}},
+        {"allow_unstable",
+         {{"type", "boolean"}, {"description", allow_unstable_help}, {"default", false}}},
+        {"regions", std::move(named)},
+        {"pipeline", pipeline}}},
+      {"required", {"format", "pipeline"}},
+      {"additionalProperties", false},
+      {"$defs", std::move(definitions)}};
   return scene.dump(2);
 }
 

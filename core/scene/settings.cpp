@@ -30,7 +30,9 @@ std::optional<std::vector<std::string>> keys_of(std::string_view pointer) {
 std::optional<std::size_t> index_of(std::string_view key) {
   std::size_t index = 0;
   const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), index);
-  if (error != std::errc() || end != key.data() + key.size() || (key.size() > 1 && key.front() == '0')) return std::nullopt;
+  if (error != std::errc() || end != key.data() + key.size() ||
+      (key.size() > 1 && key.front() == '0'))
+    return std::nullopt;
   return index;
 }
 
@@ -45,7 +47,9 @@ Json* find(Json& scene, const std::vector<std::string>& keys, std::string& expec
       const std::size_t size = at->size();
       const auto index = last && key == "-" ? size : index_of(key);
       if (!index || *index > size || (*index == size && !last)) {
-        expected = fmt::format("an index into {}, which has {} {}", pointer.empty() ? "the scene" : pointer, size, size == 1 ? "entry" : "entries");
+        expected = fmt::format("an index into {}, which has {} {}",
+                               pointer.empty() ? "the scene" : pointer, size,
+                               size == 1 ? "entry" : "entries");
         return nullptr;
       }
       at = *index == size ? &at->emplace_back() : &(*at)[*index];
@@ -54,13 +58,15 @@ Json* find(Json& scene, const std::vector<std::string>& keys, std::string& expec
         std::vector<std::string> present;
         for (const auto& item : at->items()) present.push_back(item.key());
         const std::string near = nearest(key, present);
-        expected = fmt::format("an existing parent; {} has no \"{}\"", pointer.empty() ? "the scene" : pointer, key) +
+        expected = fmt::format("an existing parent; {} has no \"{}\"",
+                               pointer.empty() ? "the scene" : pointer, key) +
                    (near.empty() ? "" : fmt::format(", did you mean \"{}\"?", near));
         return nullptr;
       }
       at = &(*at)[key];
     } else {
-      expected = fmt::format("an existing parent; {} is {}, which has no members", pointer.empty() ? "the scene" : pointer, shown(*at));
+      expected = fmt::format("an existing parent; {} is {}, which has no members",
+                             pointer.empty() ? "the scene" : pointer, shown(*at));
       return nullptr;
     }
     pointer = member(pointer, key);
@@ -90,7 +96,8 @@ void apply_settings(Json& scene, const std::vector<std::string>& settings, Fault
     const auto equals = setting.find('=');
     const auto pointer = std::string_view(setting).substr(0, equals);
     if (equals == std::string::npos || !keys_of(pointer)) {
-      faults.add("--set", shown(setting), "/pointer=value with a JSON pointer such as /pipeline/0/spacing=0.001");
+      faults.add("--set", shown(setting),
+                 "/pointer=value with a JSON pointer such as /pipeline/0/spacing=0.001");
       continue;
     }
     const Json value = value_of(setting.substr(equals + 1));

@@ -10,11 +10,12 @@ namespace hyperlattice {
 /// Text as a value: JSON if it is some, else the text itself.
 Json value_of(const std::string& text);
 
-/// Replaces the value at a JSON pointer, or adds a member to an object or array that is there. Returns what was expected instead; empty: it is done.
+/// Replaces the value at a JSON pointer, or adds a member to an object or array that is there.
+/// Returns what was expected instead; empty: it is done.
 std::string set_value(Json& document, std::string_view pointer, const Json& value);
 
-/// Each setting replaces the value at its pointer, or adds a member to an object or array that is there. What stands behind the first "="
-/// is read as JSON; if it is none, as a text.
+/// Each setting replaces the value at its pointer, or adds a member to an object or array that is
+/// there. What stands behind the first "=" is read as JSON; if it is none, as a text.
 void apply_settings(Json& scene, const std::vector<std::string>& settings, Faults& faults);
 
 }  // namespace hyperlattice

@@ -8,16 +8,21 @@
 
 namespace hyperlattice {
 
-/// Why a component cannot be used, as an error of the outside: names the component, its place in the scene, its library and the function.
-inline OutsideError plugin_error(const Stage& stage, const std::string& function, const std::string& sentence) {
-  return plugin_failure(stage.component->info.name, stage.pointer, stage.component->path.native(), function, sentence);
+/// Why a component cannot be used, as an error of the outside: names the component, its place in
+/// the scene, its library and the function.
+inline OutsideError plugin_error(const Stage& stage, const std::string& function,
+                                 const std::string& sentence) {
+  return plugin_failure(stage.component->info.name, stage.pointer, stage.component->path.native(),
+                        function, sentence);
 }
 
-/// Calls a function that may refuse: `code` gets the Complaint and returns whether it was done. Returns the sentence of a refusal. Throws
-/// OutsideError if the component got no memory, or if what it asked of the host was a mistake.
+/// Calls a function that may refuse: `code` gets the Complaint and returns whether it was done.
+/// Returns the sentence of a refusal. Throws OutsideError if the component got no memory, or if
+/// what it asked of the host was a mistake.
 template <class Code>
 std::optional<std::string> refusal_of(const Stage& stage, const char* function, Code&& code) {
-  PluginCall call(stage.component->info.name, stage.component->path.c_str(), function, stage.pointer);
+  PluginCall call(stage.component->info.name, stage.component->path.c_str(), function,
+                  stage.pointer);
   try {
     const std::string* sentence = call.failure(code(call.why()));
     return sentence == nullptr ? std::nullopt : std::optional(*sentence);
@@ -29,7 +34,8 @@ std::optional<std::string> refusal_of(const Stage& stage, const char* function, 
 /// Calls a function that must not fail. Throws OutsideError if it does.
 template <class Code>
 void call(const Stage& stage, const char* function, Code&& code) {
-  if (const auto sentence = refusal_of(stage, function, code)) throw plugin_error(stage, function, *sentence);
+  if (const auto sentence = refusal_of(stage, function, code))
+    throw plugin_error(stage, function, *sentence);
 }
 
 }  // namespace hyperlattice

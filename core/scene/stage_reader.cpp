@@ -25,13 +25,15 @@ void take_common(const CommonOptions& common, Stage& stage) {
   stage.energy_tolerance = common.energy_tolerance;
 }
 
-/// Whether a component declares a key that belongs to the core; its options could not be told apart.
+/// Whether a component declares a key that belongs to the core; its options could not be told
+/// apart.
 std::string taken_key(const ComponentInfo& info) {
   std::vector<std::string_view> keys{"type"};
   for (const Option& option : common_options(info.family).options) keys.push_back(option.name);
   if (info.family == Family::materials) keys.push_back("failure");
   for (const Option& option : info.options)
-    if (std::find(keys.begin(), keys.end(), option.name) != keys.end()) return std::string(option.name);
+    if (std::find(keys.begin(), keys.end(), option.name) != keys.end())
+      return std::string(option.name);
   return "";
 }
 
@@ -49,7 +51,9 @@ Json StageReader::read(const Json& scene, std::vector<Stage>& stages) {
     return resolved;
   }
   if (pipeline->size() > most_stages) {
-    reading_.faults.add("/pipeline", "", fmt::format("at most {} stages; there are {}", most_stages, pipeline->size()));
+    reading_.faults.add(
+        "/pipeline", "",
+        fmt::format("at most {} stages; there are {}", most_stages, pipeline->size()));
     return resolved;
   }
   std::vector<std::optional<Family>> families;
@@ -77,14 +81,17 @@ std::optional<Family> StageReader::read_family(const Json& given, const std::str
   }
   const auto type = given.find("type");
   if (type == given.end() || !type->is_string()) {
-    reading_.faults.add(member(pointer, "type"), type == given.end() ? "" : shown(*type), "the type of a component: \"<family>.<name>\"");
+    reading_.faults.add(member(pointer, "type"), type == given.end() ? "" : shown(*type),
+                        "the type of a component: \"<family>.<name>\"");
     return std::nullopt;
   }
   const std::string text = type->get<std::string>();
   if (const auto family = family_of(text)) return family;
   const std::string prefix = text.substr(0, text.find('.'));
   reading_.faults.add(member(pointer, "type"), shown(*type),
-                      "a type of one of the families " + fmt::format("{}", fmt::join(all_families, ", ")) + did_you_mean(prefix, all_families));
+                      "a type of one of the families " +
+                          fmt::format("{}", fmt::join(all_families, ", ")) +
+                          did_you_mean(prefix, all_families));
   return std::nullopt;
 }
 
@@ -99,27 +106,36 @@ const Component* StageReader::find(const Json& given, const std::string& pointer
       if (family_of(known) == family) candidates.push_back(known);
     const std::string near = did_you_mean(type, candidates);
     std::string all;
-    if (near.empty() && !candidates.empty()) all = fmt::format("; there {} {}", candidates.size() == 1 ? "is" : "are", fmt::join(candidates, ", "));
-    reading_.faults.add(at, shown(given["type"]), fmt::format("a known type ({}){}{}", catalogue_.why_not(type), near, all));
+    if (near.empty() && !candidates.empty())
+      all = fmt::format("; there {} {}", candidates.size() == 1 ? "is" : "are",
+                        fmt::join(candidates, ", "));
+    reading_.faults.add(at, shown(given["type"]),
+                        fmt::format("a known type ({}){}{}", catalogue_.why_not(type), near, all));
   } else if (const std::string key = taken_key(component->info); !key.empty()) {
-    refusals_.push_back({at, shown(given["type"]), fmt::format("{} declares the option \"{}\", a key of the core's own", type, key)});
+    refusals_.push_back(
+        {at, shown(given["type"]),
+         fmt::format("{} declares the option \"{}\", a key of the core's own", type, key)});
     return nullptr;
   }
   return component;
 }
 
-std::optional<Stage> StageReader::read_stage(const Json& given, const std::string& pointer, Json& resolved) {
+std::optional<Stage> StageReader::read_stage(const Json& given, const std::string& pointer,
+                                             Json& resolved) {
   const Family family = *family_of(given["type"].get<std::string>());
   if (family == Family::failures) {
-    reading_.faults.add(member(pointer, "type"), shown(given["type"]), "a failure criterion inside its material, as its \"failure\"");
+    reading_.faults.add(member(pointer, "type"), shown(given["type"]),
+                        "a failure criterion inside its material, as its \"failure\"");
     return std::nullopt;
   }
   Stage stage;
   stage.pointer = pointer;
   resolved = {{"type", given["type"]}, {"name", ""}};
   const auto failure = family == Family::materials ? given.find("failure") : given.end();
-  Json failure_resolved;  // read first, so that its faults are found even if the material is unknown
-  if (failure != given.end()) stage.failure = read_failure(*failure, member(pointer, "failure"), failure_resolved);
+  Json
+      failure_resolved;  // read first, so that its faults are found even if the material is unknown
+  if (failure != given.end())
+    stage.failure = read_failure(*failure, member(pointer, "failure"), failure_resolved);
   stage.component = find(given, pointer, family);
   if (stage.component == nullptr) return std::nullopt;
 
@@ -127,7 +143,8 @@ std::optional<Stage> StageReader::read_stage(const Json& given, const std::strin
   if (family == Family::materials) keys.emplace_back("failure");
   OptionReader reader(given, pointer, reading_, std::move(keys));
   const OptionsPointer common = reader.fill(common_options(family), resolved);
-  stage.options = reader.fill(option_set(stage.component->info, stage.component->path.c_str()), resolved);
+  stage.options =
+      reader.fill(option_set(stage.component->info, stage.component->path.c_str()), resolved);
   reader.reject_unknown();
   if (!common || !stage.options || (failure != given.end() && !stage.failure)) return std::nullopt;
   if (stage.failure) resolved["failure"] = std::move(failure_resolved);
@@ -135,11 +152,13 @@ std::optional<Stage> StageReader::read_stage(const Json& given, const std::strin
   return stage;
 }
 
-std::unique_ptr<Stage> StageReader::read_failure(const Json& given, const std::string& pointer, Json& resolved) {
+std::unique_ptr<Stage> StageReader::read_failure(const Json& given, const std::string& pointer,
+                                                 Json& resolved) {
   const auto family = read_family(given, pointer);
   if (!family) return nullptr;
   if (*family != Family::failures) {
-    reading_.faults.add(member(pointer, "type"), shown(given["type"]), "a type of the family failures");
+    reading_.faults.add(member(pointer, "type"), shown(given["type"]),
+                        "a type of the family failures");
     return nullptr;
   }
   auto stage = std::make_unique<Stage>();
@@ -150,22 +169,29 @@ std::unique_ptr<Stage> StageReader::read_failure(const Json& given, const std::s
   stage->name = type.substr(type.rfind('.') + 1);
   resolved = {{"type", given["type"]}};
   OptionReader reader(given, pointer, reading_, {"type"});
-  stage->options = reader.fill(option_set(stage->component->info, stage->component->path.c_str()), resolved);
+  stage->options =
+      reader.fill(option_set(stage->component->info, stage->component->path.c_str()), resolved);
   reader.reject_unknown();
   return stage->options ? std::move(stage) : nullptr;
 }
 
 void StageReader::check_order(const std::vector<std::optional<Family>>& families) {
-  const bool all_known = std::all_of(families.begin(), families.end(), [](const auto& family) { return family.has_value(); });
-  const auto count = [&](Family family) { return std::count(families.begin(), families.end(), family); };
+  const bool all_known = std::all_of(families.begin(), families.end(),
+                                     [](const auto& family) { return family.has_value(); });
+  const auto count = [&](Family family) {
+    return std::count(families.begin(), families.end(), family);
+  };
   bool lattice_seen = families.front() == Family::lattices;
   for (std::size_t n = 1; n < families.size(); ++n)
     if (families[n] == Family::lattices) {
-      reading_.faults.add(member("/pipeline", n), "", lattice_seen ? "no second lattice" : "the lattice as the first stage of the pipeline");
+      reading_.faults.add(
+          member("/pipeline", n), "",
+          lattice_seen ? "no second lattice" : "the lattice as the first stage of the pipeline");
       lattice_seen = true;
     }
   if (!all_known) return;  // what seems to be missing may be what could not be read
-  if (!lattice_seen) reading_.faults.add("/pipeline/0", "", "a lattice as the first stage of the pipeline");
+  if (!lattice_seen)
+    reading_.faults.add("/pipeline/0", "", "a lattice as the first stage of the pipeline");
   if (count(Family::materials) == 0) reading_.faults.add("/pipeline", "", "at least one material");
   if (count(Family::solvers) == 0) reading_.faults.add("/pipeline", "", "at least one solver");
 }
@@ -176,8 +202,9 @@ void StageReader::give_names(std::vector<Stage>& stages, Json& resolved) {
   for (const Stage& stage : stages) {
     if (stage.name.empty()) continue;
     if (!taken[stage.family()].insert(stage.name).second)
-      reading_.faults.add(member(stage.pointer, "name"), shown(stage.name),
-                          fmt::format("a label of its own among the {}", family_name(stage.family())));
+      reading_.faults.add(
+          member(stage.pointer, "name"), shown(stage.name),
+          fmt::format("a label of its own among the {}", family_name(stage.family())));
   }
   for (std::size_t n = 0; n < stages.size(); ++n) {
     Stage& stage = stages[n];

@@ -1,4 +1,5 @@
-// Reads a scene's pipeline: each stage by its component's declaration, and the rules of their order.
+// Reads a scene's pipeline: each stage by its component's declaration, and the rules of their
+// order.
 #pragma once
 
 #include <scene/option_reader.hpp>
@@ -16,7 +17,8 @@ class StageReader {
 
  private:
   std::optional<Stage> read_stage(const Json& given, const std::string& pointer, Json& resolved);
-  std::unique_ptr<Stage> read_failure(const Json& given, const std::string& pointer, Json& resolved);
+  std::unique_ptr<Stage> read_failure(const Json& given, const std::string& pointer,
+                                      Json& resolved);
   const Component* find(const Json& given, const std::string& pointer, Family family);
   std::optional<Family> read_family(const Json& given, const std::string& pointer);
   void check_order(const std::vector<std::optional<Family>>& families);

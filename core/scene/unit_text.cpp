@@ -14,9 +14,11 @@ constexpr int highest_power = 12;
 
 constexpr std::string_view blanks[] = {" ", "\t", "\r", "\n", "\u00A0", "\u202F", "\u2009"};
 constexpr std::string_view dots[] = {"*", ".", "\u00B7", "\u22C5"};
-constexpr std::string_view symbols[] = {"%",      "_",      "\u00B5", "\u03BC",
-                                        "\u03A9", "\u2126", "\u00B0", "\u00C5"};  // besides a to z: mu, ohm, degree, Angstrom
-constexpr std::string_view raised[] = {"\u2070", "\u00B9", "\u00B2", "\u00B3", "\u2074", "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
+constexpr std::string_view symbols[] = {
+    "%",      "_",      "\u00B5", "\u03BC",
+    "\u03A9", "\u2126", "\u00B0", "\u00C5"};  // besides a to z: mu, ohm, degree, Angstrom
+constexpr std::string_view raised[] = {"\u2070", "\u00B9", "\u00B2", "\u00B3", "\u2074",
+                                       "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
 constexpr std::string_view raised_minus = "\u207B";
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -28,7 +30,8 @@ class UnitReader {
   UnitText read() {
     if (take("1")) {
       skip_blanks();
-      if (!rest_.starts_with('/')) fail(fmt::format("a number stands where the unit should be: {}", quoted(given_)));
+      if (!rest_.starts_with('/'))
+        fail(fmt::format("a number stands where the unit should be: {}", quoted(given_)));
     } else if (!rest_.empty() && is_digit(rest_.front())) {
       fail(fmt::format("a number stands where the unit should be: {}", quoted(given_)));
     } else {
@@ -36,7 +39,9 @@ class UnitReader {
     }
     while (good() && skip_blanks() && !rest_.empty()) {
       if (!take("/")) {
-        fail_here(after_quotient_ ? "after \"/\" a product stands in parentheses, as in \"kg/(m s2)\"" : "");
+        fail_here(after_quotient_
+                      ? "after \"/\" a product stands in parentheses, as in \"kg/(m s2)\""
+                      : "");
         break;
       }
       skip_blanks();
@@ -58,7 +63,8 @@ class UnitReader {
   void fail_here(std::string problem = "") {
     if (rest_.empty()) return fail("the unit is cut short");
     const std::string_view character = rest_.substr(0, length_of_character(rest_));
-    const bool is_number = is_digit(character.front()) || ((character == "+" || character == "-") && rest_.size() > 1 && is_digit(rest_[1]));
+    const bool is_number = is_digit(character.front()) || ((character == "+" || character == "-") &&
+                                                           rest_.size() > 1 && is_digit(rest_[1]));
     if (is_number)
       fail(fmt::format("a number stands after the unit: {}", quoted(rest_)));
     else if (!problem.empty() && (is_symbol(rest_) > 0 || character == "("))
@@ -74,7 +80,8 @@ class UnitReader {
   }
   template <std::size_t N>
   bool take_any(const std::string_view (&tokens)[N]) {
-    return std::any_of(std::begin(tokens), std::end(tokens), [this](std::string_view token) { return take(token); });
+    return std::any_of(std::begin(tokens), std::end(tokens),
+                       [this](std::string_view token) { return take(token); });
   }
   bool skip_blanks() {
     while (take_any(blanks)) {
@@ -138,15 +145,18 @@ class UnitReader {
       }
     } else {
       const bool marked = take("**") || take("^");
-      const bool has_sign = rest_.size() > 1 && (rest_.front() == '-' || rest_.front() == '+') && is_digit(rest_[1]);
+      const bool has_sign =
+          rest_.size() > 1 && (rest_.front() == '-' || rest_.front() == '+') && is_digit(rest_[1]);
       if (!marked && !has_sign && (rest_.empty() || !is_digit(rest_.front()))) return 1;
       if (has_sign) {
         negative = rest_.front() == '-';
         rest_.remove_prefix(1);
       }
-      for (; !rest_.empty() && is_digit(rest_.front()); rest_.remove_prefix(1)) add(rest_.front() - '0');
+      for (; !rest_.empty() && is_digit(rest_.front()); rest_.remove_prefix(1))
+        add(rest_.front() - '0');
     }
-    if (!any || power == 0 || power > highest_power) fail(fmt::format("the power of a unit is a whole number from 1 to {}", highest_power));
+    if (!any || power == 0 || power > highest_power)
+      fail(fmt::format("the power of a unit is a whole number from 1 to {}", highest_power));
     return negative ? -power : power;
   }
   int raised_digit() const {
@@ -165,16 +175,19 @@ class UnitReader {
 UnitText read_unit(std::string_view text) {
   text = trim_blanks(text);
   if (text.empty()) return {};
-  if (text.size() > longest_unit) return {{}, fmt::format("the unit is longer than {} bytes: {}", longest_unit, quoted(text))};
+  if (text.size() > longest_unit)
+    return {{}, fmt::format("the unit is longer than {} bytes: {}", longest_unit, quoted(text))};
   return UnitReader(text).read();
 }
 
 std::string_view trim_blanks(std::string_view text) {
   const auto is_before = [&](std::string_view blank) { return text.starts_with(blank); };
   const auto is_behind = [&](std::string_view blank) { return text.ends_with(blank); };
-  for (const auto* blank = std::begin(blanks); (blank = std::find_if(std::begin(blanks), std::end(blanks), is_before)) != std::end(blanks);)
+  for (const auto* blank = std::begin(blanks);
+       (blank = std::find_if(std::begin(blanks), std::end(blanks), is_before)) != std::end(blanks);)
     text.remove_prefix(blank->size());
-  for (const auto* blank = std::begin(blanks); (blank = std::find_if(std::begin(blanks), std::end(blanks), is_behind)) != std::end(blanks);)
+  for (const auto* blank = std::begin(blanks);
+       (blank = std::find_if(std::begin(blanks), std::end(blanks), is_behind)) != std::end(blanks);)
     text.remove_suffix(blank->size());
   return text;
 }

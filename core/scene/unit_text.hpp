@@ -1,8 +1,9 @@
-// The grammar of units, which holds before UDUNITS sees them: symbols with whole powers, products and quotients, and nothing else.
-//   unit    = ["1"] {quotient} | product {quotient}        "1/s", "kg/m3", "Pa s", "N.m", "W/m/K", "kg/(m s2)"
-//   quotient = "/" (factor | "(" product ")")
-//   product = factor {(blank | "." | "*" | "·") factor}
-//   factor  = symbol [["^" | "**"] ["+" | "-"] digits], or digits above the line: "m2", "m^2", "s-1", "m²"
+// The grammar of units, which holds before UDUNITS sees them: symbols with whole powers, products
+// and quotients, and nothing else.
+//   unit    = ["1"] {quotient} | product {quotient}        "1/s", "kg/m3", "Pa s", "N.m", "W/m/K",
+//   "kg/(m s2)" quotient = "/" (factor | "(" product ")") product = factor {(blank | "." | "*" |
+//   "·") factor} factor  = symbol [["^" | "**"] ["+" | "-"] digits], or digits above the line:
+//   "m2", "m^2", "s-1", "m²"
 #pragma once
 
 #include <string>
@@ -21,7 +22,8 @@ struct UnitText {
   std::string problem;  ///< why the text is no unit, as a sentence; empty: it is one
 };
 
-/// Reads a unit without a number before it. A product after "/" without parentheses is refused: people disagree on what "W/m K" means.
+/// Reads a unit without a number before it. A product after "/" without parentheses is refused:
+/// people disagree on what "W/m K" means.
 UnitText read_unit(std::string_view text);
 
 /// The text without blanks at its ends, no-break spaces among them.

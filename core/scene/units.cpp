@@ -23,7 +23,8 @@ namespace {
 struct Known {
   const char *unit, *name, *example;
 };
-// The first of a dimension names it; a unit's own entry comes before that ("J/m2" is an energy per area, "N/m" a stiffness).
+// The first of a dimension names it; a unit's own entry comes before that ("J/m2" is an energy per
+// area, "N/m" a stiffness).
 constexpr Known known[] = {{"", "a number", "0.5"},
                            {"m", "a length", "1 mm"},
                            {"s", "a time", "1 us"},
@@ -47,15 +48,17 @@ constexpr Known known[] = {{"", "a number", "0.5"},
                            {"rad/s", "an angular velocity", "1 rad/s"}};
 
 /// What may stand before a unit's symbol or name, once.
-constexpr std::string_view prefixes[] = {"yotta", "zetta", "exa",    "peta",   "tera", "giga", "mega",  "kilo", "hecto", "deca",  "deka",
-                                         "deci",  "centi", "milli",  "micro",  "nano", "pico", "femto", "atto", "zepto", "yocto", "Y",
-                                         "Z",     "E",     "P",      "T",      "G",    "M",    "k",     "h",    "da",    "d",     "c",
-                                         "m",     "u",     "\u00B5", "\u03BC", "n",    "p",    "f",     "a",    "z",     "y"};
+constexpr std::string_view prefixes[] = {
+    "yotta", "zetta", "exa",    "peta",   "tera", "giga", "mega",  "kilo", "hecto", "deca",  "deka",
+    "deci",  "centi", "milli",  "micro",  "nano", "pico", "femto", "atto", "zepto", "yocto", "Y",
+    "Z",     "E",     "P",      "T",      "G",    "M",    "k",     "h",    "da",    "d",     "c",
+    "m",     "u",     "\u00B5", "\u03BC", "n",    "p",    "f",     "a",    "z",     "y"};
 
 using Unit = std::unique_ptr<ut_unit, void (*)(ut_unit*)>;
 using Converter = std::unique_ptr<cv_converter, void (*)(cv_converter*)>;
 
-/// While it lives, numbers that this thread reads have a decimal point: UDUNITS reads its database and units as the program's locale says.
+/// While it lives, numbers that this thread reads have a decimal point: UDUNITS reads its database
+/// and units as the program's locale says.
 class PlainNumbers {
  public:
   PlainNumbers() : plain_(::newlocale(LC_ALL_MASK, "C", nullptr)), before_(::uselocale(plain_)) {}
@@ -70,23 +73,32 @@ class PlainNumbers {
   locale_t plain_, before_;
 };
 
-/// A unit by the base units, radians among them: "1e+06 kg.m-1.s-2". Empty if it is longer than any that is meant.
+/// A unit by the base units, radians among them: "1e+06 kg.m-1.s-2". Empty if it is longer than any
+/// that is meant.
 std::string definition(const ut_unit* unit) {
   char text[256];
   const PlainNumbers plain;
   const int length = ut_format(unit, text, sizeof text, UT_ASCII | UT_DEFINITION);
-  return length > 0 && length < static_cast<int>(sizeof text) ? std::string(text, static_cast<std::size_t>(length)) : std::string();
+  return length > 0 && length < static_cast<int>(sizeof text)
+             ? std::string(text, static_cast<std::size_t>(length))
+             : std::string();
 }
 
 bool is_percent(std::string_view symbol) { return symbol == "%" || symbol == "percent"; }
 
-/// The unit that differs from an unknown one in capital letters only, or is what it shortens, as the end of a sentence; empty if there is none.
+/// The unit that differs from an unknown one in capital letters only, or is what it shortens, as
+/// the end of a sentence; empty if there is none.
 std::string meant_instead(std::string_view symbol) {
-  constexpr std::string_view common[] = {"GPa", "MPa", "kPa", "Pa", "GHz", "MHz", "kHz", "Hz", "MN", "kN", "N", "km", "mm", "cm", "um", "nm",
-                                         "m",   "ms",  "us",  "ns", "s",   "kg",  "mg",  "g",  "kJ", "MJ", "J", "kW", "MW", "W",  "K",  "rad"};
-  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  constexpr std::string_view common[] = {"GPa", "MPa", "kPa", "Pa", "GHz", "MHz", "kHz", "Hz",
+                                         "MN",  "kN",  "N",   "km", "mm",  "cm",  "um",  "nm",
+                                         "m",   "ms",  "us",  "ns", "s",   "kg",  "mg",  "g",
+                                         "kJ",  "MJ",  "J",   "kW", "MW",  "W",   "K",   "rad"};
+  const auto lower = [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  };
   const auto is_alike = [&](std::string_view other) {
-    return std::equal(symbol.begin(), symbol.end(), other.begin(), other.end(), [&](char a, char b) { return lower(a) == lower(b); });
+    return std::equal(symbol.begin(), symbol.end(), other.begin(), other.end(),
+                      [&](char a, char b) { return lower(a) == lower(b); });
   };
   if (is_alike("deg") || is_alike("degs")) return "; did you mean \"degrees\"?";
   const auto* found = std::find_if(std::begin(common), std::end(common), is_alike);
@@ -101,7 +113,8 @@ class Database {
     return database;
   }
   std::mutex& lock() { return lock_; }
-  /// The unit that the grammar allows and whose symbols are known; null, with the reason in `problem`, if it is none.
+  /// The unit that the grammar allows and whose symbols are known; null, with the reason in
+  /// `problem`, if it is none.
   Unit parse(std::string_view text, std::string& problem) const {
     const UnitText read = read_unit(text);
     problem = read.problem;
@@ -110,11 +123,13 @@ class Database {
       if (!problem.empty()) break;
       const Unit symbol = known_symbol(factor.symbol);
       if (!symbol) {
-        problem = fmt::format("unknown unit {}{}", quoted(factor.symbol), meant_instead(factor.symbol));
+        problem =
+            fmt::format("unknown unit {}{}", quoted(factor.symbol), meant_instead(factor.symbol));
       } else if (is_percent(factor.symbol) && &factor != &read.factors.front()) {
         problem = fmt::format("{} stands behind a unit", quoted(factor.symbol));
       } else if (definition(symbol.get()).find_first_of("@(") != std::string::npos) {
-        problem = fmt::format("{} does not begin at zero, or is a logarithm", quoted(factor.symbol));
+        problem =
+            fmt::format("{} does not begin at zero, or is a logarithm", quoted(factor.symbol));
       } else {
         const Unit power(ut_raise(symbol.get(), factor.power), ut_free);
         unit.reset(power ? ut_multiply(unit.get(), power.get()) : nullptr);
@@ -131,22 +146,31 @@ class Database {
 
  private:
   Database() {
-    constexpr double enough = 16e6;  // bytes; where UDUNITS gets none it ends the program by an assertion
+    constexpr double enough =
+        16e6;  // bytes; where UDUNITS gets none it ends the program by an assertion
     if (memory_room().bytes < enough) throw std::bad_alloc();
     ut_set_error_message_handler(ut_ignore);
     const PlainNumbers plain;
     system_ = ut_read_xml(nullptr);
-    if (system_ == nullptr) throw OutsideError("the units database of UDUNITS-2 cannot be read; UDUNITS2_XML_PATH may name its udunits2.xml");
+    if (system_ == nullptr)
+      throw OutsideError(
+          "the units database of UDUNITS-2 cannot be read; UDUNITS2_XML_PATH may name its "
+          "udunits2.xml");
   }
   bool knows(std::string_view symbol) const {
     const std::string text(symbol);
-    return Unit(ut_get_unit_by_symbol(system_, text.c_str()), ut_free) || Unit(ut_get_unit_by_name(system_, text.c_str()), ut_free);
+    return Unit(ut_get_unit_by_symbol(system_, text.c_str()), ut_free) ||
+           Unit(ut_get_unit_by_name(system_, text.c_str()), ut_free);
   }
-  /// UDUNITS takes any number of prefixes, so that "mmm" would be a micrometre; here it is at most one.
+  /// UDUNITS takes any number of prefixes, so that "mmm" would be a micrometre; here it is at most
+  /// one.
   Unit known_symbol(std::string_view symbol) const {
-    const bool known = knows(symbol) || std::any_of(std::begin(prefixes), std::end(prefixes), [&](std::string_view prefix) {
-                         return symbol.size() > prefix.size() && symbol.starts_with(prefix) && knows(symbol.substr(prefix.size()));
-                       });
+    const bool known =
+        knows(symbol) ||
+        std::any_of(std::begin(prefixes), std::end(prefixes), [&](std::string_view prefix) {
+          return symbol.size() > prefix.size() && symbol.starts_with(prefix) &&
+                 knows(symbol.substr(prefix.size()));
+        });
     const PlainNumbers plain;
     return {known ? ut_parse(system_, std::string(symbol).c_str(), UT_UTF8) : nullptr, ut_free};
   }
@@ -155,8 +179,8 @@ class Database {
   std::mutex lock_;
 };
 
-/// Exactly the same dimension. UDUNITS alone would convert between a unit and its reciprocal, and takes radians for plain numbers, so that 60 turns a
-/// minute would be 6.28 Hz.
+/// Exactly the same dimension. UDUNITS alone would convert between a unit and its reciprocal, and
+/// takes radians for plain numbers, so that 60 turns a minute would be 6.28 Hz.
 bool same_dimension(const ut_unit* a, const ut_unit* b) {
   const Unit ratio(ut_divide(a, b), ut_free);
   if (!ratio) return false;
@@ -169,7 +193,8 @@ Dimension dimension_of(std::string_view text, const ut_unit* unit, const Databas
     if (text == entry.unit) return {entry.name, entry.example};
   for (const Known& entry : known) {
     const Unit other = database.parse(entry.unit);
-    if (unit != nullptr && other && same_dimension(unit, other.get())) return {entry.name, entry.example};
+    if (unit != nullptr && other && same_dimension(unit, other.get()))
+      return {entry.name, entry.example};
   }
   return {fmt::format("a quantity in {}", text), fmt::format("1 {}", text)};
 }
@@ -180,16 +205,19 @@ double parse(std::string_view number) {
   return error == std::errc() ? value : std::numeric_limits<double>::infinity();
 }
 
-/// The number (as text) in SI. Most units are powers of ten of the SI's: then only the exponent changes, and the double nearest to the result
-/// is found without a rounding on the way.
+/// The number (as text) in SI. Most units are powers of ten of the SI's: then only the exponent
+/// changes, and the double nearest to the result is found without a rounding on the way.
 double convert(std::string_view number, const cv_converter* converter) {
   const double origin = cv_convert_double(converter, 0), scale = cv_convert_double(converter, 1);
   const std::string digits = fmt::format("{:.12e}", scale), power_of_ten = "1.000000000000e";
   const double plain = parse(number);
-  if (plain == 0 || origin != 0 || !digits.starts_with(power_of_ten)) return cv_convert_double(converter, plain);
+  if (plain == 0 || origin != 0 || !digits.starts_with(power_of_ten))
+    return cv_convert_double(converter, plain);
   const auto split = number.find_first_of("eE");
-  const int exponent = split == std::string_view::npos ? 0 : std::stoi(std::string(number.substr(split + 1)));
-  return parse(fmt::format("{}e{}", number.substr(0, split), exponent + std::stoi(digits.substr(power_of_ten.size()))));
+  const int exponent =
+      split == std::string_view::npos ? 0 : std::stoi(std::string(number.substr(split + 1)));
+  return parse(fmt::format("{}e{}", number.substr(0, split),
+                           exponent + std::stoi(digits.substr(power_of_ten.size()))));
 }
 
 }  // namespace
@@ -206,14 +234,19 @@ Quantity read_quantity(std::string_view text, std::string_view unit) {
   if (rest.size() > 1 && rest.front() == '+' && rest[1] != '-') rest.remove_prefix(1);
   double number = 0;
   const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
-  if (error == std::errc::result_out_of_range) return problem("the number is too large or too small for double precision");
+  if (error == std::errc::result_out_of_range)
+    return problem("the number is too large or too small for double precision");
   if (error != std::errc()) return problem("it does not begin with a number");
   if (!std::isfinite(number)) return problem("it is not finite");
-  const std::string_view digits = rest.substr(0, static_cast<std::size_t>(end - rest.data())), given = trim_blanks(rest.substr(digits.size()));
+  const std::string_view digits = rest.substr(0, static_cast<std::size_t>(end - rest.data())),
+                         given = trim_blanks(rest.substr(digits.size()));
   if (given.empty())
-    return problem(unit.empty() ? "write a plain number without quotation marks" : "it has no unit; a plain number without quotation marks is SI");
+    return problem(unit.empty() ? "write a plain number without quotation marks"
+                                : "it has no unit; a plain number without quotation marks is SI");
   if (given.front() == ',' || given.front() == '\'' || given.front() == '_')
-    return problem(fmt::format("{} stands in the number: it has a decimal point, and nothing between thousands", quoted(given.substr(0, 1))));
+    return problem(fmt::format(
+        "{} stands in the number: it has a decimal point, and nothing between thousands",
+        quoted(given.substr(0, 1))));
 
   Database& database = Database::instance();
   const std::lock_guard hold(database.lock());
@@ -221,11 +254,13 @@ Quantity read_quantity(std::string_view text, std::string_view unit) {
   const Unit from = database.parse(given, why), to = database.parse(unit);
   if (!from) return problem(why);
   if (!to) return problem(fmt::format("the option's own unit \"{}\" is unknown", unit));
-  if (!same_dimension(from.get(), to.get())) return problem(fmt::format("it is {}", dimension_of(given, from.get(), database).name));
+  if (!same_dimension(from.get(), to.get()))
+    return problem(fmt::format("it is {}", dimension_of(given, from.get(), database).name));
   const Converter converter(ut_get_converter(from.get(), to.get()), cv_free);
   if (!converter) return problem(fmt::format("{} cannot be converted", quoted(given)));
   const double value = convert(digits, converter.get());
-  if (!std::isfinite(value)) return problem("the number is too large or too small for double precision");
+  if (!std::isfinite(value))
+    return problem("the number is too large or too small for double precision");
   return {value, ""};
 }
 

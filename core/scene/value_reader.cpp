@@ -13,9 +13,11 @@ namespace hyperlattice {
 namespace {
 
 /// A number, or a text with a unit, in SI.
-bool read_number(const Option& option, const Json& given, const std::string& pointer, const std::string& expected, Faults& faults, double& number) {
+bool read_number(const Option& option, const Json& given, const std::string& pointer,
+                 const std::string& expected, Faults& faults, double& number) {
   const auto wrong = [&](const std::string& why) {
-    faults.add(pointer, shown(given), why.empty() ? expected : fmt::format("{} ({})", expected, why));
+    faults.add(pointer, shown(given),
+               why.empty() ? expected : fmt::format("{} ({})", expected, why));
     return false;
   };
   if (given.is_string()) {
@@ -31,7 +33,10 @@ bool read_number(const Option& option, const Json& given, const std::string& poi
 }
 
 bool read_integer(const Json& given, std::int64_t& integer) {
-  if (given.is_number_unsigned() && given.get<std::uint64_t>() > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())) return false;
+  if (given.is_number_unsigned() &&
+      given.get<std::uint64_t>() >
+          static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()))
+    return false;
   if (given.is_number_integer()) {
     integer = given.get<std::int64_t>();
     return true;
@@ -43,20 +48,26 @@ bool read_integer(const Json& given, std::int64_t& integer) {
   return true;
 }
 
-std::vector<std::string> names_of(const Option& option) { return {option.choices.begin(), option.choices.end()}; }
+std::vector<std::string> names_of(const Option& option) {
+  return {option.choices.begin(), option.choices.end()};
+}
 
 /// The index of a text among the option's choices, or -1.
 std::int64_t choice_of(const Option& option, const Json& given) {
   if (!given.is_string()) return -1;
-  const auto found = std::find(option.choices.begin(), option.choices.end(), given.get_ref<const std::string&>());
+  const auto found =
+      std::find(option.choices.begin(), option.choices.end(), given.get_ref<const std::string&>());
   return found == option.choices.end() ? -1 : found - option.choices.begin();
 }
 
-bool read_numbers(const Option& option, const Json& given, const std::string& pointer, Faults& faults, ReadValue& value, Json& resolved) {
+bool read_numbers(const Option& option, const Json& given, const std::string& pointer,
+                  Faults& faults, ReadValue& value, Json& resolved) {
   bool good = true;
   for (std::size_t n = 0; n < given.size(); ++n) {
     double number = 0;
-    good = read_number(option, given[n], member(pointer, n), entry_expectation(option), faults, number) && good;
+    good = read_number(option, given[n], member(pointer, n), entry_expectation(option), faults,
+                       number) &&
+           good;
     value.numbers.push_back(number);
   }
   value.plain.numbers = value.numbers;
@@ -64,12 +75,15 @@ bool read_numbers(const Option& option, const Json& given, const std::string& po
   return good;
 }
 
-bool read_texts(const Option& option, const Json& given, const std::string& pointer, Reading reading, ReadValue& value) {
+bool read_texts(const Option& option, const Json& given, const std::string& pointer,
+                Reading reading, ReadValue& value) {
   bool good = true;
   for (std::size_t n = 0; n < given.size(); ++n) {
     const Json& entry = given[n];
     if (!entry.is_string() || (!option.choices.empty() && choice_of(option, entry) < 0)) {
-      const std::string near = entry.is_string() ? did_you_mean(entry.get_ref<const std::string&>(), names_of(option)) : "";
+      const std::string near =
+          entry.is_string() ? did_you_mean(entry.get_ref<const std::string&>(), names_of(option))
+                            : "";
       reading.faults.add(member(pointer, n), shown(entry), entry_expectation(option) + near);
       good = false;
     } else {
@@ -82,24 +96,29 @@ bool read_texts(const Option& option, const Json& given, const std::string& poin
 
 }  // namespace
 
-bool read_value(const Option& option, const Json& given, const std::string& pointer, Reading reading, ReadValue& value, Json& resolved) {
+bool read_value(const Option& option, const Json& given, const std::string& pointer,
+                Reading reading, ReadValue& value, Json& resolved) {
   const auto wrong = [&](const std::string& more = "") {
     reading.faults.add(pointer, shown(given), expectation(option) + more);
     return false;
   };
   OptionValue& plain = value.plain;
   resolved = given;
-  if (!option.word.empty() && given.is_string() && given.get_ref<const std::string&>() == option.word) {
+  if (!option.word.empty() && given.is_string() &&
+      given.get_ref<const std::string&>() == option.word) {
     plain.absent = true;
     return true;
   }
   switch (option.kind) {
     case OptionKind::number:
-      if (!read_number(option, given, pointer, expectation(option), reading.faults, plain.number)) return false;
+      if (!read_number(option, given, pointer, expectation(option), reading.faults, plain.number))
+        return false;
       resolved = plain.number;
       return true;
     case OptionKind::integer:
-      if (!read_integer(given, plain.integer) || !in_range(option, static_cast<double>(plain.integer))) return wrong();
+      if (!read_integer(given, plain.integer) ||
+          !in_range(option, static_cast<double>(plain.integer)))
+        return wrong();
       resolved = plain.integer;
       return true;
     case OptionKind::boolean:
@@ -112,9 +131,13 @@ bool read_value(const Option& option, const Json& given, const std::string& poin
       return true;
     case OptionKind::file: {
       if (!given.is_string()) return wrong();
-      const std::filesystem::path file = std::filesystem::absolute(reading.regions.folder() / given.get<std::string>()).lexically_normal();
-      if (const std::string fault = input_file_fault(file); !fault.empty()) return wrong(fmt::format("; {}: {}", fault, file.string()));
-      if (!is_utf8(file.string())) return wrong(fmt::format("; a path in UTF-8, and not {}", file.string()));
+      const std::filesystem::path file =
+          std::filesystem::absolute(reading.regions.folder() / given.get<std::string>())
+              .lexically_normal();
+      if (const std::string fault = input_file_fault(file); !fault.empty())
+        return wrong(fmt::format("; {}: {}", fault, file.string()));
+      if (!is_utf8(file.string()))
+        return wrong(fmt::format("; a path in UTF-8, and not {}", file.string()));
       reading.regions.files()[pointer] = file;
       plain.text = reading.texts.emplace_back(file.string());
       resolved = file.string();
@@ -122,7 +145,10 @@ bool read_value(const Option& option, const Json& given, const std::string& poin
     }
     case OptionKind::choice:
       plain.integer = choice_of(option, given);
-      if (plain.integer < 0) return wrong(given.is_string() ? did_you_mean(given.get_ref<const std::string&>(), names_of(option)) : "");
+      if (plain.integer < 0)
+        return wrong(given.is_string()
+                         ? did_you_mean(given.get_ref<const std::string&>(), names_of(option))
+                         : "");
       plain.text = option.choices[static_cast<std::size_t>(plain.integer)];
       return true;
     case OptionKind::vector:

@@ -13,6 +13,7 @@ struct ReadValue {
 };
 
 /// Converts and checks `given`; `resolved` becomes the same in SI. False after faults.
-bool read_value(const Option& option, const Json& given, const std::string& pointer, Reading reading, ReadValue& value, Json& resolved);
+bool read_value(const Option& option, const Json& given, const std::string& pointer,
+                Reading reading, ReadValue& value, Json& resolved);
 
 }  // namespace hyperlattice

@@ -1,4 +1,5 @@
-// One description of a state for both ways: what visits an archive is saved in it, or restored from it.
+// One description of a state for both ways: what visits an archive is saved in it, or restored from
+// it.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +29,8 @@ class Archive {
   void operator()(std::vector<T>& values) {
     std::uint64_t size = values.size();
     (*this)(size);
-    constexpr std::uint64_t piece = std::max<std::size_t>(1, (1 << 20) / sizeof(T));  // no more memory than the archive has values
+    constexpr std::uint64_t piece = std::max<std::size_t>(
+        1, (1 << 20) / sizeof(T));  // no more memory than the archive has values
     for (std::uint64_t done = 0; done < size; done += piece) {
       const std::uint64_t count = std::min(piece, size - done);
       if (restores_) values.resize(done + count);
@@ -40,12 +42,14 @@ class Archive {
   void operator()(std::span<T> values) {
     bytes(values.data(), values.size_bytes());
   }
-  /// Reads a value that must equal `value`. Throws std::runtime_error if the archive holds another one.
+  /// Reads a value that must equal `value`. Throws std::runtime_error if the archive holds another
+  /// one.
   template <class T>
   void same(const T& value, const char* what) {
     T there = value;
     (*this)(there);
-    if (there != value) throw std::runtime_error(std::string("the checkpoint is of another run: ") + what);
+    if (there != value)
+      throw std::runtime_error(std::string("the checkpoint is of another run: ") + what);
   }
 
  private:

@@ -1,10 +1,12 @@
-// The energy books. The scheme's own energy, 1/2 v(n-1/2).M.v(n+1/2) plus what the springs store at n, is constant up to what loads put in
-// and what damping and failure take; each of those is counted over the same half steps, so that the balance closes to round-off for small
-// strains and to the square of the step otherwise.
+// The energy books. The scheme's own energy, 1/2 v(n-1/2).M.v(n+1/2) plus what the springs store at
+// n, is constant up to what loads put in and what damping and failure take; each of those is
+// counted over the same half steps, so that the balance closes to round-off for small strains and
+// to the square of the step otherwise.
 //
-// A measurement at n ends the step's kick half-way, with the loads' mean over the half step before n: velocity and momentum are then those of n, with
-// the exact impulse of the loads up to n, and nothing after n is asked for. The error does not depend on that choice: what another force would add to
-// the kinetic energy is its work over the same half step.
+// A measurement at n ends the step's kick half-way, with the loads' mean over the half step before
+// n: velocity and momentum are then those of n, with the exact impulse of the loads up to n, and
+// nothing after n is asked for. The error does not depend on that choice: what another force would
+// add to the kinetic energy is its work over the same half step.
 #include <model/kernel_calls.hpp>
 #include <state/parts.hpp>
 
@@ -13,7 +15,8 @@
 
 namespace hyperlattice {
 
-/// Sums of the present state, in the rows' order whatever the blocks are. Changes nothing but the results in rows and supports.
+/// Sums of the present state, in the rows' order whatever the blocks are. Changes nothing but the
+/// results in rows and supports.
 RowSums Simulation::Parts::measure(const Sweep& sweep) {
   prepare_loads(sweep);
   team.for_each(blocks.size(), [&](std::size_t b) {
@@ -52,52 +55,57 @@ void Simulation::Parts::find_start() {
   for (const double work : work_by_load(0)) start_energy -= work;
 }
 
-/// J that each load put in, up to the state that was measured last. What holds a particle counts for the load that holds it, and takes back what
-/// other loads do along the axes that it holds.
+/// J that each load put in, up to the state that was measured last. What holds a particle counts
+/// for the load that holds it, and takes back what other loads do along the axes that it holds.
 std::vector<double> Simulation::Parts::work_by_load(double potential) const {
   std::vector<double> work(model.loads.size(), 0);
   for (const Block& block : blocks) {
-    std::vector<double> held(block.supports.size(), 0);
+    std::vector<double> held(block.boundary_particles.size(), 0);
     for (const Contribution& part : block.contributions) {
-      const Support& support = block.supports[part.support];
+      const BoundaryParticle& support = block.boundary_particles[part.support];
       work[part.load] += part.work + part.factor * dot(part.force, support.path);
-      if (support.axes != 0) held[part.support] += part.held_work + part.factor * dot(part.force, along(support.axes, support.path));
+      if (support.axes != 0)
+        held[part.support] +=
+            part.held_work + part.factor * dot(part.force, along(support.axes, support.path));
     }
     std::uint32_t counted = ~0u;
     for (const Contribution& part : block.contributions) {
       if ((part.displaced | part.driven) == 0 || part.support == counted) continue;
       counted = part.support;
-      const Support& support = block.supports[part.support];
+      const BoundaryParticle& support = block.boundary_particles[part.support];
       work[part.load] += support.reaction_work + support.reaction_now - held[part.support];
     }
   }
   const double acceleration = norm(model.acceleration);
   if (acceleration > 0)  // body accelerations share the potential's work by their part of the whole
     for (std::size_t l = 0; l < model.loads.size(); ++l)
-      work[l] += potential * dot(model.loads[l].acceleration, model.acceleration) / (acceleration * acceleration);
+      work[l] += potential * dot(model.loads[l].acceleration, model.acceleration) /
+                 (acceleration * acceleration);
   return work;
 }
 
-/// J, the sum of the sizes of all works, of each load on each particle: they may cancel. So does what a body acceleration gives to a held particle in
-/// a step with what holds it.
+/// J, the sum of the sizes of all works, of each load on each particle: they may cancel. So does
+/// what a body acceleration gives to a held particle in a step with what holds it.
 double Simulation::Parts::gross_work(double potential) const {
   double sum = std::abs(potential);
   const Vec3 gained = last_step * model.acceleration;
   for (const Block& block : blocks) {
     for (const Contribution& part : block.contributions)
-      sum += std::abs(part.work + part.factor * dot(part.force, block.supports[part.support].path));
-    for (const Support& support : block.supports)
-      sum += std::abs(support.reaction_work + support.reaction_now) + (support.axes != 0 ? 0.5 * support.mass * dot(gained, gained) : 0);
+      sum += std::abs(part.work +
+                      part.factor * dot(part.force, block.boundary_particles[part.support].path));
+    for (const BoundaryParticle& support : block.boundary_particles)
+      sum += std::abs(support.reaction_work + support.reaction_now) +
+             (support.axes != 0 ? 0.5 * support.mass * dot(gained, gained) : 0);
   }
   return sum;
 }
 
-Balance Simulation::Parts::balance() {
+EnergyBalance Simulation::Parts::balance() {
   find_start();
   const RowSums sums = measure_now();
   check_factors();
   check_answers();
-  Balance balance;
+  EnergyBalance balance;
   balance.kinetic = sums.kinetic;
   balance.kinetic_mean = sums.kinetic_mean;
   balance.stored = sums.stored;
@@ -106,9 +114,12 @@ Balance Simulation::Parts::balance() {
   balance.dissipated_failure = failure_energy;
   const double potential = sums.potential - start_potential;
   for (const double work : work_by_load(potential)) balance.injected += work;
-  balance.error = balance.kinetic + balance.stored + balance.dissipated() - balance.injected - start_energy;
-  largest_energy = std::max({largest_energy, std::abs(balance.kinetic) + std::abs(balance.stored), std::abs(balance.dissipated_failure),
-                             std::abs(balance.dissipated_damping), std::abs(balance.injected), gross_work(potential), std::abs(start_energy)});
+  balance.error =
+      balance.kinetic + balance.stored + balance.dissipated() - balance.injected - start_energy;
+  largest_energy =
+      std::max({largest_energy, std::abs(balance.kinetic) + std::abs(balance.stored),
+                std::abs(balance.dissipated_failure), std::abs(balance.dissipated_damping),
+                std::abs(balance.injected), gross_work(potential), std::abs(start_energy)});
   balance.scale = largest_energy;
   return balance;
 }

@@ -1,4 +1,5 @@
-// One block of the state: its arrays, its supports, and the breakages of the step that is under way.
+// One block of the state: its arrays, its supports, and the breakages of the step that is under
+// way.
 #pragma once
 
 #include <state/layout.hpp>
@@ -15,13 +16,15 @@ inline constexpr std::uint32_t not_watched = ~std::uint32_t{0}, no_load = ~std::
 struct Contribution {
   std::uint32_t support = 0, load = 0;
   Particle particle = 0;
-  std::uint32_t watched = not_watched;  ///< which of the load's watched particles: the force is its answer, not an amplitude
+  std::uint32_t watched = not_watched;  ///< which of the load's watched particles: the force is its
+                                        ///< answer, not an amplitude
   Vec3 force, displacement, velocity;   ///< amplitudes
   Axes displaced = 0, driven = 0;
-  Vec3 goal;             ///< m, the displacement along driven axes where time is held
-  double factor = 0;     ///< of the present step
-  double work = 0;       ///< of the force since the start, J
-  double held_work = 0;  ///< its part along prescribed axes, which whatever holds the particle takes back, J
+  Vec3 goal;          ///< m, the displacement along driven axes where time is held
+  double factor = 0;  ///< of the present step
+  double work = 0;    ///< of the force since the start, J
+  double held_work =
+      0;  ///< its part along prescribed axes, which whatever holds the particle takes back, J
 };
 
 /// What a block of a listed body has besides; see ListedSlots.
@@ -44,13 +47,15 @@ struct Block {
   ListedArrays listed;
   std::vector<double> damped_work;  ///< a row
   std::vector<RowSums> sums;        ///< a row
-  std::vector<Support> supports;    ///< in the rows' order; their forces leave out prescribed axes
-  std::vector<Vec3> held_force;     ///< of each support, N: the external force along prescribed axes
+  std::vector<BoundaryParticle>
+      boundary_particles;        ///< in the rows' order; their forces leave out prescribed axes
+  std::vector<Vec3> held_force;  ///< of each support, N: the external force along prescribed axes
   std::vector<Contribution> contributions;
 
   /// A particle that a load watches.
   struct Watched {
-    std::uint32_t load = 0, number = 0;  ///< the load's, and the particle's among those that it watches
+    std::uint32_t load = 0,
+                  number = 0;  ///< the load's, and the particle's among those that it watches
     std::uint64_t index = 0;
   };
   std::vector<Watched> watched;

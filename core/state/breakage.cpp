@@ -34,56 +34,72 @@ End end_of(const Block& block, std::uint64_t n, int components, double dt) {
 
 const std::uint8_t* Simulation::Parts::review(Block& block, const AlarmRow& alarm) const {
   block.answers.assign(alarm.sites.size(), 0);
-  const auto ends = [&](std::size_t n) { return layout->spring(block, alarm.row, alarm.neighbour, alarm.sites[n]); };
-  const auto ask = [&](const Material& material, const SpringFacts& facts, std::size_t first, std::size_t count) {
+  const auto ends = [&](std::size_t n) {
+    return layout->spring(block, alarm.row, alarm.neighbour, alarm.sites[n]);
+  };
+  const auto ask = [&](const Material& material, const SpringFacts& facts, std::size_t first,
+                       std::size_t count) {
     if (material.failure_stage == nullptr) return;
     const Stage& stage = *material.failure_stage;
     const auto& functions = stage.functions<FailureFunctions>();
     std::vector<std::uint8_t> answers(count, 0);
     std::vector<Particle> a, b;
     std::vector<double> rates;
-    for (std::size_t n = first; functions.asks_rate && n < first + count; ++n) rates.push_back(rate_of(block, alarm, n));
+    for (std::size_t n = first; functions.asks_rate && n < first + count; ++n)
+      rates.push_back(rate_of(block, alarm, n));
     for (std::size_t n = first; functions.asks_ends && n < first + count; ++n) {
       const SpringEnds spring = ends(n);
       a.push_back(std::min(spring.a, spring.b));
       b.push_back(std::max(spring.a, spring.b));
     }
     const SpringBatch batch{time, facts, alarm.elongation.subspan(first, count), a, b, rates};
-    call(stage, "breaks", [&](const Complaint& why) { return functions.review(material.failure.get(), batch, answers.data(), why); });
+    call(stage, "breaks", [&](const Complaint& why) {
+      return functions.review(material.failure.get(), batch, answers.data(), why);
+    });
     for (std::size_t n = 0; n < count; ++n) block.answers[first + n] |= answers[n];
   };
   if (model.materials.size() == 1 && !model.body.is_listed()) {  // the same springs all
     const SpringEnds first = ends(0);
-    ask(model.materials.front(), model.facts(model.joint(first.a, first.b, first.neighbour), 0), 0, alarm.sites.size());
+    ask(model.materials.front(),
+        model.facts(model.spring_properties(first.a, first.b, first.neighbour), 0), 0,
+        alarm.sites.size());
   } else {
     for (std::size_t n = 0; n < alarm.sites.size(); ++n) {
       const SpringEnds spring = ends(n);
-      const Joint joint = model.joint(spring.a, spring.b, spring.neighbour);
-      for (const std::uint8_t material : model.materials_of(spring.a, spring.b, spring.neighbour))  // one that says so breaks it
-        ask(model.materials[material], model.facts(joint, material), n, 1);
+      const SpringProperties properties =
+          model.spring_properties(spring.a, spring.b, spring.neighbour);
+      for (const std::uint8_t material :
+           model.materials_of(spring.a, spring.b, spring.neighbour))  // one that says so breaks it
+        ask(model.materials[material], model.facts(properties, material), n, 1);
     }
   }
   for (std::size_t n = 0; n < alarm.sites.size(); ++n)
-    if (block.answers[n] != 0) block.broken.push_back({ends(n), alarm.elongation[n], alarm.row, alarm.neighbour, alarm.sites[n]});
+    if (block.answers[n] != 0)
+      block.broken.push_back(
+          {ends(n), alarm.elongation[n], alarm.row, alarm.neighbour, alarm.sites[n]});
   return block.answers.data();
 }
 
-/// How fast a spring grows, m/s, by the velocities of half a step before: neither of its ends has moved yet.
+/// How fast a spring grows, m/s, by the velocities of half a step before: neither of its ends has
+/// moved yet.
 double Simulation::Parts::rate_of(const Block& block, const AlarmRow& alarm, std::size_t n) const {
   const Row& row = block.rows[alarm.row];
   const std::uint64_t a = row.start + static_cast<std::uint64_t>(alarm.sites[n] - row.begin);
-  const std::uint64_t b = layout->other_end(block.number, alarm.row, alarm.neighbour, alarm.sites[n]);
+  const std::uint64_t b =
+      layout->other_end(block.number, alarm.row, alarm.neighbour, alarm.sites[n]);
   const Vec3 rest = model.neighbours[alarm.neighbour].rest;
   double squared_length = 0, product = 0;
   for (int c = 0; c < model.degrees_of_freedom; ++c) {
-    const double apart = (c < 3 ? component(rest, c) : 0) + (block.displacement[c][b] - block.displacement[c][a]);
+    const double apart =
+        (c < 3 ? component(rest, c) : 0) + (block.displacement[c][b] - block.displacement[c][a]);
     squared_length += apart * apart;
     product += apart * (block.velocity[c][b] - block.velocity[c][a]);
   }
   return product / std::sqrt(squared_length);
 }
 
-/// Blocks follow each other as their particles do, and a block's list is in the order of its rows: the log does not depend on the number of threads.
+/// Blocks follow each other as their particles do, and a block's list is in the order of its rows:
+/// the log does not depend on the number of threads.
 void Simulation::Parts::collect_breakages(double dt) {
   for (Block& block : blocks) {
     for (const Block::Broken& broken : block.broken) {
@@ -110,46 +126,61 @@ void Simulation::Parts::note_ends(const Breakage& breakage) {
   ends.push_back({block_a, block_b, place_a, place_b});
 }
 
-/// What is lost with a base spring and its cross springs. They pulled during the step that found them broken, so half a step of that work
-/// belongs to the energy that is gone: this keeps the scheme's balance exact to second order.
-double Simulation::Parts::energy_of(std::size_t index, const Block& block, const Block::Broken& broken, double dt) const {
+/// What is lost with a base spring and its cross springs. They pulled during the step that found
+/// them broken, so half a step of that work belongs to the energy that is gone: this keeps the
+/// scheme's balance exact to second order.
+double Simulation::Parts::energy_of(std::size_t index, const Block& block,
+                                    const Block::Broken& broken, double dt) const {
   const Breakage& breakage = breakages[index];
   const Ends& where = ends[index];
-  const Joint joint = model.joint(breakage.a, breakage.b, breakage.neighbour);
-  const End a = end_of(*where.block_a, where.a, model.degrees_of_freedom, dt), b = end_of(*where.block_b, where.b, model.degrees_of_freedom, dt);
+  const SpringProperties properties =
+      model.spring_properties(breakage.a, breakage.b, breakage.neighbour);
+  const End a = end_of(*where.block_a, where.a, model.degrees_of_freedom, dt),
+            b = end_of(*where.block_b, where.b, model.degrees_of_freedom, dt);
 
   const Vec3 d = b.place - a.place, moved = b.moved - a.moved;
-  const double in_space = dot(d, 2 * joint.rest + d), rate_in_space = 2 * dot(joint.rest + d, moved);
+  const double in_space = dot(d, 2 * properties.rest + d),
+               rate_in_space = 2 * dot(properties.rest + d, moved);
   // growth and its rate are of the squared length, as in kernels/springs.hpp
   const auto lost = [&](bool cross, double growth, double rate) {
-    const double rest_length = cross ? joint.cross_rest_length : joint.rest_length;
+    const double rest_length = cross ? properties.cross_rest_length : properties.rest_length;
     const double length = std::sqrt(rest_length * rest_length + growth);
-    OneSpring spring{cross ? joint.cross_stiffness : joint.stiffness, rest_length, growth / (length + rest_length),
-                     cross ? joint.cross_law : joint.law};
+    OneSpring spring{cross ? properties.cross_stiffness : properties.stiffness, rest_length,
+                     growth / (length + rest_length),
+                     cross ? properties.cross_law : properties.law};
     double memory[max_law_memory + 2] = {};
     if (model.kernels.memory > 0) {
-      const Layout::Memory kept = layout->memory(block, broken.row, broken.neighbour, broken.site, cross);
-      for (std::uint32_t n = 0; n < model.kernels.memory; ++n) memory[n] = kept.first[n * kept.stride];
+      const Layout::Memory kept =
+          layout->memory(block, broken.row, broken.neighbour, broken.site, cross);
+      for (std::uint32_t n = 0; n < model.kernels.memory; ++n)
+        memory[n] = kept.first[n * kept.stride];
     }
     spring.memory = memory;
     const SpringAnswer answer = ask_spring(model, spring);
     return answer.energy + 0.5 * answer.force * rate / (2 * length);
   };
-  const double difference = b.height - a.height, total = b.height + a.height, delta = model.body.grid.membrane_distance;
-  double energy = lost(false, in_space + difference * difference, rate_in_space + 2 * difference * (b.raised - a.raised));
+  const double difference = b.height - a.height, total = b.height + a.height,
+               delta = model.body.grid.membrane_distance;
+  double energy = lost(false, in_space + difference * difference,
+                       rate_in_space + 2 * difference * (b.raised - a.raised));
   if (model.choice.membrane != KernelChoice::Membrane::none)
-    energy += lost(true, in_space + total * (2 * delta + total), rate_in_space + 2 * (delta + total) * (b.raised + a.raised));
-  return energy * joint.share;
+    energy += lost(true, in_space + total * (2 * delta + total),
+                   rate_in_space + 2 * (delta + total) * (b.raised + a.raised));
+  return energy * properties.share;
 }
 
 double Simulation::Parts::elongation_now(std::size_t index) const {
   const Breakage& breakage = breakages[index];
-  const Joint joint = model.joint(breakage.a, breakage.b, breakage.neighbour);
+  const SpringProperties properties =
+      model.spring_properties(breakage.a, breakage.b, breakage.neighbour);
   const Ends& where = ends[index];
-  const End a = end_of(*where.block_a, where.a, model.degrees_of_freedom, 0), b = end_of(*where.block_b, where.b, model.degrees_of_freedom, 0);
+  const End a = end_of(*where.block_a, where.a, model.degrees_of_freedom, 0),
+            b = end_of(*where.block_b, where.b, model.degrees_of_freedom, 0);
   const Vec3 d = b.place - a.place;
-  const double growth = dot(d, 2 * joint.rest + d) + (b.height - a.height) * (b.height - a.height);
-  return growth / (std::sqrt(joint.rest_length * joint.rest_length + growth) + joint.rest_length);
+  const double growth =
+      dot(d, 2 * properties.rest + d) + (b.height - a.height) * (b.height - a.height);
+  return growth / (std::sqrt(properties.rest_length * properties.rest_length + growth) +
+                   properties.rest_length);
 }
 
 }  // namespace hyperlattice

@@ -1,11 +1,13 @@
-// How a Simulation is built: arrays, alive springs, supports. Each block is first touched by the thread that will work on it.
+// How a Simulation is built: arrays, alive springs, supports. Each block is first touched by the
+// thread that will work on it.
 #include <state/parts.hpp>
 
 #include <algorithm>
 
 namespace hyperlattice {
 
-Simulation::Parts::Parts(const Model& m, int wanted) : model(m), layout(make_layout(m, wanted)), blocks(layout->blocks.size()), team(wanted) {
+Simulation::Parts::Parts(const Model& m, int wanted)
+    : model(m), layout(make_layout(m, wanted)), blocks(layout->blocks.size()), team(wanted) {
   team.for_own(blocks.size(), [&](std::size_t b) { allocate(blocks[b], b); });
   for (Block& block : blocks) add_supports(block);
   acting.resize(model.loads.size());
@@ -13,7 +15,8 @@ Simulation::Parts::Parts(const Model& m, int wanted) : model(m), layout(make_lay
     acting[l].displacement.resize(model.loads[l].watched.size());
     acting[l].velocity.resize(model.loads[l].watched.size());
     prepares = prepares || model.loads[l].prepares();
-    for (const LoadedParticle& loaded : model.loads[l].particles) acting[l].moves |= (loaded.displaced | loaded.driven) != 0;
+    for (const LoadedParticle& loaded : model.loads[l].particles)
+      acting[l].moves |= (loaded.displaced | loaded.driven) != 0;
   }
   for (const auto& [particle, velocity] : model.start_velocities) {
     const auto [block, place] = at(particle);
@@ -63,30 +66,33 @@ void Simulation::Parts::add_supports(Block& block) const {
       found.emplace_back(answer.particle, answer);
     }
   }
-  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
 
   Particle last = Body::no_particle;
   for (auto& [particle, part] : found) {
     if (particle != last) {
       const Place place = layout->place(particle);
-      Support support;
+      BoundaryParticle support;
       support.row = static_cast<std::int32_t>(place.row);
       support.site = place.site;
       support.index = place.index;
       support.mass = model.mass(particle);
-      block.supports.push_back(support);
+      block.boundary_particles.push_back(support);
       last = particle;
     }
-    part.support = static_cast<std::uint32_t>(block.supports.size() - 1);
-    block.supports.back().axes |= part.displaced | part.driven;
+    part.support = static_cast<std::uint32_t>(block.boundary_particles.size() - 1);
+    block.boundary_particles.back().axes |= part.displaced | part.driven;
     block.contributions.push_back(part);
   }
-  block.held_force.resize(block.supports.size());
+  block.held_force.resize(block.boundary_particles.size());
   std::uint32_t next = 0;
   for (std::size_t r = 0; r < block.rows.size(); ++r) {
-    block.rows[r].first_support = next;
-    while (next < block.supports.size() && block.supports[next].row == static_cast<std::int32_t>(r)) ++next;
-    block.rows[r].last_support = next;
+    block.rows[r].first_boundary_particle = next;
+    while (next < block.boundary_particles.size() &&
+           block.boundary_particles[next].row == static_cast<std::int32_t>(r))
+      ++next;
+    block.rows[r].last_boundary_particle = next;
   }
 }
 

@@ -8,21 +8,23 @@
 namespace hyperlattice {
 namespace {
 
-/// The one material of all springs of a row, or -1 if there are several. In a body of cells the row's mixtures decide; else the materials of its
-/// particles and of their neighbours.
+/// The one material of all springs of a row, or -1 if there are several. In a body of cells the
+/// row's mixtures decide; else the materials of its particles and of their neighbours.
 std::int32_t material_of_row(const Model& model, std::int32_t j, std::int32_t k) {
   if (model.materials.size() == 1) return 0;
   std::int32_t found = -2;
   const auto look = [&](std::span<const Run> runs) {
     for (const Run& run : runs)
       for (std::int32_t i = run.begin; i < run.end; ++i) {
-        const auto kind = static_cast<std::int32_t>(model.kind(run.first + static_cast<Particle>(i - run.begin)));
+        const auto kind =
+            static_cast<std::int32_t>(model.kind(run.first + static_cast<Particle>(i - run.begin)));
         if (found != -2 && found != kind) return false;
         found = kind;
       }
     return true;
   };
-  if (!look(model.body.row(j, k)) || found >= static_cast<std::int32_t>(model.materials.size())) return -1;
+  if (!look(model.body.row(j, k)) || found >= static_cast<std::int32_t>(model.materials.size()))
+    return -1;
   if (!model.mixtures.empty()) return found;
   for (const Neighbour& to : model.body.neighbours)
     if (!look(model.body.row(j + to.dy, k + to.dz))) return -1;
@@ -31,27 +33,33 @@ std::int32_t material_of_row(const Model& model, std::int32_t j, std::int32_t k)
 
 std::vector<std::uint64_t> particles_per_plane(const Body& body) {
   std::vector<std::uint64_t> counts(static_cast<std::size_t>(body.grid.sites[2]), 0);
-  for (const Run& run : body.runs) counts[static_cast<std::size_t>(run.k)] += static_cast<std::uint64_t>(run.end - run.begin);
+  for (const Run& run : body.runs)
+    counts[static_cast<std::size_t>(run.k)] += static_cast<std::uint64_t>(run.end - run.begin);
   return counts;
 }
 
-/// Bits of the sites of row (j, k): which springs leave each site, and whether it holds a particle. Element t belongs to site row.begin + t.
-void fill_alive(const Body& body, std::int32_t j, std::int32_t k, const Row& row, std::uint16_t* alive) {
+/// Bits of the sites of row (j, k): which springs leave each site, and whether it holds a particle.
+/// Element t belongs to site row.begin + t.
+void fill_alive(const Body& body, std::int32_t j, std::int32_t k, const Row& row,
+                std::uint16_t* alive) {
   for (const Run& run : body.row(j, k))
     for (std::int32_t i = run.begin; i < run.end; ++i) alive[i - row.begin] = particle_bit;
   for (std::uint32_t n = 0; n < body.neighbours.size(); ++n)
     for (const Range& range : body.springs_of(j, k, body.neighbours[n]))
-      for (std::int32_t i = range.begin; i < range.end; ++i) alive[i - row.begin] = static_cast<std::uint16_t>(alive[i - row.begin] | 1u << n);
+      for (std::int32_t i = range.begin; i < range.end; ++i)
+        alive[i - row.begin] = static_cast<std::uint16_t>(alive[i - row.begin] | 1u << n);
 }
 
 /// Kernels count the rows of a block, and the places of a row with its margins, in 32 bits.
 void check_block(const Body& body, std::int32_t planes) {
   constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
   const std::int64_t rows = (std::int64_t{planes} + 2 * body.reach) * body.grid.sites[1];
-  constexpr std::int64_t around = 4 * scratch_margin;  // more than the margins, rounded to whole vectors
+  constexpr std::int64_t around =
+      4 * scratch_margin;  // more than the margins, rounded to whole vectors
   if (rows > most || body.grid.sites[0] > most - around)
     throw OutsideError(
-        "too many sites for a thread: at most 2^31 rows, of at most 2^31 sites with their margins; take more threads, or a body that is long in z");
+        "too many sites for a thread: at most 2^31 rows, of at most 2^31 sites with their margins; "
+        "take more threads, or a body that is long in z");
 }
 
 }  // namespace
@@ -63,17 +71,20 @@ GridLayout::GridLayout(const Model& model, int threads) : Layout(model) {
   const std::uint64_t wanted = static_cast<std::uint64_t>(std::clamp(threads, 1, planes));
   // A neighbour's row may begin left or right of any row: reading there must stay inside the array.
   const std::uint64_t padding = whole_vectors(body.grid.sites[0] + 2 * scratch_margin);
-  scratch_width_ = static_cast<std::int32_t>(whole_vectors(body.grid.sites[0] + 2 * scratch_margin + 1));
+  scratch_width_ =
+      static_cast<std::int32_t>(whole_vectors(body.grid.sites[0] + 2 * scratch_margin + 1));
 
   const auto counts = particles_per_plane(body);
   std::uint64_t before = 0;
   std::int32_t first = 0;
-  for (std::uint64_t block = 0; block < wanted; ++block) {  // equal shares of the particles, at least one plane each
+  for (std::uint64_t block = 0; block < wanted;
+       ++block) {  // equal shares of the particles, at least one plane each
     const auto rest = static_cast<std::int32_t>(wanted - block - 1);
     std::int32_t next = first;
     const std::uint64_t target = body.particles * (block + 1) / wanted;
     do before += counts[static_cast<std::size_t>(next++)];
-    while (next < planes - rest && (rest == 0 || before + counts[static_cast<std::size_t>(next)] / 2 < target));
+    while (next < planes - rest &&
+           (rest == 0 || before + counts[static_cast<std::size_t>(next)] / 2 < target));
     planes_.push_back({first, next - first});
     blocks.push_back(make_block(planes_.back(), padding));
     first = next;
@@ -87,7 +98,8 @@ BlockLayout GridLayout::make_block(Planes planes, std::uint64_t padding) {
   block.first_own = static_cast<std::uint32_t>(body.reach * body.grid.sites[1]);
   block.last_own = block.first_own + static_cast<std::uint32_t>(planes.count * body.grid.sites[1]);
   std::uint64_t place = padding;
-  for (std::int32_t k = planes.first - body.reach; k < planes.first + planes.count + body.reach; ++k)
+  for (std::int32_t k = planes.first - body.reach; k < planes.first + planes.count + body.reach;
+       ++k)
     for (std::int32_t j = 0; j < body.grid.sites[1]; ++j) {
       Row row;
       row.start = place;
@@ -99,7 +111,8 @@ BlockLayout GridLayout::make_block(Planes planes, std::uint64_t padding) {
           if (!body.springs_of(j, k, body.neighbours[n]).empty()) row.neighbours |= 1u << n;
         row.material = material_of_row(model_, j, k);
         if (!body.cells.empty()) row.weights = block.weight_sets.size();
-        weights_.add_row(body, j, k, row, whole_vectors(row.end - row.begin) / lanes, block.weight_sets);
+        weights_.add_row(body, j, k, row, whole_vectors(row.end - row.begin) / lanes,
+                         block.weight_sets);
         place += whole_vectors(row.end - row.begin);
       }
       block.rows.push_back(row);
@@ -127,7 +140,8 @@ GridLayout::PlaneRange GridLayout::plane(std::size_t block, std::int32_t k) cons
 }
 
 std::uint32_t GridLayout::row_of(std::size_t block, Site site) const {
-  return static_cast<std::uint32_t>((site.k - planes_[block].first + model_.body.reach) * model_.body.grid.sites[1] + site.j);
+  return static_cast<std::uint32_t>(
+      (site.k - planes_[block].first + model_.body.reach) * model_.body.grid.sites[1] + site.j);
 }
 
 Site GridLayout::first_site_of_row(std::size_t block, std::uint32_t row) const {
@@ -151,36 +165,48 @@ void GridLayout::for_stretches(const std::function<void(const Stretch&)>& visit)
   for (const Run& run : model_.body.runs) {
     const std::size_t block = block_of_plane(run.k);
     const Row& row = blocks[block].rows[row_of(block, {run.begin, run.j, run.k})];
-    visit({block, row.start + static_cast<std::uint64_t>(run.begin - row.begin), run.first, static_cast<std::uint64_t>(run.end - run.begin)});
+    visit({block, row.start + static_cast<std::uint64_t>(run.begin - row.begin), run.first,
+           static_cast<std::uint64_t>(run.end - run.begin)});
   }
 }
 
-SpringEnds GridLayout::spring(const Block& block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site) const {
+SpringEnds GridLayout::spring(const Block& block, std::uint32_t row, std::uint32_t neighbour,
+                              std::int32_t site) const {
   Site here = first_site_of_row(block.number, row);
   here.i = site;
   const Neighbour& to = model_.body.neighbours[neighbour];
-  return {model_.body.at(here), model_.body.at({here.i + to.dx, here.j + to.dy, here.k + to.dz}), neighbour, true};
+  return {model_.body.at(here), model_.body.at({here.i + to.dx, here.j + to.dy, here.k + to.dz}),
+          neighbour, true};
 }
 
-Layout::Memory GridLayout::memory(const Block& block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site, bool cross) const {
-  const std::uint64_t sites = block.layout->sites, before = kept_numbers() * neighbour + (cross ? model_.kernels.memory : 0);
+Layout::Memory GridLayout::memory(const Block& block, std::uint32_t row, std::uint32_t neighbour,
+                                  std::int32_t site, bool cross) const {
+  const std::uint64_t sites = block.layout->sites,
+                      before = kept_numbers() * neighbour + (cross ? model_.kernels.memory : 0);
   const Row& of = block.rows[row];
-  return {block.memory.get() + before * sites + of.start + static_cast<std::uint64_t>(site - of.begin), sites};
+  return {
+      block.memory.get() + before * sites + of.start + static_cast<std::uint64_t>(site - of.begin),
+      sites};
 }
 
-std::uint64_t GridLayout::other_end(std::size_t block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site) const {
+std::uint64_t GridLayout::other_end(std::size_t block, std::uint32_t row, std::uint32_t neighbour,
+                                    std::int32_t site) const {
   const Neighbour& to = model_.body.neighbours[neighbour];
-  const std::int32_t other_row = static_cast<std::int32_t>(row) + to.dz * model_.body.grid.sites[1] + to.dy;
+  const std::int32_t other_row =
+      static_cast<std::int32_t>(row) + to.dz * model_.body.grid.sites[1] + to.dy;
   const Row& other = blocks[block].rows[static_cast<std::size_t>(other_row)];
   return other.start + static_cast<std::uint64_t>(site + to.dx - other.begin);
 }
 
-std::uint64_t GridLayout::alive_bits(const Block& block, std::uint64_t index) const { return block.alive[index]; }
+std::uint64_t GridLayout::alive_bits(const Block& block, std::uint64_t index) const {
+  return block.alive[index];
+}
 
 void GridLayout::fill(Block& block) const {
   const Body& body = model_.body;
   block.alive = AlignedArray<std::uint16_t>(block.layout->sites);
-  block.memory = AlignedArray<double>(block.layout->sites * body.neighbours.size() * kept_numbers());
+  block.memory =
+      AlignedArray<double>(block.layout->sites * body.neighbours.size() * kept_numbers());
   if (!model_.material_of.empty()) block.material = AlignedArray<std::uint8_t>(block.layout->sites);
   if (!model_.mixtures.empty()) block.mixture = AlignedArray<std::uint32_t>(block.layout->sites);
   for (std::uint32_t r = 0; r < block.rows.size(); ++r) {
@@ -209,7 +235,8 @@ void GridLayout::start_row(const Block& block, std::uint32_t r, Site site) const
     const Neighbour& to = body.neighbours[n];
     for (const Range& range : body.springs_of(site.j, site.k, to))
       for (std::int32_t i = range.begin; i < range.end; ++i)
-        start_memory(block, r, n, i, body.at({i, site.j, site.k}), body.at({i + to.dx, site.j + to.dy, site.k + to.dz}), n);
+        start_memory(block, r, n, i, body.at({i, site.j, site.k}),
+                     body.at({i + to.dx, site.j + to.dy, site.k + to.dz}), n);
   }
 }
 
@@ -223,9 +250,12 @@ void GridLayout::exchange(const std::vector<Block>& all, Block& block) const {
       const std::uint64_t from = plane(owner.number, k).begin;
       const PlaneRange to = plane(block.number, k);
       const std::uint64_t count = to.end - to.begin;
-      for (int c = 0; c < model_.degrees_of_freedom; ++c) block.displacement[c].copy(owner.displacement[c], from, count, to.begin);
-      for (int c = 0; model_.asks_rate && c < model_.degrees_of_freedom; ++c) block.velocity[c].copy(owner.velocity[c], from, count, to.begin);
-      if (model_.choice.breakable && k < first) std::copy_n(owner.alive.get() + from, count, block.alive.get() + to.begin);
+      for (int c = 0; c < model_.degrees_of_freedom; ++c)
+        block.displacement[c].copy(owner.displacement[c], from, count, to.begin);
+      for (int c = 0; model_.asks_rate && c < model_.degrees_of_freedom; ++c)
+        block.velocity[c].copy(owner.velocity[c], from, count, to.begin);
+      if (model_.choice.breakable && k < first)
+        std::copy_n(owner.alive.get() + from, count, block.alive.get() + to.begin);
     }
 }
 
@@ -244,17 +274,21 @@ void GridLayout::describe(const Block& block, KernelRequest& request) const {
 
 double GridLayout::state_bytes() const {
   const auto number = static_cast<double>(bytes_of(model_.choice.precision));
-  const auto memory = static_cast<double>(model_.body.neighbours.size() * kept_numbers() * sizeof(double));
-  const double a_site = 2.0 * model_.degrees_of_freedom * number + sizeof(std::uint16_t) + (model_.material_of.empty() ? 0.0 : 1.0) +
+  const auto memory =
+      static_cast<double>(model_.body.neighbours.size() * kept_numbers() * sizeof(double));
+  const double a_site = 2.0 * model_.degrees_of_freedom * number + sizeof(std::uint16_t) +
+                        (model_.material_of.empty() ? 0.0 : 1.0) +
                         (model_.mixtures.empty() ? 0.0 : 4.0) + memory;
   double bytes = weights_.bytes();
   for (const BlockLayout& block : blocks)
-    bytes += static_cast<double>(block.sites) * a_site + static_cast<double>(block.weight_sets.size() * sizeof(std::uint32_t));
+    bytes += static_cast<double>(block.sites) * a_site +
+             static_cast<double>(block.weight_sets.size() * sizeof(std::uint32_t));
   return bytes;
 }
 
 std::size_t GridLayout::scratch_numbers() const {
-  return scratch_size(model_.body.grid.sites[1], model_.body.reach, scratch_width_, static_cast<std::size_t>(model_.degrees_of_freedom));
+  return scratch_size(model_.body.grid.sites[1], model_.body.reach, scratch_width_,
+                      static_cast<std::size_t>(model_.degrees_of_freedom));
 }
 
 }  // namespace hyperlattice

@@ -1,4 +1,5 @@
-// A structured body in blocks of whole planes with ghost planes; rows follow each other with nothing between them.
+// A structured body in blocks of whole planes with ghost planes; rows follow each other with
+// nothing between them.
 #pragma once
 
 #include <state/layout.hpp>
@@ -12,9 +13,12 @@ class GridLayout final : public Layout {
 
   Place place(Particle particle) const override;
   void for_stretches(const std::function<void(const Stretch&)>& visit) const override;
-  SpringEnds spring(const Block& block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site) const override;
-  Memory memory(const Block& block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site, bool cross) const override;
-  std::uint64_t other_end(std::size_t block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site) const override;
+  SpringEnds spring(const Block& block, std::uint32_t row, std::uint32_t neighbour,
+                    std::int32_t site) const override;
+  Memory memory(const Block& block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site,
+                bool cross) const override;
+  std::uint64_t other_end(std::size_t block, std::uint32_t row, std::uint32_t neighbour,
+                          std::int32_t site) const override;
   std::uint64_t alive_bits(const Block& block, std::uint64_t index) const override;
   void fill(Block& block) const override;
   void exchange(const std::vector<Block>& all, Block& block) const override;
@@ -23,7 +27,8 @@ class GridLayout final : public Layout {
   std::size_t scratch_numbers() const override;
 
  private:
-  /// A block's planes [first, first + count) of the body, with `reach` ghost planes before and after.
+  /// A block's planes [first, first + count) of the body, with `reach` ghost planes before and
+  /// after.
   struct Planes {
     std::int32_t first = 0, count = 0;
   };
@@ -33,7 +38,8 @@ class GridLayout final : public Layout {
   };
 
   BlockLayout make_block(Planes planes, std::uint64_t padding);
-  std::uint64_t whole_vectors(std::int32_t sites) const;  ///< places that so many sites of a row take, with the padding
+  std::uint64_t whole_vectors(
+      std::int32_t sites) const;  ///< places that so many sites of a row take, with the padding
   std::size_t block_of_plane(std::int32_t k) const;
   PlaneRange plane(std::size_t block, std::int32_t k) const;
   std::uint32_t row_of(std::size_t block, Site site) const;

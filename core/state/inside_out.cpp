@@ -11,10 +11,13 @@ namespace {
 
 constexpr double slab_particles = 1 << 19;
 
-/// Six times the volume of the tetrahedron between three edges; above 0 if they lie round each other as x, y and z do.
+/// Six times the volume of the tetrahedron between three edges; above 0 if they lie round each
+/// other as x, y and z do.
 double turn(Vec3 a, Vec3 b, Vec3 c) { return dot(a, cross(b, c)); }
 
-Vec3 vector_at(std::span<const double> xyz, std::uint64_t n) { return {xyz[3 * n], xyz[3 * n + 1], xyz[3 * n + 2]}; }
+Vec3 vector_at(std::span<const double> xyz, std::uint64_t n) {
+  return {xyz[3 * n], xyz[3 * n + 1], xyz[3 * n + 2]};
+}
 
 /// Finds the particles at sites i and i + 1 of a row; i must ascend.
 class RowCursor {
@@ -35,13 +38,15 @@ class RowCursor {
 /// The other ends of each particle's springs, in the order of the springs.
 class Ends {
  public:
-  explicit Ends(const Body& body) : first_(body.particles + 1), ends_(2 * body.listed.springs.size()) {
+  explicit Ends(const Body& body)
+      : first_(body.particles + 1), ends_(2 * body.listed.springs.size()) {
     for (const ListedSpring& spring : body.listed.springs) {
       ++first_[spring.a];
       ++first_[spring.b];
     }
     std::size_t sum = 0;
-    for (std::size_t& first : first_) first = sum += first;  // behind the particle's last, from where they are filled in backwards
+    for (std::size_t& first : first_)
+      first = sum += first;  // behind the particle's last, from where they are filled in backwards
     for (std::size_t n = body.listed.springs.size(); n-- > 0;) {
       const ListedSpring& spring = body.listed.springs[n];
       ends_[--first_[spring.b]] = spring.a;
@@ -51,24 +56,31 @@ class Ends {
   std::span<const std::uint32_t> of(Particle particle) const {
     return std::span(ends_).subspan(first_[particle], first_[particle + 1] - first_[particle]);
   }
-  static double bytes(double particles, double springs) { return sizeof(std::size_t) * particles + 2 * sizeof(std::uint32_t) * springs; }
+  static double bytes(double particles, double springs) {
+    return sizeof(std::size_t) * particles + 2 * sizeof(std::uint32_t) * springs;
+  }
 
  private:
-  std::vector<std::size_t> first_;  ///< of each particle, its first place in ends_; one more entry at the end
+  std::vector<std::size_t>
+      first_;  ///< of each particle, its first place in ends_; one more entry at the end
   std::vector<std::uint32_t> ends_;
 };
 
 }  // namespace
 
 bool CellWatch::is_due(std::uint64_t step) const {
-  constexpr std::uint64_t every = 1000;  // steps: of a run on many threads a look takes as long as many steps
+  constexpr std::uint64_t every =
+      1000;  // steps: of a run on many threads a look takes as long as many steps
   return seen_.has_looked == 0 || step >= seen_.last_looked + every;
 }
 
 double CellWatch::bytes(const Model& model) {
-  const auto particles = static_cast<double>(model.body.particles), springs = static_cast<double>(model.body.listed.springs.size());
+  const auto particles = static_cast<double>(model.body.particles),
+             springs = static_cast<double>(model.body.listed.springs.size());
   const double two_planes = 2.0 * model.body.grid.sites[0] * model.body.grid.sites[1];
-  const double at_a_time = model.body.is_listed() ? particles : std::min(particles, std::max(slab_particles, two_planes));
+  const double at_a_time = model.body.is_listed()
+                               ? particles
+                               : std::min(particles, std::max(slab_particles, two_planes));
   double bytes = 3 * sizeof(double) * at_a_time;       // displacements
   if (model.choice.breakable) bytes += particles / 8;  // one bit: torn or not
   if (!model.body.is_listed()) return bytes;
@@ -122,18 +134,22 @@ void CellWatch::look_at_cells(const Simulation& simulation) {
   }
   for (std::size_t plane = 0; plane + 1 < planes;) {  // cells stand between a plane and the next
     std::size_t last = plane + 1;
-    while (last + 1 < planes && static_cast<double>(before[last + 2] - before[plane]) <= slab_particles) ++last;
+    while (last + 1 < planes &&
+           static_cast<double>(before[last + 2] - before[plane]) <= slab_particles)
+      ++last;
     first_ = before[plane];
     simulation.displacements(moved_, first_, before[last + 1] - first_);
     for (; plane < last; ++plane)
-      for (std::int32_t j = body_.low.j; j < body_.high.j; ++j) look_at_row(j, body_.low.k + static_cast<std::int32_t>(plane));
+      for (std::int32_t j = body_.low.j; j < body_.high.j; ++j)
+        look_at_row(j, body_.low.k + static_cast<std::int32_t>(plane));
   }
 }
 
 void CellWatch::look_at_row(std::int32_t j, std::int32_t k) {
   const Basis& basis = body_.grid.basis;
   const double upright = turn(basis[0], basis[1], basis[2]);
-  RowCursor others[3] = {RowCursor(body_.row(j + 1, k)), RowCursor(body_.row(j, k + 1)), RowCursor(body_.row(j + 1, k + 1))};
+  RowCursor others[3] = {RowCursor(body_.row(j + 1, k)), RowCursor(body_.row(j, k + 1)),
+                         RowCursor(body_.row(j + 1, k + 1))};
   for (const Run& run : body_.row(j, k))
     for (std::int32_t i = run.begin; i + 1 < run.end; ++i) {
       Particle row[4] = {run.first + static_cast<Particle>(i - run.begin)};
@@ -153,7 +169,10 @@ void CellWatch::look_at_row(std::int32_t j, std::int32_t k) {
       if (is_torn) continue;
       bool is_inside_out = false;
       for (std::size_t corner = 0; corner < 8; ++corner) {
-        const auto edge = [&](std::size_t axis) { return basis[axis] + (moved[corner | 1U << axis] - moved[corner & ~(std::size_t{1} << axis)]); };
+        const auto edge = [&](std::size_t axis) {
+          return basis[axis] +
+                 (moved[corner | 1U << axis] - moved[corner & ~(std::size_t{1} << axis)]);
+        };
         is_inside_out = is_inside_out || turn(edge(0), edge(1), edge(2)) * upright <= 0;
       }
       count(is_inside_out, row[0]);
@@ -181,7 +200,8 @@ void CellWatch::find_triples() {
         triple[1] = to;
       }
     for (const std::uint32_t to : ends)
-      if (const double size = std::abs(turn(way(triple[0]), way(triple[1]), way(to))); size > volume) {
+      if (const double size = std::abs(turn(way(triple[0]), way(triple[1]), way(to)));
+          size > volume) {
         volume = size;
         triple[2] = to;
       }
@@ -196,8 +216,10 @@ void CellWatch::look_at_list() {
     if (triple == Triple{} || (!is_torn_.empty() && is_torn_[p])) continue;
     Vec3 rest[3], now[3];
     for (std::size_t n = 0; n < 3; ++n) {
-      rest[n] = (1 / body_.grid.spacing) * (body_.position(Particle{triple[n]}) - body_.position(p));
-      now[n] = rest[n] + (1 / body_.grid.spacing) * (vector_at(moved_, triple[n]) - vector_at(moved_, p));
+      rest[n] =
+          (1 / body_.grid.spacing) * (body_.position(Particle{triple[n]}) - body_.position(p));
+      now[n] = rest[n] +
+               (1 / body_.grid.spacing) * (vector_at(moved_, triple[n]) - vector_at(moved_, p));
     }
     count(turn(rest[0], rest[1], rest[2]) * turn(now[0], now[1], now[2]) <= 0, p);
   }
@@ -206,11 +228,15 @@ void CellWatch::look_at_list() {
 std::string CellWatch::sentence() const {
   if (seen_.most == 0) return "";
   const Vec3 x = seen_.first_place;
-  const std::string kind = body_.is_listed() ? "particles have neighbours that lie round them the wrong way" : "cells are inside out";
+  const std::string kind = body_.is_listed()
+                               ? "particles have neighbours that lie round them the wrong way"
+                               : "cells are inside out";
   return fmt::format(
-      "the lattice folds through itself, which its springs do not resist: {} of {} {}, first seen at {} around ({:.4g}, {:.4g}, "
+      "the lattice folds through itself, which its springs do not resist: {} of {} {}, first seen "
+      "at {} around ({:.4g}, {:.4g}, "
       "{:.4g}) m at rest{}; forces and energies there mean nothing",
-      count_text(seen_.most), count_text(seen_.all), kind, quantity_text(seen_.first_time, "s"), x.x, x.y, x.z,
+      count_text(seen_.most), count_text(seen_.all), kind, quantity_text(seen_.first_time, "s"),
+      x.x, x.y, x.z,
       seen_.number < seen_.most ? fmt::format(", {} at the end", count_text(seen_.number)) : "");
 }
 

@@ -1,7 +1,9 @@
-// Where a lattice has folded through itself: central springs resist shortening, but not that a cell is turned inside out.
+// Where a lattice has folded through itself: central springs resist shortening, but not that a cell
+// is turned inside out.
 //
-// A cell of a structured lattice spans eight sites with a particle each. It is inside out if, at one of its corners, the three edges no longer lie
-// round each other as they do at rest. A list has no cells: three springs of each particle, as far from one plane as may be, stand for them.
+// A cell of a structured lattice spans eight sites with a particle each. It is inside out if, at
+// one of its corners, the three edges no longer lie round each other as they do at rest. A list has
+// no cells: three springs of each particle, as far from one plane as may be, stand for them.
 #pragma once
 
 #include <state/simulation.hpp>
@@ -27,8 +29,9 @@ class CellWatch {
  public:
   explicit CellWatch(const Model& model) : body_(model.body) {}
 
-  /// Looks at the present state, on one thread, in about the time of a step on one thread. Cells and particles next to a broken spring are not
-  /// judged. Returns whether the first one was seen now.
+  /// Looks at the present state, on one thread, in about the time of a step on one thread. Cells
+  /// and particles next to a broken spring are not judged. Returns whether the first one was seen
+  /// now.
   bool look(const Simulation& simulation);
   /// Whether the steps since the last look make another one cheap.
   bool is_due(std::uint64_t step) const;
@@ -53,8 +56,9 @@ class CellWatch {
   InsideOut seen_;
   std::vector<double> moved_;  ///< m, x y z of the particles from first_ on
   Particle first_ = 0;
-  Particle found_ = 0;           ///< the first one that is inside out in this look
-  std::vector<bool> is_torn_;    ///< of each particle, whether a spring of it is broken; empty: none is
+  Particle found_ = 0;  ///< the first one that is inside out in this look
+  std::vector<bool>
+      is_torn_;  ///< of each particle, whether a spring of it is broken; empty: none is
   std::vector<Triple> triples_;  ///< of each particle of a list
 };
 

@@ -8,31 +8,41 @@
 namespace hyperlattice {
 
 ListedLayout::ListedLayout(const Model& model, int threads)
-    : Layout(model), width_(model.choice.precision == Precision::floats ? lanes_of<float> : lanes_of<double>) {
-  const std::uint64_t particles = model.body.particles, rows = (particles + row_length - 1) / row_length;
-  const std::uint64_t wanted = std::clamp<std::uint64_t>(static_cast<std::uint64_t>(threads), 1, rows);
+    : Layout(model),
+      width_(model.choice.precision == Precision::floats ? lanes_of<float> : lanes_of<double>) {
+  const std::uint64_t particles = model.body.particles,
+                      rows = (particles + row_length - 1) / row_length;
+  const std::uint64_t wanted =
+      std::clamp<std::uint64_t>(static_cast<std::uint64_t>(threads), 1, rows);
   std::vector<std::uint32_t> springs_of(particles, 0);
   for (const ListedSpring& spring : model.body.listed.springs) {
     ++springs_of[spring.a];
     ++springs_of[spring.b];
   }
   for (std::uint64_t n = 0; n < wanted; ++n) {
-    const Particle first = rows * n / wanted * row_length, last = std::min(rows * (n + 1) / wanted * row_length, particles);
+    const Particle first = rows * n / wanted * row_length,
+                   last = std::min(rows * (n + 1) / wanted * row_length, particles);
     parts_.push_back(make_part(first, last, springs_of));
     blocks.push_back(make_block(parts_.back()));
   }
 }
 
-ListedLayout::Part ListedLayout::make_part(Particle first, Particle last, const std::vector<std::uint32_t>& springs_of) const {
+ListedLayout::Part ListedLayout::make_part(Particle first, Particle last,
+                                           const std::vector<std::uint32_t>& springs_of) const {
   Part part;
   part.first = first;
   part.last = last;
   part.first_slot.push_back(0);
-  const auto count = [&](Particle particle) { return springs_of.begin() + static_cast<std::ptrdiff_t>(particle); };
+  const auto count = [&](Particle particle) {
+    return springs_of.begin() + static_cast<std::ptrdiff_t>(particle);
+  };
   for (Particle start = first; start < last; start += width_)
-    part.first_slot.push_back(part.first_slot.back() + *std::max_element(count(start), count(std::min<Particle>(start + width_, last))));
+    part.first_slot.push_back(
+        part.first_slot.back() +
+        *std::max_element(count(start), count(std::min<Particle>(start + width_, last))));
   for (const ListedSpring& spring : model_.body.listed.springs)
-    if (part.holds(spring.a) != part.holds(spring.b)) part.ghosts.push_back(part.holds(spring.a) ? spring.b : spring.a);
+    if (part.holds(spring.a) != part.holds(spring.b))
+      part.ghosts.push_back(part.holds(spring.a) ? spring.b : spring.a);
   std::sort(part.ghosts.begin(), part.ghosts.end());
   part.ghosts.erase(std::unique(part.ghosts.begin(), part.ghosts.end()), part.ghosts.end());
   return part;
@@ -67,7 +77,9 @@ std::int32_t ListedLayout::material_of_row(Particle first, Particle last) const 
 /// Whether springs differ in stiffness, so that each needs its own.
 bool ListedLayout::has_own_stiffness() const {
   const std::vector<ListedSpring>& springs = model_.body.listed.springs;
-  return model_.choice.mixed || std::any_of(springs.begin(), springs.end(), [](const ListedSpring& spring) { return spring.stiffness != 1; });
+  return model_.choice.mixed ||
+         std::any_of(springs.begin(), springs.end(),
+                     [](const ListedSpring& spring) { return spring.stiffness != 1; });
 }
 
 Place ListedLayout::place(Particle particle) const {
@@ -80,14 +92,17 @@ Place ListedLayout::place(Particle particle) const {
 }
 
 void ListedLayout::for_stretches(const std::function<void(const Stretch&)>& visit) const {
-  for (std::size_t n = 0; n < parts_.size(); ++n) visit({n, 0, parts_[n].first, parts_[n].last - parts_[n].first});
+  for (std::size_t n = 0; n < parts_.size(); ++n)
+    visit({n, 0, parts_[n].first, parts_[n].last - parts_[n].first});
 }
 
 /// Of a particle that a block's springs lead to: among its own, or behind them.
 std::uint32_t ListedLayout::record_of(const Part& part, Particle particle) const {
   if (part.holds(particle)) return static_cast<std::uint32_t>(particle - part.first);
-  const auto ghost = std::lower_bound(part.ghosts.begin(), part.ghosts.end(), particle) - part.ghosts.begin();
-  return static_cast<std::uint32_t>(padded(part.last - part.first) + static_cast<std::uint64_t>(ghost));
+  const auto ghost =
+      std::lower_bound(part.ghosts.begin(), part.ghosts.end(), particle) - part.ghosts.begin();
+  return static_cast<std::uint32_t>(padded(part.last - part.first) +
+                                    static_cast<std::uint64_t>(ghost));
 }
 
 Particle ListedLayout::particle_of(const Part& part, std::uint32_t place) const {
@@ -95,10 +110,12 @@ Particle ListedLayout::particle_of(const Part& part, std::uint32_t place) const 
   return place < own ? part.first + place : part.ghosts[place - own];
 }
 
-SpringEnds ListedLayout::spring(const Block& block, std::uint32_t row, std::uint32_t slot, std::int32_t site) const {
+SpringEnds ListedLayout::spring(const Block& block, std::uint32_t row, std::uint32_t slot,
+                                std::int32_t site) const {
   const Part& part = parts_[block.number];
   const Particle here = part.first + row * row_length + static_cast<Particle>(site);
-  const Particle there = particle_of(part, block.listed.neighbour[slot * width_ + static_cast<std::uint64_t>(site) % width_]);
+  const Particle there = particle_of(
+      part, block.listed.neighbour[slot * width_ + static_cast<std::uint64_t>(site) % width_]);
   const auto [a, b] = std::minmax(here, there);
   const std::vector<ListedSpring>& springs = model_.body.listed.springs;
   const auto before = [](const ListedSpring& spring, const std::pair<Particle, Particle>& ends) {
@@ -108,20 +125,27 @@ SpringEnds ListedLayout::spring(const Block& block, std::uint32_t row, std::uint
   return {a, b, static_cast<std::uint32_t>(found - springs.begin()), here == a};
 }
 
-Layout::Memory ListedLayout::memory(const Block& block, std::uint32_t, std::uint32_t slot, std::int32_t site, bool cross) const {
-  const std::size_t numbers = std::size_t{slot} * kept_numbers() + (cross ? model_.kernels.memory : 0);
-  return {block.memory.get() + numbers * width_ + static_cast<std::uint64_t>(site) % width_, width_};
+Layout::Memory ListedLayout::memory(const Block& block, std::uint32_t, std::uint32_t slot,
+                                    std::int32_t site, bool cross) const {
+  const std::size_t numbers =
+      std::size_t{slot} * kept_numbers() + (cross ? model_.kernels.memory : 0);
+  return {block.memory.get() + numbers * width_ + static_cast<std::uint64_t>(site) % width_,
+          width_};
 }
 
-std::uint64_t ListedLayout::other_end(std::size_t, std::uint32_t, std::uint32_t, std::int32_t) const {
-  throw std::logic_error("a listed body holds no velocities of others");  // a model with criteria that ask for them is refused
+std::uint64_t ListedLayout::other_end(std::size_t, std::uint32_t, std::uint32_t,
+                                      std::int32_t) const {
+  throw std::logic_error(
+      "a listed body holds no velocities of others");  // a model with criteria that ask for them is
+                                                       // refused
 }
 
 std::uint64_t ListedLayout::alive_bits(const Block& block, std::uint64_t index) const {
   const std::vector<std::uint32_t>& first = parts_[block.number].first_slot;
   std::uint64_t bits = 0;
   for (std::uint32_t slot = first[index / width_]; slot < first[index / width_ + 1]; ++slot)
-    bits = bits << 1 ^ bits >> 63 ^ (block.listed.neighbour[slot * width_ + index % width_] != index ? 1U : 0U);
+    bits = bits << 1 ^ bits >> 63 ^
+           (block.listed.neighbour[slot * width_ + index % width_] != index ? 1U : 0U);
   return bits;
 }
 
@@ -132,12 +156,14 @@ void ListedLayout::fill(Block& block) const {
   std::fill_n(block.alive.get(), count, particle_bit);
   if (!model_.material_of.empty()) {
     block.material = AlignedArray<std::uint8_t>(block.layout->sites);
-    for (std::uint64_t n = 0; n < count; ++n) block.material[n] = model_.material_of[part.first + n];
+    for (std::uint64_t n = 0; n < count; ++n)
+      block.material[n] = model_.material_of[part.first + n];
   }
   if (!model_.body.listed.shares.empty()) {
     block.listed.shares = AlignedArray<double>(block.layout->sites);
     std::fill_n(block.listed.shares.get(), block.layout->sites, 1.0);
-    for (std::uint64_t n = 0; n < count; ++n) block.listed.shares[n] = model_.body.listed.shares[part.first + n];
+    for (std::uint64_t n = 0; n < count; ++n)
+      block.listed.shares[n] = model_.body.listed.shares[part.first + n];
   }
   fill_records(block);
   fill_springs(block);
@@ -145,9 +171,11 @@ void ListedLayout::fill(Block& block) const {
 
 void ListedLayout::fill_records(Block& block) const {
   const Part& part = parts_[block.number];
-  block.listed.records = Numbers(model_.choice.precision, record_numbers * (block.layout->sites + part.ghosts.size()));
+  block.listed.records =
+      Numbers(model_.choice.precision, record_numbers * (block.layout->sites + part.ghosts.size()));
   const std::vector<Vec3>& positions = model_.body.listed.positions;
-  const Vec3 origin = positions[positions.size() / 2];  // of every block: where a body stands costs floats nothing
+  const Vec3 origin =
+      positions[positions.size() / 2];  // of every block: where a body stands costs floats nothing
   const auto set = [&](Particle particle) {
     const Vec3 x = positions[particle] - origin;
     const std::size_t record = record_numbers * std::size_t{record_of(part, particle)};
@@ -172,30 +200,37 @@ void ListedLayout::fill_springs(Block& block) const {
   if (model_.choice.breakable) listed.alarm = Numbers(precision, slot_lanes(part));
   block.memory = AlignedArray<double>(slot_lanes(part) * kept_numbers());
   for (std::size_t pack = 0; pack + 1 < part.first_slot.size(); ++pack)
-    for (std::size_t n = part.first_slot[pack] * width_; n < part.first_slot[pack + 1] * width_; ++n)
-      listed.neighbour[n] = static_cast<std::uint32_t>(pack * width_ + n % width_);  // a lane without a spring looks at itself
+    for (std::size_t n = part.first_slot[pack] * width_; n < part.first_slot[pack + 1] * width_;
+         ++n)
+      listed.neighbour[n] = static_cast<std::uint32_t>(
+          pack * width_ + n % width_);  // a lane without a spring looks at itself
 
   std::vector<std::uint32_t> taken(block.layout->sites, 0);  // slots of each particle
-  const auto add = [&](Particle here, Particle there, const Joint& joint, double alarm, std::uint32_t index) {
+  const auto add = [&](Particle here, Particle there, const SpringProperties& properties,
+                       double alarm, std::uint32_t index) {
     if (!part.holds(here)) return;
     const std::uint64_t own = here - part.first, lane = own % width_;
     const std::size_t slot = part.first_slot[own / width_] + taken[own]++;
     listed.neighbour[slot * width_ + lane] = record_of(part, there);
     if (model_.kernels.start != nullptr)
-      start_memory(block, 0, static_cast<std::uint32_t>(slot), static_cast<std::int32_t>(lane), here, there, index);
+      start_memory(block, 0, static_cast<std::uint32_t>(slot), static_cast<std::int32_t>(lane),
+                   here, there, index);
     if (!listed.alarm.empty()) listed.alarm.set(slot * width_ + lane, alarm);
     if (listed.stiffness.empty()) return;
-    listed.stiffness.set(slot * 2 * width_ + lane, joint.stiffness);
-    listed.stiffness.set((slot * 2 + 1) * width_ + lane, joint.cross_stiffness);
+    listed.stiffness.set(slot * 2 * width_ + lane, properties.stiffness);
+    listed.stiffness.set((slot * 2 + 1) * width_ + lane, properties.cross_stiffness);
   };
   for (std::uint32_t n = 0; n < model_.body.listed.springs.size(); ++n) {
     const ListedSpring& spring = model_.body.listed.springs[n];
     if (!part.holds(spring.a) && !part.holds(spring.b)) continue;
-    const Joint joint = model_.joint(spring.a, spring.b, n);
-    const double alarm = model_.choice.breakable ? model_.alarm(spring.a, spring.b, n, joint) : infinity;
-    const double growth = precision == Precision::floats ? squared_growth<float>(joint.rest_length, alarm) : squared_growth(joint.rest_length, alarm);
-    add(spring.a, spring.b, joint, growth, n);
-    add(spring.b, spring.a, joint, growth, n);
+    const SpringProperties properties = model_.spring_properties(spring.a, spring.b, n);
+    const double alarm =
+        model_.choice.breakable ? model_.alarm(spring.a, spring.b, n, properties) : infinity;
+    const double growth = precision == Precision::floats
+                              ? squared_growth<float>(properties.rest_length, alarm)
+                              : squared_growth(properties.rest_length, alarm);
+    add(spring.a, spring.b, properties, growth, n);
+    add(spring.b, spring.a, properties, growth, n);
   }
 }
 
@@ -205,7 +240,8 @@ void ListedLayout::exchange(const std::vector<Block>& all, Block& block) const {
   for (const Particle ghost : part.ghosts) {
     while (ghost >= parts_[owner].last) ++owner;
     for (int c = 0; c < model_.degrees_of_freedom; ++c)
-      block.listed.records.set(record + record_moved + static_cast<std::size_t>(c), all[owner].displacement[c][ghost - parts_[owner].first]);
+      block.listed.records.set(record + record_moved + static_cast<std::size_t>(c),
+                               all[owner].displacement[c][ghost - parts_[owner].first]);
     record += record_numbers;
   }
 }
@@ -217,24 +253,34 @@ void ListedLayout::describe(const Block& block, KernelRequest& request) const {
   request.weight_sets = block.layout->weight_sets.data();
   request.weights = block.listed.shares.get();
   request.scratch_width = row_length;
-  request.listed = {block.listed.first.get(), block.listed.neighbour.get(), block.listed.stiffness.get(),
-                    block.listed.alarm.get(), block.listed.records.get(),   block.memory.get()};
+  request.listed = {block.listed.first.get(),     block.listed.neighbour.get(),
+                    block.listed.stiffness.get(), block.listed.alarm.get(),
+                    block.listed.records.get(),   block.memory.get()};
 }
 
 double ListedLayout::state_bytes() const {
-  const double number = model_.choice.precision == Precision::floats ? sizeof(float) : sizeof(double), record = record_numbers * number;
-  const double state = 2.0 * model_.degrees_of_freedom * number + record + (model_.body.listed.shares.empty() ? 0.0 : double{sizeof(double)}) +
+  const double number =
+                   model_.choice.precision == Precision::floats ? sizeof(float) : sizeof(double),
+               record = record_numbers * number;
+  const double state = 2.0 * model_.degrees_of_freedom * number + record +
+                       (model_.body.listed.shares.empty() ? 0.0 : double{sizeof(double)}) +
                        double{sizeof(std::uint16_t)} + (model_.material_of.empty() ? 0 : 1);
   const double slot_lane =
-      ((has_own_stiffness() ? 2 : 0) + (model_.choice.breakable ? 1 : 0)) * number + static_cast<double>(kept_numbers() * sizeof(double));
+      ((has_own_stiffness() ? 2 : 0) + (model_.choice.breakable ? 1 : 0)) * number +
+      static_cast<double>(kept_numbers() * sizeof(double));
   double bytes = 0;
   for (std::size_t n = 0; n < blocks.size(); ++n)
-    bytes += static_cast<double>(blocks[n].sites) * state + static_cast<double>(parts_[n].ghosts.size()) * record +
+    bytes += static_cast<double>(blocks[n].sites) * state +
+             static_cast<double>(parts_[n].ghosts.size()) * record +
              static_cast<double>(slot_lanes(parts_[n])) * slot_lane +
-             static_cast<double>((neighbours(parts_[n]) + parts_[n].first_slot.size() + blocks[n].weight_sets.size()) * sizeof(std::uint32_t));
+             static_cast<double>((neighbours(parts_[n]) + parts_[n].first_slot.size() +
+                                  blocks[n].weight_sets.size()) *
+                                 sizeof(std::uint32_t));
   return bytes;
 }
 
-std::size_t ListedLayout::scratch_numbers() const { return row_length * static_cast<std::size_t>(model_.degrees_of_freedom); }
+std::size_t ListedLayout::scratch_numbers() const {
+  return row_length * static_cast<std::size_t>(model_.degrees_of_freedom);
+}
 
 }  // namespace hyperlattice

@@ -1,5 +1,6 @@
-// A listed body in blocks of whole rows. A row is a stretch of particles, of the same length wherever blocks are cut; behind its own particles a
-// block keeps copies of those that its springs lead to in other blocks.
+// A listed body in blocks of whole rows. A row is a stretch of particles, of the same length
+// wherever blocks are cut; behind its own particles a block keeps copies of those that its springs
+// lead to in other blocks.
 #pragma once
 
 #include <state/layout.hpp>
@@ -12,9 +13,12 @@ class ListedLayout final : public Layout {
 
   Place place(Particle particle) const override;
   void for_stretches(const std::function<void(const Stretch&)>& visit) const override;
-  SpringEnds spring(const Block& block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site) const override;
-  Memory memory(const Block& block, std::uint32_t row, std::uint32_t slot, std::int32_t site, bool cross) const override;
-  std::uint64_t other_end(std::size_t block, std::uint32_t row, std::uint32_t neighbour, std::int32_t site) const override;
+  SpringEnds spring(const Block& block, std::uint32_t row, std::uint32_t neighbour,
+                    std::int32_t site) const override;
+  Memory memory(const Block& block, std::uint32_t row, std::uint32_t slot, std::int32_t site,
+                bool cross) const override;
+  std::uint64_t other_end(std::size_t block, std::uint32_t row, std::uint32_t neighbour,
+                          std::int32_t site) const override;
   std::uint64_t alive_bits(const Block& block, std::uint64_t index) const override;
   void fill(Block& block) const override;
   void exchange(const std::vector<Block>& all, Block& block) const override;
@@ -38,7 +42,9 @@ class ListedLayout final : public Layout {
 
   Part make_part(Particle first, Particle last, const std::vector<std::uint32_t>& springs_of) const;
   BlockLayout make_block(const Part& part) const;
-  std::uint64_t padded(std::uint64_t particles) const { return (particles + width_ - 1) / width_ * width_; }
+  std::uint64_t padded(std::uint64_t particles) const {
+    return (particles + width_ - 1) / width_ * width_;
+  }
   std::size_t slot_lanes(const Part& part) const { return part.first_slot.back() * width_; }
   std::size_t neighbours(const Part& part) const { return slot_lanes(part) + slots_ahead * width_; }
   std::int32_t material_of_row(Particle first, Particle last) const;

@@ -11,12 +11,14 @@
 
 namespace hyperlattice {
 
-/// Zeros in memory aligned to cache lines, written first by the thread that makes the array: that thread's memory holds it.
+/// Zeros in memory aligned to cache lines, written first by the thread that makes the array: that
+/// thread's memory holds it.
 template <class T>
 class AlignedArray {
  public:
   AlignedArray() = default;
-  explicit AlignedArray(std::size_t size) : data_(static_cast<T*>(allocate_array(size * sizeof(T))), Free{size}), size_(size) {
+  explicit AlignedArray(std::size_t size)
+      : data_(static_cast<T*>(allocate_array(size * sizeof(T))), Free{size}), size_(size) {
     std::uninitialized_fill_n(data_.get(), size, T{});
   }
   T* get() const { return data_.get(); }
@@ -32,7 +34,8 @@ class AlignedArray {
   std::size_t size_ = 0;
 };
 
-/// Numbers stored as doubles or floats, read and written as doubles. What works on all of them is a kernel, which knows the precision.
+/// Numbers stored as doubles or floats, read and written as doubles. What works on all of them is a
+/// kernel, which knows the precision.
 class Numbers {
  public:
   Numbers() = default;
@@ -42,8 +45,12 @@ class Numbers {
     else
       doubles_ = AlignedArray<double>(size);
   }
-  void* get() const { return floats_.get() != nullptr ? static_cast<void*>(floats_.get()) : doubles_.get(); }
-  double operator[](std::size_t n) const { return floats_.get() != nullptr ? double{floats_[n]} : doubles_[n]; }
+  void* get() const {
+    return floats_.get() != nullptr ? static_cast<void*>(floats_.get()) : doubles_.get();
+  }
+  double operator[](std::size_t n) const {
+    return floats_.get() != nullptr ? double{floats_[n]} : doubles_[n];
+  }
   void set(std::size_t n, double value) const {
     if (floats_.get() != nullptr)
       floats_[n] = static_cast<float>(value);
@@ -52,8 +59,9 @@ class Numbers {
   }
   bool empty() const { return get() == nullptr; }
   std::span<std::byte> bytes() const {
-    return floats_.get() != nullptr ? std::as_writable_bytes(std::span(floats_.get(), floats_.size()))
-                                    : std::as_writable_bytes(std::span(doubles_.get(), doubles_.size()));
+    return floats_.get() != nullptr
+               ? std::as_writable_bytes(std::span(floats_.get(), floats_.size()))
+               : std::as_writable_bytes(std::span(doubles_.get(), doubles_.size()));
   }
   /// Copies `count` numbers of another array of this precision.
   void copy(const Numbers& from, std::size_t first, std::size_t count, std::size_t to) const {

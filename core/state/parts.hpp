@@ -1,5 +1,5 @@
-// The inside of a Simulation: its blocks and its books. Split by concern: build.cpp, acting.cpp, step.cpp, start.cpp, settle.cpp, breakage.cpp,
-// balance.cpp, restart.cpp.
+// The inside of a Simulation: its blocks and its books. Split by concern: build.cpp, acting.cpp,
+// step.cpp, start.cpp, equilibrium.cpp, breakage.cpp, balance.cpp, restart.cpp.
 #pragma once
 
 #include <model/arithmetic.hpp>
@@ -14,16 +14,22 @@ namespace hyperlattice {
 
 inline double component(Vec3 v, int c) { return c == 0 ? v.x : c == 1 ? v.y : v.z; }
 
-inline void set_component(Vec3& v, int c, double value) { (c == 0 ? v.x : c == 1 ? v.y : v.z) = value; }
+inline void set_component(Vec3& v, int c, double value) {
+  (c == 0 ? v.x : c == 1 ? v.y : v.z) = value;
+}
 
 /// The components of a vector along some axes, the others zero.
-inline Vec3 along(Axes axes, Vec3 v) { return {(axes & 1u) != 0 ? v.x : 0, (axes & 2u) != 0 ? v.y : 0, (axes & 4u) != 0 ? v.z : 0}; }
+inline Vec3 along(Axes axes, Vec3 v) {
+  return {(axes & 1u) != 0 ? v.x : 0, (axes & 2u) != 0 ? v.y : 0, (axes & 4u) != 0 ? v.z : 0};
+}
 
 /// One evaluation of all forces at the present instant, and what is done with them.
 struct Sweep {
-  double before = 0, after = 0;  ///< s: the interval around the instant over which the forces act; loads act by their mean over it
-  double step = 0;               ///< s, of the step in which prescribed particles move; 0: their motion at the instant, as seen from before it
-  double measured = 0;           ///< s, half of the kick that a measurement makes of the acceleration
+  double before = 0, after = 0;  ///< s: the interval around the instant over which the forces act;
+                                 ///< loads act by their mean over it
+  double step = 0;  ///< s, of the step in which prescribed particles move; 0: their motion at the
+                    ///< instant, as seen from before it
+  double measured = 0;  ///< s, half of the kick that a measurement makes of the acceleration
 };
 
 struct Simulation::Parts {
@@ -59,7 +65,8 @@ struct Simulation::Parts {
   std::vector<Ends> ends;     ///< where the particles of each breakage are stored
   double failure_energy = 0;  ///< J, dissipated since the start
   double halted_energy = 0;   ///< J, dissipated where motion was stopped
-  double gravity_unused = 0;  ///< J, work of body accelerations that did not act in full while the body settled
+  double gravity_unused =
+      0;  ///< J, work of body accelerations that did not act in full while the body settled
   bool start_known = false;
   double start_energy = 0, start_potential = 0, largest_energy = 0;  ///< J
 
@@ -75,7 +82,8 @@ struct Simulation::Parts {
   void prepare_answers();
   void prepare_supports(Block& block, const Sweep& sweep) const;
   void apply_forces(Block& block) const;
-  double prescribed_velocity(const Block& block, const Contribution& part, int axis, const Sweep& sweep) const;
+  double prescribed_velocity(const Block& block, const Contribution& part, int axis,
+                             const Sweep& sweep) const;
   void check_factors() const;
   void check_answers() const;
 
@@ -92,7 +100,8 @@ struct Simulation::Parts {
   double rate_of(const Block& block, const AlarmRow& alarm, std::size_t n) const;
   void collect_breakages(double dt);
   void note_ends(const Breakage& breakage);
-  double energy_of(std::size_t breakage, const Block& block, const Block::Broken& broken, double dt) const;
+  double energy_of(std::size_t breakage, const Block& block, const Block::Broken& broken,
+                   double dt) const;
   double elongation_now(std::size_t breakage) const;
 
   // balance.cpp
@@ -101,7 +110,7 @@ struct Simulation::Parts {
   void find_start();
   std::vector<double> work_by_load(double potential) const;
   double gross_work(double potential) const;
-  Balance balance();
+  EnergyBalance balance();
 
   // Where things are.
   std::pair<const Block*, std::uint64_t> at(Particle particle) const {
@@ -111,7 +120,9 @@ struct Simulation::Parts {
   /// Calls visit(block, index, first particle, count) for all particles in their order.
   template <class Visit>
   void for_runs(const Visit& visit) const {
-    layout->for_stretches([&](const Stretch& stretch) { visit(blocks[stretch.block], stretch.index, stretch.first, stretch.count); });
+    layout->for_stretches([&](const Stretch& stretch) {
+      visit(blocks[stretch.block], stretch.index, stretch.first, stretch.count);
+    });
   }
 };
 

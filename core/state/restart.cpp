@@ -1,4 +1,5 @@
-// The state and its books in an archive. Blocks are saved as they are, so that a run goes on with as many as it began with.
+// The state and its books in an archive. Blocks are saved as they are, so that a run goes on with
+// as many as it began with.
 #include <state/archive.hpp>
 #include <state/parts.hpp>
 
@@ -20,7 +21,7 @@ void visit(Archive& archive, Block& block, int components) {
   visit(archive, block.memory);
   visit(archive, block.listed.neighbour);
   archive(block.damped_work);
-  archive(block.supports);
+  archive(block.boundary_particles);
   archive(block.contributions);
 }
 

@@ -1,16 +1,18 @@
-// Where steps of a length begin: at a run's start, after a body was brought to rest, and wherever a stage's steps differ from those before.
+// Where steps of a length begin: at a run's start, after a body was brought to rest, and wherever a
+// stage's steps differ from those before.
 //
-// The kick from v(n-1/2) to v(n+1/2) is half a step of the old length and half a step of the new one, so that v(n) stands at the instant of the
-// displacements whatever the lengths are. The scheme's own energy of steps 2 h long is less than 1/2 v(n).M.v(n) by 1/2 h^2 a.M.a, which the step's
-// length changes: the books are carried over that difference.
+// The kick from v(n-1/2) to v(n+1/2) is half a step of the old length and half a step of the new
+// one, so that v(n) stands at the instant of the displacements whatever the lengths are. The
+// scheme's own energy of steps 2 h long is less than 1/2 v(n).M.v(n) by 1/2 h^2 a.M.a, which the
+// step's length changes: the books are carried over that difference.
 #include <state/parts.hpp>
 
 #include <cmath>
 
 namespace hyperlattice {
 
-/// Particles that a load moves already move with it, from rest or from whatever they did: at the start of a run that is part of the initial state,
-/// later the work of an impulse.
+/// Particles that a load moves already move with it, from rest or from whatever they did: at the
+/// start of a run that is part of the initial state, later the work of an impulse.
 void Simulation::Parts::start_prescribed(double dt) {
   const Sweep at_once{0, 0, 0, 0};
   prepare_loads({0, dt / 2, dt, 0});  // looks ahead
@@ -18,10 +20,11 @@ void Simulation::Parts::start_prescribed(double dt) {
   for (Block& block : blocks)
     for (const Contribution& part : block.contributions) {
       if ((part.displaced | part.driven) == 0) continue;
-      Support& support = block.supports[part.support];
+      BoundaryParticle& support = block.boundary_particles[part.support];
       for (int c = 0; c < 3; ++c) {
         if (((part.displaced | part.driven) >> c & 1u) == 0) continue;
-        const double before = block.velocity[c][support.index], now = prescribed_velocity(block, part, c, at_once);
+        const double before = block.velocity[c][support.index],
+                     now = prescribed_velocity(block, part, c, at_once);
         if (now == before) continue;
         block.velocity[c].set(support.index, now);
         if (steps == 0)

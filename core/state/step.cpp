@@ -9,7 +9,8 @@ void Simulation::Parts::step(double dt) {
   const Sweep sweep{last_step / 2, dt / 2, dt, 0};
   prepare_loads(sweep);
   check_factors();
-  const auto kernel = damping != 0 || damping_rate != 0 ? model.kernels.step_damped : model.kernels.step;
+  const auto kernel =
+      damping != 0 || damping_rate != 0 ? model.kernels.step_damped : model.kernels.step;
   struct Reviewer {
     const Parts* parts;
     Block* block;
@@ -33,9 +34,10 @@ void Simulation::Parts::step(double dt) {
     };
     call_kernel(model, kernel, request);
     for (Contribution& part : block.contributions) {
-      const Support& support = block.supports[part.support];
+      const BoundaryParticle& support = block.boundary_particles[part.support];
       part.work += part.factor * dot(part.force, support.path);
-      if (support.axes != 0) part.held_work += part.factor * dot(part.force, along(support.axes, support.path));
+      if (support.axes != 0)
+        part.held_work += part.factor * dot(part.force, along(support.axes, support.path));
     }
   });
   check_answers();
@@ -72,7 +74,7 @@ KernelRequest Simulation::Parts::request_for(Block& block, double back, double f
   request.damping = damping;
   request.damping_rate = damping_rate;
   request.acceleration = model.acceleration;
-  request.supports = block.supports.data();
+  request.boundary_particles = block.boundary_particles.data();
   request.scratch = block.scratch.get();
   request.damped_work = block.damped_work.data();
   request.sums = block.sums.data();

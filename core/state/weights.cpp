@@ -5,26 +5,30 @@
 namespace hyperlattice {
 namespace {
 
-// A vector of sites touches four rows of lanes + 1 cells, the first of them left of its first site: one bit each.
+// A vector of sites touches four rows of lanes + 1 cells, the first of them left of its first site:
+// one bit each.
 constexpr int cells_of_row = lanes + 1;
 
 int row_of(int dj, int dk) { return 2 * (dk + 1) + dj + 1; }
 
 }  // namespace
 
-void WeightSets::add_row(const Body& body, std::int32_t j, std::int32_t k, const Row& row, std::uint64_t vectors,
-                         std::vector<std::uint32_t>& places) {
+void WeightSets::add_row(const Body& body, std::int32_t j, std::int32_t k, const Row& row,
+                         std::uint64_t vectors, std::vector<std::uint32_t>& places) {
   if (body.cells.empty()) return;
-  if (vectors_.empty()) place(body, (std::uint64_t{1} << 4 * cells_of_row) - 1);  // all cells: whole_set
+  if (vectors_.empty())
+    place(body, (std::uint64_t{1} << 4 * cells_of_row) - 1);  // all cells: whole_set
   std::vector<std::uint64_t> around(vectors, 0);
   for_cells_of({}, [&](int di, int dj, int dk) {
     if (di != 0) return;  // the same row of cells
     for (const Run& run : body.cells.row(j + dj, k + dk))
-      for (std::int32_t cell = std::max(run.begin, row.begin - 1); cell < std::min(run.end, row.end); ++cell) {
+      for (std::int32_t cell = std::max(run.begin, row.begin - 1);
+           cell < std::min(run.end, row.end); ++cell) {
         const std::int32_t t = cell - row.begin + 1;  // its bit in the row's first vector
         const auto mark = [&](std::int32_t vector, std::int32_t bit) {
           if (vector >= 0 && static_cast<std::size_t>(vector) < around.size())
-            around[static_cast<std::size_t>(vector)] |= std::uint64_t{1} << (cells_of_row * row_of(dj, dk) + bit);
+            around[static_cast<std::size_t>(vector)] |= std::uint64_t{1}
+                                                        << (cells_of_row * row_of(dj, dk) + bit);
         };
         mark(t / lanes, t % lanes);
         if (t % lanes == 0) mark(t / lanes - 1, lanes);  // between two vectors: both touch it
@@ -34,13 +38,15 @@ void WeightSets::add_row(const Body& body, std::int32_t j, std::int32_t k, const
 }
 
 std::uint32_t WeightSets::place(const Body& body, std::uint64_t cells) {
-  const auto [known, is_new] = places_.try_emplace(cells, static_cast<std::uint32_t>(vectors_.size() * lanes));
+  const auto [known, is_new] =
+      places_.try_emplace(cells, static_cast<std::uint32_t>(vectors_.size() * lanes));
   if (!is_new) return known->second;
   const auto add = [&](const Neighbour& to) {
     Vector& shares = vectors_.emplace_back();
     for (int lane = 0; lane < lanes; ++lane)
-      shares.values[lane] =
-          share_of_cells(to, [&](int di, int dj, int dk) { return (cells >> (cells_of_row * row_of(dj, dk) + lane + di + 1) & 1u) != 0; });
+      shares.values[lane] = share_of_cells(to, [&](int di, int dj, int dk) {
+        return (cells >> (cells_of_row * row_of(dj, dk) + lane + di + 1) & 1u) != 0;
+      });
   };
   add({});
   for (double& share : vectors_.back().values)

@@ -20,33 +20,42 @@ std::int64_t Statics::place_of(Particle particle) const {
 void Statics::make_grid() {
   const Body& body = model_.body;
   StaticGrid& grid = problem_.grid;
-  grid.sites = {body.high.i - body.low.i + 1, body.high.j - body.low.j + 1, body.high.k - body.low.k + 1};
+  grid.sites = {body.high.i - body.low.i + 1, body.high.j - body.low.j + 1,
+                body.high.k - body.low.k + 1};
   std::int32_t reach[3] = {};
   for (const Neighbour& n : body.neighbours) {
     reach[0] = std::max(reach[0], std::abs(n.dx));
     reach[1] = std::max(reach[1], std::abs(n.dy));
     reach[2] = std::max(reach[2], std::abs(n.dz));
   }
-  grid.row = std::max(grid.sites[0] + reach[0], lanes);  // the margin after a row is the one before the next; kernels reach beyond it by a vector
-  // Beyond the last row of a plane's margin too: there a kernel would meet another thread, which adds to the plane after.
+  grid.row =
+      std::max(grid.sites[0] + reach[0], lanes);  // the margin after a row is the one before the
+                                                  // next; kernels reach beyond it by a vector
+  // Beyond the last row of a plane's margin too: there a kernel would meet another thread, which
+  // adds to the plane after.
   grid.plane = grid.row * (grid.sites[1] + reach[1]) + lanes;
   grid.origin = reach[0] + reach[1] * grid.row + reach[2] * grid.plane;
-  grid.places = grid.place(grid.sites[0] - 1, grid.sites[1] - 1, grid.sites[2] - 1) + grid.origin + vector_margin;
+  grid.places = grid.place(grid.sites[0] - 1, grid.sites[1] - 1, grid.sites[2] - 1) + grid.origin +
+                vector_margin;
   grid.components = model_.degrees_of_freedom;
   grid.spacing = body.grid.spacing;
   grid.membrane_distance = body.grid.membrane_distance;
   grid.neighbours = model_.neighbours;
 
-  rows_.assign(static_cast<std::size_t>(grid.sites[1]) * static_cast<std::size_t>(grid.sites[2]), {});
+  rows_.assign(static_cast<std::size_t>(grid.sites[1]) * static_cast<std::size_t>(grid.sites[2]),
+               {});
   free_.assign(static_cast<std::size_t>(grid.places), 0);
   for (const Run& run : body.runs) {
-    StaticRow& row =
-        rows_[static_cast<std::size_t>(run.k - body.low.k) * static_cast<std::size_t>(grid.sites[1]) + static_cast<std::size_t>(run.j - body.low.j)];
+    StaticRow& row = rows_[static_cast<std::size_t>(run.k - body.low.k) *
+                               static_cast<std::size_t>(grid.sites[1]) +
+                           static_cast<std::size_t>(run.j - body.low.j)];
     if (row.begin == row.end) row.begin = run.begin - body.low.i;
     row.end = run.end - body.low.i;
   }
   const auto all = static_cast<std::uint8_t>((1u << grid.components) - 1);
-  for_runs([&](std::int64_t place, Particle, std::uint64_t count) { std::fill_n(free_.begin() + place, count, all); });
+  for_runs([&](std::int64_t place, Particle, std::uint64_t count) {
+    std::fill_n(free_.begin() + place, count, all);
+  });
   grid.rows = rows_;
   grid.free = free_.data();
 }
@@ -63,11 +72,13 @@ void Statics::make_weights() {
     for (std::int32_t i = run.begin; i < run.end; ++i) {
       const Site site{i, run.j, run.k};
       const Particle particle = run.first + static_cast<Particle>(i - run.begin);
-      const auto place = static_cast<std::size_t>(problem_.grid.place(i - body.low.i, run.j - body.low.j, run.k - body.low.k));
+      const auto place = static_cast<std::size_t>(
+          problem_.grid.place(i - body.low.i, run.j - body.low.j, run.k - body.low.k));
       particle_weight_[place] = static_cast<float>(body.share(site));
       if (!kind_.empty()) kind_[place] = model_.kind(particle);
       for (std::size_t n = 0; n < body.neighbours.size(); ++n)
-        if ((alive[particle] >> n & 1u) != 0) weight_[n * places + place] = static_cast<float>(body.share(site, body.neighbours[n]));
+        if ((alive[particle] >> n & 1u) != 0)
+          weight_[n * places + place] = static_cast<float>(body.share(site, body.neighbours[n]));
     }
 }
 
@@ -86,12 +97,14 @@ void Statics::read_state(double* field) const {
 }
 
 std::vector<double> Statics::of_particles(const double* field, int first, int components) const {
-  const auto places = static_cast<std::size_t>(problem_.grid.places), number = static_cast<std::size_t>(components);
+  const auto places = static_cast<std::size_t>(problem_.grid.places),
+             number = static_cast<std::size_t>(components);
   std::vector<double> values(number * model_.body.particles);
   for_runs([&](std::int64_t place, Particle particle, std::uint64_t count) {
     for (std::uint64_t n = 0; n < count; ++n)
       for (std::size_t c = 0; c < number; ++c)
-        values[number * (particle + n) + c] = field[(static_cast<std::size_t>(first) + c) * places + static_cast<std::size_t>(place) + n];
+        values[number * (particle + n) + c] = field[(static_cast<std::size_t>(first) + c) * places +
+                                                    static_cast<std::size_t>(place) + n];
   });
   return values;
 }

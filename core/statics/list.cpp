@@ -1,5 +1,5 @@
-// A listed body: every spring is a row of one. Springs are answered in parallel and added to their ends in the order of the list, so that sums have
-// one order for any number of threads.
+// A listed body: every spring is a row of one. Springs are answered in parallel and added to their
+// ends in the order of the list, so that sums have one order for any number of threads.
 #include <base/thread_errors.hpp>
 #include <scene/stage_call.hpp>
 #include <statics/spring_rows.hpp>
@@ -16,14 +16,16 @@ void Statics::make_list() {
   grid.membrane_distance = body.grid.membrane_distance;
   free_.assign(body.particles, static_cast<std::uint8_t>((1u << grid.components) - 1));
   grid.free = free_.data();
-  for (Particle p = 0; p < body.particles; ++p) particle_weight_.push_back(static_cast<float>(body.share(p)));
-  if (!model_.material_of.empty()) kind_.assign(model_.material_of.begin(), model_.material_of.end());
+  for (Particle p = 0; p < body.particles; ++p)
+    particle_weight_.push_back(static_cast<float>(body.share(p)));
+  if (!model_.material_of.empty())
+    kind_.assign(model_.material_of.begin(), model_.material_of.end());
   for (std::uint32_t n = 0; n < body.listed.springs.size(); ++n) {
     const ListedSpring& spring = body.listed.springs[n];
-    const Joint joint = model_.joint(spring.a, spring.b, n);
-    springs_.push_back({spring.a, spring.b, joint.rest});
-    spring_stiffness_.push_back(joint.stiffness);
-    spring_cross_stiffness_.push_back(joint.cross_stiffness);
+    const SpringProperties properties = model_.spring_properties(spring.a, spring.b, n);
+    springs_.push_back({spring.a, spring.b, properties.rest});
+    spring_stiffness_.push_back(properties.stiffness);
+    spring_cross_stiffness_.push_back(properties.cross_stiffness);
   }
   grid.springs = springs_;
   weight_.assign(springs_.size(), 1);
@@ -33,8 +35,10 @@ void Statics::make_list() {
 double Statics::respond_list(const double* u, double* force, const SpringTangents* tangents) const {
   constexpr std::size_t piece = 1024;  // springs, whatever the number of threads
   const StaticGrid& grid = problem_.grid;
-  const std::size_t springs = springs_.size(), pieces = (springs + piece - 1) / piece, of_spring = 2 * static_cast<std::size_t>(grid.components);
-  std::vector<double> pulls(of_spring * springs, 0), energies(pieces, 0);  // at both ends of each spring, by component and end
+  const std::size_t springs = springs_.size(), pieces = (springs + piece - 1) / piece,
+                    of_spring = 2 * static_cast<std::size_t>(grid.components);
+  std::vector<double> pulls(of_spring * springs, 0),
+      energies(pieces, 0);  // at both ends of each spring, by component and end
   const auto respond_piece = [&](std::size_t n, const Complaint& why) {
     RowBuffers buffer(grid, 1);
     SpringRow& row = buffer.springs;
@@ -66,8 +70,12 @@ double Statics::respond_list(const double* u, double* force, const SpringTangent
   };
   ThreadErrors errors;
 #pragma omp parallel for num_threads(grid.threads) schedule(static)
-  for (std::size_t n = 0; n < pieces; ++n)  // one call of the plugin for a piece: what stands around a call would cost as much as a spring
-    errors.run(n, [&] { call(*model_.materials.front().stage, "force", [&](const Complaint& why) { return respond_piece(n, why); }); });
+  for (std::size_t n = 0; n < pieces; ++n)  // one call of the plugin for a piece: what stands
+                                            // around a call would cost as much as a spring
+    errors.run(n, [&] {
+      call(*model_.materials.front().stage, "force",
+           [&](const Complaint& why) { return respond_piece(n, why); });
+    });
   errors.rethrow();
   for (std::size_t s = 0; s < springs; ++s)
     for (int c = 0; c < grid.components; ++c) {

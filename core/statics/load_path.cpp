@@ -1,5 +1,6 @@
-// From the loads of a stage's start to those of its end, along a straight line: forces and prescribed displacements change in proportion to a share
-// from 0 to 1. Whatever else the state at the start needs to be at rest is a holding force, which goes away in the same proportion.
+// From the loads of a stage's start to those of its end, along a straight line: forces and
+// prescribed displacements change in proportion to a share from 0 to 1. Whatever else the state at
+// the start needs to be at rest is a holding force, which goes away in the same proportion.
 #include <model/blame.hpp>
 #include <statics/statics.hpp>
 
@@ -27,12 +28,21 @@ void Statics::make_loads() {
     const Load& load = model_.loads[l];
     factor_start_.push_back(fresh ? 0 : load.after(start_));
     factor_end_.push_back(load.after(end_));
-    const bool drives = std::any_of(load.particles.begin(), load.particles.end(), [](const LoadedParticle& loaded) { return loaded.driven != 0; });
+    const bool drives =
+        std::any_of(load.particles.begin(), load.particles.end(),
+                    [](const LoadedParticle& loaded) { return loaded.driven != 0; });
     const double way = drives ? load.integral(start_, end_) : 0;
-    for (const auto& [factor, time] : {std::pair{factor_start_.back(), start_}, {factor_end_.back(), end_}})
-      if (!std::isfinite(factor)) blame_load(model_, l, fmt::format("its factor at t = {:.6g} s is {}: no finite number", time, factor));
+    for (const auto& [factor, time] :
+         {std::pair{factor_start_.back(), start_}, {factor_end_.back(), end_}})
+      if (!std::isfinite(factor))
+        blame_load(model_, l,
+                   fmt::format("its factor at t = {:.6g} s is {}: no finite number", time, factor));
     if (!std::isfinite(way))
-      blame_load(model_, l, fmt::format("the way that it drives particles from {:.6g} s to {:.6g} s is no finite number", start_, end_));
+      blame_load(
+          model_, l,
+          fmt::format(
+              "the way that it drives particles from {:.6g} s to {:.6g} s is no finite number",
+              start_, end_));
     for (const LoadedParticle& loaded : load.particles) {
       const std::int64_t place = place_of(loaded.particle);
       if (!(loaded.force == Vec3{})) loaded_.push_back({place, l, loaded.force});
@@ -42,9 +52,11 @@ void Statics::make_loads() {
         if (((loaded.displaced | loaded.driven) >> c & 1u) == 0) continue;
         hold.axes |= 1u << c;
         hold.from[c] = state_[static_cast<std::size_t>(c * places + place)];
-        hold.to[c] = (loaded.displaced >> c & 1u) != 0 ? factor_end_[l] * component(loaded.displacement, c)
-                                                       : hold.from[c] + way * component(loaded.velocity, c);
-        free_[static_cast<std::size_t>(place)] = static_cast<std::uint8_t>(free_[static_cast<std::size_t>(place)] & ~(1u << c));
+        hold.to[c] = (loaded.displaced >> c & 1u) != 0
+                         ? factor_end_[l] * component(loaded.displacement, c)
+                         : hold.from[c] + way * component(loaded.velocity, c);
+        free_[static_cast<std::size_t>(place)] =
+            static_cast<std::uint8_t>(free_[static_cast<std::size_t>(place)] & ~(1u << c));
       }
     }
   }
@@ -52,7 +64,8 @@ void Statics::make_loads() {
   if (!(model_.acceleration == Vec3{})) {
     mass_.assign(static_cast<std::size_t>(places), 0);
     for_runs([&](std::int64_t place, Particle particle, std::uint64_t count) {
-      for (std::uint64_t n = 0; n < count; ++n) mass_[static_cast<std::size_t>(place) + n] = model_.mass(particle + n);
+      for (std::uint64_t n = 0; n < count; ++n)
+        mass_[static_cast<std::size_t>(place) + n] = model_.mass(particle + n);
     });
   }
 
@@ -63,7 +76,8 @@ void Statics::make_loads() {
     for (std::int64_t p = first; p < first + static_cast<std::int64_t>(count); ++p)
       for (int c = 0; c < problem_.grid.components; ++c) {
         const auto n = static_cast<std::size_t>(c * places + p);
-        if ((free_[static_cast<std::size_t>(p)] >> c & 1u) != 0) holding_[n] = -force_[n] - external[n];
+        if ((free_[static_cast<std::size_t>(p)] >> c & 1u) != 0)
+          holding_[n] = -force_[n] - external[n];
       }
   });
   add_loads(0, external.data());
@@ -72,7 +86,8 @@ void Statics::make_loads() {
 
 std::vector<double> Statics::factors(double share) const {
   std::vector<double> all;
-  for (std::size_t l = 0; l < factor_end_.size(); ++l) all.push_back((1 - share) * factor_start_[l] + share * factor_end_[l]);
+  for (std::size_t l = 0; l < factor_end_.size(); ++l)
+    all.push_back((1 - share) * factor_start_[l] + share * factor_end_[l]);
   return all;
 }
 
@@ -81,29 +96,36 @@ void Statics::add_loads(double share, double* force) const {
   for (std::size_t n = 0; n < holding_.size(); ++n) force[n] = (1 - share) * holding_[n];
   const std::vector<double> factor = factors(share);
   for (const Loaded& loaded : loaded_)
-    for (int c = 0; c < 3; ++c) force[c * places + loaded.place] += factor[loaded.load] * component(loaded.force, c);
+    for (int c = 0; c < 3; ++c)
+      force[c * places + loaded.place] += factor[loaded.load] * component(loaded.force, c);
   const double gravity = (1 - share) * gravity_start_ + share;
   for (int c = 0; c < 3 && !mass_.empty(); ++c)
     for (std::size_t p = 0; p < mass_.size(); ++p)
-      force[static_cast<std::size_t>(c * places) + p] += gravity * mass_[p] * component(model_.acceleration, c);
+      force[static_cast<std::size_t>(c * places) + p] +=
+          gravity * mass_[p] * component(model_.acceleration, c);
 }
 
 void Statics::prescribe(double share, double* u) const {
   for (const Held& held : held_)
     for (int c = 0; c < 3; ++c)
-      if ((held.axes >> c & 1u) != 0) u[c * problem_.grid.places + held.place] = (1 - share) * held.from[c] + share * held.to[c];
+      if ((held.axes >> c & 1u) != 0)
+        u[c * problem_.grid.places + held.place] = (1 - share) * held.from[c] + share * held.to[c];
 }
 
 double Statics::force_scale(const double* internal, const double* external) {
-  constexpr double share = 1e-6;  // of the largest so far: loads that end at zero leave nothing but round-off of it
+  constexpr double share =
+      1e-6;  // of the largest so far: loads that end at zero leave nothing but round-off of it
   const std::int64_t places = problem_.grid.places;
-  const auto size = [](double x, double y, double z) { return x == 0 && y == 0 && z == 0 ? 0 : std::hypot(x, y, z); };  // squares may underflow
+  const auto size = [](double x, double y, double z) {
+    return x == 0 && y == 0 && z == 0 ? 0 : std::hypot(x, y, z);
+  };  // squares may underflow
   double held = 0, loaded = 0;
   std::uint64_t number = 0;
   for (const Held& hold : held_) {
     double force[3] = {};
     for (int c = 0; c < 3; ++c)
-      if ((hold.axes >> c & 1u) != 0) force[c] = internal[c * places + hold.place] + external[c * places + hold.place];
+      if ((hold.axes >> c & 1u) != 0)
+        force[c] = internal[c * places + hold.place] + external[c * places + hold.place];
     held += size(force[0], force[1], force[2]) / static_cast<double>(held_.size());
   }
   for_runs([&](std::int64_t first, Particle, std::uint64_t count) {

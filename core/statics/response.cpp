@@ -1,5 +1,6 @@
-// Forces, energy and tangents of all springs, by the material's own kernels; on a grid a row and a neighbour at a time. A plane's springs pull at it
-// and at planes after it: planes that share none are summed at once, so that sums have one order for any number of threads.
+// Forces, energy and tangents of all springs, by the material's own kernels; on a grid a row and a
+// neighbour at a time. A plane's springs pull at it and at planes after it: planes that share none
+// are summed at once, so that sums have one order for any number of threads.
 #include <base/thread_errors.hpp>
 #include <model/kernel_calls.hpp>
 #include <statics/spring_rows.hpp>
@@ -20,7 +21,8 @@ void no_tangents(std::size_t at, std::size_t count, const SpringTangents& tangen
 
 double Statics::respond(const double* u, double* force, const SpringTangents* tangents) const {
   std::fill_n(force, problem_.grid.numbers(), 0.0);
-  const double energy = problem_.grid.listed ? respond_list(u, force, tangents) : respond_grid(u, force, tangents);
+  const double energy =
+      problem_.grid.listed ? respond_list(u, force, tangents) : respond_grid(u, force, tangents);
   if (tangents != nullptr && problem_.grid.components == 4) fill_alpha(*tangents);
   return energy + hold_heights(u, force);
 }
@@ -43,19 +45,24 @@ double Statics::respond_grid(const double* u, double* force, const SpringTangent
   return energy;
 }
 
-double Statics::respond_plane(std::int32_t k, const double* u, double* force, const SpringTangents* tangents) const {
+double Statics::respond_plane(std::int32_t k, const double* u, double* force,
+                              const SpringTangents* tangents) const {
   const StaticGrid& grid = problem_.grid;
   RowBuffers buffer(grid, grid.sites[0]);
   SpringRow& springs = buffer.springs;
   double energy = 0;
   for (std::int32_t j = 0; j < grid.sites[1]; ++j) {
-    const StaticRow& row = rows_[static_cast<std::size_t>(k) * static_cast<std::size_t>(grid.sites[1]) + static_cast<std::size_t>(j)];
+    const StaticRow& row =
+        rows_[static_cast<std::size_t>(k) * static_cast<std::size_t>(grid.sites[1]) +
+              static_cast<std::size_t>(j)];
     const std::int64_t first = grid.place(row.begin, j, k);
-    const auto count = static_cast<std::size_t>(row.end - row.begin), padded = (count + lanes - 1) / lanes * lanes;
+    const auto count = static_cast<std::size_t>(row.end - row.begin),
+               padded = (count + lanes - 1) / lanes * lanes;
     for (std::size_t n = 0; n < grid.neighbours.size(); ++n) {
       const NeighbourGeometry& neighbour = grid.neighbours[n];
       const std::int64_t step = grid.step_to(neighbour.site);
-      const std::size_t at = n * static_cast<std::size_t>(grid.places) + static_cast<std::size_t>(first);
+      const std::size_t at =
+          n * static_cast<std::size_t>(grid.places) + static_cast<std::size_t>(first);
       const float* weight = weight_.data() + at;
       if (std::all_of(weight, weight + count, [](float w) { return w == 0; })) {
         if (tangents != nullptr) no_tangents(at, count, *tangents);
@@ -63,8 +70,13 @@ double Statics::respond_plane(std::int32_t k, const double* u, double* force, co
       }
       for (std::size_t t = 0; t < padded; ++t) {
         buffer.weight[t] = t < count ? static_cast<double>(weight[t]) : 0.0;
-        const auto kind = [&](std::int64_t place) { return buffer.weight[t] == 0 || kind_.empty() ? 0 : kind_[static_cast<std::size_t>(place) + t]; };
-        const SpringConstants& constants = model_.spring_to(static_cast<std::uint32_t>(n), kind(first), kind(first + step));
+        const auto kind = [&](std::int64_t place) {
+          return buffer.weight[t] == 0 || kind_.empty()
+                     ? 0
+                     : kind_[static_cast<std::size_t>(place) + t];
+        };
+        const SpringConstants& constants =
+            model_.spring_to(static_cast<std::uint32_t>(n), kind(first), kind(first + step));
         buffer.stiffness[t] = constants.stiffness;
         buffer.cross_stiffness[t] = constants.cross_stiffness;
       }
@@ -92,7 +104,8 @@ double Statics::hold_heights(const double* u, double* force) const {
   for_runs([&](std::int64_t first, Particle, std::uint64_t count) {
     for (std::int64_t p = first; p < first + static_cast<std::int64_t>(count); ++p) {
       const auto place = static_cast<std::size_t>(p);
-      const double alpha = model_.alphas[kind_.empty() ? 0 : kind_[place]] * static_cast<double>(particle_weight_[place]);
+      const double alpha = model_.alphas[kind_.empty() ? 0 : kind_[place]] *
+                           static_cast<double>(particle_weight_[place]);
       force[heights + p] -= 2 * alpha * u[heights + p];
       energy += alpha * u[heights + p] * u[heights + p];
     }
@@ -102,7 +115,8 @@ double Statics::hold_heights(const double* u, double* force) const {
 
 void Statics::fill_alpha(const SpringTangents& tangents) const {
   for (std::size_t place = 0; place < particle_weight_.size(); ++place)
-    tangents.alpha[place] = static_cast<float>(2 * model_.alphas[kind_.empty() ? 0 : kind_[place]] * static_cast<double>(particle_weight_[place]));
+    tangents.alpha[place] = static_cast<float>(2 * model_.alphas[kind_.empty() ? 0 : kind_[place]] *
+                                               static_cast<double>(particle_weight_[place]));
 }
 
 }  // namespace hyperlattice

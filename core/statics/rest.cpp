@@ -1,9 +1,11 @@
-// How near to rest the simulation's present state is: its out-of-balance forces, and what they say of the displacements that are still to come.
+// How near to rest the simulation's present state is: its out-of-balance forces, and what they say
+// of the displacements that are still to come.
 //
-// The error e of the displacements and the forces r left are K e = r. The slowest motion of the body, of frequency w, has the largest error by far,
-// and there e = M^-1 r / w^2. Between two states a motion d changes the forces by -K d; its Rayleigh quotient d.K d / d.M d is never below the
-// slowest motion's w^2 and comes near to it while all faster ones die away: the least that was met so far stands for it. Other motions make the
-// estimate larger than the error.
+// The error e of the displacements and the forces r left are K e = r. The slowest motion of the
+// body, of frequency w, has the largest error by far, and there e = M^-1 r / w^2. Between two
+// states a motion d changes the forces by -K d; its Rayleigh quotient d.K d / d.M d is never below
+// the slowest motion's w^2 and comes near to it while all faster ones die away: the least that was
+// met so far stands for it. Other motions make the estimate larger than the error.
 #include <statics/statics.hpp>
 
 #include <algorithm>
@@ -29,7 +31,7 @@ RestReport Statics::rest() {
         const std::size_t at = c * free_.size() + place;
         const double rest = force_[at] + external[at];
         if (!(std::abs(rest) <= largest)) largest = std::abs(rest);  // also what is not a number
-        if (c == 3) continue;                                        // waves of the membranes are short
+        if (c == 3) continue;  // waves of the membranes are short
         const double d = state_[at] - before[at];
         stiffness -= d * (force_[at] - force_before[at]);
         inertia += mass * d * d;
@@ -38,12 +40,16 @@ RestReport Statics::rest() {
       }
     }
   });
-  const bool first = !std::exchange(compared_, true);  // loads and held particles moved since the stage began
+  const bool first =
+      !std::exchange(compared_, true);  // loads and held particles moved since the stage began
   if (!first && stiffness > 0 && inertia > 0) slowest_ = std::min(slowest_, stiffness / inertia);
-  if (std::isfinite(largest)) largest_scale_ = std::max(largest_scale_, largest);  // no load may act at all, on a body that moves
+  if (std::isfinite(largest))
+    largest_scale_ =
+        std::max(largest_scale_, largest);  // no load may act at all, on a body that moves
   RestReport report;
   report.residual = largest == 0 ? 0 : largest / force_scale(force_.data(), external.data());
-  if (moved > 0 && (left == 0 || std::isfinite(slowest_))) report.displacement_error = left == 0 ? 0 : std::sqrt(left / moved) / slowest_;
+  if (moved > 0 && (left == 0 || std::isfinite(slowest_)))
+    report.displacement_error = left == 0 ? 0 : std::sqrt(left / moved) / slowest_;
   return report;
 }
 

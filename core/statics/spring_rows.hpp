@@ -16,7 +16,9 @@ struct RowBuffers {
   /// For up to `most` springs.
   RowBuffers(const StaticGrid& grid, int most) {
     const std::size_t width = static_cast<std::size_t>(most + lanes - 1) / lanes * lanes;
-    for (auto* buffer : {&stiffness, &cross_stiffness, &weight, &pull, &axial, &cross_pull, &cross_axial}) buffer->assign(width, 0);
+    for (auto* buffer :
+         {&stiffness, &cross_stiffness, &weight, &pull, &axial, &cross_pull, &cross_axial})
+      buffer->assign(width, 0);
     springs.membrane_distance = grid.membrane_distance;
     springs.spacing = grid.spacing;
     springs.stiffness = stiffness.data();
@@ -29,16 +31,18 @@ struct RowBuffers {
   }
 };
 
-/// Adds what a row of springs pulls at both of its ends; `force` is at the row's first place, the other ends `step` places on, the next component
-/// `places` on.
-inline void add_forces(const RowBuffers& row, const StaticGrid& grid, std::int64_t places, std::int64_t step, double* force) {
+/// Adds what a row of springs pulls at both of its ends; `force` is at the row's first place, the
+/// other ends `step` places on, the next component `places` on.
+inline void add_forces(const RowBuffers& row, const StaticGrid& grid, std::int64_t places,
+                       std::int64_t step, double* force) {
   const SpringRow& springs = row.springs;
   const double rest[3] = {springs.rest.x, springs.rest.y, springs.rest.z};
   for (int c = 0; c < 3; ++c) {
     double *own = force + c * places, *other = own + step;
     for (std::int64_t t = 0; t < springs.count; ++t) {
       const auto s = static_cast<std::size_t>(t);
-      const double f = (row.pull[s] + row.cross_pull[s]) * (rest[c] + (springs.there[c][t] - springs.here[c][t]));
+      const double f = (row.pull[s] + row.cross_pull[s]) *
+                       (rest[c] + (springs.there[c][t] - springs.here[c][t]));
       own[t] += f;
       other[t] -= f;
     }
@@ -48,14 +52,16 @@ inline void add_forces(const RowBuffers& row, const StaticGrid& grid, std::int64
   for (std::int64_t t = 0; t < springs.count; ++t) {
     const auto s = static_cast<std::size_t>(t);
     const double along = row.pull[s] * (springs.there[3][t] - springs.here[3][t]);
-    const double both = row.cross_pull[s] * (grid.membrane_distance + springs.there[3][t] + springs.here[3][t]);
+    const double both =
+        row.cross_pull[s] * (grid.membrane_distance + springs.there[3][t] + springs.here[3][t]);
     own[t] += along - both;
     other[t] -= along + both;
   }
 }
 
 /// Writes a row's tangents from place `at` on.
-inline void keep_tangents(const RowBuffers& row, bool has_heights, std::size_t at, const SpringTangents& tangents) {
+inline void keep_tangents(const RowBuffers& row, bool has_heights, std::size_t at,
+                          const SpringTangents& tangents) {
   for (std::size_t t = 0; t < static_cast<std::size_t>(row.springs.count); ++t) {
     if (has_heights) {
       tangents.axial[at + t] = static_cast<float>(row.axial[t]);

@@ -14,7 +14,10 @@ Statics::Statics(const Model& model, Simulation& simulation, double start, doubl
     make_list();
   else
     make_grid();
-  const std::int64_t few = problem_.grid.listed ? 4096 : 65536;  // places; with fewer, threads would wait for each other longer than they work
+  const std::int64_t few =
+      problem_.grid.listed
+          ? 4096
+          : 65536;  // places; with fewer, threads would wait for each other longer than they work
   problem_.grid.threads = problem_.grid.places < few ? 1 : threads;
   if (problem_.grid.threads > 1) try_openmp_threads(problem_.grid.threads);
   if (!problem_.grid.listed) make_weights();
@@ -26,8 +29,10 @@ Statics::Statics(const Model& model, Simulation& simulation, double start, doubl
 
   problem_.self = this;
   problem_.state = state_.data();
-  problem_.respond_to = [](void* self, const double* u, double* force, const SpringTangents* tangents) noexcept {
-    return PluginCall::answer(0.0, [&] { return static_cast<const Statics*>(self)->respond(u, force, tangents); });
+  problem_.respond_to = [](void* self, const double* u, double* force,
+                           const SpringTangents* tangents) noexcept {
+    return PluginCall::answer(
+        0.0, [&] { return static_cast<const Statics*>(self)->respond(u, force, tangents); });
   };
   problem_.load_at = [](void* self, double share, double* force) noexcept {
     PluginCall::answer([&] { static_cast<const Statics*>(self)->add_loads(share, force); });
@@ -36,7 +41,8 @@ Statics::Statics(const Model& model, Simulation& simulation, double start, doubl
     PluginCall::answer([&] { static_cast<const Statics*>(self)->prescribe(share, u); });
   };
   problem_.scale_of = [](void* self, const double* internal, const double* external) noexcept {
-    return PluginCall::answer(0.0, [&] { return static_cast<Statics*>(self)->force_scale(internal, external); });
+    return PluginCall::answer(
+        0.0, [&] { return static_cast<Statics*>(self)->force_scale(internal, external); });
   };
   problem_.position_of = [](void* self, std::int64_t place) noexcept {
     const auto& statics = *static_cast<const Statics*>(self);
@@ -44,16 +50,17 @@ Statics::Statics(const Model& model, Simulation& simulation, double start, doubl
     if (grid.listed) return statics.model_.body.position(static_cast<Particle>(place));
     const Site low = statics.model_.body.low;
     const std::int64_t from = place - grid.origin;
-    return statics.model_.body.position(Site{static_cast<std::int32_t>(from % grid.plane % grid.row) + low.i,
-                                             static_cast<std::int32_t>(from % grid.plane / grid.row) + low.j,
-                                             static_cast<std::int32_t>(from / grid.plane) + low.k});
+    return statics.model_.body.position(
+        Site{static_cast<std::int32_t>(from % grid.plane % grid.row) + low.i,
+             static_cast<std::int32_t>(from % grid.plane / grid.row) + low.j,
+             static_cast<std::int32_t>(from / grid.plane) + low.k});
   };
 }
 
 void Statics::accept(double share, const double* displacement) {
   Values force(force_.size());
   respond(displacement, force.data(), nullptr);
-  Settling to;
+  EquilibriumUpdate to;
   to.time = share == 1 ? end_ : start_ + share * (end_ - start_);
   to.xyz = of_particles(displacement, 0, 3);
   if (problem_.grid.components == 4) to.heights = of_particles(displacement, 3, 1);
@@ -63,8 +70,9 @@ void Statics::accept(double share, const double* displacement) {
   to.factor_before = factors(share_);
   to.gravity = (1 - share) * gravity_start_ + share;
   to.gravity_before = (1 - share_) * gravity_start_ + share_;
-  for (std::size_t n = 0; n < holding_.size(); ++n) to.dissipated -= (1 - 0.5 * (share_ + share)) * holding_[n] * (displacement[n] - state_[n]);
-  simulation_.settle(to);
+  for (std::size_t n = 0; n < holding_.size(); ++n)
+    to.dissipated -= (1 - 0.5 * (share_ + share)) * holding_[n] * (displacement[n] - state_[n]);
+  simulation_.apply_equilibrium(to);
   std::copy_n(displacement, state_.size(), state_.begin());
   force_ = std::move(force);
   share_ = share;

@@ -1,5 +1,6 @@
-// The body in search of rest: makes the StaticProblem of a model and a state, and brings what a solver found back into the simulation.
-// Split by concern: grid.cpp, list.cpp, response.cpp, load_path.cpp, rest.cpp, statics.cpp.
+// The body in search of rest: makes the StaticProblem of a model and a state, and brings what a
+// solver found back into the simulation. Split by concern: grid.cpp, list.cpp, response.cpp,
+// load_path.cpp, rest.cpp, statics.cpp.
 #pragma once
 
 #include <state/simulation.hpp>
@@ -21,7 +22,8 @@ class Statics {
   const StaticProblem& problem() const { return problem_; }
   /// Displacements become the simulation's state, with that share of the stage's load.
   void accept(double share, const double* displacement);
-  /// Of the simulation's present state, under the loads of the stage's end; the error is known from the third call on.
+  /// Of the simulation's present state, under the loads of the stage's end; the error is known from
+  /// the third call on.
   RestReport rest();
   /// Of a field, `components` numbers a particle, from component `first` on.
   std::vector<double> of_particles(const double* field, int first, int components) const;
@@ -38,7 +40,8 @@ class Statics {
     if (problem_.grid.listed) return visit(std::int64_t{0}, Particle{0}, model_.body.particles);
     const Site low = model_.body.low;
     for (const Run& run : model_.body.runs)
-      visit(problem_.grid.place(run.begin - low.i, run.j - low.j, run.k - low.k), run.first, static_cast<std::uint64_t>(run.end - run.begin));
+      visit(problem_.grid.place(run.begin - low.i, run.j - low.j, run.k - low.k), run.first,
+            static_cast<std::uint64_t>(run.end - run.begin));
   }
   std::int64_t place_of(Particle particle) const;
   void read_state(double* field) const;
@@ -50,7 +53,8 @@ class Statics {
   // response.cpp
   double respond_grid(const double* u, double* force, const SpringTangents* tangents) const;
   double respond(const double* u, double* force, const SpringTangents* tangents) const;
-  double respond_plane(std::int32_t k, const double* u, double* force, const SpringTangents* tangents) const;
+  double respond_plane(std::int32_t k, const double* u, double* force,
+                       const SpringTangents* tangents) const;
   void fill_alpha(const SpringTangents& tangents) const;
   double hold_heights(const double* u, double* force) const;
 
@@ -69,15 +73,16 @@ class Statics {
   std::vector<StaticSpring> springs_;                              ///< of a listed body
   std::vector<double> spring_stiffness_, spring_cross_stiffness_;  ///< N/m
   std::vector<std::uint8_t> free_;
-  std::vector<std::uint32_t> kind_;                ///< Model::kind of each place; empty: one material
-  std::vector<float, ArrayMemory<float>> weight_;  ///< of each spring, [n * places + place], or of each listed one; 0: none
-  std::vector<float> particle_weight_;             ///< of each place, shares of a whole particle
+  std::vector<std::uint32_t> kind_;  ///< Model::kind of each place; empty: one material
+  std::vector<float, ArrayMemory<float>>
+      weight_;  ///< of each spring, [n * places + place], or of each listed one; 0: none
+  std::vector<float> particle_weight_;  ///< of each place, shares of a whole particle
 
-  Values state_;                                   ///< displacements
-  double share_ = 0;                               ///< of the state
-  double largest_scale_ = 0;                       ///< N, that out-of-balance forces were compared with so far
-  Values force_;                                   ///< of the springs at the state
-  Values holding_;                                 ///< what else must act for the state at share 0 to be at rest
+  Values state_;              ///< displacements
+  double share_ = 0;          ///< of the state
+  double largest_scale_ = 0;  ///< N, that out-of-balance forces were compared with so far
+  Values force_;              ///< of the springs at the state
+  Values holding_;            ///< what else must act for the state at share 0 to be at rest
   std::vector<double> factor_start_, factor_end_;  ///< of each load
   double gravity_start_ = 1;
   std::vector<double> mass_;  ///< of each place, kg; empty without body acceleration
@@ -93,8 +98,9 @@ class Statics {
   };
   std::vector<Loaded> loaded_;
   bool compared_ = false;
-  double slowest_ = infinity;  ///< least Rayleigh quotient so far of a motion between two states, 1/s^2
-  std::vector<Held> held_;     ///< each particle once
+  double slowest_ =
+      infinity;  ///< least Rayleigh quotient so far of a motion between two states, 1/s^2
+  std::vector<Held> held_;  ///< each particle once
 };
 
 }  // namespace hyperlattice

@@ -1,7 +1,9 @@
-// The cubic lattice with 18 neighbours: particles at the centres of the cubic cells of side l whose centres lie inside a shape,
+// The cubic lattice with 18 neighbours: particles at the centres of the cubic cells of side l whose
+// centres lie inside a shape,
 //   x = anchor + (i + 1/2, j + 1/2, k + 1/2) l,
 // or with boundary cells at the corners of these cells, x = anchor + (i, j, k) l,
-// joined by orthogonal springs of length l (class 0) and face-diagonal springs of length sqrt(2) l (class 1).
+// joined by orthogonal springs of length l (class 0) and face-diagonal springs of length sqrt(2) l
+// (class 1).
 #include <hyperlattice/filling.hpp>
 
 namespace {
@@ -28,23 +30,35 @@ class Cubic {
   static Schema<Options> schema() {
     return Schema<Options>("lattices.cubic", "Cubic lattice of 18 neighbours")
         .equation(
-            "particles: x = anchor + (i + 1/2, j + 1/2, k + 1/2) spacing; cells: x = anchor + (i, j, k) spacing; V = spacing^3, Delta = spacing")
-        .source("Zhao 2017, section 2.1 and figure 1; particles at cell centres reproduce its count of 490,432")
-        .add<&Options::spacing>("spacing", "m", "lattice constant l, the length of an orthogonal spring")
+            "particles: x = anchor + (i + 1/2, j + 1/2, k + 1/2) spacing; cells: x = anchor + (i, "
+            "j, k) spacing; V = spacing^3, Delta = spacing")
+        .source(
+            "Zhao 2017, section 2.1 and figure 1; particles at cell centres reproduce its count of "
+            "490,432")
+        .add<&Options::spacing>("spacing", "m",
+                                "lattice constant l, the length of an orthogonal spring")
         .positive()
-        .add<&Options::shape>("shape", "", "the solid that is filled: with the cubic cells whose centres are inside")
-        .add<&Options::anchor>("anchor", "m", "where a corner of the cells is; left out: the centre of a round shape, the low corner of a box")
+        .add<&Options::shape>(
+            "shape", "", "the solid that is filled: with the cubic cells whose centres are inside")
+        .add<&Options::anchor>("anchor", "m",
+                               "where a corner of the cells is; left out: the centre of a round "
+                               "shape, the low corner of a box")
         .add<&Options::boundary>(
             "boundary", "",
-            "particles: one at each cell's centre; every particle and spring counts in full, as printed in the paper. cells: particles "
-            "at the cells' corners; a particle's mass and alpha spring count by its cells / 8, an orthogonal spring by its cells / 4, "
+            "particles: one at each cell's centre; every particle and spring counts in full, as "
+            "printed in the paper. cells: particles "
+            "at the cells' corners; a particle's mass and alpha spring count by its cells / 8, an "
+            "orthogonal spring by its cells / 4, "
             "a diagonal one by its cells / 2, so that the body is exactly the union of its cells")
         .choices(boundaries)
         .fallback("\"particles\"");
   }
 
   explicit Cubic(const Options& options)
-      : spacing_(options.spacing), shape_(*options.shape), anchor_(options.anchor.value_or(options.shape->anchor)), boundary_(options.boundary) {}
+      : spacing_(options.spacing),
+        shape_(*options.shape),
+        anchor_(options.anchor.value_or(options.shape->anchor)),
+        boundary_(options.boundary) {}
 
   void build(const LatticeSink& sink) const {
     Grid grid;

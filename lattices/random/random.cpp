@@ -1,9 +1,11 @@
-// A random lattice: points thrown into the shape one after the other, each kept if it is not too near to one that is there (random sequential
-// addition), until there is one for every spacing^3; springs between the nearest pairs, as many as give the mean coordination L_N asked for,
+// A random lattice: points thrown into the shape one after the other, each kept if it is not too
+// near to one that is there (random sequential addition), until there is one for every spacing^3;
+// springs between the nearest pairs, as many as give the mean coordination L_N asked for,
 //   springs = L_N particles / 2,
 // each particle to its nearest six at least (joined.hpp).
-// Such a lattice is isotropic but not affine: its particles move against each other under a uniform strain, the more the fewer neighbours they have.
-// Its elastic constants are therefore found from a sample: a periodic cube made in the same way, with springs up to the same length.
+// Such a lattice is isotropic but not affine: its particles move against each other under a uniform
+// strain, the more the fewer neighbours they have. Its elastic constants are therefore found from a
+// sample: a periodic cube made in the same way, with springs up to the same length.
 #include "joined.hpp"
 
 #include <hyperlattice/lattice.hpp>
@@ -19,11 +21,13 @@ constexpr double most_particles = 5e7;
 /// Numbers that are the same on every machine.
 class Dice {
  public:
-  Dice(std::int64_t seed, std::uint64_t stream) : engine_(static_cast<std::uint64_t>(seed) + 0x9E3779B97F4A7C15u * stream) {}
+  Dice(std::int64_t seed, std::uint64_t stream)
+      : engine_(static_cast<std::uint64_t>(seed) + 0x9E3779B97F4A7C15u * stream) {}
   double number() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }  ///< from 0 to below 1
   Vec3 point(Vec3 low, Vec3 high) {
     const double x = number(), y = number(), z = number();
-    return {low.x + x * (high.x - low.x), low.y + y * (high.y - low.y), low.z + z * (high.z - low.z)};
+    return {low.x + x * (high.x - low.x), low.y + y * (high.y - low.y),
+            low.z + z * (high.z - low.z)};
   }
 
  private:
@@ -32,7 +36,8 @@ class Dice {
 
 /// Points in a box, where `inside` holds, with a least distance.
 template <class Inside>
-std::vector<Vec3> throw_points(std::size_t count, Vec3 low, Vec3 high, double distance, bool periodic, Dice dice, const Inside& inside) {
+std::vector<Vec3> throw_points(std::size_t count, Vec3 low, Vec3 high, double distance,
+                               bool periodic, Dice dice, const Inside& inside) {
   constexpr std::size_t most_misses = 2000000;  // in a row: then there is no room for another
   Neighbourhood thrown(low, high, distance, count, periodic);
   for (std::size_t misses = 0; thrown.points().size() < count;) {
@@ -43,7 +48,8 @@ std::vector<Vec3> throw_points(std::size_t count, Vec3 low, Vec3 high, double di
       thrown.add(point);
       misses = 0;
     } else if (++misses > most_misses) {
-      throw std::invalid_argument("min_distance leaves no room for one particle in every spacing^3: at most 0.88 fits");
+      throw std::invalid_argument(
+          "min_distance leaves no room for one particle in every spacing^3: at most 0.88 fits");
     }
   }
   return thrown.points();
@@ -58,31 +64,42 @@ class Random {
   };
 
   static Schema<Options> schema() {
-    return Schema<Options>("lattices.random", "Random points with a least distance, joined to the nearest")
+    return Schema<Options>("lattices.random",
+                           "Random points with a least distance, joined to the nearest")
         .equation(
-            "particles = V / spacing^3; springs = coordination particles / 2: of each particle to its nearest six, then the shortest "
+            "particles = V / spacing^3; springs = coordination particles / 2: of each particle to "
+            "its nearest six, then the shortest "
             "pairs; Delta = spacing")
         .source("Zhao 2017, section 2.4 and figure 3: mean coordinations 8.4 and 13.2")
         .restrictions(
-            "boundary particles only; the Poisson ratio of few neighbours is above 1/4 without a membrane: 0.30 at 8.4, 0.25 at 13.2 in an endless "
-            "body. A particle at the surface has fewer springs, so those inside have more, and the largest Poisson ratio is less: at 8.4 about 0.27 "
-            "in a body 10 particles across, 0.29 in one of 30; a coordination below 7 leaves no room for six springs each, and how stiff the lattice "
+            "boundary particles only; the Poisson ratio of few neighbours is above 1/4 without a "
+            "membrane: 0.30 at 8.4, 0.25 at 13.2 in an endless "
+            "body. A particle at the surface has fewer springs, so those inside have more, and the "
+            "largest Poisson ratio is less: at 8.4 about 0.27 "
+            "in a body 10 particles across, 0.29 in one of 30; a coordination below 7 leaves no "
+            "room for six springs each, and how stiff the lattice "
             "comes out is left to chance: plan and run warn of it")
-        .add<&Options::spacing>("spacing", "m", "mean spacing l: the body has one particle in every l^3")
+        .add<&Options::spacing>("spacing", "m",
+                                "mean spacing l: the body has one particle in every l^3")
         .positive()
         .add<&Options::shape>("shape", "", "the solid that is filled")
-        .add<&Options::coordination>("coordination", "", "mean number of springs of a particle, those at the surface counted too")
+        .add<&Options::coordination>(
+            "coordination", "",
+            "mean number of springs of a particle, those at the surface counted too")
         .at_least(4)
         .at_most(40)
         .fallback("8.4")
-        .add<&Options::min_distance>("min_distance", "", "least distance of two particles, over the spacing")
+        .add<&Options::min_distance>("min_distance", "",
+                                     "least distance of two particles, over the spacing")
         .at_least(0.1)
         .at_most(0.88)
         .fallback("0.82")
         .add<&Options::seed>("seed", "", "another seed is another lattice of the same make")
         .at_least(0)
         .fallback("1")
-        .add<&Options::sample>("sample", "", "particles along an edge of the periodic sample that elastic constants are found from")
+        .add<&Options::sample>(
+            "sample", "",
+            "particles along an edge of the periodic sample that elastic constants are found from")
         .at_least(6)
         .at_most(60)
         .fallback("14");
@@ -94,13 +111,19 @@ class Random {
     const Shape& shape = *o_.shape;
     const double volume = volume_of_shape();
     const auto count = static_cast<std::size_t>(std::llround(volume / std::pow(o_.spacing, 3)));
-    if (count < 2) throw std::invalid_argument("shape holds fewer than two particles: expected a smaller spacing or a larger shape");
+    if (count < 2)
+      throw std::invalid_argument(
+          "shape holds fewer than two particles: expected a smaller spacing or a larger shape");
     const double distance = o_.min_distance * o_.spacing;
     const std::vector<Vec3> points =
-        throw_points(count, shape.low, shape.high, distance, false, Dice(o_.seed, 0), [&](Vec3 point) { return shape.contains(point); });
-    const auto wanted = static_cast<std::size_t>(std::llround(o_.coordination * static_cast<double>(count) / 2));
-    if (wanted > count * (count - 1) / 2) throw std::invalid_argument("coordination is more than the number of particles can have");
-    const Joined body = joined_by_number(count, pairs_to_choose_from(points, shape.low, shape.high, o_.spacing, wanted), wanted);
+        throw_points(count, shape.low, shape.high, distance, false, Dice(o_.seed, 0),
+                     [&](Vec3 point) { return shape.contains(point); });
+    const auto wanted =
+        static_cast<std::size_t>(std::llround(o_.coordination * static_cast<double>(count) / 2));
+    if (wanted > count * (count - 1) / 2)
+      throw std::invalid_argument("coordination is more than the number of particles can have");
+    const Joined body = joined_by_number(
+        count, pairs_to_choose_from(points, shape.low, shape.high, o_.spacing, wanted), wanted);
 
     std::vector<ListedSpring> springs;
     springs.reserve(body.springs.size());
@@ -121,19 +144,29 @@ class Random {
     const Shape& shape = *o_.shape;
     const Vec3 size = shape.high - shape.low;
     if (!std::isfinite(norm(size)))
-      throw std::invalid_argument("shape has no end: expected a bounded one, such as the intersection of a half-space with a box");
+      throw std::invalid_argument(
+          "shape has no end: expected a bounded one, such as the intersection of a half-space with "
+          "a box");
     if (size.x * size.y * size.z > most_particles * std::pow(o_.spacing, 3))
       throw std::invalid_argument("spacing is too small: a list holds at most 5e7 particles here");
-    const auto steps = [&](double length) { return std::max<std::int64_t>(1, std::llround(4 * length / o_.spacing)); };
+    const auto steps = [&](double length) {
+      return std::max<std::int64_t>(1, std::llround(4 * length / o_.spacing));
+    };
     const std::int64_t nx = steps(size.x), ny = steps(size.y), nz = steps(size.z);
     std::uint64_t inside = 0;
     for (std::int64_t k = 0; k < nz; ++k)
       for (std::int64_t j = 0; j < ny; ++j)
         for (std::int64_t i = 0; i < nx; ++i) {
-          const auto middle = [](std::int64_t n, std::int64_t of) { return (static_cast<double>(n) + 0.5) / static_cast<double>(of); };
-          inside += shape.contains(shape.low + Vec3{size.x * middle(i, nx), size.y * middle(j, ny), size.z * middle(k, nz)}) ? 1 : 0;
+          const auto middle = [](std::int64_t n, std::int64_t of) {
+            return (static_cast<double>(n) + 0.5) / static_cast<double>(of);
+          };
+          inside += shape.contains(shape.low + Vec3{size.x * middle(i, nx), size.y * middle(j, ny),
+                                                    size.z * middle(k, nz)})
+                        ? 1
+                        : 0;
         }
-    return size.x * size.y * size.z * static_cast<double>(inside) / static_cast<double>(nx * ny * nz);
+    return size.x * size.y * size.z * static_cast<double>(inside) /
+           static_cast<double>(nx * ny * nz);
   }
 
   /// Joined as the body is; null: by the coordination.
@@ -141,15 +174,22 @@ class Random {
     const double edge = static_cast<double>(o_.sample) * o_.spacing;
     const Vec3 high{edge, edge, edge};
     const auto count = static_cast<std::size_t>(o_.sample * o_.sample * o_.sample);
-    const std::vector<Vec3> points = throw_points(count, {}, high, o_.min_distance * o_.spacing, true, Dice(o_.seed, 1), [](Vec3) { return true; });
-    const double few_reach = std::min(1.7 * o_.spacing, 0.33 * edge);  // there six are found, inside of a body
-    std::vector<NearPair> pairs =
-        near_pairs(points, {}, high, like ? std::max(like->reach, few_reach) : 2 * o_.spacing * std::cbrt(o_.coordination / 8), true);
+    const std::vector<Vec3> points =
+        throw_points(count, {}, high, o_.min_distance * o_.spacing, true, Dice(o_.seed, 1),
+                     [](Vec3) { return true; });
+    const double few_reach =
+        std::min(1.7 * o_.spacing, 0.33 * edge);  // there six are found, inside of a body
+    std::vector<NearPair> pairs = near_pairs(
+        points, {}, high,
+        like ? std::max(like->reach, few_reach) : 2 * o_.spacing * std::cbrt(o_.coordination / 8),
+        true);
     if (like)
       pairs = joined_alike(count, std::move(pairs), *like);
     else
-      pairs =
-          joined_by_number(count, std::move(pairs), static_cast<std::size_t>(std::llround(o_.coordination * static_cast<double>(count) / 2))).springs;
+      pairs = joined_by_number(count, std::move(pairs),
+                               static_cast<std::size_t>(
+                                   std::llround(o_.coordination * static_cast<double>(count) / 2)))
+                  .springs;
     std::vector<SampleSpring> springs;
     springs.reserve(pairs.size());
     for (const NearPair& pair : pairs) springs.push_back({pair.a, pair.b, pair.rest, 1});

@@ -1,4 +1,5 @@
-// The law of a linear elastic spring: f = k u, with u the elongation. Geometry makes the body nonlinear, the spring is not.
+// The law of a linear elastic spring: f = k u, with u the elongation. Geometry makes the body
+// nonlinear, the spring is not.
 #pragma once
 
 struct ElasticLaw {

@@ -1,13 +1,16 @@
-// An elastic-plastic solid. Under a stress s along [100] an elastic lattice's springs carry forces in a fixed proportion; each may carry, at most,
-// what it carries at s = yield:
-//   limit = |k u|,  u = R.e.R / L of a base spring, (R.e.R + 2 h Delta) / sqrt(L^2 + Delta^2) of a cross spring,
-// with R its rest vector, e = (1, -nu, -nu) yield / E, and h the height at which a membrane that can move is at rest (its cross springs push it with
-// the sum of what they carry; 0 if clamped).
+// An elastic-plastic solid. Under a stress s along [100] an elastic lattice's springs carry forces
+// in a fixed proportion; each may carry, at most, what it carries at s = yield:
+//   limit = |k u|,  u = R.e.R / L of a base spring, (R.e.R + 2 h Delta) / sqrt(L^2 + Delta^2) of a
+//   cross spring,
+// with R its rest vector, e = (1, -nu, -nu) yield / E, and h the height at which a membrane that
+// can move is at rest (its cross springs push it with the sum of what they carry; 0 if clamped).
 //
-// So all springs that a bar along [100] pulls yield at once, when its stress is the stated one, and the bar's curve has one sharp knee. Springs
-// across the bar have the limit of those along it and must carry less: this is what some membranes do not give. Then yield is also the most that a
-// bar without hardening carries: it can flow while nothing changes across it, heights neither, and that takes the work of this stress. Hardening h =
-// ratio k / (1 - ratio) leaves each spring the tangent ratio k.
+// So all springs that a bar along [100] pulls yield at once, when its stress is the stated one, and
+// the bar's curve has one sharp knee. Springs across the bar have the limit of those along it and
+// must carry less: this is what some membranes do not give. Then yield is also the most that a bar
+// without hardening carries: it can flow while nothing changes across it, heights neither, and that
+// takes the work of this stress. Hardening h = ratio k / (1 - ratio) leaves each spring the tangent
+// ratio k.
 #include "plastic.hpp"
 
 #include <hyperlattice/elastic_solid.hpp>
@@ -16,13 +19,17 @@
 namespace {
 using namespace hyperlattice;
 
-/// The elongations of an endless elastic lattice that is pulled along [100]; a membrane that can move has the height at which it is at rest.
+/// The elongations of an endless elastic lattice that is pulled along [100]; a membrane that can
+/// move has the height at which it is at rest.
 class Pulled {
  public:
   Pulled(const LatticeFacts& lattice, const MaterialConstants& constants, double strain)
-      : lattice_(lattice), strain_(strain), poisson_(lattice.elastic_constants(constants).poisson()) {
+      : lattice_(lattice),
+        strain_(strain),
+        poisson_(lattice.elastic_constants(constants).poisson()) {
     const double delta = lattice.membrane_distance;
-    double push = 0, stiffness = constants.alpha_ratio;  // of a particle's springs on its height, over 2 k
+    double push = 0,
+           stiffness = constants.alpha_ratio;  // of a particle's springs on its height, over 2 k
     for (const Neighbour& n : lattice.neighbours) {
       const double ratio = constants.cross_ratio[n.spring_class] / (square(n) + delta * delta);
       push += ratio * growth(n) * delta;
@@ -32,12 +39,18 @@ class Pulled {
   }
 
   /// Of the springs of a class that lie along the bar, more or less: the largest size, m.
-  double limit(std::uint32_t spring_class, int cross) const { return largest(spring_class, cross, true); }
+  double limit(std::uint32_t spring_class, int cross) const {
+    return largest(spring_class, cross, true);
+  }
   /// Of those that lie across it.
-  double across(std::uint32_t spring_class, int cross) const { return largest(spring_class, cross, false); }
+  double across(std::uint32_t spring_class, int cross) const {
+    return largest(spring_class, cross, false);
+  }
 
  private:
-  Vec3 rest(const Neighbour& n) const { return lattice_.spacing * combined(lattice_.basis, n.dx, n.dy, n.dz); }
+  Vec3 rest(const Neighbour& n) const {
+    return lattice_.spacing * combined(lattice_.basis, n.dx, n.dy, n.dz);
+  }
   double square(const Neighbour& n) const { return dot(rest(n), rest(n)); }
   /// R.strain R, half of what the squared length grows.
   double growth(const Neighbour& n) const {
@@ -52,7 +65,8 @@ class Pulled {
   double largest(std::uint32_t spring_class, int cross, bool along) const {
     double found = 0;
     for (const Neighbour& n : lattice_.neighbours)
-      if (n.spring_class == spring_class && (rest(n).x != 0) == along) found = std::max(found, std::abs(elongation(n, cross)));
+      if (n.spring_class == spring_class && (rest(n).x != 0) == along)
+        found = std::max(found, std::abs(elongation(n, cross)));
     return found;
   }
 
@@ -69,14 +83,25 @@ class Plastic {
   static constexpr std::string_view law = "plastic";
 
   static Schema<Options> schema() {
-    Schema<Options> schema("materials.plastic", "Elastic-plastic springs with linear hardening; a bar along [100] yields at the stated stress");
-    schema.equation("f = k (u - w), |f| <= limit + h p; limit: what each spring carries in an elastic bar along [100] under the stress yield")
-        .source("return mapping of one-dimensional plasticity (Simo and Hughes 1998, section 1.2), for each spring")
-        .restrictions("structured lattices; springs of positive stiffness, of which those across a bar carry less than those along it")
-        .add<&Options::yield>("yield", "Pa", "stress along [100] at which a bar leaves the elastic line")
+    Schema<Options> schema("materials.plastic",
+                           "Elastic-plastic springs with linear hardening; a bar along [100] "
+                           "yields at the stated stress");
+    schema
+        .equation(
+            "f = k (u - w), |f| <= limit + h p; limit: what each spring carries in an elastic bar "
+            "along [100] under the stress yield")
+        .source(
+            "return mapping of one-dimensional plasticity (Simo and Hughes 1998, section 1.2), for "
+            "each spring")
+        .restrictions(
+            "structured lattices; springs of positive stiffness, of which those across a bar carry "
+            "less than those along it")
+        .add<&Options::yield>("yield", "Pa",
+                              "stress along [100] at which a bar leaves the elastic line")
         .example("\"10 MPa\"")
         .positive()
-        .add<&Options::hardening>("hardening", "", "tangent stiffness of a spring that yields, over its elastic one")
+        .add<&Options::hardening>("hardening", "",
+                                  "tangent stiffness of a spring that yields, over its elastic one")
         .at_least(0)
         .below(1)
         .fallback("0");
@@ -87,21 +112,28 @@ class Plastic {
 
   MaterialConstants constants(const LatticeFacts& lattice) const {
     if (lattice.neighbours.empty())
-      throw std::invalid_argument("a structured lattice: springs that point in all directions do not yield at one stress");
+      throw std::invalid_argument(
+          "a structured lattice: springs that point in all directions do not yield at one stress");
     MaterialConstants constants = options_.constants(lattice);
     const Pulled bar(lattice, constants, options_.yield / options_.young);
     for (std::uint32_t c = 0; c < lattice.spring_classes; ++c)
       for (const int cross : {0, 1}) {
-        const double stiffness = constants.base_stiffness * (cross == 0 ? lattice.class_stiffness[c] : constants.cross_ratio[c]);
+        const double stiffness = constants.base_stiffness * (cross == 0 ? lattice.class_stiffness[c]
+                                                                        : constants.cross_ratio[c]);
         if (stiffness < 0)
           throw std::invalid_argument(
-              "membrane of another kind, or a smaller poisson: springs of negative stiffness would give energy when they yield");
+              "membrane of another kind, or a smaller poisson: springs of negative stiffness would "
+              "give energy when they yield");
         if (stiffness == 0) continue;
         const double limit = bar.limit(c, cross), across = bar.across(c, cross);
         if (across > limit)
-          throw std::invalid_argument(elastic_solid::text("membrane of another kind, or a smaller poisson: springs across a bar would yield at ",
-                                                          limit / across, " of the stress at which those along it do"));
-        constants.set_law(c, cross, PlasticLaw::Constants{stiffness * limit, stiffness * options_.hardening / (1 - options_.hardening)});
+          throw std::invalid_argument(
+              elastic_solid::text("membrane of another kind, or a smaller poisson: springs across "
+                                  "a bar would yield at ",
+                                  limit / across, " of the stress at which those along it do"));
+        constants.set_law(c, cross,
+                          PlasticLaw::Constants{stiffness * limit, stiffness * options_.hardening /
+                                                                       (1 - options_.hardening)});
       }
     return constants;
   }

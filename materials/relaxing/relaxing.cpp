@@ -1,6 +1,8 @@
-// A viscoelastic solid whose stiffness relaxes: the standard linear solid (a Maxwell element beside a spring) for each spring. E and nu are those at
-// once; after a long time the modulus is (1 - share) E, with the same Poisson ratio, because all springs relax alike. Under a strain that is applied
-// at once and held, the stress is E (1 - share + share exp(-t / time)) times the strain. share = 1 is Maxwell's fluid.
+// A viscoelastic solid whose stiffness relaxes: the standard linear solid (a Maxwell element beside
+// a spring) for each spring. E and nu are those at once; after a long time the modulus is (1 -
+// share) E, with the same Poisson ratio, because all springs relax alike. Under a strain that is
+// applied at once and held, the stress is E (1 - share + share exp(-t / time)) times the strain.
+// share = 1 is Maxwell's fluid.
 #include "relaxing.hpp"
 
 #include <hyperlattice/elastic_solid.hpp>
@@ -18,11 +20,19 @@ class Relaxing {
   static constexpr std::string_view law = "relaxing";
 
   static Schema<Options> schema() {
-    Schema<Options> schema("materials.relaxing", "Viscoelastic springs whose stiffness relaxes: the standard linear solid, or Maxwell's");
-    schema.equation("f = k (u - share w), dw/dt = (u - w) / time; under a constant strain the stress falls as 1 - share + share exp(-t / time)")
-        .source("standard linear solid; the damper's elongation by the exponential that is exact for a constant rate")
+    Schema<Options> schema(
+        "materials.relaxing",
+        "Viscoelastic springs whose stiffness relaxes: the standard linear solid, or Maxwell's");
+    schema
+        .equation(
+            "f = k (u - share w), dw/dt = (u - w) / time; under a constant strain the stress falls "
+            "as 1 - share + share exp(-t / time)")
+        .source(
+            "standard linear solid; the damper's elongation by the exponential that is exact for a "
+            "constant rate")
         .restrictions("young is the modulus at once")
-        .add<&Options::share>("share", "", "part of the stiffness that relaxes; 1: all of it (Maxwell)")
+        .add<&Options::share>("share", "",
+                              "part of the stiffness that relaxes; 1: all of it (Maxwell)")
         .at_least(0)
         .at_most(1)
         .add<&Options::time>("time", "s", "relaxation time of the damper")

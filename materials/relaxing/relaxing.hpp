@@ -1,4 +1,5 @@
-// The standard linear solid: beside an elastic spring one in series with a damper, whose part of the force relaxes in a time tau,
+// The standard linear solid: beside an elastic spring one in series with a damper, whose part of
+// the force relaxes in a time tau,
 //   f = k ((1 - g) u + g (u - w)),  dw/dt = (u - w) / tau.
 #pragma once
 
@@ -25,6 +26,7 @@ struct RelaxingLaw {
   }
   static double energy(const hyperlattice::SpringState& s, const Constants& c, const Memory& m) {
     const double in_series = s.elongation - m.flowed;
-    return 0.5 * s.stiffness * ((1 - c.share) * s.elongation * s.elongation + c.share * in_series * in_series);
+    return 0.5 * s.stiffness *
+           ((1 - c.share) * s.elongation * s.elongation + c.share * in_series * in_series);
   }
 };

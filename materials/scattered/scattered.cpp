@@ -1,7 +1,9 @@
-// An elastic solid whose springs are not equally stiff. Each base spring, with its cross spring, has k times its own number, 1 in the mean and spread
-// by 1.2 / modulus or so. A body of them is softer than one of equal springs, and by how much follows from the variance v of these numbers (effective
-// medium, first order in v): E (1 - s v), s the mean share of a spring's own stiffness in how stiff its ends are held, 1/3 in a lattice of nine
-// springs a particle; between Voigt's bound E and Reuss's E (1 - v).
+// An elastic solid whose springs are not equally stiff. Each base spring, with its cross spring,
+// has k times its own number, 1 in the mean and spread by 1.2 / modulus or so. A body of them is
+// softer than one of equal springs, and by how much follows from the variance v of these numbers
+// (effective medium, first order in v): E (1 - s v), s the mean share of a spring's own stiffness
+// in how stiff its ends are held, 1/3 in a lattice of nine springs a particle; between Voigt's
+// bound E and Reuss's E (1 - v).
 #include "scattered.hpp"
 
 #include <hyperlattice/elastic_solid.hpp>
@@ -20,14 +22,22 @@ class Scattered {
   static constexpr std::string_view law = "scattered";
 
   static Schema<Options> schema() {
-    Schema<Options> schema("materials.scattered", "Elastic springs whose stiffness scatters from spring to spring");
-    schema.equation("f = c k u, c = (-ln p)^(1 / modulus) / Gamma(1 + 1 / modulus), p from the seed and the spring's particles")
+    Schema<Options> schema("materials.scattered",
+                           "Elastic springs whose stiffness scatters from spring to spring");
+    schema
+        .equation(
+            "f = c k u, c = (-ln p)^(1 / modulus) / Gamma(1 + 1 / modulus), p from the seed and "
+            "the spring's particles")
         .source("Weibull 1951, two parameters; the mean of c is 1")
         .restrictions(
-            "springs of positive stiffness. young is what springs of the mean stiffness give; the body is softer, by about a third of the variance "
+            "springs of positive stiffness. young is what springs of the mean stiffness give; the "
+            "body is softer, by about a third of the variance "
             "of c "
-            "in the cubic lattice. Numbers belong to springs, not to places: another spacing or another shape has others")
-        .add<&Options::modulus>("modulus", "", "of Weibull: large ones scatter little; the standard deviation is about 1.2 / modulus")
+            "in the cubic lattice. Numbers belong to springs, not to places: another spacing or "
+            "another shape has others")
+        .add<&Options::modulus>(
+            "modulus", "",
+            "of Weibull: large ones scatter little; the standard deviation is about 1.2 / modulus")
         .example("8")
         .at_least(1)
         .add<&Options::seed>("seed", "", "of the numbers")
@@ -43,14 +53,18 @@ class Scattered {
     MaterialConstants constants = options_.constants(lattice);
     for (const double ratio : constants.cross_ratio)
       if (ratio < 0)
-        throw std::invalid_argument("membrane of another kind, or a smaller poisson: negative springs that scatter make no stable lattice");
-    constants.set_law(ScatteredLaw::Constants{options_.modulus, static_cast<double>(options_.seed)});
+        throw std::invalid_argument(
+            "membrane of another kind, or a smaller poisson: negative springs that scatter make no "
+            "stable lattice");
+    constants.set_law(
+        ScatteredLaw::Constants{options_.modulus, static_cast<double>(options_.seed)});
     return constants;
   }
   /// As if all springs were the stiffest that there can be.
   double stable_time_step(double elastic_step) const {
     constexpr double least_chance = 0x1p-53;
-    return elastic_step / std::sqrt(std::max(1.0, ScatteredLaw::share(options_.modulus, least_chance)));
+    return elastic_step /
+           std::sqrt(std::max(1.0, ScatteredLaw::share(options_.modulus, least_chance)));
   }
   static KernelSet kernels(const KernelChoice& choice) { return kernels_for_processor(choice); }
 

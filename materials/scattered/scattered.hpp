@@ -17,13 +17,18 @@ struct ScatteredLaw {
     double share;  ///< c
   };
 
-  static double share(double modulus, double p) { return std::pow(-std::log(p), 1 / modulus) / std::tgamma(1 + 1 / modulus); }
+  static double share(double modulus, double p) {
+    return std::pow(-std::log(p), 1 / modulus) / std::tgamma(1 + 1 / modulus);
+  }
 
   static Memory start(const Constants& c, const hyperlattice::SpringIdentity& spring) {
-    return {share(c.modulus, hyperlattice::chance(static_cast<std::uint64_t>(c.seed), spring.a, spring.b))};
+    return {share(c.modulus,
+                  hyperlattice::chance(static_cast<std::uint64_t>(c.seed), spring.a, spring.b))};
   }
   static void update(const hyperlattice::SpringState&, const Constants&, Memory&) {}
-  static double force(const hyperlattice::SpringState& s, const Constants&, const Memory& m) { return m.share * s.stiffness * s.elongation; }
+  static double force(const hyperlattice::SpringState& s, const Constants&, const Memory& m) {
+    return m.share * s.stiffness * s.elongation;
+  }
   static double energy(const hyperlattice::SpringState& s, const Constants&, const Memory& m) {
     return 0.5 * m.share * s.stiffness * s.elongation * s.elongation;
   }

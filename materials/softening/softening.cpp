@@ -1,9 +1,10 @@
-// A quasi-brittle solid: springs soften along a straight line, so that what a crack costs does not depend on the spacing (the crack band). A spring
-// carries its largest force at the strain e = strength / E, where a bar along [100] leaves the elastic line, and nothing at r e. Both follow the
-// spring's length L, so all springs that pass through a unit of area take
+// A quasi-brittle solid: springs soften along a straight line, so that what a crack costs does not
+// depend on the spacing (the crack band). A spring carries its largest force at the strain e =
+// strength / E, where a bar along [100] leaves the elastic line, and nothing at r e. Both follow
+// the spring's length L, so all springs that pass through a unit of area take
 //   1/2 r e^2 sum k L^2 = G_c,
-// cross springs counted beside their base springs: r = 2 G_c / (e^2 sum k L^2). Below r = 1 a spring would break before it softens: the spacing is
-// too coarse for this G_c.
+// cross springs counted beside their base springs: r = 2 G_c / (e^2 sum k L^2). Below r = 1 a
+// spring would break before it softens: the spacing is too coarse for this G_c.
 #include "softening.hpp"
 
 #include <hyperlattice/elastic_solid.hpp>
@@ -22,17 +23,25 @@ class Softening {
 
   static Schema<Options> schema() {
     Schema<Options> schema("materials.softening",
-                           "Springs that soften when stretched beyond a strength, with a fracture energy that the spacing does not change");
+                           "Springs that soften when stretched beyond a strength, with a fracture "
+                           "energy that the spacing does not change");
     schema
         .equation(
-            "f = (1 - D) k u; the largest force at the strain strength / young, none at r times that; r = 2 G_c / (e^2 sum k L^2) over the springs "
+            "f = (1 - D) k u; the largest force at the strain strength / young, none at r times "
+            "that; r = 2 G_c / (e^2 sum k L^2) over the springs "
             "through a unit of area normal to [100], in a list normal to any direction")
-        .source("Bazant and Oh 1983 (crack band), applied to the lattice's springs; closed cracks carry compression")
+        .source(
+            "Bazant and Oh 1983 (crack band), applied to the lattice's springs; closed cracks "
+            "carry compression")
         .restrictions("the spacing must be small enough for the fracture energy")
-        .add<&Options::strength>("strength", "Pa", "tensile stress of a bar along [100] at which springs begin to soften")
+        .add<&Options::strength>(
+            "strength", "Pa",
+            "tensile stress of a bar along [100] at which springs begin to soften")
         .example("\"3 MPa\"")
         .positive()
-        .add<&Options::fracture_energy>("fracture_energy", "J/m2", "energy that a crack normal to [100] takes for each of its area")
+        .add<&Options::fracture_energy>(
+            "fracture_energy", "J/m2",
+            "energy that a crack normal to [100] takes for each of its area")
         .example("\"5 J/m2\"")
         .positive();
     return Options::declare(schema);
@@ -43,11 +52,14 @@ class Softening {
   MaterialConstants constants(const LatticeFacts& lattice) const {
     MaterialConstants constants = options_.constants(lattice);
     const double strain = options_.strength / options_.young;
-    const double ratio = 2 * options_.fracture_energy / (strain * strain * through(lattice, constants));
+    const double ratio =
+        2 * options_.fracture_energy / (strain * strain * through(lattice, constants));
     if (!(ratio > 1)) {
       const double spacing = lattice.spacing * ratio;
-      throw std::invalid_argument(elastic_solid::text("fracture_energy of more than ", options_.fracture_energy / ratio, " J/m2, or a spacing below ",
-                                                      spacing, " m: springs of this length break before they soften"));
+      throw std::invalid_argument(
+          elastic_solid::text("fracture_energy of more than ", options_.fracture_energy / ratio,
+                              " J/m2, or a spacing below ", spacing,
+                              " m: springs of this length break before they soften"));
     }
     constants.set_law(SofteningLaw::Constants{strain, ratio * strain});
     return constants;
@@ -55,18 +67,21 @@ class Softening {
   static KernelSet kernels(const KernelChoice& choice) { return kernels_for_processor(choice); }
 
  private:
-  /// Sum of k L^2 over the springs that pass through a unit of area, N/m: of a plane normal to [100], or in a list, where springs of all directions
-  /// have the mean |n_x| of 1/2, of any plane.
+  /// Sum of k L^2 over the springs that pass through a unit of area, N/m: of a plane normal to
+  /// [100], or in a list, where springs of all directions have the mean |n_x| of 1/2, of any plane.
   static double through(const LatticeFacts& lattice, const MaterialConstants& constants) {
     const double k = constants.base_stiffness, delta = lattice.membrane_distance;
     if (lattice.neighbours.empty()) {
-      const double cross = constants.cross_ratio[0] * (lattice.cubed_lengths + delta * delta * lattice.lengths);
-      return 0.5 * k * (lattice.cubed_lengths + cross) / (static_cast<double>(lattice.particles) * lattice.site_volume);
+      const double cross =
+          constants.cross_ratio[0] * (lattice.cubed_lengths + delta * delta * lattice.lengths);
+      return 0.5 * k * (lattice.cubed_lengths + cross) /
+             (static_cast<double>(lattice.particles) * lattice.site_volume);
     }
     double sum = 0;
     for (const Neighbour& n : lattice.neighbours) {
       const Vec3 rest = lattice.spacing * combined(lattice.basis, n.dx, n.dy, n.dz);
-      const double square = dot(rest, rest), cross = constants.cross_ratio[n.spring_class] * (square + delta * delta);
+      const double square = dot(rest, rest),
+                   cross = constants.cross_ratio[n.spring_class] * (square + delta * delta);
       sum += std::abs(rest.x) * k * (lattice.class_stiffness[n.spring_class] * square + cross);
     }
     return sum / lattice.site_volume;

@@ -1,8 +1,10 @@
-// A viscoelastic solid after Kelvin and Voigt: beside each spring a damper, f = k (u + tau du/dt), so that both layers of springs, base and cross,
-// have the same loss: a wave of angular frequency w loses the fraction w tau / 2 of critical damping. The rate is that of the step before; for one
+// A viscoelastic solid after Kelvin and Voigt: beside each spring a damper, f = k (u + tau du/dt),
+// so that both layers of springs, base and cross, have the same loss: a wave of angular frequency w
+// loses the fraction w tau / 2 of critical damping. The rate is that of the step before; for one
 // mode
 //   u(n+1) - 2 u(n) + u(n-1) = -(w dt)^2 (u(n) + tau (u(n) - u(n-1)) / dt)
-// has roots within the unit circle while dt^2 + 2 tau dt < 4 / w^2 = dt_c^2, which is the stable step.
+// has roots within the unit circle while dt^2 + 2 tau dt < 4 / w^2 = dt_c^2, which is the stable
+// step.
 #include "viscous.hpp"
 
 #include <hyperlattice/elastic_solid.hpp>
@@ -20,11 +22,18 @@ class Viscous {
   static constexpr std::string_view law = "viscous";
 
   static Schema<Options> schema() {
-    Schema<Options> schema("materials.viscous", "Viscoelastic springs after Kelvin and Voigt: a damper beside each");
-    schema.equation("f = k (u + time du/dt); damping ratio of a wave of angular frequency w: w time / 2")
-        .source("Kelvin-Voigt element; stable step: linear stability of central differences with the rate of the step before")
+    Schema<Options> schema("materials.viscous",
+                           "Viscoelastic springs after Kelvin and Voigt: a damper beside each");
+    schema
+        .equation(
+            "f = k (u + time du/dt); damping ratio of a wave of angular frequency w: w time / 2")
+        .source(
+            "Kelvin-Voigt element; stable step: linear stability of central differences with the "
+            "rate of the step before")
         .restrictions("the stable step is smaller than that of elastic springs")
-        .add<&Options::time>("time", "s", "viscosity over stiffness of each spring: the time in which a damped creep decays")
+        .add<&Options::time>(
+            "time", "s",
+            "viscosity over stiffness of each spring: the time in which a damped creep decays")
         .example("\"0.5 us\"")
         .at_least(0);
     return Options::declare(schema);

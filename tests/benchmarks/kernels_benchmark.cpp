@@ -1,5 +1,6 @@
-// Speed of the explicit step: nanoseconds per particle-step, springs per second, and the share of the processor's arithmetic that they make,
-// for each kind of kernel, precision, size and shape. Arguments: those of Google Benchmark, for instance --benchmark_filter=free/float/50.
+// Speed of the explicit step: nanoseconds per particle-step, springs per second, and the share of
+// the processor's arithmetic that they make, for each kind of kernel, precision, size and shape.
+// Arguments: those of Google Benchmark, for instance --benchmark_filter=free/float/50.
 #include <plan/plan.hpp>
 #include <state/simulation.hpp>
 
@@ -19,24 +20,36 @@ struct Variant {
   const char* name;
   const char* membrane;
   bool breakable, damped, cells;
-  int flops_of_spring, flops_of_particle;  ///< as kernels/stencil.hpp and kernels/motion.hpp write them; a root counts with its series
+  int flops_of_spring, flops_of_particle;  ///< as kernels/stencil.hpp and kernels/motion.hpp write
+                                           ///< them; a root counts with its series
 };
 const Variant variants[] = {
-    {"three", "none", false, false, false, 33, 18},       {"three_breakable", "none", true, false, false, 33, 18},
-    {"three_damped", "none", false, true, false, 33, 39}, {"three_cells", "none", false, false, true, 33, 18},
-    {"clamped", "III", false, false, false, 47, 18},      {"clamped_breakable", "III", true, false, false, 47, 18},
-    {"free", "I-m", false, false, false, 61, 27},         {"free_breakable", "I-m", true, false, false, 61, 27},
-    {"free_damped", "I-m", false, true, false, 61, 55},   {"free_cells", "I-m", false, false, true, 61, 27},
+    {"three", "none", false, false, false, 33, 18},
+    {"three_breakable", "none", true, false, false, 33, 18},
+    {"three_damped", "none", false, true, false, 33, 39},
+    {"three_cells", "none", false, false, true, 33, 18},
+    {"clamped", "III", false, false, false, 47, 18},
+    {"clamped_breakable", "III", true, false, false, 47, 18},
+    {"free", "I-m", false, false, false, 61, 27},
+    {"free_breakable", "I-m", true, false, false, 61, 27},
+    {"free_damped", "I-m", false, true, false, 61, 55},
+    {"free_cells", "I-m", false, false, true, 61, 27},
 };
 
-/// A cube of so many particles along an edge, or the hollow sphere of 490,432 (size 0), in slow torsion.
+/// A cube of so many particles along an edge, or the hollow sphere of 490,432 (size 0), in slow
+/// torsion.
 Json scene_of(const Variant& variant, int size, const char* precision) {
-  Json material = {{"type", "materials.elastic"}, {"young", 1e10}, {"density", 2500}, {"membrane", variant.membrane}};
+  Json material = {{"type", "materials.elastic"},
+                   {"young", 1e10},
+                   {"density", 2500},
+                   {"membrane", variant.membrane}};
   if (std::string(variant.membrane) != "none") material["lambda"] = 0.5;
-  if (variant.breakable) material["failure"] = {{"type", "failures.elongation"}, {"limit", 1e-4}};  // is never reached
+  if (variant.breakable)
+    material["failure"] = {{"type", "failures.elongation"}, {"limit", 1e-4}};  // is never reached
   const double edge = (variant.cells ? size - 1 : size) * 1e-3, far = 1;
   const Json ball = {{"sphere", {{"radius", 0.05}}}}, cavity = {{"sphere", {{"radius", 0.02}}}};
-  const Json shape = size > 0 ? Json{{"box", {{"low", {0, 0, 0}}, {"high", {edge, edge, edge}}}}} : Json{{"difference", {ball, cavity}}};
+  const Json shape = size > 0 ? Json{{"box", {{"low", {0, 0, 0}}, {"high", {edge, edge, edge}}}}}
+                              : Json{{"difference", {ball, cavity}}};
   const auto spin = [&](double low, double high, double rate) {
     return Json{{"type", "loads.start_velocity"},
                 {"on", {{"box", {{"low", {-far, -far, low}}, {"high", {far, far, high}}}}}},
@@ -47,7 +60,10 @@ Json scene_of(const Variant& variant, int size, const char* precision) {
   return {{"format", "hyperlattice/1"},
           {"precision", precision},
           {"pipeline",
-           {{{"type", "lattices.cubic"}, {"spacing", 1e-3}, {"boundary", variant.cells ? "cells" : "particles"}, {"shape", shape}},
+           {{{"type", "lattices.cubic"},
+             {"spacing", 1e-3},
+             {"boundary", variant.cells ? "cells" : "particles"},
+             {"shape", shape}},
             material,
             spin(-far, middle, 1),
             spin(middle, far, -1),
@@ -68,15 +84,18 @@ template <class Real>
   return 2.0 * chains * rounds / time.count();
 }
 #if defined(__x86_64__)
-#define FOR_THIS_PROCESSOR __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#define FOR_THIS_PROCESSOR \
+  __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #else
 #define FOR_THIS_PROCESSOR
 #endif
 FOR_THIS_PROCESSOR double peak_of_doubles() { return peak_of_multiply_adds<double>(); }
 FOR_THIS_PROCESSOR double peak_of_floats() { return peak_of_multiply_adds<float>(); }
 
-void explicit_step(benchmark::State& state, const Variant& variant, int size, const char* precision, int threads) {
-  const auto file = std::filesystem::temp_directory_path() / ("kernels_benchmark." + std::to_string(getpid()) + ".json");
+void explicit_step(benchmark::State& state, const Variant& variant, int size, const char* precision,
+                   int threads) {
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("kernels_benchmark." + std::to_string(getpid()) + ".json");
   std::ofstream(file) << scene_of(variant, size, precision);
   Host host({std::filesystem::path(HYPERLATTICE_BUILD) / "lib" / "hyperlattice"});
   const auto plan = make_plan(read_scene(file, {}, host), threads);
@@ -87,11 +106,14 @@ void explicit_step(benchmark::State& state, const Variant& variant, int size, co
   const double time_step = 0.5 * plan->stages.front().plan.time_step;
   simulation.step(time_step);  // the first one finds the books' start
   for (auto _ : state) simulation.step(time_step);
-  const auto particles = static_cast<double>(plan->model->body.particles), springs = static_cast<double>(plan->model->body.base_springs());
+  const auto particles = static_cast<double>(plan->model->body.particles),
+             springs = static_cast<double>(plan->model->body.base_springs());
   const double flops = springs * variant.flops_of_spring + particles * variant.flops_of_particle;
-  const double peak = plan->model->choice.precision == Precision::floats ? peak_of_floats() : peak_of_doubles();
+  const double peak =
+      plan->model->choice.precision == Precision::floats ? peak_of_floats() : peak_of_doubles();
   using benchmark::Counter;
-  state.counters["s/particle_step"] = Counter(particles, Counter::kIsIterationInvariantRate | Counter::kInvert);
+  state.counters["s/particle_step"] =
+      Counter(particles, Counter::kIsIterationInvariantRate | Counter::kInvert);
   state.counters["springs/s"] = Counter(springs, Counter::kIsIterationInvariantRate);
   state.counters["of_peak"] = Counter(flops / (peak * threads), Counter::kIsIterationInvariantRate);
   state.SetLabel(plan->model->kernels.instructions);
@@ -99,11 +121,15 @@ void explicit_step(benchmark::State& state, const Variant& variant, int size, co
 
 void add(const Variant& variant, int size, const char* precision, int threads) {
   const std::string shape = size > 0 ? std::to_string(size) : "hollow_sphere";
-  const std::string name = std::string(variant.name) + "/" + precision + "/" + shape + "/" + std::to_string(threads);
+  const std::string name =
+      std::string(variant.name) + "/" + precision + "/" + shape + "/" + std::to_string(threads);
   auto* added = benchmark::RegisterBenchmark(
-      name.c_str(), [&variant, size, precision, threads](benchmark::State& state) { explicit_step(state, variant, size, precision, threads); });
+      name.c_str(), [&variant, size, precision, threads](benchmark::State& state) {
+        explicit_step(state, variant, size, precision, threads);
+      });
   added->Unit(benchmark::kMillisecond);
-  if (threads > 1) added->UseRealTime();  // else the thread's own: others may be at work on the machine
+  if (threads > 1)
+    added->UseRealTime();  // else the thread's own: others may be at work on the machine
 }
 
 }  // namespace

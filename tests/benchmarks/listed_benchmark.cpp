@@ -1,6 +1,7 @@
-// Speed of the step of a random lattice, beside the plainest program for it: one scalar pass over a list of springs sorted as the particles are, each
-// spring once. Both run in turns, because machines change speed by the second; `of_scalar_list` is the median ratio of their times, above 1 where
-// the scalar list is slower. Arguments: those of Google Benchmark.
+// Speed of the step of a random lattice, beside the plainest program for it: one scalar pass over a
+// list of springs sorted as the particles are, each spring once. Both run in turns, because
+// machines change speed by the second; `of_scalar_list` is the median ratio of their times, above 1
+// where the scalar list is slower. Arguments: those of Google Benchmark.
 #include <support/lists.hpp>
 
 #include <benchmark/benchmark.h>
@@ -17,21 +18,30 @@ struct Variant {
 };
 const Variant variants[] = {
     {"three", R"("membrane": "none")"},
-    {"three_breakable", R"("membrane": "none", "failure": { "type": "failures.elongation", "limit": 1e-4 })"},  // is never reached
+    {"three_breakable",
+     R"("membrane": "none", "failure": { "type": "failures.elongation", "limit": 1e-4 })"},  // is
+                                                                                             // never
+                                                                                             // reached
     {"clamped", R"("membrane": "III", "lambda": 0.5)"},
     {"free", R"("membrane": "I", "lambda": 0.5)"},
 };
 
-/// The same body with springs of a linear law in three dimensions: one record a particle, one a spring.
+/// The same body with springs of a linear law in three dimensions: one record a particle, one a
+/// spring.
 class ScalarList {
  public:
-  ScalarList(const Model& model, const std::vector<double>& displacements) : inverse_mass_(1 / model.materials[0].mass) {
+  ScalarList(const Model& model, const std::vector<double>& displacements)
+      : inverse_mass_(1 / model.materials[0].mass) {
     for (Particle p = 0; p < model.body.particles; ++p)
-      points_.push_back({model.body.position(p) + Vec3{displacements[3 * p], displacements[3 * p + 1], displacements[3 * p + 2]}, {}, {}});
+      points_.push_back(
+          {model.body.position(p) +
+               Vec3{displacements[3 * p], displacements[3 * p + 1], displacements[3 * p + 2]},
+           {},
+           {}});
     for (std::uint32_t n = 0; n < model.body.listed.springs.size(); ++n) {
       const ListedSpring& spring = model.body.listed.springs[n];
-      const Joint joint = model.joint(spring.a, spring.b, n);
-      springs_.push_back({spring.a, spring.b, joint.rest_length, joint.stiffness});
+      const SpringProperties properties = model.spring_properties(spring.a, spring.b, n);
+      springs_.push_back({spring.a, spring.b, properties.rest_length, properties.stiffness});
     }
   }
 
@@ -43,7 +53,8 @@ class ScalarList {
     for (const Spring& spring : springs_) {
       Point &a = points_[spring.a], &b = points_[spring.b];
       const double x = b.place.x - a.place.x, y = b.place.y - a.place.y, z = b.place.z - a.place.z;
-      const double pull = spring.stiffness * (1 - spring.length / __builtin_sqrt(x * x + y * y + z * z));
+      const double pull =
+          spring.stiffness * (1 - spring.length / __builtin_sqrt(x * x + y * y + z * z));
       const Vec3 force{pull * x, pull * y, pull * z};
       a.force = a.force + force;
       b.force = b.force - force;
@@ -75,7 +86,8 @@ double difference(const Model& model, const Simulation& ours, const ScalarList& 
   const std::vector<double> moved = test::displacements(ours);
   double largest = 0;
   for (Particle p = 0; p < model.body.particles; ++p)
-    largest = std::max(largest, norm(scalar.place(p) - model.body.position(p) - Vec3{moved[3 * p], moved[3 * p + 1], moved[3 * p + 2]}));
+    largest = std::max(largest, norm(scalar.place(p) - model.body.position(p) -
+                                     Vec3{moved[3 * p], moved[3 * p + 1], moved[3 * p + 2]}));
   return largest;
 }
 
@@ -98,8 +110,10 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-void compare(benchmark::State& state, const Variant& variant, const std::string& precision, int size) {
-  const std::string scene = test::listed_scene(test::random_lattice(size, size, size), variant.material);
+void compare(benchmark::State& state, const Variant& variant, const std::string& precision,
+             int size) {
+  const std::string scene =
+      test::listed_scene(test::random_lattice(size, size, size), variant.material);
   const bool floats = precision == "float";
   const auto plan = test::plan_of(floats ? test::in_floats(scene) : scene);
   const Model& model = *plan->model;
@@ -113,7 +127,8 @@ void compare(benchmark::State& state, const Variant& variant, const std::string&
   ours.step(step);
   scalar.step(step, step);
   const double exact = floats ? 1e-5 : 1e-9;
-  if (model.choice.membrane == KernelChoice::Membrane::none && !(difference(model, ours, scalar) < exact * amplitude))
+  if (model.choice.membrane == KernelChoice::Membrane::none &&
+      !(difference(model, ours, scalar) < exact * amplitude))
     return state.SkipWithError("the trajectories differ: nothing to compare");
 
   const int steps = std::max(1, 100000 * 4 / static_cast<int>(model.body.particles));
@@ -127,8 +142,10 @@ void compare(benchmark::State& state, const Variant& variant, const std::string&
     }));
     ratios.push_back(of_scalar.back() / times.back());
   }
-  const double work = static_cast<double>(model.body.particles) * steps, springs = static_cast<double>(model.body.base_springs());
-  const double nanoseconds = 1e9 * median(times) / work, scalar_nanoseconds = 1e9 * median(of_scalar) / work;
+  const double work = static_cast<double>(model.body.particles) * steps,
+               springs = static_cast<double>(model.body.base_springs());
+  const double nanoseconds = 1e9 * median(times) / work,
+               scalar_nanoseconds = 1e9 * median(of_scalar) / work;
   state.counters["ns/particle_step"] = nanoseconds;
   state.counters["ns/spring"] = nanoseconds * static_cast<double>(model.body.particles) / springs;
   state.counters["scalar_ns"] = scalar_nanoseconds;
@@ -143,9 +160,12 @@ int main(int argc, char** argv) {
   for (const Variant& variant : variants)
     for (const std::string precision : {"double", "float"})
       for (const int size : {25, 50, 100}) {
-        const std::string name = std::string(variant.name) + "/" + precision + "/" + std::to_string(size);
+        const std::string name =
+            std::string(variant.name) + "/" + precision + "/" + std::to_string(size);
         auto* added = benchmark::RegisterBenchmark(
-            name.c_str(), [&variant, precision, size](benchmark::State& state) { compare(state, variant, precision, size); });
+            name.c_str(), [&variant, precision, size](benchmark::State& state) {
+              compare(state, variant, precision, size);
+            });
         added->Unit(benchmark::kMillisecond);
       }
   benchmark::Initialize(&argc, argv);

@@ -1,4 +1,5 @@
-// `hyperlattice analyze` as a user types it: what machines read, what is refused and how, the files it writes.
+// `hyperlattice analyze` as a user types it: what machines read, what is refused and how, the files
+// it writes.
 #include <gtest/gtest.h>
 #include <support/program.hpp>
 
@@ -29,11 +30,14 @@ void expect_refused(const Words& words, const Words& parts) {
   const test::Result result = analyze(words);
   EXPECT_EQ(result.exit_code, 2) << testing::PrintToString(words);
   EXPECT_EQ(result.out, "");
-  for (const std::string& part : parts) EXPECT_NE(result.err.find(part), std::string::npos) << testing::PrintToString(words) << '\n' << result.err;
+  for (const std::string& part : parts)
+    EXPECT_NE(result.err.find(part), std::string::npos) << testing::PrintToString(words) << '\n'
+                                                        << result.err;
 }
 
 TEST(Analyze, SaysAllOfMembraneIm) {  // nu = 0.1: lambda = 2.8
-  for (const Words& words : {Words{"--membrane", "I-m", "--poisson", "0.1"}, {"--membrane", "I-m", "--lambda", "2.8"}}) {
+  for (const Words& words :
+       {Words{"--membrane", "I-m", "--poisson", "0.1"}, {"--membrane", "I-m", "--lambda", "2.8"}}) {
     const json found = read(words);
     const double L = 2.8, C1 = 6 + 3 * L, C2 = 2 + L, C3 = 7 * L, C4 = 3 * L;
     EXPECT_NEAR(found.at("lambda"), L, 1e-12);
@@ -90,7 +94,9 @@ TEST(Analyze, NamesWhatGrows) {
   ASSERT_EQ(sheared.at("unstable").size(), 1u);
   EXPECT_EQ(sheared.at("unstable").at(0).at("lattice"), "two_layer");
   EXPECT_EQ(sheared.at("unstable").at(0).at("mode").at("direction").size(), 3u);
-  EXPECT_NE(sheared.at("unstable").at(0).at("because").get<std::string>().find("two layers oppositely"), std::string::npos);
+  EXPECT_NE(
+      sheared.at("unstable").at(0).at("because").get<std::string>().find("two layers oppositely"),
+      std::string::npos);
 }
 
 TEST(Analyze, FreeRatiosAndNone) {
@@ -98,89 +104,117 @@ TEST(Analyze, FreeRatiosAndNone) {
   EXPECT_NEAR(none.at("poisson_bulk"), 0.25, 1e-12);
   EXPECT_NEAR(none.at("critical_time_step"), 2 / std::sqrt(12.0), 1e-9);
   // the stable way past 1/4: kb = 0, kg = 3, clamped
-  const json free = read({"--membrane", "free", "--k_alpha", "infinite", "--k_beta", "0", "--k_gamma", "3"});
+  const json free =
+      read({"--membrane", "free", "--k_alpha", "infinite", "--k_beta", "0", "--k_gamma", "3"});
   EXPECT_EQ(free.at("k_alpha"), "infinite");
   EXPECT_NEAR(free.at("poisson_bulk"), 0.3, 1e-12);
   EXPECT_NEAR(free.at("zener"), 1.5, 1e-12);
   EXPECT_EQ(free.at("stable").at("two_layer"), true);
-  const json negative = read({"--membrane", "free", "--k_alpha", "-1", "--k_beta", "2", "--k_gamma", "1.5"});
+  const json negative =
+      read({"--membrane", "free", "--k_alpha", "-1", "--k_beta", "2", "--k_gamma", "1.5"});
   EXPECT_NEAR(negative.at("C3"), 11, 1e-12);
 }
 
 TEST(Analyze, PeopleReadTheSame) {
   const std::string page = analyze({"--membrane", "IV", "--lambda", "-1"}).out;
-  for (const char* part : {"nu'", "0.285714", "Zener ratio A", "mirrored lattice             stable",
-                           "two-layer lattice            unstable: the wave", "critical time step"})
+  for (const char* part :
+       {"nu'", "0.285714", "Zener ratio A", "mirrored lattice             stable",
+        "two-layer lattice            unstable: the wave", "critical time step"})
     EXPECT_NE(page.find(part), std::string::npos) << part << '\n' << page;
 }
 
 TEST(Analyze, RefusesPoissonRatiosOutOfReach) {
   expect_refused({"--membrane", "I-m", "--poisson", "0.3"},
-                 {"--poisson", "0.3", "within (-0.2, 0.25], the reach of membrane I-m", "0.3 is within the reach of IV (not isotropic)"});
+                 {"--poisson", "0.3", "within (-0.2, 0.25], the reach of membrane I-m",
+                  "0.3 is within the reach of IV (not isotropic)"});
   expect_refused({"--membrane", "I", "--poisson", "-0.3"},
-                 {"within (-0.2119, 0.25], the reach of membrane I", "-0.3 is within the reach of II (not isotropic)"});
-  expect_refused({"--membrane", "II", "--poisson", "0.26"}, {"within (-0.5, 0.25]", "within the reach of III (not isotropic), IV (not isotropic)"});
-  expect_refused({"--membrane", "III", "--poisson", "0.27"}, {", 0.2667), the reach of membrane III", "within the reach of IV (not isotropic)"});
-  expect_refused({"--membrane", "IV", "--poisson", "0.34"}, {", 0.3333), the reach of membrane IV", "no membrane of this lattice reaches it"});
-  expect_refused({"--membrane", "I-m", "--poisson", "-0.2"}, {"-0.2 is within the reach of I (not isotropic), II (not isotropic)"});
+                 {"within (-0.2119, 0.25], the reach of membrane I",
+                  "-0.3 is within the reach of II (not isotropic)"});
+  expect_refused(
+      {"--membrane", "II", "--poisson", "0.26"},
+      {"within (-0.5, 0.25]", "within the reach of III (not isotropic), IV (not isotropic)"});
+  expect_refused(
+      {"--membrane", "III", "--poisson", "0.27"},
+      {", 0.2667), the reach of membrane III", "within the reach of IV (not isotropic)"});
+  expect_refused({"--membrane", "IV", "--poisson", "0.34"},
+                 {", 0.3333), the reach of membrane IV", "no membrane of this lattice reaches it"});
+  expect_refused({"--membrane", "I-m", "--poisson", "-0.2"},
+                 {"-0.2 is within the reach of I (not isotropic), II (not isotropic)"});
   expect_refused({"--membrane", "none", "--poisson", "0.2"}, {"--poisson", "none, or 0.25"});
-  expect_refused({"--membrane", "free", "--k_beta", "1", "--k_alpha", "1", "--poisson", "0.2"}, {"--poisson", "that is what these springs have"});
+  expect_refused({"--membrane", "free", "--k_beta", "1", "--k_alpha", "1", "--poisson", "0.2"},
+                 {"--poisson", "that is what these springs have"});
   EXPECT_EQ(analyze({"--membrane", "I-m", "--poisson", "0.25"}).exit_code, 0);
 }
 
 // E l / k of the centred lattices: 5/3 and 5/2 without a membrane, times eta.
 TEST(Analyze, CentredLattices) {
   for (const auto& [lattice, young] : {std::pair{"lattices.bcc", 5.0 / 3}, {"lattices.fcc", 2.5}}) {
-    EXPECT_NEAR(read({"--lattice", lattice, "--membrane", "none"}).at("young_over_k_per_l"), young, 1e-12);
+    EXPECT_NEAR(read({"--lattice", lattice, "--membrane", "none"}).at("young_over_k_per_l"), young,
+                1e-12);
     const json found = read({"--lattice", lattice, "--membrane", "I-m", "--poisson", "0.1"});
     EXPECT_NEAR(found.at("poisson_bulk"), 0.1, 1e-12);
     EXPECT_EQ(found.at("isotropic"), true);
     EXPECT_EQ(found.at("stable").at("two_layer"), true);
   }
-  expect_refused({"--lattice", "lattices.fcc", "--membrane", "IV", "--poisson", "0.45"},
-                 {"within (0, 0.3333), the reach of membrane IV", "0.45 is within the reach of III"});
-  expect_refused({"--lattice", "lattices.bcc", "--membrane", "I-m", "--poisson", "0.3"}, {"within (-0.35, 0.25], the reach of membrane I-m"});
+  expect_refused(
+      {"--lattice", "lattices.fcc", "--membrane", "IV", "--poisson", "0.45"},
+      {"within (0, 0.3333), the reach of membrane IV", "0.45 is within the reach of III"});
+  expect_refused({"--lattice", "lattices.bcc", "--membrane", "I-m", "--poisson", "0.3"},
+                 {"within (-0.35, 0.25], the reach of membrane I-m"});
 }
 
 // Curves run to where they turn back: half of the shortest reciprocal vector along the direction.
 TEST(Analyze, DispersionOfCentredLatticesRunsToTheirOwnZone) {
   const test::Folder folder("dispersion");
   const std::string file = folder.file("curves.csv");
-  for (const auto& [lattice, ends] : {std::pair{"lattices.bcc", std::array{2, 1, 2}}, {"lattices.fcc", {2, 2, 1}}}) {
+  for (const auto& [lattice, ends] :
+       {std::pair{"lattices.bcc", std::array{2, 1, 2}}, {"lattices.fcc", {2, 2, 1}}}) {
     read({"--lattice", lattice, "--membrane", "none", "--dispersion", file});
     const std::vector<std::string> rows = test::table_rows(file);
     ASSERT_EQ(rows.size(), 303u);
     for (std::size_t n = 0; n < 3; ++n) {
       const std::string& last = rows[101 * n + 100];
-      EXPECT_NEAR(std::stod(last.substr(last.find(',') + 1)), ends[n] * std::acos(-1.0), 1e-6) << last;
+      EXPECT_NEAR(std::stod(last.substr(last.find(',') + 1)), ends[n] * std::acos(-1.0), 1e-6)
+          << last;
     }
   }
 }
 
 TEST(Analyze, RefusesWhatDoesNotFitTogether) {
   expect_refused({}, {"--membrane", "none, I, II, III, IV, I-m or free"});
-  expect_refused({"--membrane", "I_m", "--poisson", "0.1"}, {"--membrane", "I_m", "did you mean 'I-m'"});
+  expect_refused({"--membrane", "I_m", "--poisson", "0.1"},
+                 {"--membrane", "I_m", "did you mean 'I-m'"});
   expect_refused({"--membrane", "I-m"}, {"--poisson", "or --lambda in its place"});
-  expect_refused({"--membrane", "I-m", "--poisson", "0.1", "--lambda", "2"}, {"--lambda", "each follows from the other"});
-  expect_refused({"--membrane", "none", "--lambda", "2"}, {"--lambda", "only membranes I, II, III, IV and I-m"});
-  expect_refused({"--membrane", "I", "--lambda", "2", "--k_beta", "1", "--k_gamma", "1"}, {"--k_beta", "--k_gamma", "--membrane free"});
-  expect_refused({"--membrane", "free", "--k_alpha", "endless"}, {"--k_alpha", "endless", "or infinite"});
+  expect_refused({"--membrane", "I-m", "--poisson", "0.1", "--lambda", "2"},
+                 {"--lambda", "each follows from the other"});
+  expect_refused({"--membrane", "none", "--lambda", "2"},
+                 {"--lambda", "only membranes I, II, III, IV and I-m"});
+  expect_refused({"--membrane", "I", "--lambda", "2", "--k_beta", "1", "--k_gamma", "1"},
+                 {"--k_beta", "--k_gamma", "--membrane free"});
+  expect_refused({"--membrane", "free", "--k_alpha", "endless"},
+                 {"--k_alpha", "endless", "or infinite"});
   expect_refused({"--membrane", "I", "--lambda", "nan"}, {"--lambda", "a finite number"});
   expect_refused({"--membrane", "free", "--k_beta", "inf"}, {"--k_beta", "a finite number"});
   expect_refused({"--membrane", "I", "--lambda", "much"}, {"--lambda"});
   expect_refused({"--lambda", "1", "--plot", "map.svg"}, {"--membrane"});
-  expect_refused({"--lattice", "lattices.qubic", "--membrane", "none"}, {"--lattice", "lattices.qubic", "did you mean 'lattices.cubic'"});
-  expect_refused({"--lattice", "loads.fixed", "--membrane", "none"}, {"--lattice", "loads.fixed", "a lattice that can be found"});
-  expect_refused({"--lattice", "lattices.other", "--crystals", crystals}, {"--lattice", "lattices.cubic"});
+  expect_refused({"--lattice", "lattices.qubic", "--membrane", "none"},
+                 {"--lattice", "lattices.qubic", "did you mean 'lattices.cubic'"});
+  expect_refused({"--lattice", "loads.fixed", "--membrane", "none"},
+                 {"--lattice", "loads.fixed", "a lattice that can be found"});
+  expect_refused({"--lattice", "lattices.other", "--crystals", crystals},
+                 {"--lattice", "lattices.cubic"});
 }
 
 TEST(Analyze, WritesDispersionCurves) {
   const test::Folder folder("dispersion");
   const std::string file = folder.file("curves.csv");
   read({"--membrane", "I-m", "--poisson", "0.1", "--dispersion", file});
-  EXPECT_TRUE(test::contents(file).starts_with("direction,q_x,q_y,q_z,mirrored_1,mirrored_2,mirrored_3,mirrored_4,opposed_1,"));
+  EXPECT_TRUE(test::contents(file).starts_with(
+      "direction,q_x,q_y,q_z,mirrored_1,mirrored_2,mirrored_3,mirrored_4,opposed_1,"));
   EXPECT_EQ(test::table_rows(file).size(), 303u);
-  EXPECT_EQ(analyze({"--membrane", "none", "--dispersion", folder.file("nowhere/curves.csv")}).exit_code, 4);
+  EXPECT_EQ(
+      analyze({"--membrane", "none", "--dispersion", folder.file("nowhere/curves.csv")}).exit_code,
+      4);
 }
 
 TEST(Analyze, CountsTheCrystals) {
@@ -193,7 +227,9 @@ TEST(Analyze, CountsTheCrystals) {
   const json& silver = found.at("crystals").at(0);
   EXPECT_EQ(silver.at("name"), "Ag");
   EXPECT_EQ(silver.at("fit").at("stable").at("mirrored"), false);
-  EXPECT_NE(analyze({"--crystals", crystals}).out.find("Of 116 crystals, 115 are in the window of figure 4, 115 have a lattice, 36 a stable one"),
+  EXPECT_NE(analyze({"--crystals", crystals})
+                .out.find("Of 116 crystals, 115 are in the window of figure 4, 115 have a lattice, "
+                          "36 a stable one"),
             std::string::npos);
 }
 
@@ -204,7 +240,8 @@ TEST(Analyze, RefusesBadTablesLineByLine) {
   std::ofstream(file) << "name,C11_GPa,C44_GPa\nX,3,1\n";
   expect_refused({"--crystals", file}, {"table.csv:1", "a column C12_GPa"});
   std::ofstream(file) << "name,C11_GPa,C12_GPa,C44_GPa\nX,3,one,1\nY,3\nZ,1,2,1\n";
-  expect_refused({"--crystals", file}, {"table.csv:2", "a number in column C12_GPa", "table.csv:3", "table.csv:4", "C11 > C12"});
+  expect_refused({"--crystals", file}, {"table.csv:2", "a number in column C12_GPa", "table.csv:3",
+                                        "table.csv:4", "C11 > C12"});
   std::ofstream(file) << "name,C11_GPa,C12_GPa,C44_GPa\n";
   expect_refused({"--crystals", file}, {"at least one crystal"});
 }
@@ -212,7 +249,8 @@ TEST(Analyze, RefusesBadTablesLineByLine) {
 TEST(Analyze, DrawsTheMap) {
   const test::Folder folder("map");
   const std::string file = folder.file("figure 4's.svg");
-  const test::Result result = analyze({"--membrane", "I-m", "--poisson", "0.1", "--crystals", crystals, "--plot", file});
+  const test::Result result =
+      analyze({"--membrane", "I-m", "--poisson", "0.1", "--crystals", crystals, "--plot", file});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const std::string picture = test::contents(file);
   EXPECT_NE(picture.find("<svg"), std::string::npos);
@@ -226,9 +264,12 @@ TEST(Analyze, SaysThatGnuplotIsMissing) {
   test::Launch launch;
   static std::string path = "PATH=/nowhere";
   launch.environment = {path};
-  const test::Result result = test::run_program({"analyze", "--plot", folder.file("map.svg")}, launch);
+  const test::Result result =
+      test::run_program({"analyze", "--plot", folder.file("map.svg")}, launch);
   EXPECT_EQ(result.exit_code, 4);
-  EXPECT_NE(result.err.find("gnuplot is not installed (Debian's package gnuplot-nox)"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("gnuplot is not installed (Debian's package gnuplot-nox)"),
+            std::string::npos)
+      << result.err;
   EXPECT_FALSE(std::filesystem::exists(folder.file("map.svg")));
 }
 

@@ -1,4 +1,5 @@
-// Every bad plugin in bad_plugins/ is refused, each in its own sentence; what a scene needs and cannot have ends with the right exit code.
+// Every bad plugin in bad_plugins/ is refused, each in its own sentence; what a scene needs and
+// cannot have ends with the right exit code.
 #include <host/gate.hpp>
 #include <host/host.hpp>
 
@@ -27,8 +28,10 @@ test::Result program(const std::vector<std::string>& arguments) {
 fs::path scene_with(const std::string& type, const std::string& plugins = "") {
   const std::string component = R"({"type": ")" + type + R"(", "limit": 1})";
   const bool failure = type.starts_with("failures.");
-  const fs::path file = fs::temp_directory_path() / ("hyperlattice_bad_plugins_" + std::to_string(getpid()) + ".json");
-  std::ofstream(file) << R"({"format": "hyperlattice/1", "plugins": [)" << plugins << R"(], "pipeline": [
+  const fs::path file = fs::temp_directory_path() /
+                        ("hyperlattice_bad_plugins_" + std::to_string(getpid()) + ".json");
+  std::ofstream(file) << R"({"format": "hyperlattice/1", "plugins": [)" << plugins
+                      << R"(], "pipeline": [
     {"type": "lattices.cubic", "spacing": 1, "shape": {"box": {"low": [0, 0, 0], "high": [2, 2, 2]}}},
     {"type": "materials.elastic", "young": 1e9, "poisson": 0.25, "density": 1000, "membrane": "none")"
                       << (failure ? ", \"failure\": " + component + "}" : "}, " + component) << R"(,
@@ -44,25 +47,38 @@ struct BadPlugin {
 const BadPlugin bad_plugins[] = {
     {"failures.empty", "failures.empty.so: is an empty file"},
     {"failures.cut_short", "failures.cut_short.so: is damaged or cut short"},
-    {"failures.old_interface", "failures.old_interface.so: interface version 999, this Hyperlattice has 2: rebuild it against these headers"},
-    {"failures.old_strings", "failures.old_strings.so: C++ library ABI (_GLIBCXX_USE_CXX11_ABI) 0, this Hyperlattice has 1: rebuild it with"},
+    {"failures.old_interface",
+     "failures.old_interface.so: interface version 999, this Hyperlattice has 2: rebuild it "
+     "against these headers"},
+    {"failures.old_strings",
+     "failures.old_strings.so: C++ library ABI (_GLIBCXX_USE_CXX11_ABI) 0, this Hyperlattice has "
+     "1: rebuild it with"},
     {"failures.later_headers",
-     "failures.later_headers.so: was built against headers in which what crosses to a plugin is laid out otherwise: rebuild it against these "
+     "failures.later_headers.so: was built against headers in which what crosses to a plugin is "
+     "laid out otherwise: rebuild it against these "
      "headers"},
     {"failures.packed",
-     "failures.packed.so: was built against headers in which what crosses to a plugin is laid out otherwise: rebuild it against these headers"},
+     "failures.packed.so: was built against headers in which what crosses to a plugin is laid out "
+     "otherwise: rebuild it against these headers"},
 #if defined(__x86_64__)
-    {"failures.wide", "failures.wide.so: Eigen alignment 64, this Hyperlattice has 16: rebuild it without -march=native"},
+    {"failures.wide",
+     "failures.wide.so: Eigen alignment 64, this Hyperlattice has 16: rebuild it without "
+     "-march=native"},
 #endif
-    {"failures.undefined_symbol", "cannot be loaded: undefined symbol function_that_nobody_wrote(int): link the library that defines it"},
+    {"failures.undefined_symbol",
+     "cannot be loaded: undefined symbol function_that_nobody_wrote(int): link the library that "
+     "defines it"},
     {"failures.throws", "failures.throws.so: its registration failed: the licence has run out"},
     {"failures.twice", "failures.twice.so: registers failures.twice twice"},
     {"failures.registers_nothing", "failures.registers_nothing.so: registers nothing"},
     {"failures.no_marker", "failures.no_marker.so: is no plugin of Hyperlattice (it has no gate)"},
     {"failures.hollow", "failures.hollow.so: registers 'failures.hollow' with a function missing"},
-    {"failures.bad_name", "registers the name 'failures.Bad Name', which is not of the form <family>.<name>"},
-    {"failures.other_name", "does not register failures.other_name, the type it is named after, but failures.another"},
-    {"loads.impostor", "registers 'loads.impostor', but the class is one of the family 'failures'"}};
+    {"failures.bad_name",
+     "registers the name 'failures.Bad Name', which is not of the form <family>.<name>"},
+    {"failures.other_name",
+     "does not register failures.other_name, the type it is named after, but failures.another"},
+    {"loads.impostor",
+     "registers 'loads.impostor', but the class is one of the family 'failures'"}};
 
 void PrintTo(const BadPlugin& plugin, std::ostream* out) { *out << plugin.type; }
 
@@ -73,7 +89,8 @@ TEST_P(Refused, InASentenceAndWithoutATrace) {
   Host host({folder});
   EXPECT_EQ(host.find(GetParam().type), nullptr);
   EXPECT_TRUE(host.refused(GetParam().type));
-  EXPECT_NE(host.why_not(GetParam().type).find(GetParam().sentence), std::string::npos) << host.why_not(GetParam().type);
+  EXPECT_NE(host.why_not(GetParam().type).find(GetParam().sentence), std::string::npos)
+      << host.why_not(GetParam().type);
   EXPECT_TRUE(host.loaded().empty());
 }
 
@@ -97,11 +114,12 @@ INSTANTIATE_TEST_SUITE_P(BadPlugins, Refused, testing::ValuesIn(bad_plugins), []
 TEST(BadPlugins, NoCodeRunsBeforeTheGate) {
   unsetenv("HYPERLATTICE_CONSTRUCTED");
   Host host({folder});
-  for (const char* type :
-       {"failures.old_interface", "failures.old_strings", "failures.packed", "failures.later_headers", "failures.wide", "failures.cut_short"})
+  for (const char* type : {"failures.old_interface", "failures.old_strings", "failures.packed",
+                           "failures.later_headers", "failures.wide", "failures.cut_short"})
     host.find(type);
   EXPECT_EQ(std::getenv("HYPERLATTICE_CONSTRUCTED"), nullptr);
-  ASSERT_NE(host.find("failures.sound"), nullptr) << host.why_not("failures.sound");  // the same source, and it leaves its trace
+  ASSERT_NE(host.find("failures.sound"), nullptr)
+      << host.why_not("failures.sound");  // the same source, and it leaves its trace
   EXPECT_STREQ(std::getenv("HYPERLATTICE_CONSTRUCTED"), "failures.sound");
 }
 
@@ -126,7 +144,8 @@ TEST(BadPlugins, ALibraryNamedDirectlyThatLacksTheTypeOfItsNameIsRefusedForIt) {
   host.add_scene_paths({other}, folder);
   EXPECT_NE(host.find("failures.another"), nullptr);
   EXPECT_EQ(host.find("failures.other_name"), nullptr);
-  EXPECT_EQ(host.why_not("failures.other_name"), "failures.other_name.so: gives failures.another, not the type it is named after");
+  EXPECT_EQ(host.why_not("failures.other_name"),
+            "failures.other_name.so: gives failures.another, not the type it is named after");
 }
 
 TEST(BadPlugins, TwoLibrariesOfOneTypeAreBothNamed) {
@@ -143,7 +162,8 @@ TEST(BadPlugins, ATypeTakenByALibraryOfAnotherNameIsRefused) {
   const SearchOutcome outcome = host.add_scene_paths({"thief.so"}, folder).front();
   EXPECT_FALSE(outcome.accepted);
   EXPECT_FALSE(outcome.absent);
-  EXPECT_NE(outcome.reason.find("thief.so: registers failures.sound, which " + (folder / "failures.sound.so").string() + " registered before"),
+  EXPECT_NE(outcome.reason.find("thief.so: registers failures.sound, which " +
+                                (folder / "failures.sound.so").string() + " registered before"),
             std::string::npos)
       << outcome.reason;
 }
@@ -193,7 +213,9 @@ TEST(BadPlugins, AMissingLibraryIsAnUnknownTypeAndExit2) {
   Host host({folder});
   EXPECT_EQ(host.find("failures.missing"), nullptr);
   EXPECT_FALSE(host.refused("failures.missing"));
-  EXPECT_NE(host.why_not("failures.missing").find("no library failures.missing.so in " + folder.string()), std::string::npos);
+  EXPECT_NE(
+      host.why_not("failures.missing").find("no library failures.missing.so in " + folder.string()),
+      std::string::npos);
   EXPECT_EQ(program({"plugins", "failures.missing"}).exit_code, 2);
   const test::Result near = program({"plugins", "failures.sond"});
   EXPECT_EQ(near.exit_code, 2);
@@ -206,10 +228,12 @@ TEST(BadPlugins, AMissingLibraryIsAnUnknownTypeAndExit2) {
 }
 
 TEST(BadPlugins, ARefusedLibraryNamedDirectlyIsExit4) {
-  const fs::path scene = scene_with("failures.sound", '"' + (folder / "failures.text.so").string() + '"');
+  const fs::path scene =
+      scene_with("failures.sound", '"' + (folder / "failures.text.so").string() + '"');
   const test::Result plan = program({"plan", scene.string()});
   EXPECT_EQ(plan.exit_code, 4);
-  EXPECT_NE(plan.err.find("failures.text.so: is not a shared library"), std::string::npos) << plan.err;
+  EXPECT_NE(plan.err.find("failures.text.so: is not a shared library"), std::string::npos)
+      << plan.err;
   fs::remove(scene);
 }
 
@@ -223,7 +247,8 @@ TEST(BadPlugins, ASoundOneAmongThemRuns) {
 TEST(BadPlugins, WhyListsEveryRefusal) {
   const test::Result why = program({"plugins", "--why"});
   EXPECT_EQ(why.exit_code, 0);
-  for (const char* part : {"refused  ", "failures.text.so: is not a shared library", "interface version 999", "accepted  ", "gives failures.sound"})
+  for (const char* part : {"refused  ", "failures.text.so: is not a shared library",
+                           "interface version 999", "accepted  ", "gives failures.sound"})
     EXPECT_NE(why.out.find(part), std::string::npos) << part << "\n" << why.out;
 }
 
@@ -234,18 +259,26 @@ TEST(Gate, NamesEachNumberThatDiffers) {
   other.eigen_alignment = own.eigen_alignment / 2;
   other.library_abi += 1;
   const std::string why = gate_mismatch(other, own);
-  EXPECT_NE(why.find("Eigen alignment 8, this Hyperlattice has 16: rebuild it for the instruction set"), std::string::npos) << why;
-  EXPECT_NE(why.find("C++ library ABI (_GLIBCXX_USE_CXX11_ABI) 2, this Hyperlattice has 1: rebuild it"), std::string::npos) << why;
+  EXPECT_NE(
+      why.find("Eigen alignment 8, this Hyperlattice has 16: rebuild it for the instruction set"),
+      std::string::npos)
+      << why;
+  EXPECT_NE(
+      why.find("C++ library ABI (_GLIBCXX_USE_CXX11_ABI) 2, this Hyperlattice has 1: rebuild it"),
+      std::string::npos)
+      << why;
   other.compiler_abi = 2;
   EXPECT_NE(gate_mismatch(other, own).find("C++ compiler ABI 2"), std::string::npos);
   other = own;
   other.boundary += 1;
-  EXPECT_NE(gate_mismatch(other, own).find("laid out otherwise: rebuild it against these headers"), std::string::npos);
+  EXPECT_NE(gate_mismatch(other, own).find("laid out otherwise: rebuild it against these headers"),
+            std::string::npos);
 }
 
 /// Refusal of the sound plugin when one byte of its file is changed.
 std::string refusal_with_byte(std::streamoff offset, char value) {
-  const fs::path copy = fs::temp_directory_path() / ("hyperlattice_patched_" + std::to_string(getpid()) + ".so");
+  const fs::path copy =
+      fs::temp_directory_path() / ("hyperlattice_patched_" + std::to_string(getpid()) + ".so");
   fs::copy_file(folder / "failures.sound.so", copy, fs::copy_options::overwrite_existing);
   std::fstream file(copy, std::ios::in | std::ios::out | std::ios::binary);
   file.seekp(offset).put(value);
@@ -261,11 +294,13 @@ std::string refusal_with_byte(std::streamoff offset, char value) {
 }
 
 TEST(Gate, SurvivesAnyDamageToTheHeader) {
-  EXPECT_EQ(refusal_with_byte(5000, 0), "");                                         // a byte of code is none of its business
-  EXPECT_NE(refusal_with_byte(4, 1).find("another processor"), std::string::npos);   // 32 bits
-  EXPECT_NE(refusal_with_byte(18, 8).find("another processor"), std::string::npos);  // a machine of another kind
-  EXPECT_NE(refusal_with_byte(16, 2).find("another kind"), std::string::npos);       // an executable
-  EXPECT_NE(refusal_with_byte(46, 127).find("damaged"), std::string::npos);          // sections far behind the end
+  EXPECT_EQ(refusal_with_byte(5000, 0), "");  // a byte of code is none of its business
+  EXPECT_NE(refusal_with_byte(4, 1).find("another processor"), std::string::npos);  // 32 bits
+  EXPECT_NE(refusal_with_byte(18, 8).find("another processor"),
+            std::string::npos);  // a machine of another kind
+  EXPECT_NE(refusal_with_byte(16, 2).find("another kind"), std::string::npos);  // an executable
+  EXPECT_NE(refusal_with_byte(46, 127).find("damaged"),
+            std::string::npos);  // sections far behind the end
   for (std::streamoff offset = 0; offset < 64; ++offset)
     for (const int value : {0, 1, 127, 255}) refusal_with_byte(offset, static_cast<char>(value));
 }

@@ -7,7 +7,8 @@ namespace {
 
 using nlohmann::json;
 
-/// A folder of its own, with one small scene in it, that is also the current directory of the program.
+/// A folder of its own, with one small scene in it, that is also the current directory of the
+/// program.
 class CommandLine : public testing::Test {
  protected:
   CommandLine() {
@@ -18,7 +19,8 @@ class CommandLine : public testing::Test {
       {"type": "solvers.explicit", "end_time": 0.01}]})";
   }
 
-  test::Result run(const std::vector<std::string>& arguments, const std::string& subfolder = "") const {
+  test::Result run(const std::vector<std::string>& arguments,
+                   const std::string& subfolder = "") const {
     test::Launch launch;
     launch.directory = folder_.file(subfolder);
     return test::run_program(arguments, launch);
@@ -47,13 +49,16 @@ TEST_F(CommandLine, WhatCannotBeUnderstoodIsExit2) {
   for (const auto& line : lines) EXPECT_EQ(run(line).exit_code, 2) << testing::PrintToString(line);
   EXPECT_NE(run({"frobnicate"}).err.find("frobnicate"), std::string::npos);
   EXPECT_NE(run({"rum", "cube.json"}).err.find("Did you mean 'run'?"), std::string::npos);
-  EXPECT_NE(run({"run", "cube.json", "--overwite"}).err.find("Did you mean '--overwrite'?"), std::string::npos);
-  EXPECT_NE(run({"run", "cube.json", "--thread=2"}).err.find("Did you mean '--threads'?"), std::string::npos);
+  EXPECT_NE(run({"run", "cube.json", "--overwite"}).err.find("Did you mean '--overwrite'?"),
+            std::string::npos);
+  EXPECT_NE(run({"run", "cube.json", "--thread=2"}).err.find("Did you mean '--threads'?"),
+            std::string::npos);
   EXPECT_EQ(run({"run", "cube.json", "cube.json"}).err.find("Did you mean"), std::string::npos);
 }
 
 TEST_F(CommandLine, HelpAndVersionAreExit0) {
-  for (const char* command : {"run", "plan", "plugins", "schema", "analyze", "calibrate", "study", "report"})
+  for (const char* command :
+       {"run", "plan", "plugins", "schema", "analyze", "calibrate", "study", "report"})
     EXPECT_EQ(run({command, "--help"}).exit_code, 0) << command;
   EXPECT_EQ(run({"--help"}).exit_code, 0);
   EXPECT_EQ(run({"--version"}).exit_code, 0);
@@ -70,14 +75,16 @@ TEST_F(CommandLine, ResultsLieBesideTheUserNotTheScene) {
 TEST_F(CommandLine, ASecondRunReplacesTheFirst) {
   ASSERT_EQ(run({"run", "cube.json", "--out", "results"}).exit_code, 0);
   const json first = read("results/summary.json");
-  const test::Result result = run({"run", "cube.json", "--out", "results", "--threads", "1", "--set", "/pipeline/3/end_time=0.02"});
+  const test::Result result = run({"run", "cube.json", "--out", "results", "--threads", "1",
+                                   "--set", "/pipeline/3/end_time=0.02"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(read("results/summary.json").at("end_time"), 0.02);
   EXPECT_NE(read("results/summary.json").at("state_hash"), first.at("state_hash"));
 }
 
 TEST_F(CommandLine, WrongInputNamesEveryFaultAndWritesNothing) {
-  const test::Result result = run({"run", "cube.json", "--set", "/pipeline/1/young=-1", "--set", "/pipeline/3/end_tme=2"});
+  const test::Result result =
+      run({"run", "cube.json", "--set", "/pipeline/1/young=-1", "--set", "/pipeline/3/end_tme=2"});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_NE(result.err.find("/pipeline/1/young"), std::string::npos) << result.err;
   EXPECT_NE(result.err.find("/pipeline/3/end_tme"), std::string::npos) << result.err;
@@ -88,7 +95,9 @@ TEST_F(CommandLine, BeginsAPluginOnlyWhereThereIsNothing) {
   for (const char* type : {"failure.mine", "failures.Mine", "failures", "failures."}) {
     const test::Result result = run({"plugins", "--new", type, "--out", "project"});
     EXPECT_EQ(result.exit_code, 2) << type;
-    EXPECT_NE(result.err.find("one of failures, lattices, loads, materials, writers"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("one of failures, lattices, loads, materials, writers"),
+              std::string::npos)
+        << result.err;
     EXPECT_FALSE(exists("project"));
   }
   const test::Result taken = run({"plugins", "--new", "failures.strain", "--out", "project"});
@@ -107,22 +116,27 @@ TEST_F(CommandLine, ANamedFileTakesThePlaceOfNothingElse) {
   std::ofstream(folder_.file("crystals.csv")) << "name,C11_GPa,C12_GPa,C44_GPa\nX,3,1,1\n";
   std::filesystem::create_directory(folder_.file("study"));
   std::ofstream(folder_.file("study/study.json")) << R"({"rows": []})";
-  for (const char* name : {"study/study.csv", "study/study.svg"}) std::ofstream(folder_.file(name)) << "a study's";
+  for (const char* name : {"study/study.csv", "study/study.svg"})
+    std::ofstream(folder_.file(name)) << "a study's";
   const std::vector<std::vector<std::string>> lines = {
       {"analyze", "--membrane", "none", "--plot", "cube.json"},
       {"analyze", "--membrane", "none", "--plot", "study/study.svg"},
       {"analyze", "--membrane", "none", "--dispersion", "cube.json"},
       {"analyze", "--membrane", "none", "--dispersion", "study/study.csv"},
       {"analyze", "--membrane", "none", "--dispersion", "results/history.csv"},
-      {"analyze", "--membrane", "none", "--crystals", "crystals.csv", "--dispersion", "crystals.csv"},
-      {"analyze", "--membrane", "none", "--option", "points=crystals.csv", "--dispersion", "crystals.csv"},
+      {"analyze", "--membrane", "none", "--crystals", "crystals.csv", "--dispersion",
+       "crystals.csv"},
+      {"analyze", "--membrane", "none", "--option", "points=crystals.csv", "--dispersion",
+       "crystals.csv"},
       {"calibrate", "--membrane", "I-m", "--curve", "0", "4.5", "10", "--plot", "cube.json"},
       {"plugins", "--test", "failures.strain", "--pictures", "cube.json"}};
   for (const auto& line : lines) {
     const std::string file = folder_.file(line.back()), before = test::contents(file);
     const test::Result result = run(line);
     EXPECT_EQ(result.exit_code, 2) << testing::PrintToString(line) << result.err;
-    EXPECT_NE(result.err.find(line[line.size() - 2] + ": " + line.back() + ": expected a"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find(line[line.size() - 2] + ": " + line.back() + ": expected a"),
+              std::string::npos)
+        << result.err;
     EXPECT_EQ(result.out, "");
     EXPECT_EQ(test::contents(file), before) << file;
   }
@@ -147,7 +161,9 @@ TEST_F(CommandLine, MachinesReadWhatPeopleRead) {
   const test::Result unknown = run({"plugins", "loads.fxied", "--why"});
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_NE(unknown.out.find("\nsearched\n  accepted  "), std::string::npos) << unknown.out;
-  EXPECT_GE(json::parse(run({"plugins", "loads.fxied", "--why", "--json"}).out).at("searched").size(), 1u);
+  EXPECT_GE(
+      json::parse(run({"plugins", "loads.fxied", "--why", "--json"}).out).at("searched").size(),
+      1u);
   EXPECT_EQ(json::parse(run({"plugins", "loads.fixed", "--json"}).out).at("components").size(), 1u);
   EXPECT_EQ(json::parse(run({"schema"}).out).at("type"), "object");
   EXPECT_NE(run({"plugins"}).out.find("\nloads\n  loads.actuation "), std::string::npos);

@@ -1,4 +1,5 @@
-// Every component of the project keeps its family's contract; plugins that break theirs are told so, in a line that says what is wrong.
+// Every component of the project keeps its family's contract; plugins that break theirs are told
+// so, in a line that says what is wrong.
 #include <contract/contract.hpp>
 #include <contract/lone_spring.hpp>
 #include <contract/scenes.hpp>
@@ -21,11 +22,12 @@ Host& host() {
 }
 
 class Contract : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Components, Contract, testing::ValuesIn(host().known_types()), [](const auto& info) {
-  std::string name = info.param;
-  std::replace(name.begin(), name.end(), '.', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Components, Contract, testing::ValuesIn(host().known_types()),
+                         [](const auto& info) {
+                           std::string name = info.param;
+                           std::replace(name.begin(), name.end(), '.', '_');
+                           return name;
+                         });
 
 TEST_P(Contract, IsKept) {
   const Component* component = host().find(GetParam());
@@ -44,23 +46,31 @@ struct Wrong {
   const char *type, *check, *detail;
 };
 class WrongPlugin : public testing::TestWithParam<Wrong> {};
-INSTANTIATE_TEST_SUITE_P(All, WrongPlugin,
-                         testing::Values(Wrong{"materials.wrong_force", "force is the derivative of the energy", "N, the slope of the energy"},
-                                         Wrong{"materials.wrong_force", "dissipation is never negative", "given back out of nothing"},
-                                         Wrong{"failures.late_alarm", "alarm is conservative", "below its alarm of 2e-06 m"},
-                                         Wrong{"writers.careless", "full disk", "a frame that cannot be written is no error"}));
+INSTANTIATE_TEST_SUITE_P(
+    All, WrongPlugin,
+    testing::Values(
+        Wrong{"materials.wrong_force", "force is the derivative of the energy",
+              "N, the slope of the energy"},
+        Wrong{"materials.wrong_force", "dissipation is never negative",
+              "given back out of nothing"},
+        Wrong{"failures.late_alarm", "alarm is conservative", "below its alarm of 2e-06 m"},
+        Wrong{"writers.careless", "full disk", "a frame that cannot be written is no error"}));
 
 TEST_P(WrongPlugin, IsToldWhatIsWrong) {
   const auto& [type, check, detail] = GetParam();
-  const Result result = run_program({"plugins", "--test", type, "--plugin-path", HYPERLATTICE_BUILD "/tests/wrong_plugins"});
+  const Result result = run_program(
+      {"plugins", "--test", type, "--plugin-path", HYPERLATTICE_BUILD "/tests/wrong_plugins"});
   EXPECT_EQ(result.exit_code, 3) << result.err;
   const std::size_t line = result.out.find(std::string("  failed          ") + check + ": ");
   ASSERT_NE(line, std::string::npos) << result.out;
-  EXPECT_NE(result.out.substr(line, result.out.find('\n', line) - line).find(detail), std::string::npos) << result.out;
+  EXPECT_NE(result.out.substr(line, result.out.find('\n', line) - line).find(detail),
+            std::string::npos)
+      << result.out;
   EXPECT_EQ(result.out.find(", 0 failed, "), std::string::npos);
 }
 
-// A law, load or criterion that gives no number must not pass because comparisons with it are false.
+// A law, load or criterion that gives no number must not pass because comparisons with it are
+// false.
 TEST(Numbers, WhatIsNoNumberIsLargerThanAll) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   double worst = 0;
@@ -78,7 +88,8 @@ TEST(ContractCommand, CountsWhatItFound) {
   const Result one = run_program({"plugins", "--test", "probes.point", "failures.strain"});
   EXPECT_EQ(one.exit_code, 0) << one.err;
   EXPECT_NE(one.out.find("\n9 passed, 0 failed, 0 not applicable\n"), std::string::npos) << one.out;
-  const nlohmann::json json = nlohmann::json::parse(run_program({"plugins", "--test", "failures.strain", "--json"}).out);
+  const nlohmann::json json =
+      nlohmann::json::parse(run_program({"plugins", "--test", "failures.strain", "--json"}).out);
   EXPECT_EQ(json["passed"], 6);
   EXPECT_EQ(json["components"][0]["checks"].size(), 6u);
   EXPECT_EQ(run_program({"plugins", "--test", "failures.nothing"}).exit_code, 2);
@@ -86,7 +97,8 @@ TEST(ContractCommand, CountsWhatItFound) {
 
 TEST(ContractCommand, DrawsLaws) {
   const Folder folder("pictures");
-  const Result result = run_program({"plugins", "--test", "materials.plastic", "failures.strain", "--pictures", folder.path()});
+  const Result result = run_program(
+      {"plugins", "--test", "materials.plastic", "failures.strain", "--pictures", folder.path()});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(folder.names(), std::vector<std::string>{"materials.plastic.svg"});
 }
@@ -100,7 +112,8 @@ TEST(Picture, PutsPointsWhereTheyBelong) {
   path[10].force = -30;
   const std::string svg = contract::picture("a law", path);
   EXPECT_NE(svg.find("d=\"M234 88L404 32L64 256\""), std::string::npos) << svg;
-  for (const char* text : {">a law<", ">-2<", ">2<", ">-30<", ">10<"}) EXPECT_NE(svg.find(text), std::string::npos) << text;
+  for (const char* text : {">a law<", ">-2<", ">2<", ">-30<", ">10<"})
+    EXPECT_NE(svg.find(text), std::string::npos) << text;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
-// Nothing for nothing: what a scene maps into memory, allocates and writes is what it names, and each feature adds its own share and no more.
-// Allocations are counted where they are made; libraries are read off the process.
+// Nothing for nothing: what a scene maps into memory, allocates and writes is what it names, and
+// each feature adds its own share and no more. Allocations are counted where they are made;
+// libraries are read off the process.
 #include <support/program.hpp>
 
 #include <plan/plan.hpp>
@@ -59,7 +60,8 @@ const Feature features[] = {
     {"second_material", "mixed materials", "",
      [](json& scene) {
        json second = scene["pipeline"][1];
-       second.update({{"young", 2e10}, {"region", {{"box", {{"low", {0, 0, 0}}, {"high", {1, 1, 0.004}}}}}}});
+       second.update(
+           {{"young", 2e10}, {"region", {{"box", {{"low", {0, 0, 0}}, {"high", {1, 1, 0.004}}}}}}});
        scene["pipeline"].push_back(second);
      },
      1, 16},
@@ -70,7 +72,8 @@ const Feature features[] = {
      }},
     {"probe", "probes", "probes.point",
      [](json& scene) {
-       scene["pipeline"].push_back({{"type", "probes.point"}, {"name", "middle"}, {"position", {5e-3, 5e-3, 5e-3}}});
+       scene["pipeline"].push_back(
+           {{"type", "probes.point"}, {"name", "middle"}, {"position", {5e-3, 5e-3, 5e-3}}});
      }},
     {"writer", "writers", "writers.csv",
      [](json& scene) {
@@ -93,22 +96,29 @@ std::set<std::string> left_out(const json& scene) {
   return names;
 }
 
-double bytes(const Plan& plan) { return plan.bytes_per_particle * static_cast<double>(plan.model->body.particles); }
+double bytes(const Plan& plan) {
+  return plan.bytes_per_particle * static_cast<double>(plan.model->body.particles);
+}
 
 struct Size {
   double places = 0;  ///< of particles, with the padding
-  double ends = 0;    ///< of a list's springs, with the padding: for each eight particles (in floats sixteen) as many as the one that has most
+  double ends = 0;  ///< of a list's springs, with the padding: for each eight particles (in floats
+                    ///< sixteen) as many as the one that has most
 };
 Size size_of(const Model& model) {
   Size size;
   const auto layout = make_layout(model, 1);
   size.places = static_cast<double>(layout->blocks[0].sites);
   std::vector<double> springs(model.body.particles);
-  model.body.for_springs([&](Particle a, Particle b, std::uint32_t) { ++springs[a], ++springs[b]; });
+  model.body.for_springs(
+      [&](Particle a, Particle b, std::uint32_t) { ++springs[a], ++springs[b]; });
   const std::size_t pack = 64 / bytes_of(model.choice.precision);
   for (std::size_t n = 0; n < springs.size(); n += pack)
-    size.ends += static_cast<double>(pack) * *std::max_element(springs.begin() + static_cast<std::ptrdiff_t>(n),
-                                                               springs.begin() + static_cast<std::ptrdiff_t>(std::min(n + pack, springs.size())));
+    size.ends +=
+        static_cast<double>(pack) *
+        *std::max_element(
+            springs.begin() + static_cast<std::ptrdiff_t>(n),
+            springs.begin() + static_cast<std::ptrdiff_t>(std::min(n + pack, springs.size())));
   return size;
 }
 
@@ -123,10 +133,12 @@ TEST(Cost, PlainBodiesHoldTheirMotionTheirSpringsAndNothingElse) {
   const auto list = plan_of(scene);
   const Size size = size_of(*list->model);
   constexpr double record = 8 * 8, neighbour = 4, read_ahead = 32 * 8;
-  EXPECT_EQ(bytes(*list), (motion + alive + record) * size.places + neighbour * (size.ends + read_ahead) + 4 * (size.places / 8 + 1));
+  EXPECT_EQ(bytes(*list), (motion + alive + record) * size.places +
+                              neighbour * (size.ends + read_ahead) + 4 * (size.places / 8 + 1));
 }
 
-// A law's memory: its own numbers and two more, in doubles, of each base and cross spring; in a list of each of their ends.
+// A law's memory: its own numbers and two more, in doubles, of each base and cross spring; in a
+// list of each of their ends.
 TEST(Cost, AMemoryIsItsNumbers) {
   for (const char* lattice : {"lattices.cubic", "lattices.random"})
     for (const char* precision : {"double", "float"})
@@ -136,17 +148,23 @@ TEST(Cost, AMemoryIsItsNumbers) {
         scene["pipeline"][0]["type"] = lattice;
         if (membrane) scene["pipeline"][1].update({{"membrane", "I"}, {"lambda", 0.5}});
         const auto without = plan_of(scene, 3);
-        scene["pipeline"][1].update({{"type", "materials.relaxing"}, {"time", 1e-6}, {"share", 0.5}});
+        scene["pipeline"][1].update(
+            {{"type", "materials.relaxing"}, {"time", 1e-6}, {"share", 0.5}});
         const auto with = plan_of(scene, 3), with_one_thread = plan_of(scene);
         const std::size_t before = allocated;
         const Simulation simulation(*with->model, 3);
-        EXPECT_EQ(static_cast<double>(allocated - before), bytes(*with) + simulation.scratch_bytes()) << lattice << precision;
+        EXPECT_EQ(static_cast<double>(allocated - before),
+                  bytes(*with) + simulation.scratch_bytes())
+            << lattice << precision;
         scene["pipeline"][1]["type"] = "materials.elastic";
         scene["pipeline"][1].erase("time");
         scene["pipeline"][1].erase("share");
         const Size size = size_of(*with->model);
-        const double springs = scene["pipeline"][0]["type"] == "lattices.cubic" ? 9 * size.places : size.ends;
-        EXPECT_EQ(bytes(*with_one_thread), bytes(*plan_of(scene)) + (membrane ? 2 : 1) * (1 + 2) * 8 * springs) << lattice << precision;
+        const double springs =
+            scene["pipeline"][0]["type"] == "lattices.cubic" ? 9 * size.places : size.ends;
+        EXPECT_EQ(bytes(*with_one_thread),
+                  bytes(*plan_of(scene)) + (membrane ? 2 : 1) * (1 + 2) * 8 * springs)
+            << lattice << precision;
         EXPECT_GT(bytes(*with), bytes(*without));
       }
 }
@@ -154,7 +172,8 @@ TEST(Cost, AMemoryIsItsNumbers) {
 TEST(Cost, ThePlanCountsSprings) {
   const auto plan = plan_of(minimal_scene());
   const auto pairs = [](int dx, int dy, int dz) { return (11 - dx) * (10 - dy) * (9 - dz); };
-  const int springs = pairs(1, 0, 0) + pairs(0, 1, 0) + pairs(0, 0, 1) + 2 * (pairs(1, 1, 0) + pairs(1, 0, 1) + pairs(0, 1, 1));
+  const int springs = pairs(1, 0, 0) + pairs(0, 1, 0) + pairs(0, 0, 1) +
+                      2 * (pairs(1, 1, 0) + pairs(1, 0, 1) + pairs(0, 1, 1));
   EXPECT_EQ(plan_json(*plan)["springs"], springs);
   EXPECT_EQ(plan_json(*plan)["springs_per_particle"], springs / 990.0);
 }
@@ -168,12 +187,14 @@ TEST(Cost, AHundredMillionParticlesArePlannedToTheByteWithoutTheirMemory) {
   const test::Folder folder("cost");
   test::Launch launch;
   launch.memory_limit = 400'000'000;  // of address space: four bytes a particle
-  const test::Result planned = test::run_program({"plan", test::write_scene(folder, scene), "--threads", "1", "--json"}, launch);
+  const test::Result planned = test::run_program(
+      {"plan", test::write_scene(folder, scene), "--threads", "1", "--json"}, launch);
   ASSERT_EQ(planned.exit_code, 0) << planned.err;
   const json plan = json::parse(planned.out);
   EXPECT_EQ(plan["particles"], 100'000'000);
   constexpr double row = 504, rows = 500 * 400,
-                   margin = 536;  // whole vectors; before and after all rows, a row and what a neighbour may reach beyond it
+                   margin = 536;  // whole vectors; before and after all rows, a row and what a
+                                  // neighbour may reach beyond it
   EXPECT_EQ(plan["bytes_per_particle"], 50 * (rows * row + 2 * margin) / 100e6);
   EXPECT_LT(plan["memory_bytes"], 5.1e9);
 }
@@ -189,7 +210,8 @@ TEST_P(FeatureCost, IsItsOwnBytes) {
     GetParam().add(scene);
     const auto with = plan_of(scene);
     const Size size = size_of(*with->model);
-    const double added = GetParam().bytes_per_place * size.places + (listed ? GetParam().bytes_per_listed_spring * size.ends : 0);
+    const double added = GetParam().bytes_per_place * size.places +
+                         (listed ? GetParam().bytes_per_listed_spring * size.ends : 0);
     EXPECT_EQ(bytes(*with), bytes(*without) + added) << (listed ? "list" : "grid");
   }
 }
@@ -203,7 +225,8 @@ TEST_P(FeatureCost, IsAllocatedAsPlanned) {
       const auto plan = plan_of(scene, threads);
       const std::size_t before = allocated;
       const Simulation simulation(*plan->model, threads);
-      EXPECT_EQ(static_cast<double>(allocated - before), bytes(*plan) + simulation.scratch_bytes()) << (listed ? "list, " : "grid, ") << threads;
+      EXPECT_EQ(static_cast<double>(allocated - before), bytes(*plan) + simulation.scratch_bytes())
+          << (listed ? "list, " : "grid, ") << threads;
     }
 }
 
@@ -214,18 +237,21 @@ TEST_P(FeatureCost, IsLeftOutOfAScenesPlanThatDoesNotNameIt) {
   EXPECT_FALSE(left_out(scene).contains(GetParam().left_out));
 }
 
-/// Files of this build that the program has mapped while it runs the scene, without their folders; and what it leaves.
+/// Files of this build that the program has mapped while it runs the scene, without their folders;
+/// and what it leaves.
 struct Traces {
   std::set<std::string> mapped, named, left;
 };
 Traces traces_of(json scene) {
-  scene["pipeline"][2].update({{"end_time", 10}, {"record_every", 1e-6}});  // longer than the test: it is interrupted
+  scene["pipeline"][2].update(
+      {{"end_time", 10}, {"record_every", 1e-6}});  // longer than the test: it is interrupted
   const test::Folder folder("cost");
   const std::string file = test::write_scene(folder, scene), out = folder.file("out");
   Traces traces;
   test::Launch launch;
   launch.meanwhile = [&](pid_t program) {
-    EXPECT_TRUE(test::wait_until([&] { return test::table_rows(out + "/history.csv").size() > 1; }));
+    EXPECT_TRUE(
+        test::wait_until([&] { return test::table_rows(out + "/history.csv").size() > 1; }));
     std::ifstream maps("/proc/" + std::to_string(program) + "/maps");
     for (std::string line; std::getline(maps, line);)
       if (const auto path = line.find(HYPERLATTICE_BUILD); path != std::string::npos)
@@ -234,11 +260,14 @@ Traces traces_of(json scene) {
   };
   EXPECT_EQ(test::run_program({"run", file, "--out", out, "--quiet"}, launch).exit_code, 130);
   const json summary = test::read_json(out + "/summary.json");
-  for (const json& plugin : summary["plugins"]) traces.named.insert(std::filesystem::path(plugin["path"].get<std::string>()).stem().string());
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(out)) traces.left.insert(entry.path().filename().string());
+  for (const json& plugin : summary["plugins"])
+    traces.named.insert(std::filesystem::path(plugin["path"].get<std::string>()).stem().string());
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(out))
+    traces.left.insert(entry.path().filename().string());
   return traces;
 }
-const std::set<std::string> minimal_libraries{"lattices.cubic", "materials.elastic", "solvers.explicit"};
+const std::set<std::string> minimal_libraries{"lattices.cubic", "materials.elastic",
+                                              "solvers.explicit"};
 
 TEST(Cost, AMinimalSceneMapsAndWritesOnlyWhatItNames) {
   const Traces traces = traces_of(minimal_scene());
@@ -247,7 +276,8 @@ TEST(Cost, AMinimalSceneMapsAndWritesOnlyWhatItNames) {
   expected.insert({"hyperlattice", "libhyperlattice.so.0.1"});
   EXPECT_EQ(traces.mapped, expected);
   EXPECT_EQ(traces.left,
-            (std::set<std::string>{"summary.json", "scene.resolved.json", "history.csv", "files.csv", "checkpoint.bin"}));  // it was interrupted
+            (std::set<std::string>{"summary.json", "scene.resolved.json", "history.csv",
+                                   "files.csv", "checkpoint.bin"}));  // it was interrupted
 }
 
 TEST_P(FeatureCost, IsItsOwnLibrary) {

@@ -1,5 +1,5 @@
-// Plugins that pass the gate and then throw, crash, end the program, hang or hand over what cannot be used: the last line names them, the exit code
-// is 4, and what the run had written stays.
+// Plugins that pass the gate and then throw, crash, end the program, hang or hand over what cannot
+// be used: the last line names them, the exit code is 4, and what the run had written stays.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <support/program.hpp>
@@ -20,7 +20,9 @@ constexpr bool sanitized = false;
 Launch launch_with(const std::string& fault) {
   Launch launch;
   launch.environment = {"HYPERLATTICE_TEST_FAULT=" + fault};
-  if (fault == "hang at load") launch.environment.push_back("HYPERLATTICE_LOAD_SECONDS=5");  // enough for the plugins that do load
+  if (fault == "hang at load")
+    launch.environment.push_back(
+        "HYPERLATTICE_LOAD_SECONDS=5");  // enough for the plugins that do load
   return launch;
 }
 
@@ -46,7 +48,8 @@ nlohmann::json scene_with_load() {
 nlohmann::json scene_with_failure() {
   nlohmann::json pulled = scene();
   pulled["pipeline"][1]["failure"] = {{"type", "failures.misbehaving"}, {"limit", 1e-6}};
-  const nlohmann::json load = {{"type", "loads.displacement"}, {"on", "z_max"}, {"value", {0, 0, "1 um"}}, {"rise", "1 us"}};
+  const nlohmann::json load = {
+      {"type", "loads.displacement"}, {"on", "z_max"}, {"value", {0, 0, "1 um"}}, {"rise", "1 us"}};
   pulled["pipeline"].insert(pulled["pipeline"].end() - 1, load);
   return pulled;
 }
@@ -71,7 +74,8 @@ std::string name_of(const testing::TestParamInfo<Fault>& info) {
 void expect_named(const nlohmann::json& scene, const Fault& fault, const std::string& library) {
   if (sanitized && fault.signal) GTEST_SKIP() << "the sanitizer reports the signal";
   const Folder here("misbehaving");
-  const Result result = run_program({"run", write_scene(here, scene), "--out", here.file("out")}, launch_with(fault.fault));
+  const Result result = run_program({"run", write_scene(here, scene), "--out", here.file("out")},
+                                    launch_with(fault.fault));
   EXPECT_EQ(result.exit_code, 4) << result.out << result.err;
   const std::string line = last_line(result.err);
   EXPECT_NE(line.find(fault.says), std::string::npos) << result.err;
@@ -79,44 +83,58 @@ void expect_named(const nlohmann::json& scene, const Fault& fault, const std::st
 }
 
 class MisbehavingLoad : public testing::TestWithParam<Fault> {};
-INSTANTIATE_TEST_SUITE_P(All, MisbehavingLoad,
-                         testing::Values(Fault{"exit at load", "ended the program in load(): it called exit"},
-                                         Fault{"hang at load", "is still loading: a plugin must load within HYPERLATTICE_LOAD_SECONDS"},
-                                         Fault{"region", "failed in declare(): it asks about region 1234567"},
-                                         Fault{"particle", "failed in declare(): it asks about a particle that does not exist"},
-                                         Fault{"no memory in constructor", "failed in constructor(): not enough memory"},
-                                         Fault{"no memory in declare", "failed in declare(): not enough memory"},
-                                         Fault{"no memory in factor", "failed in factor(): not enough memory"},
-                                         Fault{"no memory in destructor", "ended the program in destructor(): not enough memory"},
-                                         Fault{"wild error", "failed in factor(): U+001B[31mred forged"},
-                                         Fault{"exit in declare", "ended the program in declare(): it called exit"},
-                                         Fault{"null pointer", "ended the program in factor(): segmentation fault", true},
-                                         Fault{"abort", "ended the program in factor(): abort", true},
-                                         Fault{"exit", "ended the program in factor(): it called exit"}),
-                         name_of);
-TEST_P(MisbehavingLoad, IsNamedInTheLastLine) { expect_named(scene_with_load(), GetParam(), "loads.misbehaving"); }
+INSTANTIATE_TEST_SUITE_P(
+    All, MisbehavingLoad,
+    testing::Values(
+        Fault{"exit at load", "ended the program in load(): it called exit"},
+        Fault{"hang at load",
+              "is still loading: a plugin must load within HYPERLATTICE_LOAD_SECONDS"},
+        Fault{"region", "failed in declare(): it asks about region 1234567"},
+        Fault{"particle", "failed in declare(): it asks about a particle that does not exist"},
+        Fault{"no memory in constructor", "failed in constructor(): not enough memory"},
+        Fault{"no memory in declare", "failed in declare(): not enough memory"},
+        Fault{"no memory in factor", "failed in factor(): not enough memory"},
+        Fault{"no memory in destructor", "ended the program in destructor(): not enough memory"},
+        Fault{"wild error", "failed in factor(): U+001B[31mred forged"},
+        Fault{"exit in declare", "ended the program in declare(): it called exit"},
+        Fault{"null pointer", "ended the program in factor(): segmentation fault", true},
+        Fault{"abort", "ended the program in factor(): abort", true},
+        Fault{"exit", "ended the program in factor(): it called exit"}),
+    name_of);
+TEST_P(MisbehavingLoad, IsNamedInTheLastLine) {
+  expect_named(scene_with_load(), GetParam(), "loads.misbehaving");
+}
 
 class MisbehavingFailure : public testing::TestWithParam<Fault> {};
-INSTANTIATE_TEST_SUITE_P(All, MisbehavingFailure,
-                         testing::Values(Fault{"throw in alarm", "failed in alarm(): oops"},
-                                         Fault{"nan alarm", "failed in alarm(): it gives an elongation that is no number"},
-                                         Fault{"throw in breaks", "failed in breaks(): oops"},
-                                         Fault{"null pointer in breaks", "ended the program in breaks(): segmentation fault", true},
-                                         Fault{"null pointer in destructor", "ended the program in destructor(): segmentation fault", true}),
-                         name_of);
-TEST_P(MisbehavingFailure, IsNamedInTheLastLine) { expect_named(scene_with_failure(), GetParam(), "failures.misbehaving"); }
+INSTANTIATE_TEST_SUITE_P(
+    All, MisbehavingFailure,
+    testing::Values(
+        Fault{"throw in alarm", "failed in alarm(): oops"},
+        Fault{"nan alarm", "failed in alarm(): it gives an elongation that is no number"},
+        Fault{"throw in breaks", "failed in breaks(): oops"},
+        Fault{"null pointer in breaks", "ended the program in breaks(): segmentation fault", true},
+        Fault{"null pointer in destructor", "ended the program in destructor(): segmentation fault",
+              true}),
+    name_of);
+TEST_P(MisbehavingFailure, IsNamedInTheLastLine) {
+  expect_named(scene_with_failure(), GetParam(), "failures.misbehaving");
+}
 
 /// What a load hands over is refused as the scene's fault, before anything is written.
 class WrongHandedOver : public testing::TestWithParam<Fault> {};
-INSTANTIATE_TEST_SUITE_P(All, WrongHandedOver,
-                         testing::Values(Fault{"axes", "it prescribes an axis that does not exist, or none"},
-                                         Fault{"amplitude", "it gives an amplitude that is not finite"},
-                                         Fault{"acceleration", "it gives an acceleration that is not finite"},
-                                         Fault{"wild refusal", "U+001B[31mred forged"}, Fault{"throw an int", "an exception of unknown type"}),
-                         name_of);
+INSTANTIATE_TEST_SUITE_P(
+    All, WrongHandedOver,
+    testing::Values(Fault{"axes", "it prescribes an axis that does not exist, or none"},
+                    Fault{"amplitude", "it gives an amplitude that is not finite"},
+                    Fault{"acceleration", "it gives an acceleration that is not finite"},
+                    Fault{"wild refusal", "U+001B[31mred forged"},
+                    Fault{"throw an int", "an exception of unknown type"}),
+    name_of);
 TEST_P(WrongHandedOver, IsRefused) {
   const Folder here("misbehaving");
-  const Result result = run_program({"run", write_scene(here, scene_with_load()), "--out", here.file("out")}, launch_with(GetParam().fault));
+  const Result result =
+      run_program({"run", write_scene(here, scene_with_load()), "--out", here.file("out")},
+                  launch_with(GetParam().fault));
   EXPECT_EQ(result.exit_code, 2) << result.err;
   EXPECT_NE(result.err.find(GetParam().says), std::string::npos) << result.err;
   EXPECT_NE(result.err.find("loads.misbehaving"), std::string::npos) << result.err;
@@ -128,11 +146,14 @@ TEST(MisbehavingPlugins, WhatTheRunHadWrittenStays) {
   watched["pipeline"][1]["failure"]["limit"] = 1e-4;  // strain: reached while the load rises
   watched["pipeline"][3]["rise"] = "4 us";
   watched["pipeline"].back()["record_every"] = "0.2 us";
-  watched["pipeline"].push_back({{"type", "probes.region"}, {"region", "z_max"}, {"every", "0.2 us"}});
+  watched["pipeline"].push_back(
+      {{"type", "probes.region"}, {"region", "z_max"}, {"every", "0.2 us"}});
   const Folder here("misbehaving");
-  const Result result = run_program({"run", write_scene(here, watched), "--out", here.file("out")}, launch_with("throw in breaks"));
+  const Result result = run_program({"run", write_scene(here, watched), "--out", here.file("out")},
+                                    launch_with("throw in breaks"));
   EXPECT_EQ(result.exit_code, 4) << result.err;
-  for (const char* table : {"out/probes/region.csv", "out/history.csv"}) EXPECT_GT(table_rows(here.file(table)).size(), 2u) << table;
+  for (const char* table : {"out/probes/region.csv", "out/history.csv"})
+    EXPECT_GT(table_rows(here.file(table)).size(), 2u) << table;
 }
 
 TEST(MisbehavingPlugins, AnAlarmBelowAllElongationsAsksAlways) {
@@ -142,7 +163,9 @@ TEST(MisbehavingPlugins, AnAlarmBelowAllElongationsAsksAlways) {
     const Result result = run_program({"run", file, "--out", here.file(fault)}, launch_with(fault));
     EXPECT_EQ(result.exit_code, 0) << result.err;
   }
-  const auto broken = [&](const char* fault) { return read_json(here.file(fault) + "/summary.json")["broken_springs"]; };
+  const auto broken = [&](const char* fault) {
+    return read_json(here.file(fault) + "/summary.json")["broken_springs"];
+  };
   EXPECT_GT(broken("none")["open"], 0);
   EXPECT_EQ(broken("none"), broken("alarm below the shortest"));
 }
@@ -152,9 +175,13 @@ TEST(MisbehavingPlugins, AStackUsedUpOnAnyThreadIsNamed) {
   const Folder here("misbehaving");
   const std::string file = write_scene(here, scene_with_failure());
   for (const char* threads : {"1", "3"}) {
-    const Result result = run_program({"run", file, "--threads", threads, "--out", here.file(threads)}, launch_with("endless recursion in breaks"));
+    const Result result =
+        run_program({"run", file, "--threads", threads, "--out", here.file(threads)},
+                    launch_with("endless recursion in breaks"));
     EXPECT_EQ(result.exit_code, 4) << result.err;
-    EXPECT_NE(last_line(result.err).find("ended the program in breaks(): segmentation fault"), std::string::npos) << result.err;
+    EXPECT_NE(last_line(result.err).find("ended the program in breaks(): segmentation fault"),
+              std::string::npos)
+        << result.err;
   }
 }
 
@@ -162,7 +189,9 @@ TEST(MisbehavingPlugins, TheSameErrorWithAnyNumberOfThreads) {
   const Folder here("misbehaving");
   const std::string file = write_scene(here, scene_with_failure());
   const auto said = [&](const char* threads) {
-    return last_line(run_program({"run", file, "--threads", threads, "--out", here.file(threads)}, launch_with("throw in breaks")).err);
+    return last_line(run_program({"run", file, "--threads", threads, "--out", here.file(threads)},
+                                 launch_with("throw in breaks"))
+                         .err);
   };
   const std::string with_one = said("1");
   EXPECT_NE(with_one.find("failed in breaks(): oops"), std::string::npos) << with_one;
@@ -170,14 +199,19 @@ TEST(MisbehavingPlugins, TheSameErrorWithAnyNumberOfThreads) {
 }
 
 TEST(MisbehavingPlugins, ABadExampleIsToldByComponentOptionAndExample) {
-  const Result result = run_program({"plugins", "--test", "failures.misbehaving", "--plugin-path", folder}, launch_with("example"));
+  const Result result =
+      run_program({"plugins", "--test", "failures.misbehaving", "--plugin-path", folder},
+                  launch_with("example"));
   EXPECT_EQ(result.exit_code, 4) << result.out << result.err;
-  EXPECT_NE(result.err.find("registers 'failures.misbehaving' with a bad option 'limit': its example, 1e-3 mm, is not JSON"), std::string::npos)
+  EXPECT_NE(result.err.find("registers 'failures.misbehaving' with a bad option 'limit': its "
+                            "example, 1e-3 mm, is not JSON"),
+            std::string::npos)
       << result.err;
 }
 
 TEST(MisbehavingPlugins, WhatNobodySeesInADeclarationIsShown) {
-  for (const std::vector<std::string>& words : {std::vector<std::string>{"plugins", "loads.misbehaving"}, {"plugins"}}) {
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"plugins", "loads.misbehaving"}, {"plugins"}}) {
     std::vector<std::string> all = words;
     all.insert(all.end(), {"--plugin-path", folder});
     const Result result = run_program(all, launch_with("wild help"));
@@ -193,7 +227,9 @@ TEST(MisbehavingPlugins, ALinkToNothingIsNoPlugin) {
   std::filesystem::create_symlink("nowhere.so", here.file("loads.gone.so"));
   const Result result = run_program({"plugins", "loads.gone", "--plugin-path", here.path()});
   EXPECT_EQ(result.exit_code, 4) << result.err;
-  EXPECT_NE(result.err.find("loads.gone.so: is a link to nowhere.so, where nothing is"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("loads.gone.so: is a link to nowhere.so, where nothing is"),
+            std::string::npos)
+      << result.err;
   const Result all = run_program({"plugins", "--why", "--plugin-path", here.path()});
   EXPECT_EQ(all.exit_code, 0) << all.err;
   EXPECT_NE(all.out.find("loads.gone.so: is a link to nowhere.so"), std::string::npos) << all.out;
@@ -204,7 +240,8 @@ TEST(MisbehavingPlugins, APipeIsNoPlugin) {
   ASSERT_EQ(mkfifo(here.file("loads.pipe.so").c_str(), 0600), 0);
   const Result result = run_program({"plugins", "loads.pipe", "--plugin-path", here.path()});
   EXPECT_EQ(result.exit_code, 4) << result.err;
-  EXPECT_NE(result.err.find("loads.pipe.so: is not a regular file"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("loads.pipe.so: is not a regular file"), std::string::npos)
+      << result.err;
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// `hyperlattice study` as a user types it: what machines read, what is run again and what is not, what is refused and how.
+// `hyperlattice study` as a user types it: what machines read, what is run again and what is not,
+// what is refused and how.
 #include <gtest/gtest.h>
 #include <support/program.hpp>
 
@@ -8,8 +9,8 @@ using nlohmann::json;
 using Words = std::vector<std::string>;
 namespace fs = std::filesystem;
 
-/// A particle on a spring: the lower one of two is held, the upper one is started with 1 mm/s and swings. Central differences, so that the error
-/// falls with the square of the step.
+/// A particle on a spring: the lower one of two is held, the upper one is started with 1 mm/s and
+/// swings. Central differences, so that the error falls with the square of the step.
 json swinging_pair() {
   return json::parse(R"({
     "format": "hyperlattice-study/1", "title": "Swinging pair",
@@ -56,8 +57,12 @@ class StudyCommand : public testing::Test {
   void expect_refused(const json& file, const Words& parts, const Words& words = {}) {
     const Result result = study(file, words);
     EXPECT_EQ(result.exit_code, 2) << result.err;
-    for (const std::string& part : parts) EXPECT_NE(result.err.find(part), std::string::npos) << "missing: " << part << '\n' << result.err;
-    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1 + static_cast<std::ptrdiff_t>(parts.size())) << result.err;
+    for (const std::string& part : parts)
+      EXPECT_NE(result.err.find(part), std::string::npos) << "missing: " << part << '\n'
+                                                          << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'),
+              1 + static_cast<std::ptrdiff_t>(parts.size()))
+        << result.err;
     EXPECT_FALSE(fs::exists(out()));
   }
 
@@ -70,7 +75,8 @@ TEST_F(StudyCommand, GivesRowsOrdersAndTheCheapestSetting) {
   const json found = json::parse(result.out);
   ASSERT_EQ(found.at("rows").size(), 6u);
   for (const json& row : found["rows"]) {
-    for (const char* key : {"step", "stiffness", "error", "seconds", "particles", "steps", "size", "pareto", "run", "status"})
+    for (const char* key : {"step", "stiffness", "error", "seconds", "particles", "steps", "size",
+                            "pareto", "run", "status"})
       EXPECT_TRUE(row.contains(key)) << key;
     EXPECT_EQ(row["particles"], 2);
     EXPECT_EQ(row["status"], "done");
@@ -110,7 +116,9 @@ TEST_F(StudyCommand, TheCheapestSettingDoesForAllCases) {
       EXPECT_LE(row["error"], found["cheapest"]["error"]);
     }
   EXPECT_LE(found["cheapest"]["error"], 0.005);
-  EXPECT_NE(found["sentence"].get<std::string>().find(" at most, with stiffness "), std::string::npos) << found["sentence"];
+  EXPECT_NE(found["sentence"].get<std::string>().find(" at most, with stiffness "),
+            std::string::npos)
+      << found["sentence"];
 }
 
 TEST_F(StudyCommand, RefusesACaseThatIsNoAxis) {
@@ -122,12 +130,16 @@ TEST_F(StudyCommand, RefusesACaseThatIsNoAxis) {
 TEST_F(StudyCommand, CountsQuantitiesTogether) {
   json file = swinging_pair();
   file["scene"]["pipeline"][5].erase("component");
-  file["truth"] = {{"values", {{"along", 1.5 * swing(10e9)}, {"across", 0}}}};  // a zero, which alone has no relative error
-  file["compare"] = {{"along", {{"probe", "upper"}, {"column", "displacement_z"}, {"truth", "along"}}},
-                     {"across", {{"probe", "upper"}, {"column", "displacement_x"}, {"truth", "across"}}}};
+  file["truth"] = {{"values",
+                    {{"along", 1.5 * swing(10e9)},
+                     {"across", 0}}}};  // a zero, which alone has no relative error
+  file["compare"] = {
+      {"along", {{"probe", "upper"}, {"column", "displacement_z"}, {"truth", "along"}}},
+      {"across", {{"probe", "upper"}, {"column", "displacement_x"}, {"truth", "across"}}}};
   file["vary"]["step"]["/pipeline/4/time_step"] = {"0.05 us"};
   file["vary"].erase("stiffness");
-  expect_refused(file, {"/truth/values/across: 0: expected a truth of \"across\" that is not zero"});
+  expect_refused(file,
+                 {"/truth/values/across: 0: expected a truth of \"across\" that is not zero"});
   file["error"] = "together_l2";
   const Result result = study(file, {"--json"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -144,15 +156,19 @@ TEST_F(StudyCommand, QuotesNoErrorFromAnOrderThatTheMethodCannotHave) {
   file["truth"] = "finest";
   file["vary"]["step"]["/start"] = {{0, 0, "1.9 mm/s"}, {0, 0, "1 mm/s"}, {0, 0, "0.999 mm/s"}};
   std::string text = file.dump(1);
-  text.replace(text.find("/start"), 6, "/pipeline/3/linear");  // behind the size, which stands first
+  text.replace(text.find("/start"), 6,
+               "/pipeline/3/linear");  // behind the size, which stands first
   std::ofstream(folder_.file("study.json")) << text;
-  const Result result = run_program({"study", folder_.file("study.json"), "--out", out(), "--json"});
+  const Result result =
+      run_program({"study", folder_.file("study.json"), "--out", out(), "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json found = json::parse(result.out);
   for (const json& row : found["rows"]) {
     EXPECT_EQ(row["status"], "done");
     EXPECT_TRUE(row["error"].is_null());
-    EXPECT_NE(row["reason"].get<std::string>().find("more than the method can have"), std::string::npos) << row["reason"];
+    EXPECT_NE(row["reason"].get<std::string>().find("more than the method can have"),
+              std::string::npos)
+        << row["reason"];
   }
   EXPECT_TRUE(found["orders"].empty());
 }
@@ -160,12 +176,15 @@ TEST_F(StudyCommand, QuotesNoErrorFromAnOrderThatTheMethodCannotHave) {
 TEST_F(StudyCommand, ComparesTheLimitsOfSettingsThatAnswerTheSame) {
   json file = swinging_pair();
   file["truth"] = "finest";
-  const json found = json::parse(study(file, {"--json"}).out);  // stiff and soft are taken for settings, and lead to other limits
+  const json found =
+      json::parse(study(file, {"--json"})
+                      .out);  // stiff and soft are taken for settings, and lead to other limits
   ASSERT_EQ(found["limits"].size(), 1u);
   EXPECT_EQ(found["limits"][0]["of"]["stiffness"], "soft");
   EXPECT_EQ(found["limits"][0]["against"]["stiffness"], "stiff");
   EXPECT_NEAR(found["limits"][0]["apart"], std::abs(swing(5e9) / swing(10e9) - 1), 1e-3);
-  EXPECT_NE(study(file, {"--target-error", "5%"}).out.find("says nothing of the truth"), std::string::npos);
+  EXPECT_NE(study(file, {"--target-error", "5%"}).out.find("says nothing of the truth"),
+            std::string::npos);
   file["cases"] = {"stiffness"};  // now they ask something else
   EXPECT_TRUE(json::parse(study(file, {"--json"}).out)["limits"].empty());
 }
@@ -183,10 +202,13 @@ TEST_F(StudyCommand, ReadsOnlyRegularFiles) {
   expect_refused(file, {"/truth/csv: "});
 }
 
-/// Titles, labels and names are data, whatever they hold, and nothing of the user's gnuplot has a part.
+/// Titles, labels and names are data, whatever they hold, and nothing of the user's gnuplot has a
+/// part.
 TEST_F(StudyCommand, DrawsTextsAsTheyStand) {
-  const std::string ran = folder_.file("ran"), wild = "a `touch " + ran + "` $(touch " + ran + ") 'b' ''i'' \"c\" @d {e}_f^g \\n <h> & #";
-  std::ofstream(folder_.file(".gnuplot")) << "set xlabel 'hijacked'\nsystem(\"touch " << ran << "\")\n";
+  const std::string ran = folder_.file("ran"), wild = "a `touch " + ran + "` $(touch " + ran +
+                                                      ") 'b' ''i'' \"c\" @d {e}_f^g \\n <h> & #";
+  std::ofstream(folder_.file(".gnuplot"))
+      << "set xlabel 'hijacked'\nsystem(\"touch " << ran << "\")\n";
   std::ofstream(folder_.file("peers.csv")) << "label,error,seconds\nP " << wild << ",0.1,0.01\n";
   json file = true_swinging_pair();
   file["title"] = "T " + wild + "\nsecond line" + std::string(1, '\0') + "end\n'quoted' \x1b[31m\a";
@@ -195,12 +217,16 @@ TEST_F(StudyCommand, DrawsTextsAsTheyStand) {
   std::ofstream(folder_.file("study.json")) << file.dump(1);
   Launch launch;
   launch.environment = {"HOME=" + folder_.path(), "TMPDIR=/nowhere"};
-  const Result result = run_program({"study", folder_.file("study.json"), "--out", out(), "--peers", folder_.file("peers.csv")}, launch);
+  const Result result = run_program(
+      {"study", folder_.file("study.json"), "--out", out(), "--peers", folder_.file("peers.csv")},
+      launch);
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_FALSE(fs::exists(ran));
   const std::string picture = contents(out() + "/study.svg");
   for (const std::string letter : {"T", "L", "P"})
-    EXPECT_NE(picture.find(letter + " a `touch " + ran + "` $(touch " + ran + ") 'b' ''i'' \"c\" @d {e}_f^g \\n &lt;h> &amp; #"), std::string::npos)
+    EXPECT_NE(picture.find(letter + " a `touch " + ran + "` $(touch " + ran +
+                           ") 'b' ''i'' \"c\" @d {e}_f^g \\n &lt;h> &amp; #"),
+              std::string::npos)
         << letter << picture.substr(0, 20000);
   EXPECT_NE(picture.find(">second line"), std::string::npos);
   EXPECT_NE(picture.find(">'quoted'"), std::string::npos);
@@ -213,7 +239,9 @@ TEST_F(StudyCommand, RunsAgainOnlyWhatIsMissing) {
   json file = true_swinging_pair();
   file["repeats"] = 2;
   ASSERT_EQ(study(file).exit_code, 0);
-  const auto written = [&](const std::string& run) { return fs::last_write_time(out() + "/runs/" + run + "/summary.json"); };
+  const auto written = [&](const std::string& run) {
+    return fs::last_write_time(out() + "/runs/" + run + "/summary.json");
+  };
   const std::string gone = "step-0.1us_stiffness-soft", kept = "step-0.1us_stiffness-stiff";
   const auto before = written(kept), before_repeat = written(gone + "/repeat_2");
   fs::remove(out() + "/runs/" + gone + "/summary.json");
@@ -224,7 +252,8 @@ TEST_F(StudyCommand, RunsAgainOnlyWhatIsMissing) {
   EXPECT_EQ(written(gone + "/repeat_2"), before_repeat);
   const auto count = [](const std::string& text, const std::string& part) {
     std::size_t n = 0;
-    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+      ++n;
     return n;
   };
   EXPECT_EQ(count(again.err, "there already"), 11u) << again.err;
@@ -238,8 +267,10 @@ TEST_F(StudyCommand, RunsAgainOnlyWhatIsMissing) {
 TEST_F(StudyCommand, RunsAgainWhatIsNotAsItWasLeft) {
   const json file = true_swinging_pair();
   const std::string first = study(file, {"--json"}).out;
-  const std::string runs = out() + "/runs/", cut = "step-0.1us_stiffness-soft", changed = "step-0.2us_stiffness-soft",
-                    gone = "step-0.2us_stiffness-stiff", unreadable = "step-0.1us_stiffness-stiff", unlisted = "step-0.05us_stiffness-soft";
+  const std::string runs = out() + "/runs/", cut = "step-0.1us_stiffness-soft",
+                    changed = "step-0.2us_stiffness-soft", gone = "step-0.2us_stiffness-stiff",
+                    unreadable = "step-0.1us_stiffness-stiff",
+                    unlisted = "step-0.05us_stiffness-soft";
   const std::string table = runs + cut + "/probes/upper.csv";
   fs::resize_file(table, fs::file_size(table) / 2);
   std::string text = contents(runs + changed + "/probes/upper.csv");
@@ -250,12 +281,16 @@ TEST_F(StudyCommand, RunsAgainWhatIsNotAsItWasLeft) {
   fs::remove(runs + unlisted + "/files.csv");
   const Result again = study(file, {"--json"});
   EXPECT_EQ(again.exit_code, 0) << again.err;
-  for (const std::string& line : {cut + ": runs again: probes/upper.csv has changed", changed + ": runs again: probes/upper.csv has changed",
-                                  gone + ": runs again: probes/upper.csv is missing", unreadable + ": runs again: its summary.json cannot be read",
-                                  unlisted + ": runs again: its files.csv is missing", std::string("step-0.05us_stiffness-stiff: there already")})
+  for (const std::string& line : {cut + ": runs again: probes/upper.csv has changed",
+                                  changed + ": runs again: probes/upper.csv has changed",
+                                  gone + ": runs again: probes/upper.csv is missing",
+                                  unreadable + ": runs again: its summary.json cannot be read",
+                                  unlisted + ": runs again: its files.csv is missing",
+                                  std::string("step-0.05us_stiffness-stiff: there already")})
     EXPECT_NE(again.err.find(line), std::string::npos) << line << '\n' << again.err;
   const json before = json::parse(first), after = json::parse(again.out);
-  for (std::size_t r = 0; r < 6; ++r) EXPECT_EQ(after["rows"][r]["error"], before["rows"][r]["error"]);
+  for (std::size_t r = 0; r < 6; ++r)
+    EXPECT_EQ(after["rows"][r]["error"], before["rows"][r]["error"]);
   EXPECT_EQ(study(file).err.find("runs again"), std::string::npos);
 }
 
@@ -265,15 +300,20 @@ TEST_F(StudyCommand, LocksItsFolder) {
   std::ofstream(folder_.file("study.json")) << file.dump();
   Launch launch;
   launch.meanwhile = [&](pid_t child) {
-    EXPECT_TRUE(wait_until([&] { return fs::exists(out() + "/runs/step-0.2us_stiffness-stiff/history.csv"); }));
-    const Result second = run_program({"study", folder_.file("study.json"), "--out", out(), "--fresh"});
+    EXPECT_TRUE(wait_until(
+        [&] { return fs::exists(out() + "/runs/step-0.2us_stiffness-stiff/history.csv"); }));
+    const Result second =
+        run_program({"study", folder_.file("study.json"), "--out", out(), "--fresh"});
     EXPECT_EQ(second.exit_code, 4) << second.err;
-    EXPECT_NE(second.err.find(out() + " is in use: another study is running there; wait until it ends, or choose another folder"), std::string::npos)
+    EXPECT_NE(second.err.find(out() + " is in use: another study is running there; wait until it "
+                                      "ends, or choose another folder"),
+              std::string::npos)
         << second.err;
     EXPECT_FALSE(fs::exists(out() + "/study.csv"));
     kill(child, SIGINT);
   };
-  EXPECT_EQ(run_program({"study", folder_.file("study.json"), "--out", out()}, launch).exit_code, 130);
+  EXPECT_EQ(run_program({"study", folder_.file("study.json"), "--out", out()}, launch).exit_code,
+            130);
   EXPECT_EQ(study(true_swinging_pair()).exit_code, 0);  // the lock ended with the study
 }
 
@@ -297,17 +337,20 @@ TEST_F(StudyCommand, SharesItsFolderWithNoRun) {
   std::ofstream(folder_.file("study.json")) << longer.dump();
   Launch launch;
   launch.meanwhile = [&](pid_t child) {
-    EXPECT_TRUE(wait_until([&] { return fs::exists(out() + "/runs/step-0.2us_stiffness-stiff/history.csv"); }));
+    EXPECT_TRUE(wait_until(
+        [&] { return fs::exists(out() + "/runs/step-0.2us_stiffness-stiff/history.csv"); }));
     expect_no_run("a study is running there");
     kill(child, SIGINT);
   };
-  EXPECT_EQ(run_program({"study", folder_.file("study.json"), "--out", out()}, launch).exit_code, 130);
+  EXPECT_EQ(run_program({"study", folder_.file("study.json"), "--out", out()}, launch).exit_code,
+            130);
 
   fs::remove_all(out());
   ASSERT_EQ(run_program({"run", scene, "--out", out(), "--quiet"}).exit_code, 0);
   const Result refused = study(file);
   EXPECT_EQ(refused.exit_code, 2) << refused.err;
-  EXPECT_NE(refused.err.find("the results of a run are there (files.csv)"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("the results of a run are there (files.csv)"), std::string::npos)
+      << refused.err;
   EXPECT_FALSE(fs::exists(out() + "/runs"));
 }
 
@@ -315,9 +358,11 @@ TEST_F(StudyCommand, ReplacesNothingButAStudysResults) {
   std::ofstream(folder_.file("study.json")) << true_swinging_pair().dump();
   const std::string before = contents(folder_.file("study.json"));
   const auto expect_kept = [&](const std::string& name, const std::string& expected) {
-    const Result result = run_program({"study", folder_.file("study.json"), "--out", folder_.path()});
+    const Result result =
+        run_program({"study", folder_.file("study.json"), "--out", folder_.path()});
     EXPECT_EQ(result.exit_code, 2) << result.err;
-    EXPECT_NE(result.err.find(folder_.file(name) + ": expected " + expected), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find(folder_.file(name) + ": expected " + expected), std::string::npos)
+        << result.err;
     EXPECT_FALSE(fs::exists(folder_.file("runs")));
   };
   expect_kept("study.json", "a folder in which the study replaces nothing that it needs");
@@ -335,14 +380,20 @@ TEST_F(StudyCommand, RefusesTablesThatSayNotWhatIsMeant) {
     std::ofstream(folder_.file("truth.csv"), std::ios::binary) << table;
     expect_refused(file, parts);
   };
-  refused("t,u\n0,0\n0,5,1,5\n1\n", {"/truth/csv: truth.csv, line 3: expected a row of at most 2 cells, one a column, not of 4 (decimal commas?",
-                                     "/truth/csv: truth.csv, line 4: expected a row of 2 cells, not of 1"});
+  refused("t,u\n0,0\n0,5,1,5\n1\n",
+          {"/truth/csv: truth.csv, line 3: expected a row of at most 2 cells, one a column, not of "
+           "4 (decimal commas?",
+           "/truth/csv: truth.csv, line 4: expected a row of 2 cells, not of 1"});
   refused("t,u,u\n0,0,1\n", {"/truth/csv: truth.csv: expected one column \"u\", not several"});
   refused("t,u,U,U \n0,0,1,1\n", {"/truth/csv: truth.csv: expected one column \"U\", not several"});
-  refused("t,U,v\n0,1,1\n1e-6,nan,1\n", {"line 3: expected a finite number in column \"U\", not \"nan\""});
-  refused(std::string("\xFF\xFEt\0,\0u\0\n\0", 10), {"/truth/csv: truth.csv: expected a table; it is a text in UTF-16: save it in ASCII or UTF-8"});
+  refused("t,U,v\n0,1,1\n1e-6,nan,1\n",
+          {"line 3: expected a finite number in column \"U\", not \"nan\""});
+  refused(std::string("\xFF\xFEt\0,\0u\0\n\0", 10),
+          {"/truth/csv: truth.csv: expected a table; it is a text in UTF-16: save it in ASCII or "
+           "UTF-8"});
   file["truth"] = {{"csv", "truth.csv"}, {"where", {{"nu", 1}}}};
-  refused("t,u,Nu,NU\n0,1,1,1\n", {"/truth/where/nu: \"nu\": expected one column of truth.csv, and several differ from it in capital letters only"});
+  refused("t,u,Nu,NU\n0,1,1,1\n", {"/truth/where/nu: \"nu\": expected one column of truth.csv, and "
+                                   "several differ from it in capital letters only"});
   file = swinging_pair();
   file["peers"] = {"peers.csv"};
   std::ofstream(folder_.file("peers.csv")) << "label,error,seconds\nA,0,1,2\n";
@@ -354,11 +405,13 @@ TEST_F(StudyCommand, GoesOnAfterAnInterruption) {
   file["scene"]["pipeline"][4]["end_time"] = "5 ms";  // 25,000 steps and more
   Launch launch;
   launch.meanwhile = [&](pid_t child) {
-    EXPECT_TRUE(wait_until([&] { return fs::exists(out() + "/runs/step-0.2us_stiffness-soft/history.csv"); }));
+    EXPECT_TRUE(wait_until(
+        [&] { return fs::exists(out() + "/runs/step-0.2us_stiffness-soft/history.csv"); }));
     kill(child, SIGINT);
   };
   std::ofstream(folder_.file("study.json")) << file.dump();
-  const Result cut = run_program({"study", folder_.file("study.json"), "--out", out(), "--json"}, launch);
+  const Result cut =
+      run_program({"study", folder_.file("study.json"), "--out", out(), "--json"}, launch);
   EXPECT_EQ(cut.exit_code, 130) << cut.err;
   const json found = json::parse(cut.out);
   EXPECT_EQ(found["rows"][0]["status"], "done");
@@ -380,8 +433,11 @@ TEST_F(StudyCommand, TakesThreadsAndTheFinestRun) {
   EXPECT_EQ(found["rows"][0]["threads"], 1);
   EXPECT_EQ(found["rows"][1]["threads"], 2);
   EXPECT_EQ(found["rows"][0]["error"], found["rows"][1]["error"]) << "the threads change no bit";
-  EXPECT_EQ(read_json(out() + "/" + found["rows"][1]["run"].get<std::string>() + "/summary.json")["threads"], 2);
-  // Extrapolated from the runs alone, the limit is the closed form's, to an order more than the runs have.
+  EXPECT_EQ(read_json(out() + "/" + found["rows"][1]["run"].get<std::string>() +
+                      "/summary.json")["threads"],
+            2);
+  // Extrapolated from the runs alone, the limit is the closed form's, to an order more than the
+  // runs have.
   const double finest = std::abs(found["rows"][4]["error"].get<double>());
   file["truth"] = {{"value", swing(10e9)}};
   const json against_truth = json::parse(study(file, {"--json"}).out);
@@ -391,7 +447,8 @@ TEST_F(StudyCommand, TakesThreadsAndTheFinestRun) {
 TEST_F(StudyCommand, ARunThatFailsIsARow) {
   json file = true_swinging_pair();
   file["scene"]["pipeline"][4]["energy_tolerance"] = 0;
-  file["vary"]["stiffness"]["/pipeline/3/linear"] = {{0, 0, "1 mm/s"}, {0, 0, 1e200}};  // the second overflows
+  file["vary"]["stiffness"]["/pipeline/3/linear"] = {{0, 0, "1 mm/s"},
+                                                     {0, 0, 1e200}};  // the second overflows
   const Result result = study(file, {"--json"});
   EXPECT_EQ(result.exit_code, 3) << result.err;
   const json found = json::parse(result.out);
@@ -403,7 +460,8 @@ TEST_F(StudyCommand, ARunThatFailsIsARow) {
 }
 
 TEST_F(StudyCommand, PutsPeersIntoTheTableAndThePlot) {
-  std::ofstream(folder_.file("peers.csv")) << "label,nodes,error,seconds\nAnother program,100,0.02,0.5\nAnother program,200,0.01,2\n";
+  std::ofstream(folder_.file("peers.csv"))
+      << "label,nodes,error,seconds\nAnother program,100,0.02,0.5\nAnother program,200,0.01,2\n";
   json file = true_swinging_pair();
   const Result result = study(file, {"--peers", folder_.file("peers.csv")});
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -422,11 +480,15 @@ TEST_F(StudyCommand, ListsAllFaultsOfAStudy) {
   file["compare"]["upper"]["prob"] = "upper";
   file["exclude"] = {{{"step", "0.3 us"}}};
   file["truth"] = {{"value", "much"}};
-  expect_refused(file, {"/repeats: 0: expected an integer from 1 to 99", "/eror: \"relative_l2\": expected a known key; did you mean \"error\"?",
-                        "/error: \"l2\": expected one of \"relative_l2\"", "/vary/stiffness/labels: 1 values: expected 2",
-                        "/compare/upper/prob: \"upper\": expected a known key; did you mean \"probe\"?",
-                        "/exclude/0/step: \"0.3 us\": expected a value of \"step\": 0.2 us, 0.1 us, 0.05 us; did you mean \"0.2 us\"?",
-                        "/truth/value: \"much\": expected a number in SI"});
+  expect_refused(file,
+                 {"/repeats: 0: expected an integer from 1 to 99",
+                  "/eror: \"relative_l2\": expected a known key; did you mean \"error\"?",
+                  "/error: \"l2\": expected one of \"relative_l2\"",
+                  "/vary/stiffness/labels: 1 values: expected 2",
+                  "/compare/upper/prob: \"upper\": expected a known key; did you mean \"probe\"?",
+                  "/exclude/0/step: \"0.3 us\": expected a value of \"step\": 0.2 us, 0.1 us, 0.05 "
+                  "us; did you mean \"0.2 us\"?",
+                  "/truth/value: \"much\": expected a number in SI"});
 }
 
 TEST_F(StudyCommand, RefusesWhatDoesNotFitTogether) {
@@ -435,13 +497,16 @@ TEST_F(StudyCommand, RefusesWhatDoesNotFitTogether) {
   expect_refused(file, {"/vary/step/~1pipeline~19~1time_step"});
   file = swinging_pair();
   file["compare"]["upper"]["probe"] = "uper";
-  expect_refused(file, {"\n/compare/upper/probe: \"uper\": expected a probe of the scene by its name: upper; did you mean \"upper\"?"});
+  expect_refused(file, {"\n/compare/upper/probe: \"uper\": expected a probe of the scene by its "
+                        "name: upper; did you mean \"upper\"?"});
   file = swinging_pair();
   file["compare"]["upper"]["column"] = "displacement_y";
-  expect_refused(file, {"/compare/upper/column: \"displacement_y\": expected a column of probe upper: time, displacement_z"});
+  expect_refused(file, {"/compare/upper/column: \"displacement_y\": expected a column of probe "
+                        "upper: time, displacement_z"});
   file = swinging_pair();
   file["truth"].erase(1);
-  expect_refused(file, {"expected a truth for every run", "expected a truth for every run", "expected a truth for every run"});
+  expect_refused(file, {"expected a truth for every run", "expected a truth for every run",
+                        "expected a truth for every run"});
   file = swinging_pair();
   file["truth"] = "finest";
   file["vary"].erase("step");
@@ -456,9 +521,13 @@ TEST_F(StudyCommand, RefusesWhatDoesNotFitTogether) {
   expect_refused(file, {"/truth/csv"});
   std::ofstream(folder_.file("truth.csv")) << "t,uz,place\n0,0,1\n";
   file["truth"] = {{"csv", "truth.csv"}, {"where", {{"palce", 1}}}};
-  expect_refused(file, {"/compare/upper/truth: \"u\": expected a column of truth.csv: t, uz, place; did you mean \"uz\"?",
-                        "/truth/where/palce: \"palce\": expected a column of truth.csv: t, uz, place; did you mean \"place\"?"});
-  expect_refused(swinging_pair(), {"--target-error: much: expected an error above 0 such as 1% or 0.01"}, {"--target-error", "much"});
+  expect_refused(file, {"/compare/upper/truth: \"u\": expected a column of truth.csv: t, uz, "
+                        "place; did you mean \"uz\"?",
+                        "/truth/where/palce: \"palce\": expected a column of truth.csv: t, uz, "
+                        "place; did you mean \"place\"?"});
+  expect_refused(swinging_pair(),
+                 {"--target-error: much: expected an error above 0 such as 1% or 0.01"},
+                 {"--target-error", "much"});
   expect_refused(json::array(), {"study: []: expected an object"});
   EXPECT_EQ(run_program({"study", folder_.file("none.json")}).exit_code, 2);
 }
@@ -469,7 +538,8 @@ TEST_F(StudyCommand, RefusesATruthAtTimesThatNoRunReaches) {
   file["compare"]["upper"]["truth"] = "u";
   std::ofstream(folder_.file("truth.csv")) << "t,u,u@0,u@1\n5e-6,1,1,1\n";
   const std::string why =
-      "expected a truth of \"upper\" at times in s that the run reaches, which ends at 2e-06 s; \"t\" of truth.csv, times its scale, is from 5e-06 "
+      "expected a truth of \"upper\" at times in s that the run reaches, which ends at 2e-06 s; "
+      "\"t\" of truth.csv, times its scale, is from 5e-06 "
       "to "
       "5e-06";
   expect_refused(file, {"/truth/csv: " + why});
@@ -491,8 +561,10 @@ TEST_F(StudyCommand, TellsFaultsOfItsScenesOnceEach) {
   json file = swinging_pair();
   file["scene"]["pipeline"][0]["spacin"] = 1;
   file["vary"]["stiffness"]["/pipeline/1/young"] = {"10 GPa", "-5 GPa"};
-  expect_refused(file, {"scene /pipeline/0/spacin: 1: expected a known key; did you mean \"spacing\"?",
-                        "scene /pipeline/1/young (run step-0.2us_stiffness-soft and 2 more): \"-5 GPa\": expected a pressure above 0 Pa"});
+  expect_refused(file,
+                 {"scene /pipeline/0/spacin: 1: expected a known key; did you mean \"spacing\"?",
+                  "scene /pipeline/1/young (run step-0.2us_stiffness-soft and 2 more): \"-5 GPa\": "
+                  "expected a pressure above 0 Pa"});
 }
 
 }  // namespace

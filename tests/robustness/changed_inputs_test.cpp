@@ -1,5 +1,6 @@
-// A scene stays the same to the letter while something that it uses changes: `--resume` refuses and keeps the checkpoint, a study runs again; both
-// say what changed. A folder that is moved as a whole still runs.
+// A scene stays the same to the letter while something that it uses changes: `--resume` refuses and
+// keeps the checkpoint, a study runs again; both say what changed. A folder that is moved as a
+// whole still runs.
 #include <hyperlattice/kernels/processor.hpp>
 
 #include <gtest/gtest.h>
@@ -27,13 +28,16 @@ class ChangedInputs : public testing::Test {
     scene["pipeline"][4]["end_time"] = end_time;
     return scene;
   }
-  void write(const std::string& name, const std::string& bytes) const { std::ofstream(folder.file(name), std::ios::binary) << bytes; }
+  void write(const std::string& name, const std::string& bytes) const {
+    std::ofstream(folder.file(name), std::ios::binary) << bytes;
+  }
   static std::string voxels(int solid) {
     std::string bytes;
     for (int n = 0; n < 1000; ++n) bytes += n % 10 < solid ? '\1' : '\2';
     return bytes;
   }
-  static constexpr const char* voxel_shape = R"({ "voxels": { "file": "body.raw", "counts": [10, 10, 10], "voxel": "1 mm", "values": [1] } })";
+  static constexpr const char* voxel_shape =
+      R"({ "voxels": { "file": "body.raw", "counts": [10, 10, 10], "voxel": "1 mm", "values": [1] } })";
 
   /// A run cut off at its first checkpoint.
   void cut_off(const json& scene) {
@@ -43,15 +47,20 @@ class ChangedInputs : public testing::Test {
       EXPECT_TRUE(wait_until([&] { return fs::exists(out + "/checkpoint.bin"); }));
       kill(child, SIGKILL);
     };
-    run_program({"run", file, "--out", out, "--threads", "1", "--checkpoint-every", "0.001", "--quiet"}, launch);
+    run_program(
+        {"run", file, "--out", out, "--threads", "1", "--checkpoint-every", "0.001", "--quiet"},
+        launch);
     checkpoint = contents(out + "/checkpoint.bin");
   }
   void expect_refused(const std::string& because, const Words& environment = {}) {
     Launch launch;
     launch.environment = environment;
-    const Result result = run_program({"run", file, "--out", out, "--threads", "1", "--quiet", "--resume"}, launch);
+    const Result result =
+        run_program({"run", file, "--out", out, "--threads", "1", "--quiet", "--resume"}, launch);
     EXPECT_EQ(result.exit_code, 2) << result.err;
-    EXPECT_NE(result.err.find("a checkpoint of this scene and of all that it uses, but " + because), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("a checkpoint of this scene and of all that it uses, but " + because),
+              std::string::npos)
+        << result.err;
     EXPECT_TRUE(contents(out + "/checkpoint.bin") == checkpoint);
   }
 
@@ -65,17 +74,24 @@ TEST_F(ChangedInputs, ResumeNamesAVoxelImageAndNumericModes) {
   write("body.raw", voxels(8));
   expect_refused("body.raw (/pipeline/0/shape/voxels/file) has changed");
   write("body.raw", voxels(3));
-  expect_refused("the way of computing springs is exact in place of series", {"HYPERLATTICE_SPRINGS=exact"});
+  expect_refused("the way of computing springs is exact in place of series",
+                 {"HYPERLATTICE_SPRINGS=exact"});
   if (processor_instructions() != Instructions::baseline)
-    expect_refused("the instruction set is baseline in place of ", {"HYPERLATTICE_INSTRUCTIONS=baseline"});
+    expect_refused("the instruction set is baseline in place of ",
+                   {"HYPERLATTICE_INSTRUCTIONS=baseline"});
 }
 
 TEST_F(ChangedInputs, ResumeNamesATableOfPoints) {
   std::string table = "x,y,z,volume\n";
-  for (int n = 0; n < 125; ++n) table += std::to_string(n % 5) + "," + std::to_string(n / 5 % 5) + "," + std::to_string(n / 25) + ",1\n";
+  for (int n = 0; n < 125; ++n)
+    table += std::to_string(n % 5) + "," + std::to_string(n / 5 % 5) + "," +
+             std::to_string(n / 25) + ",1\n";
   write("points.csv", table);
   json scene = block("null", "1 s");
-  scene["pipeline"][0] = {{"type", "lattices.points"}, {"points", "points.csv"}, {"scale", "1 mm"}, {"coordination", 14}};
+  scene["pipeline"][0] = {{"type", "lattices.points"},
+                          {"points", "points.csv"},
+                          {"scale", "1 mm"},
+                          {"coordination", 14}};
   scene["pipeline"][1].erase("membrane");
   scene["pipeline"][1]["poisson"] = 0.25;
   cut_off(scene);
@@ -86,13 +102,15 @@ TEST_F(ChangedInputs, ResumeNamesATableOfPoints) {
 TEST_F(ChangedInputs, ResumeNamesARebuiltPlugin) {
   const fs::path name = "failures.misbehaving.so";  // it behaves, unless it is told otherwise
   fs::create_directory(folder.file("mine"));
-  fs::copy(fs::path(HYPERLATTICE_BUILD) / "tests/bad_plugins/misbehaving" / name, fs::path(folder.file("mine")) / name);
+  fs::copy(fs::path(HYPERLATTICE_BUILD) / "tests/bad_plugins/misbehaving" / name,
+           fs::path(folder.file("mine")) / name);
   json scene = block(R"({ "box": { "low": [0, 0, 0], "high": ["5 mm", "5 mm", "5 mm"] } })", "1 s");
   scene["plugins"] = {"mine"};
   scene["pipeline"][1]["failure"] = {{"type", "failures.misbehaving"}, {"limit", 1}};
   cut_off(scene);
   std::ofstream(fs::path(folder.file("mine")) / name, std::ios::binary | std::ios::app) << ' ';
-  expect_refused("the plugin failures.misbehaving (" + (fs::path(folder.file("mine")) / name).string() + ") has changed");
+  expect_refused("the plugin failures.misbehaving (" +
+                 (fs::path(folder.file("mine")) / name).string() + ") has changed");
 }
 
 TEST_F(ChangedInputs, AStudyRunsAgain) {
@@ -115,7 +133,9 @@ TEST_F(ChangedInputs, AStudyRunsAgain) {
   EXPECT_NE(conduct().second.find("there already"), std::string::npos);
   write("body.raw", voxels(8));
   const auto [second, told] = conduct();
-  EXPECT_NE(told.find("runs again: body.raw (/pipeline/0/shape/voxels/file) has changed"), std::string::npos) << told;
+  EXPECT_NE(told.find("runs again: body.raw (/pipeline/0/shape/voxels/file) has changed"),
+            std::string::npos)
+      << told;
   EXPECT_EQ(told.find("there already"), std::string::npos) << told;
   EXPECT_NE(second["rows"][0]["error"], first["rows"][0]["error"]);
   EXPECT_NE(second["rows"][0]["identity"], first["rows"][0]["identity"]);
@@ -126,16 +146,25 @@ TEST_F(ChangedInputs, AMovedFolderRunsAndKeepsItsIdentity) {
   fs::create_directory(folder.file("project"));
   write("project/body.raw", voxels(3));
   std::ofstream(folder.file("project/scene.json")) << block(voxel_shape, "10 us").dump();
-  ASSERT_EQ(run_program({"run", folder.file("project/scene.json"), "--out", folder.file("project/out"), "--quiet"}).exit_code, 0);
-  EXPECT_EQ(read_json(folder.file("project/out/scene.resolved.json"))["pipeline"][0]["shape"]["voxels"]["file"], "../body.raw");
+  ASSERT_EQ(run_program({"run", folder.file("project/scene.json"), "--out",
+                         folder.file("project/out"), "--quiet"})
+                .exit_code,
+            0);
+  EXPECT_EQ(read_json(folder.file(
+                "project/out/scene.resolved.json"))["pipeline"][0]["shape"]["voxels"]["file"],
+            "../body.raw");
   fs::rename(folder.file("project"), folder.file("moved"));
-  const Result again = run_program({"run", folder.file("moved/out/scene.resolved.json"), "--out", out, "--quiet"});
+  const Result again =
+      run_program({"run", folder.file("moved/out/scene.resolved.json"), "--out", out, "--quiet"});
   ASSERT_EQ(again.exit_code, 0) << again.err;
-  const json before = read_json(folder.file("moved/out/summary.json")), now = read_json(out + "/summary.json");
+  const json before = read_json(folder.file("moved/out/summary.json")),
+             now = read_json(out + "/summary.json");
   EXPECT_EQ(before["state_hash"], now["state_hash"]);
-  for (std::size_t n = 0; n < before["identity"].size(); ++n) EXPECT_EQ(before["identity"][n]["content"], now["identity"][n]["content"]) << n;
+  for (std::size_t n = 0; n < before["identity"].size(); ++n)
+    EXPECT_EQ(before["identity"][n]["content"], now["identity"][n]["content"]) << n;
   // the results stand outside of the folder that scene and file share
-  EXPECT_EQ(read_json(out + "/scene.resolved.json")["pipeline"][0]["shape"]["voxels"]["file"], folder.file("moved/body.raw"));
+  EXPECT_EQ(read_json(out + "/scene.resolved.json")["pipeline"][0]["shape"]["voxels"]["file"],
+            folder.file("moved/body.raw"));
 }
 
 }  // namespace

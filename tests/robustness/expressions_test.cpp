@@ -1,4 +1,5 @@
-// Expressions of time that a scene gives, whole and damaged at random: each is one finite number at every time, or is refused with its pointer.
+// Expressions of time that a scene gives, whole and damaged at random: each is one finite number at
+// every time, or is refused with its pointer.
 #include "support/mutations.hpp"
 #include "support/scenes.hpp"
 
@@ -21,7 +22,8 @@ std::string scene_with(const std::string& expression) {
     { "type": "lattices.cubic", "spacing": 1, "shape": { "box": { "low": [0, 0, 0], "high": [2, 2, 2] } } },
     { "type": "materials.elastic", "young": 1e9, "density": 1000, "membrane": "none" },
     { "type": "loads.expression", "on": "z_max", "total": [1, 0, 0], "expression": )" +
-         nlohmann::json(expression).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + R"( },
+         nlohmann::json(expression).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) +
+         R"( },
     { "type": "solvers.explicit", "time_step": 1e-4, "end_time": 3e-4 } ] })";
 }
 
@@ -33,18 +35,22 @@ bool runs(const std::string& expression) {
     for (int n = 0; n < 3; ++n) simulation.step(1e-4);
     return true;
   } catch (const InputError& refusal) {
-    EXPECT_NE(std::string(refusal.what()).find("/pipeline/2"), std::string::npos) << expression << ": " << refusal.what();
+    EXPECT_NE(std::string(refusal.what()).find("/pipeline/2"), std::string::npos)
+        << expression << ": " << refusal.what();
   } catch (const RunError& refusal) {
-    EXPECT_NE(std::string(refusal.what()).find("/pipeline/2"), std::string::npos) << expression << ": " << refusal.what();
+    EXPECT_NE(std::string(refusal.what()).find("/pipeline/2"), std::string::npos)
+        << expression << ": " << refusal.what();
   }
   return false;
 }
 
 TEST(Expressions, AreOneValueOfTime) {
-  for (const char* good : {"5", "t", "1.5e3 * t", "sin(2 * pi * t)", "t > 1e-4 ? 1 : 0", "max(t, 1e-4)", "t >= 0 && t < 1", "-t ^ 2"})
+  for (const char* good : {"5", "t", "1.5e3 * t", "sin(2 * pi * t)", "t > 1e-4 ? 1 : 0",
+                           "max(t, 1e-4)", "t >= 0 && t < 1", "-t ^ 2"})
     EXPECT_TRUE(runs(good)) << good;
-  for (const char* bad : {"", " ", "1,5", "t,2", "(1,5)", "1;5", "t = 5", "u", "sin()", "sin(t", "1 +", "\"5\"", "5 N", "max()", "if(t < 1, 1, 0)",
-                          "t < 1 and 1", "t or 1", "!t", "t % 2"})
+  for (const char* bad :
+       {"", " ", "1,5", "t,2", "(1,5)", "1;5", "t = 5", "u", "sin()", "sin(t", "1 +", "\"5\"",
+        "5 N", "max()", "if(t < 1, 1, 0)", "t < 1 and 1", "t or 1", "!t", "t % 2"})
     EXPECT_FALSE(runs(bad)) << bad;
 }
 
@@ -53,10 +59,12 @@ struct Part {
   const char *name, *expression;
   double value;
 };
-const Part operators[] = {{"+", "t + 1", 3},           {"-", "t - 5", -3},        {"*", "3 * t", 6},   {"/", "t / 4", 0.5},
-                          {"^", "2 ^ t ^ 3", 256},     {"<", "t < 2", 0},         {"<=", "t <= 2", 1}, {">", "t > 1", 1},
-                          {">=", "t >= 3", 0},         {"==", "t == 2", 1},       {"!=", "t != 2", 0}, {"&&", "t > 1 && t < 3", 1},
-                          {"||", "t < 1 || t > 3", 0}, {"?:", "t > 1 ? 5 : 7", 5}};
+const Part operators[] = {
+    {"+", "t + 1", 3},           {"-", "t - 5", -3},        {"*", "3 * t", 6},
+    {"/", "t / 4", 0.5},         {"^", "2 ^ t ^ 3", 256},   {"<", "t < 2", 0},
+    {"<=", "t <= 2", 1},         {">", "t > 1", 1},         {">=", "t >= 3", 0},
+    {"==", "t == 2", 1},         {"!=", "t != 2", 0},       {"&&", "t > 1 && t < 3", 1},
+    {"||", "t < 1 || t > 3", 0}, {"?:", "t > 1 ? 5 : 7", 5}};
 const Part functions[] = {{"abs", "abs(-t)", 2},
                           {"sign", "sign(t - 5)", -1},
                           {"rint", "rint(t + 0.6)", 3},
@@ -83,7 +91,9 @@ const Part functions[] = {{"abs", "abs(-t)", 2},
                           {"max", "max(t, 1, 3)", 3},
                           {"sum", "sum(t, 1, 3)", 6},
                           {"avg", "avg(t, 1, 3)", 2}};
-const Part constants[] = {{"pi", "pi", std::numbers::pi}, {"_pi", "_pi", std::numbers::pi}, {"_e", "_e", std::numbers::e}};
+const Part constants[] = {{"pi", "pi", std::numbers::pi},
+                          {"_pi", "_pi", std::numbers::pi},
+                          {"_e", "_e", std::numbers::e}};
 
 /// Evaluates each part, and returns their names with this between them.
 template <std::size_t Count>
@@ -91,7 +101,8 @@ std::string names_of(const Part (&parts)[Count], const std::string& between) {
   std::string names;
   for (const auto& [name, expression, value] : parts) {
     const auto plan = test::plan_of(scene_with("1 + (" + std::string(expression) + ")"));
-    EXPECT_NEAR(plan->model->loads[0].factor(2), 1 + value, 1e-12 * (1 + std::abs(value))) << expression;
+    EXPECT_NEAR(plan->model->loads[0].factor(2), 1 + value, 1e-12 * (1 + std::abs(value)))
+        << expression;
     names += (names.empty() ? "" : between) + name;
   }
   return names;
@@ -99,7 +110,8 @@ std::string names_of(const Part (&parts)[Count], const std::string& between) {
 
 TEST(Expressions, TakeAllThatIsDocumentedAndSayAllThatTheyTake) {
   names_of(constants, "");
-  const std::string told = "the operators `" + names_of(operators, " ") + "`, the functions " + names_of(functions, ", ") + ", and nothing else";
+  const std::string told = "the operators `" + names_of(operators, " ") + "`, the functions " +
+                           names_of(functions, ", ") + ", and nothing else";
   const auto plan = test::plan_of(scene_with("t"));
   const std::string source(plan->model->loads[0].stage->component->info.source);
   EXPECT_NE(source.find(told), std::string::npos) << source << "\n" << told;
@@ -109,7 +121,8 @@ void damaged(int usual) {
   constexpr std::string_view words = "0123456789.,+-*/^()?:<>=!&|\"' \tetpisncoxqrabm_\xC2\xB2\0";
   unsigned seed = 31;
   int count = 0;
-  for (const char* good : {"exp(-t / 1e-3) * sin(2 * pi * 500 * t)", "t > 4e-6 ? max(t, 1, 2) : (t < 1 || t > 5) ? 5 : abs(-t)"}) {
+  for (const char* good : {"exp(-t / 1e-3) * sin(2 * pi * 500 * t)",
+                           "t > 4e-6 ? max(t, 1, 2) : (t < 1 || t > 5) ? 5 : abs(-t)"}) {
     test::Damage damage(seed++);
     for (int n = test::mutations(usual) / 2; n > 0; --n) count += runs(damage(good, words)) ? 1 : 0;
   }

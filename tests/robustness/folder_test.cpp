@@ -1,5 +1,6 @@
-// A folder of results belongs to one run: a second one is refused while the first goes on, an interrupted one is not lost by mistake, a new one
-// removes what the earlier one left and nothing else.
+// A folder of results belongs to one run: a second one is refused while the first goes on, an
+// interrupted one is not lost by mistake, a new one removes what the earlier one left and nothing
+// else.
 #include <base/own_files.hpp>
 #include <support/program.hpp>
 
@@ -22,7 +23,8 @@ json scene_with_outputs() {
   json scene = small_sphere();
   scene["pipeline"].push_back({{"type", "writers.vtu"}, {"every", "1 us"}});
   scene["pipeline"].push_back({{"type", "writers.csv"}, {"every", "2 us"}, {"name", "tables"}});
-  scene["pipeline"].push_back({{"type", "probes.point"}, {"name", "tip"}, {"position", {0.007, 0, 0}}});
+  scene["pipeline"].push_back(
+      {{"type", "probes.point"}, {"name", "tip"}, {"position", {0.007, 0, 0}}});
   return scene;
 }
 
@@ -38,7 +40,8 @@ json endless() {
 std::map<std::string, std::string> files_in(const std::string& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
-    if (entry.is_regular_file()) files[fs::relative(entry.path(), folder).string()] = contents(entry.path().string());
+    if (entry.is_regular_file())
+      files[fs::relative(entry.path(), folder).string()] = contents(entry.path().string());
   return files;
 }
 
@@ -53,7 +56,8 @@ class FolderOfARun : public testing::Test {
   Result run_meanwhile(const std::function<void(pid_t)>& then, std::vector<std::string> more = {}) {
     return run_meanwhile(endless(), then, std::move(more));
   }
-  Result run_meanwhile(const json& scene, const std::function<void(pid_t)>& then, std::vector<std::string> more = {}) {
+  Result run_meanwhile(const json& scene, const std::function<void(pid_t)>& then,
+                       std::vector<std::string> more = {}) {
     Launch launch;
     launch.meanwhile = [&](pid_t child) {
       EXPECT_TRUE(wait_until([&] { return table_rows(out + "/history.csv").size() > 3; }));
@@ -75,7 +79,8 @@ TEST_F(FolderOfARun, IsLockedWhileItRuns) {
   const Result first = run_meanwhile([&](pid_t child) {
     for (const char* way : {"--overwrite", "--resume"}) {
       second = run_program({"run", folder.file("scene.json"), "--out", out, "--quiet", way});
-      EXPECT_EQ(second.exit_code, std::string(way) == "--resume" ? 2 : 4) << second.err;  // there is no checkpoint yet
+      EXPECT_EQ(second.exit_code, std::string(way) == "--resume" ? 2 : 4)
+          << second.err;  // there is no checkpoint yet
     }
     second = run_program({"run", folder.file("scene.json"), "--out", out, "--quiet"});
     kill(child, SIGTERM);
@@ -106,14 +111,16 @@ TEST_F(FolderOfARun, ListsEachOfItsFilesWithItsContent) {
 
 TEST_F(FolderOfARun, HoldsWhatTheLastRunWroteAndWhatTheUserPutThere) {
   ASSERT_EQ(run(scene_with_outputs()).exit_code, 0);
-  for (const char* name : {"notes.txt", "probes/mine.csv", "frames_000099.vtu", "tables/mine.txt"}) std::ofstream(out + "/" + name) << "mine";
+  for (const char* name : {"notes.txt", "probes/mine.csv", "frames_000099.vtu", "tables/mine.txt"})
+    std::ofstream(out + "/" + name) << "mine";
   json shorter = scene_with_outputs();
   shorter["pipeline"][solver]["end_time"] = "3 us";
   shorter["pipeline"].erase(6);
   shorter["pipeline"].erase(5);
   ASSERT_EQ(run(shorter).exit_code, 0);
-  std::set<std::string> expected{"files.csv", "frames.pvd",      "history.csv",       "scene.resolved.json", "summary.json",
-                                 "notes.txt", "probes/mine.csv", "frames_000099.vtu", "tables/mine.txt"};
+  std::set<std::string> expected{"files.csv",           "frames.pvd",        "history.csv",
+                                 "scene.resolved.json", "summary.json",      "notes.txt",
+                                 "probes/mine.csv",     "frames_000099.vtu", "tables/mine.txt"};
   for (int n = 0; n < 4; ++n) expected.insert("frames_00000" + std::to_string(n) + ".vtu");
   std::set<std::string> found;
   for (const auto& [name, bytes] : files_in(out)) found.insert(name);
@@ -136,7 +143,8 @@ TEST_F(FolderOfARun, KeepsAnInterruptedRunUnlessToldOtherwise) {
   const auto before = files_in(out);
   const Result refused = run(small_sphere());
   EXPECT_EQ(refused.exit_code, 2) << refused.err;
-  for (const char* word : {"--resume", "--overwrite"}) EXPECT_NE(refused.err.find(word), std::string::npos) << refused.err;
+  for (const char* word : {"--resume", "--overwrite"})
+    EXPECT_NE(refused.err.find(word), std::string::npos) << refused.err;
   EXPECT_TRUE(files_in(out) == before);
   EXPECT_EQ(run(small_sphere(), {"--resume", "--overwrite"}).exit_code, 2);
   const Result replaced = run(small_sphere(), {"--overwrite"});
@@ -154,7 +162,8 @@ TEST_F(FolderOfARun, TouchesNoFileThatIsNotARuns) {
   EXPECT_NE(refused.err.find("history.csv"), std::string::npos) << refused.err;
   EXPECT_TRUE(files_in(out) == before);
   EXPECT_EQ(run(small_sphere(), {"--overwrite"}).exit_code, 0);
-  std::ofstream(out + "/history.csv", std::ios::app) << "0\n";  // it is no longer as the run left it
+  std::ofstream(out + "/history.csv", std::ios::app)
+      << "0\n";  // it is no longer as the run left it
   EXPECT_EQ(run(small_sphere()).exit_code, 2);
 
   fs::remove_all(out);
@@ -177,15 +186,17 @@ TEST_F(FolderOfARun, FollowsNoLinkOutOfIt) {
   fs::remove_all(out);
   fs::create_directories(out);
   std::ofstream(victim + "/precious") << "precious";
-  std::ofstream(out + "/files.csv") << "bytes,hash,name\n,,../victim/precious\n,,link/precious\n,," + victim +
-                                           "/precious\n,,.\n,,x/../../victim/precious\n";
+  std::ofstream(out + "/files.csv")
+      << "bytes,hash,name\n,,../victim/precious\n,,link/precious\n,," + victim +
+             "/precious\n,,.\n,,x/../../victim/precious\n";
   fs::create_symlink(victim, out + "/link");
   EXPECT_EQ(run(small_sphere()).exit_code, 0);
   EXPECT_EQ(files_in(victim), (std::map<std::string, std::string>{{"precious", "precious"}}));
 }
 
 TEST_F(FolderOfARun, MissesATableThatSomebodyElseTouches) {
-  const std::string history = out + "/history.csv", removed = " was removed or replaced while the run wrote it";
+  const std::string history = out + "/history.csv",
+                    removed = " was removed or replaced while the run wrote it";
   const auto replace = [&] {
     fs::copy_file(history, folder.file("copy"));
     fs::rename(folder.file("copy"), history);
@@ -195,7 +206,8 @@ TEST_F(FolderOfARun, MissesATableThatSomebodyElseTouches) {
       {"probes/tip.csv", [&] { fs::remove(out + "/probes/tip.csv"); }, removed},
       {"files.csv", [&] { fs::remove(out + "/files.csv"); }, removed},
       {"history.csv", replace, removed},
-      {"history.csv", [&] { fs::resize_file(history, 0); }, " was changed by another program while the run wrote it"}};
+      {"history.csv", [&] { fs::resize_file(history, 0); },
+       " was changed by another program while the run wrote it"}};
   json short_run = endless();
   short_run["pipeline"][solver]["end_time"] = "10 ms";
   for (const bool to_the_end : {false, true})
@@ -214,7 +226,9 @@ TEST_F(FolderOfARun, MissesATableThatSomebodyElseTouches) {
 
 TEST_F(FolderOfARun, KeepsWhatTheSceneReads) {
   std::string table = "x,y,z,volume\n";
-  for (int n = 0; n < 125; ++n) table += std::to_string(n % 5) + "," + std::to_string(n / 5 % 5) + "," + std::to_string(n / 25) + ",1\n";
+  for (int n = 0; n < 125; ++n)
+    table += std::to_string(n % 5) + "," + std::to_string(n / 5 % 5) + "," +
+             std::to_string(n / 25) + ",1\n";
   const auto expect_kept = [&](const std::string& scene, const std::string& name) {
     const auto before = files_in(out);
     for (const char* way : {"--quiet", "--overwrite"}) {
@@ -229,11 +243,18 @@ TEST_F(FolderOfARun, KeepsWhatTheSceneReads) {
     fs::remove_all(out);
     fs::create_directories(out);
     std::ofstream(out + "/" + name) << table;
-    if (name == "listed.csv") std::ofstream(out + "/files.csv") << "bytes,hash,name\n,,listed.csv\n";
+    if (name == "listed.csv")
+      std::ofstream(out + "/files.csv") << "bytes,hash,name\n,,listed.csv\n";
     expect_kept(write_scene(folder, json{{"format", "hyperlattice/1"},
                                          {"pipeline",
-                                          {{{"type", "lattices.points"}, {"points", out + "/" + name}, {"scale", "1 mm"}, {"coordination", 14}},
-                                           {{"type", "materials.elastic"}, {"young", "10 GPa"}, {"poisson", 0.25}, {"density", 2500}},
+                                          {{{"type", "lattices.points"},
+                                            {"points", out + "/" + name},
+                                            {"scale", "1 mm"},
+                                            {"coordination", 14}},
+                                           {{"type", "materials.elastic"},
+                                            {"young", "10 GPa"},
+                                            {"poisson", 0.25},
+                                            {"density", 2500}},
                                            {{"type", "loads.fixed"}, {"on", "z_max"}},
                                            {{"type", "solvers.explicit"}, {"end_time", "10 us"}},
                                            {{"type", "writers.csv"}, {"every", "2 us"}}}}}),
@@ -249,8 +270,9 @@ TEST_F(FolderOfARun, KeepsWhatTheSceneReads) {
 }
 
 TEST_F(FolderOfARun, ReplacesRegularFilesOnly) {
-  for (const std::string name : {"summary.json", "scene.resolved.json", "history.csv", "files.csv", "checkpoint.bin", "frames_000002.vtu", "probes",
-                                 "probes/tip.csv", "tables", "tables/frames_000001.csv"})
+  for (const std::string name :
+       {"summary.json", "scene.resolved.json", "history.csv", "files.csv", "checkpoint.bin",
+        "frames_000002.vtu", "probes", "probes/tip.csv", "tables", "tables/frames_000001.csv"})
     for (const std::string kind : {"folder", "link", "pipe", "file"}) {
       const bool is_folder = name == "probes" || name == "tables";
       if (kind == (is_folder ? "folder" : "file")) continue;
@@ -282,7 +304,10 @@ TEST_F(FolderOfARun, TakesNoFileOfAUsersCommandWhileItRuns) {
       EXPECT_NE(refused.err.find("a run is writing in"), std::string::npos) << refused.err;
       EXPECT_FALSE(fs::exists(out + "/" + name));
     }
-    EXPECT_EQ(run_program({"analyze", "--membrane", "none", "--dispersion", out + "/tables/frames_009999.csv"}).exit_code, 2);
+    EXPECT_EQ(run_program({"analyze", "--membrane", "none", "--dispersion",
+                           out + "/tables/frames_009999.csv"})
+                  .exit_code,
+              2);
     EXPECT_EQ(run_program({"report", out}).exit_code, 0);
     kill(child, SIGTERM);
   });
@@ -290,8 +315,9 @@ TEST_F(FolderOfARun, TakesNoFileOfAUsersCommandWhileItRuns) {
 }
 
 TEST_F(FolderOfARun, NamesOfItsFilesAreRefusedByThePlan) {
-  for (const char* name : {"summary.json", "scene.resolved.json", "history.csv", "failures.csv", "checkpoint.bin", "checkpoint.previous.bin",
-                           "files.csv", "probes", "frames.pvd", "frames_000003.vtu"}) {
+  for (const char* name :
+       {"summary.json", "scene.resolved.json", "history.csv", "failures.csv", "checkpoint.bin",
+        "checkpoint.previous.bin", "files.csv", "probes", "frames.pvd", "frames_000003.vtu"}) {
     json scene = scene_with_outputs();
     scene["pipeline"][5]["name"] = name;
     const Result plan = run_program({"plan", write_scene(folder, scene)});
@@ -308,7 +334,8 @@ TEST_F(FolderOfARun, NamesOfItsFilesAreRefusedByThePlan) {
 }
 
 TEST_F(FolderOfARun, SignalsLeaveACheckpoint) {
-  for (const int signal : {SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU, SIGPIPE, SIGQUIT, SIGALRM, SIGTERM, SIGINT}) {
+  for (const int signal :
+       {SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU, SIGPIPE, SIGQUIT, SIGALRM, SIGTERM, SIGINT}) {
     fs::remove_all(out);
     const Result result = run_meanwhile([&](pid_t child) { kill(child, signal); });
     EXPECT_EQ(result.exit_code, 130) << signal << ": " << result.err;
@@ -318,8 +345,10 @@ TEST_F(FolderOfARun, SignalsLeaveACheckpoint) {
 }
 
 TEST_F(FolderOfARun, AClosedPipeLeavesACheckpoint) {
-  const std::string command = "HYPERLATTICE_PROGRESS=json '" + std::string(HYPERLATTICE_BUILD) + "/bin/hyperlattice' run '" +
-                              write_scene(folder, endless()) + "' --out '" + out + "' 2>&1 | head -1 > /dev/null; exit ${PIPESTATUS[0]}";
+  const std::string command = "HYPERLATTICE_PROGRESS=json '" + std::string(HYPERLATTICE_BUILD) +
+                              "/bin/hyperlattice' run '" + write_scene(folder, endless()) +
+                              "' --out '" + out +
+                              "' 2>&1 | head -1 > /dev/null; exit ${PIPESTATUS[0]}";
   const char* const words[] = {"bash", "-c", command.c_str(), nullptr};
   const pid_t child = fork();
   if (child == 0) {
@@ -335,7 +364,8 @@ TEST_F(FolderOfARun, AClosedPipeLeavesACheckpoint) {
 TEST_F(FolderOfARun, AFailureKeepsTheCheckpoint) {
   json scene = small_sphere();
   scene["pipeline"][solver]["energy_tolerance"] = 1e-14;
-  scene["pipeline"][solver]["record_every"] = "8 us";  // the loss is found after the first checkpoint
+  scene["pipeline"][solver]["record_every"] =
+      "8 us";  // the loss is found after the first checkpoint
   const Result result = run(scene, {"--checkpoint-every", "1e-9"});
   EXPECT_EQ(result.exit_code, 3) << result.err;
   EXPECT_NE(result.err.find("--resume"), std::string::npos) << result.err;

@@ -1,4 +1,5 @@
-// A disk that is full in the middle of a run: a clear refusal, no half-written file under a final name, and earlier frames untouched.
+// A disk that is full in the middle of a run: a clear refusal, no half-written file under a final
+// name, and earlier frames untouched.
 #include <contract/small_disk.hpp>
 #include <support/output.hpp>
 
@@ -41,27 +42,36 @@ TEST(AtomicFile, SaysWhyTheSystemRefuses) {
   EXPECT_EQ(message_of([&] { write_file(folder.file("no/such/a"), "x"); }),
             "cannot create " + folder.file("no/such/a") + ": No such file or directory");
   const SmallDisk full(0);
-  EXPECT_EQ(message_of([&] { write_file(folder.file("a"), "x"); }), "cannot write " + folder.file("a") + ": File too large");
+  EXPECT_EQ(message_of([&] { write_file(folder.file("a"), "x"); }),
+            "cannot write " + folder.file("a") + ": File too large");
   EXPECT_TRUE(folder.names().empty());
 }
 
 TEST(AtomicFile, FollowsNoLinkAndReplacesOnlyRegularFiles) {
   Folder folder("atomic_link");
   write_file(folder.file("victim"), "precious");
-  std::filesystem::create_symlink(folder.file("victim"), folder.file("a.part"));  // the temporary name that could once be guessed
+  std::filesystem::create_symlink(
+      folder.file("victim"),
+      folder.file("a.part"));  // the temporary name that could once be guessed
   std::filesystem::create_symlink(folder.file("victim"), folder.file("link"));
   std::filesystem::create_directory(folder.file("folder"));
   ASSERT_EQ(mkfifo(folder.file("pipe").c_str(), 0600), 0);
   write_file(folder.file("a"), "x");
   EXPECT_EQ(contents(folder.file("a")), "x");
   for (const char* name : {"link", "folder", "pipe"})
-    EXPECT_NE(message_of([&] { write_file(folder.file(name), "x"); }).find("cannot create " + folder.file(name)), std::string::npos) << name;
+    EXPECT_NE(message_of([&] {
+                write_file(folder.file(name), "x");
+              }).find("cannot create " + folder.file(name)),
+              std::string::npos)
+        << name;
   EXPECT_EQ(contents(folder.file("victim")), "precious");
-  EXPECT_EQ(folder.names(), (std::vector<std::string>{"a", "a.part", "folder", "link", "pipe", "victim"}));
+  EXPECT_EQ(folder.names(),
+            (std::vector<std::string>{"a", "a.part", "folder", "link", "pipe", "victim"}));
 }
 
 class FullDisk : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Types, FullDisk, testing::Values("writers.vtu", "writers.csv", "writers.picture"));
+INSTANTIATE_TEST_SUITE_P(Types, FullDisk,
+                         testing::Values("writers.vtu", "writers.csv", "writers.picture"));
 
 TEST_P(FullDisk, LeavesEarlierFramesIntact) {
   Folder folder("full_disk");
@@ -80,7 +90,8 @@ TEST_P(FullDisk, LeavesEarlierFramesIntact) {
   EXPECT_NE(refusal.find("_000001"), std::string::npos) << refusal;
   EXPECT_NE(refusal.find(": File too large"), std::string::npos) << refusal;
   EXPECT_EQ(folder.names(), names);
-  for (std::size_t n = 0; n < names.size(); ++n) EXPECT_TRUE(contents(folder.file(names[n])) == before[n]) << names[n];
+  for (std::size_t n = 0; n < names.size(); ++n)
+    EXPECT_TRUE(contents(folder.file(names[n])) == before[n]) << names[n];
   writer.frame(body.at(2));  // there is room again: the series goes on where it stopped
   EXPECT_EQ(folder.names().size(), names.size() + 1);
 }

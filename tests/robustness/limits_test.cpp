@@ -1,4 +1,5 @@
-// Inputs that would take the machine's time or memory are read at once, or refused with the limit that they pass.
+// Inputs that would take the machine's time or memory are read at once, or refused with the limit
+// that they pass.
 #include "support/fake_components.hpp"
 #include "support/output.hpp"
 
@@ -37,19 +38,25 @@ std::string refusal(const Read& read) {
 std::string refusal_of(const std::string& text) {
   return refusal([&] { read(text); });
 }
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 TEST(Limits, ChainsOfRegions) {
   for (const bool forwards : {true, false})
     for (const int count : {60, 9'000}) {
       Json given = scene();
       const auto name = [&](int n) { return "r" + std::to_string(forwards ? n : count - 1 - n); };
-      for (int n = 0; n < count; ++n) {  // in the file's order; each is made of the one before, or of the one behind
+      for (int n = 0; n < count;
+           ++n) {  // in the file's order; each is made of the one before, or of the one behind
         const int place = forwards ? n : count - 1 - n;
-        given["regions"][name(place)] = place == 0 ? Json{{"sphere", {{"radius", 1}}}} : Json{{"intersection", {name(place - 1), "x_min"}}};
+        given["regions"][name(place)] = place == 0
+                                            ? Json{{"sphere", {{"radius", 1}}}}
+                                            : Json{{"intersection", {name(place - 1), "x_min"}}};
       }
       const std::string why = refusal_of(given.dump());
-      EXPECT_EQ(has(why, "at most 64 levels of regions within regions"), count > 60) << why.substr(0, 300);
+      EXPECT_EQ(has(why, "at most 64 levels of regions within regions"), count > 60)
+          << why.substr(0, 300);
       EXPECT_LT(why.size(), 1000u);
     }
 }
@@ -59,11 +66,14 @@ TEST(Limits, RegionsThatNameEachOtherTwice) {
     Json given = scene();
     given["regions"]["r0"] = {{"sphere", {{"radius", 1}}}};
     for (int n = 1; n <= levels; ++n)
-      given["regions"]["r" + std::to_string(n)] = {{"union", {"r" + std::to_string(n - 1), "r" + std::to_string(n - 1)}}};
+      given["regions"]["r" + std::to_string(n)] = {
+          {"union", {"r" + std::to_string(n - 1), "r" + std::to_string(n - 1)}}};
     return given.dump();
   };
   EXPECT_EQ(refusal_of(doubled(10)), "");
-  EXPECT_TRUE(has(refusal_of(doubled(40)), "/regions/r13/union: expected a set of at most 10000 regions; with all names written out it has 16383"));
+  EXPECT_TRUE(has(refusal_of(doubled(40)),
+                  "/regions/r13/union: expected a set of at most 10000 regions; with all names "
+                  "written out it has 16383"));
   Json wide = scene();
   wide["regions"]["r"] = {{"union", Json::array()}};
   for (int n = 0; n < 20'000; ++n) wide["regions"]["r"]["union"].push_back("x_min");
@@ -81,7 +91,8 @@ TEST(Limits, StagesKeysAndValues) {
   EXPECT_EQ(read_back->stages.back().name, "table_5000");
 
   while (many["pipeline"].size() <= 10'000) many["pipeline"].push_back({{"type", "writers.table"}});
-  EXPECT_TRUE(has(refusal_of(many.dump()), "/pipeline: expected at most 10000 stages; there are 10001"));
+  EXPECT_TRUE(
+      has(refusal_of(many.dump()), "/pipeline: expected at most 10000 stages; there are 10001"));
 
   std::string keys = "{";
   for (int n = 0; n < 20'000; ++n) keys += "\"k" + std::to_string(n) + "\": 1, ";
@@ -97,8 +108,9 @@ TEST(Limits, StagesKeysAndValues) {
 
 TEST(Limits, MessagesAreShort) {
   const std::string huge(200'000, 'x');
-  for (const char* pointer : {"/title", "/format", "/pipeline/0/type", "/pipeline/0/spacing", "/pipeline/0/shape", "/pipeline/1/young", "/regions",
-                              "/plugins", "/precision"}) {
+  for (const char* pointer :
+       {"/title", "/format", "/pipeline/0/type", "/pipeline/0/spacing", "/pipeline/0/shape",
+        "/pipeline/1/young", "/regions", "/plugins", "/precision"}) {
     Json given = scene();
     given[Json::json_pointer(pointer)] = huge;
     EXPECT_LT(refusal_of(given.dump()).size(), 3'000u) << pointer;
@@ -122,22 +134,29 @@ TEST(Limits, WhatNobodySeesIsShown) {
 
 TEST(Limits, OnlyRegularFilesOfABoundedSizeAreRead) {
   const test::Folder folder("limits");
-  const auto reading = [](const std::string& file) { return refusal([&] { read_input_file(file, "/file", "a file"); }); };
+  const auto reading = [](const std::string& file) {
+    return refusal([&] { read_input_file(file, "/file", "a file"); });
+  };
   ASSERT_EQ(::mkfifo(folder.file("pipe").c_str(), 0600), 0);
   std::ofstream(folder.file("large")) << "x";
-  std::filesystem::resize_file(folder.file("large"), largest_input + 1);  // it has holes, and takes no room
+  std::filesystem::resize_file(folder.file("large"),
+                               largest_input + 1);  // it has holes, and takes no room
   std::ofstream(folder.file("small")) << "text";
-  EXPECT_EQ(reading("/dev/zero"), "/file: \"/dev/zero\": expected a file; it is a device or a pipe, and only regular files are read");
+  EXPECT_EQ(reading("/dev/zero"),
+            "/file: \"/dev/zero\": expected a file; it is a device or a pipe, and only regular "
+            "files are read");
   EXPECT_TRUE(has(reading(folder.file("pipe")), "it is a device or a pipe"));
   EXPECT_TRUE(has(reading(folder.file("large")), "it is larger than 4 GB"));
   EXPECT_TRUE(has(reading(folder.file("")), "it is a folder"));
   EXPECT_TRUE(has(reading(folder.file("none")), "there is no such file"));
   EXPECT_EQ(read_input_file(folder.file("small"), "", ""), "text");
-  EXPECT_FALSE(read_input_file("/proc/self/status", "", "").empty());  // a regular file that does not know its size
+  EXPECT_FALSE(read_input_file("/proc/self/status", "", "")
+                   .empty());  // a regular file that does not know its size
 
   Json given = scene();
   for (const char* file : {"/dev/zero", "pipe", "large"}) {
-    given["pipeline"][0]["shape"] = {{"stl", {{"file", std::string(file).front() == '/' ? file : folder.file(file)}}}};
+    given["pipeline"][0]["shape"] = {
+        {"stl", {{"file", std::string(file).front() == '/' ? file : folder.file(file)}}}};
     EXPECT_TRUE(has(refusal_of(given.dump()), "/pipeline/0/shape/stl/file")) << file;
   }
 }
@@ -146,12 +165,16 @@ TEST(Limits, ASceneFromElsewhereBringsNoPlugins) {
   Json given = scene();
   fakes::Catalogue catalogue;
   catalogue.scene_plugins = false;
-  const auto refused = [&] { return refusal([&] { read_scene_text(given.dump(), "scene.json", {}, catalogue); }); };
+  const auto refused = [&] {
+    return refusal([&] { read_scene_text(given.dump(), "scene.json", {}, catalogue); });
+  };
   EXPECT_EQ(refused(), "");
   given["plugins"] = Json::array();
   EXPECT_EQ(refused(), "");
   given["plugins"].push_back("here");
-  EXPECT_EQ(refused(), "/plugins: [\"here\"]: expected no plugins of the scene's own, since --no-plugins was given");
+  EXPECT_EQ(
+      refused(),
+      "/plugins: [\"here\"]: expected no plugins of the scene's own, since --no-plugins was given");
 }
 
 TEST(Limits, EditorsMayNameTheSchema) {

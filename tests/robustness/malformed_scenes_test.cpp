@@ -1,4 +1,5 @@
-// Malformed scenes: each is refused with its own message, by the reader and by the program, which ends with exit code 2 and writes nothing.
+// Malformed scenes: each is refused with its own message, by the reader and by the program, which
+// ends with exit code 2 and writes nothing.
 #include <scene/scene.hpp>
 
 #include <nlohmann/json.hpp>
@@ -23,13 +24,16 @@ std::string contents(const fs::path& file) {
 }
 
 const Json& table() {
-  static const Json all = Json::parse(contents(HYPERLATTICE_SOURCE "/tests/robustness/malformed_scenes.jsonc"), nullptr, true, true);
+  static const Json all =
+      Json::parse(contents(HYPERLATTICE_SOURCE "/tests/robustness/malformed_scenes.jsonc"), nullptr,
+                  true, true);
   return all;
 }
 
 std::string from_hex(const std::string& digits) {
   std::string bytes;
-  for (std::size_t n = 0; n < digits.size(); n += 2) bytes += static_cast<char>(std::stoi(digits.substr(n, 2), nullptr, 16));
+  for (std::size_t n = 0; n < digits.size(); n += 2)
+    bytes += static_cast<char>(std::stoi(digits.substr(n, 2), nullptr, 16));
   return bytes;
 }
 
@@ -37,7 +41,8 @@ std::string from_hex(const std::string& digits) {
 class Folder {
  public:
   explicit Folder(const std::string& name)
-      : path_(fs::temp_directory_path() / ("hyperlattice_malformed_" + name + "_" + std::to_string(::getpid()))) {
+      : path_(fs::temp_directory_path() /
+              ("hyperlattice_malformed_" + name + "_" + std::to_string(::getpid()))) {
     fs::remove_all(path_);
     fs::create_directories(path_);
   }
@@ -79,7 +84,9 @@ std::string scene_of(const Json& one) {
   return scene.dump(2);
 }
 
-std::vector<std::string> settings_of(const Json& one) { return one.value("settings", std::vector<std::string>()); }
+std::vector<std::string> settings_of(const Json& one) {
+  return one.value("settings", std::vector<std::string>());
+}
 
 /// Whether one of the faults stands where the case says and expects what it says.
 bool told(const std::string& message, const Json& one) {
@@ -106,8 +113,10 @@ struct Ending {
 };
 
 /// Runs the program in the folder of the scene.
-Ending program(const fs::path& folder, const std::string& command, const std::vector<std::string>& settings) {
-  std::string line = "cd '" + folder.string() + "' && '" HYPERLATTICE_BUILD "/bin/hyperlattice' " + command;
+Ending program(const fs::path& folder, const std::string& command,
+               const std::vector<std::string>& settings) {
+  std::string line =
+      "cd '" + folder.string() + "' && '" HYPERLATTICE_BUILD "/bin/hyperlattice' " + command;
   for (const std::string& setting : settings) line += " --set '" + setting + "'";
   const int status = std::system((line + " > stdout.txt 2> stderr.txt").c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder / "stderr.txt")};
@@ -125,30 +134,37 @@ TEST_P(MalformedScenes, AreRefusedByTheReader) {
     read_scene(scene_, settings_of(one_), host);
     ADD_FAILURE() << one_["what"] << " was accepted";
   } catch (const InputError& error) {
-    EXPECT_TRUE(told(error.what(), one_)) << one_["what"] << ": expected " << one_["at"] << " ... " << one_["says"] << "\nbut was told\n"
+    EXPECT_TRUE(told(error.what(), one_)) << one_["what"] << ": expected " << one_["at"] << " ... "
+                                          << one_["says"] << "\nbut was told\n"
                                           << error.what();
     for (const Fault& fault : error.faults()) EXPECT_FALSE(fault.expected.empty());
   }
 }
 
 TEST_P(MalformedScenes, EndTheProgramWithCode2AndNothingWritten) {
-  for (const std::string command : {"run scene.json --out out", "run scene.json", "plan scene.json"}) {
+  for (const std::string command :
+       {"run scene.json --out out", "run scene.json", "plan scene.json"}) {
     const Ending ending = program(folder_.path(), command, settings_of(one_));
     EXPECT_EQ(ending.code, 2) << one_["what"] << ": " << command << '\n' << ending.message;
-    EXPECT_TRUE(told(ending.message, one_)) << one_["what"] << ": expected " << one_["at"] << " ... " << one_["says"] << "\nbut was told\n"
+    EXPECT_TRUE(told(ending.message, one_)) << one_["what"] << ": expected " << one_["at"]
+                                            << " ... " << one_["says"] << "\nbut was told\n"
                                             << ending.message;
     std::vector<std::string> left;
-    for (const auto& entry : fs::directory_iterator(folder_.path())) left.push_back(entry.path().filename());
-    EXPECT_EQ(left.size(), 3u) << "besides scene.json, stdout.txt and stderr.txt something was written";
+    for (const auto& entry : fs::directory_iterator(folder_.path()))
+      left.push_back(entry.path().filename());
+    EXPECT_EQ(left.size(), 3u)
+        << "besides scene.json, stdout.txt and stderr.txt something was written";
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Table, MalformedScenes, testing::Range<std::size_t>(0, table()["cases"].size()), [](const auto& parameter) {
-  std::string name = table()["cases"][parameter.param]["what"];
-  for (char& c : name)
-    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Table, MalformedScenes,
+                         testing::Range<std::size_t>(0, table()["cases"].size()),
+                         [](const auto& parameter) {
+                           std::string name = table()["cases"][parameter.param]["what"];
+                           for (char& c : name)
+                             if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+                           return name;
+                         });
 
 TEST(MalformedScenesTable, HoldsAtLeastSixty) { EXPECT_GE(table()["cases"].size(), 60u); }
 
@@ -164,7 +180,8 @@ TEST(MalformedScenesTable, ExamplesOfAllPagesAreGood) {
   Host host;
   for (const Component* component : host.load_all()) {
     const auto names_a_file = [](const Option& option) { return option.kind == OptionKind::file; };
-    if (std::any_of(component->info.options.begin(), component->info.options.end(), names_a_file)) continue;  // there is none
+    if (std::any_of(component->info.options.begin(), component->info.options.end(), names_a_file))
+      continue;  // there is none
     Json scene = table()["base"], example = Json::parse(component_json(*component))["example"];
     if (component->info.family == Family::failures)
       scene["pipeline"][1]["failure"] = example;
@@ -187,6 +204,7 @@ TEST(MalformedScenesTable, ManyFaultsAreToldAtOnce) {
   folder.scene(scene.dump());
   const Ending ending = program(folder.path(), "plan scene.json", {"/titel=x"});
   EXPECT_EQ(ending.code, 2);
-  for (const char* pointer : {"/pipeline/0/spacing: ", "/pipeline/1/failure/limit: ", "/pipeline/2/on: ", "/pipeline/3/time_stp: ", "/titel: "})
+  for (const char* pointer : {"/pipeline/0/spacing: ", "/pipeline/1/failure/limit: ",
+                              "/pipeline/2/on: ", "/pipeline/3/time_stp: ", "/titel: "})
     EXPECT_NE(ending.message.find(pointer), std::string::npos) << pointer << '\n' << ending.message;
 }

@@ -1,4 +1,5 @@
-// Files and texts damaged at random: surfaces, tables, images, units. Each is read or refused with a sentence; nothing else ever happens.
+// Files and texts damaged at random: surfaces, tables, images, units. Each is read or refused with
+// a sentence; nothing else ever happens.
 #include <base/csv.hpp>
 #include <base/errors.hpp>
 #include <geometry/triangle_mesh.hpp>
@@ -54,10 +55,11 @@ std::string binary_surface() {
   return bytes;
 }
 
-/// Runs `read` on damaged copies, some of which it must accept and some refuse. Any exception but std::runtime_error and its kinds, or
-/// std::invalid_argument, fails the test.
+/// Runs `read` on damaged copies, some of which it must accept and some refuse. Any exception but
+/// std::runtime_error and its kinds, or std::invalid_argument, fails the test.
 template <class Read>
-void read_damaged(const std::string& good, std::string_view alphabet, int usual, unsigned seed, const Read& read) {
+void read_damaged(const std::string& good, std::string_view alphabet, int usual, unsigned seed,
+                  const Read& read) {
   test::Damage damage(seed);
   const int tries = test::mutations(usual);
   int taken = 0;
@@ -71,7 +73,8 @@ void read_damaged(const std::string& good, std::string_view alphabet, int usual,
       EXPECT_STRNE(refusal.what(), "");
     }
   }
-  constexpr int enough = 200;  // HYPERLATTICE_MUTATIONS may ask for fewer, which may all be accepted or refused by chance
+  constexpr int enough = 200;  // HYPERLATTICE_MUTATIONS may ask for fewer, which may all be
+                               // accepted or refused by chance
   if (tries < enough) return;
   EXPECT_GT(taken, 0) << good;
   EXPECT_LT(taken, tries) << good;
@@ -97,7 +100,8 @@ void surfaces(int usual) {
 }
 
 void tables(int usual) {
-  const std::string good = "\xEF\xBB\xBF\"x\";y;z;volume\n0;0;0;1\n\n+1e0;0;0;1\n# no row\n0;1;0;1\n\"0\";0;\"1\";1\n";
+  const std::string good =
+      "\xEF\xBB\xBF\"x\";y;z;volume\n0;0;0;1\n\n+1e0;0;0;1\n# no row\n0;1;0;1\n\"0\";0;\"1\";1\n";
   constexpr std::string_view bytes = "0123456789.,;+-eE\" \t\r\n#xyz\xEF\xBB\xBF\0"sv;
   const test::Folder folder("mutated_tables");
   static constexpr std::string_view names[] = {"x", "y", "z"}, more[] = {"volume"};
@@ -112,10 +116,14 @@ void tables(int usual) {
 }
 
 void units(int usual) {
-  constexpr std::string_view bytes = "0123456789.,+-eE /*^()'\"@_%mskgNPaGMuhrpin\xC2\xA0\xB5\xB2\0"sv;
+  constexpr std::string_view bytes =
+      "0123456789.,+-eE /*^()'\"@_%mskgNPaGMuhrpin\xC2\xA0\xB5\xB2\0"sv;
   unsigned seed = 24;
-  const std::pair<const char*, const char*> texts[] = {
-      {"10 GPa", "Pa"}, {"2500 kg/(m s2)", "Pa"}, {"1.5e-3 N mm-2", "Pa"}, {"3 kg\xC2\xB7m\xC2\xB2 s^-1", "kg m2/s"}, {"60 rpm", "rad/s"}};
+  const std::pair<const char*, const char*> texts[] = {{"10 GPa", "Pa"},
+                                                       {"2500 kg/(m s2)", "Pa"},
+                                                       {"1.5e-3 N mm-2", "Pa"},
+                                                       {"3 kg\xC2\xB7m\xC2\xB2 s^-1", "kg m2/s"},
+                                                       {"60 rpm", "rad/s"}};
   for (const auto& [good, unit] : texts)
     read_damaged(good, bytes, usual, seed++, [unit = unit](const std::string& text) {
       const Quantity quantity = read_quantity(text, unit);
@@ -128,11 +136,14 @@ void images(int usual) {
   test::Damage damage(25);
   const std::string good(4 * 3 * 2, '\1');
   for (int n = test::mutations(usual); n > 0; --n) {
-    const std::array<std::int64_t, 3> counts{1 + static_cast<std::int64_t>(damage.below(6)), 3, 1 + static_cast<std::int64_t>(damage.below(100'000))};
+    const std::array<std::int64_t, 3> counts{1 + static_cast<std::int64_t>(damage.below(6)), 3,
+                                             1 + static_cast<std::int64_t>(damage.below(100'000))};
     const bool is_right = damage.below(3) == 0;
     try {
-      const VoxelSet set(damage(good, "\0\1\2\xFF"sv), is_right ? std::array<std::int64_t, 3>{4, 3, 2} : counts,
-                         damage.below(2) == 0 ? VoxelType::uint8 : VoxelType::uint16, {static_cast<double>(damage.below(3))}, {0, 0, 0}, 1);
+      const VoxelSet set(damage(good, "\0\1\2\xFF"sv),
+                         is_right ? std::array<std::int64_t, 3>{4, 3, 2} : counts,
+                         damage.below(2) == 0 ? VoxelType::uint8 : VoxelType::uint16,
+                         {static_cast<double>(damage.below(3))}, {0, 0, 0}, 1);
       set.contains({0.5, 0.5, 0.5});
     } catch (const std::runtime_error& refusal) {
       EXPECT_STRNE(refusal.what(), "");

@@ -1,4 +1,5 @@
-// Scenes damaged at random: the reader accepts them or says what is wrong; nothing else ever happens.
+// Scenes damaged at random: the reader accepts them or says what is wrong; nothing else ever
+// happens.
 #include "support/fake_components.hpp"
 #include "support/mutations.hpp"
 
@@ -21,12 +22,14 @@ const std::string good = R"({ "format": "hyperlattice/1", "title": "t",
     { "type": "solvers.march", "end_time": "40 us", "time_step": "auto" },
     { "type": "writers.table", "every": "2 us", "fields": ["velocity", "damage"] } ] })";
 
-/// Whether the text was accepted; what is accepted must read back from its resolved form. Throws if anything but an InputError came out.
+/// Whether the text was accepted; what is accepted must read back from its resolved form. Throws if
+/// anything but an InputError came out.
 bool accepted(const std::string& text) {
   fakes::Catalogue catalogue;
   try {
     const auto scene = read_scene_text(text, "scene.json", {}, catalogue);
-    EXPECT_EQ(read_scene_text(scene->resolved, "scene.json", {}, catalogue)->resolved, scene->resolved);
+    EXPECT_EQ(read_scene_text(scene->resolved, "scene.json", {}, catalogue)->resolved,
+              scene->resolved);
     return true;
   } catch (const InputError& error) {
     EXPECT_FALSE(error.faults().empty());
@@ -35,7 +38,8 @@ bool accepted(const std::string& text) {
 }
 
 /// Every place in a document where a value stands.
-void collect(const Json& value, const Json::json_pointer& at, std::vector<Json::json_pointer>& places) {
+void collect(const Json& value, const Json::json_pointer& at,
+             std::vector<Json::json_pointer>& places) {
   places.push_back(at);
   if (value.is_object())
     for (const auto& item : value.items()) collect(item.value(), at / item.key(), places);
@@ -49,7 +53,8 @@ void damage_bytes(int usual) {
   test::Damage damage(11);
   int count = 0;
   const int tries = test::mutations(usual);
-  for (int n = 0; n < tries; ++n) count += accepted(damage(good, "{}[]\",:/\\0123456789.eE+- tnfu\n\x01\xC3\xFF"));
+  for (int n = 0; n < tries; ++n)
+    count += accepted(damage(good, "{}[]\",:/\\0123456789.eE+- tnfu\n\x01\xC3\xFF"));
   EXPECT_GT(count, 0);
   EXPECT_LT(count, tries);
 }

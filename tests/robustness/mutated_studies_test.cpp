@@ -1,4 +1,5 @@
-// Studies with one value replaced by something else: each is read, or refused with a pointer to what is wrong; nothing else ever happens.
+// Studies with one value replaced by something else: each is read, or refused with a pointer to
+// what is wrong; nothing else ever happens.
 #include <study/grid.hpp>
 
 #include <gtest/gtest.h>
@@ -22,7 +23,8 @@ const char* const good = R"({
   "error": "relative_max", "repeats": 2, "target_error": "1 %", "peers": ["peers.csv"] })";
 
 /// Every pointer into a document.
-void collect(const Json& json, const Json::json_pointer& here, std::vector<Json::json_pointer>& all) {
+void collect(const Json& json, const Json::json_pointer& here,
+             std::vector<Json::json_pointer>& all) {
   all.push_back(here);
   if (json.is_object())
     for (const auto& item : json.items()) collect(item.value(), here / item.key(), all);
@@ -59,17 +61,21 @@ class MutatedStudies : public testing::Test {
 /// Tables of any bytes are read, or refused with where they are named.
 TEST_F(MutatedStudies, TablesOfAnyBytesAreReadOrRefused) {
   const Json study = Json::parse(good);
-  const std::string truth = test::contents(folder_.file("truth.csv")), peers = test::contents(folder_.file("peers.csv"));
-  const std::string bytes[] = {"", "\n", ",", "\xff", std::string(1, '\0'), "1e999", "-", "nan", "\"", ";", "\xEF\xBB\xBF"};
+  const std::string truth = test::contents(folder_.file("truth.csv")),
+                    peers = test::contents(folder_.file("peers.csv"));
+  const std::string bytes[] = {"",  "\n",  ",",  "\xff", std::string(1, '\0'), "1e999",
+                               "-", "nan", "\"", ";",    "\xEF\xBB\xBF"};
   for (const auto& [name, whole] : {std::pair{"truth.csv", truth}, std::pair{"peers.csv", peers}}) {
     for (std::size_t at = 0; at < whole.size(); ++at)
       for (const std::string& other : bytes) {
-        std::ofstream(folder_.file(name), std::ios::binary) << whole.substr(0, at) + other + whole.substr(at + 1);
+        std::ofstream(folder_.file(name), std::ios::binary)
+            << whole.substr(0, at) + other + whole.substr(at + 1);
         accepted(study);
       }
     std::ofstream(folder_.file(name), std::ios::binary) << whole;
   }
-  std::ofstream(folder_.file("peers.csv"), std::ios::binary) << "label,error,seconds\n\xff\xfe,0.1,1\n";
+  std::ofstream(folder_.file("peers.csv"), std::ios::binary)
+      << "label,error,seconds\n\xff\xfe,0.1,1\n";
   EXPECT_FALSE(accepted(study)) << "what is no text cannot be shown";
 }
 
@@ -78,8 +84,17 @@ TEST_F(MutatedStudies, AreReadOrRefused) {
   ASSERT_TRUE(accepted(study));
   std::vector<Json::json_pointer> places;
   collect(study, Json::json_pointer(), places);
-  const Json others[] = {
-      nullptr, true, -1, 1e300, "", "x", "/a~2", Json::array(), Json::object(), Json::array({1, "1 mm"}), Json::object({{"/a", 1}})};
+  const Json others[] = {nullptr,
+                         true,
+                         -1,
+                         1e300,
+                         "",
+                         "x",
+                         "/a~2",
+                         Json::array(),
+                         Json::object(),
+                         Json::array({1, "1 mm"}),
+                         Json::object({{"/a", 1}})};
   std::size_t refused = 0;
   for (const Json::json_pointer& place : places) {
     for (const Json& other : others) {

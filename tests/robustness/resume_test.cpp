@@ -1,4 +1,5 @@
-// A run that is cut off, again and again, at any step, and goes on: what it leaves is, byte for byte, what a run leaves that never was.
+// A run that is cut off, again and again, at any step, and goes on: what it leaves is, byte for
+// byte, what a run leaves that never was.
 #include <base/own_files.hpp>
 #include <support/program.hpp>
 
@@ -38,8 +39,11 @@ const Case cases[] = {
     {"floats", [](json& scene) { scene["precision"] = "float"; }},
     {"plastic",
      [](json& scene) {
-       scene["pipeline"][material] = {
-           {"type", "materials.plastic"}, {"young", "10 GPa"}, {"density", 2500}, {"membrane", "none"}, {"yield", "5 MPa"}};
+       scene["pipeline"][material] = {{"type", "materials.plastic"},
+                                      {"young", "10 GPa"},
+                                      {"density", 2500},
+                                      {"membrane", "none"},
+                                      {"yield", "5 MPa"}};
      }},
     {"listed",
      [](json& scene) {
@@ -51,7 +55,8 @@ const Case cases[] = {
      [](json& scene) {
        json& pipeline = scene["pipeline"];
        pipeline.erase(4);  // no static solver knows the drag
-       pipeline[3] = {{"type", "loads.force"}, {"on", "z_max"}, {"total", {5, 0, 200}}, {"rise", "10 us"}};
+       pipeline[3] = {
+           {"type", "loads.force"}, {"on", "z_max"}, {"total", {5, 0, 200}}, {"rise", "10 us"}};
        pipeline.insert(pipeline.begin() + 4, json{{"type", "solvers.static"}});
        pipeline[5]["damping"] = 0.1;
      }},
@@ -61,9 +66,12 @@ const Case cases[] = {
 std::map<std::string, std::string> left_behind(const std::string& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-    if (entry.is_regular_file()) files[std::filesystem::relative(entry.path(), folder).string()] = contents(entry.path().string());
+    if (entry.is_regular_file())
+      files[std::filesystem::relative(entry.path(), folder).string()] =
+          contents(entry.path().string());
   json summary = json::parse(files.at("summary.json"));
-  for (const char* key : {"wall_seconds", "nanoseconds_per_particle_step", "peak_memory_bytes"}) summary.erase(key);
+  for (const char* key : {"wall_seconds", "nanoseconds_per_particle_step", "peak_memory_bytes"})
+    summary.erase(key);
   files["summary.json"] = summary.dump(1);
   std::string& list = files["files.csv"];  // of which the last word on each file counts
   const OwnFiles own = parse_own_files(list);
@@ -76,7 +84,8 @@ std::map<std::string, std::string> left_behind(const std::string& folder) {
 class Resume : public testing::TestWithParam<Case> {
  protected:
   Resume() { GetParam().change(scene); }
-  Result run(const std::string& out, std::vector<std::string> more = {}, const Launch& launch = {}) {
+  Result run(const std::string& out, std::vector<std::string> more = {},
+             const Launch& launch = {}) {
     std::vector<std::string> arguments{"run", file, "--out", out, "--threads", "2", "--quiet"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run_program(arguments, launch);
@@ -93,7 +102,8 @@ class Resume : public testing::TestWithParam<Case> {
           siginfo_t ended{};
           waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT);
           if (ended.si_pid != 0) return true;
-          return std::filesystem::exists(out + "/history.csv") && table_rows(out + "/history.csv").size() > next &&
+          return std::filesystem::exists(out + "/history.csv") &&
+                 table_rows(out + "/history.csv").size() > next &&
                  (signal != SIGKILL || std::filesystem::exists(out + "/checkpoint.bin"));
         };
         wait_until(far_enough);
@@ -101,7 +111,8 @@ class Resume : public testing::TestWithParam<Case> {
       };
       const Result result = run(out, arguments, launch);
       if (result.exit_code == 0) break;
-      ASSERT_TRUE(result.exit_code == 130 || result.exit_code == 1000 + SIGKILL) << result.exit_code << result.err;
+      ASSERT_TRUE(result.exit_code == 130 || result.exit_code == 1000 + SIGKILL)
+          << result.exit_code << result.err;
       ++cuts;
       next += rows;
       ASSERT_LT(cuts, 100u);
@@ -124,7 +135,8 @@ class Resume : public testing::TestWithParam<Case> {
   json scene = pulled_block();
   std::string file, whole = folder.file("whole");
 };
-INSTANTIATE_TEST_SUITE_P(Scenes, Resume, testing::ValuesIn(cases), [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(Scenes, Resume, testing::ValuesIn(cases),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 TEST_P(Resume, LeavesNoTrace) {
   file = write_scene(folder, scene);
@@ -150,25 +162,32 @@ TEST(ResumedTimes, AreOfAllSteps) {
   constexpr std::size_t most_of_200 = 130;  // rows of the history
   Launch launch;
   launch.meanwhile = [&](pid_t child) {
-    EXPECT_TRUE(wait_until([&] { return std::filesystem::exists(out + "/history.csv") && table_rows(out + "/history.csv").size() > most_of_200; }));
+    EXPECT_TRUE(wait_until([&] {
+      return std::filesystem::exists(out + "/history.csv") &&
+             table_rows(out + "/history.csv").size() > most_of_200;
+    }));
     kill(child, SIGINT);
   };
-  const Result cut_off = run_program({"run", file, "--out", out, "--threads", "1", "--quiet"}, launch);
+  const Result cut_off =
+      run_program({"run", file, "--out", out, "--threads", "1", "--quiet"}, launch);
   ASSERT_EQ(cut_off.exit_code, 130) << cut_off.err;
   const double first = read_json(out + "/summary.json")["wall_seconds"]["solve"];
   const Result resumed = run_program({"run", file, "--out", out, "--resume", "--quiet"});
   ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
   const json summary = read_json(out + "/summary.json");
-  const double both = summary["wall_seconds"]["solve"], work = summary["particles"].get<double>() * summary["steps"].get<double>();
+  const double both = summary["wall_seconds"]["solve"],
+               work = summary["particles"].get<double>() * summary["steps"].get<double>();
   EXPECT_GT(both, 0.9 * first);
-  EXPECT_NEAR(summary["nanoseconds_per_particle_step"].get<double>(), 1e9 * both / work, 1e-9 * 1e9 * both / work);
+  EXPECT_NEAR(summary["nanoseconds_per_particle_step"].get<double>(), 1e9 * both / work,
+              1e-9 * 1e9 * both / work);
 }
 
-/// Gives a killed run a checkpoint.bin. If the kill fell between the two renames of a checkpoint (core/run/checkpoint.cpp), only the one before it is
-/// there: it is copied.
+/// Gives a killed run a checkpoint.bin. If the kill fell between the two renames of a checkpoint
+/// (core/run/checkpoint.cpp), only the one before it is there: it is copied.
 void restore_checkpoint(const std::string& out) {
   const std::string newest = out + "/checkpoint.bin", earlier = out + "/checkpoint.previous.bin";
-  if (!std::filesystem::exists(newest) && std::filesystem::exists(earlier)) std::filesystem::copy_file(earlier, newest);
+  if (!std::filesystem::exists(newest) && std::filesystem::exists(earlier))
+    std::filesystem::copy_file(earlier, newest);
 }
 
 class ResumeFaults : public testing::Test {
@@ -182,7 +201,8 @@ class ResumeFaults : public testing::Test {
       EXPECT_TRUE(wait_until([&] { return std::filesystem::exists(out + "/checkpoint.bin"); }));
       kill(child, SIGKILL);
     };
-    run_program({"run", file, "--out", out, "--threads", "2", "--checkpoint-every", "0.001"}, launch);
+    run_program({"run", file, "--out", out, "--threads", "2", "--checkpoint-every", "0.001"},
+                launch);
     restore_checkpoint(out);
   }
   Result resume(std::vector<std::string> more = {}) {
@@ -225,7 +245,9 @@ TEST_F(ResumeFaults, DamagedOrCutOff) {
   const std::string path = out + "/checkpoint.bin", whole = contents(path);
   std::string damaged = whole;
   damaged[whole.size() / 2] = static_cast<char>(damaged[whole.size() / 2] ^ 1);
-  for (const std::string& bytes : {damaged, whole.substr(0, whole.size() / 2), std::string("no checkpoint at all"), whole + "x", std::string()}) {
+  for (const std::string& bytes :
+       {damaged, whole.substr(0, whole.size() / 2), std::string("no checkpoint at all"),
+        whole + "x", std::string()}) {
     std::ofstream(path, std::ios::binary) << bytes;
     const auto before = all_of(out);
     const Result result = resume();
@@ -235,9 +257,11 @@ TEST_F(ResumeFaults, DamagedOrCutOff) {
   }
 }
 
-/// A file or table from before the checkpoint that is no longer as it was is named, and nothing is touched.
+/// A file or table from before the checkpoint that is no longer as it was is named, and nothing is
+/// touched.
 TEST_F(ResumeFaults, ChangedResults) {
-  const auto refuses = [&](const std::string& name, const std::function<void(const std::string& path)>& change) {
+  const auto refuses = [&](const std::string& name,
+                           const std::function<void(const std::string& path)>& change) {
     const std::string bytes = contents(out + "/" + name);
     change(out + "/" + name);
     const auto before = all_of(out);
@@ -254,7 +278,8 @@ TEST_F(ResumeFaults, ChangedResults) {
     file.seekp(3);
     file.put('#');
   };
-  for (const std::string name : {"history.csv", "probes/top.csv", "frames_000000.vtu", "tables/frames_000000.csv", "scene.resolved.json"}) {
+  for (const std::string name : {"history.csv", "probes/top.csv", "frames_000000.vtu",
+                                 "tables/frames_000000.csv", "scene.resolved.json"}) {
     refuses(name, shorten);
     refuses(name, remove);
     refuses(name, edit);
@@ -276,17 +301,20 @@ TEST_F(Earlier, CheckpointIsUsedWithAWord) {
   Launch launch;
   launch.meanwhile = [&](pid_t child) {
     wait_until([&] {
-      return std::filesystem::exists(out + "/checkpoint.previous.bin") || contents(out + "/summary.json").find("done") != std::string::npos;
+      return std::filesystem::exists(out + "/checkpoint.previous.bin") ||
+             contents(out + "/summary.json").find("done") != std::string::npos;
     });
     kill(child, SIGKILL);
   };
   run_program({"run", file, "--out", out, "--threads", "2", "--checkpoint-every", "0.001"}, launch);
-  if (!std::filesystem::exists(out + "/checkpoint.previous.bin")) GTEST_SKIP() << "the run was done before it was killed";
+  if (!std::filesystem::exists(out + "/checkpoint.previous.bin"))
+    GTEST_SKIP() << "the run was done before it was killed";
   restore_checkpoint(out);
   std::ofstream(out + "/checkpoint.bin", std::ios::binary | std::ios::in).put('?');
   const Result result = resume();
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_NE(result.err.find("goes on from the checkpoint before it"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("goes on from the checkpoint before it"), std::string::npos)
+      << result.err;
   EXPECT_TRUE(left_behind(out) == left_behind(whole));
 }
 

@@ -1,4 +1,5 @@
-// A run from the outside: what it leaves behind when it ends well, is interrupted, fails, or meets a full disk.
+// A run from the outside: what it leaves behind when it ends well, is interrupted, fails, or meets
+// a full disk.
 #include "support/program.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +15,8 @@ constexpr std::size_t material = 1, load = 2, solver = 3;
 
 json breakable_sphere() {
   json scene = small_sphere();
-  scene["pipeline"][material]["failure"] = {{"type", "failures.elongation"}, {"limit", "3.5e-3 mm"}};
+  scene["pipeline"][material]["failure"] = {{"type", "failures.elongation"},
+                                            {"limit", "3.5e-3 mm"}};
   scene["pipeline"][load]["peak"] = "200 MPa";
   return scene;
 }
@@ -43,17 +45,24 @@ class Run : public testing::Test {
 
 TEST_F(Run, leaves_what_is_promised) {
   json scene = breakable_sphere();
-  scene["pipeline"].push_back({{"type", "writers.vtu"}, {"fields", {"displacement", "broken_open", "damage"}}, {"every", "5 us"}});
-  scene["pipeline"].push_back({{"type", "probes.point"}, {"name", "tip"}, {"position", {0.007, 0, 0}}});
+  scene["pipeline"].push_back({{"type", "writers.vtu"},
+                               {"fields", {"displacement", "broken_open", "damage"}},
+                               {"every", "5 us"}});
+  scene["pipeline"].push_back(
+      {{"type", "probes.point"}, {"name", "tip"}, {"position", {0.007, 0, 0}}});
   const Result result = run(scene, {"--threads", "2"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json s = summary();
-  for (const char* key : {"status", "version", "particles", "springs", "degrees_of_freedom", "steps", "time_step", "critical_time_step", "end_time",
-                          "threads", "precision", "wall_seconds", "nanoseconds_per_particle_step", "bytes_per_particle", "peak_memory_bytes",
-                          "energy", "broken_springs", "state_hash", "plugins"})
+  for (const char* key :
+       {"status", "version", "particles", "springs", "degrees_of_freedom", "steps", "time_step",
+        "critical_time_step", "end_time", "threads", "precision", "wall_seconds",
+        "nanoseconds_per_particle_step", "bytes_per_particle", "peak_memory_bytes", "energy",
+        "broken_springs", "state_hash", "plugins"})
     EXPECT_TRUE(s.contains(key)) << key;
-  for (const char* key : {"setup", "solve", "output"}) EXPECT_GT(s["wall_seconds"][key].get<double>(), 0) << key;
-  for (const char* key : {"kinetic", "stored", "dissipated", "injected", "relative_error"}) EXPECT_TRUE(s["energy"][key].is_number()) << key;
+  for (const char* key : {"setup", "solve", "output"})
+    EXPECT_GT(s["wall_seconds"][key].get<double>(), 0) << key;
+  for (const char* key : {"kinetic", "stored", "dissipated", "injected", "relative_error"})
+    EXPECT_TRUE(s["energy"][key].is_number()) << key;
   EXPECT_EQ(s["status"], "done");
   EXPECT_EQ(s["degrees_of_freedom"], 4);
   EXPECT_EQ(s["threads"], 2);
@@ -63,19 +72,24 @@ TEST_F(Run, leaves_what_is_promised) {
   EXPECT_GT(s["energy"]["injected"].get<double>(), 0);
   EXPECT_GT(s["energy"]["dissipated"].get<double>(), 0);
 
-  const std::uint64_t broken = s["broken_springs"]["open"].get<std::uint64_t>() + s["broken_springs"]["closed"].get<std::uint64_t>();
+  const std::uint64_t broken = s["broken_springs"]["open"].get<std::uint64_t>() +
+                               s["broken_springs"]["closed"].get<std::uint64_t>();
   EXPECT_GT(broken, 0u);
   EXPECT_EQ(table_rows(out + "/failures.csv").size(), broken);
-  EXPECT_EQ(history().size(), s["steps"].get<std::size_t>() / 10 + 2);  // the first, one in ten steps, the last
-  EXPECT_EQ(table_rows(out + "/probes/tip.csv").size(), std::min<std::size_t>(201, s["steps"].get<std::size_t>() + 1));
+  EXPECT_EQ(history().size(),
+            s["steps"].get<std::size_t>() / 10 + 2);  // the first, one in ten steps, the last
+  EXPECT_EQ(table_rows(out + "/probes/tip.csv").size(),
+            std::min<std::size_t>(201, s["steps"].get<std::size_t>() + 1));
   std::size_t frames = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(out)) frames += entry.path().extension() == ".vtu" ? 1 : 0;
+  for (const auto& entry : std::filesystem::directory_iterator(out))
+    frames += entry.path().extension() == ".vtu" ? 1 : 0;
   EXPECT_EQ(frames, 3u);
 
   std::set<std::string> plugins;
   for (const json& plugin : s["plugins"]) plugins.insert(plugin["name"].get<std::string>());
-  EXPECT_EQ(plugins, (std::set<std::string>{"lattices.cubic", "materials.elastic", "failures.elongation", "loads.blast", "solvers.explicit",
-                                            "writers.vtu", "probes.point"}));
+  EXPECT_EQ(plugins, (std::set<std::string>{"lattices.cubic", "materials.elastic",
+                                            "failures.elongation", "loads.blast",
+                                            "solvers.explicit", "writers.vtu", "probes.point"}));
 }
 
 TEST_F(Run, resolved_scene_gives_the_same_bits_on_any_number_of_threads) {
@@ -103,8 +117,9 @@ TEST_F(Run, plan_tells_what_the_summary_confirms_and_writes_nothing) {
   EXPECT_EQ(folder.names(), std::vector<std::string>{"scene.json"});
   ASSERT_EQ(run(small_sphere(), {"--threads", "2"}).exit_code, 0);
   const json done = summary();
-  for (const char* key : {"version", "particles", "springs", "degrees_of_freedom", "steps", "time_step", "critical_time_step", "end_time", "threads",
-                          "precision", "bytes_per_particle", "plugins"})
+  for (const char* key :
+       {"version", "particles", "springs", "degrees_of_freedom", "steps", "time_step",
+        "critical_time_step", "end_time", "threads", "precision", "bytes_per_particle", "plugins"})
     EXPECT_EQ(planned.at(key), done.at(key)) << key;
   EXPECT_FALSE(done.contains("left_out"));
   std::set<std::string> left_out;
@@ -112,11 +127,14 @@ TEST_F(Run, plan_tells_what_the_summary_confirms_and_writes_nothing) {
     left_out.insert(entry.at("what").get<std::string>());
     EXPECT_FALSE(entry.at("why").get<std::string>().empty());
   }
-  for (const char* what : {"failure", "mixed materials", "local damping", "body acceleration", "writers"}) EXPECT_TRUE(left_out.count(what)) << what;
+  for (const char* what :
+       {"failure", "mixed materials", "local damping", "body acceleration", "writers"})
+    EXPECT_TRUE(left_out.count(what)) << what;
   EXPECT_FALSE(left_out.count("fourth dimension"));
 
   const Result text = run_program({"plan", scene});
-  for (const char* part : {"lattices.cubic", "bytes per particle", "critical time step", "Left out"})
+  for (const char* part :
+       {"lattices.cubic", "bytes per particle", "critical time step", "Left out"})
     EXPECT_NE(text.out.find(part), std::string::npos) << part << "\n" << text.out;
 }
 
@@ -144,7 +162,8 @@ TEST_F(Run, interrupted_ends_in_order) {
 
 TEST_F(Run, a_body_without_rest_leaves_how_it_moves) {
   json scene = small_sphere();
-  scene["pipeline"][load] = {{"type", "loads.force"}, {"on", "outer_surface"}, {"total", {0, 0, 1}}};
+  scene["pipeline"][load] = {
+      {"type", "loads.force"}, {"on", "outer_surface"}, {"total", {0, 0, 1}}};
   scene["pipeline"][solver] = {{"type", "solvers.static"}};
   const Result result = run(scene);
   EXPECT_EQ(result.exit_code, 3) << result.err;
@@ -153,7 +172,10 @@ TEST_F(Run, a_body_without_rest_leaves_how_it_moves) {
   EXPECT_EQ(rows.size(), summary()["particles"]);
   for (const std::string& row : rows) {  // it slides along z
     double x, y, z, along[3];
-    ASSERT_EQ(std::sscanf(row.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf", &x, &y, &z, &along[0], &along[1], &along[2]), 6) << row;
+    ASSERT_EQ(std::sscanf(row.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf", &x, &y, &z, &along[0], &along[1],
+                          &along[2]),
+              6)
+        << row;
     EXPECT_NEAR(along[0], 0, 1e-9);
     EXPECT_NEAR(along[1], 0, 1e-9);
     EXPECT_NEAR(along[2], 1, 1e-9);
@@ -176,7 +198,8 @@ TEST_F(Run, full_disk_keeps_whole_lines) {
 
 TEST_F(Run, an_output_folder_that_cannot_be_is_an_outside_fault) {
   std::ofstream(folder.file("file")) << "x";
-  const Result result = run_program({"run", write_scene(folder, small_sphere()), "--out", folder.file("file") + "/out"});
+  const Result result = run_program(
+      {"run", write_scene(folder, small_sphere()), "--out", folder.file("file") + "/out"});
   EXPECT_EQ(result.exit_code, 4) << result.err;
   EXPECT_NE(result.err.find("file/out"), std::string::npos) << result.err;
 }
@@ -186,7 +209,8 @@ TEST_F(Run, too_little_memory_says_how_much_is_needed) {
   GTEST_SKIP() << "the address sanitizer needs all of the address space";
 #endif
   json scene = small_sphere();
-  scene["pipeline"][0]["shape"]["hollow_sphere"] = {{"inner_radius", "20 mm"}, {"outer_radius", "50 mm"}};
+  scene["pipeline"][0]["shape"]["hollow_sphere"] = {{"inner_radius", "20 mm"},
+                                                    {"outer_radius", "50 mm"}};
   Launch launch;
   launch.memory_limit = 50'000'000;  // the lattice fits, the state does not
   const Result result = run(scene, {"--threads", "1"}, launch);
@@ -199,7 +223,8 @@ TEST_F(Run, too_little_memory_says_how_much_is_needed) {
 TEST_F(Run, two_writers_of_a_kind_keep_apart) {
   json scene = small_sphere();
   scene["pipeline"].push_back({{"type", "writers.csv"}, {"every", 0}});
-  scene["pipeline"].push_back({{"type", "writers.csv"}, {"every", 0}, {"first", false}, {"name", "late"}});
+  scene["pipeline"].push_back(
+      {{"type", "writers.csv"}, {"every", 0}, {"first", false}, {"name", "late"}});
   ASSERT_EQ(run(scene).exit_code, 0);
   EXPECT_TRUE(std::filesystem::exists(out + "/frames_000001.csv"));
   EXPECT_TRUE(std::filesystem::exists(out + "/late/frames_000000.csv"));
@@ -215,7 +240,8 @@ TEST_F(Run, lost_balance_stops_and_says_where) {
   const json s = summary();
   EXPECT_EQ(s["status"], "failed");
   const std::string reason = s["reason"];
-  for (const char* part : {"step ", "t = ", "energy", "particle", "materials.elastic", "/pipeline/1", "critical"})
+  for (const char* part :
+       {"step ", "t = ", "energy", "particle", "materials.elastic", "/pipeline/1", "critical"})
     EXPECT_NE(reason.find(part), std::string::npos) << reason;
   EXPECT_GE(history().size(), 2u);
   EXPECT_TRUE(std::filesystem::exists(out + "/scene.resolved.json"));
@@ -239,7 +265,8 @@ TEST_F(Run, unsafe_step_is_refused_before_anything_is_written) {
   scene["pipeline"][solver]["time_step"] = "1 us";
   const Result result = run(scene);
   EXPECT_EQ(result.exit_code, 2);
-  for (const char* part : {"/pipeline/3/time_step", "at most", "stable limit"}) EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
+  for (const char* part : {"/pipeline/3/time_step", "at most", "stable limit"})
+    EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
   EXPECT_EQ(folder.names(), std::vector<std::string>{"scene.json"});
 }
 
@@ -248,7 +275,8 @@ TEST_F(Run, a_field_that_the_run_has_not_is_refused) {
   scene["pipeline"].push_back({{"type", "writers.vtu"}, {"fields", {"displacement", "damage"}}});
   const Result result = run(scene);
   EXPECT_EQ(result.exit_code, 2);
-  for (const char* part : {"/pipeline/4", "damage", "height"}) EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
+  for (const char* part : {"/pipeline/4", "damage", "height"})
+    EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
@@ -288,7 +316,8 @@ TEST_F(Run, progress_for_programs_is_json) {
     if (!line.empty() && line.front() == '{') last = json::parse(line);
   ASSERT_TRUE(last.is_object()) << result.err;
   EXPECT_EQ(last["step"], last["steps"]);
-  for (const char* key : {"time", "time_step", "eta_seconds"}) EXPECT_TRUE(last.contains(key)) << key;
+  for (const char* key : {"time", "time_step", "eta_seconds"})
+    EXPECT_TRUE(last.contains(key)) << key;
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// What surrounds the process: streams that are closed or full, results that cannot go where they are sent, limits on memory, threads and files,
-// environments that say odd things.
+// What surrounds the process: streams that are closed or full, results that cannot go where they
+// are sent, limits on memory, threads and files, environments that say odd things.
 #include "support/program.hpp"
 
 #include <process/processors.hpp>
@@ -30,11 +30,14 @@ class Surroundings : public testing::Test {
   /// Runs a command of the shell in the folder; "$hl" in it is the program.
   Result shell(const std::string& command) const {
     const std::string program = std::string(HYPERLATTICE_BUILD) + "/bin/hyperlattice";
-    const std::string line = "cd '" + folder_.path() + "' && hl='" + program + "' && { " + command + "; } 2> err";
+    const std::string line =
+        "cd '" + folder_.path() + "' && hl='" + program + "' && { " + command + "; } 2> err";
     const int status = std::system(("bash -c \"" + line + "\"").c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status), "", contents(folder_.file("err"))};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status), "",
+            contents(folder_.file("err"))};
   }
-  Result run(const std::vector<std::string>& more, const std::vector<std::string>& environment = {}) const {
+  Result run(const std::vector<std::string>& more,
+             const std::vector<std::string>& environment = {}) const {
     std::vector<std::string> words = {"run", "scene.json", "--out", "out"};
     words.insert(words.end(), more.begin(), more.end());
     Launch launch;
@@ -43,7 +46,9 @@ class Surroundings : public testing::Test {
     return run_program(words, launch);
   }
   json summary() const { return read_json(folder_.file("out/summary.json")); }
-  bool exists(const std::string& file) const { return std::filesystem::exists(std::filesystem::symlink_status(folder_.file(file))); }
+  bool exists(const std::string& file) const {
+    return std::filesystem::exists(std::filesystem::symlink_status(folder_.file(file)));
+  }
 
   Folder folder_{"surroundings"};
 };
@@ -51,7 +56,8 @@ class Surroundings : public testing::Test {
 TEST_F(Surroundings, AClosedStreamIsNoFileOfTheRun) {
   for (const char* closed : {"2>&-", "1>&-", "0<&-", "0<&- 1>&- 2>&-"}) {
     std::filesystem::remove_all(folder_.file("out"));
-    ASSERT_EQ(shell(std::string("\\$hl run scene.json --out out ") + closed).exit_code, 0) << closed;
+    ASSERT_EQ(shell(std::string("\\$hl run scene.json --out out ") + closed).exit_code, 0)
+        << closed;
     for (const std::string& row : hyperlattice::test::table_rows(folder_.file("out/history.csv")))
       EXPECT_EQ(std::count(row.begin(), row.end(), ','), 15) << closed << ": " << row;
   }
@@ -59,12 +65,15 @@ TEST_F(Surroundings, AClosedStreamIsNoFileOfTheRun) {
 
 TEST_F(Surroundings, WhatCannotBePrintedIsExit4) {
   ASSERT_EQ(shell("\\$hl run scene.json --out out --quiet").exit_code, 0);
-  for (const char* command : {"plan scene.json", "plan scene.json --json", "plugins", "schema", "analyze --membrane none", "report out",
-                              "report out --json", "calibrate --membrane I-m --young 1e9 --poisson 0.2", "--version", "--help", "run --help"}) {
+  for (const char* command :
+       {"plan scene.json", "plan scene.json --json", "plugins", "schema", "analyze --membrane none",
+        "report out", "report out --json", "calibrate --membrane I-m --young 1e9 --poisson 0.2",
+        "--version", "--help", "run --help"}) {
     for (const char* nowhere : {" > /dev/full", " >&-"}) {
       const Result result = shell(std::string("\\$hl ") + command + nowhere);
       EXPECT_EQ(result.exit_code, 4) << command << nowhere << ": " << result.err;
-      EXPECT_NE(result.err.find("standard output"), std::string::npos) << command << nowhere << ": " << result.err;
+      EXPECT_NE(result.err.find("standard output"), std::string::npos)
+          << command << nowhere << ": " << result.err;
     }
   }
 }
@@ -88,8 +97,10 @@ TEST_F(Surroundings, ThreadsAreThoseThatItMayUse) {
   CPU_ZERO(&one);
   for (int n = 0; n < CPU_SETSIZE && CPU_COUNT(&one) == 0; ++n)
     if (CPU_ISSET(n, &before)) CPU_SET(n, &one);
-  const std::vector<std::string> large = {"--set", "/pipeline/0/shape/hollow_sphere/outer_radius=0.016", "--overwrite"};  // 16,904 particles
-  ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);                                                                   // inherited by the program
+  const std::vector<std::string> large = {"--set",
+                                          "/pipeline/0/shape/hollow_sphere/outer_radius=0.016",
+                                          "--overwrite"};  // 16,904 particles
+  ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);    // inherited by the program
   const Result result = run(large);
   sched_setaffinity(0, sizeof before, &before);
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -106,17 +117,22 @@ TEST_F(Surroundings, ThreadsAreThoseThatItMayUse) {
 }
 
 TEST_F(Surroundings, AnOddEnvironmentIsRefusedOrChangesNothing) {
-  for (const char* bad : {"OMP_NUM_THREADS=many", "OMP_NUM_THREADS=0", "HYPERLATTICE_INSTRUCTIONS=garbage", "HYPERLATTICE_SPRINGS=inexact",
-                          "HYPERLATTICE_LOAD_SECONDS=abc", "HYPERLATTICE_LOAD_SECONDS=-1", "HYPERLATTICE_PROGRESS=xml"}) {
+  for (const char* bad :
+       {"OMP_NUM_THREADS=many", "OMP_NUM_THREADS=0", "HYPERLATTICE_INSTRUCTIONS=garbage",
+        "HYPERLATTICE_SPRINGS=inexact", "HYPERLATTICE_LOAD_SECONDS=abc",
+        "HYPERLATTICE_LOAD_SECONDS=-1", "HYPERLATTICE_PROGRESS=xml"}) {
     const Result result = run({}, {bad});
     EXPECT_EQ(result.exit_code, 2) << bad;
-    EXPECT_NE(result.err.find(std::string(bad).substr(0, std::string(bad).find('='))), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find(std::string(bad).substr(0, std::string(bad).find('='))),
+              std::string::npos)
+        << result.err;
     EXPECT_FALSE(exists("out"));
   }
   ASSERT_EQ(run({"--threads", "2"}).exit_code, 0);
   const json hash = summary()["state_hash"];
-  for (const char* odd : {"OMP_DYNAMIC=true", "OMP_THREAD_LIMIT=1", "OMP_NESTED=true", "OMP_SCHEDULE=dynamic,1", "OMP_PROC_BIND=close",
-                          "OMP_STACKSIZE=8G", "LC_ALL=de_DE.UTF-8", "TMPDIR=/nowhere", "HOME="}) {
+  for (const char* odd : {"OMP_DYNAMIC=true", "OMP_THREAD_LIMIT=1", "OMP_NESTED=true",
+                          "OMP_SCHEDULE=dynamic,1", "OMP_PROC_BIND=close", "OMP_STACKSIZE=8G",
+                          "LC_ALL=de_DE.UTF-8", "TMPDIR=/nowhere", "HOME="}) {
     ASSERT_EQ(run({"--threads", "2"}, {odd}).exit_code, 0) << odd;
     EXPECT_EQ(summary()["state_hash"], hash) << odd;
     EXPECT_EQ(summary()["threads"], 2) << odd;
@@ -124,8 +140,10 @@ TEST_F(Surroundings, AnOddEnvironmentIsRefusedOrChangesNothing) {
 }
 
 TEST_F(Surroundings, NumbersOfTheCommandLineAreFinite) {
-  for (const char* command : {"run scene.json --out out --checkpoint-every nan", "run scene.json --out out --checkpoint-every inf",
-                              "calibrate --membrane I-m --young nan --poisson 0.2", "calibrate --membrane I-m --young 1e9 --poisson nan",
+  for (const char* command : {"run scene.json --out out --checkpoint-every nan",
+                              "run scene.json --out out --checkpoint-every inf",
+                              "calibrate --membrane I-m --young nan --poisson 0.2",
+                              "calibrate --membrane I-m --young 1e9 --poisson nan",
                               "analyze --membrane I-m --lambda inf"})
     EXPECT_EQ(shell(std::string("\\$hl ") + command).exit_code, 2) << command;
   EXPECT_FALSE(exists("out"));
@@ -141,11 +159,14 @@ TEST_F(Surroundings, AFrameThatIsLargerThanFilesMayBeIsRefusedBeforeTheRun) {
   EXPECT_FALSE(exists("out"));
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they need all of the address space
+#if !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)  // they need all of the address space
 
 TEST_F(Surroundings, ThreadsThatTheSystemRefusesAreExit4WithASummary) {
-  if (shell("ulimit -s 1000000").exit_code != 0) GTEST_SKIP() << "the limit on stacks cannot be raised here";
-  const Result result = shell("ulimit -s 1000000; ulimit -v 3000000; \\$hl run scene.json --out out --threads 8");
+  if (shell("ulimit -s 1000000").exit_code != 0)
+    GTEST_SKIP() << "the limit on stacks cannot be raised here";
+  const Result result =
+      shell("ulimit -s 1000000; ulimit -v 3000000; \\$hl run scene.json --out out --threads 8");
   EXPECT_EQ(result.exit_code, 4) << result.err;
   EXPECT_NE(result.err.find("of 8 threads"), std::string::npos) << result.err;
   EXPECT_EQ(summary()["status"], "failed");
@@ -156,21 +177,24 @@ TEST_F(Surroundings, ThreadsThatTheSystemRefusesAreExit4WithASummary) {
   scene["pipeline"][2] = {{"type", "loads.fixed"}, {"on", "z_min"}};
   scene["pipeline"][3] = {{"type", "solvers.static"}};
   std::ofstream(folder_.file("scene.json")) << scene.dump();
-  const Result at_rest = shell("export OMP_STACKSIZE=1G; ulimit -v 4000000; \\$hl run scene.json --out out --overwrite --threads 8");
+  const Result at_rest = shell(
+      "export OMP_STACKSIZE=1G; ulimit -v 4000000; \\$hl run scene.json --out out --overwrite "
+      "--threads 8");
   EXPECT_EQ(at_rest.exit_code, 4) << at_rest.err;
   EXPECT_NE(at_rest.err.find("of 8 threads"), std::string::npos) << at_rest.err;
   EXPECT_EQ(summary()["exit_code"], 4);
 
   std::ofstream(folder_.file("scene.json")) << small_sphere().dump();
   ASSERT_EQ(run({"--overwrite"}).exit_code, 0);
-  const Result again = shell("ulimit -s 1000000; ulimit -v 3000000; \\$hl run scene.json --out out --threads 8");
+  const Result again =
+      shell("ulimit -s 1000000; ulimit -v 3000000; \\$hl run scene.json --out out --threads 8");
   EXPECT_EQ(again.exit_code, 4) << again.err;
   EXPECT_NE(again.err.find("nothing was changed"), std::string::npos) << again.err;
   EXPECT_EQ(summary()["status"], "done") << "the earlier run's";
 }
 
-/// From a limit under which nothing starts upwards, until runs are done. The picture takes some megabytes that the plan does not count, so that
-/// lack of memory is met during the run too.
+/// From a limit under which nothing starts upwards, until runs are done. The picture takes some
+/// megabytes that the plan does not count, so that lack of memory is met during the run too.
 TEST_F(Surroundings, LackOfMemoryIsExit4WhereverItIsMet) {
   json scene = small_sphere();
   scene["pipeline"][3]["end_time"] = "1 us";
@@ -180,18 +204,22 @@ TEST_F(Surroundings, LackOfMemoryIsExit4WhereverItIsMet) {
   std::ofstream(folder_.file("scene.json")) << scene.dump();
   constexpr int enough = 3, most_kilobytes = 300'000;
   int done = 0, refused_before = 0, failed_inside = 0;
-  for (int kilobytes = 15'000; done < enough && kilobytes < most_kilobytes; kilobytes += 211) {  // with less the program is not loaded
+  for (int kilobytes = 15'000; done < enough && kilobytes < most_kilobytes;
+       kilobytes += 211) {  // with less the program is not loaded
     std::filesystem::remove_all(folder_.file("out"));
-    const Result result = shell("ulimit -v " + std::to_string(kilobytes) + "; \\$hl run scene.json --out out --threads 2");
+    const Result result = shell("ulimit -v " + std::to_string(kilobytes) +
+                                "; \\$hl run scene.json --out out --threads 2");
     // the system could not load the program itself, or libgomp ended it before main
     if (result.exit_code == 127 || result.err.starts_with("\nlibgomp: Out of memory")) continue;
-    EXPECT_TRUE(result.exit_code == 0 || result.exit_code == 4) << kilobytes << ": " << result.exit_code << ", " << result.err;
+    EXPECT_TRUE(result.exit_code == 0 || result.exit_code == 4)
+        << kilobytes << ": " << result.exit_code << ", " << result.err;
     EXPECT_FALSE(result.exit_code == 4 && result.err.empty()) << kilobytes;
     if (result.exit_code == 0)
       ++done;
     else if (!exists("out"))
       ++refused_before;
-    else if (result.err.find("not enough memory") != std::string::npos && exists("out/summary.json") && summary()["status"] == "failed")
+    else if (result.err.find("not enough memory") != std::string::npos &&
+             exists("out/summary.json") && summary()["status"] == "failed")
       ++failed_inside;
   }
   EXPECT_EQ(done, enough);

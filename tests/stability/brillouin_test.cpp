@@ -1,4 +1,5 @@
-// The numerical search of the Brillouin zone against the closed rules of stability, on random mixtures of the springs of the fourth dimension.
+// The numerical search of the Brillouin zone against the closed rules of stability, on random
+// mixtures of the springs of the fourth dimension.
 #include <analyze/cubic_stability.hpp>
 #include <analyze/elasticity.hpp>
 #include <analyze/load_lattice.hpp>
@@ -26,11 +27,13 @@ Counted compare(int samples, bool clamped) {
   while (counted.samples < samples) {
     const Ratios r{ratio(random), ratio(random), ratio(random), clamped};
     const double mirrored = mirrored_margin(r), full = std::min(mirrored, opposed_margin(r));
-    if (std::abs(mirrored) < 1e-3 || (mirrored > 0 && std::abs(full) < 1e-3)) continue;  // too close to say
+    if (std::abs(mirrored) < 1e-3 || (mirrored > 0 && std::abs(full) < 1e-3))
+      continue;  // too close to say
     ++counted.samples;
     const test::Cubic cubic(r);
     const bool stable = !find_instability(cubic.lattice, Sector::mirrored);
-    EXPECT_EQ(stable, mirrored > 0) << r.alpha << ' ' << r.beta << ' ' << r.gamma << " margin " << mirrored;
+    EXPECT_EQ(stable, mirrored > 0)
+        << r.alpha << ' ' << r.beta << ' ' << r.gamma << " margin " << mirrored;
     counted.mirrored += stable ? 1 : 0;
     if (!stable) continue;
     const bool both = !find_instability(cubic.lattice, Sector::opposed);
@@ -47,17 +50,21 @@ TEST(Brillouin, FreeMembranesFollowTheClosedRules) {
   EXPECT_NEAR(counted.two_layer / 3000.0, 0.304, 0.03);
 }
 
-TEST(Brillouin, ClampedMembranesFollowTheClosedRules) { EXPECT_GT(compare(300, true).two_layer, 50); }
+TEST(Brillouin, ClampedMembranesFollowTheClosedRules) {
+  EXPECT_GT(compare(300, true).two_layer, 50);
+}
 
-// The centred lattices have no closed rules for all of their waves, but uniform strains give necessary ones: C44, C11 - C12 and C11 + 2 C12 of the
-// relaxed layer, and the stiffness C3 of its thickness, must all be positive.
+// The centred lattices have no closed rules for all of their waves, but uniform strains give
+// necessary ones: C44, C11 - C12 and C11 + 2 C12 of the relaxed layer, and the stiffness C3 of its
+// thickness, must all be positive.
 double elastic_margin(const LatticeElasticity& e, bool clamped) {
   const double least = std::min({e.C44, e.C11 - e.C12, e.C11 + 2 * e.C12});
   return clamped ? least : std::min(least, e.C3);
 }
 
 class CentredBrillouin : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Lattices, CentredBrillouin, testing::Values("bcc", "fcc"), [](const auto& info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(Lattices, CentredBrillouin, testing::Values("bcc", "fcc"),
+                         [](const auto& info) { return std::string(info.param); });
 
 TEST_P(CentredBrillouin, StabilityNeedsElasticStabilityAndHoldsForAnyWave) {
   Host host;
@@ -77,22 +84,25 @@ TEST_P(CentredBrillouin, StabilityNeedsElasticStabilityAndHoldsForAnyWave) {
     }
     if (found) {
       EXPECT_FALSE(found->homogeneous);
-      EXPECT_LT(stiffness_range(lattice.endless(), found->wave.vector, Sector::mirrored).softest, 0);
+      EXPECT_LT(stiffness_range(lattice.endless(), found->wave.vector, Sector::mirrored).softest,
+                0);
       ++by_waves;
       continue;
     }
     ++stable;
     for (int sample = 0; sample < 200; ++sample) {
       const Vec3 q{angle(random), angle(random), angle(random)};
-      EXPECT_GE(stiffness_range(lattice.endless(), q, Sector::mirrored).softest, -1e-9) << r.alpha << ' ' << r.beta << ' ' << r.gamma;
+      EXPECT_GE(stiffness_range(lattice.endless(), q, Sector::mirrored).softest, -1e-9)
+          << r.alpha << ' ' << r.beta << ' ' << r.gamma;
     }
   }
   EXPECT_GT(stable, 100);
   EXPECT_GT(by_waves, 5);
 }
 
-// Clamped, the body-centred lattice is one of springs in space, k + 3 k_beta / 7 to the first neighbours and 2 k / 3 + k_gamma / 2 to the second.
-// Both must be positive, which is also enough: then every spring takes up energy, and together they leave no motion free.
+// Clamped, the body-centred lattice is one of springs in space, k + 3 k_beta / 7 to the first
+// neighbours and 2 k / 3 + k_gamma / 2 to the second. Both must be positive, which is also enough:
+// then every spring takes up energy, and together they leave no motion free.
 TEST(Brillouin, ClampedBodyCentredLatticesNeedBothSpringsPositive) {
   Host host;
   const LatticeGeometry geometry = load_lattice(host, "lattices.bcc");
@@ -103,7 +113,8 @@ TEST(Brillouin, ClampedBodyCentredLatticesNeedBothSpringsPositive) {
     const Ratios r{0, ratio(random), ratio(random), true};
     const double margin = std::min(1 + 3 * r.beta / 7, 2.0 / 3 + r.gamma / 2);
     if (std::abs(margin) < 1e-3) continue;
-    EXPECT_EQ(!find_instability(with_ratios(geometry, r).endless(), Sector::mirrored), margin > 0) << r.beta << ' ' << r.gamma;
+    EXPECT_EQ(!find_instability(with_ratios(geometry, r).endless(), Sector::mirrored), margin > 0)
+        << r.beta << ' ' << r.gamma;
     stable += margin > 0 ? 1 : 0;
   }
   EXPECT_GT(stable, 100);

@@ -1,4 +1,5 @@
-// The critical step of a body of cells holds for its edges, corners and single cells too, and for a body of one cell it is exact.
+// The critical step of a body of cells holds for its edges, corners and single cells too, and for a
+// body of one cell it is exact.
 #include <support/cells.hpp>
 
 #include <gtest/gtest.h>
@@ -8,21 +9,25 @@ using namespace hyperlattice;
 using namespace hyperlattice::test;
 
 class CellsStep : public testing::TestWithParam<MembraneCase> {};
-INSTANTIATE_TEST_SUITE_P(Membranes, CellsStep, testing::ValuesIn(membranes), [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(Membranes, CellsStep, testing::ValuesIn(membranes),
+                         [](const auto& info) { return std::string(info.param.name); });
 
-/// How much the largest displacement grows over a while, from noise so small that the springs stay linear.
+/// How much the largest displacement grows over a while, from noise so small that the springs stay
+/// linear.
 double growth(const Model& model, double fraction) {
   Simulation simulation(model, 1);
   const double size = 1e-16;
-  simulation.set_displacements(noise(3 * model.body.particles, size, 1),
-                               model.degrees_of_freedom == 4 ? noise(model.body.particles, size, 2) : std::vector<double>{});
+  simulation.set_displacements(
+      noise(3 * model.body.particles, size, 1),
+      model.degrees_of_freedom == 4 ? noise(model.body.particles, size, 2) : std::vector<double>{});
   for (int n = 0; n < 600; ++n) simulation.step(fraction * model.critical_time_step);
   return largest(displacements(simulation)) / size;
 }
 
 TEST_P(CellsStep, HoldsForEveryShape) {
   for (const CellShape& shape : cell_shapes())
-    EXPECT_LT(growth(*plan_of(scene_of_cells(shape.shape, GetParam().material))->model, 0.99), 100) << shape.name;
+    EXPECT_LT(growth(*plan_of(scene_of_cells(shape.shape, GetParam().material))->model, 0.99), 100)
+        << shape.name;
 }
 
 TEST_P(CellsStep, IsExactForOneCell) {
@@ -31,12 +36,15 @@ TEST_P(CellsStep, IsExactForOneCell) {
 }
 
 TEST_P(CellsStep, HoldsForSeveralMaterials) {
-  const std::string other = R"({ "type": "materials.elastic", "young": 3e10, "density": 700, "region": { "half_space": { "point": [2e-3, 0, 0],
+  const std::string other =
+      R"({ "type": "materials.elastic", "young": 3e10, "density": 700, "region": { "half_space": { "point": [2e-3, 0, 0],
                               "normal": [-1, 0.2, 0] } }, )" +
-                            std::string(GetParam().material) + " }";
+      std::string(GetParam().material) + " }";
   for (const CellShape& shape : cell_shapes()) {
     if (shape.cells().size() < 30) continue;  // too small for both
-    EXPECT_LT(growth(*plan_of(scene_of_cells(shape.shape, GetParam().material, other))->model, 0.99), 100) << shape.name;
+    EXPECT_LT(
+        growth(*plan_of(scene_of_cells(shape.shape, GetParam().material, other))->model, 0.99), 100)
+        << shape.name;
   }
 }
 

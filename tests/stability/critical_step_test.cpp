@@ -1,4 +1,5 @@
-// The critical time step is neither lax nor idle: every membrane is stable at 0.99 of it and unstable at 1.02.
+// The critical time step is neither lax nor idle: every membrane is stable at 0.99 of it and
+// unstable at 1.02.
 #include <support/scenes.hpp>
 
 #include <gtest/gtest.h>
@@ -10,17 +11,22 @@ using namespace hyperlattice;
 using namespace hyperlattice::test;
 
 class CriticalStep : public testing::TestWithParam<MembraneCase> {};
-const auto name_of = [](const testing::TestParamInfo<MembraneCase>& info) { return std::string(info.param.name); };
+const auto name_of = [](const testing::TestParamInfo<MembraneCase>& info) {
+  return std::string(info.param.name);
+};
 INSTANTIATE_TEST_SUITE_P(Membranes, CriticalStep, testing::ValuesIn(membranes), name_of);
-INSTANTIATE_TEST_SUITE_P(CentredLattices, CriticalStep, testing::ValuesIn(centred_lattices), name_of);
+INSTANTIATE_TEST_SUITE_P(CentredLattices, CriticalStep, testing::ValuesIn(centred_lattices),
+                         name_of);
 
-/// How much the largest displacement grows over a while, from noise so small that the springs stay linear.
+/// How much the largest displacement grows over a while, from noise so small that the springs stay
+/// linear.
 double growth(const Model& model, double fraction, double damping) {
   Simulation simulation(model, 2);
   simulation.set_damping(damping);
   const double size = 1e-14;
-  simulation.set_displacements(noise(3 * model.body.particles, size, 1),
-                               model.degrees_of_freedom == 4 ? noise(model.body.particles, size, 2) : std::vector<double>{});
+  simulation.set_displacements(
+      noise(3 * model.body.particles, size, 1),
+      model.degrees_of_freedom == 4 ? noise(model.body.particles, size, 2) : std::vector<double>{});
   for (int n = 0; n < 600; ++n) simulation.step(fraction * model.critical_time_step);
   return largest(displacements(simulation)) / size;
 }
@@ -40,13 +46,15 @@ TEST_P(CriticalStep, HasATighterLimitWithLocalDamping) {
 
 TEST(CriticalStepOfSeveralMaterials, HoldsForCentredLattices) {
   for (const MembraneCase& of : centred_lattices) {
-    const std::string other = R"({ "type": "materials.elastic", "young": 3e10, "density": 700, "region": { "half_space": { "point": [4e-3, 0, 0],
+    const std::string other =
+        R"({ "type": "materials.elastic", "young": 3e10, "density": 700, "region": { "half_space": { "point": [4e-3, 0, 0],
                                 "normal": [-1, 0.2, 0] } }, )" +
-                              std::string(of.material) + " }";
+        std::string(of.material) + " }";
     const auto plan = plan_of(block(8, 6, 6, of, "", other));
     ASSERT_TRUE(plan->model->choice.mixed);
     EXPECT_LT(growth(*plan->model, 0.99, 0), 100) << of.name;
-    const bool negative = std::string(of.name).ends_with("negative");  // their signs are not counted on
+    const bool negative =
+        std::string(of.name).ends_with("negative");  // their signs are not counted on
     EXPECT_GT(growth(*plan->model, negative ? 2 : 1.25, 0), 1e6) << of.name;
   }
 }

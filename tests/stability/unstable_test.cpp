@@ -1,5 +1,5 @@
-// Lattices that are not stable: refused with the mode that would grow, or run with a warning if the scene allows it; negative stiffness that is
-// stable asks for nothing.
+// Lattices that are not stable: refused with the mode that would grow, or run with a warning if the
+// scene allows it; negative stiffness that is stable asks for nothing.
 #include <model/stability.hpp>
 #include <support/scenes.hpp>
 
@@ -14,13 +14,15 @@ namespace {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
-std::string scene_of(const std::string& material, bool allow, const std::string& lattice = "lattices.cubic", int cells = 4) {
+std::string scene_of(const std::string& material, bool allow,
+                     const std::string& lattice = "lattices.cubic", int cells = 4) {
   std::string scene = block(cells, cells, cells, material, "", lattice);
   return allow ? scene.insert(scene.find("\"pipeline\""), "\"allow_unstable\": true, ") : scene;
 }
 
 /// What is wrong with it; "" if nothing.
-std::string faults_of(const std::string& material, bool allow, const std::string& lattice = "lattices.cubic") {
+std::string faults_of(const std::string& material, bool allow,
+                      const std::string& lattice = "lattices.cubic") {
   try {
     plan_of(scene_of(material, allow, lattice));
   } catch (const InputError& error) {
@@ -36,16 +38,26 @@ struct Case {
   const char* grows;  ///< in the warning
 };
 const Case unstable[] = {
-    {R"("membrane": "III", "lambda": -1.55)", "/pipeline/1/lambda: -1.55", "above -1.5: with less, membrane III is unstable", "grows"},
-    {R"("membrane": "III", "lambda": -1.5)", "/pipeline/1/lambda: -1.5", "-1.5 is stable with IV", ""},
-    {R"("membrane": "IV", "lambda": -2.1)", "/pipeline/1/lambda: -2.1", "above -2: with less, membrane IV is unstable", "grows"},
-    {R"("membrane": "I-m", "lambda": -0.1)", "/pipeline/1/lambda: -0.1", "at least 0: with less, membrane I-m is unstable", "height"},
-    {R"("membrane": "I", "lambda": -0.1)", "/pipeline/1/lambda: -0.1", "at least 0: with less, membrane I is unstable", "height"},
-    {R"("membrane": "II", "lambda": -0.1)", "/pipeline/1/lambda: -0.1", "at least 0: with less, membrane II is unstable", "height"},
-    {R"("membrane": "I-m", "poisson": 0.3)", "/pipeline/1/poisson: 0.3", "within (-0.2, 0.25], the reach of membrane I-m", "height"},
-    {R"("membrane": "IV", "poisson": 0.4)", "/pipeline/1/poisson: 0.4", "within (0, 0.3333), the reach of membrane IV", "grows"},
-    {R"("membrane": "free", "k_alpha": 3, "k_beta": -2.5, "k_gamma": 2)", "/pipeline/1: ", "springs that make a stable lattice", "wave with vector"},
-    {R"("membrane": "free", "k_alpha": "infinite", "k_beta": -2.2, "k_gamma": 1)", "/pipeline/1: ", "allow_unstable", "grows"},
+    {R"("membrane": "III", "lambda": -1.55)", "/pipeline/1/lambda: -1.55",
+     "above -1.5: with less, membrane III is unstable", "grows"},
+    {R"("membrane": "III", "lambda": -1.5)", "/pipeline/1/lambda: -1.5", "-1.5 is stable with IV",
+     ""},
+    {R"("membrane": "IV", "lambda": -2.1)", "/pipeline/1/lambda: -2.1",
+     "above -2: with less, membrane IV is unstable", "grows"},
+    {R"("membrane": "I-m", "lambda": -0.1)", "/pipeline/1/lambda: -0.1",
+     "at least 0: with less, membrane I-m is unstable", "height"},
+    {R"("membrane": "I", "lambda": -0.1)", "/pipeline/1/lambda: -0.1",
+     "at least 0: with less, membrane I is unstable", "height"},
+    {R"("membrane": "II", "lambda": -0.1)", "/pipeline/1/lambda: -0.1",
+     "at least 0: with less, membrane II is unstable", "height"},
+    {R"("membrane": "I-m", "poisson": 0.3)", "/pipeline/1/poisson: 0.3",
+     "within (-0.2, 0.25], the reach of membrane I-m", "height"},
+    {R"("membrane": "IV", "poisson": 0.4)", "/pipeline/1/poisson: 0.4",
+     "within (0, 0.3333), the reach of membrane IV", "grows"},
+    {R"("membrane": "free", "k_alpha": 3, "k_beta": -2.5, "k_gamma": 2)",
+     "/pipeline/1: ", "springs that make a stable lattice", "wave with vector"},
+    {R"("membrane": "free", "k_alpha": "infinite", "k_beta": -2.2, "k_gamma": 1)",
+     "/pipeline/1: ", "allow_unstable", "grows"},
 };
 
 TEST(Unstable, IsRefusedUnlessTheSceneAllowsIt) {
@@ -56,7 +68,8 @@ TEST(Unstable, IsRefusedUnlessTheSceneAllowsIt) {
     const auto plan = plan_of(scene_of(c.material, true));
     if (c.grows[0] == '\0') continue;  // at the very edge neither grows nor resists
     ASSERT_EQ(plan->model->warnings.size(), 1u) << c.material;
-    EXPECT_NE(plan->model->warnings[0].find(c.grows), std::string::npos) << plan->model->warnings[0];
+    EXPECT_NE(plan->model->warnings[0].find(c.grows), std::string::npos)
+        << plan->model->warnings[0];
     EXPECT_EQ(plan_json(*plan).at("warnings").at(0), plan->model->warnings[0]);
     EXPECT_NE(plan_text(*plan).find(plan->model->warnings[0]), std::string::npos);
     EXPECT_GT(plan->model->critical_time_step, 0);
@@ -73,21 +86,26 @@ TEST(Unstable, CentredLatticesToo) {
 }
 
 TEST(Unstable, WhatNoSpringsHaveIsRefusedAnyway) {
-  EXPECT_NE(faults_of(R"("membrane": "I-m", "poisson": -0.2)", true).find("within (-0.2, 0.25]"), std::string::npos);  // no lambda reaches it
-  EXPECT_NE(faults_of(R"("membrane": "I-m", "poisson": -0.4)", true).find("without stiffness"), std::string::npos);    // E would be negative
+  EXPECT_NE(faults_of(R"("membrane": "I-m", "poisson": -0.2)", true).find("within (-0.2, 0.25]"),
+            std::string::npos);  // no lambda reaches it
+  EXPECT_NE(faults_of(R"("membrane": "I-m", "poisson": -0.4)", true).find("without stiffness"),
+            std::string::npos);  // E would be negative
   EXPECT_NE(faults_of(R"("poisson": 0.3)", true).find("/pipeline/1/poisson"), std::string::npos);
   const std::string scene = block(4, 4, 4).insert(2, "\"allow_unstable\": 1, ");
   try {
     plan_of(scene);
     ADD_FAILURE();
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("/allow_unstable: 1"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("/allow_unstable: 1"), std::string::npos)
+        << error.what();
   }
 }
 
 TEST(Unstable, StableNegativeStiffnessNeedsNoPermission) {
-  for (const char* material : {R"("membrane": "III", "lambda": -1.45)", R"("membrane": "IV", "lambda": -1.95)",
-                               R"("membrane": "IV", "poisson": 0.33)", R"("membrane": "free", "k_alpha": 3, "k_beta": 2, "k_gamma": -0.5)"}) {
+  for (const char* material :
+       {R"("membrane": "III", "lambda": -1.45)", R"("membrane": "IV", "lambda": -1.95)",
+        R"("membrane": "IV", "poisson": 0.33)",
+        R"("membrane": "free", "k_alpha": 3, "k_beta": 2, "k_gamma": -0.5)"}) {
     const auto plan = plan_of(scene_of(material, false));
     EXPECT_TRUE(plan->model->warnings.empty()) << material;
     EXPECT_EQ(plan_text(*plan).find("Warnings"), std::string::npos);
@@ -102,12 +120,15 @@ TEST(Unstable, ThePlanSaysIfOnlyTheMirrorKeepsTheLayersTogether) {
       if (left.what == "second layer of the membrane") return left.why;
     return std::string("missing");
   };
-  EXPECT_NE(why(R"("membrane": "IV", "poisson": 0.3)").find("two free ones would not stay so: the wave with vector"), std::string::npos);
-  EXPECT_EQ(why(R"("membrane": "IV", "poisson": 0.2)"), "it mirrors the first exactly, so one layer is computed");
+  EXPECT_NE(why(R"("membrane": "IV", "poisson": 0.3)")
+                .find("two free ones would not stay so: the wave with vector"),
+            std::string::npos);
+  EXPECT_EQ(why(R"("membrane": "IV", "poisson": 0.2)"),
+            "it mirrors the first exactly, so one layer is computed");
 }
 
-// The warning is no exaggeration: noise grows at least as fast as the softest wave says (surfaces are softer still), and in a stable lattice not at
-// all.
+// The warning is no exaggeration: noise grows at least as fast as the softest wave says (surfaces
+// are softer still), and in a stable lattice not at all.
 TEST(Unstable, GrowsAsTheWaveSays) {
   const double size = 1e-16;
   const auto growth = [&](const std::string& material, int steps) {
@@ -115,20 +136,25 @@ TEST(Unstable, GrowsAsTheWaveSays) {
     Simulation simulation(*plan->model, 2);
     simulation.set_displacements(noise(3 * plan->model->body.particles, size), {});
     for (int n = 0; n < steps; ++n) simulation.step(0.9 * plan->model->critical_time_step);
-    return std::pair{largest(displacements(simulation)) / size, 0.9 * steps * plan->model->critical_time_step};
+    return std::pair{largest(displacements(simulation)) / size,
+                     0.9 * steps * plan->model->critical_time_step};
   };
-  // IV, k_beta = -3: springs along the axes are worth k (1 - 3/2) in space. The softest of all waves is looked for on a grid of the zone, not by the
-  // search that is tested.
-  const auto plan = plan_of(scene_of(R"("membrane": "IV", "lambda": -3)", true, "lattices.cubic", 8));
+  // IV, k_beta = -3: springs along the axes are worth k (1 - 3/2) in space. The softest of all
+  // waves is looked for on a grid of the zone, not by the search that is tested.
+  const auto plan =
+      plan_of(scene_of(R"("membrane": "IV", "lambda": -3)", true, "lattices.cubic", 8));
   const Model& model = *plan->model;
-  const InfiniteLattice lattice{model.neighbours,      model.springs,          0, model.body.grid.membrane_distance,
-                                model.choice.membrane, model.body.grid.spacing};
+  const InfiniteLattice lattice{
+      model.neighbours,      model.springs,          0, model.body.grid.membrane_distance,
+      model.choice.membrane, model.body.grid.spacing};
   double softest = 0;
   for (int i = 0; i <= 8; ++i)
     for (int j = 0; j <= 8; ++j)
       for (int k = 0; k <= 8; ++k) {
         const double step = std::numbers::pi / 8;
-        softest = std::min(softest, stiffness_range(lattice, {i * step, j * step, k * step}, Sector::mirrored).softest);
+        softest = std::min(
+            softest,
+            stiffness_range(lattice, {i * step, j * step, k * step}, Sector::mirrored).softest);
       }
   const double rate = std::sqrt(-softest / model.materials[0].mass);
   const auto [early, time_early] = growth(R"("membrane": "IV", "lambda": -3)", 30);

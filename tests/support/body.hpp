@@ -11,7 +11,8 @@
 
 namespace hyperlattice::test {
 
-/// A solid region with its anchor and centre at the middle of a symmetric box, at the low corner of any other.
+/// A solid region with its anchor and centre at the middle of a symmetric box, at the low corner of
+/// any other.
 inline Region solid(Vec3 low, Vec3 high, std::function<bool(Vec3)> inside) {
   Region region;
   region.kind = Region::Kind::solid;
@@ -25,22 +26,30 @@ inline Region solid(Vec3 low, Vec3 high, std::function<bool(Vec3)> inside) {
 }
 
 inline Region ball(double inner, double outer) {
-  return solid({-outer, -outer, -outer}, {outer, outer, outer}, [=](Vec3 p) { return dot(p, p) >= inner * inner && dot(p, p) <= outer * outer; });
+  return solid({-outer, -outer, -outer}, {outer, outer, outer},
+               [=](Vec3 p) { return dot(p, p) >= inner * inner && dot(p, p) <= outer * outer; });
 }
 
 inline Region box(Vec3 size) {
-  return solid({}, size, [=](Vec3 p) { return std::min({p.x, p.y, p.z}) >= 0 && p.x <= size.x && p.y <= size.y && p.z <= size.z; });
+  return solid({}, size, [=](Vec3 p) {
+    return std::min({p.x, p.y, p.z}) >= 0 && p.x <= size.x && p.y <= size.y && p.z <= size.z;
+  });
 }
 
 /// The body that lattices.cubic makes of a region. Throws as build_body does.
-inline Body cubic_body(const Region& region, double spacing, Boundary boundary = Boundary::particles) {
+inline Body cubic_body(const Region& region, double spacing,
+                       Boundary boundary = Boundary::particles) {
   static Host host({std::string(HYPERLATTICE_BUILD) + "/lib/hyperlattice"});
   const Component* cubic = host.find("lattices.cubic");
   if (cubic == nullptr) throw std::runtime_error(host.why_not("lattices.cubic"));
-  const Shape shape{&region, [](const void* self, Vec3 point) noexcept { return static_cast<const Region*>(self)->inside(point); }, region.low,
-                    region.high, region.anchor};
+  const Shape shape{&region,
+                    [](const void* self, Vec3 point) noexcept {
+                      return static_cast<const Region*>(self)->inside(point);
+                    },
+                    region.low, region.high, region.anchor};
   const Complaint silent{nullptr, [](void*, std::string_view) noexcept {}};
-  const std::unique_ptr<void, void (*)(void*)> options(cubic->info.create_options(silent), cubic->info.destroy_options);
+  const std::unique_ptr<void, void (*)(void*)> options(cubic->info.create_options(silent),
+                                                       cubic->info.destroy_options);
   for (const Option& option : cubic->info.options) {
     OptionValue value;
     value.number = spacing;
@@ -49,8 +58,10 @@ inline Body cubic_body(const Region& region, double spacing, Boundary boundary =
     value.absent = option.optional;
     option.set(options.get(), value, silent);
   }
-  const std::unique_ptr<void, void (*)(void*)> lattice(cubic->info.create(options.get(), silent), cubic->info.destroy);
-  Body body = build_body(*static_cast<const LatticeFunctions*>(cubic->info.functions), lattice.get());
+  const std::unique_ptr<void, void (*)(void*)> lattice(cubic->info.create(options.get(), silent),
+                                                       cubic->info.destroy);
+  Body body =
+      build_body(*static_cast<const LatticeFunctions*>(cubic->info.functions), lattice.get());
   body.grid.shape = nullptr;  // it ends here
   return body;
 }

@@ -12,7 +12,7 @@ namespace hyperlattice::test {
 
 struct Books {
   double largest_error = 0;  ///< of the balance, relative, at any step
-  Balance last;
+  EnergyBalance last;
 };
 
 /// Of four microseconds in equal steps of about that fraction of the critical one.

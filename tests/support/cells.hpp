@@ -1,4 +1,5 @@
-// Bodies of cells for tests: shapes by the cells they hold, scenes of them, and the forces that the kernels find.
+// Bodies of cells for tests: shapes by the cells they hold, scenes of them, and the forces that the
+// kernels find.
 #pragma once
 
 #include <support/scenes.hpp>
@@ -30,37 +31,48 @@ struct CellShape {
 
 inline std::string box_text(const CellIndex& low, const CellIndex& high) {
   const auto corner = [](const CellIndex& c) {
-    return "[" + std::to_string(c[0]) + "e-3, " + std::to_string(c[1]) + "e-3, " + std::to_string(c[2]) + "e-3]";
+    return "[" + std::to_string(c[0]) + "e-3, " + std::to_string(c[1]) + "e-3, " +
+           std::to_string(c[2]) + "e-3]";
   };
   return R"({ "box": { "low": )" + corner(low) + R"(, "high": )" + corner(high) + " } }";
 }
 
 /// Whether a point (mm) is in the box.
 inline auto in_box(CellIndex low, CellIndex high) {
-  return [low, high](double x, double y, double z) { return low[0] < x && x < high[0] && low[1] < y && y < high[1] && low[2] < z && z < high[2]; };
+  return [low, high](double x, double y, double z) {
+    return low[0] < x && x < high[0] && low[1] < y && y < high[1] && low[2] < z && z < high[2];
+  };
 }
 
 inline const std::vector<CellShape>& cell_shapes() {
-  const auto both = [](const char* name, CellIndex low_a, CellIndex high_a, CellIndex low_b, CellIndex high_b) {
+  const auto both = [](const char* name, CellIndex low_a, CellIndex high_a, CellIndex low_b,
+                       CellIndex high_b) {
     const auto a = in_box(low_a, high_a), b = in_box(low_b, high_b);
-    return CellShape{name, R"({ "union": [)" + box_text(low_a, high_a) + ", " + box_text(low_b, high_b) + "] }",
-                     [a, b](double x, double y, double z) { return a(x, y, z) || b(x, y, z); }};
+    return CellShape{
+        name, R"({ "union": [)" + box_text(low_a, high_a) + ", " + box_text(low_b, high_b) + "] }",
+        [a, b](double x, double y, double z) { return a(x, y, z) || b(x, y, z); }};
   };
-  const auto without = [](const char* name, CellIndex low_a, CellIndex high_a, CellIndex low_b, CellIndex high_b) {
+  const auto without = [](const char* name, CellIndex low_a, CellIndex high_a, CellIndex low_b,
+                          CellIndex high_b) {
     const auto a = in_box(low_a, high_a), b = in_box(low_b, high_b);
-    return CellShape{name, R"({ "difference": [)" + box_text(low_a, high_a) + ", " + box_text(low_b, high_b) + "] }",
-                     [a, b](double x, double y, double z) { return a(x, y, z) && !b(x, y, z); }};
+    return CellShape{
+        name,
+        R"({ "difference": [)" + box_text(low_a, high_a) + ", " + box_text(low_b, high_b) + "] }",
+        [a, b](double x, double y, double z) { return a(x, y, z) && !b(x, y, z); }};
   };
   static const std::vector<CellShape> all{
       {"one_cell", box_text({0, 0, 0}, {1, 1, 1}), in_box({0, 0, 0}, {1, 1, 1})},
       {"box", box_text({0, 0, 0}, {17, 3, 4}), in_box({0, 0, 0}, {17, 3, 4})},
-      {"L", R"({ "difference": [)" + box_text({0, 0, 0}, {6, 6, 3}) + ", " + box_text({2, 2, -1}, {7, 7, 4}) + "] }",
+      {"L",
+       R"({ "difference": [)" + box_text({0, 0, 0}, {6, 6, 3}) + ", " +
+           box_text({2, 2, -1}, {7, 7, 4}) + "] }",
        [](double x, double y, double z) {
          return in_box({0, 0, 0}, {6, 6, 3})(x, y, z) && !(x > 2 && y > 2);
        }},
       without("cavity", {0, 0, 0}, {9, 5, 5}, {2, 2, 2}, {5, 3, 4}),
       without("slit_of_one_cell", {0, 0, 0}, {9, 4, 4}, {4, 1, 0}, {5, 4, 4}),
-      {"sphere", R"({ "sphere": { "radius": 4.4e-3 } })", [](double x, double y, double z) { return x * x + y * y + z * z < 4.4 * 4.4; }},
+      {"sphere", R"({ "sphere": { "radius": 4.4e-3 } })",
+       [](double x, double y, double z) { return x * x + y * y + z * z < 4.4 * 4.4; }},
       both("touching_in_an_edge", {0, 0, 0}, {2, 2, 2}, {2, 2, 0}, {4, 4, 2}),
       both("touching_in_a_corner", {0, 0, 0}, {2, 2, 2}, {2, 2, 2}, {4, 3, 4}),
   };
@@ -68,7 +80,8 @@ inline const std::vector<CellShape>& cell_shapes() {
 }
 
 /// A scene of that shape made of cells of 1 mm.
-inline std::string scene_of_cells(const std::string& shape, const std::string& material, const std::string& stages = "") {
+inline std::string scene_of_cells(const std::string& shape, const std::string& material,
+                                  const std::string& stages = "") {
   return R"({ "format": "hyperlattice/1", "pipeline": [
     { "type": "lattices.cubic", "boundary": "cells", "spacing": 1e-3, "anchor": [0, 0, 0], "shape": )" +
          shape + R"( },
@@ -80,7 +93,8 @@ inline std::string scene_of_cells(const std::string& shape, const std::string& m
 /// The corner of cells nearest to a particle.
 inline CellIndex corner_of(const Model& model, Particle particle) {
   const Vec3 x = model.body.position(particle);
-  return {static_cast<int>(std::lround(1e3 * x.x)), static_cast<int>(std::lround(1e3 * x.y)), static_cast<int>(std::lround(1e3 * x.z))};
+  return {static_cast<int>(std::lround(1e3 * x.x)), static_cast<int>(std::lround(1e3 * x.y)),
+          static_cast<int>(std::lround(1e3 * x.z))};
 }
 
 /// Particles by their corner.
@@ -93,8 +107,10 @@ inline std::map<CellIndex, Particle> particles_by_corner(const Model& model) {
 /// x, y, z, height.
 using Force = std::array<double, 4>;
 
-/// The forces on particles that stand still with these displacements: what one step from rest gives them.
-inline std::vector<Force> forces(const Model& model, const std::vector<double>& u, const std::vector<double>& heights, int threads = 1) {
+/// The forces on particles that stand still with these displacements: what one step from rest gives
+/// them.
+inline std::vector<Force> forces(const Model& model, const std::vector<double>& u,
+                                 const std::vector<double>& heights, int threads = 1) {
   Simulation simulation(model, threads);
   simulation.set_displacements(u, heights);
   const double dt = model.critical_time_step;

@@ -16,7 +16,11 @@ inline const contract::Surroundings around{.grid = "lattices.cubic",
 
 /// A virtual test of that lattice.
 inline VirtualTest virtual_test(Host& host, VirtualTest::Options options) {
-  return {host, {.material = "materials.elastic", .displacement = "loads.displacement", .solver = "solvers.static"}, std::move(options)};
+  return {host,
+          {.material = "materials.elastic",
+           .displacement = "loads.displacement",
+           .solver = "solvers.static"},
+          std::move(options)};
 }
 
 }  // namespace hyperlattice::test

@@ -11,10 +11,14 @@ namespace hyperlattice::test {
 class Cubic {
  public:
   explicit Cubic(const calibration::Ratios& r) : springs_{{1, r.beta}, {1, r.gamma}} {
-    constexpr int forward[9][3] = {{1, 0, 0}, {-1, 1, 0}, {0, 1, 0}, {1, 1, 0}, {0, -1, 1}, {-1, 0, 1}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
+    constexpr int forward[9][3] = {{1, 0, 0},  {-1, 1, 0}, {0, 1, 0}, {1, 1, 0}, {0, -1, 1},
+                                   {-1, 0, 1}, {0, 0, 1},  {1, 0, 1}, {0, 1, 1}};
     for (const auto& [x, y, z] : forward) {
       const double square = x * x + y * y + z * z;
-      neighbours_.push_back({{x, y, z, square > 1 ? 1u : 0u}, {double(x), double(y), double(z)}, std::sqrt(square), std::sqrt(square + 1)});
+      neighbours_.push_back({{x, y, z, square > 1 ? 1u : 0u},
+                             {double(x), double(y), double(z)},
+                             std::sqrt(square),
+                             std::sqrt(square + 1)});
     }
     lattice.neighbours = neighbours_;
     lattice.springs = springs_;

@@ -1,4 +1,5 @@
-// A catalogue of components that are declared but do nothing, with options of every kind; for tests of reading and documenting scenes.
+// A catalogue of components that are declared but do nothing, with options of every kind; for tests
+// of reading and documenting scenes.
 #pragma once
 
 #include <base/option_set.hpp>
@@ -55,7 +56,8 @@ struct Spring {
         .choices(laws)
         .fallback("\"linear\"")
         .check([](const Options& options, const FaultSink& faults) {
-          if (options.law == Law::cubic && options.poisson < 0) faults.fault("poisson", "no negative ratio with the cubic law");
+          if (options.law == Law::cubic && options.poisson < 0)
+            faults.fault("poisson", "no negative ratio with the cubic law");
         });
   }
 };
@@ -65,7 +67,9 @@ struct Limit {
     double limit = 0;
   };
   static Schema<Options> schema() {
-    return Schema<Options>("failures.limit", "Breaks above an elongation").add<&Options::limit>("limit", "m", "largest elongation").positive();
+    return Schema<Options>("failures.limit", "Breaks above an elongation")
+        .add<&Options::limit>("limit", "m", "largest elongation")
+        .positive();
   }
 };
 
@@ -134,7 +138,10 @@ struct Spot {
   struct Options {
     std::optional<Vec3> point;
   };
-  static Schema<Options> schema() { return Schema<Options>("probes.spot", "Motion of a point").add<&Options::point>("point", "m", "where"); }
+  static Schema<Options> schema() {
+    return Schema<Options>("probes.spot", "Motion of a point")
+        .add<&Options::point>("point", "m", "where");
+  }
 };
 
 class Catalogue final : public hyperlattice::Catalogue {
@@ -163,7 +170,8 @@ class Catalogue final : public hyperlattice::Catalogue {
     info.create_options = set.create;
     info.destroy_options = set.destroy;
     info.check_options = set.check;
-    components_[std::string(info.name)] = {info, std::string(info.name), "1.0", "/nowhere/" + std::string(info.name) + ".so"};
+    components_[std::string(info.name)] = {info, std::string(info.name), "1.0",
+                                           "/nowhere/" + std::string(info.name) + ".so"};
   }
   std::vector<const Component*> all() const {
     std::vector<const Component*> found;
@@ -173,8 +181,12 @@ class Catalogue final : public hyperlattice::Catalogue {
   bool scene_plugins = true;
   std::string refused_type;  ///< pretends that a library of this name is there and bad
 
-  const Component* find(const std::string& type) override { return components_.count(type) == 0 ? nullptr : &components_.at(type); }
-  std::string why_not(const std::string& type) const override { return refused(type) ? "wrong interface version" : "no library " + type + ".so"; }
+  const Component* find(const std::string& type) override {
+    return components_.count(type) == 0 ? nullptr : &components_.at(type);
+  }
+  std::string why_not(const std::string& type) const override {
+    return refused(type) ? "wrong interface version" : "no library " + type + ".so";
+  }
   bool refused(const std::string& type) const override { return type == refused_type; }
   bool allows_scene_plugins() const override { return scene_plugins; }
   std::vector<std::string> known_types() const override {
@@ -182,7 +194,8 @@ class Catalogue final : public hyperlattice::Catalogue {
     for (const auto& [type, component] : components_) types.push_back(type);
     return types;
   }
-  std::vector<SearchOutcome> add_scene_paths(const std::vector<std::string>& entries, const std::filesystem::path& scene_folder) override {
+  std::vector<SearchOutcome> add_scene_paths(const std::vector<std::string>& entries,
+                                             const std::filesystem::path& scene_folder) override {
     std::vector<SearchOutcome> outcomes;
     for (const std::string& entry : entries) {
       const auto path = (scene_folder / entry).lexically_normal();

@@ -1,4 +1,5 @@
-// Laws with constants and memory of their own, for tests: scenes of bodies that do what each law is for.
+// Laws with constants and memory of their own, for tests: scenes of bodies that do what each law is
+// for.
 #pragma once
 
 #include <support/scenes.hpp>
@@ -10,16 +11,20 @@ struct LawCase {
   const char* material;  ///< type and keys; strains of 1e-3 make the law do what it is for
 };
 
-/// A lattice stage, a material's type and keys after its constants, more stages that begin with a comma.
-inline std::string law_scene(const std::string& lattice, const std::string& material, const std::string& stages = "") {
-  return R"({ "format": "hyperlattice/1", "pipeline": [ )" + lattice + R"(, { "young": 1e10, "density": 2500, )" + material + " }" + stages +
+/// A lattice stage, a material's type and keys after its constants, more stages that begin with a
+/// comma.
+inline std::string law_scene(const std::string& lattice, const std::string& material,
+                             const std::string& stages = "") {
+  return R"({ "format": "hyperlattice/1", "pipeline": [ )" + lattice +
+         R"(, { "young": 1e10, "density": 2500, )" + material + " }" + stages +
          R"(, { "type": "solvers.explicit", "end_time": 1 } ] })";
 }
 
-inline const char* const law_failure = R"(, "failure": { "type": "failures.elongation", "limit": 1.2e-6 })";
+inline const char* const law_failure =
+    R"(, "failure": { "type": "failures.elongation", "limit": 1.2e-6 })";
 
 struct Ended {
-  Balance balance;
+  EnergyBalance balance;
   std::uint64_t hash = 0;
   std::size_t broken = 0;
 };
@@ -27,17 +32,22 @@ struct Ended {
 inline Ended shaken(const Plan& plan, double share, int steps, int threads, double speed = 4) {
   Simulation simulation(*plan.model, threads);
   simulation.set_velocities(noise(3 * plan.model->body.particles, speed, 3),
-                            plan.model->degrees_of_freedom == 4 ? std::vector<double>(plan.model->body.particles, 0) : std::vector<double>{});
+                            plan.model->degrees_of_freedom == 4
+                                ? std::vector<double>(plan.model->body.particles, 0)
+                                : std::vector<double>{});
   for (int n = 0; n < steps; ++n) simulation.step(share * plan.model->critical_time_step);
   return {simulation.balance(), simulation.hash(), simulation.breakages().size()};
 }
 
-/// The forces on all particles, x y z each, of a body led along a path of displacements from one step of 1e-8 s to the next.
+/// The forces on all particles, x y z each, of a body led along a path of displacements from one
+/// step of 1e-8 s to the next.
 class LedBody {
  public:
-  explicit LedBody(const Model& model, int threads = 1) : model_(model), simulation_(model, threads) {}
+  explicit LedBody(const Model& model, int threads = 1)
+      : model_(model), simulation_(model, threads) {}
   std::vector<double> forces(const std::vector<double>& displacements) {
-    const std::vector<double> heights(model_.degrees_of_freedom == 4 ? model_.body.particles : 0, 0.0);
+    const std::vector<double> heights(model_.degrees_of_freedom == 4 ? model_.body.particles : 0,
+                                      0.0);
     simulation_.set_displacements(displacements, heights);
     simulation_.set_velocities(std::vector<double>(displacements.size(), 0.0), heights);
     const double kick = simulation_.steps() == 0 ? time_step / 2 : time_step;

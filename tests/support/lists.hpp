@@ -1,4 +1,5 @@
-// Listed lattices for tests: the cubic block written out as a table of points and one of springs, and random blocks.
+// Listed lattices for tests: the cubic block written out as a table of points and one of springs,
+// and random blocks.
 #pragma once
 
 #include <support/scenes.hpp>
@@ -19,15 +20,24 @@ class ListFiles {
       for (int j = 0; j < ny; ++j)
         for (int k = 0; k < nz; ++k) {
           table << i + 0.5 << "," << j + 0.5 << "," << k + 0.5 << "\n";
-          for (const auto& [x, y, z] :
-               {std::array{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {1, -1, 0}, {1, 0, 1}, {1, 0, -1}, {0, 1, 1}, {0, 1, -1}}) {
+          for (const auto& [x, y, z] : {std::array{1, 0, 0},
+                                        {0, 1, 0},
+                                        {0, 0, 1},
+                                        {1, 1, 0},
+                                        {1, -1, 0},
+                                        {1, 0, 1},
+                                        {1, 0, -1},
+                                        {0, 1, 1},
+                                        {0, 1, -1}}) {
             const int a = i + x, b = j + y, c = k + z;
-            if (a >= 0 && a < nx && b >= 0 && b < ny && c >= 0 && c < nz) joints << number(a, b, c) << "," << number(i, j, k) << "\n";
+            if (a >= 0 && a < nx && b >= 0 && b < ny && c >= 0 && c < nz)
+              joints << number(a, b, c) << "," << number(i, j, k) << "\n";
           }
         }
   }
   /// These points, and springs between them.
-  ListFiles(const std::vector<Vec3>& places, const std::vector<std::pair<int, int>>& pairs) : ListFiles() {
+  ListFiles(const std::vector<Vec3>& places, const std::vector<std::pair<int, int>>& pairs)
+      : ListFiles() {
     std::ofstream table(points), joints(springs);
     table.precision(17);
     table << "x,y,z\n";
@@ -44,8 +54,9 @@ class ListFiles {
 
   /// The stage of its lattice; `more` keys.
   std::string lattice(const std::string& more = "") const {
-    return R"({ "type": "lattices.points", "points": ")" + points.string() + R"(", "springs": ")" + springs.string() +
-           R"(", "scale": "1 mm", "spacing": "1 mm")" + (more.empty() ? "" : ", " + more) + " }";
+    return R"({ "type": "lattices.points", "points": ")" + points.string() + R"(", "springs": ")" +
+           springs.string() + R"(", "scale": "1 mm", "spacing": "1 mm")" +
+           (more.empty() ? "" : ", " + more) + " }";
   }
 
   std::filesystem::path points, springs;
@@ -53,7 +64,8 @@ class ListFiles {
  private:
   ListFiles() {
     static int count = 0;
-    const std::string name = "hyperlattice_list_" + std::to_string(::getpid()) + "_" + std::to_string(count++);
+    const std::string name =
+        "hyperlattice_list_" + std::to_string(::getpid()) + "_" + std::to_string(count++);
     points = std::filesystem::temp_directory_path() / (name + "_points.csv");
     springs = std::filesystem::temp_directory_path() / (name + "_springs.csv");
   }
@@ -64,8 +76,10 @@ class InGrid {
  public:
   InGrid() = default;
   InGrid(int nx, int ny, int nz, const Model& list) {
-    const auto x = static_cast<Particle>(nx), y = static_cast<Particle>(ny), z = static_cast<Particle>(nz);
-    for (const Particle n : list.body.listed.source) particle_.push_back(((n % z) * y + n / z % y) * x + n / z / y);  // as ListFiles counts
+    const auto x = static_cast<Particle>(nx), y = static_cast<Particle>(ny),
+               z = static_cast<Particle>(nz);
+    for (const Particle n : list.body.listed.source)
+      particle_.push_back(((n % z) * y + n / z % y) * x + n / z / y);  // as ListFiles counts
   }
   std::size_t size() const { return particle_.size(); }
   const Particle& operator[](Particle of_list) const { return particle_[of_list]; }
@@ -84,19 +98,24 @@ class InGrid {
 };
 
 /// A scene of a lattice stage, a material's keys and more stages.
-inline std::string listed_scene(const std::string& lattice, const std::string& material, const std::string& stages = "", double young = 1e10) {
-  return R"({ "format": "hyperlattice/1", "pipeline": [)" + lattice + R"(, { "type": "materials.elastic", "density": 2500, "young": )" +
-         std::to_string(young) + ", " + material + " }" + (stages.empty() ? "" : ",\n" + stages) +
+inline std::string listed_scene(const std::string& lattice, const std::string& material,
+                                const std::string& stages = "", double young = 1e10) {
+  return R"({ "format": "hyperlattice/1", "pipeline": [)" + lattice +
+         R"(, { "type": "materials.elastic", "density": 2500, "young": )" + std::to_string(young) +
+         ", " + material + " }" + (stages.empty() ? "" : ",\n" + stages) +
          R"(, { "type": "solvers.explicit", "end_time": 1e-6 } ] })";
 }
 
 /// The same, kept in floats.
-inline std::string in_floats(std::string scene) { return scene.insert(scene.find('{') + 1, R"( "precision": "float",)"); }
+inline std::string in_floats(std::string scene) {
+  return scene.insert(scene.find('{') + 1, R"( "precision": "float",)");
+}
 
 /// A random block of nx * ny * nz mm, spacing 1 mm.
 inline std::string random_lattice(int nx, int ny, int nz, const std::string& more = "") {
-  return R"({ "type": "lattices.random", "spacing": "1 mm", "shape": { "box": { "low": [0, 0, 0], "high": [)" + std::to_string(nx) + "e-3, " +
-         std::to_string(ny) + "e-3, " + std::to_string(nz) + "e-3] } }" + (more.empty() ? "" : ", " + more) + " }";
+  return R"({ "type": "lattices.random", "spacing": "1 mm", "shape": { "box": { "low": [0, 0, 0], "high": [)" +
+         std::to_string(nx) + "e-3, " + std::to_string(ny) + "e-3, " + std::to_string(nz) +
+         "e-3] } }" + (more.empty() ? "" : ", " + more) + " }";
 }
 
 }  // namespace hyperlattice::test

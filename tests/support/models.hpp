@@ -24,8 +24,10 @@ struct BuiltScene {
 inline BuiltScene build(const std::string& pipeline) {
   static int count = 0;
   const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / ("hyperlattice_model_" + std::to_string(::getpid()) + "_" + std::to_string(count++) + ".json");
-  std::ofstream(file) << R"({ "format": "hyperlattice/1", "pipeline": [)" << pipeline << R"(, { "type": "solvers.explicit", "end_time": 1e-6 } ] })";
+      std::filesystem::temp_directory_path() / ("hyperlattice_model_" + std::to_string(::getpid()) +
+                                                "_" + std::to_string(count++) + ".json");
+  std::ofstream(file) << R"({ "format": "hyperlattice/1", "pipeline": [)" << pipeline
+                      << R"(, { "type": "solvers.explicit", "end_time": 1e-6 } ] })";
   Host host;
   BuiltScene built;
   try {
@@ -51,8 +53,8 @@ inline std::string faults_of(const std::string& pipeline) {
 
 /// A lattice stage: a box of nx * ny * nz particles, 1 m apart, corner at the origin.
 inline std::string box_lattice(int nx, int ny, int nz) {
-  return R"({ "type": "lattices.cubic", "spacing": 1, "shape": { "box": { "low": [0, 0, 0], "high": [)" + std::to_string(nx) + ", " +
-         std::to_string(ny) + ", " + std::to_string(nz) + "] } } }";
+  return R"({ "type": "lattices.cubic", "spacing": 1, "shape": { "box": { "low": [0, 0, 0], "high": [)" +
+         std::to_string(nx) + ", " + std::to_string(ny) + ", " + std::to_string(nz) + "] } } }";
 }
 
 /// A material stage: young 1e9, density 1000, and more keys.

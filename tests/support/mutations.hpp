@@ -18,9 +18,12 @@ class Damage {
  public:
   explicit Damage(unsigned seed) : random_(seed) {}
 
-  std::size_t below(std::size_t n) { return std::uniform_int_distribution<std::size_t>(0, n - 1)(random_); }
+  std::size_t below(std::size_t n) {
+    return std::uniform_int_distribution<std::size_t>(0, n - 1)(random_);
+  }
 
-  /// The text with up to three bytes or stretches erased, doubled, inserted from `alphabet` or replaced by it.
+  /// The text with up to three bytes or stretches erased, doubled, inserted from `alphabet` or
+  /// replaced by it.
   std::string operator()(std::string text, std::string_view alphabet) {
     for (std::size_t changes = 1 + below(3); changes > 0 && !text.empty(); --changes) {
       const std::size_t at = below(text.size()), length = 1 + below(below(4) == 0 ? 80 : 5);

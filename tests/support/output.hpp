@@ -1,4 +1,5 @@
-// Writers and probes in a test: a plugin loaded from the build as the host would load it, and a small body that moves by a known rule.
+// Writers and probes in a test: a plugin loaded from the build as the host would load it, and a
+// small body that moves by a known rule.
 #pragma once
 
 #include <hyperlattice/output.hpp>
@@ -21,27 +22,39 @@
 namespace hyperlattice::test {
 
 inline Complaint complaint_into(std::string& sentence) {
-  return {&sentence, [](void* self, std::string_view text) noexcept { static_cast<std::string*>(self)->assign(text); }};
+  return {&sentence, [](void* self, std::string_view text) noexcept {
+            static_cast<std::string*>(self)->assign(text);
+          }};
 }
 
-/// A component of a plugin of the build, with options from JSON: its fallbacks, then those given. Throws what the plugin complains about.
+/// A component of a plugin of the build, with options from JSON: its fallbacks, then those given.
+/// Throws what the plugin complains about.
 class Plugin {
  public:
-  explicit Plugin(const std::string& type, const nlohmann::json& settings = nlohmann::json::object()) {
+  explicit Plugin(const std::string& type,
+                  const nlohmann::json& settings = nlohmann::json::object()) {
     const std::string path = std::string(HYPERLATTICE_BUILD) + "/lib/hyperlattice/" + type + ".so";
     void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (library == nullptr) throw std::runtime_error(dlerror());
     const auto* plugin = static_cast<const PluginInfo*>(dlsym(library, "hyperlattice_plugin"));
     if (plugin == nullptr) throw std::runtime_error(path + " is no plugin");
-    Registrar registrar(this, [](void* self, const ComponentInfo& info) noexcept { static_cast<Plugin*>(self)->info_ = info; });
+    Registrar registrar(this, [](void* self, const ComponentInfo& info) noexcept {
+      static_cast<Plugin*>(self)->info_ = info;
+    });
     call([&](const Complaint& why) { return plugin->register_components(registrar, why); });
     call([&](const Complaint& why) { return (options_ = info_.create_options(why)) != nullptr; });
     for (const Option& option : info_.options) set(option, settings);
-    const FaultSink sink{this, [](void* self, std::string_view option, std::string_view expected) noexcept {
-                           static_cast<Plugin*>(self)->faults_.push_back(std::string(option) + ": " + std::string(expected));
-                         }};
-    if (info_.check_options != nullptr) call([&](const Complaint& why) { return info_.check_options(options_, sink, why); });
-    if (faults_.empty()) call([&](const Complaint& why) { return (component_ = info_.create(options_, why)) != nullptr; });
+    const FaultSink sink{
+        this, [](void* self, std::string_view option, std::string_view expected) noexcept {
+          static_cast<Plugin*>(self)->faults_.push_back(std::string(option) + ": " +
+                                                        std::string(expected));
+        }};
+    if (info_.check_options != nullptr)
+      call([&](const Complaint& why) { return info_.check_options(options_, sink, why); });
+    if (faults_.empty())
+      call([&](const Complaint& why) {
+        return (component_ = info_.create(options_, why)) != nullptr;
+      });
   }
   Plugin(const Plugin&) = delete;
   Plugin& operator=(const Plugin&) = delete;
@@ -50,27 +63,38 @@ class Plugin {
     info_.destroy_options(options_);
   }
 
-  const std::vector<std::string>& faults() const { return faults_; }  ///< of the cross-field check; with any, there is no component
+  const std::vector<std::string>& faults() const {
+    return faults_;
+  }  ///< of the cross-field check; with any, there is no component
 
   void begin(const OutputContext& context) {
-    call([&](const Complaint& why) { return functions<WriterFunctions>().begin(component_, context, why); });
+    call([&](const Complaint& why) {
+      return functions<WriterFunctions>().begin(component_, context, why);
+    });
   }
   void frame(const Snapshot& snapshot) {
-    call([&](const Complaint& why) { return functions<WriterFunctions>().frame(component_, snapshot, why); });
+    call([&](const Complaint& why) {
+      return functions<WriterFunctions>().frame(component_, snapshot, why);
+    });
   }
   void end() {
     call([&](const Complaint& why) { return functions<WriterFunctions>().end(component_, why); });
   }
   std::vector<std::string> begin_probe(const OutputContext& context, const Snapshot& first) {
     std::vector<std::string> columns;
-    const ColumnSink sink{&columns,
-                          [](void* self, std::string_view name) noexcept { static_cast<std::vector<std::string>*>(self)->emplace_back(name); }};
-    call([&](const Complaint& why) { return functions<ProbeFunctions>().begin(component_, context, first, sink, why); });
+    const ColumnSink sink{&columns, [](void* self, std::string_view name) noexcept {
+                            static_cast<std::vector<std::string>*>(self)->emplace_back(name);
+                          }};
+    call([&](const Complaint& why) {
+      return functions<ProbeFunctions>().begin(component_, context, first, sink, why);
+    });
     return columns;
   }
   std::vector<double> sample(const Snapshot& snapshot, std::size_t columns) {
     std::vector<double> row(columns, std::numeric_limits<double>::quiet_NaN());
-    call([&](const Complaint& why) { return functions<ProbeFunctions>().sample(component_, snapshot, row.data(), why); });
+    call([&](const Complaint& why) {
+      return functions<ProbeFunctions>().sample(component_, snapshot, row.data(), why);
+    });
     return row;
   }
 
@@ -121,8 +145,8 @@ class Plugin {
   std::vector<std::string> faults_;
 };
 
-/// A block of nx * ny * nz particles that moves by u(x, t) = t (x - c) + t^2 (y, z, x), in a body without a fourth degree of freedom.
-/// Region 0 is all of it; any other is every third particle.
+/// A block of nx * ny * nz particles that moves by u(x, t) = t (x - c) + t^2 (y, z, x), in a body
+/// without a fourth degree of freedom. Region 0 is all of it; any other is every third particle.
 class FakeBody {
  public:
   explicit FakeBody(std::array<int, 3> counts, double spacing = 1e-3) : spacing_(spacing) {
@@ -142,7 +166,8 @@ class FakeBody {
     context.directory = directory;
     context.title = "a fake body";
     context.self = this;
-    context.region_particles = [](void* self, RegionId region) noexcept -> std::span<const Particle> {
+    context.region_particles = [](void* self,
+                                  RegionId region) noexcept -> std::span<const Particle> {
       const auto& body = *static_cast<FakeBody*>(self);
       return region.index == 0 ? body.all_ : body.some_;
     };
@@ -204,7 +229,9 @@ class FakeBody {
 class Folder {
  public:
   explicit Folder(const std::string& name)
-      : path_((std::filesystem::temp_directory_path() / ("hyperlattice_" + name + std::to_string(getpid()))).string()) {
+      : path_((std::filesystem::temp_directory_path() /
+               ("hyperlattice_" + name + std::to_string(getpid())))
+                  .string()) {
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }
@@ -216,7 +243,8 @@ class Folder {
   std::string file(const std::string& name) const { return path_ + "/" + name; }
   std::vector<std::string> names() const {
     std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(path_)) names.push_back(entry.path().filename().string());
+    for (const auto& entry : std::filesystem::directory_iterator(path_))
+      names.push_back(entry.path().filename().string());
     std::sort(names.begin(), names.end());
     return names;
   }

@@ -30,15 +30,20 @@ struct Launch {
 /// Runs `hyperlattice` of this build with the arguments.
 inline Result run_program(const std::vector<std::string>& arguments, const Launch& launch = {}) {
   const Folder folder("program");
-  const std::string program = std::string(HYPERLATTICE_BUILD) + "/bin/hyperlattice", out = folder.file("out"), err = folder.file("err");
+  const std::string program = std::string(HYPERLATTICE_BUILD) + "/bin/hyperlattice",
+                    out = folder.file("out"), err = folder.file("err");
   std::vector<char*> words{const_cast<char*>(program.c_str())};
-  for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
+  for (const std::string& argument : arguments)
+    words.push_back(const_cast<char*>(argument.c_str()));
   words.push_back(nullptr);
   const pid_t child = fork();
   if (child == 0) {
-    for (const auto& [file, stream] : {std::pair{&out, 1}, std::pair{&err, 2}}) dup2(open(file->c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), stream);
-    setenv("OMP_WAIT_POLICY", "passive", 1);  // tests share the processor: threads that wait must not spin
-    for (const std::string& setting : launch.environment) putenv(const_cast<char*>(setting.c_str()));
+    for (const auto& [file, stream] : {std::pair{&out, 1}, std::pair{&err, 2}})
+      dup2(open(file->c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), stream);
+    setenv("OMP_WAIT_POLICY", "passive",
+           1);  // tests share the processor: threads that wait must not spin
+    for (const std::string& setting : launch.environment)
+      putenv(const_cast<char*>(setting.c_str()));
     if (launch.file_limit > 0) {
       const struct rlimit limit = {launch.file_limit, launch.file_limit};
       setrlimit(RLIMIT_FSIZE, &limit);
@@ -54,7 +59,8 @@ inline Result run_program(const std::vector<std::string>& arguments, const Launc
   if (launch.meanwhile) launch.meanwhile(child);
   int status = 0;
   waitpid(child, &status, 0);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status), contents(out), contents(err)};
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status), contents(out),
+          contents(err)};
 }
 
 /// Waits until a condition holds, a minute at most.
@@ -83,7 +89,9 @@ inline std::string write_scene(const Folder& folder, const nlohmann::json& scene
   return file;
 }
 
-inline nlohmann::json read_json(const std::string& file) { return nlohmann::json::parse(contents(file)); }
+inline nlohmann::json read_json(const std::string& file) {
+  return nlohmann::json::parse(contents(file));
+}
 
 /// The rows of a table below its header, as text.
 inline std::vector<std::string> table_rows(const std::string& file) {

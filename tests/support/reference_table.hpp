@@ -1,4 +1,5 @@
-// tests/data/nu_eta_table.csv: elastic constants of the five membranes, computed independently of this program.
+// tests/data/nu_eta_table.csv: elastic constants of the five membranes, computed independently of
+// this program.
 #pragma once
 
 #include <hyperlattice/calibration.hpp>
@@ -34,8 +35,10 @@ inline Rows nu_eta_table() {
     std::istringstream cells(line);
     for (const std::string& column : columns) std::getline(cells, row.values[column], ',');
     for (std::uint32_t m = 0; m < std::size(calibration::membrane_names); ++m)
-      if (calibration::membrane_names[m] == row.values["lattice"]) row.membrane = static_cast<calibration::Membrane>(m);
-    if (row.membrane == calibration::Membrane::none) throw std::runtime_error("no membrane: " + line);
+      if (calibration::membrane_names[m] == row.values["lattice"])
+        row.membrane = static_cast<calibration::Membrane>(m);
+    if (row.membrane == calibration::Membrane::none)
+      throw std::runtime_error("no membrane: " + line);
     rows.push_back(row);
   }
   if (rows.empty()) throw std::runtime_error("nu_eta_table.csv is empty or missing");

@@ -44,16 +44,20 @@ inline std::string number(double value) {
 }
 
 inline std::string box(Vec3 low, Vec3 high) {
-  const auto corner = [](Vec3 v) { return "[" + number(v.x) + ", " + number(v.y) + ", " + number(v.z) + "]"; };
+  const auto corner = [](Vec3 v) {
+    return "[" + number(v.x) + ", " + number(v.y) + ", " + number(v.z) + "]";
+  };
   return R"({ "box": { "low": )" + corner(low) + R"(, "high": )" + corner(high) + " } }";
 }
 
 inline std::string scene(const std::string& lattice, const std::string& stages) {
-  return R"({ "format": "hyperlattice/1", "pipeline": [ { "type": "lattices.cubic", )" + lattice + " },\n" + stages + " ] }";
+  return R"({ "format": "hyperlattice/1", "pipeline": [ { "type": "lattices.cubic", )" + lattice +
+         " },\n" + stages + " ] }";
 }
 
 inline std::string elastic(double young, const std::string& more) {
-  return R"({ "type": "materials.elastic", "density": 2000, "young": )" + number(young) + ", " + more + " },\n";
+  return R"({ "type": "materials.elastic", "density": 2000, "young": )" + number(young) + ", " +
+         more + " },\n";
 }
 
 inline const char* const to_rest = R"({ "type": "solvers.static", "tolerance": 1e-8 })";

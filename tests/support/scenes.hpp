@@ -1,4 +1,5 @@
-// Small scenes for tests, planned through the ordinary runtime: nothing is built by hand that a user would not build by JSON.
+// Small scenes for tests, planned through the ordinary runtime: nothing is built by hand that a
+// user would not build by JSON.
 #pragma once
 
 #include <plan/plan.hpp>
@@ -21,7 +22,8 @@ namespace hyperlattice::test {
 inline std::unique_ptr<Plan> plan_of(const std::string& scene, int threads = 1) {
   static int count = 0;
   const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / ("hyperlattice_scene_" + std::to_string(::getpid()) + "_" + std::to_string(count++) + ".json");
+      std::filesystem::temp_directory_path() / ("hyperlattice_scene_" + std::to_string(::getpid()) +
+                                                "_" + std::to_string(count++) + ".json");
   std::ofstream(file) << scene;
   Host host;
   auto read = read_scene(file, {}, host);
@@ -29,14 +31,16 @@ inline std::unique_ptr<Plan> plan_of(const std::string& scene, int threads = 1) 
   return make_plan(std::move(read), threads);
 }
 
-/// A free block of nx * ny * nz cells of 1 mm, each one particle in the cubic lattice, corner at the origin, with `material` (the keys of a material
-/// after its constants) and more stages.
-inline std::string block(int nx, int ny, int nz, const std::string& material = R"("poisson": 0.25)", const std::string& stages = "",
+/// A free block of nx * ny * nz cells of 1 mm, each one particle in the cubic lattice, corner at
+/// the origin, with `material` (the keys of a material after its constants) and more stages.
+inline std::string block(int nx, int ny, int nz, const std::string& material = R"("poisson": 0.25)",
+                         const std::string& stages = "",
                          const std::string& lattice = "lattices.cubic") {
   const auto size = [](int n) { return std::to_string(n) + "e-3"; };
   return R"({ "format": "hyperlattice/1", "pipeline": [
     { "type": ")" +
-         lattice + R"(", "spacing": 1e-3, "shape": { "box": { "low": [0, 0, 0], "high": [)" + size(nx) + ", " + size(ny) + ", " + size(nz) +
+         lattice + R"(", "spacing": 1e-3, "shape": { "box": { "low": [0, 0, 0], "high": [)" +
+         size(nx) + ", " + size(ny) + ", " + size(nz) +
          R"(] } } },
     { "type": "materials.elastic", "young": 1e10, "density": 2500, )" +
          material + " }" + (stages.empty() ? "" : ",\n" + stages) + R"(,
@@ -72,7 +76,8 @@ inline const MembraneCase centred_lattices[] = {
 };
 
 /// A block of a case's lattice and membrane, with more keys of the material.
-inline std::string block(int nx, int ny, int nz, const MembraneCase& of, const std::string& more = "", const std::string& stages = "") {
+inline std::string block(int nx, int ny, int nz, const MembraneCase& of,
+                         const std::string& more = "", const std::string& stages = "") {
   return block(nx, ny, nz, of.material + more, stages, of.lattice);
 }
 
@@ -80,7 +85,8 @@ inline std::string block(int nx, int ny, int nz, const MembraneCase& of, const s
 inline std::vector<double> noise(std::size_t count, double amplitude, unsigned seed = 1) {
   std::mt19937_64 random(seed);
   std::vector<double> values(count);
-  for (double& value : values) value = amplitude * (2 * (static_cast<double>(random() >> 11) * 0x1p-53) - 1);
+  for (double& value : values)
+    value = amplitude * (2 * (static_cast<double>(random() >> 11) * 0x1p-53) - 1);
   return values;
 }
 
@@ -93,7 +99,8 @@ inline std::vector<double> displacements(const Simulation& simulation) {
 /// Largest size of the values; infinite if one is not a number.
 inline double largest(const std::vector<double>& values) {
   double found = 0;
-  for (const double value : values) found = std::isnan(value) ? HUGE_VAL : std::max(found, std::abs(value));
+  for (const double value : values)
+    found = std::isnan(value) ? HUGE_VAL : std::max(found, std::abs(value));
   return found;
 }
 

@@ -10,16 +10,21 @@ using namespace hyperlattice;
 using namespace hyperlattice::test;
 
 class Aggregation : public testing::TestWithParam<MembraneCase> {};
-const MembraneCase cases[] = {
-    {"none", R"("membrane": "none")"}, {"I", R"("membrane": "I", "poisson": 0.2)"}, {"clamped", R"("membrane": "III", "lambda": 1)"}};
-INSTANTIATE_TEST_SUITE_P(Membranes, Aggregation, testing::ValuesIn(cases), [](const auto& info) { return std::string(info.param.name); });
+const MembraneCase cases[] = {{"none", R"("membrane": "none")"},
+                              {"I", R"("membrane": "I", "poisson": 0.2)"},
+                              {"clamped", R"("membrane": "III", "lambda": 1)"}};
+INSTANTIATE_TEST_SUITE_P(Membranes, Aggregation, testing::ValuesIn(cases),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 std::string solver(const std::string& preconditioner, const std::string& more) {
-  return R"({ "type": "solvers.static", "preconditioner": ")" + preconditioner + R"(", )" + more + " }";
+  return R"({ "type": "solvers.static", "preconditioner": ")" + preconditioner + R"(", )" + more +
+         " }";
 }
 
 /// A random block of n^3 mm, pulled.
-std::string pulled(int n, const std::string& solver, const std::string& material = R"("membrane": "I", "poisson": 0.2)", const char* way = "1e-6") {
+std::string pulled(int n, const std::string& solver,
+                   const std::string& material = R"("membrane": "I", "poisson": 0.2)",
+                   const char* way = "1e-6") {
   return listed_scene(random_lattice(n, n, n), material,
                       R"({ "type": "loads.fixed", "on": "z_min" },
     { "type": "loads.displacement", "on": "z_max", "value": [0, 0, )" +
@@ -47,16 +52,22 @@ std::string complaint_of(const std::string& scene) {
 }
 
 TEST_P(Aggregation, AgreesWithTheWholeFactorisation) {
-  const Found whole = at_rest(pulled(8, solver("whole", R"("tolerance": 1e-9)"), GetParam().material));
-  const Found levels = at_rest(pulled(8, solver("multigrid", R"("tolerance": 1e-9)"), GetParam().material));
+  const Found whole =
+      at_rest(pulled(8, solver("whole", R"("tolerance": 1e-9)"), GetParam().material));
+  const Found levels =
+      at_rest(pulled(8, solver("multigrid", R"("tolerance": 1e-9)"), GetParam().material));
   EXPECT_LT(distance(whole.u, levels.u), 1e-7 * largest(whole.u));
   EXPECT_LE(levels.report.residual, 1e-9);
 }
 
-// The cost of an iteration is in proportion to the body's size, so what counts is how their number grows.
+// The cost of an iteration is in proportion to the body's size, so what counts is how their number
+// grows.
 TEST(AggregationOf, IterationsGrowLessThanThoseOfAnIncompleteFactorisation) {
-  const auto iterations = [](int n, const std::string& solver) { return static_cast<double>(at_rest(pulled(n, solver)).report.iterations); };
-  const std::string levels = solver("multigrid", R"("tolerance": 1e-6)"), incomplete = solver("incomplete", R"("tolerance": 1e-6)");
+  const auto iterations = [](int n, const std::string& solver) {
+    return static_cast<double>(at_rest(pulled(n, solver)).report.iterations);
+  };
+  const std::string levels = solver("multigrid", R"("tolerance": 1e-6)"),
+                    incomplete = solver("incomplete", R"("tolerance": 1e-6)");
   for (const int n : {14, 22}) {
     const double few = iterations(n, levels), many = iterations(n, incomplete);
     std::printf("%d^3: %g iterations, %g with an incomplete factorisation\n", n, few, many);
@@ -65,14 +76,16 @@ TEST(AggregationOf, IterationsGrowLessThanThoseOfAnIncompleteFactorisation) {
 }
 
 TEST_P(Aggregation, HasTheSameBitsForAnyNumberOfThreads) {
-  const std::string scene = pulled(9, solver("multigrid", R"("tolerance": 1e-6)"), GetParam().material);
+  const std::string scene =
+      pulled(9, solver("multigrid", R"("tolerance": 1e-6)"), GetParam().material);
   EXPECT_EQ(at_rest(scene, 1).u, at_rest(scene, 3).u);
 }
 
 // A bar bent by a third of its length, against the factorisation.
 TEST(AggregationOf, LargeRotations) {
   const auto bent = [](const std::string& solver) {
-    return listed_scene(random_lattice(3, 3, 16, R"("coordination": 13)"), R"("membrane": "I", "poisson": 0.2)",
+    return listed_scene(random_lattice(3, 3, 16, R"("coordination": 13)"),
+                        R"("membrane": "I", "poisson": 0.2)",
                         R"({ "type": "loads.fixed", "on": "z_min" },
     { "type": "loads.displacement", "on": "z_max", "axes": "x", "value": [5e-3, 0, 0], "rise": 1e-9 },)" +
                             solver);
@@ -88,8 +101,11 @@ TEST(AggregationOf, ABodyThatNothingHoldsIsToldHowItMoves) {
   for (const char* preconditioner : {"whole", "multigrid"}) {
     const std::string complaint =
         complaint_of(listed_scene(files.lattice(), R"("membrane": "none")",
-                                  R"({ "type": "loads.gravity", "acceleration": [0, -9.81, 0] },)" + solver(preconditioner, R"("tolerance": 1e-6)")));
-    EXPECT_NE(complaint.find("the whole body can move as a rigid one: it slides along (0, -1, 0)"), std::string::npos) << complaint;
+                                  R"({ "type": "loads.gravity", "acceleration": [0, -9.81, 0] },)" +
+                                      solver(preconditioner, R"("tolerance": 1e-6)")));
+    EXPECT_NE(complaint.find("the whole body can move as a rigid one: it slides along (0, -1, 0)"),
+              std::string::npos)
+        << complaint;
   }
 }
 

@@ -1,4 +1,5 @@
-// A body of cells of several materials is the sum of its cells: borders between materials stand where the scene puts them, whatever the spacing.
+// A body of cells of several materials is the sum of its cells: borders between materials stand
+// where the scene puts them, whatever the spacing.
 #include <model/build.hpp>
 
 #include <support/books.hpp>
@@ -14,10 +15,16 @@ using namespace hyperlattice::test;
 constexpr double poisson = 0.25, soft = 2e8, contrast = 1e5;
 
 /// Stress over strain of a bar whose sides are held.
-double confined(double young) { return young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson)); }
+double confined(double young) {
+  return young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson));
+}
 
-std::string material(double young, const std::string& more = "") { return elastic(young, R"("poisson": 0.25)" + more); }
-std::string stiff_beyond(Vec3 low) { return material(contrast * soft, R"(, "name": "stiff", "region": )" + box(low, {1, 1, 1})); }
+std::string material(double young, const std::string& more = "") {
+  return elastic(young, R"("poisson": 0.25)" + more);
+}
+std::string stiff_beyond(Vec3 low) {
+  return material(contrast * soft, R"(, "name": "stiff", "region": )" + box(low, {1, 1, 1}));
+}
 
 const char* const held_sides =
     R"({ "type": "loads.fixed", "on": "x_min", "axes": "x" }, { "type": "loads.fixed", "name": "sides", "on": "all", "axes": "yz" },)";
@@ -25,53 +32,78 @@ const char* const held_sides =
 TEST(CellMaterials, ABarOfTwoHalvesInARowIsExact) {
   constexpr double length = 0.16, border = 0.048, width = 0.016, pull = 1e-3;
   for (const double spacing : {4e-3, 2e-3}) {
-    const AtRest bar(scene(R"("boundary": "cells", "spacing": )" + number(spacing) + R"(, "shape": )" + box({}, {length, width, width}),
+    const AtRest bar(scene(R"("boundary": "cells", "spacing": )" + number(spacing) +
+                               R"(, "shape": )" + box({}, {length, width, width}),
                            material(soft) + stiff_beyond({border, -1, -1}) + held_sides +
-                               R"({ "type": "loads.pressure", "on": "x_max", "pressure": )" + number(-pull) + " }, " + to_rest));
-    const std::int32_t end = bar.model().body.high.i, at_border = static_cast<std::int32_t>(std::lround(border / spacing));
-    const double of_soft = pull / confined(soft) * border, of_stiff = pull / confined(contrast * soft) * (length - border);
-    EXPECT_NEAR(bar.mean(0, [&](Site s) { return s.i == at_border; }) / of_soft, 1, 1e-6) << spacing;
-    EXPECT_NEAR(bar.mean(0, [&](Site s) { return s.i == end; }) / (of_soft + of_stiff), 1, 1e-6) << spacing;
+                               R"({ "type": "loads.pressure", "on": "x_max", "pressure": )" +
+                               number(-pull) + " }, " + to_rest));
+    const std::int32_t end = bar.model().body.high.i,
+                       at_border = static_cast<std::int32_t>(std::lround(border / spacing));
+    const double of_soft = pull / confined(soft) * border,
+                 of_stiff = pull / confined(contrast * soft) * (length - border);
+    EXPECT_NEAR(bar.mean(0, [&](Site s) { return s.i == at_border; }) / of_soft, 1, 1e-6)
+        << spacing;
+    EXPECT_NEAR(bar.mean(0, [&](Site s) { return s.i == end; }) / (of_soft + of_stiff), 1, 1e-6)
+        << spacing;
   }
 }
 
-// A border particle has one height, the two sides want two: in a free membrane a part of a cell acts as if it were stiffer.
+// A border particle has one height, the two sides want two: in a free membrane a part of a cell
+// acts as if it were stiffer.
 TEST(CellMaterials, AFreeMembraneErrsAtABorderByATenthOfACell) {
-  constexpr double nu = 0.1, modulus = soft * (1 - nu) / ((1 + nu) * (1 - 2 * nu)), border = 0.048, width = 0.008, pull = 1e-3;
+  constexpr double nu = 0.1, modulus = soft * (1 - nu) / ((1 + nu) * (1 - 2 * nu)), border = 0.048,
+                   width = 0.008, pull = 1e-3;
   for (const double spacing : {4e-3, 2e-3}) {
-    const auto of = [](double young, const std::string& more) { return elastic(young, R"("membrane": "I-m", "poisson": 0.1)" + more); };
-    const AtRest bar(scene(R"("boundary": "cells", "spacing": )" + number(spacing) + R"(, "shape": )" + box({}, {0.16, width, width}),
-                           of(soft, "") + of(contrast * soft, R"(, "name": "stiff", "region": )" + box({border, -1, -1}, {1, 1, 1})) + held_sides +
-                               R"({ "type": "loads.pressure", "on": "x_max", "pressure": )" + number(-pull) + " }, " + to_rest));
+    const auto of = [](double young, const std::string& more) {
+      return elastic(young, R"("membrane": "I-m", "poisson": 0.1)" + more);
+    };
+    const AtRest bar(
+        scene(R"("boundary": "cells", "spacing": )" + number(spacing) + R"(, "shape": )" +
+                  box({}, {0.16, width, width}),
+              of(soft, "") +
+                  of(contrast * soft,
+                     R"(, "name": "stiff", "region": )" + box({border, -1, -1}, {1, 1, 1})) +
+                  held_sides + R"({ "type": "loads.pressure", "on": "x_max", "pressure": )" +
+                  number(-pull) + " }, " + to_rest));
     const std::int32_t end = bar.model().body.high.i;
     const double exact = pull / modulus * (border + (0.16 - border) / contrast);
-    EXPECT_NEAR((1 - bar.mean(0, [&](Site s) { return s.i == end; }) / exact) * border / spacing, 0.1091, 1e-3) << spacing;
+    EXPECT_NEAR((1 - bar.mean(0, [&](Site s) { return s.i == end; }) / exact) * border / spacing,
+                0.1091, 1e-3)
+        << spacing;
   }
 }
 
 TEST(CellMaterials, ABarOfTwoHalvesSideBySideHasTheMeanModulus) {
   constexpr double stretch = 1e-9;
-  const AtRest bar(scene(R"("boundary": "cells", "spacing": 1e-3, "shape": )" + box({}, {8e-3, 4e-3, 6e-3}),
-                         material(soft) + stiff_beyond({-1, 1e-3, -1}) + held_sides +
-                             R"({ "type": "loads.displacement", "on": "x_max", "axes": "x", "value": [)" + number(stretch) +
-                             R"(, 0, 0], "rise": 1e-9 }, )" + to_rest));
-  const double force = -bar.simulation->force_on_load().at(2).x, mean = (confined(soft) + 3 * confined(contrast * soft)) / 4;
+  const AtRest bar(
+      scene(R"("boundary": "cells", "spacing": 1e-3, "shape": )" + box({}, {8e-3, 4e-3, 6e-3}),
+            material(soft) + stiff_beyond({-1, 1e-3, -1}) + held_sides +
+                R"({ "type": "loads.displacement", "on": "x_max", "axes": "x", "value": [)" +
+                number(stretch) + R"(, 0, 0], "rise": 1e-9 }, )" + to_rest));
+  const double force = -bar.simulation->force_on_load().at(2).x,
+               mean = (confined(soft) + 3 * confined(contrast * soft)) / 4;
   EXPECT_NEAR(force / (mean * 24e-6 * stretch / 8e-3), 1, 1e-6);
 }
 
 /// Two materials with an oblique border, of unlike density.
-std::string two(const std::string& first = "", const std::string& second = "", const std::string& stages = "") {
-  return scene_of_cells(box_text({0, 0, 0}, {6, 5, 4}), R"("membrane": "I-m", "poisson": 0.2)" + first,
-                        R"({ "type": "materials.elastic", "young": 4e10, "density": 7000, "membrane": "I-m", "poisson": 0.1,
+std::string two(const std::string& first = "", const std::string& second = "",
+                const std::string& stages = "") {
+  return scene_of_cells(
+      box_text({0, 0, 0}, {6, 5, 4}), R"("membrane": "I-m", "poisson": 0.2)" + first,
+      R"({ "type": "materials.elastic", "young": 4e10, "density": 7000, "membrane": "I-m", "poisson": 0.1,
                              "region": { "half_space": { "point": [2.5e-3, 0, 0], "normal": [-1, 0.3, 0.2] } })" +
-                            second + " }" + (stages.empty() ? "" : "," + stages));
+          second + " }" + (stages.empty() ? "" : "," + stages));
 }
-bool is_second(const CellIndex& cell) { return -(cell[0] + 0.5 - 2.5) + 0.3 * (cell[1] + 0.5) + 0.2 * (cell[2] + 0.5) <= 0; }
+bool is_second(const CellIndex& cell) {
+  return -(cell[0] + 0.5 - 2.5) + 0.3 * (cell[1] + 0.5) + 0.2 * (cell[2] + 0.5) <= 0;
+}
 
 TEST(CellMaterials, MassesAndSpringsAreTheMeansOfTheirCells) {
   const auto plan = plan_of(two());
   const Model& model = *plan->model;
-  const auto inside = [](const CellIndex& c) { return c[0] >= 0 && c[0] < 6 && c[1] >= 0 && c[1] < 5 && c[2] >= 0 && c[2] < 4; };
+  const auto inside = [](const CellIndex& c) {
+    return c[0] >= 0 && c[0] < 6 && c[1] >= 0 && c[1] < 5 && c[2] >= 0 && c[2] < 4;
+  };
   std::vector<Particle> all(model.body.particles);
   for (Particle p = 0; p < all.size(); ++p) all[p] = p;
   for (const Particle p : all) {
@@ -89,25 +121,31 @@ TEST(CellMaterials, MassesAndSpringsAreTheMeansOfTheirCells) {
     double stiffness = 0;
     for_cells_of(to, [&](int di, int dj, int dk) {
       const CellIndex cell{a[0] + di, a[1] + dj, a[2] + dk};
-      if (inside(cell)) stiffness += model.materials[is_second(cell) ? 1 : 0].constants.base_stiffness / cells;
+      if (inside(cell))
+        stiffness += model.materials[is_second(cell) ? 1 : 0].constants.base_stiffness / cells;
     });
     EXPECT_NEAR(spring.stiffness, stiffness, 1e-12 * stiffness) << spring.a << ' ' << spring.b;
   }
 }
 
 TEST(CellMaterials, StaticsAndStepsHaveTheSameSprings) {
-  const AtRest body(scene(R"("boundary": "cells", "spacing": 1e-3, "anchor": [0, 0, 0], "shape": )" + box({}, {6e-3, 5e-3, 4e-3}),
-                          elastic(1e10, R"("membrane": "I-m", "poisson": 0.2)") +
-                              elastic(4e10, R"("membrane": "I-m", "poisson": 0.1, "region": { "half_space": { "point": [2.5e-3, 0, 0],
+  const AtRest body(scene(
+      R"("boundary": "cells", "spacing": 1e-3, "anchor": [0, 0, 0], "shape": )" +
+          box({}, {6e-3, 5e-3, 4e-3}),
+      elastic(1e10, R"("membrane": "I-m", "poisson": 0.2)") +
+          elastic(
+              4e10,
+              R"("membrane": "I-m", "poisson": 0.1, "region": { "half_space": { "point": [2.5e-3, 0, 0],
                                                  "normal": [-1, 0.3, 0.2] } })") +
-                              R"({ "type": "loads.fixed", "on": "x_min" },
+          R"({ "type": "loads.fixed", "on": "x_min" },
                                  { "type": "loads.displacement", "on": "x_max", "axes": "x", "value": [1e-6, 0, 0], "rise": 1e-9 },)" +
-                              to_rest));
+          to_rest));
   const auto left = forces(body.model(), body.u, body.heights);
   double most = 0, least = 0;
   for (Particle p = 0; p < body.model().body.particles; ++p) {
     const Site at = body.model().body.site(p);
-    const double force = std::max({std::abs(left[p][0]), std::abs(left[p][1]), std::abs(left[p][2]), std::abs(left[p][3])});
+    const double force = std::max(
+        {std::abs(left[p][0]), std::abs(left[p][1]), std::abs(left[p][2]), std::abs(left[p][3])});
     if (at.i > 0 && at.i < 6) least = std::max(least, force);
   }
   most = std::abs(body.simulation->force_on_load().at(1).x) / 30;  // a particle of the face
@@ -115,18 +153,23 @@ TEST(CellMaterials, StaticsAndStepsHaveTheSameSprings) {
 }
 
 TEST(CellMaterials, TheWeakestMaterialOfASpringBreaksIt) {
-  const auto limit = [](double strain) { return R"(, "failure": { "type": "failures.strain", "limit": )" + number(strain) + " }"; };
+  const auto limit = [](double strain) {
+    return R"(, "failure": { "type": "failures.strain", "limit": )" + number(strain) + " }";
+  };
   for (const bool first_is_weak : {true, false}) {
-    const auto plan = plan_of(two(limit(first_is_weak ? 1e-3 : 3e-3), limit(first_is_weak ? 3e-3 : 1e-3)));
+    const auto plan =
+        plan_of(two(limit(first_is_weak ? 1e-3 : 3e-3), limit(first_is_weak ? 3e-3 : 1e-3)));
     const Model& model = *plan->model;
     std::size_t mixed = 0;
     for (Particle p = 0; p < model.body.particles; ++p)
       for (std::uint32_t n = 0; n < model.body.neighbours.size(); ++n) {
         if (!(model.body.share(model.body.site(p), model.body.neighbours[n]) > 0)) continue;
         bool weak = false, strong = false;
-        for (const std::uint8_t m : model.materials_of(p, p, n)) (((m == 0) == first_is_weak) ? weak : strong) = true;
+        for (const std::uint8_t m : model.materials_of(p, p, n))
+          (((m == 0) == first_is_weak) ? weak : strong) = true;
         mixed += weak && strong ? 1 : 0;
-        const double strain = model.spring_to(n, model.kind(p), 0).alarm / model.neighbours[n].rest_length;
+        const double strain =
+            model.spring_to(n, model.kind(p), 0).alarm / model.neighbours[n].rest_length;
         EXPECT_NEAR(strain, weak ? 1e-3 : 3e-3, 1e-12) << p << ' ' << n;
       }
     EXPECT_GT(mixed, 50u);
@@ -136,8 +179,10 @@ TEST(CellMaterials, TheWeakestMaterialOfASpringBreaksIt) {
 TEST(CellMaterials, RegionsHoldCellsByTheirCentres) {
   const auto faults = [](const std::string& region) {
     try {
-      plan_of(scene_of_cells(box_text({0, 0, 0}, {3, 3, 3}), R"("poisson": 0.25)",
-                             R"({ "type": "materials.elastic", "young": 1e9, "density": 1, "region": )" + region + " }"));
+      plan_of(scene_of_cells(
+          box_text({0, 0, 0}, {3, 3, 3}), R"("poisson": 0.25)",
+          R"({ "type": "materials.elastic", "young": 1e9, "density": 1, "region": )" + region +
+              " }"));
     } catch (const InputError& error) {
       return std::string(error.what());
     }
@@ -145,9 +190,12 @@ TEST(CellMaterials, RegionsHoldCellsByTheirCentres) {
   };
   EXPECT_EQ(faults(box_text({2, 0, 0}, {3, 3, 3})), "");
   EXPECT_EQ(faults(R"("x_max")"), "");
-  EXPECT_NE(faults(R"({ "sphere": { "radius": 0.4e-3 } })").find("holds the centre of none of the body's"), std::string::npos);
-  const auto plan = plan_of(scene_of_cells(box_text({0, 0, 0}, {3, 3, 3}), R"("poisson": 0.25)",
-                                           R"({ "type": "materials.elastic", "young": 1e9, "density": 1, "region": "x_max" })"));
+  EXPECT_NE(faults(R"({ "sphere": { "radius": 0.4e-3 } })")
+                .find("holds the centre of none of the body's"),
+            std::string::npos);
+  const auto plan = plan_of(scene_of_cells(
+      box_text({0, 0, 0}, {3, 3, 3}), R"("poisson": 0.25)",
+      R"({ "type": "materials.elastic", "young": 1e9, "density": 1, "region": "x_max" })"));
   double mass = 0;
   for (Particle p = 0; p < plan->model->body.particles; ++p) mass += plan->model->mass(p);
   EXPECT_NEAR(mass, (18 * 2500 + 9) * 1e-9, 1e-18);

@@ -1,4 +1,5 @@
-// Loads on bodies of cells: exact resultants, and the exact balance of what pressure and springs do in a body under the same pressure everywhere.
+// Loads on bodies of cells: exact resultants, and the exact balance of what pressure and springs do
+// in a body under the same pressure everywhere.
 #include <support/cells.hpp>
 
 #include <gtest/gtest.h>
@@ -39,16 +40,19 @@ TEST(CellLoads, PressureIsAQuarterOfAFaceOnEachOfItsCorners) {
 }
 
 TEST(CellLoads, AForceInTotalStressesAFaceEvenly) {
-  const auto plan =
-      box_with(R"({ "type": "loads.force", "on": "x_max", "total": [-140, 0, 0] }, { "type": "loads.pressure", "on": "x_max", "pressure": 7e6 })");
+  const auto plan = box_with(
+      R"({ "type": "loads.force", "on": "x_max", "total": [-140, 0, 0] }, { "type": "loads.pressure", "on": "x_max", "pressure": 7e6 })");
   const auto &force = plan->model->loads[0].particles, &pressure = plan->model->loads[1].particles;
   ASSERT_EQ(force.size(), pressure.size());
-  for (std::size_t n = 0; n < force.size(); ++n) expect_near(force[n].force, pressure[n].force, 1e-13);
+  for (std::size_t n = 0; n < force.size(); ++n)
+    expect_near(force[n].force, pressure[n].force, 1e-13);
 }
 
 TEST(CellLoads, BlastIsRadialAndHasTheTrueArea) {
-  const auto plan = plan_of(scene_of_cells(R"({ "hollow_sphere": { "inner_radius": 8e-3, "outer_radius": 15e-3 } })", R"("poisson": 0.25)",
-                                           R"({ "type": "loads.blast", "on": "inner_surface", "peak": 2e6, "rise": 1e-6, "fall": 3e-6 })"));
+  const auto plan = plan_of(scene_of_cells(
+      R"({ "hollow_sphere": { "inner_radius": 8e-3, "outer_radius": 15e-3 } })",
+      R"("poisson": 0.25)",
+      R"({ "type": "loads.blast", "on": "inner_surface", "peak": 2e6, "rise": 1e-6, "fall": 3e-6 })"));
   const Load& load = plan->model->loads[0];
   double radial = 0;
   for (const LoadedParticle& loaded : load.particles) {
@@ -66,27 +70,33 @@ TEST(CellLoads, GravityPullsTheMassOfTheVolume) {
   const auto plan = box_with(R"({ "type": "loads.gravity", "acceleration": [0, 0, -10] })");
   const std::size_t n = plan->model->body.particles;
   double sum = 0;
-  for (const Force& force : forces(*plan->model, std::vector<double>(3 * n, 0), {})) sum += force[2];
+  for (const Force& force : forces(*plan->model, std::vector<double>(3 * n, 0), {}))
+    sum += force[2];
   EXPECT_NEAR(sum, -2500 * 60e-9 * 10, 1e-14);
 }
 
 class PressedCells : public testing::TestWithParam<MembraneCase> {};
-INSTANTIATE_TEST_SUITE_P(Membranes, PressedCells, testing::ValuesIn(membranes), [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(Membranes, PressedCells, testing::ValuesIn(membranes),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 TEST_P(PressedCells, ShrinkEvenlyUnderTheSamePressureEverywhere) {
   for (const CellShape& shape : cell_shapes()) {
     constexpr double strain = 1e-20, l = 1e-3;  // linear to the last bit
     const auto scene = [&](double pressure) {
       char load[100];
-      std::snprintf(load, sizeof load, R"({ "type": "loads.pressure", "on": "surface", "pressure": %.17g })", pressure);
+      std::snprintf(load, sizeof load,
+                    R"({ "type": "loads.pressure", "on": "surface", "pressure": %.17g })",
+                    pressure);
       return plan_of(scene_of_cells(shape.shape, GetParam().material, load));
     };
     const MaterialConstants m = scene(1)->model->materials[0].constants;
     const double kb = m.cross_ratio[0], kg = m.cross_ratio[1];
     const bool free = !m.clamped && m.has_cross_springs();
-    const double C1 = 6 + kb + 8 * kg / 3, C2 = 2 + 4 * kg / 3, C3 = m.alpha_ratio + 3 * kb + 4 * kg, C4 = kb + 8 * kg / 3;
+    const double C1 = 6 + kb + 8 * kg / 3, C2 = 2 + 4 * kg / 3,
+                 C3 = m.alpha_ratio + 3 * kb + 4 * kg, C4 = kb + 8 * kg / 3;
     const double relaxation = free ? C4 / C3 : 0;
-    const auto plan = scene(m.base_stiffness / (2 * l) * (C1 + 2 * C2 - 3 * relaxation * C4) * strain);
+    const auto plan =
+        scene(m.base_stiffness / (2 * l) * (C1 + 2 * C2 - 3 * relaxation * C4) * strain);
     const Model& model = *plan->model;
     std::vector<double> u(3 * model.body.particles), heights;
     for (Particle p = 0; p < model.body.particles; ++p)

@@ -1,4 +1,5 @@
-// Moving bodies of cells keep what they must: momentum, energy whatever happens to them, and bits that do not depend on the number of threads.
+// Moving bodies of cells keep what they must: momentum, energy whatever happens to them, and bits
+// that do not depend on the number of threads.
 #include <support/books.hpp>
 #include <support/cells.hpp>
 
@@ -12,18 +13,21 @@ using namespace hyperlattice;
 using namespace hyperlattice::test;
 
 const CellShape& shape(const std::string& name) {
-  return *std::find_if(cell_shapes().begin(), cell_shapes().end(), [&](const CellShape& s) { return s.name == name; });
+  return *std::find_if(cell_shapes().begin(), cell_shapes().end(),
+                       [&](const CellShape& s) { return s.name == name; });
 }
 
 void shake(Simulation& simulation, const Model& model, double amplitude) {
   const std::size_t particles = model.body.particles;
   const bool heights = model.degrees_of_freedom == 4;
-  simulation.set_displacements(noise(3 * particles, amplitude, 1), heights ? noise(particles, amplitude, 2) : std::vector<double>{});
+  simulation.set_displacements(noise(3 * particles, amplitude, 1),
+                               heights ? noise(particles, amplitude, 2) : std::vector<double>{});
   simulation.set_velocities(noise(3 * particles, amplitude / model.critical_time_step, 3), {});
 }
 
 class MovingCells : public testing::TestWithParam<MembraneCase> {};
-INSTANTIATE_TEST_SUITE_P(Membranes, MovingCells, testing::ValuesIn(membranes), [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(Membranes, MovingCells, testing::ValuesIn(membranes),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 TEST_P(MovingCells, KeepTheirMomentumAndEnergy) {
   for (const char* name : {"L", "touching_in_an_edge"}) {
@@ -32,14 +36,16 @@ TEST_P(MovingCells, KeepTheirMomentumAndEnergy) {
     Simulation simulation(model, 2);
     shake(simulation, model, 1e-11);
     simulation.step(0.5 * model.critical_time_step);
-    const Balance start = simulation.balance();
+    const EnergyBalance start = simulation.balance();
     double mass = 0, worst = 0;
     for (Particle p = 0; p < model.body.particles; ++p) mass += model.mass(p);
     for (int n = 0; n < 500; ++n) {
       simulation.step(0.5 * model.critical_time_step);
       if (n % 50 == 49) worst = std::max(worst, std::abs(simulation.balance().relative_error()));
     }
-    EXPECT_LT(norm(simulation.balance().momentum - start.momentum), 1e-13 * std::sqrt(2 * start.kinetic_mean * mass)) << name;
+    EXPECT_LT(norm(simulation.balance().momentum - start.momentum),
+              1e-13 * std::sqrt(2 * start.kinetic_mean * mass))
+        << name;
     EXPECT_LT(worst, 1e-6) << name;  // strains near 1e-8
   }
 }
@@ -47,37 +53,51 @@ TEST_P(MovingCells, KeepTheirMomentumAndEnergy) {
 TEST(Cells, BalanceTheirEnergy) {
   constexpr const char* held = R"({ "type": "loads.fixed", "on": "z_min" }, )";
   const std::tuple<const char*, std::string, double, double> flows[] = {
-      {"hanging", std::string(held) + R"({ "type": "loads.gravity", "acceleration": [1, 2, -9.81] })", 0, 1e-10},
-      {"pulled", std::string(held) + R"({ "type": "loads.force", "on": "z_max", "total": [5, 0, 20] })", 0, 2e-4},
-      {"damped", std::string(held) + R"({ "type": "loads.force", "on": "z_max", "total": [5, 0, 20] })", 0.5, 1e-6},
-      {"driven", std::string(held) + R"({ "type": "loads.velocity", "on": "z_max", "axes": "z", "value": [0, 0, 1] })", 0, 2e-4},
+      {"hanging",
+       std::string(held) + R"({ "type": "loads.gravity", "acceleration": [1, 2, -9.81] })", 0,
+       1e-10},
+      {"pulled",
+       std::string(held) + R"({ "type": "loads.force", "on": "z_max", "total": [5, 0, 20] })", 0,
+       2e-4},
+      {"damped",
+       std::string(held) + R"({ "type": "loads.force", "on": "z_max", "total": [5, 0, 20] })", 0.5,
+       1e-6},
+      {"driven",
+       std::string(held) +
+           R"({ "type": "loads.velocity", "on": "z_max", "axes": "z", "value": [0, 0, 1] })",
+       0, 2e-4},
   };
   for (const char* membrane : {R"("poisson": 0.25)", R"("membrane": "I-m", "poisson": 0.1)"})
     for (const auto& [name, loads, damping, tolerance] : flows) {
       const auto plan = plan_of(scene_of_cells(box_text({0, 0, 0}, {5, 4, 7}), membrane, loads));
-      const double coarse = keep_books(*plan->model, 0.4, damping).largest_error, fine = keep_books(*plan->model, 0.1, damping).largest_error;
+      const double coarse = keep_books(*plan->model, 0.4, damping).largest_error,
+                   fine = keep_books(*plan->model, 0.1, damping).largest_error;
       EXPECT_LT(coarse, tolerance) << name << membrane;
-      EXPECT_LT(fine, std::max(1e-13, coarse / 10)) << name << membrane << ": a quarter of the step, a sixteenth of the error";
+      EXPECT_LT(fine, std::max(1e-13, coarse / 10))
+          << name << membrane << ": a quarter of the step, a sixteenth of the error";
     }
 }
 
 /// Two materials that break, pulled apart.
 std::unique_ptr<Plan> breaking(int threads = 1) {
   const std::string failure = R"(, "failure": { "type": "failures.elongation", "limit": 1e-6 })";
-  return plan_of(scene_of_cells(box_text({0, 0, 0}, {5, 6, 11}), R"("membrane": "I-m", "poisson": 0.2)" + failure,
-                                R"({ "type": "materials.elastic", "young": 3e10, "density": 7000, "membrane": "I-m", "poisson": 0.1,
+  return plan_of(
+      scene_of_cells(
+          box_text({0, 0, 0}, {5, 6, 11}), R"("membrane": "I-m", "poisson": 0.2)" + failure,
+          R"({ "type": "materials.elastic", "young": 3e10, "density": 7000, "membrane": "I-m", "poisson": 0.1,
                                      "region": { "half_space": { "point": [0, 2.1e-3, 0], "normal": [0, 1, 0.3] } })" +
-                                    failure + R"( },
+              failure + R"( },
                                    { "type": "loads.velocity", "on": "z_max", "axes": "z", "value": [0, 0, 4] },
                                    { "type": "loads.fixed", "on": "z_min" })"),
-                 threads);
+      threads);
 }
 
 TEST(Cells, TakeTheEnergyOfTheSpringsThatAreGone) {
   const auto plan = breaking();
   const auto run = [&](double fraction) {
     Simulation simulation(*plan->model, 2);
-    const int steps = static_cast<int>(std::ceil(8e-6 / (fraction * plan->model->critical_time_step)));
+    const int steps =
+        static_cast<int>(std::ceil(8e-6 / (fraction * plan->model->critical_time_step)));
     double worst = 0;
     for (int n = 0; n < steps; ++n) {
       simulation.step(8e-6 / steps);
@@ -88,7 +108,9 @@ TEST(Cells, TakeTheEnergyOfTheSpringsThatAreGone) {
     return worst;
   };
   const double coarse = run(0.5), fine = run(0.05);
-  std::printf("breaking cells: largest relative error %.1e at 0.5 of the critical step, %.1e at 0.05\n", coarse, fine);
+  std::printf(
+      "breaking cells: largest relative error %.1e at 0.5 of the critical step, %.1e at 0.05\n",
+      coarse, fine);
   EXPECT_LT(coarse, 1e-3);
   EXPECT_LT(fine, coarse / 30);
 }
@@ -100,8 +122,9 @@ TEST(Cells, HaveTheSameBitsForAnyNumberOfThreads) {
     simulation.set_damping(0.1);
     shake(simulation, *plan->model, 1e-7);
     for (int n = 0; n < 100; ++n) simulation.step(0.8 * plan->model->critical_time_step);
-    const Balance balance = simulation.balance();
-    return std::tuple{simulation.hash(), simulation.breakages().size(), balance.stored, balance.kinetic, balance.dissipated_failure};
+    const EnergyBalance balance = simulation.balance();
+    return std::tuple{simulation.hash(), simulation.breakages().size(), balance.stored,
+                      balance.kinetic, balance.dissipated_failure};
   };
   const auto one = result(1);
   EXPECT_GT(std::get<1>(one), 30u);

@@ -1,5 +1,6 @@
-// A body of cells is exactly the union of its cells: every homogeneous strain needs the tractions of the continuum on every surface, and
-// nothing inside; large motions have the forces of the cells' own springs, written out one cell after the other.
+// A body of cells is exactly the union of its cells: every homogeneous strain needs the tractions
+// of the continuum on every surface, and nothing inside; large motions have the forces of the
+// cells' own springs, written out one cell after the other.
 #include <engine/stage_calls.hpp>
 
 #include <support/cells.hpp>
@@ -15,14 +16,16 @@ using namespace hyperlattice::test;
 
 constexpr double l = 1e-3;
 
-/// Elastic constants of the endless lattice, in closed form (Zhao 2017, equations (27) to (30)), and how the height follows a strain.
+/// Elastic constants of the endless lattice, in closed form (Zhao 2017, equations (27) to (30)),
+/// and how the height follows a strain.
 struct Elasticity {
   double c11, c12, c44, relaxation = 0;
 
   explicit Elasticity(const Model& model) {
     const MaterialConstants& m = model.materials[0].constants;
     const double kb = m.cross_ratio[0], kg = m.cross_ratio[1], ka = m.alpha_ratio;
-    const double C1 = 6 + kb + 8 * kg / 3, C2 = 2 + 4 * kg / 3, C3 = ka + 3 * kb + 4 * kg, C4 = kb + 8 * kg / 3;
+    const double C1 = 6 + kb + 8 * kg / 3, C2 = 2 + 4 * kg / 3, C3 = ka + 3 * kb + 4 * kg,
+                 C4 = kb + 8 * kg / 3;
     if (model.degrees_of_freedom == 4) relaxation = C4 / C3;
     const double unit = m.base_stiffness / (2 * l), taken = relaxation * C4;
     c11 = unit * (C1 - taken);
@@ -33,15 +36,20 @@ struct Elasticity {
   Tensor stress(const Tensor& e) const {
     Tensor s{};
     for (std::size_t a = 0; a < 3; ++a)
-      for (std::size_t b = 0; b < 3; ++b) s[a][b] = a == b ? c11 * e[a][a] + c12 * (e[0][0] + e[1][1] + e[2][2] - e[a][a]) : 2 * c44 * e[a][b];
+      for (std::size_t b = 0; b < 3; ++b)
+        s[a][b] = a == b ? c11 * e[a][a] + c12 * (e[0][0] + e[1][1] + e[2][2] - e[a][a])
+                         : 2 * c44 * e[a][b];
     return s;
   }
 };
 
-/// What uniform stress asks of each corner: a quarter of the traction on each uncovered face. The heights of a free membrane ask for something
-/// else: sheared by e in the plane of its faces' diagonals, a cell pushes its corners up and down in turn, by k_gamma e l / 3. Around a corner
-/// inside the body or on its faces that is nothing in sum; on edges something is left, which only an edge's own heights can balance.
-std::map<CellIndex, Force> tractions(const CellShape& shape, const Elasticity::Tensor& stress, const Elasticity::Tensor& push) {
+/// What uniform stress asks of each corner: a quarter of the traction on each uncovered face. The
+/// heights of a free membrane ask for something else: sheared by e in the plane of its faces'
+/// diagonals, a cell pushes its corners up and down in turn, by k_gamma e l / 3. Around a corner
+/// inside the body or on its faces that is nothing in sum; on edges something is left, which only
+/// an edge's own heights can balance.
+std::map<CellIndex, Force> tractions(const CellShape& shape, const Elasticity::Tensor& stress,
+                                     const Elasticity::Tensor& push) {
   std::map<CellIndex, Force> all;
   for (const CellIndex& cell : shape.cells()) {
     for (int n = 0; n < 8; ++n)
@@ -49,7 +57,8 @@ std::map<CellIndex, Force> tractions(const CellShape& shape, const Elasticity::T
         for (int b = a + 1; b < 3; ++b) {
           const bool alike = (n >> a & 1) == (n >> b & 1);
           all[{cell[0] + (n & 1), cell[1] + (n >> 1 & 1), cell[2] + (n >> 2)}][3] +=
-              (alike ? 1 : -1) * push[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)] * l / 3;
+              (alike ? 1 : -1) * push[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)] *
+              l / 3;
         }
     for (std::size_t axis = 0; axis < 3; ++axis)
       for (const int side : {0, 1}) {
@@ -61,7 +70,8 @@ std::map<CellIndex, Force> tractions(const CellShape& shape, const Elasticity::T
           corner[axis] += side;
           corner[(axis + 1) % 3] += n & 1;
           corner[(axis + 2) % 3] += n >> 1;
-          for (std::size_t c = 0; c < 3; ++c) all[corner][c] += (2 * side - 1) * stress[c][axis] * l * l / 4;
+          for (std::size_t c = 0; c < 3; ++c)
+            all[corner][c] += (2 * side - 1) * stress[c][axis] * l * l / 4;
         }
       }
   }
@@ -69,7 +79,8 @@ std::map<CellIndex, Force> tractions(const CellShape& shape, const Elasticity::T
 }
 
 class CellsOfMembrane : public testing::TestWithParam<MembraneCase> {};
-INSTANTIATE_TEST_SUITE_P(Membranes, CellsOfMembrane, testing::ValuesIn(membranes), [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(Membranes, CellsOfMembrane, testing::ValuesIn(membranes),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 TEST_P(CellsOfMembrane, PatchTestIsExact) {
   double worst_of_all = 0;
@@ -81,7 +92,8 @@ TEST_P(CellsOfMembrane, PatchTestIsExact) {
     for (std::size_t a = 0; a < 3; ++a)
       for (std::size_t b = a; b < 3; ++b) {
         Elasticity::Tensor strain{};
-        strain[a][b] = strain[b][a] = 1e-20;  // so small that the springs are linear to the last bit
+        strain[a][b] = strain[b][a] =
+            1e-20;  // so small that the springs are linear to the last bit
         std::vector<double> u(3 * model.body.particles);
         for (Particle p = 0; p < model.body.particles; ++p) {
           const CellIndex x = corner_of(model, p);
@@ -91,17 +103,20 @@ TEST_P(CellsOfMembrane, PatchTestIsExact) {
         std::vector<double> heights;
         if (model.degrees_of_freedom == 4) {
           const double trace = strain[0][0] + strain[1][1] + strain[2][2];
-          heights.assign(model.body.particles, -elasticity.relaxation * trace * model.body.grid.membrane_distance / 2);
+          heights.assign(model.body.particles,
+                         -elasticity.relaxation * trace * model.body.grid.membrane_distance / 2);
         }
         const auto found = forces(model, u, heights);
         Elasticity::Tensor push{};
-        if (model.degrees_of_freedom == 4) push[a][b] = model.spring(0, 0, 1).cross_stiffness * strain[a][b];
+        if (model.degrees_of_freedom == 4)
+          push[a][b] = model.spring(0, 0, 1).cross_stiffness * strain[a][b];
         auto expected = tractions(shape, elasticity.stress(strain), push);
         const double scale = model.materials[0].constants.base_stiffness * 1e-20 * l;
         double worst = 0;
         for (Particle p = 0; p < model.body.particles; ++p) {
           const Force& outer = expected[corner_of(model, p)];
-          for (std::size_t c = 0; c < 4; ++c) worst = std::max(worst, std::abs(found[p][c] + outer[c]) / scale);
+          for (std::size_t c = 0; c < 4; ++c)
+            worst = std::max(worst, std::abs(found[p][c] + outer[c]) / scale);
         }
         EXPECT_LT(worst, 1e-12) << shape.name << ", strain " << a << b;
         worst_of_all = std::max(worst_of_all, worst);
@@ -110,9 +125,11 @@ TEST_P(CellsOfMembrane, PatchTestIsExact) {
   std::printf("largest force without a traction: %.1e k eps l\n", worst_of_all);
 }
 
-/// One cell after the other, each with the springs of its own material, in positions, with no care for speed.
+/// One cell after the other, each with the springs of its own material, in positions, with no care
+/// for speed.
 template <class MaterialOf>
-std::vector<Force> forces_by_cells(const CellShape& shape, const Model& model, const std::vector<double>& u, const std::vector<double>& heights,
+std::vector<Force> forces_by_cells(const CellShape& shape, const Model& model,
+                                   const std::vector<double>& u, const std::vector<double>& heights,
                                    const MaterialOf& material_of) {
   const auto particles = particles_by_corner(model);
   const double delta = model.body.grid.membrane_distance;
@@ -128,10 +145,13 @@ std::vector<Force> forces_by_cells(const CellShape& shape, const Model& model, c
   for (const CellIndex& cell : shape.cells()) {
     const std::uint8_t material = material_of(cell);
     for (int m = 0; m < 8; ++m) {
-      const auto corner = [&](int n) { return particles.at({cell[0] + (n & 1), cell[1] + (n >> 1 & 1), cell[2] + (n >> 2 & 1)}); };
+      const auto corner = [&](int n) {
+        return particles.at({cell[0] + (n & 1), cell[1] + (n >> 1 & 1), cell[2] + (n >> 2 & 1)});
+      };
       const Particle a = corner(m);
       const MaterialConstants& own = model.materials[material].constants;
-      if (has_heights) all[a][3] -= own.alpha_ratio * own.base_stiffness / 8 * (2 * place(a)[3] - delta);
+      if (has_heights)
+        all[a][3] -= own.alpha_ratio * own.base_stiffness / 8 * (2 * place(a)[3] - delta);
       for (int n = 0; n < 8; ++n) {
         const int differing = (m ^ n) == 0 ? 0 : __builtin_popcount(static_cast<unsigned>(m ^ n));
         if (differing != 1 && differing != 2) continue;
@@ -148,7 +168,8 @@ std::vector<Force> forces_by_cells(const CellShape& shape, const Model& model, c
         };
         pull(spring.stiffness, rest, to[3] - from[3], to[3] - from[3]);
         if (model.choice.membrane != KernelChoice::Membrane::none)
-          pull(spring.cross_stiffness, std::sqrt(rest * rest + delta * delta), to[3] + from[3], -(to[3] + from[3]));
+          pull(spring.cross_stiffness, std::sqrt(rest * rest + delta * delta), to[3] + from[3],
+               -(to[3] + from[3]));
       }
     }
   }
@@ -158,17 +179,21 @@ std::vector<Force> forces_by_cells(const CellShape& shape, const Model& model, c
 TEST_P(CellsOfMembrane, LargeMotionsHaveTheForcesOfTheCellsTheirOwnSprings) {
   for (const bool two_materials : {false, true})
     for (const CellShape& shape : cell_shapes()) {
-      const std::string other = R"({ "type": "materials.elastic", "young": 3e10, "density": 7000, "region": { "half_space": { "point": [2e-3, 0, 0],
+      const std::string other =
+          R"({ "type": "materials.elastic", "young": 3e10, "density": 7000, "region": { "half_space": { "point": [2e-3, 0, 0],
                                   "normal": [-1, 0.2, 0] } }, )" +
-                                std::string(GetParam().material) + " }";
+          std::string(GetParam().material) + " }";
       if (two_materials && shape.cells().size() < 30) continue;
-      const auto plan = plan_of(scene_of_cells(shape.shape, GetParam().material, two_materials ? other : ""));
+      const auto plan =
+          plan_of(scene_of_cells(shape.shape, GetParam().material, two_materials ? other : ""));
       const Model& model = *plan->model;
       const auto u = noise(3 * model.body.particles, 0.1 * l, 5);
-      const auto heights = model.degrees_of_freedom == 4 ? noise(model.body.particles, 0.1 * l, 6) : std::vector<double>{};
+      const auto heights = model.degrees_of_freedom == 4 ? noise(model.body.particles, 0.1 * l, 6)
+                                                         : std::vector<double>{};
       const auto found = forces(model, u, heights),
                  expected = forces_by_cells(shape, model, u, heights, [&](const CellIndex&cell) {
-                   return static_cast<std::uint8_t>(two_materials && -(cell[0] + 0.5 - 2) + 0.2 * (cell[1] + 0.5) <= 0 ? 1 : 0);
+                   return static_cast<std::uint8_t>(
+                       two_materials && -(cell[0] + 0.5 - 2) + 0.2 * (cell[1] + 0.5) <= 0 ? 1 : 0);
                  });
       double worst = 0, largest_force = 0;
       for (Particle p = 0; p < model.body.particles; ++p)
@@ -176,7 +201,8 @@ TEST_P(CellsOfMembrane, LargeMotionsHaveTheForcesOfTheCellsTheirOwnSprings) {
           worst = std::max(worst, std::abs(found[p][c] - expected[p][c]));
           largest_force = std::max(largest_force, std::abs(expected[p][c]));
         }
-      EXPECT_LT(worst, 1e-12 * largest_force) << shape.name << (two_materials ? ", two materials" : "");
+      EXPECT_LT(worst, 1e-12 * largest_force)
+          << shape.name << (two_materials ? ", two materials" : "");
     }
 }
 
@@ -189,7 +215,8 @@ struct Uniaxial {
     const std::string size = std::to_string(n);
     const auto plan = plan_of(R"({ "format": "hyperlattice/1", "pipeline": [
       { "type": "lattices.cubic", "spacing": 1, "boundary": ")" +
-                              boundary + R"(", "shape": { "box": { "low": [0, 0, 0], "high": [)" + size + ", " + size + ", " + size + R"(] } } },
+                              boundary + R"(", "shape": { "box": { "low": [0, 0, 0], "high": [)" +
+                              size + ", " + size + ", " + size + R"(] } } },
       { "type": "materials.elastic", "young": 1, "density": 1, )" +
                               membrane + R"( },
       { "type": "loads.fixed", "on": "z_min", "axes": "z" },
@@ -198,7 +225,8 @@ struct Uniaxial {
     const Model& model = *plan->model;
     Simulation simulation(model, 1);
     std::vector<double> u(3 * model.body.particles);
-    for (Particle p = 0; p < model.body.particles; ++p) u[3 * p + 2] = strain * model.body.site(p).k / model.body.high.k;
+    for (Particle p = 0; p < model.body.particles; ++p)
+      u[3 * p + 2] = strain * model.body.site(p).k / model.body.high.k;
     simulation.set_displacements(u, {});
     bring_to_rest(*plan, simulation);
     u = displacements(simulation);
@@ -206,7 +234,8 @@ struct Uniaxial {
     std::size_t faces = 0;
     for (Particle p = 0; p < model.body.particles; ++p) {
       const Site at = model.body.site(p);
-      const int sides[2] = {(at.i == model.body.high.i) - (at.i == model.body.low.i), (at.j == model.body.high.j) - (at.j == model.body.low.j)};
+      const int sides[2] = {(at.i == model.body.high.i) - (at.i == model.body.low.i),
+                            (at.j == model.body.high.j) - (at.j == model.body.low.j)};
       for (std::size_t c = 0; c < 2; ++c)
         if (sides[c] != 0) {
           spread -= sides[c] * u[3 * p + c];
@@ -228,11 +257,14 @@ struct UniaxialCase {
 };
 const UniaxialCase uniaxial_cases[] = {
     {"L_0", R"("membrane": "none")", .25, 2.5, .230965, 2.127954, .243257, 2.352596},
-    {"L_1", R"("membrane": "I-m", "lambda": 1)", 2. / 11, 39. / 11, .168642, 3.005948, .177543, 3.325861},
-    {"L_2_8", R"("membrane": "I-m", "lambda": 2.8)", .1, 5.28, .097305, 4.478673, .099889, 4.947698},
+    {"L_1", R"("membrane": "I-m", "lambda": 1)", 2. / 11, 39. / 11, .168642, 3.005948, .177543,
+     3.325861},
+    {"L_2_8", R"("membrane": "I-m", "lambda": 2.8)", .1, 5.28, .097305, 4.478673, .099889,
+     4.947698},
 };
 class UniaxialTest : public testing::TestWithParam<UniaxialCase> {};
-INSTANTIATE_TEST_SUITE_P(Ratios, UniaxialTest, testing::ValuesIn(uniaxial_cases), [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(Ratios, UniaxialTest, testing::ValuesIn(uniaxial_cases),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 TEST_P(UniaxialTest, CellsGiveTheEndlessLatticeAtAnySize) {
   for (const int n : {4, 6, 10}) {
@@ -245,7 +277,8 @@ TEST_P(UniaxialTest, CellsGiveTheEndlessLatticeAtAnySize) {
 
 TEST_P(UniaxialTest, WholeParticlesAreSofter) {
   const UniaxialCase& c = GetParam();
-  for (const auto& [n, poisson, modulus] : {std::tuple{4, c.poisson_4, c.modulus_4}, {10, c.poisson_10, c.modulus_10}}) {
+  for (const auto& [n, poisson, modulus] :
+       {std::tuple{4, c.poisson_4, c.modulus_4}, {10, c.poisson_10, c.modulus_10}}) {
     const Uniaxial found(n, "particles", c.membrane);
     std::printf("particles %d: %.6f %.6f\n", n, found.poisson, found.modulus);
     EXPECT_NEAR(found.poisson, poisson, 1e-6) << n;
@@ -255,7 +288,9 @@ TEST_P(UniaxialTest, WholeParticlesAreSofter) {
 
 TEST(Cells, EquationFifteenIsTheBulkStiffness) {
   const auto stiffness = [](const char* kind) {
-    return plan_of(scene_of_cells(cell_shapes()[5].shape, R"("membrane": "I-m", "poisson": 0.1, "stiffness": ")" + std::string(kind) + "\""))
+    return plan_of(scene_of_cells(cell_shapes()[5].shape,
+                                  R"("membrane": "I-m", "poisson": 0.1, "stiffness": ")" +
+                                      std::string(kind) + "\""))
         ->model->materials[0]
         .constants.base_stiffness;
   };

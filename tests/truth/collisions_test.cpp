@@ -1,5 +1,6 @@
-// Bodies that meet. Two equal bars of which one stands: after the waves of the impact have gone to the ends and back, that one moves, and the other
-// stands (Saint-Venant 1867). Momentum and energy are kept, and results do not depend on threads.
+// Bodies that meet. Two equal bars of which one stands: after the waves of the impact have gone to
+// the ends and back, that one moves, and the other stands (Saint-Venant 1867). Momentum and energy
+// are kept, and results do not depend on threads.
 #include <state/simulation.hpp>
 
 #include <support/scenes.hpp>
@@ -12,19 +13,20 @@ using namespace hyperlattice::test;
 
 /// Two bars of 30 x 3 x 3 cells, 2 mm between their last particles; the left one comes with 10 m/s.
 std::unique_ptr<Plan> bars(const std::string& contact, int threads = 1) {
-  return plan_of(R"({ "format": "hyperlattice/1", "regions": { "left": { "box": { "low": [-1, -1, -1], "high": [0.0305, 1, 1] } } }, "pipeline": [
+  return plan_of(
+      R"({ "format": "hyperlattice/1", "regions": { "left": { "box": { "low": [-1, -1, -1], "high": [0.0305, 1, 1] } } }, "pipeline": [
     { "type": "lattices.cubic", "spacing": 1e-3, "anchor": [0, 0, 0], "shape": { "union": [ { "box": { "low": [0, 0, 0], "high": [0.0299, 0.0029, 0.0029] } },
       { "box": { "low": [0.0311, 0, 0], "high": [0.0609, 0.0029, 0.0029] } } ] } },
     { "type": "materials.elastic", "young": 1e10, "density": 2500, "membrane": "none" },
     { "type": "loads.start_velocity", "on": "left", "linear": [10, 0, 0] },)" +
-                     contact + R"({ "type": "solvers.explicit", "end_time": 3e-4 } ] })",
-                 threads);
+          contact + R"({ "type": "solvers.explicit", "end_time": 3e-4 } ] })",
+      threads);
 }
 
 struct Met {
   double left = 0, right = 0;  ///< mean velocities along x, m/s
   double largest_error = 0;    ///< of the energy balance, relative
-  Balance start, end;
+  EnergyBalance start, end;
   std::uint64_t hash = 0;
 };
 Met meet(const Plan& plan) {
@@ -42,19 +44,22 @@ Met meet(const Plan& plan) {
   const std::uint64_t half = plan.model->body.particles / 2;
   EXPECT_EQ(half, 270u);
   for (Particle p = 0; p < plan.model->body.particles; ++p)
-    (plan.model->body.position(p).x < 0.0305 ? met.left : met.right) += v[3 * p] / static_cast<double>(half);
+    (plan.model->body.position(p).x < 0.0305 ? met.left : met.right) +=
+        v[3 * p] / static_cast<double>(half);
   met.hash = simulation.hash();
   return met;
 }
 
 TEST(Collisions, EqualBarsExchangeTheirVelocities) {
   const Met met = meet(*bars(R"({ "type": "loads.contact" },)"));
-  std::printf("after the impact: %.4f and %.4f m/s of 10; balance error %.1e\n", met.left, met.right, met.largest_error);
+  std::printf("after the impact: %.4f and %.4f m/s of 10; balance error %.1e\n", met.left,
+              met.right, met.largest_error);
   EXPECT_NEAR(met.left, 0, 0.2);  // a little stays behind as waves across the bars
   EXPECT_NEAR(met.right, 10, 0.2);
   EXPECT_NEAR(met.end.momentum.x / met.start.momentum.x, 1, 1e-12);
   EXPECT_LT(met.largest_error, 1e-3);
-  EXPECT_NEAR((met.end.kinetic + met.end.stored) / met.start.kinetic, 1, 1e-3);  // nothing is left in the contacts
+  EXPECT_NEAR((met.end.kinetic + met.end.stored) / met.start.kinetic, 1,
+              1e-3);  // nothing is left in the contacts
 }
 
 TEST(Collisions, WithoutItBodiesGoThroughEachOther) {
@@ -73,8 +78,10 @@ TEST(Collisions, DampingTakesEnergyAndNoMomentum) {
 // The critical step counts contacts however stiff they are, and whatever they damp.
 TEST(Collisions, StiffContactsStayStable) {
   for (const char* more : {"", R"(, "damping": 1, "friction": 1, "grip": 2)"}) {
-    const Met met = meet(*bars(R"({ "type": "loads.contact", "stiffness": 1e8)" + std::string(more) + " },"));  // thirty times a spring
-    std::printf("after the impact: %.4f and %.4f m/s of 10; balance error %.1e\n", met.left, met.right, met.largest_error);
+    const Met met = meet(*bars(R"({ "type": "loads.contact", "stiffness": 1e8)" +
+                               std::string(more) + " },"));  // thirty times a spring
+    std::printf("after the impact: %.4f and %.4f m/s of 10; balance error %.1e\n", met.left,
+                met.right, met.largest_error);
     EXPECT_NEAR(met.end.momentum.x / met.start.momentum.x, 1, 1e-11);
     EXPECT_LT(met.end.kinetic + met.end.stored, 1.001 * met.start.kinetic);
     EXPECT_LT(met.largest_error, 0.02);
@@ -87,11 +94,14 @@ TEST(Collisions, TooSoftContactsAreWarnedOf) {
   const auto warned = [](const std::string& contact) {
     const auto plan = bars(contact);
     return std::any_of(plan->model->warnings.begin(), plan->model->warnings.end(),
-                       [](const std::string& text) { return text.find("particles may pass through") != std::string::npos; });
+                       [](const std::string& text) {
+                         return text.find("particles may pass through") != std::string::npos;
+                       });
   };
   EXPECT_TRUE(warned(R"({ "type": "loads.contact", "stiffness": 1 },)"));
   EXPECT_TRUE(warned(R"({ "type": "loads.floor", "stiffness": 1, "point": [0, 0, -1] },)"));
-  EXPECT_FALSE(warned(R"({ "type": "loads.contact" }, { "type": "loads.floor", "point": [0, 0, -1] },)"));
+  EXPECT_FALSE(
+      warned(R"({ "type": "loads.contact" }, { "type": "loads.floor", "point": [0, 0, -1] },)"));
 }
 
 TEST(Collisions, ResultsDoNotDependOnThreads) {

@@ -1,5 +1,6 @@
-// Motion against independent truth: natural frequencies of a cantilever (quadratic finite elements, two meshes that differ by less than 0.5 %) and of
-// a free cube (exact), the speed of a wave in a bar, and a free block that spins (its stretch by finite elements).
+// Motion against independent truth: natural frequencies of a cantilever (quadratic finite elements,
+// two meshes that differ by less than 0.5 %) and of a free cube (exact), the speed of a wave in a
+// bar, and a free block that spins (its stretch by finite elements).
 #include <support/scenes.hpp>
 
 #include <gtest/gtest.h>
@@ -25,14 +26,19 @@ std::string scene(const Solid& of, const std::string& loads = "") {
     std::snprintf(text, sizeof text, "%.10g", value);
     return std::string(text);
   };
-  return R"({ "format": "hyperlattice/1", "pipeline": [ { "type": "lattices.cubic", "spacing": )" + number(of.spacing) + R"(, "boundary": ")" +
-         of.boundary + R"(", "shape": { "box": { "low": [0, 0, 0], "high": [)" + number(of.size.x) + ", " + number(of.size.y) + ", " +
-         number(of.size.z) + R"(] } } }, { "type": "materials.elastic", "membrane": "I-m", "stiffness": ")" + of.stiffness + R"(", "young": )" +
-         number(of.young) + R"(, "poisson": )" + number(of.poisson) + R"(, "density": )" + number(of.density) + " }" +
-         (loads.empty() ? "" : ", " + loads) + R"(, { "type": "solvers.explicit", "end_time": 1 } ] })";
+  return R"({ "format": "hyperlattice/1", "pipeline": [ { "type": "lattices.cubic", "spacing": )" +
+         number(of.spacing) + R"(, "boundary": ")" + of.boundary +
+         R"(", "shape": { "box": { "low": [0, 0, 0], "high": [)" + number(of.size.x) + ", " +
+         number(of.size.y) + ", " + number(of.size.z) +
+         R"(] } } }, { "type": "materials.elastic", "membrane": "I-m", "stiffness": ")" +
+         of.stiffness + R"(", "young": )" + number(of.young) + R"(, "poisson": )" +
+         number(of.poisson) + R"(, "density": )" + number(of.density) + " }" +
+         (loads.empty() ? "" : ", " + loads) +
+         R"(, { "type": "solvers.explicit", "end_time": 1 } ] })";
 }
 
-/// Frequency in Hz with which the body swings after a push of the shape of a mode, by the zeros of its motion's part of that shape.
+/// Frequency in Hz with which the body swings after a push of the shape of a mode, by the zeros of
+/// its motion's part of that shape.
 template <class Shape>
 double frequency(const Model& model, double about, const Shape& shape) {
   Simulation simulation(model, 2);
@@ -45,7 +51,8 @@ double frequency(const Model& model, double about, const Shape& shape) {
   for (double& speed : speeds) speed *= 1e-3;
   simulation.set_velocities(speeds, {});
   const double step = 0.8 * model.critical_time_step;
-  const int apart = std::max(1, static_cast<int>(1 / (about * step * 100)));  // steps between two looks, a hundred a swing
+  const int apart = std::max(
+      1, static_cast<int>(1 / (about * step * 100)));  // steps between two looks, a hundred a swing
   double before = 0, first = -1, last = -1;
   int zeros = 0;
   while (simulation.time() < 3.3 / about) {
@@ -53,7 +60,8 @@ double frequency(const Model& model, double about, const Shape& shape) {
     simulation.displacements(u);
     double part = 0;
     for (Particle p = 0; p < model.body.particles; ++p)
-      part += model.mass(p) * (mode[3 * p] * u[3 * p] + mode[3 * p + 1] * u[3 * p + 1] + mode[3 * p + 2] * u[3 * p + 2]);
+      part += model.mass(p) * (mode[3 * p] * u[3 * p] + mode[3 * p + 1] * u[3 * p + 1] +
+                               mode[3 * p + 2] * u[3 * p + 2]);
     if (before != 0 && (part > 0) != (before > 0)) {
       last = simulation.time() - apart * step * part / (part - before);
       if (zeros++ == 0) first = last;
@@ -67,11 +75,16 @@ TEST(Frequencies, OfACantilever) {
   constexpr double bending = 630.57, axial = 5012.27, length = 0.1;
   double error[2];
   for (const int cells : {4, 8}) {
-    const auto plan = plan_of(scene({{length, 0.02, 0.02}, 0.02 / cells, 10e9, 0.2, 2500}, R"({ "type": "loads.fixed", "on": "x_min" })"));
-    const double f1 = frequency(*plan->model, bending, [&](Vec3 x) { return Vec3{0, std::pow(x.x / length, 2), 0}; });
-    const double fa = frequency(*plan->model, axial, [&](Vec3 x) { return Vec3{std::sin(0.5 * std::numbers::pi * x.x / length), 0, 0}; });
-    std::printf("cantilever, %d cells high: bending %.1f Hz (%+.2f %%), axial %.1f Hz (%+.2f %%)\n", cells, f1, 100 * (f1 / bending - 1), fa,
-                100 * (fa / axial - 1));
+    const auto plan = plan_of(scene({{length, 0.02, 0.02}, 0.02 / cells, 10e9, 0.2, 2500},
+                                    R"({ "type": "loads.fixed", "on": "x_min" })"));
+    const double f1 = frequency(*plan->model, bending, [&](Vec3 x) {
+      return Vec3{0, std::pow(x.x / length, 2), 0};
+    });
+    const double fa = frequency(*plan->model, axial, [&](Vec3 x) {
+      return Vec3{std::sin(0.5 * std::numbers::pi * x.x / length), 0, 0};
+    });
+    std::printf("cantilever, %d cells high: bending %.1f Hz (%+.2f %%), axial %.1f Hz (%+.2f %%)\n",
+                cells, f1, 100 * (f1 / bending - 1), fa, 100 * (fa / axial - 1));
     error[cells / 8] = std::abs(f1 / bending - 1);
     EXPECT_NEAR(fa / axial, 1, 0.02);
   }
@@ -79,9 +92,12 @@ TEST(Frequencies, OfACantilever) {
   EXPECT_LT(error[1], 0.02);
 }
 
-TEST(Frequencies, OfACubesShearMode) {  // Lame's: no surface is strained, so that it is exact for a free cube
+TEST(Frequencies,
+     OfACubesShearMode) {  // Lame's: no surface is strained, so that it is exact for a free cube
   constexpr double edge = 0.1, q = std::numbers::pi / edge, exact = 9534.63;
-  const auto shape = [&](Vec3 x) { return Vec3{std::cos(q * x.x) * std::sin(q * x.y), -std::sin(q * x.x) * std::cos(q * x.y), 0}; };
+  const auto shape = [&](Vec3 x) {
+    return Vec3{std::cos(q * x.x) * std::sin(q * x.y), -std::sin(q * x.x) * std::cos(q * x.y), 0};
+  };
   double error[2];
   for (const int cells : {6, 12}) {
     const auto plan = plan_of(scene({{edge, edge, edge}, edge / cells, 10e9, 0.1, 2500}));
@@ -92,16 +108,21 @@ TEST(Frequencies, OfACubesShearMode) {  // Lame's: no surface is strained, so th
   EXPECT_LT(error[1], 0.01);
   EXPECT_GT(error[0] / error[1], 3);  // second order
   for (const auto& [stiffness, tolerance] : {std::pair{"bulk", 0.10}, {"eq15", 0.10}}) {
-    const auto plan = plan_of(scene({{edge, edge, edge}, 0.01, 10e9, 0.1, 2500, "particles", stiffness}));
+    const auto plan =
+        plan_of(scene({{edge, edge, edge}, 0.01, 10e9, 0.1, 2500, "particles", stiffness}));
     const double f = frequency(*plan->model, exact, shape);
-    std::printf("cube of 10 particles, %s: %.1f Hz (%+.2f %%)\n", stiffness, f, 100 * (f / exact - 1));
+    std::printf("cube of 10 particles, %s: %.1f Hz (%+.2f %%)\n", stiffness, f,
+                100 * (f / exact - 1));
     EXPECT_NEAR(f / exact, 1, tolerance);
   }
 }
 
-TEST(WaveSpeed, OfABar) {  // ten times as long as it is wide: a pressure step at one end arrives at the other with the speed sqrt(E / rho)
+TEST(WaveSpeed, OfABar) {  // ten times as long as it is wide: a pressure step at one end arrives at
+                           // the other with the speed sqrt(E / rho)
   constexpr double length = 0.4, speed = 2000, stress = 1e4, expected = stress / (2500 * speed);
-  const auto plan = plan_of(scene({{length, 0.04, 0.04}, 0.004, 10e9, 0.2, 2500}, R"({ "type": "loads.pressure", "on": "x_min", "pressure": 1e4 })"));
+  const auto plan =
+      plan_of(scene({{length, 0.04, 0.04}, 0.004, 10e9, 0.2, 2500},
+                    R"({ "type": "loads.pressure", "on": "x_min", "pressure": 1e4 })"));
   const Model& model = *plan->model;
   Simulation simulation(model, 2);
   std::vector<double> v;
@@ -126,13 +147,17 @@ TEST(WaveSpeed, OfABar) {  // ten times as long as it is wide: a pressure step a
     }
     before = mean;
   }
-  std::printf("bar: the front arrives after %.2f us (exact 200), the free end then moves by %.3f of twice the front's speed\n", 1e6 * arrival,
-              settled / counted / (2 * expected));
+  std::printf(
+      "bar: the front arrives after %.2f us (exact 200), the free end then moves by %.3f of twice "
+      "the front's speed\n",
+      1e6 * arrival, settled / counted / (2 * expected));
   EXPECT_NEAR(arrival, length / speed, 0.03 * length / speed);
-  EXPECT_NEAR(settled / counted, 2 * expected, 0.03 * 2 * expected);  // a free end doubles the velocity
+  EXPECT_NEAR(settled / counted, 2 * expected,
+              0.03 * 2 * expected);  // a free end doubles the velocity
 }
 
-/// Angular momentum about the centre of mass, of a body that begins at rest in its shape, with the velocities of the steps' middles.
+/// Angular momentum about the centre of mass, of a body that begins at rest in its shape, with the
+/// velocities of the steps' middles.
 Vec3 spin(const Model& model, const Simulation& simulation, double step) {
   std::vector<double> u, v;
   simulation.displacements(u);
@@ -142,7 +167,8 @@ Vec3 spin(const Model& model, const Simulation& simulation, double step) {
   for (int pass = 0; pass < 2; ++pass)
     for (Particle p = 0; p < model.body.particles; ++p) {
       const Vec3 velocity{v[3 * p], v[3 * p + 1], v[3 * p + 2]};
-      const Vec3 place = model.body.position(p) + Vec3{u[3 * p], u[3 * p + 1], u[3 * p + 2]} - 0.5 * step * velocity;
+      const Vec3 place = model.body.position(p) + Vec3{u[3 * p], u[3 * p + 1], u[3 * p + 2]} -
+                         0.5 * step * velocity;
       const double m = model.mass(p);
       if (pass == 0) {
         mass += m;
@@ -156,8 +182,12 @@ Vec3 spin(const Model& model, const Simulation& simulation, double step) {
 }
 
 constexpr Vec3 block_size{0.1, 0.06, 0.04};
-std::string spinning(Vec3 omega, const char* boundary, const char* stiffness, const std::string& more = "") {
-  const auto text = [](Vec3 w) { return "[" + std::to_string(w.x) + ", " + std::to_string(w.y) + ", " + std::to_string(w.z) + "]"; };
+std::string spinning(Vec3 omega, const char* boundary, const char* stiffness,
+                     const std::string& more = "") {
+  const auto text = [](Vec3 w) {
+    return "[" + std::to_string(w.x) + ", " + std::to_string(w.y) + ", " + std::to_string(w.z) +
+           "]";
+  };
   return scene({block_size, 0.005, 1e9, 0.1, 1000, boundary, stiffness},
                R"({ "type": "loads.start_velocity", "angular": )" + text(omega) + " }" + more);
 }
@@ -165,14 +195,17 @@ std::string spinning(Vec3 omega, const char* boundary, const char* stiffness, co
 TEST(Spinning, StretchesABlockAsTheCentrifugalForceDoes) {
   struct Way {
     const char *boundary, *stiffness;
-    double truth, tolerance;  ///< mean strain between the outermost layers of particles by finite elements
+    double truth,
+        tolerance;  ///< mean strain between the outermost layers of particles by finite elements
   };
-  for (const Way& way : {Way{"particles", "bulk", 5.4014e-4, 0.12}, {"particles", "eq15", 5.4014e-4, 0.12}, {"cells", "bulk", 5.1421e-4, 0.03}}) {
+  for (const Way& way : {Way{"particles", "bulk", 5.4014e-4, 0.12},
+                         {"particles", "eq15", 5.4014e-4, 0.12},
+                         {"cells", "bulk", 5.1421e-4, 0.03}}) {
     const auto plan = plan_of(spinning({0, 0, 800}, way.boundary, way.stiffness));
     const Model& model = *plan->model;
     Simulation simulation(model, 2);
     const double step = 0.5 * model.critical_time_step, end = 2e-3;  // ten swings along x
-    const Balance start = simulation.balance();
+    const EnergyBalance start = simulation.balance();
     simulation.step(step);
     const Vec3 first = spin(model, simulation, step);
     double strain = 0, worst = 0;
@@ -193,13 +226,14 @@ TEST(Spinning, StretchesABlockAsTheCentrifugalForceDoes) {
       }
       strain += norm(apart) / rest - 1;
       ++count;
-      const Balance now = simulation.balance();
-      worst = std::max(worst, std::abs((now.kinetic + now.stored) / (start.kinetic + start.stored) - 1));
+      const EnergyBalance now = simulation.balance();
+      worst = std::max(worst,
+                       std::abs((now.kinetic + now.stored) / (start.kinetic + start.stored) - 1));
     }
     strain /= count;
     const Vec3 momentum = simulation.balance().momentum, last = spin(model, simulation, step);
-    std::printf("%s, %s: mean stretch %.3e (%+.1f %%), energy departs by %.1e\n", way.boundary, way.stiffness, strain, 100 * (strain / way.truth - 1),
-                worst);
+    std::printf("%s, %s: mean stretch %.3e (%+.1f %%), energy departs by %.1e\n", way.boundary,
+                way.stiffness, strain, 100 * (strain / way.truth - 1), worst);
     EXPECT_NEAR(strain / way.truth, 1, way.tolerance);
     EXPECT_LT(worst, 1e-5);
     EXPECT_LT(norm(momentum), 1e-13 * norm(first) / block_size.x);
@@ -210,18 +244,20 @@ TEST(Spinning, StretchesABlockAsTheCentrifugalForceDoes) {
 TEST(Spinning, AboutAnyAxisAndFalling) {
   const Vec3 omega{300, -500, 400};
   const auto free = plan_of(spinning(omega, "particles", "bulk"));
-  const auto falling = plan_of(spinning(omega, "particles", "bulk", R"(, { "type": "loads.gravity", "acceleration": [0, -9.81, 0] })"));
+  const auto falling =
+      plan_of(spinning(omega, "particles", "bulk",
+                       R"(, { "type": "loads.gravity", "acceleration": [0, -9.81, 0] })"));
   const double step = 0.5 * free->model->critical_time_step;
   Simulation one(*free->model, 1), other(*falling->model, 1);
   one.step(step);
   const Vec3 first = spin(*free->model, one, step);
-  const Balance start = one.balance();
+  const EnergyBalance start = one.balance();
   other.step(step);
   for (int n = 0; n < 1500; ++n) {
     one.step(step);
     other.step(step);
   }
-  const Balance now = one.balance();
+  const EnergyBalance now = one.balance();
   EXPECT_LT(norm(spin(*free->model, one, step) - first), 1e-12 * norm(first));
   EXPECT_NEAR((now.kinetic + now.stored) / (start.kinetic + start.stored), 1, 1e-5);
   EXPECT_NEAR(other.balance().stored / now.stored, 1, 1e-6);
@@ -229,7 +265,8 @@ TEST(Spinning, AboutAnyAxisAndFalling) {
   double fallen = 0, turned = 0;
   for (std::size_t n = 0; n < u.size(); ++n) {
     const double expected = n % 3 == 1 ? -0.5 * 9.81 * other.time() * other.time() : 0;
-    (n % 3 == 1 ? fallen : turned) = std::max(n % 3 == 1 ? fallen : turned, std::abs(w[n] - u[n] - expected));
+    (n % 3 == 1 ? fallen : turned) =
+        std::max(n % 3 == 1 ? fallen : turned, std::abs(w[n] - u[n] - expected));
   }
   EXPECT_LT(std::max(fallen, turned), 1e-11);  // m: every particle, not the centre alone
 }

@@ -1,4 +1,5 @@
-// Failure criteria against counts by hand: a body is strained evenly, so that every spring's elongation is known, and one step is taken.
+// Failure criteria against counts by hand: a body is strained evenly, so that every spring's
+// elongation is known, and one step is taken.
 #include <support/lists.hpp>
 #include <support/models.hpp>
 
@@ -13,7 +14,9 @@ namespace {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
-std::string breakable(const std::string& failure) { return R"("poisson": 0.25, "failure": { "type": "failures.)" + failure + " }"; }
+std::string breakable(const std::string& failure) {
+  return R"("poisson": 0.25, "failure": { "type": "failures.)" + failure + " }";
+}
 
 /// Displacements x -> x + strain x + shear y along x.
 std::vector<double> strained(const Model& model, double strain, double shear) {
@@ -26,22 +29,29 @@ std::vector<double> strained(const Model& model, double strain, double shear) {
 }
 
 using Spring = std::pair<Particle, Particle>;
-/// The springs that break in a step after that deformation, and those that pass the test by hand: rest length, elongation, ends.
-void compare(const Plan& plan, double strain, double shear, const std::function<bool(double, double, Spring)>& by_hand, std::size_t at_least) {
+/// The springs that break in a step after that deformation, and those that pass the test by hand:
+/// rest length, elongation, ends.
+void compare(const Plan& plan, double strain, double shear,
+             const std::function<bool(double, double, Spring)>& by_hand, std::size_t at_least) {
   const Model& model = *plan.model;
   const std::vector<double> u = strained(model, strain, shear);
-  const auto place = [&](Particle p) { return model.body.position(p) + Vec3{u[3 * p], u[3 * p + 1], u[3 * p + 2]}; };
+  const auto place = [&](Particle p) {
+    return model.body.position(p) + Vec3{u[3 * p], u[3 * p + 1], u[3 * p + 2]};
+  };
   std::set<Spring> expected, found;
   model.body.for_springs([&](Particle a, Particle b, std::uint32_t) {
-    const double rest = norm(model.body.position(b) - model.body.position(a)), now = norm(place(b) - place(a));
-    if (by_hand(rest, now - rest, {std::min(a, b), std::max(a, b)})) expected.insert({std::min(a, b), std::max(a, b)});
+    const double rest = norm(model.body.position(b) - model.body.position(a)),
+                 now = norm(place(b) - place(a));
+    if (by_hand(rest, now - rest, {std::min(a, b), std::max(a, b)}))
+      expected.insert({std::min(a, b), std::max(a, b)});
   });
   for (const int threads : {1, 3}) {
     Simulation simulation(model, threads);
     simulation.set_displacements(u, {});
     simulation.step(1e-3 * model.critical_time_step);
     found.clear();
-    for (const Breakage& breakage : simulation.breakages()) found.insert({std::min(breakage.a, breakage.b), std::max(breakage.a, breakage.b)});
+    for (const Breakage& breakage : simulation.breakages())
+      found.insert({std::min(breakage.a, breakage.b), std::max(breakage.a, breakage.b)});
     EXPECT_EQ(found, expected) << threads << " threads";
   }
   EXPECT_GE(expected.size(), at_least);
@@ -53,23 +63,32 @@ constexpr double l = 1e-3, k = 0.4 * 1e10 * l;  // of block() at nu = 1/4
 TEST(Failures, StrainCountsSpringsByTheirLength) {
   const auto plan = plan_of(block(5, 4, 6, breakable(R"(strain", "limit": 0.008)")));
   compare(
-      *plan, 0.01, 0.004, [](double rest, double elongation, Spring) { return elongation > 0.008 * rest; }, 50);
+      *plan, 0.01, 0.004,
+      [](double rest, double elongation, Spring) { return elongation > 0.008 * rest; }, 50);
   const ListFiles files(5, 4, 6);
-  const auto list = plan_of(listed_scene(files.lattice(), R"("membrane": "none", "failure": { "type": "failures.strain", "limit": 0.005 })"));
+  const auto list = plan_of(listed_scene(
+      files.lattice(),
+      R"("membrane": "none", "failure": { "type": "failures.strain", "limit": 0.005 })"));
   compare(
-      *list, 0.01, 0, [](double rest, double elongation, Spring) { return elongation > 0.005 * rest; }, 50);
+      *list, 0.01, 0,
+      [](double rest, double elongation, Spring) { return elongation > 0.005 * rest; }, 50);
 }
 
 TEST(Failures, ForceCountsByTheStiffness) {
   const auto plan = plan_of(block(5, 4, 6, breakable(R"(force", "limit": 35)")));  // 8.75 um
   compare(
-      *plan, 0.01, 0.004, [](double, double elongation, Spring) { return k * elongation > 35; }, 50);
+      *plan, 0.01, 0.004, [](double, double elongation, Spring) { return k * elongation > 35; },
+      50);
 }
 
 TEST(Failures, EnergyCountsInTensionOnly) {
   const auto plan = plan_of(block(5, 4, 6, breakable(R"(energy", "limit": 1e-4)")));  // 7.07 um
   compare(
-      *plan, 0.01, 0.02, [](double, double elongation, Spring) { return elongation > 0 && 0.5 * k * elongation * elongation > 1e-4; }, 50);
+      *plan, 0.01, 0.02,
+      [](double, double elongation, Spring) {
+        return elongation > 0 && 0.5 * k * elongation * elongation > 1e-4;
+      },
+      50);
 }
 
 TEST(Failures, FractureEnergyIsThatOfTheSpringsThroughAnArea) {
@@ -77,7 +96,10 @@ TEST(Failures, FractureEnergyIsThatOfTheSpringsThroughAnArea) {
   const auto plan = plan_of(block(5, 4, 6, breakable(R"(energy", "fracture_energy": 500)")));
   EXPECT_NEAR(plan->model->crossings, crossings, 1e-12 * crossings);
   compare(
-      *plan, 0.01, 0.004, [&](double, double elongation, Spring) { return elongation > 0 && 0.5 * k * elongation * elongation > 500 / crossings; },
+      *plan, 0.01, 0.004,
+      [&](double, double elongation, Spring) {
+        return elongation > 0 && 0.5 * k * elongation * elongation > 500 / crossings;
+      },
       50);
   // Counted: springs of a block through planes in many directions, a unit of area each.
   const auto body = build(box_lattice(24, 24, 24) + "," + elastic());
@@ -85,9 +107,11 @@ TEST(Failures, FractureEnergyIsThatOfTheSpringsThroughAnArea) {
   int planes = 0;
   for (int n = 0; n < 200; ++n) {  // Fibonacci's points on the sphere
     const double z = 1 - (2 * n + 1) / 200.0, angle = 2.399963229728653 * n;
-    const Vec3 normal{std::sqrt(1 - z * z) * std::cos(angle), std::sqrt(1 - z * z) * std::sin(angle), z};
+    const Vec3 normal{std::sqrt(1 - z * z) * std::cos(angle),
+                      std::sqrt(1 - z * z) * std::sin(angle), z};
     double crossing = 0;
-    for (const NeighbourGeometry& to : body->neighbours) crossing += std::abs(dot(to.rest, normal));  // a unit of volume begins one spring of each
+    for (const NeighbourGeometry& to : body->neighbours)
+      crossing += std::abs(dot(to.rest, normal));  // a unit of volume begins one spring of each
     mean += crossing;
     ++planes;
   }
@@ -96,61 +120,73 @@ TEST(Failures, FractureEnergyIsThatOfTheSpringsThroughAnArea) {
 
 TEST(Failures, RateHoldsMoreWhatIsPulledFaster) {
   const auto plan = plan_of(block(
-      5, 4, 6, R"("membrane": "I-m", "poisson": 0.1, "failure": { "type": "failures.rate", "limit": 0.006, "reference": 100, "exponent": 2 })"));
+      5, 4, 6,
+      R"("membrane": "I-m", "poisson": 0.1, "failure": { "type": "failures.rate", "limit": 0.006, "reference": 100, "exponent": 2 })"));
   const Model& model = *plan->model;
   for (const double pull : {0.0, 60.0, 120.0, 700.0}) {  // strain rate, 1/s
     const std::vector<double> u = strained(model, 0.02, 0), v = strained(model, pull, 0);
     std::size_t expected = 0;
     model.body.for_springs([&](Particle a, Particle b, std::uint32_t) {
-      const Vec3 rest = model.body.position(b) - model.body.position(a), now = rest + Vec3{0.02 * rest.x, 0, 0};
+      const Vec3 rest = model.body.position(b) - model.body.position(a),
+                 now = rest + Vec3{0.02 * rest.x, 0, 0};
       const double rate = dot(now, {pull * rest.x, 0, 0}) / norm(now) / norm(rest);
-      if (norm(now) / norm(rest) - 1 > 0.006 * (1 + std::sqrt(std::max(rate, 0.0) / 100))) ++expected;
+      if (norm(now) / norm(rest) - 1 > 0.006 * (1 + std::sqrt(std::max(rate, 0.0) / 100)))
+        ++expected;
     });
     for (const int threads : {1, 2, 5}) {
       Simulation simulation(model, threads);
       simulation.set_displacements(u, std::vector<double>(model.body.particles, 0));
       simulation.set_velocities(v, std::vector<double>(model.body.particles, 0));
       simulation.step(1e-3 * model.critical_time_step);
-      EXPECT_EQ(simulation.breakages().size(), expected) << pull << " per second, " << threads << " threads";
+      EXPECT_EQ(simulation.breakages().size(), expected)
+          << pull << " per second, " << threads << " threads";
     }
     std::printf("pulled by %g per second: %zu springs break\n", pull, expected);
   }
   const ListFiles files(3, 3, 3);
-  const char* law = R"("membrane": "none", "failure": { "type": "failures.rate", "limit": 0.006, "reference": 100 })";
+  const char* law =
+      R"("membrane": "none", "failure": { "type": "failures.rate", "limit": 0.006, "reference": 100 })";
   EXPECT_THROW(plan_of(listed_scene(files.lattice(), law)), InputError);
 }
 
 TEST(Failures, WeibullScattersAsItSays) {
   const std::string law = R"(weibull", "scale": 0.01, "modulus": 3, "least": 0.2, "seed": )";
-  const auto plan = plan_of(block(20, 20, 20, breakable(law + "1"))), other = plan_of(block(20, 20, 20, breakable(law + "2")));
+  const auto plan = plan_of(block(20, 20, 20, breakable(law + "1"))),
+             other = plan_of(block(20, 20, 20, breakable(law + "2")));
   const Model& model = *plan->model;
   std::vector<double> u;
-  const auto broken = [&](const Plan& of, double strain) {  // evenly in all directions: all springs have that strain
-    u.clear();
-    for (Particle p = 0; p < model.body.particles; ++p) {
-      const Vec3 x = model.body.position(p);
-      u.insert(u.end(), {strain * x.x, strain * x.y, strain * x.z});
-    }
-    Simulation simulation(*of.model, 2);
-    simulation.set_displacements(u, {});
-    simulation.step(1e-3 * model.critical_time_step);
-    std::set<Spring> found;
-    for (const Breakage& breakage : simulation.breakages()) found.insert({breakage.a, breakage.b});
-    return found;
-  };
+  const auto broken =
+      [&](const Plan& of,
+          double strain) {  // evenly in all directions: all springs have that strain
+        u.clear();
+        for (Particle p = 0; p < model.body.particles; ++p) {
+          const Vec3 x = model.body.position(p);
+          u.insert(u.end(), {strain * x.x, strain * x.y, strain * x.z});
+        }
+        Simulation simulation(*of.model, 2);
+        simulation.set_displacements(u, {});
+        simulation.step(1e-3 * model.critical_time_step);
+        std::set<Spring> found;
+        for (const Breakage& breakage : simulation.breakages())
+          found.insert({breakage.a, breakage.b});
+        return found;
+      };
   const auto springs = static_cast<double>(model.body.base_springs());
   std::set<Spring> before;
   for (const double strain : {0.003, 0.006, 0.009, 0.012, 0.016}) {
-    const double share = 1 - std::exp(-std::pow((strain - 0.002) / 0.008, 3)), scatter = std::sqrt(share * (1 - share) / springs);
+    const double share = 1 - std::exp(-std::pow((strain - 0.002) / 0.008, 3)),
+                 scatter = std::sqrt(share * (1 - share) / springs);
     const std::set<Spring> now = broken(*plan, strain);
     EXPECT_NEAR(static_cast<double>(now.size()) / springs, share, 4 * scatter + 1e-12) << strain;
-    EXPECT_TRUE(std::includes(now.begin(), now.end(), before.begin(), before.end()));  // a spring keeps its limit
+    EXPECT_TRUE(std::includes(now.begin(), now.end(), before.begin(),
+                              before.end()));  // a spring keeps its limit
     before = now;
   }
   EXPECT_TRUE(broken(*plan, 0.00199).empty());
   EXPECT_NE(broken(*plan, 0.009), broken(*other, 0.009));
   // A spring's share with its neighbour in the numbering has nothing to do with its own.
-  const std::set<Spring> some = broken(*plan, 0.002 + 0.008 * std::cbrt(std::log(2.0)));  // one half
+  const std::set<Spring> some =
+      broken(*plan, 0.002 + 0.008 * std::cbrt(std::log(2.0)));  // one half
   double pairs = 0, all = 0;
   for (const Spring& spring : some)
     if (spring.second == spring.first + 1) {

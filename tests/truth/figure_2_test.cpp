@@ -1,4 +1,5 @@
-// Figure 2 of Zhao 2017: the fits (11) and (13) come out of the virtual test of 20^3 particles, and only of that one.
+// Figure 2 of Zhao 2017: the fits (11) and (13) come out of the virtual test of 20^3 particles, and
+// only of that one.
 #include <gtest/gtest.h>
 #include <analyze/calibration_curve.hpp>
 #include <analyze/load_lattice.hpp>
@@ -21,7 +22,8 @@ Curve figure(int particles, double strain) {
 
 double worst(const std::vector<double>& found, std::span<const double> expected) {
   double largest = 0;
-  for (std::size_t n = 0; n < found.size(); ++n) largest = std::max(largest, std::abs(found[n] / expected[n] - 1));
+  for (std::size_t n = 0; n < found.size(); ++n)
+    largest = std::max(largest, std::abs(found[n] / expected[n] - 1));
   return largest;
 }
 
@@ -32,15 +34,19 @@ TEST(FigureTwo, TheCoefficientsOfThePaper) {
   double apart = 0;  // of the two cubics, where the points are
   for (const CurvePoint& point : curve.points) {
     const double nu = point.measured->poisson;
-    apart = std::max(apart, std::abs(calibration::polynomial(curve.lambda_of_poisson.coefficients, nu) - calibration::paper_lambda(nu)));
+    apart =
+        std::max(apart, std::abs(calibration::polynomial(curve.lambda_of_poisson.coefficients, nu) -
+                                 calibration::paper_lambda(nu)));
   }
   EXPECT_LT(apart, 5e-4);
 }
 
 TEST(FigureTwo, TheSameComputedIndependently) {
   const Curve finite = figure(20, 1e-3), linear = figure(20, 1e-6);
-  const double cubic[] = {-210.9130, 162.7447, -55.4105, 6.92874}, quadratic[] = {-0.0078504, 0.4161849, 1.0037013};
-  const double linear_cubic[] = {-210.953, 162.737, -55.400, 6.9269}, linear_quadratic[] = {-0.0078445, 0.416384, 1.003699};
+  const double cubic[] = {-210.9130, 162.7447, -55.4105, 6.92874},
+               quadratic[] = {-0.0078504, 0.4161849, 1.0037013};
+  const double linear_cubic[] = {-210.953, 162.737, -55.400, 6.9269},
+               linear_quadratic[] = {-0.0078445, 0.416384, 1.003699};
   EXPECT_LT(worst(finite.lambda_of_poisson.coefficients, cubic), 2e-6);
   EXPECT_LT(worst(finite.modulus_ratio_of_lambda.coefficients, quadratic), 1e-5);
   EXPECT_LT(worst(linear.lambda_of_poisson.coefficients, linear_cubic), 1e-5);

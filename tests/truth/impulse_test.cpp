@@ -1,5 +1,5 @@
-// Loads act by the mean of their factor over each step: impulses are exact for any function of time and any step, the books close as with smooth
-// loads, and stages of unlike steps lose nothing.
+// Loads act by the mean of their factor over each step: impulses are exact for any function of time
+// and any step, the books close as with smooth loads, and stages of unlike steps lose nothing.
 #include <base/errors.hpp>
 #include <engine/stage_calls.hpp>
 #include <support/scenes.hpp>
@@ -16,7 +16,7 @@ using namespace hyperlattice::test;
 
 /// What a scene's stages leave, one after the other as a run has them.
 struct Result {
-  Balance last;
+  EnergyBalance last;
   double largest_error = 0, time = 0;
   std::uint64_t steps = 0;
 };
@@ -28,7 +28,8 @@ Result run_stages(const Plan& plan, std::uint64_t look_every = 20) {
     StageCalls::Hooks hooks;
     hooks.observe = [&] {
       if (simulation.steps() % look_every == 0)
-        result.largest_error = std::max(result.largest_error, std::abs(simulation.balance().relative_error()));
+        result.largest_error =
+            std::max(result.largest_error, std::abs(simulation.balance().relative_error()));
     };
     StageCalls(*plan.model, simulation, stage, 1, std::move(hooks)).run();
   }
@@ -45,15 +46,17 @@ std::string text(double value) {
 }
 
 /// A free or held block of 1 mm cells with loads and solver stages.
-std::string scene(const std::string& loads, const std::string& stages, int nx = 4, int ny = 4, int nz = 5,
-                  const std::string& material = R"("poisson": 0.25)") {
+std::string scene(const std::string& loads, const std::string& stages, int nx = 4, int ny = 4,
+                  int nz = 5, const std::string& material = R"("poisson": 0.25)") {
   const auto mm = [](int n) { return std::to_string(n) + "e-3"; };
   return R"({ "format": "hyperlattice/1", "pipeline": [ { "type": "lattices.cubic", "spacing": 1e-3, "shape": { "box": { "low": [0, 0, 0], "high": [)" +
-         mm(nx) + ", " + mm(ny) + ", " + mm(nz) + R"(] } } }, { "type": "materials.elastic", "young": 1e10, "density": 2500, )" + material + " }" +
-         (loads.empty() ? "" : ", " + loads) + ", " + stages + " ] }";
+         mm(nx) + ", " + mm(ny) + ", " + mm(nz) +
+         R"(] } } }, { "type": "materials.elastic", "young": 1e10, "density": 2500, )" + material +
+         " }" + (loads.empty() ? "" : ", " + loads) + ", " + stages + " ] }";
 }
 std::string explicit_to(double end, double step) {
-  return R"({ "type": "solvers.explicit", "end_time": )" + text(end) + R"(, "time_step": )" + text(step) + " }";
+  return R"({ "type": "solvers.explicit", "end_time": )" + text(end) + R"(, "time_step": )" +
+         text(step) + " }";
 }
 
 struct Pulse {
@@ -67,23 +70,31 @@ const Pulse pulses[] = {
     {"a_ramp", R"("form": "constant", "start": 1.05e-6, "rise": 2.13e-6)", 8.95e-6 - 1.065e-6},
     {"shorter_than_a_step", R"("form": "constant", "start": 3.37e-6, "duration": 1e-9)", 1e-9},
     {"at_the_start_shorter_than_a_step", R"("form": "constant", "duration": 1e-9)", 1e-9},
-    {"half_a_sine", R"("form": "half_sine", "start": 1e-6, "duration": 3e-6)", 3e-6 * 2 / std::numbers::pi},
-    {"half_a_sine_shorter_than_a_step", R"("form": "half_sine", "start": 1e-6, "duration": 1e-8)", 1e-8 * 2 / std::numbers::pi},
-    {"half_a_sine_of_three_steps", R"("form": "half_sine", "start": 1.1e-6, "duration": 3.1e-7)", 3.1e-7 * 2 / std::numbers::pi},
-    {"a_table_with_jumps", R"("form": "table", "start": 0.21e-6, "times": [0.5e-6, 1.2e-6, 3e-6], "values": [1, -2, 3])",
+    {"half_a_sine", R"("form": "half_sine", "start": 1e-6, "duration": 3e-6)",
+     3e-6 * 2 / std::numbers::pi},
+    {"half_a_sine_shorter_than_a_step", R"("form": "half_sine", "start": 1e-6, "duration": 1e-8)",
+     1e-8 * 2 / std::numbers::pi},
+    {"half_a_sine_of_three_steps", R"("form": "half_sine", "start": 1.1e-6, "duration": 3.1e-7)",
+     3.1e-7 * 2 / std::numbers::pi},
+    {"a_table_with_jumps",
+     R"("form": "table", "start": 0.21e-6, "times": [0.5e-6, 1.2e-6, 3e-6], "values": [1, -2, 3])",
      -0.5 * 0.7e-6 + 0.5 * 1.8e-6},
-    {"a_train", R"("form": "triangle", "rise": 0.3e-6, "fall": 0.7e-6, "period": 1.1e-6, "pulses": 8)", 4e-6},
-    {"a_train_within_steps", R"("form": "triangle", "rise": 5e-9, "fall": 5e-9, "period": 3.7e-8, "pulses": 200)", 1e-6},
+    {"a_train",
+     R"("form": "triangle", "rise": 0.3e-6, "fall": 0.7e-6, "period": 1.1e-6, "pulses": 8)", 4e-6},
+    {"a_train_within_steps",
+     R"("form": "triangle", "rise": 5e-9, "fall": 5e-9, "period": 3.7e-8, "pulses": 200)", 1e-6},
 };
 
 class Impulse : public testing::TestWithParam<Pulse> {};
-INSTANTIATE_TEST_SUITE_P(Pulses, Impulse, testing::ValuesIn(pulses), [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(Pulses, Impulse, testing::ValuesIn(pulses),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 TEST_P(Impulse, IsTheIntegralOfTheFactorForAnyStep) {
   constexpr double pressure = 1e-4, area = 16e-6;  // so small that faces keep their area to 1e-14
   for (const double step : {1e-7, 0.93e-7, 0.31e-7}) {
     const auto plan =
-        plan_of(scene(R"({ "type": "loads.actuation", "on": "z_min", "pressure": 1e-4, )" + std::string(GetParam().time_function) + " }",
+        plan_of(scene(R"({ "type": "loads.actuation", "on": "z_min", "pressure": 1e-4, )" +
+                          std::string(GetParam().time_function) + " }",
                       explicit_to(10e-6, step)));
     const Result result = run_stages(*plan);
     EXPECT_EQ(result.time, 10e-6);
@@ -94,10 +105,10 @@ TEST_P(Impulse, IsTheIntegralOfTheFactorForAnyStep) {
 }
 
 TEST(Impulse, IsExactAtEveryStep) {  // also in the midst of a jump
-  const auto plan =
-      plan_of(scene(R"({ "type": "loads.expression", "on": "all", "total": [3, 0, 0], "expression": "t > 1.03e-6 ? 2 - abs(t - 2e-6) * 1e5 : 0",
+  const auto plan = plan_of(scene(
+      R"({ "type": "loads.expression", "on": "all", "total": [3, 0, 0], "expression": "t > 1.03e-6 ? 2 - abs(t - 2e-6) * 1e5 : 0",
                                       "corners": [1.03e-6, 2e-6] })",
-                    explicit_to(10e-6, 1e-7)));
+      explicit_to(10e-6, 1e-7)));
   Simulation simulation(*plan->model, 1);
   const auto integral = [](double t) {
     const auto leg = [](double x) { return 2 * x - 1e5 * x * std::abs(x) / 2; };
@@ -105,43 +116,53 @@ TEST(Impulse, IsExactAtEveryStep) {  // also in the midst of a jump
   };
   for (int n = 0; n < 40; ++n) {
     simulation.step(1e-7);
-    EXPECT_NEAR(simulation.balance().momentum.x, integral(simulation.time()), 1e-12 * integral(4e-6)) << n;
+    EXPECT_NEAR(simulation.balance().momentum.x, integral(simulation.time()),
+                1e-12 * integral(4e-6))
+        << n;
   }
 }
 
 TEST(Mean, OfAFactorOverAnyLength) {
-  const auto plan = plan_of(scene(R"({ "type": "loads.actuation", "on": "z_min", "pressure": 1, "form": "harmonic", "frequency": 1e6 },
+  const auto plan = plan_of(scene(
+      R"({ "type": "loads.actuation", "on": "z_min", "pressure": 1, "form": "harmonic", "frequency": 1e6 },
                                      { "type": "loads.actuation", "on": "z_min", "pressure": 1, "form": "triangle", "rise": 1e-7, "fall": 3e-7,
                                        "period": 1e-6, "pulses": 200 })",
-                                  explicit_to(10e-6, 0.4e-7)));
+      explicit_to(10e-6, 0.4e-7)));
   const Load &harmonic = plan->model->loads[0], &train = plan->model->loads[1];
   EXPECT_EQ(harmonic.frequency, 1e6);
   EXPECT_EQ(train.frequency, 0);
   const double phase = 2 * std::numbers::pi * 1e6;
-  const auto exact = [&](double from, double to) { return (std::cos(phase * from) - std::cos(phase * to)) / phase; };
+  const auto exact = [&](double from, double to) {
+    return (std::cos(phase * from) - std::cos(phase * to)) / phase;
+  };
   EXPECT_NEAR(harmonic.mean(3.3e-6, 3.4e-6), exact(3.3e-6, 3.4e-6) / 1e-7, 1e-13);
   EXPECT_NEAR(harmonic.integral(0.2e-6, 50.4e-6), exact(0.2e-6, 50.4e-6), 1e-12 * 50e-6);
   EXPECT_NEAR(train.integral(0, 2e-3), 200 * 2e-7, 1e-12 * 4e-5);
   EXPECT_NEAR(train.mean(0, 100e-6), 0.2, 1e-12);
   EXPECT_EQ(train.mean(5.5e-6, 5.6e-6), 0);
-  const Load::Limit rising = train.limit(2e-6, 1e-7), before = train.limit(2e-6, -1e-7), falling = train.limit(2.1e-6, 1e-7);
+  const Load::Limit rising = train.limit(2e-6, 1e-7), before = train.limit(2e-6, -1e-7),
+                    falling = train.limit(2.1e-6, 1e-7);
   EXPECT_NEAR(rising.slope, 1e7, 1);
   EXPECT_NEAR(rising.value, 0, 1e-9);
   EXPECT_EQ(before.slope, 0);
   EXPECT_NEAR(falling.slope, -1 / 3e-7, 1);
 }
 
-// A bar of springs that push in pulses, undamped: with steps that changed at corners its energy grew without end.
+// A bar of springs that push in pulses, undamped: with steps that changed at corners its energy
+// grew without end.
 const std::string train(const std::string& keys) {
-  return R"({ "type": "loads.fixed", "on": "z_max" }, { "type": "loads.actuation", "on": "all", "strain": 1e-4, "form": "triangle", )" + keys + " }";
+  return R"({ "type": "loads.fixed", "on": "z_max" }, { "type": "loads.actuation", "on": "all", "strain": 1e-4, "form": "triangle", )" +
+         keys + " }";
 }
 const char* const membrane = R"("poisson": 0.2, "membrane": "I-m")";
 
 TEST(Trains, KeepTheirEnergy) {
   const std::string loads = train(R"("rise": 1e-6, "fall": 1e-6, "period": 5e-6, "pulses": 400)");
-  const auto plan = plan_of(scene(loads, R"({ "type": "solvers.explicit", "end_time": 2e-3 })", 6, 6, 12, membrane));
+  const auto plan = plan_of(
+      scene(loads, R"({ "type": "solvers.explicit", "end_time": 2e-3 })", 6, 6, 12, membrane));
   const Result result = run_stages(*plan, 100);
-  std::printf("%llu steps, largest error of the balance %.1e of %.3g J\n", static_cast<unsigned long long>(result.steps), result.largest_error,
+  std::printf("%llu steps, largest error of the balance %.1e of %.3g J\n",
+              static_cast<unsigned long long>(result.steps), result.largest_error,
               result.last.scale);
   EXPECT_GT(result.steps, 4000u);
   EXPECT_LT(result.largest_error, 1e-3);
@@ -150,7 +171,8 @@ TEST(Trains, KeepTheirEnergy) {
 
 TEST(Trains, OfPulsesShorterThanAStepKeepTheirEnergy) {
   const std::string loads = train(R"("rise": 5e-8, "fall": 5e-8, "period": 1e-6, "pulses": 1000)");
-  const auto plan = plan_of(scene(loads, R"({ "type": "solvers.explicit", "end_time": 1e-3 })", 6, 6, 12, membrane));
+  const auto plan = plan_of(
+      scene(loads, R"({ "type": "solvers.explicit", "end_time": 1e-3 })", 6, 6, 12, membrane));
   const Result result = run_stages(*plan, 100);
   EXPECT_LT(result.largest_error, 1e-3);
 }
@@ -163,11 +185,13 @@ TEST(Trains, StepsThatDivideTheStageAreTakenAsTheyAre) {
   EXPECT_EQ(result.time, 1e-3);
 }
 
-/// Where a shaken block of small motion is after 6 us, in three stages whose steps are these shares of a unit.
+/// Where a shaken block of small motion is after 6 us, in three stages whose steps are these shares
+/// of a unit.
 std::vector<double> after_stages(double unit, double* largest_error = nullptr) {
-  const auto plan =
-      plan_of(scene(R"({ "type": "loads.fixed", "on": "z_min" }, { "type": "loads.force", "on": "z_max", "total": [0, 1, 2], "rise": 5e-6 })",
-                    explicit_to(2e-6, unit) + ", " + explicit_to(4e-6, 0.4 * unit) + ", " + explicit_to(6e-6, 0.8 * unit)));
+  const auto plan = plan_of(scene(
+      R"({ "type": "loads.fixed", "on": "z_min" }, { "type": "loads.force", "on": "z_max", "total": [0, 1, 2], "rise": 5e-6 })",
+      explicit_to(2e-6, unit) + ", " + explicit_to(4e-6, 0.4 * unit) + ", " +
+          explicit_to(6e-6, 0.8 * unit)));
   Simulation simulation(*plan->model, 1);
   const double k = std::numbers::pi / 5e-3;
   std::vector<double> v;
@@ -179,7 +203,8 @@ std::vector<double> after_stages(double unit, double* largest_error = nullptr) {
   for (const PlannedStage& stage : plan->stages) {
     StageCalls::Hooks hooks;
     hooks.observe = [&] {
-      if (largest_error != nullptr) *largest_error = std::max(*largest_error, std::abs(simulation.balance().relative_error()));
+      if (largest_error != nullptr)
+        *largest_error = std::max(*largest_error, std::abs(simulation.balance().relative_error()));
     };
     StageCalls(*plan->model, simulation, stage, 1, std::move(hooks)).run();
   }
@@ -188,14 +213,17 @@ std::vector<double> after_stages(double unit, double* largest_error = nullptr) {
 
 TEST(Stages, OfUnlikeStepsAreOfSecondOrderAndLoseNothing) {
   double error = 0;
-  const std::vector<double> coarse = after_stages(2e-7, &error), half = after_stages(1e-7), quarter = after_stages(0.5e-7);
+  const std::vector<double> coarse = after_stages(2e-7, &error), half = after_stages(1e-7),
+                            quarter = after_stages(0.5e-7);
   const double order = std::log2(distance(coarse, half) / distance(half, quarter));
-  std::printf("stages of unlike steps: order %.2f, largest error of the balance %.1e\n", order, error);
+  std::printf("stages of unlike steps: order %.2f, largest error of the balance %.1e\n", order,
+              error);
   EXPECT_NEAR(order, 2, 0.15);
   EXPECT_LT(error, 1e-7);
 }
 
-/// Work and impulse of a driven end after 3 us; `stage_before`: a state of rest from which the motion begins.
+/// Work and impulse of a driven end after 3 us; `stage_before`: a state of rest from which the
+/// motion begins.
 std::pair<double, double> driven(double step, const std::string& load, bool stage_before) {
   const std::string rest = stage_before ? R"({ "type": "solvers.static", "end_time": 0 }, )" : "";
   const auto plan = plan_of(scene(load, rest + explicit_to(3e-6, step)));
@@ -205,38 +233,49 @@ std::pair<double, double> driven(double step, const std::string& load, bool stag
 }
 
 TEST(DrivenMotion, BeginsToSecondOrder) {
-  for (const char* load : {R"({ "type": "loads.velocity", "on": "z_max", "value": [0, 0, 0.01], "rise": 2e-6 })",
-                           R"({ "type": "loads.displacement", "on": "z_max", "value": [0, 0, 2e-8], "rise": 2e-6 })"})
+  for (const char* load :
+       {R"({ "type": "loads.velocity", "on": "z_max", "value": [0, 0, 0.01], "rise": 2e-6 })",
+        R"({ "type": "loads.displacement", "on": "z_max", "value": [0, 0, 2e-8], "rise": 2e-6 })"})
     for (const bool stage_before : {false, true}) {
-      const auto coarse = driven(2e-7, load, stage_before), half = driven(1e-7, load, stage_before), quarter = driven(0.5e-7, load, stage_before);
-      const double of_work = std::abs(coarse.first - half.first) / std::abs(half.first - quarter.first);
-      const double of_momentum = std::abs(coarse.second - half.second) / std::abs(half.second - quarter.second);
-      std::printf("half the step, errors of work by %.2f, of momentum by %.2f\n", of_work, of_momentum);
+      const auto coarse = driven(2e-7, load, stage_before), half = driven(1e-7, load, stage_before),
+                 quarter = driven(0.5e-7, load, stage_before);
+      const double of_work =
+          std::abs(coarse.first - half.first) / std::abs(half.first - quarter.first);
+      const double of_momentum =
+          std::abs(coarse.second - half.second) / std::abs(half.second - quarter.second);
+      std::printf("half the step, errors of work by %.2f, of momentum by %.2f\n", of_work,
+                  of_momentum);
       EXPECT_GT(of_work, 3);
       EXPECT_GT(of_momentum, 3);
     }
 }
 
-TEST(Balance, IsNotMeasuredAgainstRoundOff) {  // a force on particles that are held, before anything moves
-  const std::string loads = R"({ "type": "loads.fixed", "on": "z_max" }, { "type": "loads.force", "on": "z_max", "total": [0, 0, -500] },
+TEST(Balance,
+     IsNotMeasuredAgainstRoundOff) {  // a force on particles that are held, before anything moves
+  const std::string loads =
+      R"({ "type": "loads.fixed", "on": "z_max" }, { "type": "loads.force", "on": "z_max", "total": [0, 0, -500] },
     { "type": "loads.expression", "on": "z_min", "expression": "t > 10e-6 ? 1 : 0", "corners": [10e-6], "total": [0, 0, -100] })";
-  const auto plan = plan_of(scene(loads, R"({ "type": "solvers.explicit", "end_time": 4e-5 })", 6, 6, 12, membrane));
+  const auto plan = plan_of(
+      scene(loads, R"({ "type": "solvers.explicit", "end_time": 4e-5 })", 6, 6, 12, membrane));
   EXPECT_LT(run_stages(*plan, 1).largest_error, 1e-4);
-  const auto at_rest = plan_of(scene(loads, R"({ "type": "solvers.relaxation", "end_time": 9e-6 })", 6, 6, 12, membrane));
+  const auto at_rest = plan_of(
+      scene(loads, R"({ "type": "solvers.relaxation", "end_time": 9e-6 })", 6, 6, 12, membrane));
   EXPECT_LT(run_stages(*at_rest, 1).largest_error, 1e-4);
 }
 
 TEST(Balance, IsNotMeasuredAgainstRoundOffOfWhatGravityDoesToHeldParticles) {
   for (const char* held : {R"("on": "all")", R"("on": "all", "axes": "z")"}) {
-    const auto plan = plan_of(scene(R"({ "type": "loads.fixed", )" + std::string(held) + R"( }, { "type": "loads.gravity" })",
-                                    R"({ "type": "solvers.explicit", "end_time": 4e-5 })", 6, 6, 12, membrane));
+    const auto plan = plan_of(scene(
+        R"({ "type": "loads.fixed", )" + std::string(held) + R"( }, { "type": "loads.gravity" })",
+        R"({ "type": "solvers.explicit", "end_time": 4e-5 })", 6, 6, 12, membrane));
     EXPECT_LT(run_stages(*plan, 1).largest_error, 1e-4) << held;
   }
 }
 
 TEST(ForceOnALoad, HoldsWhatOthersDoToItsParticles) {
-  const auto plan = plan_of(
-      scene(R"({ "type": "loads.fixed", "on": "z_max" }, { "type": "loads.force", "on": "z_max", "total": [0, 0, -500] })", explicit_to(1e-6, 1e-7)));
+  const auto plan = plan_of(scene(
+      R"({ "type": "loads.fixed", "on": "z_max" }, { "type": "loads.force", "on": "z_max", "total": [0, 0, -500] })",
+      explicit_to(1e-6, 1e-7)));
   Simulation simulation(*plan->model, 1);
   for (int n = 0; n < 3; ++n) simulation.step(1e-7);
   EXPECT_NEAR(simulation.force_on_load()[0].z, -500, 1e-9);
@@ -254,7 +293,8 @@ TEST(LoadsThatAreNoNumbers, AreNamedWithTheirText) {
       FAIL() << expression;
     } catch (const RunError& error) {
       const std::string sentence = error.what();
-      for (const char* part : {"loads.expression (/pipeline/3)", expression, "t = "}) EXPECT_NE(sentence.find(part), std::string::npos) << sentence;
+      for (const char* part : {"loads.expression (/pipeline/3)", expression, "t = "})
+        EXPECT_NE(sentence.find(part), std::string::npos) << sentence;
     }
   }
 }
@@ -270,13 +310,19 @@ std::string faults_of_scene(const std::string& text) {
 
 TEST(Resolution, OfExpressionsFasterThanTheStepIsToldByThePlan) {
   const auto warnings = [](const std::string& expression, const std::string& more = "") {
-    return plan_of(scene(R"({ "type": "loads.expression", "on": "z_min", "total": [0, 0, 1], "expression": ")" + expression + "\"" + more + " }",
-                         explicit_to(1e-5, 1e-7)))
+    return plan_of(
+               scene(
+                   R"({ "type": "loads.expression", "on": "z_min", "total": [0, 0, 1], "expression": ")" +
+                       expression + "\"" + more + " }",
+                   explicit_to(1e-5, 1e-7)))
         ->model->warnings;
   };
-  for (const char* slow : {"1", "t", "sin(1e6 * t)", "exp(-t / 1e-6)"}) EXPECT_TRUE(warnings(slow).empty()) << slow;
-  EXPECT_TRUE(warnings("(t > 2.11e-6 && t < 2.12e-6) ? 1 : 0", R"(, "corners": [2.11e-6, 2.12e-6])").size() <= 1);
-  for (const char* fast : {"sin(1e9 * t)", "exp(-((t - 5.02e-6) / 4e-9)^2)", "(t > 2.11e-6 && t < 2.15e-6) ? 1 : 0"}) {
+  for (const char* slow : {"1", "t", "sin(1e6 * t)", "exp(-t / 1e-6)"})
+    EXPECT_TRUE(warnings(slow).empty()) << slow;
+  EXPECT_TRUE(warnings("(t > 2.11e-6 && t < 2.12e-6) ? 1 : 0", R"(, "corners": [2.11e-6, 2.12e-6])")
+                  .size() <= 1);
+  for (const char* fast :
+       {"sin(1e9 * t)", "exp(-((t - 5.02e-6) / 4e-9)^2)", "(t > 2.11e-6 && t < 2.15e-6) ? 1 : 0"}) {
     const auto found = warnings(fast);
     ASSERT_FALSE(found.empty()) << fast;
     EXPECT_NE(found.front().find("its impulse is not exact"), std::string::npos) << found.front();
@@ -285,25 +331,35 @@ TEST(Resolution, OfExpressionsFasterThanTheStepIsToldByThePlan) {
 
 TEST(Resolution, OfLoadsIsToldByThePlan) {
   const auto with = [](const std::string& keys, double step) {
-    return scene(R"({ "type": "loads.actuation", "on": "z_min", "pressure": 1, )" + keys + " }", explicit_to(10e-6, step));
+    return scene(R"({ "type": "loads.actuation", "on": "z_min", "pressure": 1, )" + keys + " }",
+                 explicit_to(10e-6, step));
   };
-  const auto warnings = [&](const std::string& keys) { return plan_of(with(keys, 1e-7))->model->warnings; };
-  EXPECT_NE(faults_of_scene(with(R"("form": "harmonic", "frequency": 6e6)", 1e-7)).find("/pipeline/2: 6e+06 Hz: expected at most 5e+06 Hz"),
+  const auto warnings = [&](const std::string& keys) {
+    return plan_of(with(keys, 1e-7))->model->warnings;
+  };
+  EXPECT_NE(faults_of_scene(with(R"("form": "harmonic", "frequency": 6e6)", 1e-7))
+                .find("/pipeline/2: 6e+06 Hz: expected at most 5e+06 Hz"),
             std::string::npos)
       << faults_of_scene(with(R"("form": "harmonic", "frequency": 6e6)", 1e-7));
   EXPECT_EQ(faults_of_scene(with(R"("form": "harmonic", "frequency": 5e6)", 1e-7)), "");
   EXPECT_TRUE(warnings(R"("form": "harmonic", "frequency": 5e5)").empty());
   EXPECT_TRUE(warnings(R"("form": "triangle", "rise": 2e-7, "fall": 2e-7)").empty());
   EXPECT_TRUE(warnings(R"("form": "constant", "duration": 5e-6)").empty());
-  EXPECT_TRUE(warnings(R"("form": "triangle", "rise": 1e-6, "fall": 1e-6, "period": 2e-6, "pulses": 4)").empty());
+  EXPECT_TRUE(
+      warnings(R"("form": "triangle", "rise": 1e-6, "fall": 1e-6, "period": 2e-6, "pulses": 4)")
+          .empty());
   std::string times, values;  // samples that are closer than steps, of a shape that is not
   for (int n = 0; n <= 100; ++n) {
     times += (n == 0 ? "" : ", ") + text(n * 5e-8);
     values += (n == 0 ? "" : ", ") + text(std::sin(std::numbers::pi * n / 100));
   }
-  EXPECT_TRUE(warnings(R"("form": "table", "times": [)" + times + R"(], "values": [)" + values + "]").empty());
+  EXPECT_TRUE(
+      warnings(R"("form": "table", "times": [)" + times + R"(], "values": [)" + values + "]")
+          .empty());
   for (const char* keys :
-       {R"("form": "harmonic", "frequency": 1e6)", R"("form": "triangle", "rise": 1e-7, "fall": 1e-6)", R"("form": "constant", "duration": 1e-9)",
+       {R"("form": "harmonic", "frequency": 1e6)",
+        R"("form": "triangle", "rise": 1e-7, "fall": 1e-6)",
+        R"("form": "constant", "duration": 1e-9)",
         R"("form": "triangle", "rise": 1e-9, "fall": 1e-9, "period": 1e-7, "pulses": 9)"}) {
     const std::vector<std::string> told = warnings(keys);
     ASSERT_EQ(told.size(), 1u) << keys;

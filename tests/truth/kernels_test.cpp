@@ -1,6 +1,7 @@
-// The fast kernel against the plain one (HYPERLATTICE_SPRINGS=exact: one neighbour at a time, root and division), and against itself on other
-// numbers of threads, and floats against doubles: for strains of every size, bodies with holes and with rows of every length, cells, several
-// materials, breaking springs.
+// The fast kernel against the plain one (HYPERLATTICE_SPRINGS=exact: one neighbour at a time, root
+// and division), and against itself on other numbers of threads, and floats against doubles: for
+// strains of every size, bodies with holes and with rows of every length, cells, several materials,
+// breaking springs.
 #include <support/scenes.hpp>
 
 #include <gtest/gtest.h>
@@ -27,7 +28,8 @@ const ShapeCase shapes[] = {
     {"whole_vectors", R"({ "box": { "low": [0, 0, 0], "high": [16, 4, 4] } })"},
     {"column", R"({ "box": { "low": [0, 0, 0], "high": [1, 3, 9] } })"},
     {"sheet", R"({ "box": { "low": [0, 0, 0], "high": [25, 1, 7] } })"},
-    {"hollow_sphere", R"({ "difference": [{ "sphere": { "radius": 9.2 } }, { "sphere": { "radius": 4.1 } }] })"},
+    {"hollow_sphere",
+     R"({ "difference": [{ "sphere": { "radius": 9.2 } }, { "sphere": { "radius": 4.1 } }] })"},
     {"leaning", R"({ "cylinder": { "start": [0, 0, 0], "end": [20, 6, 9], "radius": 3.3 } })"},
 };
 
@@ -40,11 +42,14 @@ const Variant variants[] = {
     {"three", R"("membrane": "none", "poisson": 0.25)", ""},
     {"clamped", R"("membrane": "III", "lambda": 2)", ""},
     {"free", R"("membrane": "I-m", "poisson": 0.1)", ""},
-    {"breakable", R"("membrane": "I-m", "poisson": 0.1, "failure": { "type": "failures.elongation", "limit": 1e-3 })", ""},
+    {"breakable",
+     R"("membrane": "I-m", "poisson": 0.1, "failure": { "type": "failures.elongation", "limit": 1e-3 })",
+     ""},
     {"two_materials", R"("membrane": "I-m", "poisson": 0.1)",
      R"(, { "type": "materials.elastic", "young": 3e9, "density": 900, "membrane": "I-m", "poisson": 0.2,
           "region": { "half_space": { "point": [0, 2.2, 2.2], "normal": [0.1, 0.5, 1] } } })"},
-    {"falling", R"("membrane": "none", "poisson": 0.25)", R"(, { "type": "loads.gravity", "acceleration": [3, 0, -9.81] })"},
+    {"falling", R"("membrane": "none", "poisson": 0.25)",
+     R"(, { "type": "loads.gravity", "acceleration": [3, 0, -9.81] })"},
 };
 
 class Kernels : public testing::TestWithParam<std::tuple<ShapeCase, Variant, const char*>> {
@@ -52,23 +57,30 @@ class Kernels : public testing::TestWithParam<std::tuple<ShapeCase, Variant, con
   /// Spacing 1 m.
   std::unique_ptr<Plan> plan(const char* precision = "double") const {
     const auto& [shape, variant, boundary] = GetParam();
-    return plan_of(R"({ "format": "hyperlattice/1", "precision": ")" + std::string(precision) + R"(", "pipeline": [
+    return plan_of(R"({ "format": "hyperlattice/1", "precision": ")" + std::string(precision) +
+                   R"(", "pipeline": [
       { "type": "lattices.cubic", "boundary": ")" +
-                   std::string(boundary) + R"(", "spacing": 1, "anchor": [0, 0, 0], "shape": )" + shape.shape + R"( },
+                   std::string(boundary) + R"(", "spacing": 1, "anchor": [0, 0, 0], "shape": )" +
+                   shape.shape + R"( },
       { "type": "materials.elastic", "young": 1e10, "density": 2500, )" +
-                   variant.material + " }" + variant.more + R"(, { "type": "solvers.explicit", "end_time": 1 } ] })");
+                   variant.material + " }" + variant.more +
+                   R"(, { "type": "solvers.explicit", "end_time": 1 } ] })");
   }
 };
 INSTANTIATE_TEST_SUITE_P(All, Kernels,
-                         testing::Combine(testing::ValuesIn(shapes), testing::ValuesIn(variants), testing::Values("particles", "cells")),
+                         testing::Combine(testing::ValuesIn(shapes), testing::ValuesIn(variants),
+                                          testing::Values("particles", "cells")),
                          [](const auto& info) {
-                           return std::string(std::get<0>(info.param).name) + "_" + std::get<1>(info.param).name + "_" + std::get<2>(info.param);
+                           return std::string(std::get<0>(info.param).name) + "_" +
+                                  std::get<1>(info.param).name + "_" + std::get<2>(info.param);
                          });
 
 /// Displacements at random, one height a particle where there are heights.
 void disturb(Simulation& simulation, const Model& model, double size) {
   const std::size_t particles = model.body.particles;
-  simulation.set_displacements(noise(3 * particles, size, 1), model.degrees_of_freedom == 4 ? noise(particles, size, 2) : std::vector<double>{});
+  simulation.set_displacements(noise(3 * particles, size, 1), model.degrees_of_freedom == 4
+                                                                  ? noise(particles, size, 2)
+                                                                  : std::vector<double>{});
 }
 
 struct Moved {
@@ -107,7 +119,8 @@ TEST_P(Kernels, InFloatsGiveTheForcesOfDoubles) {
   for (const double size : {1e-12, 1e-6, 2e-3, 0.02, 0.3}) {
     const Moved fast = moved(*floats->model, size, 1, 1);
     const ExactKernel exact;
-    const Moved plain = moved(*doubles->model, size, 1, 1), plain_floats = moved(*floats->model, size, 1, 1);
+    const Moved plain = moved(*doubles->model, size, 1, 1),
+                plain_floats = moved(*floats->model, size, 1, 1);
     const double scale = std::max(largest(plain.velocity), largest(plain.rate));
     for (const Moved* other : {&fast, &plain_floats}) {
       EXPECT_LT(distance(other->velocity, plain.velocity), 1.5e-6 * scale) << size;
@@ -122,7 +135,9 @@ TEST_P(Kernels, GiveTheSameBitsForAnyNumberOfThreads) {
     const auto scene = plan(precision);
     for (const double size : {1e-6, 0.02}) {
       const Moved one = moved(*scene->model, size, 8, 1);
-      for (const int threads : {2, 3, 5}) EXPECT_EQ(moved(*scene->model, size, 8, threads).hash, one.hash) << size << ", " << threads << " threads";
+      for (const int threads : {2, 3, 5})
+        EXPECT_EQ(moved(*scene->model, size, 8, threads).hash, one.hash)
+            << size << ", " << threads << " threads";
     }
   }
 }

@@ -1,5 +1,5 @@
-// Laws with constants and memory of their own: bodies against closed forms, and the books of bodies in motion. What every law must do along the path
-// of one spring is in contract/contract_test.cpp.
+// Laws with constants and memory of their own: bodies against closed forms, and the books of bodies
+// in motion. What every law must do along the path of one spring is in contract/contract_test.cpp.
 #include <support/laws.hpp>
 #include <support/lists.hpp>
 
@@ -11,16 +11,24 @@ using namespace hyperlattice::test;
 
 const LawCase laws[] = {
     {"viscous", R"("type": "materials.viscous", "time": 2e-7, "membrane": "I-m", "poisson": 0.1)"},
-    {"relaxing", R"("type": "materials.relaxing", "time": 1e-6, "share": 0.6, "membrane": "I-m", "poisson": 0.1)"},
-    {"plastic", R"("type": "materials.plastic", "yield": 2e6, "hardening": 0.1, "membrane": "none", "poisson": 0.25)"},
-    {"softening", R"("type": "materials.softening", "strength": 3e6, "fracture_energy": 5, "membrane": "I-m", "poisson": 0.1)"},
+    {"relaxing",
+     R"("type": "materials.relaxing", "time": 1e-6, "share": 0.6, "membrane": "I-m", "poisson": 0.1)"},
+    {"plastic",
+     R"("type": "materials.plastic", "yield": 2e6, "hardening": 0.1, "membrane": "none", "poisson": 0.25)"},
+    {"softening",
+     R"("type": "materials.softening", "strength": 3e6, "fracture_energy": 5, "membrane": "I-m", "poisson": 0.1)"},
 };
 
-std::string scene_of(const std::string& shape, const std::string& material, const std::string& stages, const std::string& boundary = "particles") {
-  return law_scene(R"({ "type": "lattices.cubic", "spacing": 1e-3, "boundary": ")" + boundary + R"(", "shape": )" + shape + " }", material, stages);
+std::string scene_of(const std::string& shape, const std::string& material,
+                     const std::string& stages, const std::string& boundary = "particles") {
+  return law_scene(R"({ "type": "lattices.cubic", "spacing": 1e-3, "boundary": ")" + boundary +
+                       R"(", "shape": )" + shape + " }",
+                   material, stages);
 }
-const std::string block_of_particles = R"({ "box": { "low": [0, 0, 0], "high": [5e-3, 4e-3, 6e-3] } })";
-const std::string pair_of_particles = R"({ "box": { "low": [0, 0, 0], "high": [1e-3, 1e-3, 2e-3] } })";
+const std::string block_of_particles =
+    R"({ "box": { "low": [0, 0, 0], "high": [5e-3, 4e-3, 6e-3] } })";
+const std::string pair_of_particles =
+    R"({ "box": { "low": [0, 0, 0], "high": [1e-3, 1e-3, 2e-3] } })";
 
 /// k of the base springs of a lattice without a membrane, E = 10 GPa, spacing 1 mm.
 constexpr double stiffness = 0.4 * 1e10 * 1e-3;
@@ -28,36 +36,43 @@ constexpr double stiffness = 0.4 * 1e10 * 1e-3;
 // Two particles, one spring.
 
 TEST(Laws, ViscousPairOscillatesAsTheDampedOscillator) {
-  const auto plan = plan_of(scene_of(pair_of_particles, R"("type": "materials.viscous", "time": 1e-8, "membrane": "none")", ""));
+  const auto plan = plan_of(scene_of(
+      pair_of_particles, R"("type": "materials.viscous", "time": 1e-8, "membrane": "none")", ""));
   Simulation simulation(*plan->model, 1);
   simulation.set_velocities({0, 0, -1, 0, 0, 1}, {});
-  const double mass = 2500e-9, omega = std::sqrt(2 * stiffness / mass), ratio = omega * 1e-8 / 2, damped = omega * std::sqrt(1 - ratio * ratio);
+  const double mass = 2500e-9, omega = std::sqrt(2 * stiffness / mass), ratio = omega * 1e-8 / 2,
+               damped = omega * std::sqrt(1 - ratio * ratio);
   const double step = 0.01 / omega;
   double worst = 0;
   for (int n = 1; n <= 3000; ++n) {
     simulation.step(step);
     std::vector<double> xyz;
     simulation.displacements(xyz);
-    const double t = (n - 0.0) * step, expected = 2 / damped * std::exp(-ratio * omega * t) * std::sin(damped * t);
+    const double t = (n - 0.0) * step,
+                 expected = 2 / damped * std::exp(-ratio * omega * t) * std::sin(damped * t);
     worst = std::max(worst, std::abs(xyz[5] - xyz[2] - expected));
   }
   EXPECT_LT(worst, 0.012 * 2 / omega);
-  const Balance balance = simulation.balance();
+  const EnergyBalance balance = simulation.balance();
   EXPECT_LT(std::abs(balance.relative_error()), 1e-4);
-  const double lost = mass * (1 - std::exp(-2 * ratio * 3000 * 0.01));  // of the 2 * 1/2 m v^2 at the start
+  const double lost =
+      mass * (1 - std::exp(-2 * ratio * 3000 * 0.01));  // of the 2 * 1/2 m v^2 at the start
   EXPECT_NEAR(balance.dissipated(), lost, 0.02 * lost);
 }
 
 TEST(Laws, RelaxingPairLosesItsForce) {
   const auto plan = plan_of(scene_of(
-      pair_of_particles, R"("type": "materials.relaxing", "time": 1e-6, "share": 0.6, "membrane": "none")",
+      pair_of_particles,
+      R"("type": "materials.relaxing", "time": 1e-6, "share": 0.6, "membrane": "none")",
       R"(, { "type": "loads.fixed", "on": "z_min" }, { "type": "loads.displacement", "on": "z_max", "value": [0, 0, 1e-7], "rise": 1e-8 })"));
   Simulation simulation(*plan->model, 1);
   const double step = 1e-8;
   for (int n = 1; n <= 300; ++n) {
     simulation.step(step);
     if (n % 50 != 0) continue;
-    const double held = (n - 0.5) * step, expected = stiffness * 1e-7 * (0.4 + 0.6 * std::exp(-held / 1e-6));  // the first step moved it
+    const double held = (n - 0.5) * step,
+                 expected = stiffness * 1e-7 *
+                            (0.4 + 0.6 * std::exp(-held / 1e-6));  // the first step moved it
     EXPECT_NEAR(std::abs(simulation.force_on_load()[1].z), expected, 2e-3 * expected) << n;
   }
 }
@@ -69,8 +84,9 @@ TEST(Laws, SofteningLayersTakeTheFractureEnergyApart) {
       R"(, { "type": "loads.fixed", "on": "z_min" }, { "type": "loads.displacement", "on": "z_max", "value": [0, 0, 1e-5], "rise": 1e-4 })"));
   Simulation simulation(*plan->model, 1);
   for (int n = 0; n < 2000; ++n) simulation.step(5e-8);
-  const Balance balance = simulation.balance();
-  const double expected = 2 * 1e-6 * (100 + 2 * 360) / 9;  // nine k l^2 pass through a site's part of the plane in a large body
+  const EnergyBalance balance = simulation.balance();
+  const double expected = 2 * 1e-6 * (100 + 2 * 360) /
+                          9;  // nine k l^2 pass through a site's part of the plane in a large body
   EXPECT_NEAR(balance.dissipated(), expected, 1e-3 * expected);
   EXPECT_LT(std::abs(balance.stored), 1e-6 * expected);
   EXPECT_LT(std::abs(balance.relative_error()), 1e-3);
@@ -78,25 +94,30 @@ TEST(Laws, SofteningLayersTakeTheFractureEnergyApart) {
 
 // A bar.
 
-// One knee: elastic up to the stress stated, and no more after it. Heights are at rest in both, or the membrane has none.
+// One knee: elastic up to the stress stated, and no more after it. Heights are at rest in both, or
+// the membrane has none.
 TEST(Laws, PlasticBarYieldsAtTheStatedStress) {
-  for (const char* membrane : {R"("membrane": "none")", R"("membrane": "I-m", "poisson": 0.1)", R"("membrane": "II", "poisson": 0.1)",
-                               R"("membrane": "IV", "poisson": 0.1)"}) {
-    const auto plan = plan_of(scene_of(R"({ "box": { "low": [0, 0, 0], "high": [6e-3, 3e-3, 3e-3] } })",
-                                       R"("type": "materials.plastic", "yield": 2e6, )" + std::string(membrane),
-                                       R"(, { "type": "loads.displacement", "on": "x_min", "value": [0, 0, 0], "axes": "x", "rise": 1e-4 },
+  for (const char* membrane :
+       {R"("membrane": "none")", R"("membrane": "I-m", "poisson": 0.1)",
+        R"("membrane": "II", "poisson": 0.1)", R"("membrane": "IV", "poisson": 0.1)"}) {
+    const auto plan = plan_of(scene_of(
+        R"({ "box": { "low": [0, 0, 0], "high": [6e-3, 3e-3, 3e-3] } })",
+        R"("type": "materials.plastic", "yield": 2e6, )" + std::string(membrane),
+        R"(, { "type": "loads.displacement", "on": "x_min", "value": [0, 0, 0], "axes": "x", "rise": 1e-4 },
                                         { "type": "loads.displacement", "on": "x_max", "value": [3.6e-6, 0, 0], "axes": "x", "rise": 4e-4 })",
-                                       "cells"));
+        "cells"));
     Simulation simulation(*plan->model, 1);
     simulation.set_damping(0.8);
-    const double area = 9e-6, step = 0.5 * plan->model->critical_time_step, end = 4e-4;  // strain 6e-4 at the end, 2e-4 at yield
+    const double area = 9e-6, step = 0.5 * plan->model->critical_time_step,
+                 end = 4e-4;  // strain 6e-4 at the end, 2e-4 at yield
     double last = 0, worst = 0;
     while (simulation.time() < end) {
       simulation.step(step);
       const double strain = 6e-4 * simulation.time() / end;
       if (strain - last < 5e-5) continue;
       last = strain;
-      const double stress = std::abs(simulation.force_on_load()[1].x) / area, expected = std::min(1e10 * strain, 2e6);
+      const double stress = std::abs(simulation.force_on_load()[1].x) / area,
+                   expected = std::min(1e10 * strain, 2e6);
       EXPECT_NEAR(stress, expected, 0.02 * 2e6) << membrane << ", strain " << strain;
       worst = std::max(worst, std::abs(stress - expected) / 2e6);
     }
@@ -107,7 +128,8 @@ TEST(Laws, PlasticBarYieldsAtTheStatedStress) {
 // Bodies in motion.
 
 class MovingLaw : public testing::TestWithParam<LawCase> {};
-INSTANTIATE_TEST_SUITE_P(All, MovingLaw, testing::ValuesIn(laws), [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(All, MovingLaw, testing::ValuesIn(laws),
+                         [](const auto& info) { return info.param.name; });
 
 TEST_P(MovingLaw, KeepsTheBooks) {
   const auto plan = plan_of(scene_of(block_of_particles, GetParam().material, ""));
@@ -119,17 +141,20 @@ TEST_P(MovingLaw, KeepsTheBooks) {
 
 TEST_P(MovingLaw, GivesTheSameBitsForAnyNumberOfThreads) {
   for (const char* more : {"", law_failure}) {
-    const std::string scene = scene_of(block_of_particles, std::string(GetParam().material) + more, "");
+    const std::string scene =
+        scene_of(block_of_particles, std::string(GetParam().material) + more, "");
     for (const auto& plan : {plan_of(scene), plan_of(in_floats(scene))}) {
       const Ended one = shaken(*plan, 0.4, 100, 1);
       EXPECT_EQ(*more != '\0', one.broken > 0);
-      for (const int threads : {2, 3, 6}) EXPECT_EQ(shaken(*plan, 0.4, 100, threads).hash, one.hash) << threads;
+      for (const int threads : {2, 3, 6})
+        EXPECT_EQ(shaken(*plan, 0.4, 100, threads).hash, one.hash) << threads;
     }
   }
 }
 
 TEST_P(MovingLaw, KeepsTheBooksWhileSpringsBreak) {
-  const std::string scene = scene_of(block_of_particles, GetParam().material + std::string(law_failure), "");
+  const std::string scene =
+      scene_of(block_of_particles, GetParam().material + std::string(law_failure), "");
   for (const auto& plan : {plan_of(scene), plan_of(in_floats(scene))}) {
     const Ended ended = shaken(*plan, 0.1, 400, 2);
     EXPECT_GT(ended.broken, 10u);
@@ -137,7 +162,8 @@ TEST_P(MovingLaw, KeepsTheBooksWhileSpringsBreak) {
   }
 }
 
-// Laws are asked in doubles whatever the state is kept in: the same displacements give the same forces, but for what velocities are rounded by.
+// Laws are asked in doubles whatever the state is kept in: the same displacements give the same
+// forces, but for what velocities are rounded by.
 TEST_P(MovingLaw, GivesInFloatsTheForcesOfDoubles) {
   for (const char* boundary : {"particles", "cells"}) {
     const std::string scene = scene_of(block_of_particles, GetParam().material, "", boundary);
@@ -170,12 +196,22 @@ Fault refused(const std::string& scene) {
 }
 
 TEST(Laws, RefuseWhatTheyCannotDo) {
-  const auto expected = [](const char* material) { return refused(scene_of(block_of_particles, material, "")).expected; };
-  EXPECT_NE(expected(R"("type": "materials.softening", "strength": 3e6, "fracture_energy": 1e-3, "membrane": "none")").find("a spacing below"),
-            std::string::npos);
-  EXPECT_NE(expected(R"("type": "materials.plastic", "yield": 3e6, "membrane": "I", "poisson": 0.2)").find("springs across a bar would yield"),
-            std::string::npos);
-  EXPECT_NE(expected(R"("type": "materials.plastic", "yield": 3e6, "membrane": "IV", "poisson": 0.3)").find("negative stiffness"), std::string::npos);
+  const auto expected = [](const char* material) {
+    return refused(scene_of(block_of_particles, material, "")).expected;
+  };
+  EXPECT_NE(
+      expected(
+          R"("type": "materials.softening", "strength": 3e6, "fracture_energy": 1e-3, "membrane": "none")")
+          .find("a spacing below"),
+      std::string::npos);
+  EXPECT_NE(
+      expected(R"("type": "materials.plastic", "yield": 3e6, "membrane": "I", "poisson": 0.2)")
+          .find("springs across a bar would yield"),
+      std::string::npos);
+  EXPECT_NE(
+      expected(R"("type": "materials.plastic", "yield": 3e6, "membrane": "IV", "poisson": 0.3)")
+          .find("negative stiffness"),
+      std::string::npos);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
-// Laws with constants and memory of their own on lists. Each end of a spring keeps its own memory there, so these tests ask first whether both ends
-// stay together; then for closed forms, the grid's answer, and the books.
+// Laws with constants and memory of their own on lists. Each end of a spring keeps its own memory
+// there, so these tests ask first whether both ends stay together; then for closed forms, the
+// grid's answer, and the books.
 #include <support/laws.hpp>
 #include <support/lists.hpp>
 
@@ -15,17 +16,23 @@ const LawCase laws[] = {
     {"viscous", R"("type": "materials.viscous", "time": 2e-7, "membrane": "none")"},
     {"viscous_4D", R"("type": "materials.viscous", "time": 2e-7, "membrane": "I", "lambda": 1.7)"},
     {"relaxing", R"("type": "materials.relaxing", "time": 1e-6, "share": 0.6, "membrane": "none")"},
-    {"relaxing_clamped", R"("type": "materials.relaxing", "time": 1e-6, "share": 0.6, "membrane": "III", "lambda": 2)"},
-    {"softening", R"("type": "materials.softening", "strength": 3e6, "fracture_energy": 5, "membrane": "none")"},
-    {"softening_4D", R"("type": "materials.softening", "strength": 3e6, "fracture_energy": 5, "membrane": "I", "lambda": 1.7)"},
-    {"scattered_4D", R"("type": "materials.scattered", "modulus": 3, "membrane": "I", "lambda": 1.7)"},
+    {"relaxing_clamped",
+     R"("type": "materials.relaxing", "time": 1e-6, "share": 0.6, "membrane": "III", "lambda": 2)"},
+    {"softening",
+     R"("type": "materials.softening", "strength": 3e6, "fracture_energy": 5, "membrane": "none")"},
+    {"softening_4D",
+     R"("type": "materials.softening", "strength": 3e6, "fracture_energy": 5, "membrane": "I", "lambda": 1.7)"},
+    {"scattered_4D",
+     R"("type": "materials.scattered", "modulus": 3, "membrane": "I", "lambda": 1.7)"},
 };
 class ListedLaw : public testing::TestWithParam<LawCase> {};
-INSTANTIATE_TEST_SUITE_P(All, ListedLaw, testing::ValuesIn(laws), [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(All, ListedLaw, testing::ValuesIn(laws),
+                         [](const auto& info) { return info.param.name; });
 
 // Both ends of a spring.
 
-/// Many particles in pairs that know nothing of each other, of all lengths and directions; partners are far apart in the list.
+/// Many particles in pairs that know nothing of each other, of all lengths and directions; partners
+/// are far apart in the list.
 struct Pairs {
   static constexpr int number = 300;
   std::vector<Vec3> places;
@@ -33,11 +40,15 @@ struct Pairs {
 
   Pairs() {
     const std::vector<double> random = noise(6 * number, 1, 5);
-    const auto chance = [&](int n, int which) { return random[static_cast<std::size_t>(6 * n + which)]; };
-    for (int n = 0; n < number; ++n) places.push_back({3.0 * n, 9 * chance(n, 0), 9 * chance(n, 1)});
+    const auto chance = [&](int n, int which) {
+      return random[static_cast<std::size_t>(6 * n + which)];
+    };
+    for (int n = 0; n < number; ++n)
+      places.push_back({3.0 * n, 9 * chance(n, 0), 9 * chance(n, 1)});
     for (int n = 0; n < number; ++n) {
       const Vec3 reach{chance(n, 2), chance(n, 3), chance(n, 4)};
-      places.push_back(places[static_cast<std::size_t>(n)] + (1 / norm(reach) + 0.3 * chance(n, 5)) * reach);
+      places.push_back(places[static_cast<std::size_t>(n)] +
+                       (1 / norm(reach) + 0.3 * chance(n, 5)) * reach);
       springs.emplace_back(n, number + n);
     }
   }
@@ -73,17 +84,25 @@ TEST_P(ListedLaw, BothEndsOfASpringKeepTheSameBits) {
 TEST(ListedLaws, StiffnessScattersByTheNamesOfPoints) {
   const Pairs pairs;
   const ListFiles files(pairs.places, pairs.springs);
-  const auto plan = plan_of(law_scene(files.lattice(), R"("type": "materials.scattered", "modulus": 3, "seed": 7, "membrane": "none")"));
+  const auto plan = plan_of(
+      law_scene(files.lattice(),
+                R"("type": "materials.scattered", "modulus": 3, "seed": 7, "membrane": "none")"));
   const Model& model = *plan->model;
-  const std::vector<double> u = noise(3 * model.body.particles, 1e-6, 1), forces = LedBody(model, 2).forces(u);
+  const std::vector<double> u = noise(3 * model.body.particles, 1e-6, 1),
+                            forces = LedBody(model, 2).forces(u);
   const auto& named = model.body.listed.source;
   for (std::uint32_t n = 0; n < model.body.listed.springs.size(); ++n) {
     const auto [a, b, stiffness] = model.body.listed.springs[n];
-    const double share = std::cbrt(-std::log(chance(7, std::min(named[a], named[b]), std::max(named[a], named[b])))) / std::tgamma(4.0 / 3);
-    const auto at = [&](const std::vector<double>& field, Particle p) { return Vec3{field[3 * p], field[3 * p + 1], field[3 * p + 2]}; };
-    const Joint joint = model.joint(a, b, n);
-    const double expected = share * joint.stiffness * (norm(joint.rest + at(u, b) - at(u, a)) - joint.rest_length);
-    EXPECT_NEAR(norm(at(forces, a)), std::abs(expected), 1e-8 * joint.stiffness * 1e-6);
+    const double share = std::cbrt(-std::log(chance(7, std::min(named[a], named[b]),
+                                                    std::max(named[a], named[b])))) /
+                         std::tgamma(4.0 / 3);
+    const auto at = [&](const std::vector<double>& field, Particle p) {
+      return Vec3{field[3 * p], field[3 * p + 1], field[3 * p + 2]};
+    };
+    const SpringProperties properties = model.spring_properties(a, b, n);
+    const double expected = share * properties.stiffness *
+                            (norm(properties.rest + at(u, b) - at(u, a)) - properties.rest_length);
+    EXPECT_NEAR(norm(at(forces, a)), std::abs(expected), 1e-8 * properties.stiffness * 1e-6);
   }
 }
 
@@ -91,9 +110,11 @@ TEST(ListedLaws, StiffnessScattersByTheNamesOfPoints) {
 
 TEST(ListedLaws, AViscousPairOscillatesAsTheDampedOscillator) {
   const ListFiles files({{0, 0, 0}, {0, 0.6, 0.8}}, {{0, 1}});
-  const auto plan = plan_of(law_scene(files.lattice(), R"("type": "materials.viscous", "time": 1e-8, "membrane": "none")"));
+  const auto plan = plan_of(law_scene(
+      files.lattice(), R"("type": "materials.viscous", "time": 1e-8, "membrane": "none")"));
   const Model& model = *plan->model;
-  const double stiffness = model.joint(0, 1, 0).stiffness, mass = model.mass(0), omega = std::sqrt(2 * stiffness / mass), ratio = omega * 1e-8 / 2,
+  const double stiffness = model.spring_properties(0, 1, 0).stiffness, mass = model.mass(0),
+               omega = std::sqrt(2 * stiffness / mass), ratio = omega * 1e-8 / 2,
                damped = omega * std::sqrt(1 - ratio * ratio), step = 0.01 / omega;
   ASSERT_LT(ratio, 0.5);
   Simulation simulation(model, 1);
@@ -106,23 +127,29 @@ TEST(ListedLaws, AViscousPairOscillatesAsTheDampedOscillator) {
   for (int n = 1; n <= steps; ++n) {
     simulation.step(step);
     const std::vector<double> xyz = displacements(simulation);
-    const double t = n * step, expected = 2 / damped * std::exp(-ratio * omega * t) * std::sin(damped * t);
-    worst = std::max(worst, std::abs((swapped ? -1 : 1) * (0.6 * (xyz[4] - xyz[1]) + 0.8 * (xyz[5] - xyz[2])) - expected));
+    const double t = n * step,
+                 expected = 2 / damped * std::exp(-ratio * omega * t) * std::sin(damped * t);
+    worst = std::max(
+        worst, std::abs((swapped ? -1 : 1) * (0.6 * (xyz[4] - xyz[1]) + 0.8 * (xyz[5] - xyz[2])) -
+                        expected));
   }
   EXPECT_LT(worst, 0.012 * 2 / omega);
-  const Balance balance = simulation.balance();
+  const EnergyBalance balance = simulation.balance();
   EXPECT_LT(std::abs(balance.relative_error()), 1e-4);
   const double lost = mass * (1 - std::exp(-2));  // of the 2 * 1/2 m v^2 at the start
   EXPECT_NEAR(balance.dissipated(), lost, 0.02 * lost);
 }
 
-// Held in any shape, every spring relaxes alike, so that every particle's force falls as one spring's does.
+// Held in any shape, every spring relaxes alike, so that every particle's force falls as one
+// spring's does.
 TEST(ListedLaws, AStrainedRandomBlockLosesItsForces) {
   for (const char* membrane : {R"("membrane": "none")", R"("membrane": "III", "lambda": 2)"}) {
-    const auto plan =
-        plan_of(law_scene(random_lattice(6, 5, 4), R"("type": "materials.relaxing", "time": 1e-6, "share": 0.6, )" + std::string(membrane)));
+    const auto plan = plan_of(law_scene(
+        random_lattice(6, 5, 4),
+        R"("type": "materials.relaxing", "time": 1e-6, "share": 0.6, )" + std::string(membrane)));
     LedBody body(*plan->model, 2);
-    const std::vector<double> u = noise(3 * plan->model->body.particles, 1e-7, 1), first = body.forces(u);
+    const std::vector<double> u = noise(3 * plan->model->body.particles, 1e-7, 1),
+                              first = body.forces(u);
     std::vector<double> forces, expected = first;
     for (int n = 1; n <= 200; ++n) forces = body.forces(u);
     for (double& force : expected) force *= 0.4 + 0.6 * std::exp(-200 * LedBody::time_step / 1e-6);
@@ -132,17 +159,22 @@ TEST(ListedLaws, AStrainedRandomBlockLosesItsForces) {
 
 // Two halves drawn apart until no spring joins them.
 TEST(ListedLaws, ASofteningRandomBlockTakesTheFractureEnergyApart) {
-  const char* halves = R"(, { "type": "loads.fixed", "on": { "box": { "low": [0, 0, 0], "high": [5e-3, 1, 1] } } },
+  const char* halves =
+      R"(, { "type": "loads.fixed", "on": { "box": { "low": [0, 0, 0], "high": [5e-3, 1, 1] } } },
     { "type": "loads.displacement", "on": { "box": { "low": [5e-3, 0, 0], "high": [1, 1, 1] } }, "value": [1e-4, 0, 0], "rise": 1e-4 })";
   for (const char* membrane : {R"("membrane": "none")", R"("membrane": "III", "lambda": 2)"}) {
-    const auto plan = plan_of(law_scene(random_lattice(10, 16, 16),
-                                        R"("type": "materials.softening", "strength": 3e6, "fracture_energy": 5, )" + std::string(membrane), halves));
+    const auto plan = plan_of(
+        law_scene(random_lattice(10, 16, 16),
+                  R"("type": "materials.softening", "strength": 3e6, "fracture_energy": 5, )" +
+                      std::string(membrane),
+                  halves));
     Simulation simulation(*plan->model, 2);
     for (int n = 0; n < 1000; ++n) simulation.step(1e-7);
     const double expected = 5 * 16e-3 * 16e-3;
-    const Balance balance = simulation.balance();
+    const EnergyBalance balance = simulation.balance();
     std::printf("%s: %.3f of the fracture energy\n", membrane, balance.dissipated() / expected);
-    EXPECT_NEAR(balance.dissipated(), expected, 0.1 * expected);  // some 500 springs, of all lengths, and fewer at the surface
+    EXPECT_NEAR(balance.dissipated(), expected,
+                0.1 * expected);  // some 500 springs, of all lengths, and fewer at the surface
     EXPECT_LT(std::abs(balance.stored), 0.01 * expected);
     EXPECT_LT(std::abs(balance.relative_error()), 1e-3);
   }
@@ -164,42 +196,54 @@ struct LawTwins {
 
   LawTwins(int nx, int ny, int nz, const std::string& law, const std::string& more) {
     const ListFiles files(nx, ny, nz);
-    const std::string shape =
-        R"({ "box": { "low": [0, 0, 0], "high": [)" + std::to_string(nx) + "e-3, " + std::to_string(ny) + "e-3, " + std::to_string(nz) + "e-3] } }";
+    const std::string shape = R"({ "box": { "low": [0, 0, 0], "high": [)" + std::to_string(nx) +
+                              "e-3, " + std::to_string(ny) + "e-3, " + std::to_string(nz) +
+                              "e-3] } }";
     const auto scene = [&](const std::string& lattice, double scale, double fracture) {
       const auto material = [&](double stiff, const std::string& where) {
-        std::string keys = R"({ "type": "materials.)" + law + R"(", "density": 2500, "young": )" + text(stiff * scale * 1e10) + where;
+        std::string keys = R"({ "type": "materials.)" + law + R"(", "density": 2500, "young": )" +
+                           text(stiff * scale * 1e10) + where;
         if (law == "viscous") keys += R"(, "time": )" + text(stiff) + "e-7";
         if (law == "relaxing") keys += R"(, "time": 1e-6, "share": )" + text(0.4 * stiff);
-        if (law == "softening") keys += R"(, "strength": )" + text(stiff * scale * 3e6) + R"(, "fracture_energy": )" + text(stiff * fracture);
+        if (law == "softening")
+          keys += R"(, "strength": )" + text(stiff * scale * 3e6) + R"(, "fracture_energy": )" +
+                  text(stiff * fracture);
         return keys + ", " + more + " }";
       };
-      return R"({ "format": "hyperlattice/1", "pipeline": [ )" + lattice + ", " + material(1, "") + ", " +
+      return R"({ "format": "hyperlattice/1", "pipeline": [ )" + lattice + ", " + material(1, "") +
+             ", " +
              material(2, R"(, "region": { "box": { "low": [0, 0, 0], "high": [1, 1, 3e-3] } })") +
              R"(, { "type": "solvers.explicit", "end_time": 1 } ] })";
     };
     const auto opening = [](const Plan& plan) { return plan.model->springs[0].law[0][1]; };
-    grid = plan_of(scene(R"({ "type": "lattices.cubic", "spacing": 1e-3, "shape": )" + shape + " }", 1, 5));
+    grid = plan_of(
+        scene(R"({ "type": "lattices.cubic", "spacing": 1e-3, "shape": )" + shape + " }", 1, 5));
     list = plan_of(scene(files.lattice(), 1, 5));
     const double scale = grid->model->springs[0].stiffness / list->model->springs[0].stiffness;
-    list = plan_of(scene(files.lattice(), scale, law == "softening" ? 5 * scale * opening(*grid) / opening(*list) : 5));
+    list = plan_of(scene(files.lattice(), scale,
+                         law == "softening" ? 5 * scale * opening(*grid) / opening(*list) : 5));
     in_grid = InGrid(nx, ny, nz, *list->model);
   }
 };
 
 TEST(ListedLaws, TheCubicLatticeAsAListMovesAsTheGrid) {
   for (const char* law : {"viscous", "relaxing", "softening"})
-    for (const char* membrane : {R"("membrane": "none")", R"("membrane": "I", "lambda": 1.7)", R"("membrane": "III", "lambda": 2)"}) {
+    for (const char* membrane : {R"("membrane": "none")", R"("membrane": "I", "lambda": 1.7)",
+                                 R"("membrane": "III", "lambda": 2)"}) {
       const LawTwins twins(5, 6, 7, law, membrane);
       Simulation grid(*twins.grid->model, 1), list(*twins.list->model, 2);
       const std::vector<double> start = noise(3 * twins.in_grid.size(), 1, 1);
-      const std::vector<double> level(twins.grid->model->degrees_of_freedom == 4 ? twins.in_grid.size() : 0, 0.0);
+      const std::vector<double> level(
+          twins.grid->model->degrees_of_freedom == 4 ? twins.in_grid.size() : 0, 0.0);
       grid.set_velocities(start, level);
       list.set_velocities(twins.in_grid.for_list(start), level);
       for (int n = 0; n < 100; ++n)
-        for (Simulation* simulation : {&grid, &list}) simulation->step(0.4 * twins.grid->model->critical_time_step);
-      EXPECT_LT(distance(twins.in_grid.for_list(displacements(grid)), displacements(list)), 1e-10 * largest(displacements(grid))) << law << membrane;
-      const Balance left = grid.balance(), right = list.balance();
+        for (Simulation* simulation : {&grid, &list})
+          simulation->step(0.4 * twins.grid->model->critical_time_step);
+      EXPECT_LT(distance(twins.in_grid.for_list(displacements(grid)), displacements(list)),
+                1e-10 * largest(displacements(grid)))
+          << law << membrane;
+      const EnergyBalance left = grid.balance(), right = list.balance();
       EXPECT_GT(left.dissipated(), 0.01 * left.scale) << law << membrane;
       EXPECT_NEAR(left.stored, right.stored, 1e-9 * left.scale);
       EXPECT_NEAR(left.kinetic, right.kinetic, 1e-9 * left.scale);
@@ -209,12 +253,16 @@ TEST(ListedLaws, TheCubicLatticeAsAListMovesAsTheGrid) {
 
 // Bodies in motion.
 
-std::string random_scene(const std::string& material) { return law_scene(random_lattice(6, 5, 6), material); }
+std::string random_scene(const std::string& material) {
+  return law_scene(random_lattice(6, 5, 6), material);
+}
 
 TEST_P(ListedLaw, KeepsMomentumAndTheBooks) {
   const auto plan = plan_of(random_scene(GetParam().material));
-  const Ended start = shaken(*plan, 0.4, 1, 2), coarse = shaken(*plan, 0.4, 200, 2), fine = shaken(*plan, 0.1, 800, 1);
-  const double scale = std::sqrt(2 * start.balance.scale * plan->model->mass(0) * static_cast<double>(plan->model->body.particles));
+  const Ended start = shaken(*plan, 0.4, 1, 2), coarse = shaken(*plan, 0.4, 200, 2),
+              fine = shaken(*plan, 0.1, 800, 1);
+  const double scale = std::sqrt(2 * start.balance.scale * plan->model->mass(0) *
+                                 static_cast<double>(plan->model->body.particles));
   EXPECT_LT(norm(coarse.balance.momentum - start.balance.momentum), 1e-12 * scale);
   if (std::string(GetParam().name) != "scattered_4D") {  // which is elastic
     EXPECT_GT(fine.balance.dissipated(), 0.02 * fine.balance.scale);
@@ -231,7 +279,8 @@ TEST_P(ListedLaw, KeepsTheBooksWhileSpringsBreak) {
 }
 
 TEST_P(ListedLaw, GivesTheSameBitsForAnyNumberOfThreads) {
-  const std::string scene = law_scene(random_lattice(9, 8, 7), std::string(GetParam().material) + law_failure);
+  const std::string scene =
+      law_scene(random_lattice(9, 8, 7), std::string(GetParam().material) + law_failure);
   for (const auto& plan : {plan_of(scene), plan_of(in_floats(scene))}) {
     const Ended one = shaken(*plan, 0.4, 100, 1);
     EXPECT_GT(one.broken, 10u);
@@ -250,7 +299,8 @@ TEST(ListedLaws, PlasticSpringsOfAllDirectionsAreRefused) {
     plan_of(random_scene(R"("type": "materials.plastic", "yield": 3e6, "membrane": "none")"));
     FAIL() << "it was planned";
   } catch (const InputError& error) {
-    EXPECT_NE(error.faults().front().expected.find("structured lattice"), std::string::npos) << error.faults().front().expected;
+    EXPECT_NE(error.faults().front().expected.find("structured lattice"), std::string::npos)
+        << error.faults().front().expected;
   }
 }
 

@@ -1,4 +1,5 @@
-// Listed lattices: the cubic lattice written out as a list does what the structured one does, and what a body must keep is kept.
+// Listed lattices: the cubic lattice written out as a list does what the structured one does, and
+// what a body must keep is kept.
 #include <engine/stage_calls.hpp>
 
 #include <support/lists.hpp>
@@ -10,11 +11,13 @@ using namespace hyperlattice;
 using namespace hyperlattice::test;
 
 class ListedMembrane : public testing::TestWithParam<MembraneCase> {};
-const MembraneCase with_one_ratio[] = {{"none", R"("poisson": 0.25)"},
-                                       {"I", R"("membrane": "I", "lambda": 1.7)"},
-                                       {"III", R"("membrane": "III", "lambda": 2)"},
-                                       {"free", R"("membrane": "free", "k_alpha": 0.5, "k_beta": 1.5, "k_gamma": 1.5)"}};
-INSTANTIATE_TEST_SUITE_P(Membranes, ListedMembrane, testing::ValuesIn(with_one_ratio), [](const auto& info) { return std::string(info.param.name); });
+const MembraneCase with_one_ratio[] = {
+    {"none", R"("poisson": 0.25)"},
+    {"I", R"("membrane": "I", "lambda": 1.7)"},
+    {"III", R"("membrane": "III", "lambda": 2)"},
+    {"free", R"("membrane": "free", "k_alpha": 0.5, "k_beta": 1.5, "k_gamma": 1.5)"}};
+INSTANTIATE_TEST_SUITE_P(Membranes, ListedMembrane, testing::ValuesIn(with_one_ratio),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 /// Without k_gamma, which a list has none of.
 std::string keys_for_list(const std::string& material) {
@@ -28,36 +31,44 @@ struct Twins {
   std::unique_ptr<Plan> grid, list;
   InGrid in_grid;
 
-  Twins(int nx, int ny, int nz, const std::string& material, const std::string& failure = "", const std::string& stages = "") {
+  Twins(int nx, int ny, int nz, const std::string& material, const std::string& failure = "",
+        const std::string& stages = "") {
     const ListFiles files(nx, ny, nz);
     grid = plan_of(block(nx, ny, nz, material + failure, stages));
-    const auto scene = [&](double young) { return listed_scene(files.lattice(), keys_for_list(material) + failure, stages, young); };
+    const auto scene = [&](double young) {
+      return listed_scene(files.lattice(), keys_for_list(material) + failure, stages, young);
+    };
     const double k = grid->model->materials[0].constants.base_stiffness;
-    list = plan_of(scene(1e10 * k / plan_of(scene(1e10))->model->materials[0].constants.base_stiffness));
+    list = plan_of(
+        scene(1e10 * k / plan_of(scene(1e10))->model->materials[0].constants.base_stiffness));
     in_grid = InGrid(nx, ny, nz, *list->model);
   }
 };
 
 void expect_same_motion(const Twins& twins, Simulation& grid, Simulation& list, double scale) {
-  EXPECT_LT(distance(twins.in_grid.for_list(displacements(grid)), displacements(list)), 1e-11 * scale);
-  const Balance left = grid.balance(), right = list.balance();
+  EXPECT_LT(distance(twins.in_grid.for_list(displacements(grid)), displacements(list)),
+            1e-11 * scale);
+  const EnergyBalance left = grid.balance(), right = list.balance();
   EXPECT_NEAR(left.stored, right.stored, 1e-10 * left.stored);
   EXPECT_NEAR(left.kinetic, right.kinetic, 1e-10 * left.kinetic);
   EXPECT_NEAR(left.injected, right.injected, 1e-10 * std::abs(left.injected) + 1e-14 * left.stored);
 }
 
 TEST(ListedLoads, AnswerToAListAsToTheGrid) {
-  const Twins twins(5, 6, 7, membranes[0].material, "",
-                    R"({ "type": "loads.actuation", "on": "all", "force": 5, "form": "harmonic", "frequency": 1e6 },
+  const Twins twins(
+      5, 6, 7, membranes[0].material, "",
+      R"({ "type": "loads.actuation", "on": "all", "force": 5, "form": "harmonic", "frequency": 1e6 },
     { "type": "loads.floor", "on": "all", "stiffness": 1e6, "friction": 0.4 }, { "type": "loads.start_velocity", "linear": [1, 0, -2] })");
   Simulation grid(*twins.grid->model, 1), list(*twins.list->model, 3);
   for (int n = 0; n < 100; ++n)
-    for (Simulation* simulation : {&grid, &list}) simulation->step(0.5 * twins.grid->model->critical_time_step);
+    for (Simulation* simulation : {&grid, &list})
+      simulation->step(0.5 * twins.grid->model->critical_time_step);
   expect_same_motion(twins, grid, list, 1e-6);
 }
 
 TEST_P(ListedMembrane, TheCubicLatticeAsAListMovesAsTheGrid) {
-  const Twins twins(5, 6, 7, GetParam().material, "", R"({ "type": "loads.gravity", "acceleration": [0, 0, -9.81] },
+  const Twins twins(5, 6, 7, GetParam().material, "",
+                    R"({ "type": "loads.gravity", "acceleration": [0, 0, -9.81] },
     { "type": "loads.fixed", "on": "z_min" }, { "type": "loads.force", "on": { "box": { "low": [0, 0, 6e-3], "high": [1, 1, 1] } }, "total": [10, 0, 20] })");
   const Model& model = *twins.grid->model;
   ASSERT_TRUE(twins.list->model->body.is_listed());
@@ -67,10 +78,14 @@ TEST_P(ListedMembrane, TheCubicLatticeAsAListMovesAsTheGrid) {
   const std::size_t particles = model.body.particles;
   const bool heights = model.degrees_of_freedom == 4;
   for (Simulation* simulation : {&grid, &list}) {
-    simulation->set_damping(0.1);  // not for long: it is not continuous where velocities change their sign
-    const auto as_it_counts = [&](const std::vector<double>& field) { return simulation == &list ? twins.in_grid.for_list(field) : field; };
-    simulation->set_displacements(as_it_counts(noise(3 * particles, 1e-6, 1)),
-                                  as_it_counts(heights ? noise(particles, 1e-6, 2) : std::vector<double>{}));
+    simulation->set_damping(
+        0.1);  // not for long: it is not continuous where velocities change their sign
+    const auto as_it_counts = [&](const std::vector<double>& field) {
+      return simulation == &list ? twins.in_grid.for_list(field) : field;
+    };
+    simulation->set_displacements(
+        as_it_counts(noise(3 * particles, 1e-6, 1)),
+        as_it_counts(heights ? noise(particles, 1e-6, 2) : std::vector<double>{}));
     for (int n = 0; n < 200; ++n) {
       simulation->step(0.5 * model.critical_time_step);
       if (n == 5) simulation->set_damping(0);
@@ -80,7 +95,8 @@ TEST_P(ListedMembrane, TheCubicLatticeAsAListMovesAsTheGrid) {
 }
 
 TEST_P(ListedMembrane, TheSameSpringsBreakInAListAndInAGrid) {
-  const Twins twins(6, 5, 4, GetParam().material, R"(, "failure": { "type": "failures.elongation", "limit": 1.5e-6 })");
+  const Twins twins(6, 5, 4, GetParam().material,
+                    R"(, "failure": { "type": "failures.elongation", "limit": 1.5e-6 })");
   const Model& model = *twins.grid->model;
   Simulation grid(model, 2), list(*twins.list->model, 3);
   for (Simulation* simulation : {&grid, &list}) {
@@ -93,7 +109,8 @@ TEST_P(ListedMembrane, TheSameSpringsBreakInAListAndInAGrid) {
     std::vector<std::tuple<std::uint64_t, Particle, Particle>> all;
     for (const Breakage& breakage : simulation.breakages()) {
       const bool listed = &simulation == &list;
-      const auto [a, b] = std::minmax(listed ? twins.in_grid[breakage.a] : breakage.a, listed ? twins.in_grid[breakage.b] : breakage.b);
+      const auto [a, b] = std::minmax(listed ? twins.in_grid[breakage.a] : breakage.a,
+                                      listed ? twins.in_grid[breakage.b] : breakage.b);
       all.emplace_back(breakage.step, a, b);
     }
     std::sort(all.begin(), all.end());
@@ -102,34 +119,41 @@ TEST_P(ListedMembrane, TheSameSpringsBreakInAListAndInAGrid) {
   EXPECT_GT(broken(grid).size(), 30u);
   EXPECT_EQ(broken(grid), broken(list));
   EXPECT_EQ(grid.broken_open(), list.broken_open());
-  EXPECT_NEAR(grid.balance().dissipated_failure, list.balance().dissipated_failure, 1e-10 * grid.balance().dissipated_failure);
+  EXPECT_NEAR(grid.balance().dissipated_failure, list.balance().dissipated_failure,
+              1e-10 * grid.balance().dissipated_failure);
 }
 
-const MembraneCase random_cases[] = {
-    {"none", R"("membrane": "none")"}, {"I", R"("membrane": "I", "poisson": 0.2)"}, {"clamped", R"("membrane": "III", "lambda": 1)"}};
+const MembraneCase random_cases[] = {{"none", R"("membrane": "none")"},
+                                     {"I", R"("membrane": "I", "poisson": 0.2)"},
+                                     {"clamped", R"("membrane": "III", "lambda": 1)"}};
 class RandomBlock : public testing::TestWithParam<MembraneCase> {};
-INSTANTIATE_TEST_SUITE_P(Membranes, RandomBlock, testing::ValuesIn(random_cases), [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(Membranes, RandomBlock, testing::ValuesIn(random_cases),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 TEST_P(RandomBlock, KeepsMomentumAndTheSchemesEnergy) {
   const auto plan = plan_of(listed_scene(random_lattice(6, 5, 4), GetParam().material));
   const Model& model = *plan->model;
   Simulation simulation(model, 2);
   simulation.set_displacements(noise(3 * model.body.particles, 1e-11, 1), {});
-  simulation.set_velocities(noise(3 * model.body.particles, 1e-11 / model.critical_time_step, 3), {});
+  simulation.set_velocities(noise(3 * model.body.particles, 1e-11 / model.critical_time_step, 3),
+                            {});
   const double step = 0.5 * model.critical_time_step;
   simulation.step(step);
-  const Balance start = simulation.balance();
-  const double scale = std::sqrt(2 * start.kinetic_mean * model.materials[0].mass * static_cast<double>(model.body.particles));
+  const EnergyBalance start = simulation.balance();
+  const double scale = std::sqrt(2 * start.kinetic_mean * model.materials[0].mass *
+                                 static_cast<double>(model.body.particles));
   for (int n = 0; n < 2000; ++n) simulation.step(step);
-  const Balance end = simulation.balance();
+  const EnergyBalance end = simulation.balance();
   EXPECT_LT(norm(end.momentum - start.momentum), 1e-12 * scale);
   EXPECT_NEAR((end.kinetic + end.stored) / (start.kinetic + start.stored), 1, 1e-6);
 }
 
 TEST_P(RandomBlock, HasTheSameBitsForAnyNumberOfThreads) {
-  const std::string scene =
-      listed_scene(random_lattice(9, 8, 7), std::string(GetParam().material) + R"(, "failure": { "type": "failures.elongation", "limit": 1.5e-6 })",
-                   R"({ "type": "loads.gravity", "acceleration": [0, 0, -9.81] }, { "type": "loads.fixed", "on": "z_min" })");
+  const std::string scene = listed_scene(
+      random_lattice(9, 8, 7),
+      std::string(GetParam().material) +
+          R"(, "failure": { "type": "failures.elongation", "limit": 1.5e-6 })",
+      R"({ "type": "loads.gravity", "acceleration": [0, 0, -9.81] }, { "type": "loads.fixed", "on": "z_min" })");
   for (const auto& plan : {plan_of(scene), plan_of(in_floats(scene))}) {
     std::vector<std::uint64_t> hashes;
     std::vector<double> energies;
@@ -139,8 +163,9 @@ TEST_P(RandomBlock, HasTheSameBitsForAnyNumberOfThreads) {
       simulation.set_displacements(noise(3 * plan->model->body.particles, 1e-6, 1), {});
       for (int n = 0; n < 200; ++n) simulation.step(0.5 * plan->model->critical_time_step);
       hashes.push_back(simulation.hash());
-      const Balance balance = simulation.balance();
-      energies.push_back(balance.kinetic + balance.stored + balance.dissipated() + balance.injected);
+      const EnergyBalance balance = simulation.balance();
+      energies.push_back(balance.kinetic + balance.stored + balance.dissipated() +
+                         balance.injected);
       broken.push_back(simulation.breakages().size());
     }
     EXPECT_GT(broken[0], 20u);
@@ -153,7 +178,8 @@ TEST_P(RandomBlock, HasTheSameBitsForAnyNumberOfThreads) {
 }
 
 TEST_P(RandomBlock, FloatsGiveTheForcesAndTheEnergyOfDoubles) {
-  const std::string box = R"("low": [0, 0, 0], "high": [6e-3)", far_box = R"("low": [10, 0, 0], "high": [10.006)";
+  const std::string box = R"("low": [0, 0, 0], "high": [6e-3)",
+                    far_box = R"("low": [10, 0, 0], "high": [10.006)";
   std::string lattice = random_lattice(6, 5, 4);  // far from the origin, which must not matter
   lattice.replace(lattice.find(box), box.size(), far_box);
   const std::string scene = listed_scene(lattice, GetParam().material);
@@ -168,7 +194,8 @@ TEST_P(RandomBlock, FloatsGiveTheForcesAndTheEnergyOfDoubles) {
     return std::pair(found, stored);
   };
   const auto doubles = plan_of(scene), floats = plan_of(in_floats(scene));
-  for (const double size : {1e-12, 1e-8, 1e-6, 1e-5, 1e-4, 3e-4}) {  // of spacings of 1e-3: series, long series and root
+  for (const double size : {1e-12, 1e-8, 1e-6, 1e-5, 1e-4,
+                            3e-4}) {  // of spacings of 1e-3: series, long series and root
     const auto [exact, energy] = after_a_step(*doubles, size);
     const auto [rounded, its_energy] = after_a_step(*floats, size);
     EXPECT_LT(distance(rounded, exact), 3e-6 * largest(exact)) << size;
@@ -177,8 +204,10 @@ TEST_P(RandomBlock, FloatsGiveTheForcesAndTheEnergyOfDoubles) {
 }
 
 TEST_P(RandomBlock, TheSeriesGivesTheForcesOfTheRoot) {
-  const auto plan = plan_of(
-      listed_scene(random_lattice(6, 5, 4), std::string(GetParam().material) + R"(, "failure": { "type": "failures.elongation", "limit": 3e-4 })"));
+  const auto plan =
+      plan_of(listed_scene(random_lattice(6, 5, 4),
+                           std::string(GetParam().material) +
+                               R"(, "failure": { "type": "failures.elongation", "limit": 3e-4 })"));
   const auto velocities = [&](double size) {
     Simulation simulation(*plan->model, 1);
     simulation.set_displacements(noise(3 * plan->model->body.particles, size, 1), {});
@@ -203,18 +232,22 @@ TEST_P(RandomBlock, IsStableUpToItsCriticalStep) {
   simulation.set_displacements(noise(3 * plan->model->body.particles, 1e-10, 1), {});
   for (int n = 0; n < 3000; ++n) simulation.step(0.99 * plan->model->critical_time_step);
   EXPECT_LT(largest(displacements(simulation)), 1e-8);
-  for (int n = 0; n < 3000; ++n) simulation.step(1.6 * plan->model->critical_time_step);  // the bound is a safe one, not a lax one
+  for (int n = 0; n < 3000; ++n)
+    simulation.step(1.6 *
+                    plan->model->critical_time_step);  // the bound is a safe one, not a lax one
   EXPECT_GT(largest(displacements(simulation)), 1e-3);
 }
 
 TEST_P(RandomBlock, EnergyBalancesWhenSpringsBreak) {
-  const auto plan = plan_of(
-      listed_scene(random_lattice(8, 6, 6), std::string(GetParam().material) + R"(, "failure": { "type": "failures.elongation", "limit": 1e-6 })",
-                   R"({ "type": "loads.velocity", "on": "x_max", "value": [1, 0, 0] }, { "type": "loads.fixed", "on": "x_min" })"));
+  const auto plan = plan_of(listed_scene(
+      random_lattice(8, 6, 6),
+      std::string(GetParam().material) +
+          R"(, "failure": { "type": "failures.elongation", "limit": 1e-6 })",
+      R"({ "type": "loads.velocity", "on": "x_max", "value": [1, 0, 0] }, { "type": "loads.fixed", "on": "x_min" })"));
   Simulation simulation(*plan->model, 2);
   const double step = 0.1 * plan->model->critical_time_step;
   while (simulation.time() < 2e-5) simulation.step(step);
-  const Balance balance = simulation.balance();
+  const EnergyBalance balance = simulation.balance();
   EXPECT_GT(simulation.breakages().size(), 100u);
   EXPECT_LT(std::abs(balance.relative_error()), 2e-4);
 }
@@ -232,17 +265,23 @@ const char* const bent = R"({ "type": "loads.fixed", "on": "z_min" },
 
 TEST_P(ListedMembrane, TheCubicLatticeAsAListRestsAsTheGrid) {
   for (const std::string preconditioner : {"whole", "incomplete", "multigrid"}) {
-    const Twins twins(5, 6, 7, GetParam().material, "",
-                      bent + std::string(R"({ "type": "solvers.static", "tolerance": 1e-9, "preconditioner": ")") + preconditioner + R"(" })");
+    const Twins twins(
+        5, 6, 7, GetParam().material, "",
+        bent +
+            std::string(R"({ "type": "solvers.static", "tolerance": 1e-9, "preconditioner": ")") +
+            preconditioner + R"(" })");
     const std::vector<double> grid = at_rest(*twins.grid), list = at_rest(*twins.list);
-    EXPECT_LT(distance(twins.in_grid.for_list(grid), list), 1e-7 * largest(grid)) << preconditioner;  // tangents are in single precision
+    EXPECT_LT(distance(twins.in_grid.for_list(grid), list), 1e-7 * largest(grid))
+        << preconditioner;  // tangents are in single precision
   }
 }
 
-// Layers of equal springs share a pull evenly, so that the displacement is linear: the patch test of a list.
+// Layers of equal springs share a pull evenly, so that the displacement is linear: the patch test
+// of a list.
 TEST(ListedStatics, UniaxialStrainIsUniform) {
   const ListFiles files(4, 4, 9);
-  const auto plan = plan_of(listed_scene(files.lattice(), R"("membrane": "none")", R"({ "type": "loads.fixed", "on": "all", "axes": "xy" },
+  const auto plan = plan_of(listed_scene(files.lattice(), R"("membrane": "none")",
+                                         R"({ "type": "loads.fixed", "on": "all", "axes": "xy" },
     { "type": "loads.fixed", "on": "z_min", "axes": "z", "name": "end" }, { "type": "loads.displacement", "on": "z_max", "axes": "z", "value": [0, 0, 1e-5],
       "rise": 1e-9 }, { "type": "solvers.static", "tolerance": 1e-10 })"));
   const std::vector<double> u = at_rest(*plan);
@@ -260,28 +299,39 @@ std::string pulled_random_block(int n, const std::string& solver) {
 // Also with particles on two springs or one, which nothing drives.
 TEST(ListedStatics, RelaxationAgrees) {
   RestReport quick, slow;
-  const auto found = at_rest(*plan_of(pulled_random_block(7, R"({ "type": "solvers.static", "tolerance": 1e-9 })")), 1, &quick);
-  const auto relaxed =
-      at_rest(*plan_of(pulled_random_block(7, R"({ "type": "solvers.relaxation", "method": "accelerated", "tolerance": 1e-7 })")), 1, &slow);
+  const auto found = at_rest(
+      *plan_of(pulled_random_block(7, R"({ "type": "solvers.static", "tolerance": 1e-9 })")), 1,
+      &quick);
+  const auto relaxed = at_rest(
+      *plan_of(pulled_random_block(
+          7, R"({ "type": "solvers.relaxation", "method": "accelerated", "tolerance": 1e-7 })")),
+      1, &slow);
   EXPECT_LT(distance(found, relaxed), 1e-3 * largest(found));
-  std::printf("%llu iterations, %llu steps, largest difference %.1e\n", static_cast<unsigned long long>(quick.iterations),
-              static_cast<unsigned long long>(slow.iterations), distance(found, relaxed) / largest(found));
+  std::printf("%llu iterations, %llu steps, largest difference %.1e\n",
+              static_cast<unsigned long long>(quick.iterations),
+              static_cast<unsigned long long>(slow.iterations),
+              distance(found, relaxed) / largest(found));
 }
 
 TEST(ListedStatics, ResultsDoNotDependOnThreads) {
-  const std::string scene = pulled_random_block(17, R"({ "type": "solvers.static", "tolerance": 1e-4 })");
+  const std::string scene =
+      pulled_random_block(17, R"({ "type": "solvers.static", "tolerance": 1e-4 })");
   EXPECT_EQ(at_rest(*plan_of(scene, 1), 1), at_rest(*plan_of(scene, 3), 3));
 }
 
 TEST(ListedStatics, ABodyThatNothingHoldsIsToldHowItMoves) {
   const ListFiles files(4, 4, 4);
-  const auto plan = plan_of(listed_scene(files.lattice(), R"("membrane": "none")", R"({ "type": "loads.gravity", "acceleration": [0, -9.81, 0] },
+  const auto plan =
+      plan_of(listed_scene(files.lattice(), R"("membrane": "none")",
+                           R"({ "type": "loads.gravity", "acceleration": [0, -9.81, 0] },
     { "type": "solvers.static" })"));
   try {
     at_rest(*plan);
     FAIL() << "it came to rest";
   } catch (const RunError& error) {
-    EXPECT_NE(std::string(error.what()).find("the whole body can move as a rigid one: it slides along (0, -1, 0)"), std::string::npos)
+    EXPECT_NE(std::string(error.what())
+                  .find("the whole body can move as a rigid one: it slides along (0, -1, 0)"),
+              std::string::npos)
         << error.what();
   }
 }

@@ -1,5 +1,6 @@
-// Bodies that find no rest: columns buckle at Euler's load and in his mode, mechanisms and loose pieces are told with how they move; and what a
-// search finds that is asked to look less, or more carefully.
+// Bodies that find no rest: columns buckle at Euler's load and in his mode, mechanisms and loose
+// pieces are told with how they move; and what a search finds that is asked to look less, or more
+// carefully.
 #include <support/rest.hpp>
 
 #include <gtest/gtest.h>
@@ -18,12 +19,14 @@ Failure failing(const std::string& scene) {
   failure.plan = plan_of(scene, 1);
   Simulation simulation(*failure.plan->model, 1);
   StageCalls::Hooks hooks;
-  hooks.failing_motion = [&](const std::vector<double>& motion, const std::vector<double>& heights) {
+  hooks.failing_motion = [&](const std::vector<double>& motion,
+                             const std::vector<double>& heights) {
     failure.motion = motion;
     failure.heights = heights;
   };
   try {
-    StageCalls(*failure.plan->model, simulation, failure.plan->stages.front(), 1, std::move(hooks)).run();
+    StageCalls(*failure.plan->model, simulation, failure.plan->stages.front(), 1, std::move(hooks))
+        .run();
   } catch (const RunError& error) {
     std::printf("%s\n", error.what());
     failure.text = error.what();
@@ -32,7 +35,9 @@ Failure failing(const std::string& scene) {
 }
 std::string failure_of(const std::string& scene) { return failing(scene).text; }
 
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool says(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 /// The number before a word.
 double number_before(const std::string& text, const std::string& word) {
@@ -42,24 +47,29 @@ double number_before(const std::string& text, const std::string& word) {
   return std::stod(text.substr(from));
 }
 
-// Clamped below, free above: Euler's load pi^2 E I / (4 L^2), less for shear (Timoshenko, Gere: Theory of elastic stability, 2.17). Springs count the
-// height's square by the trapezoidal rule, which is what is left of second order in the cells. Its mode, 1 - cos(pi z / 2 L), is half of its largest
-// at two thirds of the length.
+// Clamped below, free above: Euler's load pi^2 E I / (4 L^2), less for shear (Timoshenko, Gere:
+// Theory of elastic stability, 2.17). Springs count the height's square by the trapezoidal rule,
+// which is what is left of second order in the cells. Its mode, 1 - cos(pi z / 2 L), is half of its
+// largest at two thirds of the length.
 TEST(NoRest, AColumnBucklesAtEulersLoad) {
   constexpr double young = 1e9, shear = young / 2.5, slenderness = 10, stress = 4e6;
   for (const int n : {4, 8}) {
-    const Failure failure = failing(scene(R"("spacing": 1, "boundary": "cells", "shape": )" + box({}, {double(n), double(n), slenderness * n}),
-                                          elastic(young, R"("membrane": "none")") + R"({ "type": "loads.fixed", "on": "z_min" },
+    const Failure failure = failing(
+        scene(R"("spacing": 1, "boundary": "cells", "shape": )" +
+                  box({}, {double(n), double(n), slenderness * n}),
+              elastic(young, R"("membrane": "none")") + R"({ "type": "loads.fixed", "on": "z_min" },
           { "type": "loads.pressure", "on": "z_max", "facing": "z_max", "pressure": 4e6, "rise": 1 },
           { "type": "solvers.static", "load_steps": 4, "most_cutbacks": 7 })"));
     const std::string& text = failure.text;
-    const double area = n * n, euler = M_PI * M_PI * young * area * area / 12 / (4 * std::pow(slenderness * n, 2));
+    const double area = n * n, euler = M_PI * M_PI * young * area * area / 12 /
+                                       (4 * std::pow(slenderness * n, 2));
     const double expected = euler / (1 + euler / (5.0 / 6 * shear * area));
     const double found = number_before(text, "% of the load") / 100 * stress * area;
     std::printf("%d cells across: buckles at %.4f of the expected load\n", n, found / expected);
     EXPECT_NEAR(found / expected, 1, 1.5 / (n * n));
     EXPECT_TRUE(says(text, "buckles")) << text;
-    EXPECT_TRUE(says(text, ", " + std::to_string(10 * n) + ") m")) << text;  // largest at the free end
+    EXPECT_TRUE(says(text, ", " + std::to_string(10 * n) + ") m"))
+        << text;  // largest at the free end
     EXPECT_NEAR(number_before(text, "% of the particles"), 33, 4);
     double alike = 0, kept = 0, mode = 0;  // along the way of the free end
     const Body& body = failure.plan->model->body;
@@ -79,43 +89,53 @@ TEST(NoRest, AColumnBucklesAtEulersLoad) {
 
 // Whether a state is looked at for buckling is an option.
 TEST(NoRest, AStraightColumnMayBeAskedToStayStraight) {
-  const AtRest column(scene(R"("spacing": 1, "boundary": "cells", "shape": )" + box({}, {4, 4, 40}),
-                            elastic(1e9, R"("membrane": "none")") + R"({ "type": "loads.fixed", "on": "z_min" },
+  const AtRest column(
+      scene(R"("spacing": 1, "boundary": "cells", "shape": )" + box({}, {4, 4, 40}),
+            elastic(1e9, R"("membrane": "none")") + R"({ "type": "loads.fixed", "on": "z_min" },
           { "type": "loads.pressure", "on": "z_max", "facing": "z_max", "pressure": 2.6e6 },
           { "type": "solvers.static", "stability": false })"));
   EXPECT_NEAR(column.mean(2, [](Site s) { return s.k == 40; }), -2.6e6 / 1e9 * 40, 0.01 * 0.104);
   EXPECT_NEAR(column.mean(0, [](Site s) { return s.k == 40; }), 0, 1e-6);
 }
 
-// In one step to a load that bends the beam by more than a right angle whole steps of Newton's method fail; shortened ones do not.
+// In one step to a load that bends the beam by more than a right angle whole steps of Newton's
+// method fail; shortened ones do not.
 TEST(NoRest, ShorterStepsFindWhatWholeOnesMiss) {
   const auto bent = [](const std::string& solver) {
-    return AtRest(scene(R"("spacing": 1, "boundary": "cells", "shape": )" + box({}, {2, 2, 40}), elastic(1e9, R"("membrane": "none")") +
-                                                                                                     R"({ "type": "loads.fixed", "on": "z_min" },
-                          { "type": "loads.force", "on": "z_max", "total": [1e7, 0, 0] },)" + solver))
+    return AtRest(scene(R"("spacing": 1, "boundary": "cells", "shape": )" + box({}, {2, 2, 40}),
+                        elastic(1e9, R"("membrane": "none")") +
+                            R"({ "type": "loads.fixed", "on": "z_min" },
+                          { "type": "loads.force", "on": "z_max", "total": [1e7, 0, 0] },)" +
+                            solver))
         .u;
   };
-  const auto at_once = bent(R"({ "type": "solvers.static", "most_cutbacks": 0, "tolerance": 1e-9 })");
-  const auto in_steps = bent(R"({ "type": "solvers.static", "load_steps": 25, "tolerance": 1e-9 })");
+  const auto at_once =
+      bent(R"({ "type": "solvers.static", "most_cutbacks": 0, "tolerance": 1e-9 })");
+  const auto in_steps =
+      bent(R"({ "type": "solvers.static", "load_steps": 25, "tolerance": 1e-9 })");
   EXPECT_GT(largest(at_once), 20);
   EXPECT_LT(distance(at_once, in_steps), 1e-6 * largest(in_steps));
 }
 
 TEST(NoRest, ABodyThatNothingHoldsIsToldHowItMoves) {
   const auto pulled = [](const std::string& more) {
-    return scene(R"("spacing": 1, "shape": )" + box({}, {4, 4, 4}), elastic(1e9, R"("membrane": "I-m", "poisson": 0.1)") + more + to_rest);
+    return scene(R"("spacing": 1, "shape": )" + box({}, {4, 4, 4}),
+                 elastic(1e9, R"("membrane": "I-m", "poisson": 0.1)") + more + to_rest);
   };
   const std::string pull = R"({ "type": "loads.force", "on": "z_max", "total": [0, 0, 1e3] },)";
-  const std::string guided = R"({ "type": "loads.fixed", "on": "x_min", "axes": "x" }, { "type": "loads.fixed", "on": "y_min", "axes": "y" },)";
+  const std::string guided =
+      R"({ "type": "loads.fixed", "on": "x_min", "axes": "x" }, { "type": "loads.fixed", "on": "y_min", "axes": "y" },)";
   for (const std::string& supports : {std::string(), guided})
-    EXPECT_TRUE(says(failure_of(pulled(pull + supports)), "the whole body can move as a rigid one: it slides along (0, 0, 1)"));
+    EXPECT_TRUE(says(failure_of(pulled(pull + supports)),
+                     "the whole body can move as a rigid one: it slides along (0, 0, 1)"));
   const std::string couple = R"({ "type": "loads.force", "on": "x_min", "total": [0, -1e3, 0] },
                                 { "type": "loads.force", "on": "x_max", "total": [0, 1e3, 0], "name": "other" },)";
   const Failure turns = failing(pulled(couple));
   EXPECT_TRUE(says(turns.text, "it turns about the axis (0, 0, 1) through (2, 2, 2) m"));
   const Body& body = turns.plan->model->body;
   ASSERT_EQ(turns.motion.size(), 3 * body.particles);
-  const double rate = turns.motion[3 * body.particles - 2] / 1.5;  // of the last, at (3.5, 3.5, 3.5)
+  const double rate =
+      turns.motion[3 * body.particles - 2] / 1.5;  // of the last, at (3.5, 3.5, 3.5)
   EXPECT_GT(rate, 0);
   for (Particle p = 0; p < body.particles; ++p) {
     const Vec3 from = body.position(p) - Vec3{2, 2, 2};
@@ -125,7 +145,8 @@ TEST(NoRest, ABodyThatNothingHoldsIsToldHowItMoves) {
 }
 
 std::string two_blocks(Vec3 low, Vec3 high) {
-  return scene(R"("spacing": 1e-3, "anchor": [0, 0, 0], "shape": { "union": [)" + box({}, {4e-3, 4e-3, 4e-3}) + ", " + box(low, high) + "] }",
+  return scene(R"("spacing": 1e-3, "anchor": [0, 0, 0], "shape": { "union": [)" +
+                   box({}, {4e-3, 4e-3, 4e-3}) + ", " + box(low, high) + "] }",
                elastic(1e9, R"("membrane": "none")") + R"({ "type": "loads.fixed", "on": "x_min" },
                                     { "type": "loads.force", "on": "x_max", "total": [0, 0, 1] }, )" +
                    R"({ "type": "solvers.static", "most_cutbacks": 2 })");
@@ -133,15 +154,19 @@ std::string two_blocks(Vec3 low, Vec3 high) {
 
 TEST(NoRest, ALoosePieceIsNamed) {
   const std::string text = failure_of(two_blocks({8e-3, 0, 0}, {12e-3, 4e-3, 4e-3}));
-  EXPECT_TRUE(says(text, "a loose piece of 64 of the 128 particles, around (0.01, 0.002, 0.002) m")) << text;
-  EXPECT_TRUE(says(text, "turns about the axis (0, -1, 0)")) << text;  // the force is not at its centre
+  EXPECT_TRUE(says(text, "a loose piece of 64 of the 128 particles, around (0.01, 0.002, 0.002) m"))
+      << text;
+  EXPECT_TRUE(says(text, "turns about the axis (0, -1, 0)"))
+      << text;  // the force is not at its centre
 }
 
-TEST(NoRest, AMechanismIsAnErrorThatSaysWhereItMoves) {  // joined by the four springs between two edges
+TEST(NoRest,
+     AMechanismIsAnErrorThatSaysWhereItMoves) {  // joined by the four springs between two edges
   const std::string text = failure_of(two_blocks({4e-3, 4e-3, 0}, {8e-3, 8e-3, 4e-3}));
   EXPECT_TRUE(says(text, "no state of rest under its loads")) << text;
   EXPECT_TRUE(says(text, "motion is largest at")) << text;
-  EXPECT_LE(number_before(text, "% of the particles"), 58);  // 64 of the 112 that are free are in the block that turns
+  EXPECT_LE(number_before(text, "% of the particles"),
+            58);  // 64 of the 112 that are free are in the block that turns
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
-// Random lattices: what they are made of, the elastic constants of their samples against an independent computation (tests/data/random_lattice.json),
-// and that a scene's E and nu are those of the body it gets.
+// Random lattices: what they are made of, the elastic constants of their samples against an
+// independent computation (tests/data/random_lattice.json), and that a scene's E and nu are those
+// of the body it gets.
 #include <analyze/calibrate.hpp>
 #include <analyze/load_lattice.hpp>
 #include <model/homogenise.hpp>
@@ -27,12 +28,14 @@ nlohmann::json reference() {
 /// E over what equation (14) gives for springs of stiffness k = 1 N/m.
 double young_over_eq14(const LatticeGeometry& geometry, double young) {
   double squares = 0;
-  for (const SampleSpring& spring : geometry.listed->sample) squares += dot(spring.rest, spring.rest);
+  for (const SampleSpring& spring : geometry.listed->sample)
+    squares += dot(spring.rest, spring.rest);
   return young / (squares / (6 * geometry.listed->sample_volume));
 }
 
 TEST(RandomLattice, HasTheElasticConstantsThatOthersFound) {
-  const std::map<std::string, LatticeGeometry> samples{{"8.4", sample("8.4")}, {"13.2", sample("13.2")}};
+  const std::map<std::string, LatticeGeometry> samples{{"8.4", sample("8.4")},
+                                                       {"13.2", sample("13.2")}};
   int compared = 0;
   for (const auto& row : reference()) {
     if (row["lattice"] != "RSA d=0.82") continue;
@@ -40,10 +43,15 @@ TEST(RandomLattice, HasTheElasticConstantsThatOthersFound) {
     if (lambda != 0 && lambda != 1 && lambda != 7) continue;
     const LatticeGeometry& geometry = samples.at(row["LN"] < 10 ? "8.4" : "13.2");
     const calibration::Ratios ratios = calibration::ratios(calibration::Membrane::I, lambda);
-    const ElasticConstants found = facts_of(geometry).elastic_constants(membranes::constants(facts_of(geometry), ratios));
-    EXPECT_NEAR(found.poisson(), row["nu_num"], 0.012) << row["LN"] << " " << lambda;  // samples differ
-    EXPECT_NEAR(young_over_eq14(geometry, found.young()), row["E_over_eq14"], 0.04 * row["E_over_eq14"].get<double>()) << row["LN"] << " " << lambda;
-    EXPECT_NEAR(affine_pair(geometry, ratios)->poisson, row["nu_affine"], 0.006) << row["LN"] << " " << lambda;
+    const ElasticConstants found =
+        facts_of(geometry).elastic_constants(membranes::constants(facts_of(geometry), ratios));
+    EXPECT_NEAR(found.poisson(), row["nu_num"], 0.012)
+        << row["LN"] << " " << lambda;  // samples differ
+    EXPECT_NEAR(young_over_eq14(geometry, found.young()), row["E_over_eq14"],
+                0.04 * row["E_over_eq14"].get<double>())
+        << row["LN"] << " " << lambda;
+    EXPECT_NEAR(affine_pair(geometry, ratios)->poisson, row["nu_affine"], 0.006)
+        << row["LN"] << " " << lambda;
     ++compared;
   }
   EXPECT_EQ(compared, 6);
@@ -57,7 +65,9 @@ TEST(RandomLattice, FewNeighboursGiveMoreThanAQuarter) {  // the paper's observa
 }
 
 TEST(RandomLattice, HasWhatItsOptionsSay) {
-  const auto plan = plan_of(listed_scene(random_lattice(8, 7, 9, R"("coordination": 10, "min_distance": 0.7)"), R"("membrane": "none")"));
+  const auto plan =
+      plan_of(listed_scene(random_lattice(8, 7, 9, R"("coordination": 10, "min_distance": 0.7)"),
+                           R"("membrane": "none")"));
   const Body& body = plan->model->body;
   EXPECT_EQ(body.particles, 8u * 7 * 9);
   EXPECT_EQ(body.listed.springs.size(), 5 * body.particles);
@@ -71,25 +81,32 @@ TEST(RandomLattice, HasWhatItsOptionsSay) {
 
 TEST(RandomLattice, WithTooFewSpringsToBeStiffIsWarnedOf) {
   const auto warnings = [](const std::string& coordination) {
-    return plan_of(listed_scene(random_lattice(6, 6, 6, R"("sample": 8, "coordination": )" + coordination), R"("membrane": "none")"))
+    return plan_of(listed_scene(
+                       random_lattice(6, 6, 6, R"("sample": 8, "coordination": )" + coordination),
+                       R"("membrane": "none")"))
         ->model->warnings;
   };
   for (const char* none : {"5", "5.9"}) {  // 216 particles
     const auto found = warnings(none);
     ASSERT_EQ(found.size(), 1u) << none;
     EXPECT_NE(found[0].find("the body's springs do not hold it"), std::string::npos) << found[0];
-    EXPECT_NE(found[0].find("216 particles in space are held by 642 at least"), std::string::npos) << found[0];
+    EXPECT_NE(found[0].find("216 particles in space are held by 642 at least"), std::string::npos)
+        << found[0];
   }
   for (const char* chance : {"6", "6.5", "6.9"}) {
     const auto found = warnings(chance);
     ASSERT_EQ(found.size(), 1u) << chance;
-    EXPECT_NE(found[0].find("the body has " + std::string(chance) + " springs a particle on the mean"), std::string::npos) << found[0];
+    EXPECT_NE(
+        found[0].find("the body has " + std::string(chance) + " springs a particle on the mean"),
+        std::string::npos)
+        << found[0];
     EXPECT_NE(found[0].find("left to chance"), std::string::npos) << found[0];
   }
   for (const char* stiff : {"7", "8.4"}) EXPECT_TRUE(warnings(stiff).empty()) << stiff;
 }
 
-/// A lattice with the Poisson ratio 2 / 3 at an endless lambda, and C12 over C11 at lambda 0; a list.
+/// A lattice with the Poisson ratio 2 / 3 at an endless lambda, and C12 over C11 at lambda 0; a
+/// list.
 LatticeFacts lattice_of(double* C12_over_C11) {
   LatticeFacts lattice;
   lattice.lengths = 1;
@@ -98,27 +115,37 @@ LatticeFacts lattice_of(double* C12_over_C11) {
     const double lambda = constants.cross_ratio[0];
     return ElasticConstants{1 + lambda, *static_cast<const double*>(self) + 2 * lambda, 1};
   };
-  lattice.get_stable = [](void*, const MaterialConstants& constants) noexcept { return constants.cross_ratio[0] >= 0; };
+  lattice.get_stable = [](void*, const MaterialConstants& constants) noexcept {
+    return constants.cross_ratio[0] >= 0;
+  };
   return lattice;
 }
 
 TEST(RandomLattice, PoissonRatiosThatNoOptionTakesAreNotOffered) {
   double loose = 1.8, stiff = 0.5;
-  const auto sentence = [](double& C12_over_C11) { return membranes::reach_sentence(lattice_of(&C12_over_C11), membranes::Membrane::I, 0.2); };
+  const auto sentence = [](double& C12_over_C11) {
+    return membranes::reach_sentence(lattice_of(&C12_over_C11), membranes::Membrane::I, 0.2);
+  };
   const std::string none = sentence(loose);
-  EXPECT_NE(none.find("none is possible with this lattice and membrane I, which gives (0.6429, 0.6667]; a Poisson ratio is below 0.5"),
+  EXPECT_NE(none.find("none is possible with this lattice and membrane I, which gives (0.6429, "
+                      "0.6667]; a Poisson ratio is below 0.5"),
             std::string::npos)
       << none;
   EXPECT_EQ(none.find("within"), std::string::npos) << none;
-  EXPECT_EQ(sentence(stiff), "within (0.3333, 0.5), the reach of membrane I; other membranes have other ratios");
+  EXPECT_EQ(sentence(stiff),
+            "within (0.3333, 0.5), the reach of membrane I; other membranes have other ratios");
 }
 
 TEST(RandomLattice, AReachOfTooFewSpringsSaysWhy) {
   try {
-    plan_of(listed_scene(random_lattice(6, 6, 6, R"("sample": 8, "coordination": 6)"), R"("membrane": "none", "poisson": 0.1)"));
+    plan_of(listed_scene(random_lattice(6, 6, 6, R"("sample": 8, "coordination": 6)"),
+                         R"("membrane": "none", "poisson": 0.1)"));
     FAIL() << "a Poisson ratio that the lattice has not";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("The body has 6 springs a particle on the mean, too few to be stiff for certain"), std::string::npos)
+    EXPECT_NE(
+        std::string(error.what())
+            .find("The body has 6 springs a particle on the mean, too few to be stiff for certain"),
+        std::string::npos)
         << error.what();
   }
 }
@@ -126,7 +153,9 @@ TEST(RandomLattice, AReachOfTooFewSpringsSaysWhy) {
 TEST(RandomLattice, FillsAnyShapeAndOnlyIt) {
   const std::string ball =
       R"({ "type": "lattices.random", "spacing": "1 mm", "shape": { "hollow_sphere": { "inner_radius": "3 mm", "outer_radius": "7 mm" } } })";
-  const auto plan = plan_of(listed_scene(ball, R"("membrane": "none")", R"({ "type": "loads.pressure", "on": "inner_surface", "pressure": 1e6 })"));
+  const auto plan = plan_of(
+      listed_scene(ball, R"("membrane": "none")",
+                   R"({ "type": "loads.pressure", "on": "inner_surface", "pressure": 1e6 })"));
   const Body& body = plan->model->body;
   const double volume = 4.0 / 3 * 3.14159265358979 * (343 - 27);
   EXPECT_NEAR(static_cast<double>(body.particles), volume, 0.01 * volume);
@@ -136,12 +165,14 @@ TEST(RandomLattice, FillsAnyShapeAndOnlyIt) {
     ASSERT_LE(r, 7e-3);
   }
   EXPECT_GT(plan->model->loads[0].particles.size(), 50u);
-  for (const LoadedParticle& loaded : plan->model->loads[0].particles) EXPECT_LT(norm(body.position(loaded.particle)), 5e-3);
+  for (const LoadedParticle& loaded : plan->model->loads[0].particles)
+    EXPECT_LT(norm(body.position(loaded.particle)), 5e-3);
 }
 
 TEST(RandomLattice, IsTheSameForTheSameSeedAndAnotherForAnother) {
   const auto positions = [](int seed) {
-    return plan_of(listed_scene(random_lattice(5, 5, 5, R"("seed": )" + std::to_string(seed)), R"("membrane": "none")"))
+    return plan_of(listed_scene(random_lattice(5, 5, 5, R"("seed": )" + std::to_string(seed)),
+                                R"("membrane": "none")"))
         ->model->body.listed.positions;
   };
   EXPECT_EQ(positions(3), positions(3));
@@ -149,16 +180,19 @@ TEST(RandomLattice, IsTheSameForTheSameSeedAndAnotherForAnother) {
 }
 
 TEST(RandomLattice, GetsTheYoungsModulusAndThePoissonRatioOfItsScene) {
-  const auto plan = plan_of(listed_scene(random_lattice(6, 6, 6), R"("membrane": "I", "poisson": 0.2)"));
+  const auto plan =
+      plan_of(listed_scene(random_lattice(6, 6, 6), R"("membrane": "I", "poisson": 0.2)"));
   const Model& model = *plan->model;
-  const ElasticConstants own = homogenise(model.body.listed, 0, model.body.grid.membrane_distance, model.materials[0].constants);
+  const ElasticConstants own = homogenise(model.body.listed, 0, model.body.grid.membrane_distance,
+                                          model.materials[0].constants);
   EXPECT_NEAR(own.poisson(), 0.2, 1e-7);
   EXPECT_NEAR(own.young(), 1e10, 1e4);
 }
 
 TEST(RandomLattice, PressureOnAFlatFaceHasTheRightTotal) {
   const auto plan =
-      plan_of(listed_scene(random_lattice(6, 5, 7), R"("membrane": "none")", R"({ "type": "loads.pressure", "on": "z_max", "pressure": 2e6 })"));
+      plan_of(listed_scene(random_lattice(6, 5, 7), R"("membrane": "none")",
+                           R"({ "type": "loads.pressure", "on": "z_max", "pressure": 2e6 })"));
   Vec3 total;
   for (const LoadedParticle& loaded : plan->model->loads[0].particles) total = total + loaded.force;
   EXPECT_NEAR(total.z, -2e6 * 30e-6, 1e-6 * 60);
@@ -167,9 +201,11 @@ TEST(RandomLattice, PressureOnAFlatFaceHasTheRightTotal) {
 }
 
 TEST(RandomLattice, WavesTravelAsFastAsItsModuliSay) {
-  // A long bar of laterally free faces pushed at one end: the front runs with sqrt(E / rho), a little less for the soft surface.
-  const auto plan = plan_of(listed_scene(random_lattice(14, 14, 60), R"("membrane": "I", "poisson": 0.2)",
-                                         R"({ "type": "loads.velocity", "on": "z_min", "value": [0, 0, 1e-3] })"));
+  // A long bar of laterally free faces pushed at one end: the front runs with sqrt(E / rho), a
+  // little less for the soft surface.
+  const auto plan = plan_of(
+      listed_scene(random_lattice(14, 14, 60), R"("membrane": "I", "poisson": 0.2)",
+                   R"({ "type": "loads.velocity", "on": "z_min", "value": [0, 0, 1e-3] })"));
   Simulation simulation(*plan->model, 2);
   const double speed = std::sqrt(1e10 / 2500), time = 40e-3 / speed;
   while (simulation.time() < time) simulation.step(0.9 * plan->model->critical_time_step);
@@ -201,16 +237,28 @@ TEST(Points, RefusesWhatIsNoLattice) {
     return std::string();
   };
   const std::string file = "file " + files.springs.string();
-  EXPECT_NE(refusal("0,1\n1,2\n1,0\n").find(file + ", line 4: expected a spring between points that no other joins; line 2 joins 0 and 1 too"),
+  EXPECT_NE(refusal("0,1\n1,2\n1,0\n")
+                .find(file + ", line 4: expected a spring between points that no other joins; line "
+                             "2 joins 0 and 1 too"),
             std::string::npos);
-  EXPECT_NE(refusal("0,0\n").find(file + ", line 2: expected two points, not 0 twice"), std::string::npos);
-  EXPECT_NE(refusal("0,1\n0,27\n").find(file + ", line 3: expected one of the 27 points, counted from 0, in column \"b\", not 27"),
+  EXPECT_NE(refusal("0,0\n").find(file + ", line 2: expected two points, not 0 twice"),
             std::string::npos);
-  EXPECT_NE(refusal("0,1,1\n1,2,0\n", "a,b,stiffness").find(file + ", line 3: expected a stiffness that is not 0"), std::string::npos);
-  EXPECT_NE(refusal("0,1,-1\n1,2,-1\n", "a,b,stiffness").find(file + ": expected stiffnesses that are positive and finite in the sum"),
+  EXPECT_NE(
+      refusal("0,1\n0,27\n")
+          .find(file +
+                ", line 3: expected one of the 27 points, counted from 0, in column \"b\", not 27"),
+      std::string::npos);
+  EXPECT_NE(refusal("0,1,1\n1,2,0\n", "a,b,stiffness")
+                .find(file + ", line 3: expected a stiffness that is not 0"),
             std::string::npos);
-  EXPECT_NE(refusal("0,1,1\n", "a,b,stifness").find(file + ", line 1: expected the name \"stiffness\" for column \"stifness\""), std::string::npos);
-  EXPECT_NE(refusal("0,x\n").find("line 2: expected a number in column \"b\", not \"x\""), std::string::npos);
+  EXPECT_NE(refusal("0,1,-1\n1,2,-1\n", "a,b,stiffness")
+                .find(file + ": expected stiffnesses that are positive and finite in the sum"),
+            std::string::npos);
+  EXPECT_NE(refusal("0,1,1\n", "a,b,stifness")
+                .find(file + ", line 1: expected the name \"stiffness\" for column \"stifness\""),
+            std::string::npos);
+  EXPECT_NE(refusal("0,x\n").find("line 2: expected a number in column \"b\", not \"x\""),
+            std::string::npos);
   EXPECT_NE(refusal("").find("has no spring"), std::string::npos);
 }
 
@@ -229,17 +277,22 @@ TEST(Points, RefusesPointsThatCannotBeParticles) {
   const std::string file = "file " + files.points.string();
   EXPECT_EQ(refusal("x,y,z,volume\n0,0,0,1\n0,0,1,1\n0,1,0,1\n"), "");
   EXPECT_NE(
-      refusal("x,y,z\n0,0,0\n# between\n0,0,1\n-0,0,0\n").find(file + ", line 5: expected a point at a place of its own, not at that of line 2"),
+      refusal("x,y,z\n0,0,0\n# between\n0,0,1\n-0,0,0\n")
+          .find(file + ", line 5: expected a point at a place of its own, not at that of line 2"),
       std::string::npos);
   for (const char* volume : {"0", "-1"})
     EXPECT_NE(refusal("x,y,z,volume\n0,0,0,1\n0,0,1," + std::string(volume) + "\n0,1,0,1\n")
                   .find(file + ", line 3: expected a volume above 0, not " + volume),
               std::string::npos);
-  EXPECT_NE(refusal("x,y,z,volume\n0,0,0,1\n0,0,1,1e200\n0,1,0,1\n").find(file + ", line 3: expected a volume in reach of numbers"),
+  EXPECT_NE(refusal("x,y,z,volume\n0,0,0,1\n0,0,1,1e200\n0,1,0,1\n")
+                .find(file + ", line 3: expected a volume in reach of numbers"),
             std::string::npos);
-  EXPECT_NE(refusal("x,y,z,volum\n0,0,0,1\n0,0,1,1\n0,1,0,1\n").find(file + ", line 1: expected the name \"volume\" for column \"volum\""),
+  EXPECT_NE(refusal("x,y,z,volum\n0,0,0,1\n0,0,1,1\n0,1,0,1\n")
+                .find(file + ", line 1: expected the name \"volume\" for column \"volum\""),
             std::string::npos);
-  EXPECT_NE(refusal("x,y,z\n0,0,0\n0,0,1\n0,1e200,0\n").find(file + ", line 4: expected coordinates up to 1e+50 m, not 1e+197 m"), std::string::npos);
+  EXPECT_NE(refusal("x,y,z\n0,0,0\n0,0,1\n0,1e200,0\n")
+                .find(file + ", line 4: expected coordinates up to 1e+50 m, not 1e+197 m"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Every kernel against the reference kernel: all laws, membranes, lattices, boundaries and precisions, for bodies that are moved at random.
+// Every kernel against the reference kernel: all laws, membranes, lattices, boundaries and
+// precisions, for bodies that are moved at random.
 #include <support/scenes.hpp>
 
 #include <model/kernel_calls.hpp>
@@ -29,9 +30,10 @@ struct MembraneKeys {
   const char* name;
   const char* keys;
 };
-const MembraneKeys all_membranes[] = {{"none", R"("membrane": "none")"},
-                                      {"clamped", R"("membrane": "free", "k_alpha": "infinite", "k_beta": 0.4)"},
-                                      {"free", R"("membrane": "free", "k_alpha": 2, "k_beta": 0.4)"}};
+const MembraneKeys all_membranes[] = {
+    {"none", R"("membrane": "none")"},
+    {"clamped", R"("membrane": "free", "k_alpha": "infinite", "k_beta": 0.4)"},
+    {"free", R"("membrane": "free", "k_alpha": 2, "k_beta": 0.4)"}};
 struct LatticeCase {
   const char* name;
   const char* keys;
@@ -42,34 +44,42 @@ const LatticeCase lattices[] = {{"cubic", R"("type": "lattices.cubic")"},
                                 {"fcc", R"("type": "lattices.fcc")"},
                                 {"random", R"("type": "lattices.random")"}};
 
-/// The forces on all particles by the reference kernel: springs that have not moved before, at the displacements and heights given.
+/// The forces on all particles by the reference kernel: springs that have not moved before, at the
+/// displacements and heights given.
 std::vector<FourVector> reference_forces(const Model& model, const std::vector<FourVector>& moved) {
   std::vector<FourVector> forces(moved.size());
   const bool has_cross = model.choice.membrane != KernelChoice::Membrane::none;
   const auto add = [&](Particle a, Particle b, std::uint32_t neighbour) {
-    const Joint joint = model.joint(a, b, neighbour);
-    const auto source = [&](Particle particle) { return model.body.is_listed() ? std::uint64_t{model.body.listed.source[particle]} : particle; };
-    const auto respond = [&](bool cross, double rest_length, double elongation) {
-      const double* constants = cross ? joint.cross_law : joint.law;
-      OneSpring spring{cross ? joint.cross_stiffness : joint.stiffness, rest_length, elongation, constants, nullptr};
-      double kept[max_law_memory + 2] = {};
-      start_spring(model, constants, {std::min(source(a), source(b)), std::max(source(a), source(b))}, kept);
-      return joint.share * take_spring(model, spring, 0, kept).force;
+    const SpringProperties properties = model.spring_properties(a, b, neighbour);
+    const auto source = [&](Particle particle) {
+      return model.body.is_listed() ? std::uint64_t{model.body.listed.source[particle]} : particle;
     };
-    add_reference_forces(joint.rest, model.body.grid.membrane_distance, has_cross, moved[a], moved[b], respond, forces[a], forces[b]);
+    const auto respond = [&](bool cross, double rest_length, double elongation) {
+      const double* constants = cross ? properties.cross_law : properties.law;
+      OneSpring spring{cross ? properties.cross_stiffness : properties.stiffness, rest_length,
+                       elongation, constants, nullptr};
+      double kept[max_law_memory + 2] = {};
+      start_spring(model, constants,
+                   {std::min(source(a), source(b)), std::max(source(a), source(b))}, kept);
+      return properties.share * take_spring(model, spring, 0, kept).force;
+    };
+    add_reference_forces(properties.rest, model.body.grid.membrane_distance, has_cross, moved[a],
+                         moved[b], respond, forces[a], forces[b]);
   };
   if (model.body.is_listed())
-    for (std::uint32_t n = 0; n < model.body.listed.springs.size(); ++n) add(model.body.listed.springs[n].a, model.body.listed.springs[n].b, n);
+    for (std::uint32_t n = 0; n < model.body.listed.springs.size(); ++n)
+      add(model.body.listed.springs[n].a, model.body.listed.springs[n].b, n);
   else
     for (Particle a = 0; a < model.body.particles; ++a)
       for (std::uint32_t n = 0; n < model.body.neighbours.size(); ++n) {
         const Neighbour& to = model.body.neighbours[n];
         const Site site = model.body.site(a);
         const Particle b = model.body.at({site.i + to.dx, site.j + to.dy, site.k + to.dz});
-        if (b != Body::no_particle && model.joint(a, b, n).share > 0) add(a, b, n);
+        if (b != Body::no_particle && model.spring_properties(a, b, n).share > 0) add(a, b, n);
       }
   if (model.degrees_of_freedom == 4)
-    for (Particle p = 0; p < model.body.particles; ++p) add_reference_alpha(model.body.share(p) * model.alphas[model.kind(p)], moved[p], forces[p]);
+    for (Particle p = 0; p < model.body.particles; ++p)
+      add_reference_alpha(model.body.share(p) * model.alphas[model.kind(p)], moved[p], forces[p]);
   return forces;
 }
 
@@ -96,40 +106,53 @@ std::vector<FourVector> kernel_forces(const Model& model, const std::vector<Four
   return forces;
 }
 
-class ReferenceKernel : public testing::TestWithParam<std::tuple<Law, MembraneKeys, LatticeCase>> {};
+class ReferenceKernel : public testing::TestWithParam<std::tuple<Law, MembraneKeys, LatticeCase>> {
+};
 INSTANTIATE_TEST_SUITE_P(All, ReferenceKernel,
-                         testing::Combine(testing::ValuesIn(laws), testing::ValuesIn(all_membranes), testing::ValuesIn(lattices)),
+                         testing::Combine(testing::ValuesIn(laws), testing::ValuesIn(all_membranes),
+                                          testing::ValuesIn(lattices)),
                          [](const auto& info) {
-                           return std::string(std::get<0>(info.param).name) + "_" + std::get<1>(info.param).name + "_" + std::get<2>(info.param).name;
+                           return std::string(std::get<0>(info.param).name) + "_" +
+                                  std::get<1>(info.param).name + "_" + std::get<2>(info.param).name;
                          });
 
 TEST_P(ReferenceKernel, GivesTheForcesOfEveryKernel) {
   const auto& [law, membrane, lattice] = GetParam();
-  const bool is_random = lattice.name == std::string("random");  // one class of springs, in all directions
-  const bool is_plastic = law.name == std::string("plastic"), is_free = membrane.name == std::string("free");
-  if (is_plastic && (is_random || (is_free && lattice.name == std::string("fcc")))) GTEST_SKIP() << "refused: springs would yield at unlike stresses";
-  const std::string second_class = membrane.name == std::string("none") || is_random ? "" : R"(, "k_gamma": 0.3)";
+  const bool is_random =
+      lattice.name == std::string("random");  // one class of springs, in all directions
+  const bool is_plastic = law.name == std::string("plastic"),
+             is_free = membrane.name == std::string("free");
+  if (is_plastic && (is_random || (is_free && lattice.name == std::string("fcc"))))
+    GTEST_SKIP() << "refused: springs would yield at unlike stresses";
+  const std::string second_class =
+      membrane.name == std::string("none") || is_random ? "" : R"(, "k_gamma": 0.3)";
   for (const char* precision : {"double", "float"}) {
-    const auto plan = plan_of(R"({ "format": "hyperlattice/1", "precision": ")" + std::string(precision) + R"(", "pipeline": [ { )" + lattice.keys +
-                              R"(, "spacing": 1e-3, "shape": { "box": { "low": [0, 0, 0], "high": [9e-3, 4e-3, 5e-3] } } },
+    const auto plan = plan_of(
+        R"({ "format": "hyperlattice/1", "precision": ")" + std::string(precision) +
+        R"(", "pipeline": [ { )" + lattice.keys +
+        R"(, "spacing": 1e-3, "shape": { "box": { "low": [0, 0, 0], "high": [9e-3, 4e-3, 5e-3] } } },
                               { "young": 1e10, "density": 2500, )" +
-                              law.keys + ", " + membrane.keys + second_class + R"( }, { "type": "solvers.explicit", "end_time": "1 us" } ] })");
+        law.keys + ", " + membrane.keys + second_class +
+        R"( }, { "type": "solvers.explicit", "end_time": "1 us" } ] })");
     const Model& model = *plan->model;
     for (const double size : {1e-3, 0.05}) {  // of displacements over the spacing
       const std::vector<double> u = noise(4 * model.body.particles, size * 1e-3, 7);
       std::vector<FourVector> moved(model.body.particles);
       for (Particle p = 0; p < moved.size(); ++p)
         for (std::size_t c = 0; c < static_cast<std::size_t>(model.degrees_of_freedom); ++c)
-          moved[p][c] = static_cast<double>(static_cast<float>(u[4 * p + c]));  // the same in every precision
+          moved[p][c] =
+              static_cast<double>(static_cast<float>(u[4 * p + c]));  // the same in every precision
       const auto expected = reference_forces(model, moved), found = kernel_forces(model, moved);
       double largest = 0, apart = 0;
       for (Particle p = 0; p < moved.size(); ++p)
-        for (std::size_t c = 0; c < static_cast<std::size_t>(model.degrees_of_freedom); ++c) {  // what is clamped does not move
+        for (std::size_t c = 0; c < static_cast<std::size_t>(model.degrees_of_freedom);
+             ++c) {  // what is clamped does not move
           largest = std::max(largest, std::abs(expected[p][c]));
           apart = std::max(apart, std::abs(found[p][c] - expected[p][c]));
         }
       ASSERT_GT(largest, 0);
-      EXPECT_LT(apart / largest, precision == std::string("double") ? 1e-12 : 3e-6) << precision << " " << size;
+      EXPECT_LT(apart / largest, precision == std::string("double") ? 1e-12 : 3e-6)
+          << precision << " " << size;
     }
   }
 }

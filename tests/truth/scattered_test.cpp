@@ -1,4 +1,5 @@
-// Stiffness that scatters from spring to spring: its numbers are Weibull's, and bodies of such springs are as stiff as theory says.
+// Stiffness that scatters from spring to spring: its numbers are Weibull's, and bodies of such
+// springs are as stiff as theory says.
 #include <model/kernel_calls.hpp>
 #include <support/laws.hpp>
 
@@ -9,31 +10,40 @@ using namespace hyperlattice;
 using namespace hyperlattice::test;
 
 constexpr double modulus = 3;
-const double mean = std::tgamma(1 + 1 / modulus), variance = std::tgamma(1 + 2 / modulus) / (mean * mean) - 1;
+const double mean = std::tgamma(1 + 1 / modulus),
+             variance = std::tgamma(1 + 2 / modulus) / (mean * mean) - 1;
 
 std::string scattered(const std::string& keys, double m, int seed) {
-  return R"("type": "materials.scattered", "modulus": )" + std::to_string(m) + R"(, "seed": )" + std::to_string(seed) + keys;
+  return R"("type": "materials.scattered", "modulus": )" + std::to_string(m) + R"(, "seed": )" +
+         std::to_string(seed) + keys;
 }
 std::string cube(int n, const char* boundary) {
   const std::string edge = std::to_string(n) + "e-3";
   return R"({ "type": "lattices.cubic", "spacing": 1e-3, "boundary": ")" + std::string(boundary) +
-         R"(", "shape": { "box": { "low": [0, 0, 0], "high": [)" + edge + ", " + edge + ", " + edge + "] } } }";
+         R"(", "shape": { "box": { "low": [0, 0, 0], "high": [)" + edge + ", " + edge + ", " +
+         edge + "] } } }";
 }
 
 /// What each base spring has of the mean stiffness, from the force that it alone holds.
 std::vector<double> shares(const Model& model) {
   std::vector<double> found;
   model.body.for_springs([&](Particle a, Particle b, std::uint32_t n) {
-    const Joint joint = model.joint(a, b, n);
+    const SpringProperties properties = model.spring_properties(a, b, n);
     double kept[max_law_memory + 2] = {};
-    start_spring(model, joint.law, {std::min(a, b), std::max(a, b)}, kept);
-    found.push_back(take_spring(model, {joint.stiffness, joint.rest_length, 1e-7, joint.law, nullptr}, 0, kept).force / (joint.stiffness * 1e-7));
+    start_spring(model, properties.law, {std::min(a, b), std::max(a, b)}, kept);
+    found.push_back(
+        take_spring(model,
+                    {properties.stiffness, properties.rest_length, 1e-7, properties.law, nullptr},
+                    0, kept)
+            .force /
+        (properties.stiffness * 1e-7));
   });
   return found;
 }
 
 TEST(Scattered, SharesAreWeibulls) {
-  const auto plan = plan_of(law_scene(cube(20, "particles"), scattered(R"(, "membrane": "none")", modulus, 1)));
+  const auto plan =
+      plan_of(law_scene(cube(20, "particles"), scattered(R"(, "membrane": "none")", modulus, 1)));
   std::vector<double> found = shares(*plan->model);
   std::sort(found.begin(), found.end());
   const auto number = static_cast<double>(found.size());
@@ -41,18 +51,22 @@ TEST(Scattered, SharesAreWeibulls) {
   for (std::size_t n = 0; n < found.size(); ++n) {
     sum += found[n];
     squares += (found[n] - 1) * (found[n] - 1);
-    farthest = std::max(farthest, std::abs(1 - std::exp(-std::pow(found[n] * mean, modulus)) - (static_cast<double>(n) + 0.5) / number));
+    farthest = std::max(farthest, std::abs(1 - std::exp(-std::pow(found[n] * mean, modulus)) -
+                                           (static_cast<double>(n) + 0.5) / number));
   }
   EXPECT_NEAR(sum / number, 1, 4 * std::sqrt(variance / number));
   EXPECT_NEAR(squares / number, variance, 0.03 * variance);
-  EXPECT_LT(farthest, 1.95 / std::sqrt(number));  // Kolmogorov and Smirnov: one sample in a thousand is farther
+  EXPECT_LT(
+      farthest,
+      1.95 / std::sqrt(number));  // Kolmogorov and Smirnov: one sample in a thousand is farther
 }
 
 /// A bar's modulus over that of equal springs.
 double stiffness_of_bar(int seed, std::unique_ptr<Plan>& plan) {
   constexpr double strain = 1e-6;
-  plan = plan_of(law_scene(cube(8, "cells"), scattered(R"(, "membrane": "none")", modulus, seed),
-                           R"(, { "type": "loads.displacement", "on": "x_min", "value": [0, 0, 0], "axes": "x", "rise": 1e-6 },
+  plan = plan_of(law_scene(
+      cube(8, "cells"), scattered(R"(, "membrane": "none")", modulus, seed),
+      R"(, { "type": "loads.displacement", "on": "x_min", "value": [0, 0, 0], "axes": "x", "rise": 1e-6 },
                                { "type": "loads.displacement", "on": "x_max", "value": [8e-9, 0, 0], "axes": "x", "rise": 4e-5 })"));
   Simulation simulation(*plan->model, 1);
   simulation.set_damping(0.7);
@@ -60,8 +74,8 @@ double stiffness_of_bar(int seed, std::unique_ptr<Plan>& plan) {
   return std::abs(simulation.force_on_load()[1].x) / 64e-6 / strain / 1e10;
 }
 
-// First order in the variance: the effective medium is softer by a third of it, and bodies vary with the squares of what their springs hold of the
-// energy.
+// First order in the variance: the effective medium is softer by a third of it, and bodies vary
+// with the squares of what their springs hold of the energy.
 TEST(Scattered, BarsAreAsStiffAsTheoryHasIt) {
   constexpr int number = 60;
   double sum = 0, squares = 0;
@@ -74,25 +88,34 @@ TEST(Scattered, BarsAreAsStiffAsTheoryHasIt) {
   double held = 0, held_squares = 0;  // energy of each spring in a bar of equal ones, in any unit
   const Model& model = *plan->model;
   model.body.for_springs([&](Particle a, Particle b, std::uint32_t n) {
-    const Joint joint = model.joint(a, b, n);
-    const double growth = joint.rest.x * joint.rest.x - 0.25 * (joint.rest.y * joint.rest.y + joint.rest.z * joint.rest.z);
-    const double energy = joint.share * growth * growth / dot(joint.rest, joint.rest);
+    const SpringProperties properties = model.spring_properties(a, b, n);
+    const double growth =
+        properties.rest.x * properties.rest.x -
+        0.25 * (properties.rest.y * properties.rest.y + properties.rest.z * properties.rest.z);
+    const double energy =
+        properties.share * growth * growth / dot(properties.rest, properties.rest);
     held += energy;
     held_squares += energy * energy;
   });
-  const double average = sum / number, scatter = (squares / number - average * average) * number / (number - 1),
+  const double average = sum / number,
+               scatter = (squares / number - average * average) * number / (number - 1),
                expected_scatter = variance * held_squares / (held * held);
-  std::printf("mean 1 - %.3f v, variance %.2f of that expected\n", (1 - average) / variance, scatter / expected_scatter);
+  std::printf("mean 1 - %.3f v, variance %.2f of that expected\n", (1 - average) / variance,
+              scatter / expected_scatter);
   EXPECT_LT(average, 1);
   EXPECT_GT(average, 1 - variance);
   EXPECT_NEAR((1 - average) / variance, 1.0 / 3, 0.06);
   EXPECT_NEAR(scatter / expected_scatter, 1, 0.5);
 }
 
-// What a grid keeps follows the particles, wherever blocks are cut; what a list keeps follows the order in which its points were named.
+// What a grid keeps follows the particles, wherever blocks are cut; what a list keeps follows the
+// order in which its points were named.
 TEST(Scattered, AnotherSeedIsAnotherBodyAndTheSameOneTheSame) {
   const auto hash = [](int seed, int threads) {
-    return shaken(*plan_of(law_scene(cube(7, "particles"), scattered(R"(, "membrane": "I-m", "poisson": 0.1)", 8, seed))), 0.4, 50, threads).hash;
+    return shaken(*plan_of(law_scene(cube(7, "particles"),
+                                     scattered(R"(, "membrane": "I-m", "poisson": 0.1)", 8, seed))),
+                  0.4, 50, threads)
+        .hash;
   };
   const std::uint64_t one = hash(1, 1);
   for (const int threads : {1, 2, 3, 6}) EXPECT_EQ(hash(1, threads), one);
@@ -100,7 +123,8 @@ TEST(Scattered, AnotherSeedIsAnotherBodyAndTheSameOneTheSame) {
 }
 
 TEST(Scattered, StaysStableUpToItsStep) {
-  const auto plan = plan_of(law_scene(cube(6, "particles"), scattered(R"(, "membrane": "I-m", "poisson": 0.1)", modulus, 1)));
+  const auto plan = plan_of(law_scene(
+      cube(6, "particles"), scattered(R"(, "membrane": "I-m", "poisson": 0.1)", modulus, 1)));
   const Ended ended = shaken(*plan, 0.99, 3000, 1, 1e-6);
   EXPECT_LT(std::abs(ended.balance.relative_error()), 1e-6);
 }

@@ -1,5 +1,6 @@
-// The hollow sphere of the paper's section 3.2 without failure: its radial motion under a blast against an independent one-dimensional
-// solution (tests/data/README.md). Stiffness by equation (15), which the tolerance assumes; the error of the bulk stiffness is printed beside.
+// The hollow sphere of the paper's section 3.2 without failure: its radial motion under a blast
+// against an independent one-dimensional solution (tests/data/README.md). Stiffness by equation
+// (15), which the tolerance assumes; the error of the bulk stiffness is printed beside.
 #include <support/scenes.hpp>
 
 #include <gtest/gtest.h>
@@ -25,7 +26,8 @@ struct Table {
     for (std::istringstream cells(line); std::getline(cells, cell, ',');) names.push_back(cell);
     while (std::getline(file, line)) {
       rows.emplace_back();
-      for (std::istringstream cells(line); std::getline(cells, cell, ',');) rows.back().push_back(std::strtod(cell.c_str(), nullptr));
+      for (std::istringstream cells(line); std::getline(cells, cell, ',');)
+        rows.back().push_back(std::strtod(cell.c_str(), nullptr));
     }
   }
 };
@@ -33,7 +35,8 @@ struct Table {
 /// The true radial displacement, between the table's radii and times.
 class Truth {
  public:
-  explicit Truth(const std::string& poisson) : table_(std::string(HYPERLATTICE_SOURCE) + "/tests/data/sphere_nu" + poisson + ".csv") {
+  explicit Truth(const std::string& poisson)
+      : table_(std::string(HYPERLATTICE_SOURCE) + "/tests/data/sphere_nu" + poisson + ".csv") {
     for (std::size_t c = 0; c < table_.names.size(); ++c)
       if (table_.names[c].starts_with("u_r@")) {
         radii_.push_back(std::stod(table_.names[c].substr(4)));
@@ -46,7 +49,9 @@ class Truth {
     const double step = table_.rows[1][0] - table_.rows[0][0];
     const auto row = std::min(static_cast<std::size_t>(time / step), table_.rows.size() - 2);
     const double late = time / step - static_cast<double>(row);
-    const auto at = [&](std::size_t r) { return (1 - late) * table_.rows[row][columns_[r]] + late * table_.rows[row + 1][columns_[r]]; };
+    const auto at = [&](std::size_t r) {
+      return (1 - late) * table_.rows[row][columns_[r]] + late * table_.rows[row + 1][columns_[r]];
+    };
     const double outward = (radius - radii_[right - 1]) / (radii_[right] - radii_[right - 1]);
     return (1 - outward) * at(right - 1) + outward * at(right);
   }
@@ -75,24 +80,28 @@ struct Case {
 
 class Sphere : public testing::TestWithParam<Case> {
  protected:
-  std::vector<Shell> run(const std::string& stiffness, const std::string& boundary = "particles") const {
+  std::vector<Shell> run(const std::string& stiffness,
+                         const std::string& boundary = "particles") const {
     const Case& c = GetParam();
     const double l = c.spacing_mm * 1e-3;
-    const auto plan = plan_of(R"({ "format": "hyperlattice/1", "pipeline": [
+    const auto plan =
+        plan_of(R"({ "format": "hyperlattice/1", "pipeline": [
       { "type": "lattices.cubic", "spacing": ")" +
-                                  std::to_string(c.spacing_mm) + R"( mm", "boundary": ")" + boundary + R"(",
+                    std::to_string(c.spacing_mm) + R"( mm", "boundary": ")" + boundary + R"(",
         "shape": { "hollow_sphere": { "inner_radius": "20 mm", "outer_radius": "50 mm" } } },
       { "type": "materials.elastic", "young": "10 GPa", "density": 2500, "membrane": "I-m", "poisson": )" +
-                                  c.poisson + R"(, "stiffness": ")" + stiffness + R"(" },
+                    c.poisson + R"(, "stiffness": ")" + stiffness + R"(" },
       { "type": "loads.blast", "on": "inner_surface", "peak": "10 MPa", "rise": "10 us", "fall": "20 us" },
       { "type": "solvers.explicit", "end_time": "120 us" } ] })",
-                              2);
+                2);
     const Model& model = *plan->model;
     if (c.spacing_mm == 1 && boundary == "particles") {
       EXPECT_EQ(model.body.particles, 490432u);
       EXPECT_EQ(model.body.base_springs(), 4309140u);
     }
-    std::vector<Shell> shells{{"inner", 0.020, 0.020 + l, {}}, {"middle", 0.035 - l / 2, 0.035 + l / 2, {}}, {"outer", 0.050 - l, 0.050, {}}};
+    std::vector<Shell> shells{{"inner", 0.020, 0.020 + l, {}},
+                              {"middle", 0.035 - l / 2, 0.035 + l / 2, {}},
+                              {"outer", 0.050 - l, 0.050, {}}};
     for (Particle p = 0; p < model.body.particles; ++p)
       for (Shell& shell : shells)
         if (const double r = norm(model.body.position(p)); r > shell.low && r < shell.high) {
@@ -124,16 +133,19 @@ class Sphere : public testing::TestWithParam<Case> {
     }
     EXPECT_LT(std::abs(simulation.balance().relative_error()), 1e-3);
     for (const Shell& shell : shells)
-      std::printf("nu %s, spacing %d mm, %s, %s stiffness, %s shell: error %.1f %%, first peak %.1f %%\n", c.poisson, c.spacing_mm, boundary.c_str(),
-                  stiffness.c_str(), shell.name, 100 * shell.error(), 100 * shell.peak_error());
+      std::printf(
+          "nu %s, spacing %d mm, %s, %s stiffness, %s shell: error %.1f %%, first peak %.1f %%\n",
+          c.poisson, c.spacing_mm, boundary.c_str(), stiffness.c_str(), shell.name,
+          100 * shell.error(), 100 * shell.peak_error());
     return shells;
   }
 };
 INSTANTIATE_TEST_SUITE_P(Cases, Sphere,
-                         testing::Values(Case{"0.23", 2, 0.16, 0.06}, Case{"0.05", 2, 0.16, 0.06}, Case{"0.23", 1, 0.10, 0.04},
-                                         Case{"0.05", 1, 0.10, 0.04}),
+                         testing::Values(Case{"0.23", 2, 0.16, 0.06}, Case{"0.05", 2, 0.16, 0.06},
+                                         Case{"0.23", 1, 0.10, 0.04}, Case{"0.05", 1, 0.10, 0.04}),
                          [](const auto& info) {
-                           return "nu_0_" + std::string(info.param.poisson).substr(2) + "_" + std::to_string(info.param.spacing_mm) + "mm";
+                           return "nu_0_" + std::string(info.param.poisson).substr(2) + "_" +
+                                  std::to_string(info.param.spacing_mm) + "mm";
                          });
 
 TEST_P(Sphere, FollowsTheRadialSolution) {
@@ -142,10 +154,13 @@ TEST_P(Sphere, FollowsTheRadialSolution) {
     EXPECT_LT(shell.error(), c.tolerance) << shell.name;
     EXPECT_LT(shell.peak_error(), c.peak_tolerance) << shell.name;
   }
-  for (const Shell& shell : run("bulk")) EXPECT_LT(shell.error(), 2 * c.tolerance) << shell.name;  // phase drifts with the softer surface
+  for (const Shell& shell : run("bulk"))
+    EXPECT_LT(shell.error(), 2 * c.tolerance)
+        << shell.name;  // phase drifts with the softer surface
 }
 
-// A body of cells needs no correction of its stiffness, and its error falls by more than half where the spacing is halved.
+// A body of cells needs no correction of its stiffness, and its error falls by more than half where
+// the spacing is halved.
 TEST_P(Sphere, FollowsItCloserWithCells) {
   for (const Shell& shell : run("bulk", "cells")) {
     EXPECT_LT(shell.error(), GetParam().spacing_mm == 2 ? 0.07 : 0.03) << shell.name;

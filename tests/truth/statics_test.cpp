@@ -1,5 +1,6 @@
-// States of rest against closed forms: contrasts of stiffness, stretches to three times the length, loads so small that round-off would swallow them,
-// bodies far from the origin; and that relaxation, steps in time and the static solver agree on what rest is.
+// States of rest against closed forms: contrasts of stiffness, stretches to three times the length,
+// loads so small that round-off would swallow them, bodies far from the origin; and that
+// relaxation, steps in time and the static solver agree on what rest is.
 #include <support/rest.hpp>
 
 #include <gtest/gtest.h>
@@ -8,41 +9,55 @@ namespace {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
-// In uniaxial strain every layer of a bar has the same stress: u = sigma (L1 / M1 + L2 / M2), M the confined modulus. A spring between two materials
-// is half of each, so that the border stands half a spacing from the last soft layer.
+// In uniaxial strain every layer of a bar has the same stress: u = sigma (L1 / M1 + L2 / M2), M the
+// confined modulus. A spring between two materials is half of each, so that the border stands half
+// a spacing from the last soft layer.
 TEST(Statics, ABarOfTwoMaterialsIsASeriesOfSprings) {
-  constexpr double l = 0.005, sigma = 1e4, young = 1e9, nu = 0.2, confined = (1 - nu) / ((1 + nu) * (1 - 2 * nu));
+  constexpr double l = 0.005, sigma = 1e4, young = 1e9, nu = 0.2,
+                   confined = (1 - nu) / ((1 + nu) * (1 - 2 * nu));
   for (const double contrast : {1.0, 1e4, 1e6}) {
-    const AtRest bar(
-        scene(R"("spacing": 0.005, "boundary": "cells", "shape": )" + box({}, {2 * l, 2 * l, 40 * l}),
-              elastic(young, R"("poisson": 0.2, "membrane": "I-m")") +
-                  elastic(young * contrast, R"("poisson": 0.2, "membrane": "I-m", "region": )" + box({-1, -1, 19 * l}, {1, 1, 1})) +
-                  R"({ "type": "loads.fixed", "on": "all", "axes": "xy" }, { "type": "loads.fixed", "on": "z_min", "axes": "z", "name": "end" },
+    const AtRest bar(scene(
+        R"("spacing": 0.005, "boundary": "cells", "shape": )" + box({}, {2 * l, 2 * l, 40 * l}),
+        elastic(young, R"("poisson": 0.2, "membrane": "I-m")") +
+            elastic(young * contrast, R"("poisson": 0.2, "membrane": "I-m", "region": )" +
+                                          box({-1, -1, 19 * l}, {1, 1, 1})) +
+            R"({ "type": "loads.fixed", "on": "all", "axes": "xy" }, { "type": "loads.fixed", "on": "z_min", "axes": "z", "name": "end" },
                                { "type": "loads.pressure", "on": "z_max", "facing": "z_max", "pressure": -1e4 },)" +
-                  to_rest));
+            to_rest));
     const double expected = sigma / (young * confined) * (19 * l + 21 * l / contrast);
     EXPECT_NEAR(bar.mean(2, [](Site s) { return s.k == 40; }) / expected, 1, 0.01) << contrast;
     EXPECT_LT(bar.report.iterations, 200u) << contrast;
-    std::printf("contrast %g: %llu iterations, error %.2e\n", contrast, static_cast<unsigned long long>(bar.report.iterations),
+    std::printf("contrast %g: %llu iterations, error %.2e\n", contrast,
+                static_cast<unsigned long long>(bar.report.iterations),
                 bar.mean(2, [](Site s) { return s.k == 40; }) / expected - 1);
   }
 }
 
 // Truth: finite elements, two meshes that agree to 0.3 %; mean over the outer layer of particles.
 TEST(Statics, AnInclusionUpToAMillionTimesAsStiff) {
-  const std::pair<double, double> truth[] = {{1, 4.75e-5}, {1e2, 4.0854589512414604e-5}, {1e4, 4.062640882070169e-05}, {1e6, 4.0623971063233974e-05}};
+  const std::pair<double, double> truth[] = {{1, 4.75e-5},
+                                             {1e2, 4.0854589512414604e-5},
+                                             {1e4, 4.062640882070169e-05},
+                                             {1e6, 4.0623971063233974e-05}};
   double before = HUGE_VAL, last_but_one = 0;
   for (const auto& [contrast, expected] : truth) {
-    const AtRest cube(scene(R"("spacing": 0.005, "shape": )" + box({}, {0.1, 0.1, 0.1}),
-                            elastic(1e9, R"("poisson": 0.2, "membrane": "I-m", "stiffness": "eq15")") +
-                                elastic(1e9 * contrast, R"("poisson": 0.2, "membrane": "I-m", "stiffness": "eq15", "region": )" +
-                                                            box({0.03, 0.03, 0.03}, {0.07, 0.07, 0.07})) +
-                                R"({ "type": "loads.pressure", "on": "x_min", "pressure": -1e6 }, { "type": "loads.pressure", "on": "x_max",
-                                   "pressure": -1e6, "name": "other" },)" +  // nothing is held: rigid motions cost nothing and are not asked for
-                                to_rest));
-    const double grown = (cube.mean(0, [](Site s) { return s.i == 19; }) - cube.mean(0, [](Site s) { return s.i == 0; })) / 2;
-    std::printf("contrast %g: %llu iterations, error %.3f\n", contrast, static_cast<unsigned long long>(cube.report.iterations),
-                grown / expected - 1);
+    const AtRest cube(scene(
+        R"("spacing": 0.005, "shape": )" + box({}, {0.1, 0.1, 0.1}),
+        elastic(1e9, R"("poisson": 0.2, "membrane": "I-m", "stiffness": "eq15")") +
+            elastic(1e9 * contrast,
+                    R"("poisson": 0.2, "membrane": "I-m", "stiffness": "eq15", "region": )" +
+                        box({0.03, 0.03, 0.03}, {0.07, 0.07, 0.07})) +
+            R"({ "type": "loads.pressure", "on": "x_min", "pressure": -1e6 }, { "type": "loads.pressure", "on": "x_max",
+                                   "pressure": -1e6, "name": "other" },)" +  // nothing is held:
+                                                                             // rigid motions cost
+                                                                             // nothing and are not
+                                                                             // asked for
+            to_rest));
+    const double grown = (cube.mean(0, [](Site s) { return s.i == 19; }) -
+                          cube.mean(0, [](Site s) { return s.i == 0; })) /
+                         2;
+    std::printf("contrast %g: %llu iterations, error %.3f\n", contrast,
+                static_cast<unsigned long long>(cube.report.iterations), grown / expected - 1);
     EXPECT_NEAR(grown / expected, 1, 0.08) << contrast;
     EXPECT_LT(grown, before);
     if (contrast == 1e6) {
@@ -65,7 +80,8 @@ std::vector<std::vector<double>> table(const std::string& name) {
   return rows;
 }
 
-// A body of cells stretched between frictionless platens is homogeneous: it has the response of the endless lattice, geometry exact (closed form).
+// A body of cells stretched between frictionless platens is homogeneous: it has the response of the
+// endless lattice, geometry exact (closed form).
 TEST(Statics, StretchedLikeTheEndlessLattice) {
   struct Case {
     const char *file, *material;
@@ -76,15 +92,22 @@ TEST(Statics, StretchedLikeTheEndlessLattice) {
                         {"stretch_nu0.1.csv", R"("membrane": "I-m", "poisson": 0.1)", 2, 1e-8},
                         {"stretch_nu0.1.csv", R"("membrane": "I-m", "poisson": 0.1)", 0.8, 1e-8}}) {
     const auto rows = table(c.file);
-    const auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return std::abs(r[0] - c.stretch) < 1e-9; });
+    const auto row = std::find_if(rows.begin(), rows.end(),
+                                  [&](const auto& r) { return std::abs(r[0] - c.stretch) < 1e-9; });
     ASSERT_NE(row, rows.end()) << c.stretch;
-    const bool has_height = row->size() > 4 && std::string(c.material).find("I-m") != std::string::npos;
-    const AtRest cube(scene(R"("spacing": 1, "boundary": "cells", "shape": )" + box({}, {4, 4, 4}),
-                            elastic(1e9, c.material) + R"({ "type": "loads.fixed", "on": "x_min", "axes": "x" },
+    const bool has_height =
+        row->size() > 4 && std::string(c.material).find("I-m") != std::string::npos;
+    const AtRest cube(scene(
+        R"("spacing": 1, "boundary": "cells", "shape": )" + box({}, {4, 4, 4}),
+        elastic(1e9, c.material) + R"({ "type": "loads.fixed", "on": "x_min", "axes": "x" },
                               { "type": "loads.displacement", "on": "x_max", "axes": "x", "rise": 1, "value": [)" +
-                                number(4 * (c.stretch - 1)) + R"(, 0, 0] }, { "type": "solvers.static", "tolerance": 1e-11, "load_steps": 10 })"));
-    const double lateral = 1 + (cube.mean(1, [](Site s) { return s.j == 4; }) - cube.mean(1, [](Site s) { return s.j == 0; })) / 4;
-    const double pulled = -cube.simulation->force_on_load().at(1).x / 16 / cube.model().materials[0].constants.base_stiffness;
+            number(4 * (c.stretch - 1)) +
+            R"(, 0, 0] }, { "type": "solvers.static", "tolerance": 1e-11, "load_steps": 10 })"));
+    const double lateral = 1 + (cube.mean(1, [](Site s) { return s.j == 4; }) -
+                                cube.mean(1, [](Site s) { return s.j == 0; })) /
+                                   4;
+    const double pulled = -cube.simulation->force_on_load().at(1).x / 16 /
+                          cube.model().materials[0].constants.base_stiffness;
     EXPECT_NEAR(lateral, (*row)[1], 1e-8) << c.file << " " << c.stretch;
     EXPECT_NEAR(pulled, (*row)[3], 1e-8 * std::abs((*row)[3]) + 1e-9) << c.file << " " << c.stretch;
     if (has_height) {
@@ -93,28 +116,36 @@ TEST(Statics, StretchedLikeTheEndlessLattice) {
   }
 }
 
-// Two by two particles, far from the ends: 2 b - 1 = sqrt(2) b / s, F = k l [4 (a - 1) + 8 (1 - sqrt(2) / s) a], s^2 = a^2 + b^2.
+// Two by two particles, far from the ends: 2 b - 1 = sqrt(2) b / s, F = k l [4 (a - 1) + 8 (1 -
+// sqrt(2) / s) a], s^2 = a^2 + b^2.
 TEST(Statics, ABarOfTwoByTwoParticlesAtThreeTimesItsLength) {
   const AtRest bar(
-      scene(R"("spacing": 1, "shape": )" + box({}, {2, 2, 60}), elastic(1e9, R"("membrane": "none")") + R"({ "type": "loads.fixed", "on": "z_min" },
+      scene(R"("spacing": 1, "shape": )" + box({}, {2, 2, 60}),
+            elastic(1e9, R"("membrane": "none")") + R"({ "type": "loads.fixed", "on": "z_min" },
                            { "type": "loads.displacement", "on": "z_max", "value": [0, 0, 118], "rise": 1 },
                            { "type": "solvers.static", "tolerance": 1e-10, "load_steps": 20 })"));
   const auto level = [&](int k) { return bar.mean(2, [k](Site s) { return s.k == k; }); };
   const double a = 1 + (level(35) - level(25)) / 10;
-  const double b = 1 + bar.mean(0, [](Site s) { return s.k == 30 && s.i == 1; }) - bar.mean(0, [](Site s) { return s.k == 30 && s.i == 0; });
+  const double b = 1 + bar.mean(0, [](Site s) { return s.k == 30 && s.i == 1; }) -
+                   bar.mean(0, [](Site s) { return s.k == 30 && s.i == 0; });
   const double s = std::hypot(a, b), force = 4 * (a - 1) + 8 * (1 - std::sqrt(2.0) / s) * a;
   EXPECT_NEAR(2 * b - 1, std::sqrt(2.0) * b / s, 1e-6);
-  EXPECT_NEAR(-bar.simulation->force_on_load().at(1).z / bar.model().materials[0].constants.base_stiffness / force, 1, 1e-6);
+  EXPECT_NEAR(-bar.simulation->force_on_load().at(1).z /
+                  bar.model().materials[0].constants.base_stiffness / force,
+              1, 1e-6);
   EXPECT_GT(a, 2.9);
 }
 
-/// A small L of 1 mm particles, held at one end and pulled at the other by a force (N); its displacements over force / young.
+/// A small L of 1 mm particles, held at one end and pulled at the other by a force (N); its
+/// displacements over force / young.
 std::vector<double> response(double force, double young, double from = 0) {
   const double l = 1e-3;
   const auto at = [&](double x, double y, double z) { return Vec3{from + x * l, y * l, z * l}; };
-  const AtRest body(scene(R"("spacing": 1e-3, "anchor": [)" + number(from) + R"(, 0, 0], "shape": { "union": [)" + box(at(0, 0, 0), at(10, 3, 3)) +
+  const AtRest body(scene(R"("spacing": 1e-3, "anchor": [)" + number(from) +
+                              R"(, 0, 0], "shape": { "union": [)" + box(at(0, 0, 0), at(10, 3, 3)) +
                               ", " + box(at(0, 0, 0), at(3, 10, 3)) + "] }",
-                          elastic(young, R"("poisson": 0.1, "membrane": "I-m")") + R"({ "type": "loads.fixed", "on": "x_max" },
+                          elastic(young, R"("poisson": 0.1, "membrane": "I-m")") +
+                              R"({ "type": "loads.fixed", "on": "x_max" },
                             { "type": "loads.force", "on": "y_max", "total": [)" +
                               number(force) + ", 0, " + number(force) + "] }," + to_rest));
   std::vector<double> scaled = body.u;
@@ -132,7 +163,8 @@ TEST(Statics, TinyLoadsStiffBodiesAndFarOnesRespondAlike) {
 
 TEST(Statics, NoLoadIsNoMotion) {
   const AtRest body(scene(R"("spacing": 1, "shape": )" + box({}, {4, 4, 4}),
-                          elastic(1e9, R"("poisson": 0.1, "membrane": "I-m")") + R"({ "type": "loads.fixed", "on": "x_max" },)" + to_rest));
+                          elastic(1e9, R"("poisson": 0.1, "membrane": "I-m")") +
+                              R"({ "type": "loads.fixed", "on": "x_max" },)" + to_rest));
   EXPECT_EQ(largest(body.u), 0);
 }
 
@@ -143,19 +175,22 @@ std::string pulled_block(const std::string& solver, int n = 8) {
                    solver);
 }
 
-// The coarse levels keep blocks once for all sites that see the same springs. In a body deformed by next to nothing every site is its own: the same
-// levels must come out, and with them the same iterations and displacements.
+// The coarse levels keep blocks once for all sites that see the same springs. In a body deformed by
+// next to nothing every site is its own: the same levels must come out, and with them the same
+// iterations and displacements.
 TEST(Statics, SitesThatAreAlikeAreKeptOnce) {
   const std::string region = R"("region": )" + box({0, 0, 0.009}, {1, 1, 0.014});
-  const auto plan =
-      plan_of(scene(R"("spacing": 0.001, "shape": { "difference": [)" + box({}, {0.012, 0.013, 0.021}) + ", " +
-                        box({0.004, 0, 0.005}, {0.008, 1, 0.009}) + "] }",
-                    elastic(1e9, R"("membrane": "I-m", "poisson": 0.1)") + elastic(1e11, R"("membrane": "I-m", "poisson": 0.1, )" + region) +
-                        R"({ "type": "loads.fixed", "on": "z_min", "axes": "xz" }, { "type": "loads.fixed", "on": "x_min", "axes": "y" },
+  const auto plan = plan_of(
+      scene(
+          R"("spacing": 0.001, "shape": { "difference": [)" + box({}, {0.012, 0.013, 0.021}) +
+              ", " + box({0.004, 0, 0.005}, {0.008, 1, 0.009}) + "] }",
+          elastic(1e9, R"("membrane": "I-m", "poisson": 0.1)") +
+              elastic(1e11, R"("membrane": "I-m", "poisson": 0.1, )" + region) +
+              R"({ "type": "loads.fixed", "on": "z_min", "axes": "xz" }, { "type": "loads.fixed", "on": "x_min", "axes": "y" },
                    { "type": "loads.force", "on": "z_max", "total": [1e-4, 0, 3e-4], "rise": 2 },
                    { "type": "solvers.static", "tolerance": 1e-8, "stability": false, "end_time": 1 },
                    { "type": "solvers.static", "tolerance": 1e-8, "stability": false, "end_time": 2 })"),
-              1);
+      1);
   Simulation simulation(*plan->model, 1);
   std::vector<std::uint64_t> iterations;
   std::vector<std::vector<double>> u;
@@ -167,18 +202,23 @@ TEST(Statics, SitesThatAreAlikeAreKeptOnce) {
     iterations.push_back(last.iterations);
     u.push_back(displacements(simulation));
   }
-  EXPECT_NEAR(static_cast<double>(iterations[0]), static_cast<double>(iterations[1]), 1);  // the bound of the eigenvalues is another
+  EXPECT_NEAR(static_cast<double>(iterations[0]), static_cast<double>(iterations[1]),
+              1);  // the bound of the eigenvalues is another
   for (double& value : u[0]) value *= 2;
   EXPECT_LT(distance(u[0], u[1]), 1e-6 * largest(u[1]));
-  std::printf("%llu and %llu iterations\n", static_cast<unsigned long long>(iterations[0]), static_cast<unsigned long long>(iterations[1]));
+  std::printf("%llu and %llu iterations\n", static_cast<unsigned long long>(iterations[0]),
+              static_cast<unsigned long long>(iterations[1]));
 }
 
 TEST(Statics, RelaxationAgrees) {
   const AtRest found(pulled_block(to_rest));
   for (const char* method : {"local_damping", "accelerated"}) {
-    AtRest relaxed(pulled_block(R"({ "type": "solvers.relaxation", "tolerance": 1e-7, "method": ")" + std::string(method) + R"(" })"));
+    AtRest relaxed(
+        pulled_block(R"({ "type": "solvers.relaxation", "tolerance": 1e-7, "method": ")" +
+                     std::string(method) + R"(" })"));
     EXPECT_LT(distance(found.u, relaxed.u), 1e-4 * largest(found.u)) << method;
-    std::printf("%s: %llu steps, largest error %.1e\n", method, static_cast<unsigned long long>(relaxed.report.iterations),
+    std::printf("%s: %llu steps, largest error %.1e\n", method,
+                static_cast<unsigned long long>(relaxed.report.iterations),
                 distance(found.u, relaxed.u) / largest(found.u));
     EXPECT_LT(std::abs(relaxed.simulation->balance().relative_error()), 1e-3) << method;
   }
@@ -186,20 +226,24 @@ TEST(Statics, RelaxationAgrees) {
 
 std::string small_block(const std::string& stages) {
   return scene(R"("spacing": 0.001, "shape": )" + box({0, 0, 0}, {0.006, 0.004, 0.004}),
-               elastic(1e9, R"("membrane": "I-m", "poisson": 0.1)") + R"({ "type": "loads.fixed", "on": "x_min" },)" + stages);
+               elastic(1e9, R"("membrane": "I-m", "poisson": 0.1)") +
+                   R"({ "type": "loads.fixed", "on": "x_min" },)" + stages);
 }
 
-// What is driven stands where it would have come by then, however many steps rest takes: 1 mm/s for 1 ms, or with a rise of that time half as far.
+// What is driven stands where it would have come by then, however many steps rest takes: 1 mm/s for
+// 1 ms, or with a rise of that time half as far.
 TEST(Statics, WhatIsDrivenComesWhereItWouldHaveComeByThen) {
   const auto driven = [](const std::string& load, const std::string& solver) {
-    return AtRest(small_block(R"({ "type": "loads.velocity", "on": "x_max", "value": [1e-3, 0, 0])" + load + R"( }, { "type": "solvers.)" + solver +
-                              R"(, "end_time": "1 ms" })"));
+    return AtRest(
+        small_block(R"({ "type": "loads.velocity", "on": "x_max", "value": [1e-3, 0, 0])" + load +
+                    R"( }, { "type": "solvers.)" + solver + R"(, "end_time": "1 ms" })"));
   };
   for (const auto& [rise, way] : {std::pair{"", 1e-6}, {R"(, "rise": "1 ms")", 0.5e-6}}) {
     const AtRest found = driven(rise, R"(static", "tolerance": 1e-8)");
     EXPECT_NEAR(largest(found.u), way, 1e-12 * way) << rise;
     for (const char* method : {"local_damping", "accelerated"}) {
-      const AtRest relaxed = driven(rise, R"(relaxation", "tolerance": 1e-6, "method": ")" + std::string(method) + '"');
+      const AtRest relaxed = driven(
+          rise, R"(relaxation", "tolerance": 1e-6, "method": ")" + std::string(method) + '"');
       EXPECT_NEAR(largest(relaxed.u), way, 1e-12 * way) << rise << method;
       EXPECT_LT(distance(found.u, relaxed.u), 1e-3 * way) << rise << method;
     }
@@ -224,7 +268,8 @@ TEST(Statics, ALoadThatJumpsAtTheInstantOfRestHasJumped) {
 TEST(Statics, ALoadThatIsNoNumberIsNamed) {
   for (const char* expression : {"sqrt(0.5-t)", "exp(t*1500)"}) {
     const std::string load =
-        R"({ "type": "loads.expression", "on": "x_max", "total": [1, 0, 0], "expression": ")" + std::string(expression) + "\" },";
+        R"({ "type": "loads.expression", "on": "x_max", "total": [1, 0, 0], "expression": ")" +
+        std::string(expression) + "\" },";
     try {
       const AtRest found(small_block(load + R"({ "type": "solvers.static", "end_time": 1 })"));
       FAIL() << expression;
@@ -234,27 +279,36 @@ TEST(Statics, ALoadThatIsNoNumberIsNamed) {
   }
 }
 
-// Also where the residual says little of it: of the slender beam, 1e-4 of the mean force is 3% of the displacements.
+// Also where the residual says little of it: of the slender beam, 1e-4 of the mean force is 3% of
+// the displacements.
 TEST(Statics, RelaxationKnowsItsError) {
   const auto bent_beam = [](const std::string& solver) {
-    return block(40, 4, 4, R"("membrane": "I-m", "poisson": 0.1)",
-                 R"({ "type": "loads.fixed", "on": "x_min" }, { "type": "loads.force", "on": "x_max", "total": [0, 1e-3, 0] },)" + solver);
+    return block(
+        40, 4, 4, R"("membrane": "I-m", "poisson": 0.1)",
+        R"({ "type": "loads.fixed", "on": "x_min" }, { "type": "loads.force", "on": "x_max", "total": [0, 1e-3, 0] },)" +
+            solver);
   };
   for (const bool slender : {false, true}) {
-    const auto body = [&](const std::string& solver) { return slender ? bent_beam(solver) : pulled_block(solver); };
+    const auto body = [&](const std::string& solver) {
+      return slender ? bent_beam(solver) : pulled_block(solver);
+    };
     const AtRest found(body(to_rest));
     for (const char* method : {"local_damping", "accelerated"})
-      for (const char* asked : {R"("tolerance": 1e-3)", R"("tolerance": 1e-5)", R"("tolerance": 1, "displacement_error": 0.01)"}) {
-        const AtRest relaxed(body(R"({ "type": "solvers.relaxation", )" + std::string(asked) + R"(, "method": ")" + method + R"(" })"));
+      for (const char* asked : {R"("tolerance": 1e-3)", R"("tolerance": 1e-5)",
+                                R"("tolerance": 1, "displacement_error": 0.01)"}) {
+        const AtRest relaxed(body(R"({ "type": "solvers.relaxation", )" + std::string(asked) +
+                                  R"(, "method": ")" + method + R"(" })"));
         double wrong = 0, all = 0;
         for (std::size_t n = 0; n < found.u.size(); ++n) {
           wrong += std::pow(relaxed.u[n] - found.u[n], 2);
           all += found.u[n] * found.u[n];
         }
         const double error = std::sqrt(wrong / all), told = relaxed.report.displacement_error;
-        std::printf("%s, %s, %s: error %.2e, told %.2e\n", slender ? "beam" : "block", method, asked, error, told);
+        std::printf("%s, %s, %s: error %.2e, told %.2e\n", slender ? "beam" : "block", method,
+                    asked, error, told);
         EXPECT_GT(told, 0.9 * error) << method << asked;
-        EXPECT_LT(told, (method == std::string("accelerated") ? 1.5 : 20) * error) << method << asked;
+        EXPECT_LT(told, (method == std::string("accelerated") ? 1.5 : 20) * error)
+            << method << asked;
       }
   }
 }
@@ -264,7 +318,7 @@ TEST(Statics, StepsInTimeFindTheBodyAtRest) {
   const double stored = body.simulation->balance().stored;
   body.simulation->set_damping(0);
   for (int n = 0; n < 200; ++n) body.simulation->step(0.9 * body.model().critical_time_step);
-  const Balance end = body.simulation->balance();
+  const EnergyBalance end = body.simulation->balance();
   EXPECT_LT(end.kinetic_mean, 1e-12 * stored);
   EXPECT_NEAR(end.stored / stored, 1, 1e-7);
   EXPECT_LT(distance(body.u, displacements(*body.simulation)), 1e-6 * largest(body.u));
@@ -272,8 +326,9 @@ TEST(Statics, StepsInTimeFindTheBodyAtRest) {
 
 TEST(Statics, WorkOfTheLoadsIsWhatIsStored) {
   AtRest body(pulled_block(R"({ "type": "solvers.static", "tolerance": 1e-8, "load_steps": 8 })"));
-  const Balance balance = body.simulation->balance();
-  EXPECT_NEAR(balance.injected / balance.stored, 1, 1e-4);  // 4e-3 in one step, and the trapezoidal rule is of second order
+  const EnergyBalance balance = body.simulation->balance();
+  EXPECT_NEAR(balance.injected / balance.stored, 1,
+              1e-4);  // 4e-3 in one step, and the trapezoidal rule is of second order
   EXPECT_EQ(body.simulation->steps(), 8u);
 }
 
@@ -285,7 +340,10 @@ TEST(Statics, ResultsDoNotDependOnThreads) {
 }
 
 TEST(Statics, IterationsDoNotGrowWithTheBody) {
-  const auto iterations = [](int n) { return AtRest(pulled_block(R"({ "type": "solvers.static", "tolerance": 1e-6 })", n)).report.iterations; };
+  const auto iterations = [](int n) {
+    return AtRest(pulled_block(R"({ "type": "solvers.static", "tolerance": 1e-6 })", n))
+        .report.iterations;
+  };
   const auto coarse = iterations(6);
   EXPECT_LE(iterations(24), coarse + 6);
 }

@@ -1,5 +1,6 @@
-// What a limit of the springs' strain is as a strength of the body: a block between smooth walls, pressed sideways, breaks at the stress at which
-// some direction is stretched to the limit. See docs/theory/strength.md.
+// What a limit of the springs' strain is as a strength of the body: a block between smooth walls,
+// pressed sideways, breaks at the stress at which some direction is stretched to the limit. See
+// docs/theory/strength.md.
 #include <support/scenes.hpp>
 
 #include <gtest/gtest.h>
@@ -12,7 +13,8 @@ using namespace hyperlattice::test;
 
 constexpr double young = 10e9, poisson = 0.2, limit = 1e-3;
 
-/// The stress along z, Pa, at which the first spring breaks when it grows to `full` slowly; both are pressures.
+/// The stress along z, Pa, at which the first spring breaks when it grows to `full` slowly; both
+/// are pressures.
 double strength(double sideways, double full) {
   constexpr double end = 5e-4;
   const auto number = [](double value) { return std::to_string(value); };
@@ -23,10 +25,11 @@ double strength(double sideways, double full) {
     { "type": "loads.pressure", "name": "top", "on": "z_max", "pressure": )" +
                       number(full) + R"(, "rise": 5e-4 },)";
   for (const std::string axis : {"x", "y", "z"}) {
-    scene += R"({ "type": "loads.fixed", "name": "wall_)" + axis + R"(", "on": ")" + axis + R"(_min", "axes": ")" + axis + R"(" },)";
+    scene += R"({ "type": "loads.fixed", "name": "wall_)" + axis + R"(", "on": ")" + axis +
+             R"(_min", "axes": ")" + axis + R"(" },)";
     if (axis != "z" && sideways > 0)
-      scene += R"({ "type": "loads.pressure", "name": "side_)" + axis + R"(", "on": ")" + axis + R"(_max", "pressure": )" + number(sideways) +
-               R"(, "rise": 5e-5 },)";
+      scene += R"({ "type": "loads.pressure", "name": "side_)" + axis + R"(", "on": ")" + axis +
+               R"(_max", "pressure": )" + number(sideways) + R"(, "rise": 5e-5 },)";
   }
   const auto plan = plan_of(scene + R"({ "type": "solvers.explicit", "end_time": 5e-4 } ] })");
   Simulation simulation(*plan->model, 1);
@@ -39,13 +42,15 @@ double strength(double sideways, double full) {
 TEST(Strength, UnderPressureGrowsWithThatFromTheSide) {
   for (const double sideways : {0.0, 5e6, 20e6}) {
     const double expected = (young * limit + (1 - poisson) * sideways) / poisson;
-    EXPECT_NEAR(strength(sideways, 160e6) / expected, 1, 0.02) << sideways;  // strains of 1 % are not quite small
+    EXPECT_NEAR(strength(sideways, 160e6) / expected, 1, 0.02)
+        << sideways;  // strains of 1 % are not quite small
   }
 }
 
 TEST(Strength, UnderTensionFallsWithPressureFromTheSide) {
   for (const double sideways : {0.0, 5e6, 10e6})
-    EXPECT_NEAR(-strength(sideways, -15e6) / (young * limit - 2 * poisson * sideways), 1, 0.02) << sideways;
+    EXPECT_NEAR(-strength(sideways, -15e6) / (young * limit - 2 * poisson * sideways), 1, 0.02)
+        << sideways;
 }
 
 }  // namespace

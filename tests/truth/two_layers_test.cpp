@@ -1,5 +1,6 @@
-// The paper's model has two layers, the body and its parallel copy in the fourth dimension. The mirrored single layer must be the same thing:
-// here both layers are written out, in positions, with no care for speed, and compared over a violent undamped motion.
+// The paper's model has two layers, the body and its parallel copy in the fourth dimension. The
+// mirrored single layer must be the same thing: here both layers are written out, in positions,
+// with no care for speed, and compared over a violent undamped motion.
 #include <support/scenes.hpp>
 
 #include <gtest/gtest.h>
@@ -32,7 +33,8 @@ struct TwoLayers {
 
   explicit TwoLayers(const Model& model) : mass(model.materials[0].mass) {
     const MaterialConstants& constants = model.materials[0].constants;
-    const double delta = model.body.grid.membrane_distance, l = model.body.grid.spacing, k = constants.base_stiffness;
+    const double delta = model.body.grid.membrane_distance, l = model.body.grid.spacing,
+                 k = constants.base_stiffness;
     const std::size_t n = model.body.particles;
     for (const double w : {0.0, delta})
       for (Particle p = 0; p < n; ++p) {
@@ -45,7 +47,8 @@ struct TwoLayers {
       for (std::size_t b = a + 1; b < n; ++b) {
         const double rest = length(place[a], place[b]);
         if (rest > 1.5 * l) continue;
-        const double cross = k * constants.cross_ratio[rest > 1.2 * l ? 1 : 0], cross_rest = length(place[a], place[b + n]);
+        const double cross = k * constants.cross_ratio[rest > 1.2 * l ? 1 : 0],
+                     cross_rest = length(place[a], place[b + n]);
         springs.push_back({a, b, k, rest});
         springs.push_back({a + n, b + n, k, rest});
         springs.push_back({a, b + n, cross, cross_rest});
@@ -74,7 +77,8 @@ struct TwoLayers {
 };
 
 class MovingMembrane : public testing::TestWithParam<MembraneCase> {};
-INSTANTIATE_TEST_SUITE_P(Membranes, MovingMembrane, testing::Values(membranes[1], membranes[2], membranes[6], membranes[8]),
+INSTANTIATE_TEST_SUITE_P(Membranes, MovingMembrane,
+                         testing::Values(membranes[1], membranes[2], membranes[6], membranes[8]),
                          [](const auto& info) { return std::string(info.param.name); });
 
 TEST_P(MovingMembrane, OneMirroredLayerMovesAsTwoLayersDo) {
@@ -90,7 +94,8 @@ TEST_P(MovingMembrane, OneMirroredLayerMovesAsTwoLayersDo) {
     u[3 * p] += 0.2 * model.body.position(p).x;
     u[3 * p + 1] += 0.1 * model.body.position(p).x;
   }
-  // The height over the mirror plane is Delta/2 - w for the body (w = 0 at rest) and w - Delta/2 for its copy (w = Delta at rest).
+  // The height over the mirror plane is Delta/2 - w for the body (w = 0 at rest) and w - Delta/2
+  // for its copy (w = Delta at rest).
   const auto heights = noise(n, 0.05e-3, 4);
   for (std::size_t p = 0; p < n; ++p)
     for (const std::size_t layer : {p, p + n}) {
@@ -110,11 +115,14 @@ TEST_P(MovingMembrane, OneMirroredLayerMovesAsTwoLayersDo) {
   double worst = 0;
   for (std::size_t p = 0; p < n; ++p) {
     const Vec3 x = model.body.position(p);
-    const double expected[3] = {layers.place[p][0] - x.x, layers.place[p][1] - x.y, layers.place[p][2] - x.z};
-    for (std::size_t c = 0; c < 3; ++c) worst = std::max(worst, std::abs(found[3 * p + c] - expected[c]));
+    const double expected[3] = {layers.place[p][0] - x.x, layers.place[p][1] - x.y,
+                                layers.place[p][2] - x.z};
+    for (std::size_t c = 0; c < 3; ++c)
+      worst = std::max(worst, std::abs(found[3 * p + c] - expected[c]));
     worst = std::max(worst, std::abs(risen[p] + layers.place[p][3]));
   }
-  EXPECT_LT(worst, 1e-10 * 1e-3) << "round-off grows in a chaotic motion, but not further in 500 steps of a lattice of 1 mm";
+  EXPECT_LT(worst, 1e-10 * 1e-3)
+      << "round-off grows in a chaotic motion, but not further in 500 steps of a lattice of 1 mm";
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// The virtual uniaxial test against a table computed independently: five membranes, cubes of 10^3, 20^3 and 40^3 particles.
+// The virtual uniaxial test against a table computed independently: five membranes, cubes of 10^3,
+// 20^3 and 40^3 particles.
 #include <gtest/gtest.h>
 #include <analyze/virtual_test.hpp>
 #include <base/errors.hpp>
@@ -28,9 +29,11 @@ void expect_table(int particles) {
   int compared = 0;
   for (const test::Row& row : test::nu_eta_table()) {
     if (row.values.at("nu" + n).empty()) continue;  // unstable
-    const Measured measured = cube_test.measure(calibration::ratios(row.membrane, row.number("lambda")));
+    const Measured measured =
+        cube_test.measure(calibration::ratios(row.membrane, row.number("lambda")));
     EXPECT_NEAR(measured.poisson, row.number("nu" + n), last_digit) << row.text;
-    EXPECT_NEAR(measured.modulus_ratio, row.number("eta" + n), last_digit * row.number("eta" + n)) << row.text;
+    EXPECT_NEAR(measured.modulus_ratio, row.number("eta" + n), last_digit * row.number("eta" + n))
+        << row.text;
     EXPECT_LE(measured.residual, 1e-8) << row.text;
     ++compared;
   }
@@ -41,17 +44,20 @@ TEST(VirtualTest, TableOfCubesOf10) { expect_table(10); }
 TEST(VirtualTest, TableOfCubesOf20) { expect_table(20); }
 TEST(LongVirtualTest, TableOfCubesOf40) { expect_table(40); }
 
-TEST(VirtualTest, ModulusWithoutMembrane) {  // E l / k over the area of N^2 cells, computed with the table
+TEST(VirtualTest,
+     ModulusWithoutMembrane) {  // E l / k over the area of N^2 cells, computed with the table
   Host host;
   EXPECT_NEAR(virtual_test(host, cube(10, infinitesimal)).measure({}).young, 2.3526, 1e-4);
   EXPECT_NEAR(virtual_test(host, cube(20, infinitesimal)).measure({}).young, 2.4277, 1e-4);
 }
 
-// Pulled by as much as it was pressed, a body of small strain answers the same; the difference is of the order of the strain.
+// Pulled by as much as it was pressed, a body of small strain answers the same; the difference is
+// of the order of the strain.
 TEST(VirtualTest, PullingIsPressingReversed) {
   Host host;
   const calibration::Ratios ratios = calibration::ratios(calibration::Membrane::I_m, 2.8);
-  const Measured pressed = virtual_test(host, cube(6, 1e-4)).measure(ratios), pulled = virtual_test(host, cube(6, -1e-4)).measure(ratios);
+  const Measured pressed = virtual_test(host, cube(6, 1e-4)).measure(ratios),
+                 pulled = virtual_test(host, cube(6, -1e-4)).measure(ratios);
   EXPECT_NEAR(pressed.poisson, pulled.poisson, 1e-4);
   EXPECT_NE(pressed.poisson, pulled.poisson);
   EXPECT_NEAR(pressed.young, pulled.young, 1e-3 * pressed.young);
@@ -60,7 +66,8 @@ TEST(VirtualTest, PullingIsPressingReversed) {
 TEST(VirtualTest, ThreadsChangeNothing) {
   Host host;
   const calibration::Ratios ratios = calibration::ratios(calibration::Membrane::I_m, 1);
-  const Measured one = virtual_test(host, cube(8, 1e-3, 1)).measure(ratios), three = virtual_test(host, cube(8, 1e-3, 3)).measure(ratios);
+  const Measured one = virtual_test(host, cube(8, 1e-3, 1)).measure(ratios),
+                 three = virtual_test(host, cube(8, 1e-3, 3)).measure(ratios);
   EXPECT_EQ(one.poisson, three.poisson);
   EXPECT_EQ(one.young, three.young);
   EXPECT_EQ(one.iterations, three.iterations);

@@ -14,17 +14,24 @@ namespace {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
-std::string lattice(const std::string& spacing, const std::string& shape, const std::string& boundary, const std::string& type = "lattices.cubic") {
-  return R"({ "type": ")" + type + R"(", "spacing": )" + spacing + (boundary.empty() ? "" : R"(, "boundary": ")" + boundary + "\"") +
-         R"(, "shape": )" + shape + " }, ";
+std::string lattice(const std::string& spacing, const std::string& shape,
+                    const std::string& boundary, const std::string& type = "lattices.cubic") {
+  return R"({ "type": ")" + type + R"(", "spacing": )" + spacing +
+         (boundary.empty() ? "" : R"(, "boundary": ")" + boundary + "\"") + R"(, "shape": )" +
+         shape + " }, ";
 }
-std::string box(const std::string& high) { return R"({ "box": { "low": [0, 0, 0], "high": )" + high + " } }"; }
+std::string box(const std::string& high) {
+  return R"({ "box": { "low": [0, 0, 0], "high": )" + high + " } }";
+}
 
-BodyFigures figures(const std::string& lattice) { return body_figures(*build(lattice + elastic()).model); }
+BodyFigures figures(const std::string& lattice) {
+  return body_figures(*build(lattice + elastic()).model);
+}
 
 TEST(BodyFigures, AWidthThatTheSpacingDoesNotDivideIsToldWithItsError) {
   for (const char* boundary : {"particles", "cells"}) {
-    const auto plan = plan_of(R"({ "format": "hyperlattice/1", "pipeline": [ )" + lattice("3e-3", box("[24e-3, 12e-3, 8e-3]"), boundary) + elastic() +
+    const auto plan = plan_of(R"({ "format": "hyperlattice/1", "pipeline": [ )" +
+                              lattice("3e-3", box("[24e-3, 12e-3, 8e-3]"), boundary) + elastic() +
                               R"(, { "type": "solvers.explicit", "end_time": 1e-6 } ] })");
     const BodyFigures& body = plan->body;
     EXPECT_NEAR(norm(body.size - Vec3{24e-3, 12e-3, 9e-3}), 0, 1e-12) << boundary;
@@ -35,12 +42,15 @@ TEST(BodyFigures, AWidthThatTheSpacingDoesNotDivideIsToldWithItsError) {
     EXPECT_NEAR(*body.asked_mass, 1000 * *body.asked_volume, 1e-12);
     ASSERT_EQ(plan->model->warnings.size(), 1u);
     EXPECT_EQ(plan->model->warnings[0],
-              "along z the body is 0.009 m wide, 12.5 % more than the 0.008 m that its shape asks for: cells of 0.003 m do not fill that evenly");
+              "along z the body is 0.009 m wide, 12.5 % more than the 0.008 m that its shape asks "
+              "for: cells of 0.003 m do not fill that evenly");
     const auto json = plan_json(*plan);
     EXPECT_EQ(json.at("body").at("size").at(2), body.size.z);
     EXPECT_EQ(json.at("body").at("asked_size").at(2), 8e-3);
     const std::string page = plan_text(*plan);
-    EXPECT_NE(page.find("0.024 x 0.012 x 0.009 m; its shape asks for 0.024 x 0.012 x 0.008 m"), std::string::npos) << page;
+    EXPECT_NE(page.find("0.024 x 0.012 x 0.009 m; its shape asks for 0.024 x 0.012 x 0.008 m"),
+              std::string::npos)
+        << page;
   }
 }
 
@@ -50,47 +60,73 @@ TEST(BodyFigures, WhatFitsIsNotWarnedOf) {
     EXPECT_TRUE(size_warnings(body, 1e-3).empty()) << boundary;
     EXPECT_EQ(body.parts, 1u);
   }
-  const BodyFigures ball = figures(lattice("1e-3", R"({ "sphere": { "radius": 12e-3 } })", "cells"));  // its surface is steps
+  const BodyFigures ball = figures(
+      lattice("1e-3", R"({ "sphere": { "radius": 12e-3 } })", "cells"));  // its surface is steps
   EXPECT_TRUE(size_warnings(ball, 1e-3).empty());
   EXPECT_NEAR(*ball.asked_volume, 4 * std::numbers::pi / 3 * std::pow(12e-3, 3), 1e-12);
   EXPECT_NEAR(ball.volume / *ball.asked_volume, 1, 0.02);
 }
 
-std::string set(const std::string& kind, const std::string& parts) { return R"({ ")" + kind + R"(": [ )" + parts + " ] }"; }
+std::string set(const std::string& kind, const std::string& parts) {
+  return R"({ ")" + kind + R"(": [ )" + parts + " ] }";
+}
 
-std::vector<std::string> warnings(const std::string& lattice, double spacing = 3e-3) { return size_warnings(figures(lattice), spacing); }
+std::vector<std::string> warnings(const std::string& lattice, double spacing = 3e-3) {
+  return size_warnings(figures(lattice), spacing);
+}
 
 TEST(BodyFigures, ABoxWithAHoleIsComparedAsTheBoxIs) {
   const std::string plate = box("[8e-3, 8e-3, 16e-3]");
-  const std::string bore = R"({ "cylinder": { "start": [4e-3, 4e-3, -1e-3], "end": [4e-3, 4e-3, 17e-3], "radius": 2e-3 } })";
+  const std::string bore =
+      R"({ "cylinder": { "start": [4e-3, 4e-3, -1e-3], "end": [4e-3, 4e-3, 17e-3], "radius": 2e-3 } })";
   for (const char* boundary : {"particles", "cells"}) {
     const auto plain = warnings(lattice("3e-3", plate, boundary));
     EXPECT_EQ(plain.size(), 3u);
-    EXPECT_EQ(warnings(lattice("3e-3", set("difference", plate + ", " + bore), boundary)), plain) << boundary;
-    EXPECT_EQ(warnings(lattice("3e-3", set("intersection", plate + R"(, { "box": { "low": [0, 0, 0], "high": [1, 1, 16e-3] } })"), boundary)), plain);
-    EXPECT_EQ(warnings(lattice("3e-3", set("union", plate + ", " + set("difference", plate + ", " + bore)), boundary)), plain);
+    EXPECT_EQ(warnings(lattice("3e-3", set("difference", plate + ", " + bore), boundary)), plain)
+        << boundary;
+    EXPECT_EQ(
+        warnings(lattice("3e-3",
+                         set("intersection",
+                             plate + R"(, { "box": { "low": [0, 0, 0], "high": [1, 1, 16e-3] } })"),
+                         boundary)),
+        plain);
+    EXPECT_EQ(
+        warnings(lattice(
+            "3e-3", set("union", plate + ", " + set("difference", plate + ", " + bore)), boundary)),
+        plain);
   }
-  const BodyFigures even = figures(lattice("1e-3", set("difference", plate + ", " + bore), "cells"));
+  const BodyFigures even =
+      figures(lattice("1e-3", set("difference", plate + ", " + bore), "cells"));
   EXPECT_FALSE(even.asked_at_most);
   EXPECT_TRUE(size_warnings(even, 1e-3).empty());
   const auto rod = [](const std::string& radius) {
-    return R"({ "cylinder": { "start": [0, 0, 0], "end": [0, 0, 8e-3], "radius": )" + radius + " } }";
+    return R"({ "cylinder": { "start": [0, 0, 0], "end": [0, 0, 8e-3], "radius": )" + radius +
+           " } }";
   };
-  const BodyFigures tube = figures(lattice("1e-3", set("difference", rod("4e-3") + ", " + rod("2e-3")), "cells"));
+  const BodyFigures tube =
+      figures(lattice("1e-3", set("difference", rod("4e-3") + ", " + rod("2e-3")), "cells"));
   EXPECT_FALSE(tube.asked_at_most);
   EXPECT_NEAR(norm(*tube.asked_size - Vec3{8e-3, 8e-3, 8e-3}), 0, 1e-12);
-  EXPECT_EQ(warnings(lattice("3e-3", set("difference", rod("4e-3") + ", " + rod("1e-3")), "cells")).size(), 3u);
-  const auto plan = plan_of(R"({ "format": "hyperlattice/1", "pipeline": [ )" + lattice("3e-3", set("difference", plate + ", " + bore), "cells") +
-                            elastic() + R"(, { "type": "solvers.explicit", "end_time": 1e-6 } ] })");
+  EXPECT_EQ(warnings(lattice("3e-3", set("difference", rod("4e-3") + ", " + rod("1e-3")), "cells"))
+                .size(),
+            3u);
+  const auto plan =
+      plan_of(R"({ "format": "hyperlattice/1", "pipeline": [ )" +
+              lattice("3e-3", set("difference", plate + ", " + bore), "cells") + elastic() +
+              R"(, { "type": "solvers.explicit", "end_time": 1e-6 } ] })");
   EXPECT_EQ(plan->model->warnings.size(), 3u);
   EXPECT_EQ(plan_json(*plan).at("body").at("asked_size").at(2), 16e-3);
 }
 
 TEST(BodyFigures, WhatIsCutOffOverAWholeSideIsNotAskedFor) {
-  const std::string cube = box("[4e-3, 4e-3, 4e-3]"), beyond = R"(, { "half_space": { "point": [2e-3, 0, 0], "normal": [-1, 0, 0] } })",
+  const std::string cube = box("[4e-3, 4e-3, 4e-3]"),
+                    beyond =
+                        R"(, { "half_space": { "point": [2e-3, 0, 0], "normal": [-1, 0, 0] } })",
                     wide = R"(, { "box": { "low": [2e-3, -1, -1], "high": [1, 1, 1] } })";
-  for (const std::string& half : {set("difference", cube + beyond), set("difference", cube + wide),
-                                  set("intersection", cube + R"(, { "half_space": { "point": [2e-3, 0, 0], "normal": [1, 0, 0] } })")}) {
+  for (const std::string& half :
+       {set("difference", cube + beyond), set("difference", cube + wide),
+        set("intersection",
+            cube + R"(, { "half_space": { "point": [2e-3, 0, 0], "normal": [1, 0, 0] } })")}) {
     const BodyFigures body = figures(lattice("1e-3", half, "particles"));
     EXPECT_NEAR(norm(body.size - Vec3{2e-3, 4e-3, 4e-3}), 0, 1e-12) << half;
     EXPECT_NEAR(norm(*body.asked_size - Vec3{2e-3, 4e-3, 4e-3}), 0, 1e-12) << half;
@@ -100,13 +136,17 @@ TEST(BodyFigures, WhatIsCutOffOverAWholeSideIsNotAskedFor) {
 }
 
 TEST(BodyFigures, AnExtentThatIsOnlyABoundIsToldAsOne) {
-  // A slanting half-space cuts the whole side at x = 4 mm off: the box of the parts is larger than what is left.
-  const std::string slanting =
-      set("difference", box("[4e-3, 4e-3, 4e-3]") + R"(, { "half_space": { "point": [2e-3, 0, 0], "normal": [-1, 0.1, 0] } })");
+  // A slanting half-space cuts the whole side at x = 4 mm off: the box of the parts is larger than
+  // what is left.
+  const std::string slanting = set(
+      "difference", box("[4e-3, 4e-3, 4e-3]") +
+                        R"(, { "half_space": { "point": [2e-3, 0, 0], "normal": [-1, 0.1, 0] } })");
   const BodyFigures body = figures(lattice("1e-3", slanting, "particles"));
   EXPECT_TRUE(body.asked_at_most);
   EXPECT_TRUE(size_warnings(body, 1e-3).empty()) << "narrower than a bound is no error";
-  EXPECT_NE(body_lines(body)[0].second.find("; its shape asks for at most 0.004 x 0.004 x 0.004 m"), std::string::npos) << body_lines(body)[0].second;
+  EXPECT_NE(body_lines(body)[0].second.find("; its shape asks for at most 0.004 x 0.004 x 0.004 m"),
+            std::string::npos)
+      << body_lines(body)[0].second;
 }
 
 TEST(BodyFigures, LatticesOfMoreThanOneParticleACubeAreComparedToo) {
@@ -117,20 +157,27 @@ TEST(BodyFigures, LatticesOfMoreThanOneParticleACubeAreComparedToo) {
     const BodyFigures odd = figures(lattice("3e-3", box("[8e-3, 8e-3, 16e-3]"), "", type));
     EXPECT_NEAR(norm(odd.size - Vec3{7.5e-3, 7.5e-3, 16.5e-3}), 0, 1e-12) << type;
     EXPECT_EQ(size_warnings(odd, 3e-3).size(), 3u);
-    EXPECT_EQ(body_lines(odd)[0].second, "0.0075 x 0.0075 x 0.0165 m; its shape asks for 0.008 x 0.008 x 0.016 m");
+    EXPECT_EQ(body_lines(odd)[0].second,
+              "0.0075 x 0.0075 x 0.0165 m; its shape asks for 0.008 x 0.008 x 0.016 m");
   }
   const BodyFigures full =
-      figures(lattice("1e-3", box("[2.5e-3, 2.5e-3, 2.5e-3]"), "", "lattices.bcc"));  // as wide as asked, but 35 particles for 31.25
-  EXPECT_EQ(size_warnings(full, 1e-3), std::vector<std::string>{"the body has 12 % more volume than its shape asks for: cells of 0.001 m do not fill "
-                                                                "that evenly"});
+      figures(lattice("1e-3", box("[2.5e-3, 2.5e-3, 2.5e-3]"), "",
+                      "lattices.bcc"));  // as wide as asked, but 35 particles for 31.25
+  EXPECT_EQ(
+      size_warnings(full, 1e-3),
+      std::vector<std::string>{
+          "the body has 12 % more volume than its shape asks for: cells of 0.001 m do not fill "
+          "that evenly"});
 }
 
 TEST(BodyFigures, CountsBodiesThatNoSpringJoins) {
   const auto two = [](const std::string& gap_low, const char* boundary, const char* type) {
-    return figures(lattice("1e-3",
-                           R"({ "union": [ { "box": { "low": [0, 0, 0], "high": [4e-3, 3e-3, 3e-3] } }, { "box": { "low": [0, 0, )" + gap_low +
-                               R"(], "high": [4e-3, 3e-3, 8e-3] } } ] })",
-                           boundary, type))
+    return figures(
+               lattice(
+                   "1e-3",
+                   R"({ "union": [ { "box": { "low": [0, 0, 0], "high": [4e-3, 3e-3, 3e-3] } }, { "box": { "low": [0, 0, )" +
+                       gap_low + R"(], "high": [4e-3, 3e-3, 8e-3] } } ] })",
+                   boundary, type))
         .parts;
   };
   EXPECT_EQ(two("3e-3", "particles", "lattices.cubic"), 1u) << "neighbouring cells are joined";
@@ -142,8 +189,9 @@ TEST(BodyFigures, CountsBodiesThatNoSpringJoins) {
 }
 
 TEST(BodyFigures, CountsAsASearchThroughAllSpringsDoes) {
-  const std::string shapes[] = {R"({ "sphere": { "radius": 4.4e-3 } })",
-                                R"({ "union": [ { "sphere": { "radius": 2e-3 } }, { "sphere": { "radius": 1.2e-3, "centre": [4e-3, 0, 0] } },
+  const std::string shapes[] = {
+      R"({ "sphere": { "radius": 4.4e-3 } })",
+      R"({ "union": [ { "sphere": { "radius": 2e-3 } }, { "sphere": { "radius": 1.2e-3, "centre": [4e-3, 0, 0] } },
                                                 { "cylinder": { "start": [0, 6e-3, 0], "end": [5e-3, 9e-3, 4e-3], "radius": 0.8e-3 } } ] })"};
   for (const std::string& shape : shapes)
     for (const char* type : {"lattices.cubic", "lattices.bcc", "lattices.fcc"}) {

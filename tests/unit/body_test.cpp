@@ -1,4 +1,5 @@
-// The body: particles in their order, the paper's counts of particles and springs, and what a lattice component may not do.
+// The body: particles in their order, the paper's counts of particles and springs, and what a
+// lattice component may not do.
 #include <model/body.hpp>
 
 #include <support/body.hpp>
@@ -25,7 +26,8 @@ struct Runs {
       grid.sites = {10, 3, 2};
       grid.neighbours = neighbours;
       sink.grid(grid);
-      for (const Run& run : static_cast<const Runs*>(self)->runs) sink.run(run.j, run.k, run.begin, run.end);
+      for (const Run& run : static_cast<const Runs*>(self)->runs)
+        sink.run(run.j, run.k, run.begin, run.end);
     });
   }
 };
@@ -87,10 +89,14 @@ TEST(Body, RefusesALatticeThatBreaksItsPromises) {
 }
 
 TEST(Body, CubicRefusesShapesThatItCannotFill) {
-  EXPECT_THROW(cubic_body(solid({0, 0, 0}, {1, 1, 1}, [](Vec3) { return false; }), 0.1), std::invalid_argument);
-  EXPECT_THROW(cubic_body(solid({0, 0, 0}, {1, 1, infinity}, [](Vec3) { return true; }), 0.1), std::invalid_argument);
-  EXPECT_THROW(cubic_body(solid({0, 0, 0}, {1, 1, 1}, [](Vec3) { return true; }), 1e-12), std::invalid_argument);
-  EXPECT_THROW(cubic_body(solid({0, 0, 0}, {1, 1, 1}, [](Vec3) { return true; }), 1e-4), std::invalid_argument);
+  EXPECT_THROW(cubic_body(solid({0, 0, 0}, {1, 1, 1}, [](Vec3) { return false; }), 0.1),
+               std::invalid_argument);
+  EXPECT_THROW(cubic_body(solid({0, 0, 0}, {1, 1, infinity}, [](Vec3) { return true; }), 0.1),
+               std::invalid_argument);
+  EXPECT_THROW(cubic_body(solid({0, 0, 0}, {1, 1, 1}, [](Vec3) { return true; }), 1e-12),
+               std::invalid_argument);
+  EXPECT_THROW(cubic_body(solid({0, 0, 0}, {1, 1, 1}, [](Vec3) { return true; }), 1e-4),
+               std::invalid_argument);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Calibration of the endless lattice: against the closed forms and an independent table, there and back, by the paper's polynomials; the fits.
+// Calibration of the endless lattice: against the closed forms and an independent table, there and
+// back, by the paper's polynomials; the fits.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <analyze/calibrate.hpp>
@@ -16,9 +17,12 @@ const LatticeGeometry& cubic() {
   return geometry;
 }
 
-std::string name(Membrane membrane) { return std::string(calibration::membrane_names[static_cast<std::size_t>(membrane)]); }
+std::string name(Membrane membrane) {
+  return std::string(calibration::membrane_names[static_cast<std::size_t>(membrane)]);
+}
 
-CalibrationChoice of(Membrane membrane, std::optional<double> poisson, std::optional<double> lambda = {}) {
+CalibrationChoice of(Membrane membrane, std::optional<double> poisson,
+                     std::optional<double> lambda = {}) {
   CalibrationChoice choice;
   choice.membrane.membrane = name(membrane);
   choice.membrane.poisson = poisson;
@@ -29,7 +33,8 @@ CalibrationChoice of(Membrane membrane, std::optional<double> poisson, std::opti
 TEST(Calibrate, TheTableOfTheInfiniteLattice) {
   int compared = 0;
   for (const test::Row& row : test::nu_eta_table()) {
-    if (row.values.at("nu_N10").empty() || row.number("lambda") == -2) continue;  // unstable, or at the edge
+    if (row.values.at("nu_N10").empty() || row.number("lambda") == -2)
+      continue;  // unstable, or at the edge
     const Calibration found = calibrate(of(row.membrane, {}, row.number("lambda")), cubic());
     EXPECT_NEAR(found.pair.poisson, row.number("nu_inf"), 1e-6) << row.text;
     EXPECT_NEAR(found.pair.modulus_ratio, row.number("eta_inf"), 1e-6) << row.text;
@@ -39,7 +44,8 @@ TEST(Calibrate, TheTableOfTheInfiniteLattice) {
   EXPECT_EQ(compared, 87);
 }
 
-TEST(Calibrate, StiffnessFollowsFromEAndSpacing) {  // I-m: k = E l (1 + 5 nu) / (9 (1 + nu) (1 - 2 nu))
+TEST(Calibrate,
+     StiffnessFollowsFromEAndSpacing) {  // I-m: k = E l (1 + 5 nu) / (9 (1 + nu) (1 - 2 nu))
   CalibrationChoice choice = of(Membrane::I_m, 0.05);
   choice.young = 10e9;
   choice.spacing = 2e-3;
@@ -53,17 +59,22 @@ TEST(Calibrate, StiffnessFollowsFromEAndSpacing) {  // I-m: k = E l (1 + 5 nu) /
 // Any Poisson ratio in the reach of any membrane, any E: to lambda and k, and from these back.
 TEST(Calibrate, ThereAndBack) {
   ASSERT_TRUE(rc::check([] {
-    const auto membrane = *rc::gen::element(Membrane::I, Membrane::II, Membrane::III, Membrane::IV, Membrane::I_m);
+    const auto membrane =
+        *rc::gen::element(Membrane::I, Membrane::II, Membrane::III, Membrane::IV, Membrane::I_m);
     const calibration::Reach reach = calibration::reach(membrane);
-    const double share = *rc::gen::inRange(1, 1000) / 1000.0, poisson = reach.low + share * (reach.high - reach.low);
+    const double share = *rc::gen::inRange(1, 1000) / 1000.0,
+                 poisson = reach.low + share * (reach.high - reach.low);
     CalibrationChoice there = of(membrane, poisson);
     there.young = *rc::gen::inRange(1, 1000) * 1e8;
     const Calibration found = calibrate(there, cubic());
-    RC_ASSERT(std::abs(*found.chosen.lambda - calibration::lambda(membrane, poisson)) <= 1e-9 * (1 + std::abs(*found.chosen.lambda)));
+    RC_ASSERT(std::abs(*found.chosen.lambda - calibration::lambda(membrane, poisson)) <=
+              1e-9 * (1 + std::abs(*found.chosen.lambda)));
     RC_ASSERT(std::abs(found.pair.poisson - poisson) < 1e-10);
     const Calibration back = calibrate(of(membrane, {}, *found.chosen.lambda), cubic());
     RC_ASSERT(std::abs(back.pair.poisson - poisson) < 1e-10);
-    const double young = *found.stiffness_per_spacing * calibration::elasticity(calibration::ratios(membrane, *found.chosen.lambda)).modulus();
+    const double young =
+        *found.stiffness_per_spacing *
+        calibration::elasticity(calibration::ratios(membrane, *found.chosen.lambda)).modulus();
     RC_ASSERT(std::abs(young - *there.young) < 1e-9 * *there.young);
   }));
 }
@@ -71,7 +82,9 @@ TEST(Calibrate, ThereAndBack) {
 TEST(Calibrate, FreeMixturesThatAreStable) {
   ASSERT_TRUE(rc::check([] {
     CalibrationChoice choice = of(Membrane::free, {});
-    const calibration::Ratios ratios{*rc::gen::inRange(1, 500) / 100.0, *rc::gen::inRange(0, 500) / 100.0, *rc::gen::inRange(0, 500) / 100.0, false};
+    const calibration::Ratios ratios{*rc::gen::inRange(1, 500) / 100.0,
+                                     *rc::gen::inRange(0, 500) / 100.0,
+                                     *rc::gen::inRange(0, 500) / 100.0, false};
     choice.membrane.k_alpha = std::to_string(ratios.alpha);
     choice.membrane.k_beta = ratios.beta;
     choice.membrane.k_gamma = ratios.gamma;
@@ -90,8 +103,11 @@ TEST(Calibrate, ThePapersPolynomials) {
     choice.young = 1e9;
     const Calibration there = calibrate(choice, cubic());
     const double lambda = *there.chosen.lambda;
-    EXPECT_DOUBLE_EQ(lambda, ((-211.13493779 * poisson + 162.84655851) * poisson - 55.42449719) * poisson + 6.92902211);
-    EXPECT_DOUBLE_EQ(there.pair.modulus_ratio, (-0.0078506 * lambda + 0.41613615) * lambda + 1.00369223);
+    EXPECT_DOUBLE_EQ(
+        lambda,
+        ((-211.13493779 * poisson + 162.84655851) * poisson - 55.42449719) * poisson + 6.92902211);
+    EXPECT_DOUBLE_EQ(there.pair.modulus_ratio,
+                     (-0.0078506 * lambda + 0.41613615) * lambda + 1.00369223);
     EXPECT_EQ(there.pair.poisson, poisson);
     EXPECT_NEAR(there.infinite.poisson, poisson, 4e-3);  // a cube of 20 is no endless lattice
     EXPECT_NE(there.infinite.poisson, poisson);
@@ -111,7 +127,9 @@ TEST(Calibrate, FitsOfPointsOnTheCurve) {
   // Least squares: the rest is orthogonal to each power.
   double sums[4] = {};
   for (const CurvePoint& point : curve.points) {
-    const double nu = point.infinite.poisson, rest = calibration::polynomial(curve.lambda_of_poisson.coefficients, nu) - point.lambda;
+    const double nu = point.infinite.poisson,
+                 rest = calibration::polynomial(curve.lambda_of_poisson.coefficients, nu) -
+                        point.lambda;
     EXPECT_LE(std::abs(rest), curve.lambda_of_poisson.largest_error * (1 + 1e-9));
     for (int n = 0; n < 4; ++n) sums[n] += rest * std::pow(nu, n);
   }

@@ -1,4 +1,5 @@
-// From E and nu to springs and back: against an independently computed table, the closed forms as printed, and published numbers.
+// From E and nu to springs and back: against an independently computed table, the closed forms as
+// printed, and published numbers.
 #include <hyperlattice/calibration.hpp>
 
 #include <gtest/gtest.h>
@@ -9,7 +10,8 @@ using namespace hyperlattice::calibration;
 
 namespace {
 
-constexpr Membrane with_lambda[] = {Membrane::I, Membrane::II, Membrane::III, Membrane::IV, Membrane::I_m};
+constexpr Membrane with_lambda[] = {Membrane::I, Membrane::II, Membrane::III, Membrane::IV,
+                                    Membrane::I_m};
 
 TEST(Calibration, AgreesWithTheTableOfTheInfiniteLattice) {
   int rows = 0;
@@ -20,7 +22,9 @@ TEST(Calibration, AgreesWithTheTableOfTheInfiniteLattice) {
     EXPECT_NEAR(e.modulus_ratio(), row.number("eta_inf"), 1e-6) << row.text;
     EXPECT_NEAR(e.zener(), row.number("A_inf"), 1e-6) << row.text;
     if (e.poisson() < 0.2666) {  // III's lambda has a pole at 4/15
-      EXPECT_NEAR(lambda(row.membrane, e.poisson()), lambda_given, 1e-9 * (1 + std::abs(lambda_given))) << row.text;
+      EXPECT_NEAR(lambda(row.membrane, e.poisson()), lambda_given,
+                  1e-9 * (1 + std::abs(lambda_given)))
+          << row.text;
     }
     ++rows;
   }
@@ -46,11 +50,12 @@ TEST(Calibration, ClosedFormsOfEachMembrane) {
 }
 
 TEST(Calibration, FigureFiveParameters) {  // nu = 0.1, E = 10 GPa: lambda, eta, k / (E l), A
-  const std::map<Membrane, std::array<double, 4>> expected{{Membrane::I, {2.3478, 2.0852, 0.19183, 1.083}},
-                                                           {Membrane::II, {4, 1.76, 0.22727, 0.5}},
-                                                           {Membrane::I_m, {2.8, 2.112, 0.18939, 1}},
-                                                           {Membrane::III, {-1.44, 0.1408, 2.8409, 0.25}},
-                                                           {Membrane::IV, {12, 3.52, 0.11364, 0.25}}};
+  const std::map<Membrane, std::array<double, 4>> expected{
+      {Membrane::I, {2.3478, 2.0852, 0.19183, 1.083}},
+      {Membrane::II, {4, 1.76, 0.22727, 0.5}},
+      {Membrane::I_m, {2.8, 2.112, 0.18939, 1}},
+      {Membrane::III, {-1.44, 0.1408, 2.8409, 0.25}},
+      {Membrane::IV, {12, 3.52, 0.11364, 0.25}}};
   for (const auto& [membrane, values] : expected) {
     const double L = lambda(membrane, 0.1);
     const Elasticity e = elasticity(ratios(membrane, L));
@@ -94,8 +99,11 @@ TEST(Calibration, PapersPolynomials) {  // values printed with the paper's fits
   }
 }
 
-TEST(Calibration, EquationFifteenIsTheBulkValueWithoutSurfaces) {  // each particle with 3 orthogonal and 6 diagonal springs
-  EXPECT_NEAR(stiffness_eq15(1e9, 1000 * 1e-9, 1000 * 15 * 1e-6, 1.5), stiffness_bulk(1e9, 1e-3, 1.5), 1e-6);
+TEST(Calibration,
+     EquationFifteenIsTheBulkValueWithoutSurfaces) {  // each particle with 3 orthogonal and 6
+                                                      // diagonal springs
+  EXPECT_NEAR(stiffness_eq15(1e9, 1000 * 1e-9, 1000 * 15 * 1e-6, 1.5),
+              stiffness_bulk(1e9, 1e-3, 1.5), 1e-6);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Bodies of cells: particles, springs and shares, and what regions and surfaces mean for the corners of cells.
+// Bodies of cells: particles, springs and shares, and what regions and surfaces mean for the
+// corners of cells.
 #include <model/surfaces.hpp>
 
 #include <support/body.hpp>
@@ -16,18 +17,23 @@ using Part = std::shared_ptr<const Region>;
 
 Part named(const char* name) { return built_in_region(name); }
 Part box_between(Vec3 low, Vec3 high) {
-  return std::make_shared<Region>(
-      solid(low, high, [=](Vec3 p) { return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y && low.z <= p.z && p.z <= high.z; }));
+  return std::make_shared<Region>(solid(low, high, [=](Vec3 p) {
+    return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y && low.z <= p.z &&
+           p.z <= high.z;
+  }));
 }
 
 struct CellBody {
   Body body;
   Surfaces surfaces{body};
-  explicit CellBody(const Region& region, double spacing = 1) : body(cubic_body(region, spacing, Boundary::cells)) {}
+  explicit CellBody(const Region& region, double spacing = 1)
+      : body(cubic_body(region, spacing, Boundary::cells)) {}
   CellBody(const CellBody&) = delete;
   CellBody& operator=(const CellBody&) = delete;
 
-  std::size_t count(const Part& region) const { return particles_in(body, surfaces, *region).size(); }
+  std::size_t count(const Part& region) const {
+    return particles_in(body, surfaces, *region).size();
+  }
   Vec3 area(const Part& region) const {
     Vec3 sum;
     for (const OpenArea& open : open_areas(body, surfaces, *region)) sum = sum + open.area;
@@ -71,15 +77,18 @@ TEST(CellBody, AGapOfOneCellHasNoSprings) {
   EXPECT_EQ(b.body.particles, 24u);  // the same corners as without the gap
   EXPECT_EQ(b.body.share({2, 0, 0}, {1, 0, 0, 0}), 0.0);
   for (const Neighbour& n : b.body.neighbours)
-    for (const Range& range : b.body.springs_of(0, 0, n)) EXPECT_FALSE(n.dx == 1 && range.begin <= 2 && 2 < range.end);
-  EXPECT_EQ(b.area(box_between({2, 0, 0}, {2, 1, 1})), (Vec3{1, 0, 0}));  // the gap's faces look at each other
+    for (const Range& range : b.body.springs_of(0, 0, n))
+      EXPECT_FALSE(n.dx == 1 && range.begin <= 2 && 2 < range.end);
+  EXPECT_EQ(b.area(box_between({2, 0, 0}, {2, 1, 1})),
+            (Vec3{1, 0, 0}));  // the gap's faces look at each other
   EXPECT_EQ(b.area(box_between({3, 0, 0}, {3, 1, 1})), (Vec3{-1, 0, 0}));
 }
 
 TEST(CellRegions, FacesAreTheBodysOwn) {
   const CellBody b(box({3, 4, 5}));
-  const std::tuple<const char*, std::size_t, Vec3> sides[] = {{"x_min", 30, {-20, 0, 0}}, {"x_max", 30, {20, 0, 0}},  {"y_min", 24, {0, -15, 0}},
-                                                              {"y_max", 24, {0, 15, 0}},  {"z_min", 20, {0, 0, -12}}, {"z_max", 20, {0, 0, 12}}};
+  const std::tuple<const char*, std::size_t, Vec3> sides[] = {
+      {"x_min", 30, {-20, 0, 0}}, {"x_max", 30, {20, 0, 0}},  {"y_min", 24, {0, -15, 0}},
+      {"y_max", 24, {0, 15, 0}},  {"z_min", 20, {0, 0, -12}}, {"z_max", 20, {0, 0, 12}}};
   for (const auto& [name, particles, area] : sides) {
     EXPECT_EQ(b.count(named(name)), particles) << name;
     EXPECT_EQ(b.area(named(name)), area) << name;
@@ -94,7 +103,8 @@ TEST(CellRegions, SolidsHoldWhatTheyTouch) {
   EXPECT_EQ(b.count(box_between({0, 0, 0}, {0.3, 0.2, 0.1})), 4u * 3 * 2);  // 3 * 0.1 is not 0.3
   EXPECT_EQ(b.count(box_between({0.1, 0.1, 0.1}, {0.1 + 0.2, 0.3, 0.4})), 3u * 3 * 4);
   EXPECT_EQ(b.count(box_between({0.101, 0, 0}, {0.299, 0.4, 0.5})), 1u * 5 * 6);
-  EXPECT_EQ(b.count(std::make_shared<Region>(ball(0, 0.1))), 4u);  // the origin's corner, and those that the sphere reaches
+  EXPECT_EQ(b.count(std::make_shared<Region>(ball(0, 0.1))),
+            4u);  // the origin's corner, and those that the sphere reaches
 }
 
 // A face counts whole or not at all, so that parts of a surface add up to it.
@@ -104,16 +114,21 @@ TEST(CellRegions, PartsOfASurfaceAddUpToIt) {
   EXPECT_EQ(b.area(make_set(Region::Kind::intersection, {named("x_max"), half})), (Vec3{8, 0, 0}));
   EXPECT_EQ(b.area(make_set(Region::Kind::difference, {named("x_max"), half})), (Vec3{12, 0, 0}));
   const Part other = box_between({0, 0, 2}, {3, 4, 5});
-  EXPECT_EQ(b.area(make_set(Region::Kind::set_union, {named("x_max"), named("y_max")})), (Vec3{20, 15, 0}));
-  EXPECT_EQ(b.area(make_set(Region::Kind::intersection, {named("x_max"), other})), (Vec3{12, 0, 0}));
+  EXPECT_EQ(b.area(make_set(Region::Kind::set_union, {named("x_max"), named("y_max")})),
+            (Vec3{20, 15, 0}));
+  EXPECT_EQ(b.area(make_set(Region::Kind::intersection, {named("x_max"), other})),
+            (Vec3{12, 0, 0}));
 }
 
 TEST(CellRegions, InnerAndOuterSurfaceOfAHollowBall) {
   const CellBody b(ball(4, 9));
-  const std::size_t inner = b.count(named("inner_surface")), outer = b.count(named("outer_surface"));
+  const std::size_t inner = b.count(named("inner_surface")),
+                    outer = b.count(named("outer_surface"));
   EXPECT_EQ(b.count(named("surface")), inner + outer);
-  for (const Particle p : particles_in(b.body, b.surfaces, *named("inner_surface"))) ASSERT_LT(norm(b.body.position(p)), 5);
-  for (const Particle p : particles_in(b.body, b.surfaces, *named("outer_surface"))) ASSERT_GT(norm(b.body.position(p)), 7);
+  for (const Particle p : particles_in(b.body, b.surfaces, *named("inner_surface")))
+    ASSERT_LT(norm(b.body.position(p)), 5);
+  for (const Particle p : particles_in(b.body, b.surfaces, *named("outer_surface")))
+    ASSERT_GT(norm(b.body.position(p)), 7);
 }
 
 }  // namespace

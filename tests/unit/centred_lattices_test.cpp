@@ -1,5 +1,5 @@
-// The body-centred and the face-centred cubic lattice: sites and springs against pairs of points counted one by one, elasticity against sums over
-// neighbours written out from their definition.
+// The body-centred and the face-centred cubic lattice: sites and springs against pairs of points
+// counted one by one, elasticity against sums over neighbours written out from their definition.
 #include <analyze/elasticity.hpp>
 #include <analyze/load_lattice.hpp>
 #include <analyze/membranes.hpp>
@@ -24,18 +24,23 @@ using calibration::Ratios;
 /// A lattice as a textbook describes it, edge of the cubic cell 1.
 struct Crystal {
   const char* name;
-  std::vector<Vec3> cell;                ///< its particles
-  std::array<double, 2> squares;         ///< squared lengths of springs to first and second neighbours
+  std::vector<Vec3> cell;         ///< its particles
+  std::array<double, 2> squares;  ///< squared lengths of springs to first and second neighbours
   std::array<double, 2> base_stiffness;  ///< over k
   double isotropic;                      ///< k_gamma / k_beta
 };
 const Crystal crystals[] = {
     {"lattices.bcc", {{0, 0, 0}, {0.5, 0.5, 0.5}}, {0.75, 1}, {1, 2.0 / 3}, 4.0 / 7},
-    {"lattices.fcc", {{0, 0, 0}, {0, 0.5, 0.5}, {0.5, 0, 0.5}, {0.5, 0.5, 0}}, {0.5, 1}, {1, 0.25}, 1.0 / 6},
+    {"lattices.fcc",
+     {{0, 0, 0}, {0, 0.5, 0.5}, {0.5, 0, 0.5}, {0.5, 0.5, 0}},
+     {0.5, 1},
+     {1, 0.25},
+     1.0 / 6},
 };
 
 class Centred : public testing::TestWithParam<Crystal> {};
-INSTANTIATE_TEST_SUITE_P(Lattices, Centred, testing::ValuesIn(crystals), [](const auto& info) { return std::string(info.param.name).substr(9); });
+INSTANTIATE_TEST_SUITE_P(Lattices, Centred, testing::ValuesIn(crystals),
+                         [](const auto& info) { return std::string(info.param.name).substr(9); });
 
 LatticeGeometry geometry_of(const Crystal& crystal) {
   static Host host;
@@ -43,8 +48,10 @@ LatticeGeometry geometry_of(const Crystal& crystal) {
 }
 
 std::string box(const Crystal& crystal, Vec3 high, const std::string& more = "") {
-  return R"({ "type": ")" + std::string(crystal.name) + R"(", "spacing": 1, "shape": { "box": { "low": [0, 0, 0], "high": [)" +
-         std::to_string(high.x) + ", " + std::to_string(high.y) + ", " + std::to_string(high.z) + "] } }" + more + " }";
+  return R"({ "type": ")" + std::string(crystal.name) +
+         R"(", "spacing": 1, "shape": { "box": { "low": [0, 0, 0], "high": [)" +
+         std::to_string(high.x) + ", " + std::to_string(high.y) + ", " + std::to_string(high.z) +
+         "] } }" + more + " }";
 }
 
 std::vector<Vec3> places(const Body& body) {
@@ -56,10 +63,12 @@ std::vector<Vec3> places(const Body& body) {
 TEST_P(Centred, ABoxOfCellsHoldsAllTheirParticles) {
   const BuiltScene built = build(box(GetParam(), {4, 3, 5}) + "," + elastic());
   std::set<std::tuple<double, double, double>> found, expected;  // in quarters of a cell
-  for (const Vec3 at : places(built->body)) found.emplace(std::round(4 * at.x), std::round(4 * at.y), std::round(4 * at.z));
+  for (const Vec3 at : places(built->body))
+    found.emplace(std::round(4 * at.x), std::round(4 * at.y), std::round(4 * at.z));
   for (int n = 0; n < 4 * 3 * 5; ++n)
     for (const Vec3 in : GetParam().cell) {
-      const Vec3 at = Vec3{double(n % 4), double(n / 4 % 3), double(n / 12)} + in + Vec3{0.25, 0.25, 0.25};
+      const Vec3 at =
+          Vec3{double(n % 4), double(n / 4 % 3), double(n / 12)} + in + Vec3{0.25, 0.25, 0.25};
       expected.emplace(4 * at.x, 4 * at.y, 4 * at.z);
     }
   EXPECT_EQ(built->body.particles, expected.size());
@@ -70,13 +79,15 @@ TEST_P(Centred, ABoxOfCellsHoldsAllTheirParticles) {
 TEST_P(Centred, AnyShapeIsFilledWithTheSitesInsideIt) {
   const Vec3 centre{0.3, -0.2, 0.1};
   for (const double radius : {1.3, 2.6}) {
-    const BuiltScene built = build(R"({ "type": ")" + std::string(GetParam().name) + R"(", "spacing": 1, "anchor": [0.1, 0, 0],
+    const BuiltScene built = build(
+        R"({ "type": ")" + std::string(GetParam().name) + R"(", "spacing": 1, "anchor": [0.1, 0, 0],
       "shape": { "sphere": { "radius": )" +
-                                   std::to_string(radius) + R"(, "centre": [0.3, -0.2, 0.1] } } }, )" + elastic());
+        std::to_string(radius) + R"(, "centre": [0.3, -0.2, 0.1] } } }, )" + elastic());
     std::size_t expected = 0;
     for (int n = 0; n < 9 * 9 * 9; ++n)
       for (const Vec3 in : GetParam().cell) {
-        const Vec3 at = Vec3{double(n % 9 - 4), double(n / 9 % 9 - 4), double(n / 81 - 4)} + in + Vec3{0.35, 0.25, 0.25};
+        const Vec3 at = Vec3{double(n % 9 - 4), double(n / 9 % 9 - 4), double(n / 81 - 4)} + in +
+                        Vec3{0.35, 0.25, 0.25};
         if (norm(at - centre) <= radius) ++expected;
       }
     EXPECT_EQ(built->body.particles, expected);
@@ -94,20 +105,25 @@ TEST_P(Centred, SpringsJoinFirstAndSecondNeighbours) {
         if (std::abs(dot(at[a] - at[b], at[a] - at[b]) - GetParam().squares[c]) < 1e-9) ++pairs[c];
   EXPECT_EQ(built->body.springs[0], pairs[0]);
   EXPECT_EQ(built->body.springs[1], pairs[1]);
-  for (const NeighbourGeometry& n : built->neighbours) EXPECT_NEAR(n.rest_length * n.rest_length, GetParam().squares[n.site.spring_class], 1e-12);
+  for (const NeighbourGeometry& n : built->neighbours)
+    EXPECT_NEAR(n.rest_length * n.rest_length, GetParam().squares[n.site.spring_class], 1e-12);
   for (std::uint32_t c = 0; c < 2; ++c)
-    EXPECT_NEAR(built->spring(0, 0, c).stiffness, GetParam().base_stiffness[c] * built->materials[0].constants.base_stiffness, 1e-6);
+    EXPECT_NEAR(built->spring(0, 0, c).stiffness,
+                GetParam().base_stiffness[c] * built->materials[0].constants.base_stiffness, 1e-6);
 }
 
 TEST_P(Centred, FacesAreTheOutermostPlanes) {
-  const BuiltScene built = build(box(GetParam(), {3, 4, 5}) + "," + elastic() + R"(, { "type": "loads.fixed", "on": "y_max", "axes": "y" })");
+  const BuiltScene built = build(box(GetParam(), {3, 4, 5}) + "," + elastic() +
+                                 R"(, { "type": "loads.fixed", "on": "y_max", "axes": "y" })");
   const std::size_t in_a_plane = 3 * 5 * GetParam().cell.size() / 2;
   ASSERT_EQ(built->loads[0].particles.size(), in_a_plane);
-  for (const LoadedParticle& loaded : built->loads[0].particles) EXPECT_NEAR(built->body.position(loaded.particle).y, 3.75, 1e-12);
+  for (const LoadedParticle& loaded : built->loads[0].particles)
+    EXPECT_NEAR(built->body.position(loaded.particle).y, 3.75, 1e-12);
 }
 
 TEST_P(Centred, PressureOnAFaceHasTheRightTotal) {
-  const BuiltScene built = build(box(GetParam(), {3, 4, 5}) + "," + elastic() + R"(, { "type": "loads.pressure", "on": "x_max", "pressure": 2 },
+  const BuiltScene built = build(box(GetParam(), {3, 4, 5}) + "," + elastic() +
+                                 R"(, { "type": "loads.pressure", "on": "x_max", "pressure": 2 },
     { "type": "loads.fixed", "on": "surface" })");
   Vec3 total;
   for (const LoadedParticle& loaded : built->loads[0].particles) total = total + loaded.force;
@@ -125,11 +141,13 @@ TEST_P(Centred, SaysWhatItCannotDo) {
     EXPECT_NE(faults.find(pointer), std::string::npos) << faults;
     EXPECT_NE(faults.find(part), std::string::npos) << faults;
   };
-  expect(faults_of(box(GetParam(), {3, 3, 3}, R"(, "boundary": "cells")") + material), "/pipeline/0/boundary", "particles");
+  expect(faults_of(box(GetParam(), {3, 3, 3}, R"(, "boundary": "cells")") + material),
+         "/pipeline/0/boundary", "particles");
   expect(faults_of(box(GetParam(), {0.1, 3, 3}) + material), "/pipeline/0", "is inside the shape");
 }
 
-/// C11, C12, C44 and the height's share of one layer, k = 1, summed over all pairs of the crystal around one of its particles.
+/// C11, C12, C44 and the height's share of one layer, k = 1, summed over all pairs of the crystal
+/// around one of its particles.
 struct Sums {
   double xxxx = 0, xxyy = 0, xxww = 0, wwww = 0;
 
@@ -141,7 +159,8 @@ struct Sums {
         const Vec3 to = Vec3{double(n % 5 - 2), double(n / 5 % 5 - 2), double(n / 25 - 2)} + in;
         for (std::size_t c = 0; c < 2; ++c) {
           if (std::abs(dot(to, to) - crystal.squares[c]) > 1e-9) continue;
-          const double base = crystal.base_stiffness[c] / crystal.squares[c] / 2, k = cross[c] / (crystal.squares[c] + 1) / 2;  // a half for each end
+          const double base = crystal.base_stiffness[c] / crystal.squares[c] / 2,
+                       k = cross[c] / (crystal.squares[c] + 1) / 2;  // a half for each end
           xxxx += (base + k) * std::pow(to.x, 4);
           xxyy += (base + k) * to.x * to.x * to.y * to.y;
           xxww += k * to.x * to.x;
@@ -188,53 +207,72 @@ TEST_P(Centred, IsIsotropicAloneAndWithMembraneIm) {
 
 TEST_P(Centred, MaterialsGetTheModulusAndThePoissonRatioThatTheyAskFor) {
   for (const auto& [membrane, poisson] : {std::pair{"I-m", 0.1}, {"I", 0.15}, {"IV", 0.2}}) {
-    const BuiltScene built =
-        build(box(GetParam(), {3, 3, 3}) + "," + elastic(R"("membrane": ")" + std::string(membrane) + R"(", "poisson": )" + std::to_string(poisson)));
+    const BuiltScene built = build(box(GetParam(), {3, 3, 3}) + "," +
+                                   elastic(R"("membrane": ")" + std::string(membrane) +
+                                           R"(", "poisson": )" + std::to_string(poisson)));
     const MaterialConstants& found = built->materials[0].constants;
     const Ratios r{found.alpha_ratio, found.cross_ratio[0], found.cross_ratio[1], found.clamped};
     const Sums sums(GetParam(), r);
-    const double k = found.base_stiffness, C11 = k * (sums.xxxx - sums.relaxed(r.clamped)), C12 = k * (sums.xxyy - sums.relaxed(r.clamped));
+    const double k = found.base_stiffness, C11 = k * (sums.xxxx - sums.relaxed(r.clamped)),
+                 C12 = k * (sums.xxyy - sums.relaxed(r.clamped));
     EXPECT_NEAR(C12 / (C11 + C12), poisson, 1e-6) << membrane;
     EXPECT_NEAR((C11 - C12) * (C11 + 2 * C12) / (C11 + C12), 1e9, 1) << membrane;
   }
 }
 
-// In the bulk equation (15) is exact for an isotropic lattice of central springs; a body has fewer springs, and gets a larger k.
+// In the bulk equation (15) is exact for an isotropic lattice of central springs; a body has fewer
+// springs, and gets a larger k.
 TEST_P(Centred, EquationFifteenUsesTheSpringsThatExist) {
   const auto stiffness = [&](const char* how) {
-    return build(box(GetParam(), {6, 6, 6}) + "," + elastic(how))->materials[0].constants.base_stiffness;
+    return build(box(GetParam(), {6, 6, 6}) + "," + elastic(how))
+        ->materials[0]
+        .constants.base_stiffness;
   };
   const BuiltScene built = build(box(GetParam(), {6, 6, 6}) + "," + elastic());
   double squares = 0;
-  for (std::size_t c = 0; c < 2; ++c) squares += GetParam().base_stiffness[c] * GetParam().squares[c] * static_cast<double>(built->body.springs[c]);
+  for (std::size_t c = 0; c < 2; ++c)
+    squares += GetParam().base_stiffness[c] * GetParam().squares[c] *
+               static_cast<double>(built->body.springs[c]);
   EXPECT_NEAR(stiffness(R"("stiffness": "eq15")"), 6 * 216 * 1e9 / squares, 1);
-  const double bulk = stiffness(R"("stiffness": "bulk")"), whole = GetParam().cell.size() == 2 ? 3 + 2 : 3 + 0.75;  // sum of squares a particle
+  const double bulk = stiffness(R"("stiffness": "bulk")"),
+               whole = GetParam().cell.size() == 2 ? 3 + 2 : 3 + 0.75;  // sum of squares a particle
   EXPECT_NEAR(bulk, 6 * 1e9 / whole / static_cast<double>(GetParam().cell.size()), 1);
 }
 
 TEST_P(Centred, SaysWhichPoissonRatiosAMembraneReaches) {
-  const auto faults = [&](const char* material) { return faults_of(box(GetParam(), {3, 3, 3}) + "," + elastic(material)); };
+  const auto faults = [&](const char* material) {
+    return faults_of(box(GetParam(), {3, 3, 3}) + "," + elastic(material));
+  };
   const std::string beyond = faults(R"("membrane": "I-m", "poisson": 0.3)");
   EXPECT_NE(beyond.find("/pipeline/1/poisson"), std::string::npos) << beyond;
-  EXPECT_NE(beyond.find(", 0.25], the reach of membrane I-m; 0.3 is within the reach of"), std::string::npos) << beyond;
+  EXPECT_NE(beyond.find(", 0.25], the reach of membrane I-m; 0.3 is within the reach of"),
+            std::string::npos)
+      << beyond;
   EXPECT_NE(faults(R"("poisson": 0.2)").find("0.25, or left out"), std::string::npos);
-  EXPECT_NE(faults(R"("membrane": "I-m", "poisson": 0.1, "parameters": "paper")").find("/pipeline/1/parameters"), std::string::npos);
-  EXPECT_NE(faults(R"("membrane": "I-m", "lambda": -1)").find("/pipeline/1/lambda"), std::string::npos);
+  EXPECT_NE(faults(R"("membrane": "I-m", "poisson": 0.1, "parameters": "paper")")
+                .find("/pipeline/1/parameters"),
+            std::string::npos);
+  EXPECT_NE(faults(R"("membrane": "I-m", "lambda": -1)").find("/pipeline/1/lambda"),
+            std::string::npos);
 }
 
-/// The frequencies, squared and times m, along [100] without a membrane: one longitudinal wave and two transverse ones, summed by hand.
+/// The frequencies, squared and times m, along [100] without a membrane: one longitudinal wave and
+/// two transverse ones, summed by hand.
 TEST_P(Centred, WavesAlongAnAxis) {
   const LatticeGeometry geometry = geometry_of(GetParam());
   const SpringLattice lattice = with_ratios(geometry, {});
   const bool body = GetParam().cell.size() == 2;
   for (const double q : {0.1, 1.0, 2.5, 4.0, 2 * std::numbers::pi}) {
-    const double first = 1 - std::cos(q / 2), second = 1 - std::cos(q), k2 = GetParam().base_stiffness[1];
-    const double transverse = (body ? 8.0 / 3 : 2.0) * first, longitudinal = (body ? 8.0 / 3 : 4.0) * first + 2 * k2 * second;
+    const double first = 1 - std::cos(q / 2), second = 1 - std::cos(q),
+                 k2 = GetParam().base_stiffness[1];
+    const double transverse = (body ? 8.0 / 3 : 2.0) * first,
+                 longitudinal = (body ? 8.0 / 3 : 4.0) * first + 2 * k2 * second;
     std::vector<double> expected{transverse, transverse, longitudinal};
     std::sort(expected.begin(), expected.end());
     const std::vector<Wave> found = waves(lattice.endless(), {q, 0, 0}, Sector::mirrored);
     ASSERT_EQ(found.size(), 3u);
-    for (std::size_t mode = 0; mode < 3; ++mode) EXPECT_NEAR(found[mode].stiffness, expected[mode], 1e-12) << q;
+    for (std::size_t mode = 0; mode < 3; ++mode)
+      EXPECT_NEAR(found[mode].stiffness, expected[mode], 1e-12) << q;
   }
 }
 
@@ -242,12 +280,17 @@ TEST_P(Centred, WavesAlongAnAxis) {
 TEST_P(Centred, TheStiffestWaveIsTheStiffestOfAll) {
   const LatticeGeometry geometry = geometry_of(GetParam());
   std::mt19937 random(7);
-  std::uniform_real_distribution<double> angle(-2 * std::numbers::pi, 2 * std::numbers::pi), ratio(0, 3);
+  std::uniform_real_distribution<double> angle(-2 * std::numbers::pi, 2 * std::numbers::pi),
+      ratio(0, 3);
   for (int n = 0; n < 10; ++n) {
-    const SpringLattice lattice = with_ratios(geometry, {ratio(random), ratio(random), ratio(random), n % 2 == 0});
+    const SpringLattice lattice =
+        with_ratios(geometry, {ratio(random), ratio(random), ratio(random), n % 2 == 0});
     double stiffest = 0;
     for (int sample = 0; sample < 5000; ++sample)
-      stiffest = std::max(stiffest, stiffness_range(lattice.endless(), {angle(random), angle(random), angle(random)}, Sector::mirrored).stiffest);
+      stiffest = std::max(
+          stiffest, stiffness_range(lattice.endless(),
+                                    {angle(random), angle(random), angle(random)}, Sector::mirrored)
+                        .stiffest);
     const double found = stiffest_wave(lattice.endless()).stiffness;
     EXPECT_LE(stiffest, found * (1 + 1e-9));
     EXPECT_GE(stiffest, 0.95 * found);
@@ -265,7 +308,8 @@ TEST_P(Centred, AMeasuredCubeApproachesTheEndlessLattice) {
     VirtualTest::Options options;
     options.lattice = GetParam().name;
     options.particles = cells;
-    options.strain = -1e-6;  // pulled: at the edges of fcc some particles have nothing that would keep them from buckling
+    options.strain = -1e-6;  // pulled: at the edges of fcc some particles have nothing that would
+                             // keep them from buckling
     const Measured measured = test::virtual_test(host, options).measure(r);
     poisson.push_back(measured.poisson - 0.1);
     modulus.push_back(measured.young / young - 1);

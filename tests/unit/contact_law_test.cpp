@@ -1,4 +1,5 @@
-// What two particles that come too near do to each other, by hand; and that no pair is missed while particles move.
+// What two particles that come too near do to each other, by hand; and that no pair is missed while
+// particles move.
 #include "../../plugins/loads/contact/contact.cpp"
 #include "../../plugins/loads/contact/pairs.cpp"
 
@@ -21,17 +22,22 @@ struct Bodies {
     for (Particle p = 0; p < places.size(); ++p) all.push_back(p);
     body.self = this;
     body.spacing = spacing;
-    body.region_particles = [](void* self, RegionId) noexcept { return std::span<const Particle>(static_cast<Bodies*>(self)->all); };
-    body.particle_position = [](void* self, Particle p) noexcept { return static_cast<Bodies*>(self)->places[p]; };
+    body.region_particles = [](void* self, RegionId) noexcept {
+      return std::span<const Particle>(static_cast<Bodies*>(self)->all);
+    };
+    body.particle_position = [](void* self, Particle p) noexcept {
+      return static_cast<Bodies*>(self)->places[p];
+    };
     body.particle_mass = [](void*, Particle) noexcept { return mass; };
     body.region_springs = [](void*, RegionId) noexcept { return std::span<const RestSpring>(); };
     sink.receive_warning = [](void*, std::string_view) noexcept {};
-    sink.receive_watched = [](void*, Particle, bool, const Reaction&) noexcept {};
+    sink.receive_watched = [](void*, Particle, bool, const LoadStiffnessBound&) noexcept {};
   }
 };
 
 /// Forces on all.
-std::vector<Vec3> forces(const std::vector<Vec3>& places, const std::vector<Vec3>& moved, const std::vector<Vec3>& velocities, double friction = 0,
+std::vector<Vec3> forces(const std::vector<Vec3>& places, const std::vector<Vec3>& moved,
+                         const std::vector<Vec3>& velocities, double friction = 0,
                          double damping = 0) {
   Bodies bodies(places);
   Contact::Options o;
@@ -74,18 +80,21 @@ TEST(Contact, DampingNeverPulls) {
 TEST(Contact, FrictionIsCoulombsAboveAndViscousBelow) {
   const double h = 0.2 * std::sqrt(stiffness * mass / 2), mu = 0.5;
   expect_near(forces(two, near, {{}, {0, 3, 4}}, mu)[1], {N, -h * 3, -h * 4}, 1e-9 * N);
-  expect_near(forces(two, near, {{}, {0, 300, 400}}, mu)[1], {N, -mu * N * 0.6, -mu * N * 0.8}, 1e-9 * N);
+  expect_near(forces(two, near, {{}, {0, 300, 400}}, mu)[1], {N, -mu * N * 0.6, -mu * N * 0.8},
+              1e-9 * N);
 }
 
 // The spring between them may hold; they push each other only when it is compressed by a tenth.
 TEST(Contact, NeighboursAreLeftAlone) {
   const std::vector<Vec3> neighbours{{0, 0, 0}, {0.8e-3, 0, 0}};
   EXPECT_EQ(norm(forces(neighbours, {{}, {-0.079e-3, 0, 0}}, still)[0]), 0);
-  expect_near(forces(neighbours, {{}, {-0.09e-3, 0, 0}}, still)[0], {-stiffness * 1e-5, 0, 0}, 1e-9 * N);
+  expect_near(forces(neighbours, {{}, {-0.09e-3, 0, 0}}, still)[0], {-stiffness * 1e-5, 0, 0},
+              1e-9 * N);
 }
 
 TEST(Contact, ParticlesThatAreNowhereMeetNobody) {
-  for (const double lost : {double{NAN}, double{INFINITY}, 1e300}) EXPECT_EQ(norm(forces(two, {{}, {lost, 0, 0}}, still)[0]), 0) << lost;
+  for (const double lost : {double{NAN}, double{INFINITY}, 1e300})
+    EXPECT_EQ(norm(forces(two, {{}, {lost, 0, 0}}, still)[0]), 0) << lost;
 }
 
 TEST(Contact, NoPairIsMissed) {

@@ -1,4 +1,5 @@
-// Elasticity from a lattice's neighbours: against the closed forms of the cubic lattice, a table computed elsewhere, and other lattices.
+// Elasticity from a lattice's neighbours: against the closed forms of the cubic lattice, a table
+// computed elsewhere, and other lattices.
 #include <analyze/crystals.hpp>
 #include <analyze/dispersion.hpp>
 #include <analyze/elasticity.hpp>
@@ -17,14 +18,20 @@ using namespace hyperlattice;
 using calibration::Membrane;
 using calibration::Ratios;
 
-constexpr Membrane with_lambda[] = {Membrane::I, Membrane::II, Membrane::III, Membrane::IV, Membrane::I_m};
+constexpr Membrane with_lambda[] = {Membrane::I, Membrane::II, Membrane::III, Membrane::IV,
+                                    Membrane::I_m};
 
 /// A lattice of these forward neighbours; the longer ones are of class 1.
-LatticeGeometry lattice_of(const std::vector<std::array<int, 3>>& forward, double spacing, double site_volume, double membrane_distance) {
+LatticeGeometry lattice_of(const std::vector<std::array<int, 3>>& forward, double spacing,
+                           double site_volume, double membrane_distance) {
   std::vector<Neighbour> neighbours;
   for (const auto& [x, y, z] : forward)
-    neighbours.push_back(
-        {x, y, z, x * x + y * y + z * z > forward[0][0] * forward[0][0] + forward[0][1] * forward[0][1] + forward[0][2] * forward[0][2] ? 1u : 0u});
+    neighbours.push_back({x, y, z,
+                          x * x + y * y + z * z > forward[0][0] * forward[0][0] +
+                                                      forward[0][1] * forward[0][1] +
+                                                      forward[0][2] * forward[0][2]
+                              ? 1u
+                              : 0u});
   Grid grid;
   grid.spacing = spacing;
   grid.site_volume = site_volume;
@@ -35,7 +42,16 @@ LatticeGeometry lattice_of(const std::vector<std::array<int, 3>>& forward, doubl
 }
 
 LatticeGeometry cubic(double l = 1) {
-  return lattice_of({{1, 0, 0}, {-1, 1, 0}, {0, 1, 0}, {1, 1, 0}, {0, -1, 1}, {-1, 0, 1}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, l, l * l * l, l);
+  return lattice_of({{1, 0, 0},
+                     {-1, 1, 0},
+                     {0, 1, 0},
+                     {1, 1, 0},
+                     {0, -1, 1},
+                     {-1, 0, 1},
+                     {0, 0, 1},
+                     {1, 0, 1},
+                     {0, 1, 1}},
+                    l, l * l * l, l);
 }
 
 TEST(Elasticity, IsThatOfTheClosedFormsForAnyMixture) {
@@ -53,7 +69,8 @@ TEST(Elasticity, IsThatOfTheClosedFormsForAnyMixture) {
     EXPECT_NEAR(e.C11, expected.D1 / 2, tolerance);
     EXPECT_NEAR(e.C12, expected.D2 / 2, tolerance);
     EXPECT_NEAR(e.C44, expected.D3 / 2, tolerance);
-    EXPECT_NEAR(e.poisson_shear(), expected.poisson_shear(), 1e-6 * (1 + std::abs(expected.poisson_shear())));
+    EXPECT_NEAR(e.poisson_shear(), expected.poisson_shear(),
+                1e-6 * (1 + std::abs(expected.poisson_shear())));
     EXPECT_TRUE(e.cubic);
     EXPECT_FALSE(e.isotropic);
   }
@@ -68,10 +85,14 @@ TEST(Elasticity, AgreesWithTheTableOfTheFiveMembranes) {
   for (; std::getline(file, line); ++rows) {
     std::stringstream cells(line);
     std::string name, lambda, nu, nu2, eta, zener;
-    for (std::string* cell : {&name, &lambda, &nu, &nu2, &eta, &zener}) std::getline(cells, *cell, ',');
-    const auto found = std::find(std::begin(calibration::membrane_names), std::end(calibration::membrane_names), name);
-    const Membrane membrane = static_cast<Membrane>(found - std::begin(calibration::membrane_names));
-    const LatticeElasticity e = elasticity(with_ratios(cubic(), calibration::ratios(membrane, std::stod(lambda))));
+    for (std::string* cell : {&name, &lambda, &nu, &nu2, &eta, &zener})
+      std::getline(cells, *cell, ',');
+    const auto found = std::find(std::begin(calibration::membrane_names),
+                                 std::end(calibration::membrane_names), name);
+    const Membrane membrane =
+        static_cast<Membrane>(found - std::begin(calibration::membrane_names));
+    const LatticeElasticity e =
+        elasticity(with_ratios(cubic(), calibration::ratios(membrane, std::stod(lambda))));
     EXPECT_NEAR(e.poisson_bulk(), std::stod(nu), 1e-6) << line;
     EXPECT_NEAR(e.poisson_shear(), std::stod(nu2), 1e-6) << line;
     EXPECT_NEAR(e.young() / 2.5, std::stod(eta), 1e-6) << line;
@@ -81,22 +102,28 @@ TEST(Elasticity, AgreesWithTheTableOfTheFiveMembranes) {
   EXPECT_EQ(rows, 98);
 }
 
-// C1 and C4 of a membrane that is not as thick as the lattice constant: physics of equation (27) with Delta left in.
+// C1 and C4 of a membrane that is not as thick as the lattice constant: physics of equation (27)
+// with Delta left in.
 TEST(Elasticity, KnowsTheThicknessOfTheMembrane) {
   const double l = 2, D = 0.7, kb = 1.3, kg = 0.4, ka = 0.9;
   LatticeGeometry geometry = cubic(l);
   geometry.membrane_distance = D;
-  for (NeighbourGeometry& n : geometry.neighbours) n.cross_rest_length = std::hypot(n.rest_length, D);
+  for (NeighbourGeometry& n : geometry.neighbours)
+    n.cross_rest_length = std::hypot(n.rest_length, D);
   const LatticeElasticity e = elasticity(with_ratios(geometry, {ka, kb, kg, false}));
   const double b = l * l + D * D, g = 2 * l * l + D * D;
   EXPECT_NEAR(e.C1, 6 + 2 * kb * l * l / b + 8 * kg * l * l / g, 1e-12);
   EXPECT_NEAR(e.C4, 2 * kb * D * D / b + 8 * kg * D * D / g, 1e-12);
-  EXPECT_NEAR(e.C3, (ka * D * D + 6 * kb * D * D * D * D / b + 12 * kg * D * D * D * D / g) / (l * l), 1e-12);
+  EXPECT_NEAR(e.C3,
+              (ka * D * D + 6 * kb * D * D * D * D / b + 12 * kg * D * D * D * D / g) / (l * l),
+              1e-12);
 }
 
-// Nearest-neighbour central springs on the face-centred lattice: C11 = 2 C12 = 2 C44 = 2 k / a, textbook; a = 2 spacings.
+// Nearest-neighbour central springs on the face-centred lattice: C11 = 2 C12 = 2 C44 = 2 k / a,
+// textbook; a = 2 spacings.
 TEST(Elasticity, OfTheFaceCentredLattice) {
-  const LatticeGeometry fcc = lattice_of({{1, 1, 0}, {-1, 1, 0}, {1, 0, 1}, {-1, 0, 1}, {0, 1, 1}, {0, -1, 1}}, 0.5, 0.25, 0.5);
+  const LatticeGeometry fcc = lattice_of(
+      {{1, 1, 0}, {-1, 1, 0}, {1, 0, 1}, {-1, 0, 1}, {0, 1, 1}, {0, -1, 1}}, 0.5, 0.25, 0.5);
   const LatticeElasticity e = elasticity(with_ratios(fcc, {}));
   const double a_over_spacing = 2;  // constants are over k / spacing
   EXPECT_NEAR(e.C11 * a_over_spacing, 2, 1e-12);
@@ -107,7 +134,8 @@ TEST(Elasticity, OfTheFaceCentredLattice) {
   EXPECT_FALSE(find_instability(with_ratios(fcc, {}).endless(), Sector::mirrored));
 }
 
-// Body-centred: with nearest neighbours alone C11 = C12, so that [110] shear is soft; second neighbours of stiffness 1 make it stable.
+// Body-centred: with nearest neighbours alone C11 = C12, so that [110] shear is soft; second
+// neighbours of stiffness 1 make it stable.
 TEST(Elasticity, OfTheBodyCentredLattice) {
   const std::vector<std::array<int, 3>> nearest{{1, 1, 1}, {-1, 1, 1}, {1, -1, 1}, {-1, -1, 1}};
   const LatticeElasticity e = elasticity(with_ratios(lattice_of(nearest, 0.5, 0.5, 0.5), {}));
@@ -115,14 +143,16 @@ TEST(Elasticity, OfTheBodyCentredLattice) {
   EXPECT_NEAR(e.C12, e.C11, 1e-12);
   EXPECT_NEAR(e.C44, e.C11, 1e-12);
   auto both = nearest;
-  for (const std::array<int, 3> second : {std::array{2, 0, 0}, {0, 2, 0}, {0, 0, 2}}) both.push_back(second);
+  for (const std::array<int, 3> second : {std::array{2, 0, 0}, {0, 2, 0}, {0, 0, 2}})
+    both.push_back(second);
   const SpringLattice stable = with_ratios(lattice_of(both, 0.5, 0.5, 0.5), {});
   EXPECT_GT(elasticity(stable).C11, elasticity(stable).C12);
   EXPECT_FALSE(find_instability(stable.endless(), Sector::mirrored));
 }
 
 TEST(Elasticity, SaysWhenALatticeIsNotCubic) {
-  const LatticeElasticity e = elasticity(with_ratios(lattice_of({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {-1, 1, 0}}, 1, 1, 1), {}));
+  const LatticeElasticity e = elasticity(with_ratios(
+      lattice_of({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {-1, 1, 0}}, 1, 1, 1), {}));
   EXPECT_FALSE(e.cubic);
   EXPECT_FALSE(e.isotropic);
   EXPECT_NEAR(e.stiffness[0][0], 2, 1e-12);
@@ -144,18 +174,21 @@ TEST(Membranes, LambdaOfAPoissonRatioIsTheClosedForm) {
 
 TEST(Membranes, ReachIsFoundFromTheSpringsAlone) {
   for (const Membrane membrane : with_lambda) {
-    const calibration::Reach expected = calibration::reach(membrane), found = *reach(cubic(), membrane);
+    const calibration::Reach expected = calibration::reach(membrane),
+                             found = *reach(cubic(), membrane);
     EXPECT_NEAR(found.low, expected.low, 2e-5);
     EXPECT_NEAR(found.high, expected.high, 2e-5);
     EXPECT_EQ(found.open, expected.open);
   }
 }
 
-TEST(Dispersion, IsExactAlongTheAxesWithoutAMembrane) {  // omega^2 = 12 sin^2(q/2) lengthwise, 4 sin^2(q/2) across
+TEST(Dispersion, IsExactAlongTheAxesWithoutAMembrane) {  // omega^2 = 12 sin^2(q/2) lengthwise, 4
+                                                         // sin^2(q/2) across
   std::istringstream lines(dispersion_csv(with_ratios(cubic(), {}).endless(), 1));
   std::string line;
   std::getline(lines, line);
-  EXPECT_EQ(line, "direction,q_x,q_y,q_z,mirrored_1,mirrored_2,mirrored_3,opposed_1,opposed_2,opposed_3");
+  EXPECT_EQ(line,
+            "direction,q_x,q_y,q_z,mirrored_1,mirrored_2,mirrored_3,opposed_1,opposed_2,opposed_3");
   int rows = 0, along_x = 0;
   while (std::getline(lines, line)) {
     ++rows;
@@ -178,7 +211,8 @@ TEST(Dispersion, IsExactAlongTheAxesWithoutAMembrane) {  // omega^2 = 12 sin^2(q
   EXPECT_EQ(along_x, 101);
 }
 
-// The slope of the lengthwise branch at long waves is the speed of sound, sqrt(C11 / density), in the effective constants: the height follows.
+// The slope of the lengthwise branch at long waves is the speed of sound, sqrt(C11 / density), in
+// the effective constants: the height follows.
 TEST(Dispersion, BeginsWithTheSpeedsOfSound) {
   for (const Membrane membrane : with_lambda) {
     const SpringLattice lattice = with_ratios(cubic(), calibration::ratios(membrane, 1.5));
@@ -192,7 +226,8 @@ TEST(Dispersion, BeginsWithTheSpeedsOfSound) {
 
 // A stable lattice has the crystal's constants, and the zone agrees that it is stable.
 TEST(Crystals, FitsHaveTheConstantsAndAreStable) {
-  const auto crystals = read_crystals(std::string(HYPERLATTICE_SOURCE) + "/docs/theory/data/crystals.csv");
+  const auto crystals =
+      read_crystals(std::string(HYPERLATTICE_SOURCE) + "/docs/theory/data/crystals.csv");
   ASSERT_EQ(crystals.size(), 116u);
   int fits = 0, mirrored = 0, two_layer = 0, by_criterion = 0;
   for (const Crystal& crystal : crystals) {
@@ -207,9 +242,11 @@ TEST(Crystals, FitsHaveTheConstantsAndAreStable) {
     EXPECT_NEAR(e.C44 * found->base_stiffness, crystal.C44, 1e-6 * crystal.C11) << crystal.name;
     EXPECT_GE(found->ratios.gamma, -4) << crystal.name;
     EXPECT_LE(found->ratios.alpha, 5) << crystal.name;
-    EXPECT_EQ(!find_instability(lattice.endless(), Sector::mirrored), found->mirrored) << crystal.name;
+    EXPECT_EQ(!find_instability(lattice.endless(), Sector::mirrored), found->mirrored)
+        << crystal.name;
     if (found->mirrored) {
-      EXPECT_EQ(!find_instability(lattice.endless(), Sector::opposed), found->two_layer) << crystal.name;
+      EXPECT_EQ(!find_instability(lattice.endless(), Sector::opposed), found->two_layer)
+          << crystal.name;
       EXPECT_GE(crystal.C44, crystal.C12) << crystal.name;
     }
     mirrored += found->mirrored ? 1 : 0;
@@ -229,7 +266,8 @@ TEST(Crystals, AreThoseThatWereFoundIndependently) {
   std::string line;
   std::getline(file, line);
   ASSERT_TRUE(
-      line.starts_with("name,C11_GPa,C12_GPa,C44_GPa,nu1,nu2,Zener_A,reliability,in_display_range,C44_ge_C12,hyperelastic_fit_in_box,mirror_"));
+      line.starts_with("name,C11_GPa,C12_GPa,C44_GPa,nu1,nu2,Zener_A,reliability,in_display_range,"
+                       "C44_ge_C12,hyperelastic_fit_in_box,mirror_"));
   for (std::size_t n = 0; n < crystals.size() && std::getline(file, line); ++n) {
     std::stringstream stream(line);
     std::vector<std::string> cells;

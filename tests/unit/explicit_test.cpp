@@ -1,4 +1,5 @@
-// The explicit solver takes equal steps to the end, none longer than asked, whatever the corners of loads, and refuses an unstable one.
+// The explicit solver takes equal steps to the end, none longer than asked, whatever the corners of
+// loads, and refuses an unstable one.
 #include "../../plugins/solvers/explicit/explicit.cpp"
 
 #include <gtest/gtest.h>
@@ -42,7 +43,8 @@ TEST(Explicit, takes_equal_steps_to_the_end) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> unit(0, 1);
   for (int trial = 0; trial < 200; ++trial) {
-    const double start = trial % 2 ? unit(random) : 0, end = start + 0.1 + unit(random), critical = 0.001 + 0.1 * unit(random);
+    const double start = trial % 2 ? unit(random) : 0, end = start + 0.1 + unit(random),
+                 critical = 0.001 + 0.1 * unit(random);
     std::vector<double> corners;
     for (int n = 0; n < 6; ++n) corners.push_back(start - 0.3 + 2 * unit(random));
     std::sort(corners.begin(), corners.end());
@@ -103,7 +105,9 @@ TEST(Explicit, refuses_an_unstable_step_and_names_the_limit) {
   EXPECT_THROW(Explicit(options).plan({0, 0.01, {}}), std::runtime_error);
 }
 
-TEST(Explicit, refuses_to_end_before_it_starts) { EXPECT_THROW(Explicit(until(1)).plan({1, 0.01, {}}), std::runtime_error); }
+TEST(Explicit, refuses_to_end_before_it_starts) {
+  EXPECT_THROW(Explicit(until(1)).plan({1, 0.01, {}}), std::runtime_error);
+}
 
 TEST(Explicit, stops_when_the_host_says_so) {
   Notebook notebook(0);

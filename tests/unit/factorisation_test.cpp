@@ -31,7 +31,8 @@ TEST(SparseCholesky, SolvesWhatIsSound) {
 TEST(SparseCholesky, AddsMoreWhereAPivotVanishes) {
   constexpr double shift = 1e-9;
   SparseCholesky factors;
-  factors.compute(two_by_two(1 / (1 + shift), 1, 1 / (1 + shift)), shift);  // singular once the first shift is added
+  factors.compute(two_by_two(1 / (1 + shift), 1, 1 / (1 + shift)),
+                  shift);  // singular once the first shift is added
   EXPECT_TRUE(factors.solve(Eigen::Vector2d{1, 0}).allFinite());
 }
 
@@ -66,12 +67,15 @@ TEST(IncompleteCholesky, SaysWhetherThereIsOne) {
 
 TEST(SymmetricEigen, SaysWhyItFails) {
   Eigen::Matrix3d matrix = Eigen::Vector3d{3, 1, 2}.asDiagonal();
-  EXPECT_NEAR((SymmetricEigen<Eigen::Matrix3d>(matrix).eigenvalues() - Eigen::Vector3d{1, 2, 3}).norm(), 0, 1e-14);
+  EXPECT_NEAR(
+      (SymmetricEigen<Eigen::Matrix3d>(matrix).eigenvalues() - Eigen::Vector3d{1, 2, 3}).norm(), 0,
+      1e-14);
   matrix(1, 0) = NAN;
   EXPECT_THROW(SymmetricEigen<Eigen::Matrix3d>{matrix}, std::runtime_error);
 }
 
-// Heights a billion times as stiff as space, or as soft, leave the rest of the block's inverse as it is.
+// Heights a billion times as stiff as space, or as soft, leave the rest of the block's inverse as
+// it is.
 TEST(BlockInverse, KnowsHeightsOfAnyStiffness) {
   for (const double height : {1e-12, 1e-6, 1.0, 1e6, 1e12}) {
     Eigen::Matrix4d block = Eigen::Matrix4d::Identity();

@@ -56,16 +56,20 @@ TEST(Identity, NamesWhatChanged) {
   Identity now = before;
   now.erase(now.begin() + 2);
   now[1].content = "x";
-  EXPECT_EQ(changes(before, now), "body.raw (/regions/soft/voxels/file) has changed, and the plugin failures.mine (/here/failures.mine.so) is gone");
+  EXPECT_EQ(changes(before, now),
+            "body.raw (/regions/soft/voxels/file) has changed, and the plugin failures.mine "
+            "(/here/failures.mine.so) is gone");
   EXPECT_EQ(changes({}, before),
-            "/pipeline/0 is new, body.raw (/regions/soft/voxels/file) is new, the plugin failures.mine (/here/failures.mine.so) is new, and 2 more");
+            "/pipeline/0 is new, body.raw (/regions/soft/voxels/file) is new, the plugin "
+            "failures.mine (/here/failures.mine.so) is new, and 2 more");
 }
 
 TEST(Identity, ComesBackFromItsJson) {
   const Identity identity = some_identity();
   EXPECT_EQ(changes(read_identity(identity_json(identity)), identity), "");
   EXPECT_EQ(read_identity(identity_json(identity))[1].path, identity[1].path);
-  for (const char* wrong : {"null", "3", "{}", "[1]", "[{}]", "[{\"what\": 1}]", "[{\"what\": \"moon\"}]"})
+  for (const char* wrong :
+       {"null", "3", "{}", "[1]", "[{}]", "[{\"what\": 1}]", "[{\"what\": \"moon\"}]"})
     EXPECT_TRUE(read_identity(nlohmann::json::parse(wrong)).empty()) << wrong;
 }
 

@@ -1,4 +1,5 @@
-// Cells that are turned inside out are counted and placed; sound ones, however turned or strained, are not.
+// Cells that are turned inside out are counted and placed; sound ones, however turned or strained,
+// are not.
 #include <state/inside_out.hpp>
 #include <support/lists.hpp>
 
@@ -11,7 +12,8 @@ using namespace hyperlattice;
 using namespace hyperlattice::test;
 
 struct Watched {
-  explicit Watched(const std::string& scene) : plan(plan_of(scene, 1)), simulation(*plan->model, 1), watch(std::in_place, *plan->model) {}
+  explicit Watched(const std::string& scene)
+      : plan(plan_of(scene, 1)), simulation(*plan->model, 1), watch(std::in_place, *plan->model) {}
   /// Each particle goes to the place that `to` says.
   template <class To>
   const InsideOut& look(const To& to) {
@@ -32,7 +34,8 @@ struct Watched {
 
 std::string lattice(const std::string& type, const std::string& more = "") {
   return listed_scene(
-      R"({ "type": ")" + type + R"(", "spacing": "1 mm", )" + more + R"("shape": { "box": { "low": [0, 0, 0], "high": [6e-3, 5e-3, 4e-3] } } })",
+      R"({ "type": ")" + type + R"(", "spacing": "1 mm", )" + more +
+          R"("shape": { "box": { "low": [0, 0, 0], "high": [6e-3, 5e-3, 4e-3] } } })",
       R"("membrane": "none")");
 }
 
@@ -61,19 +64,24 @@ TEST(InsideOut, AnyLatticeMayBeTurnedAndStrainedButNotMirrored) {
 TEST(InsideOut, OneParticleThatGoesThroughItsNeighboursTurnsItsCells) {
   Watched body(lattice("lattices.cubic", R"("boundary": "cells", )"));
   const Vec3 inner{2e-3, 3e-3, 2e-3};
-  const auto pushed = [&](double by) { return body.look([&](Vec3 x) { return norm(x - inner) < 1e-6 ? x + Vec3{by, 0, 0} : x; }); };
+  const auto pushed = [&](double by) {
+    return body.look([&](Vec3 x) { return norm(x - inner) < 1e-6 ? x + Vec3{by, 0, 0} : x; });
+  };
   EXPECT_EQ(pushed(0.9e-3).number, 0u);
-  const InsideOut seen = pushed(1.1e-3);  // beyond the particle before it: the four cells between them
+  const InsideOut seen =
+      pushed(1.1e-3);  // beyond the particle before it: the four cells between them
   EXPECT_EQ(seen.number, 4u);
   EXPECT_EQ(seen.all, 120u);
   EXPECT_NEAR(norm(seen.first_place - Vec3{2e-3, 2e-3, 1e-3}), 0, 1e-9);
-  EXPECT_NE(body.watch->sentence().find("4 of 120 cells are inside out"), std::string::npos) << body.watch->sentence();
+  EXPECT_NE(body.watch->sentence().find("4 of 120 cells are inside out"), std::string::npos)
+      << body.watch->sentence();
 }
 
 TEST(InsideOut, AGapOrAHoleIsNoCell) {
-  Watched body(listed_scene(R"({ "type": "lattices.cubic", "spacing": "1 mm", "shape": { "difference": [
+  Watched body(
+      listed_scene(R"({ "type": "lattices.cubic", "spacing": "1 mm", "shape": { "difference": [
       { "box": { "low": [0, 0, 0], "high": [6e-3, 3e-3, 3e-3] } }, { "box": { "low": [2e-3, 1e-3, 1e-3], "high": [3e-3, 2e-3, 2e-3] } } ] } })",
-                            R"("membrane": "none")"));
+                   R"("membrane": "none")"));
   EXPECT_EQ(body.look(same).all, 5u * 2 * 2 - 8);
 }
 

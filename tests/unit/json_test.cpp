@@ -1,4 +1,5 @@
-// A scene's text: comments, duplicate keys, the place of a wrong syntax; and changes from the command line.
+// A scene's text: comments, duplicate keys, the place of a wrong syntax; and changes from the
+// command line.
 #include <scene/json.hpp>
 #include <scene/settings.hpp>
 
@@ -39,14 +40,16 @@ std::string set(std::string_view text, const std::vector<std::string>& settings)
 }  // namespace
 
 TEST(Json, CommentsAndOrderAreKept) {
-  const Json json = parse("{ // one\n \"b\": [1, 2.5, true, null, \"//\"], /* two */ \"a\": {\"c\": -3}}");
+  const Json json =
+      parse("{ // one\n \"b\": [1, 2.5, true, null, \"//\"], /* two */ \"a\": {\"c\": -3}}");
   EXPECT_EQ(json.dump(), R"({"b":[1,2.5,true,null,"//"],"a":{"c":-3}})");
 }
 
 TEST(Json, DuplicateKeysAreFoundEverywhere) {
   Json json;
   Faults faults;
-  EXPECT_TRUE(parse_json(R"({"a": 1, "a": 2, "list": [{"x/y": 1, "x/y": 2}], "o": {"a": 1}})", json, faults));
+  EXPECT_TRUE(parse_json(R"({"a": 1, "a": 2, "list": [{"x/y": 1, "x/y": 2}], "o": {"a": 1}})", json,
+                         faults));
   const auto all = faults.all();
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(all[0].pointer, "/a");
@@ -54,11 +57,15 @@ TEST(Json, DuplicateKeysAreFoundEverywhere) {
 }
 
 TEST(Json, SyntaxErrorsHaveTheirPlace) {
-  const auto begins = [](const std::string& text, const std::string& start) { return text.substr(0, start.size()) == start; };
-  EXPECT_PRED2(begins, fault("{\n  \"a\": 1,\n  \"b\": }\n"), "line 3, column 8: valid JSON (syntax error");
+  const auto begins = [](const std::string& text, const std::string& start) {
+    return text.substr(0, start.size()) == start;
+  };
+  EXPECT_PRED2(begins, fault("{\n  \"a\": 1,\n  \"b\": }\n"),
+               "line 3, column 8: valid JSON (syntax error");
   EXPECT_PRED2(begins, fault("{\"a\": 1\n \"b\": 2}"), "line 2, column 2: ");  // a missing comma
   EXPECT_PRED2(begins, fault("{\"a\": 1,}"), "line 1, column 9: ");
-  EXPECT_PRED2(begins, fault("{\"a\": \"\xC3\xA9\xC3\xA9\" 1}"), "line 1, column 12: ");  // columns count characters
+  EXPECT_PRED2(begins, fault("{\"a\": \"\xC3\xA9\xC3\xA9\" 1}"),
+               "line 1, column 12: ");  // columns count characters
   EXPECT_PRED2(begins, fault("{\"a\": 1"), "line 1, column 8: ");
   EXPECT_PRED2(begins, fault(""), "line 1, column 1: ");
   EXPECT_PRED2(begins, fault("{\"a\": NaN}"), "line 1, column 7: ");
@@ -87,8 +94,11 @@ TEST(Json, NamesThatAreNoUtf8CanBeWritten) {
 }
 
 TEST(Json, Utf8IsKnown) {
-  for (const char* const text : {"", "plain", "W\xC3\xB6rth", "\xEF\xBF\xBD", "\xF0\x9F\x99\x82", "a\nb\"\\"}) EXPECT_TRUE(is_utf8(text)) << text;
-  for (const char* const text : {"W\xF6rth", "\xC3", "\xED\xA0\x80", "\xC0\x80", "\x80"}) EXPECT_FALSE(is_utf8(text));
+  for (const char* const text :
+       {"", "plain", "W\xC3\xB6rth", "\xEF\xBF\xBD", "\xF0\x9F\x99\x82", "a\nb\"\\"})
+    EXPECT_TRUE(is_utf8(text)) << text;
+  for (const char* const text : {"W\xF6rth", "\xC3", "\xED\xA0\x80", "\xC0\x80", "\x80"})
+    EXPECT_FALSE(is_utf8(text));
 }
 
 TEST(Settings, ReplaceAndAdd) {
@@ -96,7 +106,8 @@ TEST(Settings, ReplaceAndAdd) {
   EXPECT_EQ(set(text, {"/a/b/0=7"}), R"({"a":{"b":[7,2]},"x/y":0,"~":0})");
   EXPECT_EQ(set(text, {"/a/b/2=3", "/a/b/-=4"}), R"({"a":{"b":[1,2,3,4]},"x/y":0,"~":0})");
   EXPECT_EQ(set(text, {"/a/c=5 mm"}), R"({"a":{"b":[1,2],"c":"5 mm"},"x/y":0,"~":0})");
-  EXPECT_EQ(set(text, {"/x~1y=true", "/~0={\"k\": [1]}"}), R"({"a":{"b":[1,2]},"x/y":true,"~":{"k":[1]}})");
+  EXPECT_EQ(set(text, {"/x~1y=true", "/~0={\"k\": [1]}"}),
+            R"({"a":{"b":[1,2]},"x/y":true,"~":{"k":[1]}})");
   EXPECT_EQ(set(text, {"/a=x=y"}), R"({"a":"x=y","x/y":0,"~":0})");
   EXPECT_EQ(set(text, {"/a="}), R"({"a":"","x/y":0,"~":0})");
   EXPECT_EQ(set(text, {"/a=\"3\""}), R"({"a":"3","x/y":0,"~":0})");
@@ -104,13 +115,20 @@ TEST(Settings, ReplaceAndAdd) {
 
 TEST(Settings, BadPointersAreFaults) {
   const char* const text = R"({"pipeline": [{"spacing": 1}], "title": "t"})";
-  EXPECT_EQ(set(text, {"/pipeline/3/spacing=2"}), "--set /pipeline/3/spacing: 2: expected an index into /pipeline, which has 1 entry");
-  EXPECT_EQ(set(text, {"/pipeline/2=2"}), "--set /pipeline/2: 2: expected an index into /pipeline, which has 1 entry");
-  EXPECT_EQ(set(text, {"/pipeline/01=2"}), "--set /pipeline/01: 2: expected an index into /pipeline, which has 1 entry");
+  EXPECT_EQ(set(text, {"/pipeline/3/spacing=2"}),
+            "--set /pipeline/3/spacing: 2: expected an index into /pipeline, which has 1 entry");
+  EXPECT_EQ(set(text, {"/pipeline/2=2"}),
+            "--set /pipeline/2: 2: expected an index into /pipeline, which has 1 entry");
+  EXPECT_EQ(set(text, {"/pipeline/01=2"}),
+            "--set /pipeline/01: 2: expected an index into /pipeline, which has 1 entry");
   EXPECT_EQ(set(text, {"/pipelin/0=2"}),
-            "--set /pipelin/0: 2: expected an existing parent; the scene has no \"pipelin\", did you mean \"pipeline\"?");
-  EXPECT_EQ(set(text, {"/title/x=2"}), "--set /title/x: 2: expected an existing parent; /title is \"t\", which has no members");
-  const std::string form = ": expected /pointer=value with a JSON pointer such as /pipeline/0/spacing=0.001";
+            "--set /pipelin/0: 2: expected an existing parent; the scene has no \"pipelin\", did "
+            "you mean \"pipeline\"?");
+  EXPECT_EQ(
+      set(text, {"/title/x=2"}),
+      "--set /title/x: 2: expected an existing parent; /title is \"t\", which has no members");
+  const std::string form =
+      ": expected /pointer=value with a JSON pointer such as /pipeline/0/spacing=0.001";
   EXPECT_EQ(set(text, {"title=2"}), "--set: \"title=2\"" + form);
   EXPECT_EQ(set(text, {"/title"}), "--set: \"/title\"" + form);
   EXPECT_EQ(set(text, {"=2"}), "--set: \"=2\"" + form);

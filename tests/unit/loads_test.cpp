@@ -1,4 +1,5 @@
-// What each load does to the particles, and how loads meet: resultants, areas, symmetry, conflicts, empty regions.
+// What each load does to the particles, and how loads meet: resultants, areas, symmetry, conflicts,
+// empty regions.
 #include <support/models.hpp>
 
 #include <gtest/gtest.h>
@@ -10,12 +11,17 @@ using namespace hyperlattice::test;
 
 namespace {
 
-BuiltScene box_with(const std::string& loads) { return build(box_lattice(3, 4, 5) + "," + elastic() + "," + loads); }
-std::string box_faults(const std::string& loads) { return faults_of(box_lattice(3, 4, 5) + "," + elastic() + "," + loads); }
+BuiltScene box_with(const std::string& loads) {
+  return build(box_lattice(3, 4, 5) + "," + elastic() + "," + loads);
+}
+std::string box_faults(const std::string& loads) {
+  return faults_of(box_lattice(3, 4, 5) + "," + elastic() + "," + loads);
+}
 
 BuiltScene sphere_with(const std::string& load) {
-  return build(R"({ "type": "lattices.cubic", "spacing": 1e-3, "shape": { "hollow_sphere": { "inner_radius": 8e-3, "outer_radius": 15e-3 } } },)" +
-               elastic() + "," + load);
+  return build(
+      R"({ "type": "lattices.cubic", "spacing": 1e-3, "shape": { "hollow_sphere": { "inner_radius": 8e-3, "outer_radius": 15e-3 } } },)" +
+      elastic() + "," + load);
 }
 
 Vec3 resultant(const Load& load) {
@@ -32,15 +38,18 @@ void expect_near(Vec3 found, Vec3 expected, double tolerance) {
 
 TEST(Loads, BlastIsRadialAndHasTheTrueArea) {
   for (const auto& [region, area, sign] :
-       {std::tuple{"inner_surface", 4 * std::numbers::pi * 64e-6, 1.0}, {"outer_surface", 4 * std::numbers::pi * 225e-6, -1.0}}) {
+       {std::tuple{"inner_surface", 4 * std::numbers::pi * 64e-6, 1.0},
+        {"outer_surface", 4 * std::numbers::pi * 225e-6, -1.0}}) {
     const BuiltScene built =
-        sphere_with(R"({ "type": "loads.blast", "on": ")" + std::string(region) + R"(", "peak": 2e6, "rise": 1e-6, "fall": 3e-6 })");
+        sphere_with(R"({ "type": "loads.blast", "on": ")" + std::string(region) +
+                    R"(", "peak": 2e6, "rise": 1e-6, "fall": 3e-6 })");
     const Load& load = built->loads.at(0);
     double radial = 0;
     for (const LoadedParticle& loaded : load.particles) {
       const Vec3 at = built->body.position(loaded.particle);
       EXPECT_LT(norm(cross(at, loaded.force)), 1e-12 * norm(at) * norm(loaded.force));
-      EXPECT_GT(sign * dot(at, loaded.force), 0);  // the cavity's pressure pushes outwards, the one around the body inwards
+      EXPECT_GT(sign * dot(at, loaded.force),
+                0);  // the cavity's pressure pushes outwards, the one around the body inwards
       radial += norm(loaded.force);
     }
     EXPECT_NEAR(radial, 2e6 * area, 1e-9 * 2e6 * area);
@@ -49,23 +58,31 @@ TEST(Loads, BlastIsRadialAndHasTheTrueArea) {
 }
 
 TEST(Loads, BlastWithoutAKnownAreaTakesThatOfTheCells) {
-  const BuiltScene built =
-      sphere_with(R"({ "type": "loads.blast", "on": { "intersection": ["inner_surface", "all"] }, "peak": 1, "rise": 1, "fall": 1 })");
+  const BuiltScene built = sphere_with(
+      R"({ "type": "loads.blast", "on": { "intersection": ["inner_surface", "all"] }, "peak": 1, "rise": 1, "fall": 1 })");
   double radial = 0;
   for (const LoadedParticle& loaded : built->loads[0].particles) radial += norm(loaded.force);
-  EXPECT_NEAR(radial, 4 * std::numbers::pi * 64e-6, 0.06 * 4 * std::numbers::pi * 64e-6);  // the projected staircase is close
+  EXPECT_NEAR(radial, 4 * std::numbers::pi * 64e-6,
+              0.06 * 4 * std::numbers::pi * 64e-6);  // the projected staircase is close
   EXPECT_GT(std::abs(radial / (4 * std::numbers::pi * 64e-6) - 1), 1e-6);
-  const BuiltScene given = sphere_with(R"({ "type": "loads.blast", "on": "inner_surface", "area": "3 mm2", "peak": 1, "rise": 1, "fall": 1 })");
+  const BuiltScene given = sphere_with(
+      R"({ "type": "loads.blast", "on": "inner_surface", "area": "3 mm2", "peak": 1, "rise": 1, "fall": 1 })");
   radial = 0;
   for (const LoadedParticle& loaded : given->loads[0].particles) radial += norm(loaded.force);
   EXPECT_NEAR(radial, 3e-6, 1e-15);
 }
 
 TEST(Loads, BlastIsATriangleInTime) {
-  const BuiltScene built =
-      sphere_with(R"({ "type": "loads.blast", "on": "inner_surface", "peak": 1, "rise": "5 us", "fall": "15 us", "start": "2 us" })");
+  const BuiltScene built = sphere_with(
+      R"({ "type": "loads.blast", "on": "inner_surface", "peak": 1, "rise": "5 us", "fall": "15 us", "start": "2 us" })");
   const Load& load = built->loads[0];
-  for (const auto& [time, expected] : {std::pair{0.0, 0.0}, {2e-6, 0.0}, {4.5e-6, 0.5}, {7e-6, 1.0}, {14.5e-6, 0.5}, {22e-6, 0.0}, {1.0, 0.0}})
+  for (const auto& [time, expected] : {std::pair{0.0, 0.0},
+                                       {2e-6, 0.0},
+                                       {4.5e-6, 0.5},
+                                       {7e-6, 1.0},
+                                       {14.5e-6, 0.5},
+                                       {22e-6, 0.0},
+                                       {1.0, 0.0}})
     EXPECT_NEAR(load.factor(time), expected, 1e-12) << time;
   const std::vector<double> corners{2e-6, 7e-6, 22e-6};
   ASSERT_EQ(built->corners.size(), 3u);
@@ -82,21 +99,27 @@ TEST(Loads, PressureOnAFaceHasTheExactResultant) {
   EXPECT_EQ(built->loads[0].factor(3), 1);
   EXPECT_EQ(built->loads[1].factor(0), 1);
   EXPECT_EQ(built->corners, std::vector<double>{2});
-  EXPECT_NE(box_faults(R"({ "type": "loads.pressure", "on": { "box": { "low": [1, 1, 1], "high": [2, 3, 4] } }, "pressure": 1 })").find("open face"),
-            std::string::npos);
+  EXPECT_NE(
+      box_faults(
+          R"({ "type": "loads.pressure", "on": { "box": { "low": [1, 1, 1], "high": [2, 3, 4] } }, "pressure": 1 })")
+          .find("open face"),
+      std::string::npos);
 }
 
 TEST(Loads, ForceInTotalOrOnEach) {
-  const BuiltScene built =
-      box_with(R"({ "type": "loads.force", "on": "z_min", "total": [12, 0, 24] }, { "type": "loads.force", "on": "z_min", "each": ["1 kN", 0, 0] })");
+  const BuiltScene built = box_with(
+      R"({ "type": "loads.force", "on": "z_min", "total": [12, 0, 24] }, { "type": "loads.force", "on": "z_min", "each": ["1 kN", 0, 0] })");
   expect_near(resultant(built->loads[0]), {12, 0, 24}, 1e-12);
   expect_near(built->loads[0].particles[5].force, {1, 0, 2}, 1e-12);
   expect_near(resultant(built->loads[1]), {12000, 0, 0}, 1e-9);
-  EXPECT_NE(box_faults(R"({ "type": "loads.force", "on": "z_min" })").find("exactly one of total and each"), std::string::npos);
+  EXPECT_NE(box_faults(R"({ "type": "loads.force", "on": "z_min" })")
+                .find("exactly one of total and each"),
+            std::string::npos);
 }
 
 TEST(Loads, GravityIsTheSumOfAll) {
-  const BuiltScene built = box_with(R"({ "type": "loads.gravity" }, { "type": "loads.gravity", "acceleration": [1, 0, 0] })");
+  const BuiltScene built = box_with(
+      R"({ "type": "loads.gravity" }, { "type": "loads.gravity", "acceleration": [1, 0, 0] })");
   expect_near(built->acceleration, {1, 0, -9.80665}, 1e-12);
   EXPECT_TRUE(built->loads[0].particles.empty());
 }
@@ -107,7 +130,8 @@ TEST(Loads, PrescribedMotionKnowsItsAxes) {
     { "type": "loads.velocity", "on": "x_max", "axes": "y", "value": [9, 3, 9], "rise": 0.5 })");
   EXPECT_EQ(built->loads[0].particles[0].displaced, 0b101u);
   EXPECT_EQ(built->loads[0].factor(1e9), 0);
-  const LoadedParticle &moved = built->loads[1].particles[0], &driven = built->loads[2].particles[0];
+  const LoadedParticle &moved = built->loads[1].particles[0],
+                       &driven = built->loads[2].particles[0];
   EXPECT_EQ(moved.displaced, 1u);
   expect_near(moved.displacement, {2e-3, 0, 0}, 1e-15);
   EXPECT_EQ(driven.driven, 2u);
@@ -121,23 +145,35 @@ TEST(Loads, StartVelocityTranslatesAndSpins) {
   ASSERT_EQ(built->start_velocities.size(), built->body.particles);
   for (const auto& [particle, velocity] : built->start_velocities) {
     const Vec3 arm = built->body.position(particle) - Vec3{1.5, 2, 2.5};
-    expect_near(velocity, {1 - 2 * arm.y + (built->body.site(particle).i == 0 ? 10 : 0), 2 + 2 * arm.x, 3}, 1e-12);
+    expect_near(velocity,
+                {1 - 2 * arm.y + (built->body.site(particle).i == 0 ? 10 : 0), 2 + 2 * arm.x, 3},
+                1e-12);
   }
 }
 
 TEST(Loads, TwoPrescriptionsOfOneAxisAreAFaultThatNamesBoth) {
-  const std::string message =
-      box_faults(R"({ "type": "loads.fixed", "on": "x_min" }, { "type": "loads.velocity", "on": "z_min", "axes": "yz", "value": [0, 0, 1] })");
-  for (const char* part : {"/pipeline/3", "/pipeline/2", "loads.fixed", "loads.velocity", "yz of 4 particles", "(0.5, 0.5, 0.5)"})
+  const std::string message = box_faults(
+      R"({ "type": "loads.fixed", "on": "x_min" }, { "type": "loads.velocity", "on": "z_min", "axes": "yz", "value": [0, 0, 1] })");
+  for (const char* part : {"/pipeline/3", "/pipeline/2", "loads.fixed", "loads.velocity",
+                           "yz of 4 particles", "(0.5, 0.5, 0.5)"})
     EXPECT_NE(message.find(part), std::string::npos) << part << " in: " << message;
-  EXPECT_EQ(box_faults(R"({ "type": "loads.fixed", "on": "x_min", "axes": "x" }, { "type": "loads.fixed", "on": "z_min", "axes": "yz" })"), "");
-  EXPECT_EQ(box_faults(R"({ "type": "loads.fixed", "on": "x_min" }, { "type": "loads.fixed", "on": "z_min", "axes": "yz" })"), "") << "they agree";
+  EXPECT_EQ(
+      box_faults(
+          R"({ "type": "loads.fixed", "on": "x_min", "axes": "x" }, { "type": "loads.fixed", "on": "z_min", "axes": "yz" })"),
+      "");
+  EXPECT_EQ(
+      box_faults(
+          R"({ "type": "loads.fixed", "on": "x_min" }, { "type": "loads.fixed", "on": "z_min", "axes": "yz" })"),
+      "")
+      << "they agree";
 }
 
 TEST(Loads, AnEmptyRegionSaysWhatItIs) {
-  const std::string message = box_faults(R"({ "type": "loads.force", "on": { "box": { "low": [50, 0, 0], "high": [60, 1, 1] } }, "total": [1, 0, 0] },
+  const std::string message = box_faults(
+      R"({ "type": "loads.force", "on": { "box": { "low": [50, 0, 0], "high": [60, 1, 1] } }, "total": [1, 0, 0] },
     { "type": "loads.blast", "on": "inner_surface", "peak": 1, "rise": 1, "fall": 1 })");
-  for (const char* part : {"/pipeline/2", "a box between (50, 0, 0) and (60, 1, 1)", "(2.5, 3.5, 4.5)", "/pipeline/3", "closed cavities"})
+  for (const char* part : {"/pipeline/2", "a box between (50, 0, 0) and (60, 1, 1)",
+                           "(2.5, 3.5, 4.5)", "/pipeline/3", "closed cavities"})
     EXPECT_NE(message.find(part), std::string::npos) << part << " in: " << message;
 }
 

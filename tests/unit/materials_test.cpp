@@ -1,4 +1,5 @@
-// Materials in a body: by region, of one law, with springs between them; and the elastic material's answers to what it cannot do.
+// Materials in a body: by region, of one law, with springs between them; and the elastic material's
+// answers to what it cannot do.
 #include <support/models.hpp>
 
 #include <hyperlattice/calibration.hpp>
@@ -13,29 +14,37 @@ namespace {
 using Membrane = KernelChoice::Membrane;
 
 std::string left_half(const std::string& more) {
-  return elastic(more + R"(, "region": { "half_space": { "point": [3, 0, 0], "normal": [1, 0, 0] } })");
+  return elastic(more +
+                 R"(, "region": { "half_space": { "point": [3, 0, 0], "normal": [1, 0, 0] } })");
 }
-std::string material_faults(const std::string& more) { return faults_of(box_lattice(4, 4, 4) + "," + elastic(more)); }
+std::string material_faults(const std::string& more) {
+  return faults_of(box_lattice(4, 4, 4) + "," + elastic(more));
+}
 
 void expect_in(const std::string& message, std::initializer_list<const char*> parts) {
-  for (const char* part : parts) EXPECT_NE(message.find(part), std::string::npos) << part << " in: " << message;
+  for (const char* part : parts)
+    EXPECT_NE(message.find(part), std::string::npos) << part << " in: " << message;
 }
 
 TEST(Materials, MembraneDecidesTheDegreesOfFreedom) {
-  const auto choice = [](const char* more) { return build(box_lattice(4, 4, 4) + "," + elastic(more))->choice.membrane; };
+  const auto choice = [](const char* more) {
+    return build(box_lattice(4, 4, 4) + "," + elastic(more))->choice.membrane;
+  };
   EXPECT_EQ(choice(R"("membrane": "none")"), Membrane::none);
   EXPECT_EQ(choice(R"("membrane": "I-m", "poisson": 0.25)"), Membrane::none);
   EXPECT_EQ(choice(R"("membrane": "I-m", "lambda": 0)"), Membrane::none);
   EXPECT_EQ(choice(R"("membrane": "free", "k_alpha": 1)"), Membrane::none);
   EXPECT_EQ(choice(R"("membrane": "III", "poisson": 0.2)"), Membrane::clamped);
   EXPECT_EQ(choice(R"("membrane": "IV", "poisson": 0.3)"), Membrane::clamped);
-  EXPECT_EQ(choice(R"("membrane": "free", "k_alpha": "infinite", "k_gamma": 1)"), Membrane::clamped);
+  EXPECT_EQ(choice(R"("membrane": "free", "k_alpha": "infinite", "k_gamma": 1)"),
+            Membrane::clamped);
   EXPECT_EQ(choice(R"("membrane": "I-m", "poisson": 0.1)"), Membrane::free);
   EXPECT_EQ(choice(R"("membrane": "free", "k_beta": 1, "k_gamma": 0.75)"), Membrane::free);
 }
 
 TEST(Materials, StiffnessMassAndStepOfLatticeIm) {
-  const BuiltScene built = build(box_lattice(4, 4, 4) + "," + elastic(R"("membrane": "I-m", "poisson": 0.1)"));
+  const BuiltScene built =
+      build(box_lattice(4, 4, 4) + "," + elastic(R"("membrane": "I-m", "poisson": 0.1)"));
   const double k = 0.18939393939393939 * 1e9;  // physics of figure 5
   EXPECT_NEAR(built->spring(0, 0, 0).stiffness, k, 1e-6 * k);
   EXPECT_NEAR(built->spring(0, 0, 0).cross_stiffness, 2.8 * k, 1e-6 * k);
@@ -45,32 +54,41 @@ TEST(Materials, StiffnessMassAndStepOfLatticeIm) {
   EXPECT_EQ(built->degrees_of_freedom, 4);
 }
 
-TEST(Materials, EquationFifteenUsesTheSpringsThatExist) {  // 6 V E / sum l^2 over the 4^3 cube: 3 N^2 (N-1) + 12 N (N-1)^2
-  const BuiltScene built = build(box_lattice(4, 4, 4) + "," + elastic(R"("poisson": 0.25, "stiffness": "eq15")"));
+TEST(Materials, EquationFifteenUsesTheSpringsThatExist) {  // 6 V E / sum l^2 over the 4^3 cube: 3
+                                                           // N^2 (N-1) + 12 N (N-1)^2
+  const BuiltScene built =
+      build(box_lattice(4, 4, 4) + "," + elastic(R"("poisson": 0.25, "stiffness": "eq15")"));
   EXPECT_NEAR(built->spring(0, 0, 0).stiffness, 6 * 64 * 1e9 / (3 * 16 * 3 + 12 * 4 * 9), 1);
 }
 
 TEST(Materials, PapersPolynomials) {
-  const BuiltScene built = build(box_lattice(4, 4, 4) + "," + elastic(R"("membrane": "I-m", "poisson": 0.1, "parameters": "paper")"));
+  const BuiltScene built =
+      build(box_lattice(4, 4, 4) + "," +
+            elastic(R"("membrane": "I-m", "poisson": 0.1, "parameters": "paper")"));
   const double lambda = calibration::paper_lambda(0.1);
   EXPECT_NEAR(built->materials[0].constants.cross_ratio[0], lambda, 1e-12);
-  EXPECT_NEAR(built->spring(0, 0, 0).stiffness, 0.4e9 / calibration::paper_modulus_ratio(lambda), 1e-3);
+  EXPECT_NEAR(built->spring(0, 0, 0).stiffness, 0.4e9 / calibration::paper_modulus_ratio(lambda),
+              1e-3);
 }
 
 TEST(Materials, LaterOnesTakeOver) {
-  const BuiltScene built = build(box_lattice(6, 4, 4) + "," + elastic() + "," + left_half(R"("poisson": 0.25, "name": "left")"));
+  const BuiltScene built = build(box_lattice(6, 4, 4) + "," + elastic() + "," +
+                                 left_half(R"("poisson": 0.25, "name": "left")"));
   ASSERT_EQ(built->material_of.size(), 96u);
-  for (Particle p = 0; p < 96; ++p) EXPECT_EQ(built->material_of[p], built->body.site(p).i < 3 ? 1 : 0);
+  for (Particle p = 0; p < 96; ++p)
+    EXPECT_EQ(built->material_of[p], built->body.site(p).i < 3 ? 1 : 0);
   EXPECT_TRUE(built->choice.mixed);
 }
 
 TEST(Materials, SpringsBetweenMaterialsAreInSeries) {
-  const BuiltScene built = build(box_lattice(6, 4, 4) + "," + elastic(R"("membrane": "I-m", "poisson": 0.1)") + "," +
-                                 R"({ "type": "materials.elastic", "young": 3e9, "density": 5000, "membrane": "I-m", "poisson": 0.2,
+  const BuiltScene built = build(
+      box_lattice(6, 4, 4) + "," + elastic(R"("membrane": "I-m", "poisson": 0.1)") + "," +
+      R"({ "type": "materials.elastic", "young": 3e9, "density": 5000, "membrane": "I-m", "poisson": 0.2,
                                       "region": { "half_space": { "point": [3, 0, 0], "normal": [1, 0, 0] } },
                                       "failure": { "type": "failures.elongation", "limit": 0.01 } })");
   for (std::uint32_t c = 0; c < 2; ++c) {
-    const SpringConstants &a = built->spring(0, 0, c), &b = built->spring(1, 1, c), &ab = built->spring(0, 1, c), &ba = built->spring(1, 0, c);
+    const SpringConstants &a = built->spring(0, 0, c), &b = built->spring(1, 1, c),
+                          &ab = built->spring(0, 1, c), &ba = built->spring(1, 0, c);
     EXPECT_NEAR(1 / ab.stiffness, (1 / a.stiffness + 1 / b.stiffness) / 2, 1e-20);
     EXPECT_NEAR(1 / ab.cross_stiffness, (1 / a.cross_stiffness + 1 / b.cross_stiffness) / 2, 1e-20);
     EXPECT_EQ(ab.stiffness, ba.stiffness);
@@ -78,32 +96,41 @@ TEST(Materials, SpringsBetweenMaterialsAreInSeries) {
     EXPECT_EQ(ab.alarm, 0.01);
   }
   EXPECT_TRUE(built->choice.breakable);
-  // The bound is safe, and not idle: between the smaller critical step of the two and a tenth below.
-  const double smaller = std::min(built->materials[0].critical_time_step, built->materials[1].critical_time_step);
+  // The bound is safe, and not idle: between the smaller critical step of the two and a tenth
+  // below.
+  const double smaller =
+      std::min(built->materials[0].critical_time_step, built->materials[1].critical_time_step);
   EXPECT_LE(built->critical_time_step, smaller * (1 + 1e-12));
   EXPECT_GE(built->critical_time_step, 0.9 * smaller);
 }
 
-/// Largest omega^2 of a body by power iteration on its springs, heights as the fourth component: an estimate from below.
+/// Largest omega^2 of a body by power iteration on its springs, heights as the fourth component: an
+/// estimate from below.
 double omega_square(const Model& model) {
   const std::size_t n = model.body.particles;
   std::vector<std::array<double, 4>> u(n);
   for (std::size_t p = 0; p < n; ++p)
-    u[p] = {std::sin(3.7 * double(p)), std::cos(1.3 * double(p * p)), std::sin(0.7 + double(p)), std::cos(2.1 * double(p))};
+    u[p] = {std::sin(3.7 * double(p)), std::cos(1.3 * double(p * p)), std::sin(0.7 + double(p)),
+            std::cos(2.1 * double(p))};
   double value = 0;
   for (int iteration = 0; iteration < 400; ++iteration) {
     std::vector<std::array<double, 4>> f(n);
     for (std::size_t p = 0; p < n; ++p) {
       const std::uint8_t own = model.material_of[p];
-      f[p][3] += 2 * model.materials[own].constants.alpha_ratio * model.materials[own].constants.base_stiffness * u[p][3];
+      f[p][3] += 2 * model.materials[own].constants.alpha_ratio *
+                 model.materials[own].constants.base_stiffness * u[p][3];
       const Site site = model.body.site(p);
       for (const NeighbourGeometry& g : model.neighbours) {
-        const Particle q = model.body.at({site.i + g.site.dx, site.j + g.site.dy, site.k + g.site.dz});
+        const Particle q =
+            model.body.at({site.i + g.site.dx, site.j + g.site.dy, site.k + g.site.dz});
         if (q == Body::no_particle) continue;
-        const SpringConstants& spring = model.spring(own, model.material_of[q], g.site.spring_class);
+        const SpringConstants& spring =
+            model.spring(own, model.material_of[q], g.site.spring_class);
         for (const auto& [k, length, delta] :
-             {std::tuple{spring.stiffness, g.rest_length, 0.0}, {spring.cross_stiffness, g.cross_rest_length, model.body.grid.membrane_distance}}) {
-          const std::array<double, 4> here{-g.rest.x / length, -g.rest.y / length, -g.rest.z / length, delta / length};
+             {std::tuple{spring.stiffness, g.rest_length, 0.0},
+              {spring.cross_stiffness, g.cross_rest_length, model.body.grid.membrane_distance}}) {
+          const std::array<double, 4> here{-g.rest.x / length, -g.rest.y / length,
+                                           -g.rest.z / length, delta / length};
           const std::array<double, 4> there{-here[0], -here[1], -here[2], here[3]};
           double elongation = 0;
           for (std::size_t c = 0; c < 4; ++c) elongation += here[c] * u[p][c] + there[c] * u[q][c];
@@ -131,12 +158,15 @@ double omega_square(const Model& model) {
 }
 
 TEST(Materials, CriticalStepOfSeveralIsSafeForTheBodyItself) {
-  const std::pair<const char*, const char*> cases[] = {{R"("membrane": "I-m", "poisson": 0.1)", R"("poisson": 0.25)"},
-                                                       {R"("membrane": "I-m", "poisson": 0.05)", R"("membrane": "I-m", "poisson": 0.22)"},
-                                                       {R"("membrane": "II", "poisson": 0.0)", R"("membrane": "I", "poisson": 0.2)"}};
+  const std::pair<const char*, const char*> cases[] = {
+      {R"("membrane": "I-m", "poisson": 0.1)", R"("poisson": 0.25)"},
+      {R"("membrane": "I-m", "poisson": 0.05)", R"("membrane": "I-m", "poisson": 0.22)"},
+      {R"("membrane": "II", "poisson": 0.0)", R"("membrane": "I", "poisson": 0.2)"}};
   for (const auto& [right, left] : cases) {
-    const BuiltScene built = build(box_lattice(8, 6, 6) + "," + elastic(right) + "," + left_half(left));
-    const double bound = 4 / (built->critical_time_step * built->critical_time_step), found = omega_square(*built);
+    const BuiltScene built =
+        build(box_lattice(8, 6, 6) + "," + elastic(right) + "," + left_half(left));
+    const double bound = 4 / (built->critical_time_step * built->critical_time_step),
+                 found = omega_square(*built);
     EXPECT_LE(found, bound);
     EXPECT_GE(found, 0.8 * bound);
   }
@@ -144,46 +174,63 @@ TEST(Materials, CriticalStepOfSeveralIsSafeForTheBodyItself) {
 
 TEST(Materials, WithoutAMembraneBesideOneThatMovesHeightsAreHeld) {
   const BuiltScene built =
-      build(box_lattice(6, 4, 4) + "," + elastic(R"("membrane": "I-m", "poisson": 0.1)") + "," + left_half(R"("poisson": 0.25)"));
+      build(box_lattice(6, 4, 4) + "," + elastic(R"("membrane": "I-m", "poisson": 0.1)") + "," +
+            left_half(R"("poisson": 0.25)"));
   EXPECT_EQ(built->choice.membrane, Membrane::free);
   EXPECT_EQ(built->spring(0, 1, 0).cross_stiffness, 0);
   EXPECT_NEAR(built->materials[1].constants.alpha_ratio, 6, 1e-12);
-  EXPECT_NEAR(built->materials[1].critical_time_step, 2 / std::sqrt(12 * 0.4e9 / 1000), 1e-9);  // as without
+  EXPECT_NEAR(built->materials[1].critical_time_step, 2 / std::sqrt(12 * 0.4e9 / 1000),
+              1e-9);  // as without
 }
 
 TEST(Materials, FaultsOfABodyOfSeveral) {
   const std::string lattice = box_lattice(6, 4, 4) + ",";
-  expect_in(faults_of(lattice + left_half(R"("poisson": 0.25)")), {"/pipeline: ", "48 have none", "(3.5, 0.5, 0.5)"});
-  expect_in(faults_of(lattice + left_half(R"("poisson": 0.25)") + "," + elastic()), {"/pipeline/1/region", "take all of this one's"});
-  expect_in(faults_of(lattice + elastic() + "," + elastic(R"("region": { "sphere": { "radius": 0.1 } })")),
+  expect_in(faults_of(lattice + left_half(R"("poisson": 0.25)")),
+            {"/pipeline: ", "48 have none", "(3.5, 0.5, 0.5)"});
+  expect_in(faults_of(lattice + left_half(R"("poisson": 0.25)") + "," + elastic()),
+            {"/pipeline/1/region", "take all of this one's"});
+  expect_in(faults_of(lattice + elastic() + "," +
+                      elastic(R"("region": { "sphere": { "radius": 0.1 } })")),
             {"/pipeline/2/region", "a sphere", "holds none"});
-  expect_in(faults_of(lattice + elastic(R"("membrane": "I-m", "poisson": 0.1)") + "," + left_half(R"("membrane": "IV", "poisson": 0.3)")),
+  expect_in(faults_of(lattice + elastic(R"("membrane": "I-m", "poisson": 0.1)") + "," +
+                      left_half(R"("membrane": "IV", "poisson": 0.3)")),
             {"/pipeline/2", "clamped and free"});
 }
 
 TEST(Elastic, SaysWhichPoissonRatiosAMembraneReaches) {
   expect_in(material_faults(R"("membrane": "I-m", "poisson": 0.3)"),
-            {"/pipeline/1/poisson", "0.3", "(-0.2, 0.25]", "membrane I-m", "0.3 is within the reach of IV (not isotropic)"});
-  expect_in(material_faults(R"("membrane": "IV", "poisson": -0.3)"), {"/pipeline/1/poisson", "-0.3 is within the reach of II"});
-  expect_in(material_faults(R"("membrane": "I", "poisson": 0.4)"), {"no membrane of this lattice reaches it"});
-  expect_in(material_faults(R"("poisson": 0.2)"), {"/pipeline/1/poisson", "0.25, or left out", "I-m, I (not isotropic), II (not isotropic)"});
-  expect_in(material_faults(R"("membrane": "I-m", "poisson": 0.02, "parameters": "paper")"), {"/pipeline/1/poisson", "0.04 to 0.2464"});
+            {"/pipeline/1/poisson", "0.3", "(-0.2, 0.25]", "membrane I-m",
+             "0.3 is within the reach of IV (not isotropic)"});
+  expect_in(material_faults(R"("membrane": "IV", "poisson": -0.3)"),
+            {"/pipeline/1/poisson", "-0.3 is within the reach of II"});
+  expect_in(material_faults(R"("membrane": "I", "poisson": 0.4)"),
+            {"no membrane of this lattice reaches it"});
+  expect_in(material_faults(R"("poisson": 0.2)"), {"/pipeline/1/poisson", "0.25, or left out",
+                                                   "I-m, I (not isotropic), II (not isotropic)"});
+  expect_in(material_faults(R"("membrane": "I-m", "poisson": 0.02, "parameters": "paper")"),
+            {"/pipeline/1/poisson", "0.04 to 0.2464"});
 }
 
 TEST(Elastic, RefusesWhatDoesNotGoTogether) {
   expect_in(material_faults(R"("membrane": "I-m")"), {"/pipeline/1/poisson", "lambda"});
-  expect_in(material_faults(R"("membrane": "I-m", "poisson": 0.1, "lambda": 1)"), {"/pipeline/1/lambda", "one of poisson and lambda"});
+  expect_in(material_faults(R"("membrane": "I-m", "poisson": 0.1, "lambda": 1)"),
+            {"/pipeline/1/lambda", "one of poisson and lambda"});
   expect_in(material_faults(R"("lambda": 1)"), {"/pipeline/1/lambda"});
-  expect_in(material_faults(R"("membrane": "I", "poisson": 0.1, "k_beta": 1)"), {"/pipeline/1/membrane", "free"});
-  expect_in(material_faults(R"("membrane": "IV", "lambda": -2)"), {"/pipeline/1/lambda", "above -2"});
-  expect_in(material_faults(R"("membrane": "II", "poisson": 0.1, "parameters": "paper")"), {"/pipeline/1/parameters", "I-m"});
-  expect_in(material_faults(R"("membrane": "free", "k_beta": 1, "k_gamma": 0.75, "poisson": 0.2)"), {"/pipeline/1", "leave poisson out"});
+  expect_in(material_faults(R"("membrane": "I", "poisson": 0.1, "k_beta": 1)"),
+            {"/pipeline/1/membrane", "free"});
+  expect_in(material_faults(R"("membrane": "IV", "lambda": -2)"),
+            {"/pipeline/1/lambda", "above -2"});
+  expect_in(material_faults(R"("membrane": "II", "poisson": 0.1, "parameters": "paper")"),
+            {"/pipeline/1/parameters", "I-m"});
+  expect_in(material_faults(R"("membrane": "free", "k_beta": 1, "k_gamma": 0.75, "poisson": 0.2)"),
+            {"/pipeline/1", "leave poisson out"});
 }
 
 TEST(Elastic, AnUnstableMembraneIsRefusedWithItsWave) {
   expect_in(material_faults(R"("membrane": "free", "k_alpha": 3, "k_beta": -2.5, "k_gamma": 2)"),
             {"/pipeline/1", "stable lattice", "the wave with vector", "grows"});
-  expect_in(material_faults(R"("membrane": "free", "k_beta": -1, "k_gamma": -0.2, "k_alpha": 0)"), {"homogeneous deformation"});
+  expect_in(material_faults(R"("membrane": "free", "k_beta": -1, "k_gamma": -0.2, "k_alpha": 0)"),
+            {"homogeneous deformation"});
 }
 
 }  // namespace

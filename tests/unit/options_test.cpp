@@ -25,7 +25,8 @@ std::string read(const Option& option, const std::string& given) {
   RegionReader region_reader(none, regions, faults, texts);
   ReadValue value;
   Json resolved;
-  const bool good = read_value(option, Json::parse(given), "/option", {faults, region_reader, texts}, value, resolved);
+  const bool good = read_value(option, Json::parse(given), "/option",
+                               {faults, region_reader, texts}, value, resolved);
   EXPECT_EQ(good, faults.empty()) << given;
   return good ? resolved.dump() : faults.all().at(0).pointer + ": " + faults.all().at(0).expected;
 }
@@ -60,7 +61,8 @@ TEST(Options, IntegersStayWithinTheirType) {
   EXPECT_EQ(read(of(0), "2147483647"), "2147483647");
   EXPECT_EQ(read(of(0), "-2147483648"), "-2147483648");
   EXPECT_EQ(read(of(0), "2147483648"), "/option: an integer from -2147483648 to 2147483647");
-  EXPECT_EQ(read(of(0), "4294967297"), "/option: an integer from -2147483648 to 2147483647");  // which would wrap to 1
+  EXPECT_EQ(read(of(0), "4294967297"),
+            "/option: an integer from -2147483648 to 2147483647");  // which would wrap to 1
   EXPECT_EQ(read(of(1), "4294967295"), "4294967295");
   EXPECT_EQ(read(of(1), "-1"), "/option: an integer from 0 to 4294967295");
   EXPECT_EQ(read(of(2), "0"), "/option: an integer from 1 to 127");
@@ -83,7 +85,9 @@ TEST(Options, Numbers) {
   EXPECT_EQ(read(length, "1"), "1.0");
   length.word = "auto";
   EXPECT_EQ(read(length, "\"auto\""), "\"auto\"");
-  EXPECT_EQ(read(length, "\"Auto\""), "/option: a length above 0 m and at most 1 m such as \"1 mm\", or \"auto\" (it does not begin with a number)");
+  EXPECT_EQ(read(length, "\"Auto\""),
+            "/option: a length above 0 m and at most 1 m such as \"1 mm\", or \"auto\" (it does "
+            "not begin with a number)");
 }
 
 TEST(Options, Integers) {
@@ -108,14 +112,16 @@ TEST(Options, BooleansTextsChoices) {
   Option choice = make(OptionKind::choice);
   choice.choices = names;
   EXPECT_EQ(read(choice, "\"cubic\""), "\"cubic\"");
-  EXPECT_EQ(read(choice, "\"qubic\""), "/option: one of \"linear\", \"cubic\"; did you mean \"cubic\"?");
+  EXPECT_EQ(read(choice, "\"qubic\""),
+            "/option: one of \"linear\", \"cubic\"; did you mean \"cubic\"?");
   EXPECT_EQ(read(choice, "0"), "/option: one of \"linear\", \"cubic\"");
 }
 
 TEST(Options, Lists) {
   const Option vector = make(OptionKind::vector, "m");
   EXPECT_EQ(read(vector, "[1, \"2 mm\", -3]"), "[1.0,0.002,-3.0]");
-  EXPECT_EQ(read(vector, "[1, 2]"), "/option: a list [x, y, z] of three, each a length such as \"1 mm\"");
+  EXPECT_EQ(read(vector, "[1, 2]"),
+            "/option: a list [x, y, z] of three, each a length such as \"1 mm\"");
   EXPECT_EQ(read(vector, "[1, 2, {}]"), "/option/2: a length such as \"1 mm\"");
   Option numbers = make(OptionKind::numbers, "s");
   numbers.low = 0;
@@ -128,7 +134,8 @@ TEST(Options, Lists) {
 }
 
 TEST(Options, ShapesAndRegions) {
-  EXPECT_EQ(read(make(OptionKind::shape), R"({"sphere": {"radius": "1 mm"}})"), R"({"sphere":{"centre":[0.0,0.0,0.0],"radius":0.001}})");
+  EXPECT_EQ(read(make(OptionKind::shape), R"({"sphere": {"radius": "1 mm"}})"),
+            R"({"sphere":{"centre":[0.0,0.0,0.0],"radius":0.001}})");
   EXPECT_EQ(read(make(OptionKind::region), "\"z_max\""), "\"z_max\"");
   EXPECT_EQ(read(make(OptionKind::region), R"({"union": ["x_min", {"box": {"size": [1, 1, 1]}}]})"),
             R"({"union":["x_min",{"box":{"size":[1.0,1.0,1.0]}}]})");
@@ -138,7 +145,8 @@ TEST(Options, EveryFaultOfAnObjectIsFound) {
   Faults faults;
   std::deque<std::string> texts;
   Regions regions;
-  const Json none = Json::object(), given = Json::parse(R"({"young": "1 s", "poison": 0.1, "law": "qubic"})");
+  const Json none = Json::object(),
+             given = Json::parse(R"({"young": "1 s", "poison": 0.1, "law": "qubic"})");
   RegionReader region_reader(none, regions, faults, texts);
   OptionReader reader(given, "/m", {faults, region_reader, texts});
   Json resolved;
@@ -164,7 +172,8 @@ TEST(Options, ExamplesAreAcceptedByTheirOwnOptions) {
   fakes::Catalogue catalogue;
   for (const Component* component : catalogue.all())
     for (const Option& option : component->info.options)
-      EXPECT_NE(read(option, example_value(option).dump())[0], '/') << component->type() << ' ' << option.name;
+      EXPECT_NE(read(option, example_value(option).dump())[0], '/')
+          << component->type() << ' ' << option.name;
   for (const Primitive& primitive : primitives())
     for (const Option& option : primitive.options.options) {
       if (option.kind == OptionKind::file) continue;  // there is no file that an example could name
@@ -176,9 +185,12 @@ TEST(Pages, SayWhatIsDeclared) {
   fakes::Catalogue catalogue;
   const std::string page = component_page(*catalogue.find("materials.spring"));
   for (const char* part :
-       {"# materials.spring\n\nLinear springs", "f = k s", "| `young` | Pa | above 0 | required | Young's modulus |",
-        "| `poisson` |  | above -1 and at most 0.25 | required |", "| `law` |  | `\"linear\"`, `\"cubic\"` | `\"linear\"` | force by elongation |",
-        "`failure`", "`region`", "## Restrictions\n\npoisson up to 1/4", "## Source\n\nthe paper, eq. (2)", "\"type\":\"materials.spring\""})
+       {"# materials.spring\n\nLinear springs", "f = k s",
+        "| `young` | Pa | above 0 | required | Young's modulus |",
+        "| `poisson` |  | above -1 and at most 0.25 | required |",
+        "| `law` |  | `\"linear\"`, `\"cubic\"` | `\"linear\"` | force by elongation |",
+        "`failure`", "`region`", "## Restrictions\n\npoisson up to 1/4",
+        "## Source\n\nthe paper, eq. (2)", "\"type\":\"materials.spring\""})
     EXPECT_NE(page.find(part), std::string::npos) << part << "\nis not in\n" << page;
   const Json json = Json::parse(component_json(*catalogue.find("solvers.march")));
   EXPECT_EQ(json["type"], "solvers.march");
@@ -196,6 +208,7 @@ TEST(Pages, SchemaIsStrict) {
   for (const Component* component : catalogue.all()) {
     const Json& stage = schema["$defs"][component->type()];
     EXPECT_EQ(stage["additionalProperties"], false);
-    for (const Option& option : component->info.options) EXPECT_TRUE(stage["properties"].contains(std::string(option.name)));
+    for (const Option& option : component->info.options)
+      EXPECT_TRUE(stage["properties"].contains(std::string(option.name)));
   }
 }

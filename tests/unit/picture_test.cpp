@@ -1,4 +1,5 @@
-// Pictures: what stands where, in which colour, in front of what; compared with the geometry of small bodies.
+// Pictures: what stands where, in which colour, in front of what; compared with the geometry of
+// small bodies.
 #include <support/output.hpp>
 
 #include <gtest/gtest.h>
@@ -10,7 +11,9 @@ namespace {
 struct Pixels {
   int width = 0, height = 0;
   std::vector<png_byte> rgb;
-  const png_byte* at(int x, int y) const { return &rgb[3 * static_cast<std::size_t>(y * width + x)]; }
+  const png_byte* at(int x, int y) const {
+    return &rgb[3 * static_cast<std::size_t>(y * width + x)];
+  }
 };
 
 Pixels read_png(const std::string& path) {
@@ -18,8 +21,10 @@ Pixels read_png(const std::string& path) {
   image.version = PNG_IMAGE_VERSION;
   EXPECT_TRUE(png_image_begin_read_from_file(&image, path.c_str())) << image.message;
   image.format = PNG_FORMAT_RGB;
-  Pixels pixels{static_cast<int>(image.width), static_cast<int>(image.height), std::vector<png_byte>(PNG_IMAGE_SIZE(image))};
-  EXPECT_TRUE(png_image_finish_read(&image, nullptr, pixels.rgb.data(), 0, nullptr)) << image.message;
+  Pixels pixels{static_cast<int>(image.width), static_cast<int>(image.height),
+                std::vector<png_byte>(PNG_IMAGE_SIZE(image))};
+  EXPECT_TRUE(png_image_finish_read(&image, nullptr, pixels.rgb.data(), 0, nullptr))
+      << image.message;
   return pixels;
 }
 
@@ -53,7 +58,8 @@ struct Scene {
   Folder folder{"picture"};
 
   explicit Scene(std::array<int, 3> counts) : body(counts) {}
-  Pixels draw(const nlohmann::json& options, const std::function<void(FakeBody&)>& change, double time = 0) {
+  Pixels draw(const nlohmann::json& options, const std::function<void(FakeBody&)>& change,
+              double time = 0) {
     Plugin writer("writers.picture", options);
     writer.begin(body.context(folder.path()));
     const Snapshot snapshot = body.at(time);
@@ -68,7 +74,8 @@ struct Scene {
 
 TEST(Picture, ShowsACubeAsASquareInTheMiddle) {
   Scene scene({1, 1, 1});
-  const Pixels pixels = scene.draw({{"view", {1, 0, 0}}, {"width", 400}, {"height", 300}}, [](FakeBody&) {});
+  const Pixels pixels =
+      scene.draw({{"view", {1, 0, 0}}, {"width", 400}, {"height", 300}}, [](FakeBody&) {});
   ASSERT_EQ(pixels.width, 400);
   ASSERT_EQ(pixels.height, 300);
   const Patch patch = find(pixels, blue);
@@ -83,7 +90,8 @@ TEST(Picture, ShowsACubeAsASquareInTheMiddle) {
 
 TEST(Picture, ShowsASphereAsADisc) {
   Scene scene({1, 1, 1});
-  const Pixels pixels = scene.draw({{"particles", "spheres"}, {"width", 400}, {"height", 400}}, [](FakeBody&) {});
+  const Pixels pixels =
+      scene.draw({{"particles", "spheres"}, {"width", 400}, {"height", 400}}, [](FakeBody&) {});
   const Patch patch = find(pixels, blue);
   EXPECT_NEAR(patch.width(), patch.height(), 3);  // the shaded rim is too dark to count
   const double radius = 0.5 * patch.width();
@@ -92,10 +100,11 @@ TEST(Picture, ShowsASphereAsADisc) {
 
 TEST(Picture, ColoursByFailure) {
   Scene scene({3, 1, 1});  // seen from -y: x points right
-  const Pixels pixels = scene.draw({{"view", {0, -1, 0}}, {"width", 300}, {"height", 300}}, [](FakeBody& body) {
-    body.open = {2, 0, 0};
-    body.closed = {1, 3, 0};  // one open spring outweighs any closed ones
-  });
+  const Pixels pixels =
+      scene.draw({{"view", {0, -1, 0}}, {"width", 300}, {"height", 300}}, [](FakeBody& body) {
+        body.open = {2, 0, 0};
+        body.closed = {1, 3, 0};  // one open spring outweighs any closed ones
+      });
   const Patch r = find(pixels, red), g = find(pixels, green), b = find(pixels, blue);
   EXPECT_GT(r.count, 0);
   EXPECT_NEAR(r.count, g.count, 0.05 * r.count);
@@ -109,9 +118,14 @@ TEST(Picture, NearParticlesHideFarOnes) {
     for (const char* particles : {"cubes", "spheres"}) {
       Scene scene({2, 1, 1});
       const auto from = [&](double x) {
-        return scene.draw({{"view", {x, 0, 0}}, {"camera", camera}, {"particles", particles}, {"width", 200}, {"height", 200}}, [](FakeBody& body) {
-          body.open = {1, 0};
-        });
+        return scene.draw({{"view", {x, 0, 0}},
+                           {"camera", camera},
+                           {"particles", particles},
+                           {"width", 200},
+                           {"height", 200}},
+                          [](FakeBody& body) {
+                            body.open = {1, 0};
+                          });
       };
       EXPECT_EQ(find(from(1), red).count, 0) << camera << particles;
       EXPECT_GT(find(from(1), blue).count, 0) << camera << particles;
@@ -126,12 +140,15 @@ TEST(Picture, ACutShowsTheInside) {
   const nlohmann::json whole{{"width", 200}, {"height", 200}, {"view", {0, -1, 0}}};
   EXPECT_EQ(find(scene.draw(whole, break_the_middle), red).count, 0);
   nlohmann::json cut = whole;
-  cut["cut"] = "some";  // particles 1, 4, 7 ...: a plane across the middle, x = 1.5 mm; the middle particle (13) goes with it
+  cut["cut"] = "some";  // particles 1, 4, 7 ...: a plane across the middle, x = 1.5 mm; the middle
+                        // particle (13) goes with it
   const Pixels open = scene.draw(cut, [](FakeBody& body) { body.open[12] = body.open[14] = 1; });
   const Patch walls = find(open, red);
   EXPECT_EQ(walls.count, 0);  // the walls of the slit are seen edge on
   cut["view"] = {1, -2, 0};
-  EXPECT_GT(find(scene.draw(cut, [](FakeBody& body) { body.open[12] = body.open[9] = 1; }), red).count, 0);
+  EXPECT_GT(
+      find(scene.draw(cut, [](FakeBody& body) { body.open[12] = body.open[9] = 1; }), red).count,
+      0);
 }
 
 TEST(Picture, MagnifiesDisplacements) {
@@ -149,7 +166,10 @@ TEST(Picture, MagnifiesDisplacements) {
                              red);
     return 0.5 * (patch.left + patch.right);
   };
-  const Patch all = find(scene.draw({{"view", {0, -1, 0}}, {"width", 400}, {"height", 400}, {"scale", 0}}, [](FakeBody&) {}), blue);
+  const Patch all =
+      find(scene.draw({{"view", {0, -1, 0}}, {"width", 400}, {"height", 400}, {"scale", 0}},
+                      [](FakeBody&) {}),
+           blue);
   const double spacing = all.width() / 3.0;            // pixels
   const double displacement = 0.1 * 0.5 + 0.01 * 0.5;  // of the middle particle, spacings
   EXPECT_NEAR(centre_of_red(0), 0.5 * (all.left + all.right), 1);
@@ -158,7 +178,9 @@ TEST(Picture, MagnifiesDisplacements) {
 
 TEST(Picture, ColoursByAField) {
   Scene scene({5, 1, 1});  // velocity_x grows along x: dark violet at the left, yellow at the right
-  const Pixels pixels = scene.draw({{"colour_by", "velocity_x"}, {"view", {0, -1, 0}}, {"width", 500}, {"height", 300}}, [](FakeBody&) {});
+  const Pixels pixels = scene.draw(
+      {{"colour_by", "velocity_x"}, {"view", {0, -1, 0}}, {"width", 500}, {"height", 300}},
+      [](FakeBody&) {});
   int row = 0;
   for (int y = 30; y < 250 && row == 0; ++y)
     if (pixels.at(250, y)[0] < 250) row = y + 5;
@@ -179,9 +201,12 @@ TEST(Picture, TellsWhatItShows) {
 }
 
 TEST(Picture, RefusesWhatItCannotDraw) {
-  const auto faults = Plugin("writers.picture", {{"file", ""}, {"view", {0, 0, 0}}, {"range", {2, 1}}}).faults();
-  EXPECT_EQ(faults, (std::vector<std::string>{"file: a name of letters, digits, '_', '-' and '.', without folders, of at most 80 characters",
-                                              "view: a direction that is not zero", "range: two numbers, the smaller first"}));
+  const auto faults =
+      Plugin("writers.picture", {{"file", ""}, {"view", {0, 0, 0}}, {"range", {2, 1}}}).faults();
+  EXPECT_EQ(faults, (std::vector<std::string>{"file: a name of letters, digits, '_', '-' and '.', "
+                                              "without folders, of at most 80 characters",
+                                              "view: a direction that is not zero",
+                                              "range: two numbers, the smaller first"}));
   Scene scene({2, 2, 2});
   const auto message = [&](const nlohmann::json& options) -> std::string {
     try {
@@ -192,16 +217,20 @@ TEST(Picture, RefusesWhatItCannotDraw) {
     return "";
   };
   EXPECT_EQ(message({{"cut", "all"}}), "the cut takes every particle away");
-  EXPECT_EQ(message({{"colour_by", "damage"}}), "this run has no field \"damage\"; it has displacement, velocity, broken_open, broken_closed");
+  EXPECT_EQ(message({{"colour_by", "damage"}}),
+            "this run has no field \"damage\"; it has displacement, velocity, broken_open, "
+            "broken_closed");
   EXPECT_EQ(scene.folder.names(), std::vector<std::string>{});
 }
 
 TEST(Picture, FollowsABodyThatMovesIfAsked) {
   for (const char* fit : {"rest", "frame"}) {
     Scene scene({4, 1, 1});
-    const Pixels pixels = scene.draw({{"view", {0, -1, 0}}, {"fit", fit}, {"width", 300}, {"height", 300}}, [](FakeBody& body) {
-      for (std::size_t n = 0; n < body.displacements.size(); n += 3) body.displacements[n] = 1;  // many times its own length
-    });
+    const Pixels pixels = scene.draw(
+        {{"view", {0, -1, 0}}, {"fit", fit}, {"width", 300}, {"height", 300}}, [](FakeBody& body) {
+          for (std::size_t n = 0; n < body.displacements.size(); n += 3)
+            body.displacements[n] = 1;  // many times its own length
+        });
     EXPECT_EQ(find(pixels, blue).count > 500, std::string(fit) == "frame") << fit;
   }
 }
@@ -209,10 +238,12 @@ TEST(Picture, FollowsABodyThatMovesIfAsked) {
 TEST(Picture, SurvivesParticlesThatFlewAway) {
   Scene scene({3, 3, 3});
   for (const char* camera : {"orthographic", "perspective"})
-    for (const double where : {1e3, -1e3, 1e30, -1e30, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
-      const Pixels pixels = scene.draw({{"camera", camera}, {"width", 100}, {"height", 100}}, [&](FakeBody& body) {
-        for (std::size_t n = 0; n < 3; ++n) body.displacements[n] = where;
-      });
+    for (const double where : {1e3, -1e3, 1e30, -1e30, std::numeric_limits<double>::infinity(),
+                               std::numeric_limits<double>::quiet_NaN()}) {
+      const Pixels pixels =
+          scene.draw({{"camera", camera}, {"width", 100}, {"height", 100}}, [&](FakeBody& body) {
+            for (std::size_t n = 0; n < 3; ++n) body.displacements[n] = where;
+          });
       EXPECT_GT(find(pixels, blue).count, 500) << camera << where;
     }
 }

@@ -1,4 +1,5 @@
-// The plan against what is then really built: bytes to the last one, steps, and what the kernel carries for each choice in a scene.
+// The plan against what is then really built: bytes to the last one, steps, and what the kernel
+// carries for each choice in a scene.
 #include "support/program.hpp"
 
 #include <base/own_files.hpp>
@@ -32,7 +33,8 @@ std::unique_ptr<Plan> plan_of(const nlohmann::json& scene, int threads = 1) {
 }
 
 bool leaves_out(const Plan& plan, const std::string& what) {
-  return std::any_of(plan.left_out.begin(), plan.left_out.end(), [&](const LeftOut& left) { return left.what == what; });
+  return std::any_of(plan.left_out.begin(), plan.left_out.end(),
+                     [&](const LeftOut& left) { return left.what == what; });
 }
 
 TEST(Plan, small_bodies_take_few_threads_unless_a_number_is_asked_for) {
@@ -51,14 +53,21 @@ TEST(Plan, warns_of_loads_that_do_nothing) {
     scene["pipeline"] = {scene["pipeline"][0], scene["pipeline"][1], load, solver};
     const auto plan = plan_of(scene);
     return std::any_of(plan->model->warnings.begin(), plan->model->warnings.end(),
-                       [](const std::string& text) { return text.find("does nothing in this run") != std::string::npos; });
+                       [](const std::string& text) {
+                         return text.find("does nothing in this run") != std::string::npos;
+                       });
   };
   const auto expression = [](const char* text) {
-    return nlohmann::json{{"type", "loads.expression"}, {"on", "outer_surface"}, {"total", {1, 0, 0}}, {"expression", text}};
+    return nlohmann::json{{"type", "loads.expression"},
+                          {"on", "outer_surface"},
+                          {"total", {1, 0, 0}},
+                          {"expression", text}};
   };
-  const nlohmann::json velocity{{"type", "loads.velocity"}, {"on", "outer_surface"}, {"value", {1, 0, 0}}};
+  const nlohmann::json velocity{
+      {"type", "loads.velocity"}, {"on", "outer_surface"}, {"value", {1, 0, 0}}};
   const nlohmann::json held{{"type", "loads.fixed"}, {"on", "outer_surface"}};
-  const nlohmann::json rest{{"type", "solvers.static"}}, later{{"type", "solvers.static"}, {"end_time", "1 us"}};
+  const nlohmann::json rest{{"type", "solvers.static"}},
+      later{{"type", "solvers.static"}, {"end_time", "1 us"}};
   const nlohmann::json steps{{"type", "solvers.explicit"}, {"end_time", "1 us"}};
   EXPECT_TRUE(warned(expression("t / 1e-5"), rest));
   EXPECT_FALSE(warned(expression("t / 1e-5"), later));
@@ -74,7 +83,9 @@ TEST(Plan, bytes_are_those_of_the_state) {
     for (const int threads : {1, 2, 5}) {
       auto scene = small_sphere();
       scene["pipeline"][1]["membrane"] = membrane;
-      scene["pipeline"][1]["poisson"] = std::string(membrane) == "none" ? 0.25 : std::string(membrane) == "III" ? 0.2 : 0.1;
+      scene["pipeline"][1]["poisson"] = std::string(membrane) == "none"  ? 0.25
+                                        : std::string(membrane) == "III" ? 0.2
+                                                                         : 0.1;
       const auto plan = plan_of(scene, threads);
       const Simulation simulation(*plan->model, threads);
       const auto particles = static_cast<double>(plan->model->body.particles);
@@ -104,9 +115,14 @@ TEST(Plan, cells_cost_little_and_whole_particles_nothing) {
       vectors += static_cast<double>(block.weight_sets.size());
       sets.insert(block.weight_sets.begin(), block.weight_sets.end());
     }
-    constexpr double state = 2 * 4 * 8 + 2, set = 10 * 8 * 8;  // bytes of a site; of the shares of particles and nine springs in a vector
-    EXPECT_DOUBLE_EQ(cells->bytes_per_particle * particles, state * sites + 4 * vectors + set * static_cast<double>(sets.size()));
-    EXPECT_LT(static_cast<double>(sets.size()), vectors);  // vectors share them, even in a ball that is nearly all surface
+    constexpr double
+        state = 2 * 4 * 8 + 2,
+        set =
+            10 * 8 * 8;  // bytes of a site; of the shares of particles and nine springs in a vector
+    EXPECT_DOUBLE_EQ(cells->bytes_per_particle * particles,
+                     state * sites + 4 * vectors + set * static_cast<double>(sets.size()));
+    EXPECT_LT(static_cast<double>(sets.size()),
+              vectors);  // vectors share them, even in a ball that is nearly all surface
   }
 }
 
@@ -137,22 +153,25 @@ TEST(Plan, counts_the_files_of_an_earlier_run_as_free_disk_and_no_others) {
   const test::Folder folder("shortage");
   std::ofstream(folder.file("history.csv")).close();
   std::filesystem::resize_file(folder.file("history.csv"), 1'000'000'000'000);  // takes no disk
-  plan->output_bytes = 1.5 * (disk_room(folder.path()).bytes + 5e11);           // a third of it may not come
+  plan->output_bytes = 1.5 * (disk_room(folder.path()).bytes + 5e11);  // a third of it may not come
   const auto found = shortages(*plan, folder.path());
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NE(found[0].find("too little disk"), std::string::npos) << found[0];
-  std::ofstream(folder.file(own_files_list)) << own_file_line("history.csv", {}) << own_file_line("removed.csv", {});
+  std::ofstream(folder.file(own_files_list))
+      << own_file_line("history.csv", {}) << own_file_line("removed.csv", {});
   EXPECT_TRUE(shortages(*plan, folder.path()).empty());
 }
 
-/// A body of a few thousand particles whose particles all move, shown at its start and end, and at rest between them if it finds that.
+/// A body of a few thousand particles whose particles all move, shown at its start and end, and at
+/// rest between them if it finds that.
 nlohmann::json moved_box(const nlohmann::json& lattice, bool first_to_rest) {
   nlohmann::json scene;
   scene["format"] = "hyperlattice/1";
-  scene["pipeline"] = {lattice,
-                       {{"type", "materials.elastic"}, {"young", "10 GPa"}, {"poisson", 0.2}, {"density", 2500}},
-                       {{"type", "loads.fixed"}, {"on", "z_min"}},
-                       {{"type", "loads.force"}, {"on", "z_max"}, {"total", {1, 0, 10}}}};
+  scene["pipeline"] = {
+      lattice,
+      {{"type", "materials.elastic"}, {"young", "10 GPa"}, {"poisson", 0.2}, {"density", 2500}},
+      {{"type", "loads.fixed"}, {"on", "z_min"}},
+      {{"type", "loads.force"}, {"on", "z_max"}, {"total", {1, 0, 10}}}};
   scene["pipeline"][1]["membrane"] = lattice["type"] == "lattices.random" ? "I" : "I-m";
   if (first_to_rest) scene["pipeline"].push_back({{"type", "solvers.static"}});
   scene["pipeline"].push_back({{"type", "solvers.explicit"}, {"end_time", "10 us"}});
@@ -160,11 +179,14 @@ nlohmann::json moved_box(const nlohmann::json& lattice, bool first_to_rest) {
 }
 
 nlohmann::json box(const char* lattice, const char* width, const char* height) {
-  return {{"type", lattice}, {"spacing", "1 mm"}, {"shape", {{"box", {{"low", {0, 0, 0}}, {"high", {width, width, height}}}}}}};
+  return {{"type", lattice},
+          {"spacing", "1 mm"},
+          {"shape", {{"box", {{"low", {0, 0, 0}}, {"high", {width, width, height}}}}}}};
 }
 
 /// Runs the scene with one writer more, and compares what it leaves with what its plan said.
-void compare_output(nlohmann::json scene, const char* writer, const char* every, std::size_t frames) {
+void compare_output(nlohmann::json scene, const char* writer, const char* every,
+                    std::size_t frames) {
   scene["pipeline"].push_back({{"type", writer}, {"every", every}});
   const auto plan = plan_of(scene);
   const test::Folder folder("planned_output");
@@ -176,7 +198,9 @@ void compare_output(nlohmann::json scene, const char* writer, const char* every,
     if (!entry.is_regular_file()) continue;
     const auto size = static_cast<double>(entry.file_size());
     bytes += size;
-    if (!entry.path().filename().string().starts_with("frames_0") || entry.path().extension() != ending) continue;
+    if (!entry.path().filename().string().starts_with("frames_0") ||
+        entry.path().extension() != ending)
+      continue;
     ++shown;
     largest = std::max(largest, size);
   }
@@ -190,7 +214,8 @@ void compare_output(nlohmann::json scene, const char* writer, const char* every,
 }
 
 TEST(Plan, says_about_how_many_bytes_a_run_writes) {
-  const auto large = box("lattices.cubic", "20 mm", "25 mm"), list = box("lattices.random", "8 mm", "12 mm");  // more than a trial shows, and fewer
+  const auto large = box("lattices.cubic", "20 mm", "25 mm"),
+             list = box("lattices.random", "8 mm", "12 mm");  // more than a trial shows, and fewer
   for (const char* writer : {"writers.csv", "writers.vtu"}) {
     SCOPED_TRACE(writer);
     compare_output(small_sphere(), writer, "0.5 us", 21);
@@ -206,8 +231,9 @@ TEST(Plan, says_how_many_bytes_a_frame_of_a_region_has) {
   const auto all = plan_of(scene);
   scene["pipeline"].back()["region"] = "z_max";
   const auto layer = plan_of(scene);
-  EXPECT_NEAR(frame_bytes(*layer, *layer->scene->of(Family::writers).front()) / frame_bytes(*all, *all->scene->of(Family::writers).front()), 0.04,
-              0.004);
+  EXPECT_NEAR(frame_bytes(*layer, *layer->scene->of(Family::writers).front()) /
+                  frame_bytes(*all, *all->scene->of(Family::writers).front()),
+              0.04, 0.004);
 }
 
 // On a machine as it is at the time, so that no figure can be expected.
@@ -254,7 +280,8 @@ TEST(Plan, steps_are_safe_and_land_on_the_end) {
   scene["pipeline"][3]["damping"] = 0.8;
   const auto plan = plan_of(scene);
   const SolverPlan& solver = plan->stages.at(0).plan;
-  EXPECT_NEAR(solver.stable_time_step, plan->model->critical_time_step / std::sqrt(1.8), 1e-9 * solver.stable_time_step);
+  EXPECT_NEAR(solver.stable_time_step, plan->model->critical_time_step / std::sqrt(1.8),
+              1e-9 * solver.stable_time_step);
   EXPECT_LE(solver.time_step, 0.9 * solver.stable_time_step * (1 + 1e-12));
   EXPECT_GE(static_cast<double>(solver.steps) * solver.time_step, 10e-6 * (1 - 1e-9));
   EXPECT_EQ(plan->end_time(), 10e-6);
@@ -266,8 +293,10 @@ TEST(Plan, refuses_floats_where_they_would_not_know_the_strain) {
     auto scene = small_sphere();
     const double spacing = plan_of(scene)->model->body.grid.spacing, end = 10e-6;
     scene["precision"] = "float";
-    if (limit_strain > 0) scene["pipeline"][1]["failure"] = {{"type", "failures.strain"}, {"limit", limit_strain}};
-    const nlohmann::json flight = {{"type", "loads.start_velocity"}, {"linear", {way_in_spacings * spacing / end, 0, 0}}};
+    if (limit_strain > 0)
+      scene["pipeline"][1]["failure"] = {{"type", "failures.strain"}, {"limit", limit_strain}};
+    const nlohmann::json flight = {{"type", "loads.start_velocity"},
+                                   {"linear", {way_in_spacings * spacing / end, 0, 0}}};
     scene["pipeline"].insert(scene["pipeline"].begin() + 3, flight);
     try {
       plan_of(scene);
@@ -314,7 +343,8 @@ TEST(Plan, warns_of_floats_that_have_become_coarse) {
   const auto plan = plan_of(scene);
   const double spacing = plan->model->body.grid.spacing, far = 1e-6 * spacing * std::ldexp(1, 24);
   EXPECT_EQ(precision_warning(*plan->model, 0.99 * far), "");
-  EXPECT_NE(precision_warning(*plan->model, 1.01 * far).find("floats are coarse"), std::string::npos);
+  EXPECT_NE(precision_warning(*plan->model, 1.01 * far).find("floats are coarse"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Probes: which particles they take, what the columns say, and that the numbers are those of the known motion.
+// Probes: which particles they take, what the columns say, and that the numbers are those of the
+// known motion.
 #include <support/output.hpp>
 
 #include <gtest/gtest.h>
@@ -19,7 +20,8 @@ TEST(PointProbe, TakesTheNearestParticleAndSaysWhere) {
   FakeBody body({4, 4, 4});
   Plugin probe("probes.point", {{"position", {1.9e-3, 0.1e-3, 3.6e-3}}});
   const auto columns = probe.begin_probe(body.context("."), body.at(0));
-  EXPECT_EQ(columns, (std::vector<std::string>{"displacement_x@(0.0015 0.0005 0.0035)", "displacement_y@(0.0015 0.0005 0.0035)",
+  EXPECT_EQ(columns, (std::vector<std::string>{"displacement_x@(0.0015 0.0005 0.0035)",
+                                               "displacement_y@(0.0015 0.0005 0.0035)",
                                                "displacement_z@(0.0015 0.0005 0.0035)"}));
   const double t = 0.5, l = 1e-3;
   const auto row = probe.sample(body.at(t), 3);
@@ -32,7 +34,10 @@ TEST(PointProbe, GivesComponents) {
   FakeBody body({4, 4, 4});
   const std::vector<double> place{1.5e-3, 0.5e-3, 3.5e-3};
   const auto value = [&](const std::string& component, const std::string& column) {
-    Plugin probe("probes.point", {{"position", place}, {"field", "velocity"}, {"component", component}, {"centre", {0.0, 0.0, 1e-3}}});
+    Plugin probe("probes.point", {{"position", place},
+                                  {"field", "velocity"},
+                                  {"component", component},
+                                  {"centre", {0.0, 0.0, 1e-3}}});
     const auto columns = probe.begin_probe(body.context("."), body.at(0));
     EXPECT_EQ(columns, std::vector<std::string>{column + "@(0.0015 0.0005 0.0035)"});
     return probe.sample(body.at(0), 1)[0];
@@ -40,32 +45,44 @@ TEST(PointProbe, GivesComponents) {
   const double x = 0.5e-3, y = -0.5e-3, z = 2.5e-3;  // velocity at time 0
   EXPECT_DOUBLE_EQ(value("y", "velocity_y"), y);
   EXPECT_DOUBLE_EQ(value("magnitude", "velocity_magnitude"), std::sqrt(x * x + y * y + z * z));
-  EXPECT_DOUBLE_EQ(value("radial", "velocity_radial"), (x * 1.5 + y * 0.5 + z * 2.5) / std::sqrt(1.5 * 1.5 + 0.5 * 0.5 + 2.5 * 2.5));
+  EXPECT_DOUBLE_EQ(value("radial", "velocity_radial"),
+                   (x * 1.5 + y * 0.5 + z * 2.5) / std::sqrt(1.5 * 1.5 + 0.5 * 0.5 + 2.5 * 2.5));
 }
 
 TEST(PointProbe, RefusesWhatItCannotGive) {
   FakeBody body({4, 4, 4});
   Plugin away("probes.point", {{"position", {0.0, 0.0, 9e-3}}});
-  EXPECT_EQ(refusal(away, body), "no particle is near (0 0 0.009); the nearest stands at (0.0005 0.0005 0.0035) (metres)");
+  EXPECT_EQ(
+      refusal(away, body),
+      "no particle is near (0 0 0.009); the nearest stands at (0.0005 0.0005 0.0035) (metres)");
   Plugin missing("probes.point", {{"position", {0.0, 0.0, 0.0}}, {"field", "height"}});
-  EXPECT_EQ(refusal(missing, body), "this run has no field \"height\"; it has displacement, velocity, broken_open, broken_closed");
-  const auto faults = Plugin("probes.point", {{"position", {0.0, 0.0, 0.0}}, {"field", "damage"}, {"component", "x"}}).faults();
-  EXPECT_EQ(faults, std::vector<std::string>{"component: no component, because \"damage\" is a single number"});
+  EXPECT_EQ(refusal(missing, body),
+            "this run has no field \"height\"; it has displacement, velocity, broken_open, "
+            "broken_closed");
+  const auto faults =
+      Plugin("probes.point",
+             {{"position", {0.0, 0.0, 0.0}}, {"field", "damage"}, {"component", "x"}})
+          .faults();
+  EXPECT_EQ(faults, std::vector<std::string>{
+                        "component: no component, because \"damage\" is a single number"});
 }
 
 TEST(LineProbe, GivesEachParticleOnceAndNoneInTheOpen) {
   FakeBody body({6, 2, 2});
   // From inside to 4 mm beyond the end; many more points than particles.
-  Plugin probe(
-      "probes.line",
-      {{"start", {0.5e-3, 0.6e-3, 0.6e-3}}, {"end", {10.5e-3, 0.6e-3, 0.6e-3}}, {"points", 101}, {"component", "x"}, {"between", "nearest"}});
+  Plugin probe("probes.line", {{"start", {0.5e-3, 0.6e-3, 0.6e-3}},
+                               {"end", {10.5e-3, 0.6e-3, 0.6e-3}},
+                               {"points", 101},
+                               {"component", "x"},
+                               {"between", "nearest"}});
   const auto columns = probe.begin_probe(body.context("."), body.at(0));
   ASSERT_EQ(columns.size(), 6u);
   EXPECT_EQ(columns[0], "displacement_x@(0.0005 0.0005 0.0005)");
   EXPECT_EQ(columns[5], "displacement_x@(0.0055 0.0005 0.0005)");
   const double t = 0.25, l = 1e-3;
   const auto row = probe.sample(body.at(t), 6);
-  for (std::size_t n = 0; n < 6; ++n) EXPECT_DOUBLE_EQ(row[n], t * ((static_cast<double>(n) + 0.5) * l - l) + t * t * 0.5 * l);
+  for (std::size_t n = 0; n < 6; ++n)
+    EXPECT_DOUBLE_EQ(row[n], t * ((static_cast<double>(n) + 0.5) * l - l) + t * t * 0.5 * l);
 }
 
 /// Offsets all particles of a body, each by its own vector of up to a quarter of the spacing.
@@ -77,7 +94,8 @@ void shake(FakeBody& body, double spacing) {
   }
 }
 
-// The body's motion is affine: whatever the line, inside or up to a spacing beyond the surface, on a lattice or not, the values are exact.
+// The body's motion is affine: whatever the line, inside or up to a spacing beyond the surface, on
+// a lattice or not, the values are exact.
 TEST(LineProbe, InterpolatesAffineFieldsExactly) {
   constexpr double l = 1e-3, t = 0.25;
   for (const bool shaken : {false, true})
@@ -85,7 +103,9 @@ TEST(LineProbe, InterpolatesAffineFieldsExactly) {
       FakeBody body(counts, l);
       if (shaken) shake(body, l);
       const Vec3 start{-0.2 * l, 0.3 * l, 0.7 * l}, end{6.1 * l, 1.9 * l, 1.4 * l};
-      Plugin probe("probes.line", {{"start", {start.x, start.y, start.z}}, {"end", {end.x, end.y, end.z}}, {"points", 41}});
+      Plugin probe(
+          "probes.line",
+          {{"start", {start.x, start.y, start.z}}, {"end", {end.x, end.y, end.z}}, {"points", 41}});
       ASSERT_EQ(probe.begin_probe(body.context("."), body.at(0)).size(), 3 * 41u);
       const auto row = probe.sample(body.at(t), 3 * 41);
       for (std::size_t n = 0; n < 41; ++n) {
@@ -101,10 +121,14 @@ TEST(LineProbe, InterpolatesAffineFieldsExactly) {
 TEST(LineProbe, BesideARowItIsTheRowsOwn) {
   constexpr double l = 1e-3, t = 0.5;
   FakeBody body({8, 1, 1}, l);
-  Plugin probe("probes.line", {{"start", {l, 0.9 * l, l}}, {"end", {6 * l, 0.9 * l, l}}, {"points", 11}, {"component", "x"}});
+  Plugin probe("probes.line", {{"start", {l, 0.9 * l, l}},
+                               {"end", {6 * l, 0.9 * l, l}},
+                               {"points", 11},
+                               {"component", "x"}});
   ASSERT_EQ(probe.begin_probe(body.context("."), body.at(0)).size(), 11u);
   const auto row = probe.sample(body.at(t), 11);
-  for (std::size_t n = 0; n < 11; ++n) EXPECT_NEAR(row[n], t * (0.5 * static_cast<double>(n)) * l + t * t * 0.5 * l, 1e-12 * l);
+  for (std::size_t n = 0; n < 11; ++n)
+    EXPECT_NEAR(row[n], t * (0.5 * static_cast<double>(n)) * l + t * t * 0.5 * l, 1e-12 * l);
 }
 
 // Curved fields: of second order in the spacing, and at a particle its own value.
@@ -113,16 +137,22 @@ TEST(LineProbe, InterpolatesCurvedFieldsToSecondOrder) {
     const double l = 6e-3 / across;
     FakeBody body({across, across, across}, l);
     const std::vector<double> start{0.1e-3, 0.2e-3, 0.3e-3}, end{5.9e-3, 5.5e-3, 5.7e-3};
-    Plugin probe("probes.line", {{"start", start}, {"end", end}, {"points", 31}, {"component", "x"}});
+    Plugin probe("probes.line",
+                 {{"start", start}, {"end", end}, {"points", 31}, {"component", "x"}});
     probe.begin_probe(body.context("."), body.at(0));
-    const auto curved = [](double x, double y, double z) { return std::sin(500 * x) * std::cos(300 * y) + 300 * z; };
+    const auto curved = [](double x, double y, double z) {
+      return std::sin(500 * x) * std::cos(300 * y) + 300 * z;
+    };
     const Snapshot snapshot = body.at(0);
     for (std::size_t p = 0; p < body.positions().size(); p += 3)
-      body.displacements[p] = curved(body.positions()[p], body.positions()[p + 1], body.positions()[p + 2]);
+      body.displacements[p] =
+          curved(body.positions()[p], body.positions()[p + 1], body.positions()[p + 2]);
     const auto row = probe.sample(snapshot, 31);
     double worst = 0;
     for (std::size_t n = 0; n < 31; ++n) {
-      const auto at = [&](std::size_t axis) { return start[axis] + static_cast<double>(n) / 30 * (end[axis] - start[axis]); };
+      const auto at = [&](std::size_t axis) {
+        return start[axis] + static_cast<double>(n) / 30 * (end[axis] - start[axis]);
+      };
       worst = std::max(worst, std::abs(row[n] - curved(at(0), at(1), at(2))));
     }
     return worst;
@@ -138,23 +168,27 @@ TEST(LineProbe, RefusesALineOfNoLengthOrOutside) {
             std::vector<std::string>{"end: a point other than \"start\""});
   FakeBody body({2, 2, 2});
   Plugin outside("probes.line", {{"start", {1.0, 0.0, 0.0}}, {"end", {2.0, 0.0, 0.0}}});
-  EXPECT_EQ(refusal(outside, body), "no particle is near the line from (1 0 0) to (2 0 0) (metres)");
+  EXPECT_EQ(refusal(outside, body),
+            "no particle is near the line from (1 0 0) to (2 0 0) (metres)");
 }
 
 TEST(RegionProbe, GivesMeanAndExtremes) {
   FakeBody body({4, 3, 2});
   Plugin probe("probes.region", {{"region", "some"}, {"field", "broken_open"}});
-  EXPECT_EQ(probe.begin_probe(body.context("."), body.at(0)), (std::vector<std::string>{"broken_open_mean", "broken_open_min", "broken_open_max"}));
+  EXPECT_EQ(probe.begin_probe(body.context("."), body.at(0)),
+            (std::vector<std::string>{"broken_open_mean", "broken_open_min", "broken_open_max"}));
   // particles 1, 4, 7, 10, 13, 16, 19, 22; only 10 is broken: 1 + 10 % 3 = 2 springs
   EXPECT_EQ(probe.sample(body.at(1), 3), (std::vector<double>{0.25, 0, 2}));
 }
 
 TEST(RegionProbe, KnowsUniformExpansion) {
-  // u = t (x - c) + t^2 (y, z, x) is radial about c to first order in t; by its corners the block is symmetric.
+  // u = t (x - c) + t^2 (y, z, x) is radial about c to first order in t; by its corners the block
+  // is symmetric.
   FakeBody body({2, 2, 2});
   Plugin probe("probes.region", {{"component", "radial"}, {"centre", {1e-3, 1e-3, 1e-3}}});
   EXPECT_EQ(probe.begin_probe(body.context("."), body.at(0)),
-            (std::vector<std::string>{"displacement_radial_mean", "displacement_radial_min", "displacement_radial_max", "radius"}));
+            (std::vector<std::string>{"displacement_radial_mean", "displacement_radial_min",
+                                      "displacement_radial_max", "radius"}));
   const double t = 1e-9, radius = std::sqrt(0.75) * 1e-3;
   const auto row = probe.sample(body.at(t), 4);
   for (std::size_t n = 0; n < 3; ++n) EXPECT_NEAR(row[n], t * radius, 1e-8 * t * radius);

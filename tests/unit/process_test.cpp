@@ -37,12 +37,14 @@ TEST_F(FakeRoot, AGroupOfVersion2LimitsMemoryLessWhatTheKernelCanTakeBack) {
   write("proc/meminfo", "MemTotal:       8000000 kB\nMemAvailable:   7000000 kB\n");
   write("sys/fs/cgroup/jobs/one/memory.max", "600000000\n");
   write("sys/fs/cgroup/jobs/one/memory.current", "250000000\n");
-  write("sys/fs/cgroup/jobs/one/memory.stat", "anon 100\ninactive_file 100000000\nactive_file 30000000\nslab_reclaimable 20000000\n");
+  write("sys/fs/cgroup/jobs/one/memory.stat",
+        "anon 100\ninactive_file 100000000\nactive_file 30000000\nslab_reclaimable 20000000\n");
   write("sys/fs/cgroup/jobs/memory.max", "max\n");
   write("sys/fs/cgroup/jobs/memory.current", "900000000\n");
   const Room room = memory_room(root());
   EXPECT_EQ(room.bytes, 500e6);
-  EXPECT_NE(room.bound.find("jobs/one is 600 MB, 100 MB of it in use"), std::string::npos) << room.bound;
+  EXPECT_NE(room.bound.find("jobs/one is 600 MB, 100 MB of it in use"), std::string::npos)
+      << room.bound;
 
   write("sys/fs/cgroup/jobs/memory.max", "1000000000\n");  // the group above has less left
   EXPECT_EQ(memory_room(root()).bytes, 100e6);
@@ -50,9 +52,11 @@ TEST_F(FakeRoot, AGroupOfVersion2LimitsMemoryLessWhatTheKernelCanTakeBack) {
 
 TEST_F(FakeRoot, AGroupOfVersion1LimitsMemoryAlsoFromWithinAContainer) {
   write("proc/self/cgroup", "5:cpu,cpuacct:/docker/1\n4:memory:/docker/1\n0::/\n");
-  write("sys/fs/cgroup/memory/memory.limit_in_bytes", "300000000\n");  // the group's files are at the mount
+  write("sys/fs/cgroup/memory/memory.limit_in_bytes",
+        "300000000\n");  // the group's files are at the mount
   write("sys/fs/cgroup/memory/memory.usage_in_bytes", "120000000\n");
-  write("sys/fs/cgroup/memory/memory.stat", "cache 5\ntotal_inactive_file 20000000\ntotal_active_file 0\n");
+  write("sys/fs/cgroup/memory/memory.stat",
+        "cache 5\ntotal_inactive_file 20000000\ntotal_active_file 0\n");
   EXPECT_EQ(memory_room(root()).bytes, 200e6);
 }
 
@@ -80,7 +84,8 @@ TEST(Team, SharesAllWorkOnce) {
     EXPECT_EQ(team.count(), threads);
     for (const std::size_t size : {0U, 1U, 2U, 5U, 1000U}) {
       std::vector<int> count(size, 0);
-      for (int round = 0; round < 2000; ++round) team.for_each(size, [&](std::size_t n) { ++count[n]; });
+      for (int round = 0; round < 2000; ++round)
+        team.for_each(size, [&](std::size_t n) { ++count[n]; });
       EXPECT_EQ(count, std::vector<int>(size, 2000));
     }
   }
@@ -112,8 +117,10 @@ TEST(Team, WaitsForNoThreadThatHasBegunNothing) {
   std::atomic<bool> all = false;
   std::atomic<int> count = 0;
   team.for_each(4, [&](std::size_t n) {
-    if (n == 2)  // the second thread's range begins here: one thread is held until the other has done the rest
-      for (int look = 0; !all && look < 10'000; ++look) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    if (n == 2)  // the second thread's range begins here: one thread is held until the other has
+                 // done the rest
+      for (int look = 0; !all && look < 10'000; ++look)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
     if (++count == 3) all = true;
   });
   EXPECT_TRUE(all);

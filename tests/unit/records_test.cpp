@@ -46,7 +46,8 @@ class Records : public testing::Test {
     }
   }
 
-  std::string folder = testing::TempDir() + "/hyperlattice_records_" + std::to_string(::getpid()), path = folder + "/records";
+  std::string folder = testing::TempDir() + "/hyperlattice_records_" + std::to_string(::getpid()),
+              path = folder + "/records";
 };
 
 /// Where each record begins, and the end.
@@ -90,7 +91,9 @@ TEST_F(Records, AnyChangeIsFound) {
     EXPECT_FALSE(is_whole(changed));
     EXPECT_FALSE(is_whole(bytes.substr(0, n % 2 == 0 ? below(64) : below(bytes.size()))));
   }
-  const auto record = [&](const std::string& from, std::size_t n) { return from.substr(starts[n], starts[n + 1] - starts[n]); };
+  const auto record = [&](const std::string& from, std::size_t n) {
+    return from.substr(starts[n], starts[n + 1] - starts[n]);
+  };
   for (std::size_t a = 0; a + 1 < starts.size(); ++a) {
     for (std::size_t b = 0; b + 1 < starts.size(); ++b) {
       std::string swapped = bytes.substr(0, 16), twice = swapped;
@@ -104,7 +107,8 @@ TEST_F(Records, AnyChangeIsFound) {
     std::string gone = bytes, foreign = bytes, resized = bytes;
     gone.erase(starts[a], starts[a + 1] - starts[a]);
     EXPECT_FALSE(is_whole(gone));
-    EXPECT_FALSE(is_whole(foreign.replace(starts[a], starts[a + 1] - starts[a], record(other, a)))) << "of another file, though all else agrees";
+    EXPECT_FALSE(is_whole(foreign.replace(starts[a], starts[a + 1] - starts[a], record(other, a))))
+        << "of another file, though all else agrees";
     const std::uint32_t size = static_cast<std::uint32_t>(random());
     std::memcpy(&resized[starts[a] + 4], &size, sizeof size);
     EXPECT_FALSE(is_whole(resized));

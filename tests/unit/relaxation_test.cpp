@@ -1,4 +1,5 @@
-// The relaxation solver keeps to the stable step, ends at the loads' last corner, stops when the residual is small, and says so when it never is.
+// The relaxation solver keeps to the stable step, ends at the loads' last corner, stops when the
+// residual is small, and says so when it never is.
 #include "../../plugins/solvers/relaxation/relaxation.cpp"
 
 #include <gtest/gtest.h>
@@ -9,7 +10,8 @@ using namespace hyperlattice;
 
 namespace {
 
-/// A host whose residual falls by a tenth with each measurement, and whose kinetic energy has a peak every twelfth step.
+/// A host whose residual falls by a tenth with each measurement, and whose kinetic energy has a
+/// peak every twelfth step.
 struct Host {
   std::uint64_t steps = 0, halts = 0, measurements = 0;
   std::vector<double> rates;
@@ -19,19 +21,24 @@ struct Host {
 
   Host() {
     host.self = this;
-    host.take_step = [](void* self, double) noexcept { return ++static_cast<Host*>(self)->steps > 0; };
+    host.take_step = [](void* self, double) noexcept {
+      return ++static_cast<Host*>(self)->steps > 0;
+    };
     host.show = [](void*) noexcept { return true; };
     host.stop_motion = [](void* self) noexcept { return ++static_cast<Host*>(self)->halts > 0; };
     host.measure_rest = [](void* self, RestReport* report, double* kinetic) noexcept {
       Host& h = *static_cast<Host*>(self);
-      if (kinetic != nullptr) *kinetic = h.steps % 12 == 0 ? 0.5 : 1 + static_cast<double>(h.steps % 12);
+      if (kinetic != nullptr)
+        *kinetic = h.steps % 12 == 0 ? 0.5 : 1 + static_cast<double>(h.steps % 12);
       if (report == nullptr) return true;
       ++h.measurements;
       report->residual = h.residual *= h.reduction;
       if (h.measurements > 2) report->displacement_error = h.error_over_residual * h.residual;
       return true;
     };
-    host.set_damping_rate = [](void* self, double rate) noexcept { static_cast<Host*>(self)->rates.push_back(rate); };
+    host.set_damping_rate = [](void* self, double rate) noexcept {
+      static_cast<Host*>(self)->rates.push_back(rate);
+    };
     host.show_rest = [](void* self, const RestReport& report) noexcept {
       static_cast<Host*>(self)->last = report;
       return true;
@@ -74,7 +81,8 @@ TEST(Relaxation, AcceleratedRestartsWhereTheKineticEnergyFalls) {
   o.time_step = 0.5;
   Relaxation(o).run({0, 1, {}, 10}, host.host);
   ASSERT_EQ(host.rates.size(), host.steps);
-  for (std::size_t n = 0; n < host.rates.size(); ++n) EXPECT_DOUBLE_EQ(host.rates[n], 6 / ((2 * static_cast<double>(n % 12) + 3) * 0.5)) << n;
+  for (std::size_t n = 0; n < host.rates.size(); ++n)
+    EXPECT_DOUBLE_EQ(host.rates[n], 6 / ((2 * static_cast<double>(n % 12) + 3) * 0.5)) << n;
 }
 
 TEST(Relaxation, ABodyThatNeverRestsIsAFailure) {

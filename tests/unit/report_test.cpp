@@ -1,4 +1,5 @@
-// What a report is made of: ticks, thinned curves, texts of numbers, tables cut off, pictures' texts, differences of scenes.
+// What a report is made of: ticks, thinned curves, texts of numbers, tables cut off, pictures'
+// texts, differences of scenes.
 #include <base/errors.hpp>
 #include <base/figures.hpp>
 #include <base/gnuplot.hpp>
@@ -38,7 +39,8 @@ TEST(Gnuplot, IsEndedWhereItHangs) {
     draw_svg(file, "pause 100", 100, 100, std::chrono::milliseconds(200));
     FAIL() << "it did not hang";
   } catch (const OutsideError& error) {
-    EXPECT_EQ(std::string(error.what()), file.string() + ": cannot draw it: gnuplot took longer than 0.2 s, and was ended");
+    EXPECT_EQ(std::string(error.what()),
+              file.string() + ": cannot draw it: gnuplot took longer than 0.2 s, and was ended");
   }
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(50));
   EXPECT_FALSE(std::filesystem::exists(file));
@@ -90,7 +92,8 @@ TEST(Thinning, KeepsPeaksEndsAndGaps) {
   const auto kept = thinned(x, y, 500);
   EXPECT_LE(kept.size(), 500u * 5);
   EXPECT_TRUE(std::is_sorted(kept.begin(), kept.end()));
-  for (const std::size_t n : {std::size_t{0}, std::size_t{33333}, std::size_t{33334}, std::size_t{77777}, x.size() - 1})
+  for (const std::size_t n :
+       {std::size_t{0}, std::size_t{33333}, std::size_t{33334}, std::size_t{77777}, x.size() - 1})
     EXPECT_TRUE(std::binary_search(kept.begin(), kept.end(), n)) << n;
 }
 
@@ -121,7 +124,8 @@ TEST(Figures, BearPrefixes) {
 }
 
 TEST(Html, IsEscaped) {
-  EXPECT_EQ(escaped("<a href=\"x\">Tom & 'Jerry'</a>"), "&lt;a href=&quot;x&quot;&gt;Tom &amp; &#39;Jerry&#39;&lt;/a&gt;");
+  EXPECT_EQ(escaped("<a href=\"x\">Tom & 'Jerry'</a>"),
+            "&lt;a href=&quot;x&quot;&gt;Tom &amp; &#39;Jerry&#39;&lt;/a&gt;");
   EXPECT_EQ(escaped("nu = 1/4, \xCE\xBC"), "nu = 1/4, \xCE\xBC");
   EXPECT_EQ(escaped(std::string("a\0b\x1b", 4)),
             "a\xEF\xBF\xBD"
@@ -131,7 +135,9 @@ TEST(Html, IsEscaped) {
 
 TEST(Html, EncodesBytesAsTheStandardDoes) {  // the examples of RFC 4648, section 10
   const char* expected[] = {"", "Zg==", "Zm8=", "Zm9v", "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy"};
-  for (std::size_t n = 0; n <= 6; ++n) EXPECT_EQ(data_uri("a/b", std::string("foobar").substr(0, n)), std::string("data:a/b;base64,") + expected[n]);
+  for (std::size_t n = 0; n <= 6; ++n)
+    EXPECT_EQ(data_uri("a/b", std::string("foobar").substr(0, n)),
+              std::string("data:a/b;base64,") + expected[n]);
   EXPECT_EQ(data_uri("a/b", "\xFF\xFE\xFD"), "data:a/b;base64,//79");
 }
 
@@ -152,10 +158,13 @@ TEST(ReadColumns, TellTheFirstLineThatIsWrong) {
   const auto complaint = [](std::string_view text) {
     Faults faults;
     read_columns("h.csv", text, faults);
-    return faults.size() == 1 ? InputError(faults.all()).what() : std::string(faults.empty() ? "none" : "many");
+    return faults.size() == 1 ? InputError(faults.all()).what()
+                              : std::string(faults.empty() ? "none" : "many");
   };
-  EXPECT_EQ(complaint("time,a\n0,1\n1\n2\n"), "h.csv line 3: 1 cells: expected 2, as in the first line");
-  EXPECT_EQ(complaint("time,a\n0,x\ny,1\n"), "h.csv line 2: \"x\": expected a number in column \"a\"");
+  EXPECT_EQ(complaint("time,a\n0,1\n1\n2\n"),
+            "h.csv line 3: 1 cells: expected 2, as in the first line");
+  EXPECT_EQ(complaint("time,a\n0,x\ny,1\n"),
+            "h.csv line 2: \"x\": expected a number in column \"a\"");
   EXPECT_EQ(complaint(""), "h.csv: expected a table whose first line names its columns");
   EXPECT_EQ(complaint("tim"), "h.csv: expected a table whose first line names its columns");
 }
@@ -176,11 +185,13 @@ TEST(Pictures, SayWhatTheyShow) {
   EXPECT_EQ(found[0].first, "Time");
   EXPECT_EQ(found[0].second, "1e-5 ");
   EXPECT_TRUE(png_texts("no picture").empty());
-  EXPECT_TRUE(png_texts(head + "\xff\xff\xff\xff"s + "tEXtTime\0"s).empty()) << "longer than the file";
+  EXPECT_TRUE(png_texts(head + "\xff\xff\xff\xff"s + "tEXtTime\0"s).empty())
+      << "longer than the file";
 }
 
 TEST(Differences, AreTheInnermostPlaces) {
-  const Json a = Json::parse(R"({"title": "a", "pipeline": [{"type": "x", "n": 1, "at": [0, 0, 1]}, {"type": "y", "n": 1}]})");
+  const Json a = Json::parse(
+      R"({"title": "a", "pipeline": [{"type": "x", "n": 1, "at": [0, 0, 1]}, {"type": "y", "n": 1}]})");
   Json b = a;
   EXPECT_TRUE(differences({a, b}).empty());
   b["pipeline"][0]["at"][2] = 2;
@@ -190,7 +201,8 @@ TEST(Differences, AreTheInnermostPlaces) {
   const auto found = differences({a, Json(), b});
   ASSERT_EQ(found.size(), 4u);
   EXPECT_EQ(found[0].pointer, "/pipeline/0/at");
-  EXPECT_EQ(found[0].values, (std::vector<Json>{Json::array({0, 0, 1}), Json(), Json::array({0, 0, 2})}));
+  EXPECT_EQ(found[0].values,
+            (std::vector<Json>{Json::array({0, 0, 1}), Json(), Json::array({0, 0, 2})}));
   EXPECT_EQ(found[1].pointer, "/pipeline/0/new~1key");
   EXPECT_EQ(found[1].values[0], Json());
   EXPECT_EQ(found[2].pointer, "/pipeline/1") << "another type of stage is another stage";
@@ -200,13 +212,20 @@ TEST(Differences, AreTheInnermostPlaces) {
 }
 
 TEST(Plots, DrawWhatCannotBeScaled) {
-  for (const std::vector<double>& y : {std::vector<double>{0, 0}, {5, 5}, {nothing, 1e-300}, {1e299, -1e299}, {1.7e308, 1}, {3, nothing}}) {
+  for (const std::vector<double>& y : {std::vector<double>{0, 0},
+                                       {5, 5},
+                                       {nothing, 1e-300},
+                                       {1e299, -1e299},
+                                       {1.7e308, 1},
+                                       {3, nothing}}) {
     const Plot plot{"t", {"time", "s"}, {"y", ""}, {{"<a>", {0, 1}, y}}};
     ASSERT_TRUE(has_points(plot));
     const std::string picture = svg(plot);
-    for (const char* wrong : {"nan", "inf", "<a>"}) EXPECT_EQ(picture.find(wrong), std::string::npos) << picture;
+    for (const char* wrong : {"nan", "inf", "<a>"})
+      EXPECT_EQ(picture.find(wrong), std::string::npos) << picture;
   }
-  EXPECT_FALSE(has_points({"t", {"time", "s"}, {"y", ""}, {{"a", {0, 1}, {nothing, nothing}}, {"b", {}, {}}}}));
+  EXPECT_FALSE(has_points(
+      {"t", {"time", "s"}, {"y", ""}, {{"a", {0, 1}, {nothing, nothing}}, {"b", {}, {}}}}));
 }
 
 RunRecord run_with(const std::string& probe, const std::string& table) {
@@ -221,23 +240,30 @@ RunRecord run_with(const std::string& probe, const std::string& table) {
 TEST(ProbePlots, StandWhereTheyBelong) {
   const auto titles = [](const std::vector<Plot>& plots) {
     Labels names;
-    for (const Plot& plot : plots) names.push_back(plot.title + " over " + plot.x.name + ": " + std::to_string(plot.series.size()));
+    for (const Plot& plot : plots)
+      names.push_back(plot.title + " over " + plot.x.name + ": " +
+                      std::to_string(plot.series.size()));
     return names;
   };
-  const RunRecord point = run_with("p", "time,velocity_x@(0 0 0),velocity_y@(0 0 0),velocity_z@(0 0 0)\n0,1,2,3\n1,1,2,3\n");
+  const RunRecord point = run_with(
+      "p", "time,velocity_x@(0 0 0),velocity_y@(0 0 0),velocity_z@(0 0 0)\n0,1,2,3\n1,1,2,3\n");
   EXPECT_EQ(titles(plots_of(point)), (Labels{"Probe p: velocity over time: 3"}));
-  const RunRecord region = run_with("p", "time,damage_mean,damage_min,damage_max,radius\n0,1,2,3,4\n1,1,2,3,4\n");
-  EXPECT_EQ(titles(plots_of(region)), (Labels{"Probe p: damage over time: 3", "Probe p: radius over time: 1"}));
+  const RunRecord region =
+      run_with("p", "time,damage_mean,damage_min,damage_max,radius\n0,1,2,3,4\n1,1,2,3,4\n");
+  EXPECT_EQ(titles(plots_of(region)),
+            (Labels{"Probe p: damage over time: 3", "Probe p: radius over time: 1"}));
   EXPECT_EQ(plots_of(region)[1].y.unit, "m");
   const RunRecord line = run_with("p", "time,height@(0 0 0),height@(3 4 0)\n0,0,0\n0,1,2\n9,5,6\n");
   const auto plots = plots_of(line);
   ASSERT_EQ(titles(plots), (Labels{"Probe p: height over distance from the first place: 2"}));
   EXPECT_EQ(plots[0].series[0].x, (std::vector<double>{0, 5}));
-  EXPECT_EQ(plots[0].series[0].y, (std::vector<double>{1, 2})) << "of two states at one time the last";
+  EXPECT_EQ(plots[0].series[0].y, (std::vector<double>{1, 2}))
+      << "of two states at one time the last";
   EXPECT_EQ(plots[0].series[1].label, "at 9 s");
 
   const std::vector<RunRecord> both{region, region}, mixed{point, line};
-  EXPECT_EQ(titles(plots_together(both)), (Labels{"Probe p: damage_mean over time: 2", "Probe p: radius over time: 2"}));
+  EXPECT_EQ(titles(plots_together(both)),
+            (Labels{"Probe p: damage_mean over time: 2", "Probe p: radius over time: 2"}));
   EXPECT_TRUE(plots_together(mixed).empty());
 }
 

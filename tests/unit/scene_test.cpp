@@ -1,4 +1,5 @@
-// Whole scenes: defaults, labels, the resolved scene, order rules; with components that only declare options.
+// Whole scenes: defaults, labels, the resolved scene, order rules; with components that only
+// declare options.
 #include "support/fake_components.hpp"
 #include "support/output.hpp"
 
@@ -46,7 +47,9 @@ std::vector<Fault> faults(std::string_view text, const std::vector<std::string>&
   return {};
 }
 
-std::string messages(const std::vector<Fault>& faults) { return faults.empty() ? "" : InputError(faults).what(); }
+std::string messages(const std::vector<Fault>& faults) {
+  return faults.empty() ? "" : InputError(faults).what();
+}
 
 template <class Declared>
 const typename Declared::Options& options(const Stage& stage) {
@@ -78,7 +81,8 @@ TEST(Scene, ValuesAreInSiAndDefaultsAreFilled) {
   EXPECT_EQ(scene->regions[push.on].kind, Region::Kind::intersection);
   EXPECT_FALSE(options<fakes::March>(scene->stages[4]).time_step);
   EXPECT_EQ(options<fakes::March>(scene->stages[5]).time_step, 1e-8);
-  EXPECT_EQ(options<fakes::Table>(scene->stages[6]).fields, (std::vector<std::string>{"velocity", "damage"}));
+  EXPECT_EQ(options<fakes::Table>(scene->stages[6]).fields,
+            (std::vector<std::string>{"velocity", "damage"}));
   EXPECT_EQ(options<fakes::Spot>(scene->stages[8]).point, (Vec3{0, 0, 0.005}));
 }
 
@@ -101,9 +105,12 @@ TEST(Scene, LabelsAreUniqueInTheirFamily) {
   const auto scene = read(good);
   std::vector<std::string> names;
   for (const Stage& stage : scene->stages) names.push_back(stage.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"grid", "spring", "spring_2", "push", "march", "march_2", "table", "second", "spot"}));
-  EXPECT_NE(messages(faults(good, {"/pipeline/6/name=second"})).find("/pipeline/7/name: \"second\": expected a label of its own among the writers"),
-            std::string::npos);
+  EXPECT_EQ(names, (std::vector<std::string>{"grid", "spring", "spring_2", "push", "march",
+                                             "march_2", "table", "second", "spot"}));
+  EXPECT_NE(
+      messages(faults(good, {"/pipeline/6/name=second"}))
+          .find("/pipeline/7/name: \"second\": expected a label of its own among the writers"),
+      std::string::npos);
   EXPECT_EQ(read(good, {"/pipeline/7/name=table"})->stages[6].name, "table_2");
 }
 
@@ -123,10 +130,13 @@ TEST(Scene, ResolvedReadsBackAsItself) {
 TEST(Scene, ResolvedKeepsEveryBitOfEveryNumber) {
   const bool good_for_all = rc::check([] {
     const auto positive = [] {
-      return std::ldexp(1 + static_cast<double>(*rc::gen::inRange<std::int64_t>(0, 1LL << 52)) * 0x1p-52, *rc::gen::inRange(-300, 300));
+      return std::ldexp(
+          1 + static_cast<double>(*rc::gen::inRange<std::int64_t>(0, 1LL << 52)) * 0x1p-52,
+          *rc::gen::inRange(-300, 300));
     };
     Json json = Json::parse(good, nullptr, true, true);
-    const double young = positive(), limit = positive(), end = positive(), x = positive(), radius = positive();
+    const double young = positive(), limit = positive(), end = positive(), x = positive(),
+                 radius = positive();
     json["pipeline"][1]["young"] = young;
     json["pipeline"][1]["failure"]["limit"] = limit;
     json["pipeline"][4]["end_time"] = end;
@@ -146,13 +156,16 @@ TEST(Scene, ResolvedKeepsEveryBitOfEveryNumber) {
 }
 
 TEST(Scene, AllFaultsAreReportedAtOnce) {
-  const auto found =
-      faults(good, {"/pipeline/0/spacing=5 s", "/pipeline/1/failure/limit=-1", "/pipeline/3/repeats=3.7", "/pipeline/4/time_step=automatic",
-                    "/pipeline/6/fields=[\"velocty\"]", "/titel=x", "/pipeline/2/region=tipp", "/nowhere/else=1"});
+  const auto found = faults(
+      good, {"/pipeline/0/spacing=5 s", "/pipeline/1/failure/limit=-1", "/pipeline/3/repeats=3.7",
+             "/pipeline/4/time_step=automatic", "/pipeline/6/fields=[\"velocty\"]", "/titel=x",
+             "/pipeline/2/region=tipp", "/nowhere/else=1"});
   std::vector<std::string> pointers;
   for (const Fault& fault : found) pointers.push_back(fault.pointer);
-  EXPECT_EQ(pointers, (std::vector<std::string>{"--set /nowhere/else", "/pipeline/0/spacing", "/pipeline/1/failure/limit", "/pipeline/2/region",
-                                                "/pipeline/3/repeats", "/pipeline/4/time_step", "/pipeline/6/fields/0", "/titel"}))
+  EXPECT_EQ(pointers, (std::vector<std::string>{"--set /nowhere/else", "/pipeline/0/spacing",
+                                                "/pipeline/1/failure/limit", "/pipeline/2/region",
+                                                "/pipeline/3/repeats", "/pipeline/4/time_step",
+                                                "/pipeline/6/fields/0", "/titel"}))
       << messages(found);
 }
 
@@ -165,12 +178,14 @@ TEST(Scene, OrderOfThePipeline) {
   };
   EXPECT_EQ(order({0, 1, 4}), "");
   EXPECT_EQ(order({0, 4, 8, 1}), "");
-  EXPECT_EQ(order({1, 0, 4}), "/pipeline/1: expected the lattice as the first stage of the pipeline");
+  EXPECT_EQ(order({1, 0, 4}),
+            "/pipeline/1: expected the lattice as the first stage of the pipeline");
   EXPECT_EQ(order({0, 1, 0, 4}), "/pipeline/2: expected no second lattice");
   EXPECT_EQ(order({1, 4}), "/pipeline/0: expected a lattice as the first stage of the pipeline");
   EXPECT_EQ(order({0, 4}), "/pipeline: expected at least one material");
   EXPECT_EQ(order({0, 1}), "/pipeline: expected at least one solver");
-  EXPECT_EQ(order({0}), "/pipeline: expected at least one material\n/pipeline: expected at least one solver");
+  EXPECT_EQ(order({0}),
+            "/pipeline: expected at least one material\n/pipeline: expected at least one solver");
 }
 
 TEST(Scene, CrossChecksSeeTheFilledOptions) {
@@ -209,9 +224,12 @@ TEST(Scene, ARefusedLibraryIsTheOutsidesFailure) {
 TEST(Scene, PluginPathsBecomeAbsolute) {
   fakes::Catalogue catalogue;
   const std::string folder = HYPERLATTICE_SOURCE;
-  const auto scene = read_scene_text(good, folder + "/tests/scene.json", {"/plugins=[\"../core\"]"}, catalogue);
+  const auto scene =
+      read_scene_text(good, folder + "/tests/scene.json", {"/plugins=[\"../core\"]"}, catalogue);
   EXPECT_EQ(Json::parse(scene->resolved)["plugins"][0], folder + "/core");
-  EXPECT_THROW(read_scene_text(good, folder + "/tests/scene.json", {"/plugins=[\"../cor\"]"}, catalogue), InputError);
+  EXPECT_THROW(
+      read_scene_text(good, folder + "/tests/scene.json", {"/plugins=[\"../cor\"]"}, catalogue),
+      InputError);
 }
 
 TEST(Scene, PathsAreInUtf8) {
@@ -229,8 +247,10 @@ TEST(Scene, PathsAreInUtf8) {
     return std::string();
   };
   EXPECT_EQ(fault_of("/title=plain"), "");  // where the scene itself stands does not matter
-  for (const char* const setting : {"/plugins=[\".\"]", "/regions/tip={\"stl\": {\"file\": \"body.stl\"}}"})
-    EXPECT_NE(fault_of(setting).find("a path in UTF-8, and not " + folder), std::string::npos) << fault_of(setting);
+  for (const char* const setting :
+       {"/plugins=[\".\"]", "/regions/tip={\"stl\": {\"file\": \"body.stl\"}}"})
+    EXPECT_NE(fault_of(setting).find("a path in UTF-8, and not " + folder), std::string::npos)
+        << fault_of(setting);
 }
 
 TEST(Scene, AMissingFileIsTheInputsFault) {

@@ -1,4 +1,5 @@
-// STL solids: what is read, what is refused and how, and which points are inside, against closed forms and at edges and corners that a ray may meet.
+// STL solids: what is read, what is refused and how, and which points are inside, against closed
+// forms and at edges and corners that a ray may meet.
 #include <geometry/triangle_mesh.hpp>
 #include <support/output.hpp>
 #include <support/scenes.hpp>
@@ -17,7 +18,9 @@ std::string text_stl(const Facets& facets) {  // at y + 10, with a sign
   std::string text = "solid a name\n";
   for (const auto& facet : facets) {
     text += "  facet normal 0 0 0\n    outer loop\n";
-    for (const Vec3 p : facet) text += "      vertex " + std::to_string(p.x) + " +" + std::to_string(p.y + 10) + " " + std::to_string(p.z) + "\n";
+    for (const Vec3 p : facet)
+      text += "      vertex " + std::to_string(p.x) + " +" + std::to_string(p.y + 10) + " " +
+              std::to_string(p.z) + "\n";
     text += "    endloop\n  endfacet\n";
   }
   return text + "endsolid a name\n";
@@ -47,7 +50,8 @@ void append_quad(Facets& facets, Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
 }
 
 /// A prism over a polygon of the plane z = 0, anticlockwise, whose triangles are given.
-Facets prism(const std::vector<Vec3>& polygon, const std::vector<std::array<int, 3>>& triangles, double height) {
+Facets prism(const std::vector<Vec3>& polygon, const std::vector<std::array<int, 3>>& triangles,
+             double height) {
   const Vec3 up{0, 0, height};
   Facets facets;
   for (const auto& [a, b, c] : triangles) {
@@ -63,23 +67,30 @@ Facets prism(const std::vector<Vec3>& polygon, const std::vector<std::array<int,
 }
 
 Facets l_bracket() {
-  return prism({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}}, {{0, 1, 2}, {0, 2, 3}, {0, 3, 5}, {3, 4, 5}}, 1);
+  return prism({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}},
+               {{0, 1, 2}, {0, 2, 3}, {0, 3, 5}, {3, 4, 5}}, 1);
 }
 
-bool in_l_bracket(Vec3 p) { return p.x > 0 && p.y > 0 && p.z > 0 && p.z < 1 && p.x < 2 && p.y < 2 && (p.x < 1 || p.y < 1); }
+bool in_l_bracket(Vec3 p) {
+  return p.x > 0 && p.y > 0 && p.z > 0 && p.z < 1 && p.x < 2 && p.y < 2 && (p.x < 1 || p.y < 1);
+}
 
-/// Rotates a closed profile (radius, height) about z: with its points on the axis closed as a ball, otherwise as a ring.
+/// Rotates a closed profile (radius, height) about z: with its points on the axis closed as a ball,
+/// otherwise as a ring.
 Facets turned(const std::function<Vec3(int, int)>& point, int across, int around) {
   Facets facets;
   for (int i = 0; i < across; ++i)
-    for (int j = 0; j < around; ++j) append_quad(facets, point(i, j), point(i, (j + 1) % around), point(i + 1, (j + 1) % around), point(i + 1, j));
+    for (int j = 0; j < around; ++j)
+      append_quad(facets, point(i, j), point(i, (j + 1) % around), point(i + 1, (j + 1) % around),
+                  point(i + 1, j));
   return facets;
 }
 
 Facets torus(double ring, double tube, int n) {
   return turned(
       [=](int i, int j) {
-        const double a = 2 * std::numbers::pi * (i % n) / n, b = 2 * std::numbers::pi * j / n, r = ring + tube * std::cos(a);
+        const double a = 2 * std::numbers::pi * (i % n) / n, b = 2 * std::numbers::pi * j / n,
+                     r = ring + tube * std::cos(a);
         return Vec3{r * std::cos(b), r * std::sin(b), tube * std::sin(a)};
       },
       n, n);
@@ -88,9 +99,12 @@ Facets torus(double ring, double tube, int n) {
 Facets ball(double radius, int n) {
   return turned(
       [=](int i, int j) {
-        if (i == 0 || i == n) return Vec3{0, 0, i == 0 ? -radius : radius};  // exactly, so that the facets meet
-        const double a = std::numbers::pi * (static_cast<double>(i) / n - 0.5), b = std::numbers::pi * j / n;
-        return Vec3{radius * std::cos(a) * std::cos(b), radius * std::cos(a) * std::sin(b), radius * std::sin(a)};
+        if (i == 0 || i == n)
+          return Vec3{0, 0, i == 0 ? -radius : radius};  // exactly, so that the facets meet
+        const double a = std::numbers::pi * (static_cast<double>(i) / n - 0.5),
+                     b = std::numbers::pi * j / n;
+        return Vec3{radius * std::cos(a) * std::cos(b), radius * std::cos(a) * std::sin(b),
+                    radius * std::sin(a)};
       },
       n, 2 * n);
 }
@@ -121,7 +135,8 @@ TEST(Stl, TextAndBinarySayTheSame) {
   const TriangleMesh binary = mesh_of(l_bracket()), text = read_stl(text_stl(l_bracket()), 1e-3);
   EXPECT_EQ(binary.points.size(), 12u);
   EXPECT_EQ(binary.facets, text.facets);
-  for (std::size_t n = 0; n < 12; ++n) EXPECT_NEAR(norm(1e-3 * (binary.points[n] + Vec3{0, 10, 0}) - text.points[n]), 0, 1e-15);
+  for (std::size_t n = 0; n < 12; ++n)
+    EXPECT_NEAR(norm(1e-3 * (binary.points[n] + Vec3{0, 10, 0}) - text.points[n]), 0, 1e-15);
   std::string named = binary_stl(l_bracket());
   named.replace(0, 5, "solid");  // as some programs begin their binary files
   EXPECT_EQ(read_stl(named, 1).facets, binary.facets);
@@ -141,24 +156,36 @@ TEST(Stl, ClosedSurfacesAreSolidsWithTheirAreas) {
 TEST(Stl, RefusesWhatIsNoSolid) {
   Facets open = l_bracket();
   open.pop_back();
-  EXPECT_EQ(solid_fault(mesh_of(open)), "the surface is open: no other facet shares the edge from (0, 2, 1) to (0, 0, 1) (metres) of facet 6");
+  EXPECT_EQ(solid_fault(mesh_of(open)),
+            "the surface is open: no other facet shares the edge from (0, 2, 1) to (0, 0, 1) "
+            "(metres) of facet 6");
   Facets one_turned = l_bracket();
   std::swap(one_turned[7][0], one_turned[7][1]);
-  EXPECT_NE(solid_fault(mesh_of(one_turned)).find("in the same direction: one of them faces the wrong way"), std::string::npos);
-  EXPECT_EQ(solid_fault(mesh_of(inverted(l_bracket()))), "its facets point inwards: turn them round");
+  EXPECT_NE(solid_fault(mesh_of(one_turned))
+                .find("in the same direction: one of them faces the wrong way"),
+            std::string::npos);
+  EXPECT_EQ(solid_fault(mesh_of(inverted(l_bracket()))),
+            "its facets point inwards: turn them round");
   EXPECT_NE(solid_fault(mesh_of(joined(l_bracket(), l_bracket()))), "");
 }
 
 TEST(Stl, SaysWhereAFileIsBroken) {
   const std::string bytes = binary_stl(l_bracket()), text = text_stl(l_bracket());
-  EXPECT_EQ(refusal([&] { read_stl(std::string_view(bytes).substr(0, 200), 1); }), "it is cut short: 20 facets need 1084 bytes, and it has 200");
-  EXPECT_EQ(refusal([&] { read_stl("", 1); }), "it is cut short: 0 bytes are less than the header of a binary STL");
-  EXPECT_EQ(refusal([&] { read_stl(std::string_view(text).substr(0, text.find("endloop")), 1); }), "line 7: \"endloop\" was expected, but it ends");
-  EXPECT_EQ(refusal([&] { read_stl("solid x\nfacet normal 0 0 1 outer loop\nvertex 0 0 O\n", 1); }), "line 3: a number was expected, not \"O\"");
-  EXPECT_EQ(refusal([&] { read_stl(text + std::string(2, '\0'), 1); }).substr(std::string_view("line 143: ").size()),
+  EXPECT_EQ(refusal([&] { read_stl(std::string_view(bytes).substr(0, 200), 1); }),
+            "it is cut short: 20 facets need 1084 bytes, and it has 200");
+  EXPECT_EQ(refusal([&] { read_stl("", 1); }),
+            "it is cut short: 0 bytes are less than the header of a binary STL");
+  EXPECT_EQ(refusal([&] { read_stl(std::string_view(text).substr(0, text.find("endloop")), 1); }),
+            "line 7: \"endloop\" was expected, but it ends");
+  EXPECT_EQ(refusal([&] { read_stl("solid x\nfacet normal 0 0 1 outer loop\nvertex 0 0 O\n", 1); }),
+            "line 3: a number was expected, not \"O\"");
+  EXPECT_EQ(refusal([&] {
+              read_stl(text + std::string(2, '\0'), 1);
+            }).substr(std::string_view("line 143: ").size()),
             "\"solid\" or the end was expected, not \"U+0000U+0000\"");
   EXPECT_EQ(refusal([&] { read_stl("solid x\nendsolid x\n", 1); }), "it has no facets");
-  EXPECT_EQ(refusal([&] { read_stl("solid x\nfacet normal 0 0 1 outer loop\nvertex 0 0 nan", 1); }), "line 3: a coordinate is not finite");
+  EXPECT_EQ(refusal([&] { read_stl("solid x\nfacet normal 0 0 1 outer loop\nvertex 0 0 nan", 1); }),
+            "line 3: a coordinate is not finite");
 }
 
 TEST(Stl, SectionsAreSolidsOrPatches) {
@@ -183,7 +210,8 @@ TEST(Stl, SectionsAreSolidsOrPatches) {
   EXPECT_TRUE(InsideTest(touching)({1.5, 10.5, 0.5}));
   EXPECT_TRUE(InsideTest(touching)({2.5, 10.5, 0.5}));
   EXPECT_FALSE(sections_are_solids(read_stl(text_stl(first) + text_stl(far), 1)));
-  EXPECT_EQ(refusal([] { read_stl(text_stl(l_bracket()) + "more", 1); }), "line 143: \"solid\" or the end was expected, not \"more\"");
+  EXPECT_EQ(refusal([] { read_stl(text_stl(l_bracket()) + "more", 1); }),
+            "line 143: \"solid\" or the end was expected, not \"more\"");
 }
 
 TEST(Stl, ContentTellsTextFromBinary) {
@@ -191,23 +219,31 @@ TEST(Stl, ContentTellsTextFromBinary) {
   const auto expected = read_stl(text, 1).facets;
   const auto changed = [&](const std::string& from, const std::string& to) {
     std::string all = text;
-    for (std::size_t at = 0; (at = all.find(from, at)) != std::string::npos; at += to.size()) all.replace(at, from.size(), to);
+    for (std::size_t at = 0; (at = all.find(from, at)) != std::string::npos; at += to.size())
+      all.replace(at, from.size(), to);
     return all;
   };
   std::string upper = text;
   for (char& c : upper) c = static_cast<char>(std::toupper(c));
   for (const std::string& same :
-       {upper, " \r\n" + text, "\xEF\xBB\xBF" + text, "\xEF\xBB\xBF\n" + text, changed("\n", "\r"), changed("\n", "\r\n"),
-        changed("endsolid", "end solid"), changed("endloop", "end loop"), changed("endfacet", "EndFacet"), changed(" a name", ""), text + "\n \n"})
+       {upper, " \r\n" + text, "\xEF\xBB\xBF" + text, "\xEF\xBB\xBF\n" + text, changed("\n", "\r"),
+        changed("\n", "\r\n"), changed("endsolid", "end solid"), changed("endloop", "end loop"),
+        changed("endfacet", "EndFacet"), changed(" a name", ""), text + "\n \n"})
     EXPECT_EQ(read_stl(same, 1).facets, expected) << same.substr(0, 40);
-  EXPECT_EQ(refusal([&] { read_stl(changed("\n", "\r").substr(0, 120), 1); }).substr(0, 7), "line 5:");
-  EXPECT_EQ(refusal([&] { read_stl("\xFF\xFEs\0o\0l\0", 1); }), "it is a text in UTF-16: save it in ASCII or UTF-8");
-  EXPECT_NE(refusal([&] { read_stl(std::string(100, 'x'), 1); }).find("a text would begin with \"solid\""), std::string::npos);
+  EXPECT_EQ(refusal([&] { read_stl(changed("\n", "\r").substr(0, 120), 1); }).substr(0, 7),
+            "line 5:");
+  EXPECT_EQ(refusal([&] { read_stl("\xFF\xFEs\0o\0l\0", 1); }),
+            "it is a text in UTF-16: save it in ASCII or UTF-8");
+  EXPECT_NE(refusal([&] {
+              read_stl(std::string(100, 'x'), 1);
+            }).find("a text would begin with \"solid\""),
+            std::string::npos);
 
   const std::string binary = binary_stl(l_bracket());
   EXPECT_EQ(read_stl(binary + std::string(100, '\0'), 1).facets, expected);
   EXPECT_EQ(refusal([&] { read_stl(binary + binary, 1); }),
-            "it counts 20 facets, and 1084 bytes stand behind them: are these several solids, or is the count wrong?");
+            "it counts 20 facets, and 1084 bytes stand behind them: are these several solids, or "
+            "is the count wrong?");
   std::string named = binary + "\n";
   named.replace(0, 5, "solid");
   EXPECT_EQ(read_stl(named, 1).facets, expected);
@@ -217,26 +253,35 @@ TEST(Stl, FacetsHaveTheirNumbersOfTheFile) {
   Facets open = l_bracket();
   open.pop_back();
   open.insert(open.begin(), 3, {Vec3{0, 0, 0}, Vec3{0, 0, 0}, Vec3{1, 0, 0}});
-  EXPECT_EQ(solid_fault(mesh_of(open)), "the surface is open: no other facet shares the edge from (0, 2, 1) to (0, 0, 1) (metres) of facet 9");
+  EXPECT_EQ(solid_fault(mesh_of(open)),
+            "the surface is open: no other facet shares the edge from (0, 2, 1) to (0, 0, 1) "
+            "(metres) of facet 9");
 }
 
 TEST(Stl, CornersThatNearlyMeetAreTold) {
   Facets seam = l_bracket();
   seam[5][1].x += 1e-6;
   const std::string fault = solid_fault(mesh_of(seam));
-  EXPECT_NE(fault.find("m from there: corners of neighbours must be the same to the last digit"), std::string::npos) << fault;
+  EXPECT_NE(fault.find("m from there: corners of neighbours must be the same to the last digit"),
+            std::string::npos)
+      << fault;
 }
 
 TEST(Stl, PartsThatFaceTheWrongWayAreTold) {
-  const auto fault = [](const Facets& facets) { return orientation_fault(InsideTest(mesh_of(facets))); };
+  const auto fault = [](const Facets& facets) {
+    return orientation_fault(InsideTest(mesh_of(facets)));
+  };
   EXPECT_EQ(fault(joined(ball(5, 20), inverted(ball(2, 20)))), "");
   EXPECT_EQ(fault(joined(ball(5, 20), ball(2, 20))),
-            "the closed surface that facet 1602 belongs to lies within another and faces outwards: around a cavity facets point into it");
-  EXPECT_EQ(fault(joined(joined(ball(5, 20), inverted(ball(3, 20))), ball(1, 20))), "");  // a ball within the cavity
+            "the closed surface that facet 1602 belongs to lies within another and faces outwards: "
+            "around a cavity facets point into it");
+  EXPECT_EQ(fault(joined(joined(ball(5, 20), inverted(ball(3, 20))), ball(1, 20))),
+            "");  // a ball within the cavity
   Facets far = inverted(ball(1, 20));
   for (auto& facet : far)
     for (Vec3& p : facet) p.x += 10;
-  EXPECT_NE(fault(joined(ball(5, 20), far)).find("lies within no other and points inwards"), std::string::npos);
+  EXPECT_NE(fault(joined(ball(5, 20), far)).find("lies within no other and points inwards"),
+            std::string::npos);
   Facets near = ball(2, 20);
   for (auto& facet : near)
     for (Vec3& p : facet) p.x += 4.5;
@@ -245,7 +290,8 @@ TEST(Stl, PartsThatFaceTheWrongWayAreTold) {
 
 TEST(Stl, KnowsInsideAtEdgesAndCornersToo) {
   const InsideTest inside(mesh_of(l_bracket()));
-  // Points whose rays run along faces, edges and through corners: halves and wholes of the bracket's own coordinates.
+  // Points whose rays run along faces, edges and through corners: halves and wholes of the
+  // bracket's own coordinates.
   for (int i = -2; i <= 10; ++i)
     for (int j = -2; j <= 10; ++j)
       for (int k = -2; k <= 6; ++k) {
@@ -263,11 +309,14 @@ TEST(Stl, KnowsInsideAtEdgesAndCornersToo) {
 }
 
 TEST(Stl, AgreesWithBallAndTorus) {
-  const InsideTest in_ball(mesh_of(joined(ball(5, 60), inverted(ball(2, 60))))), in_torus(mesh_of(torus(3, 1, 80)));
+  const InsideTest in_ball(mesh_of(joined(ball(5, 60), inverted(ball(2, 60))))),
+      in_torus(mesh_of(torus(3, 1, 80)));
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> place(-5.5, 5.5);
   for (int n = 0; n < 20000; ++n) {
-    const Vec3 p{place(random), place(random), n % 4 == 0 ? 0 : place(random)};  // a quarter in the plane of the equators' corners
+    const Vec3 p{
+        place(random), place(random),
+        n % 4 == 0 ? 0 : place(random)};  // a quarter in the plane of the equators' corners
     const double r = norm(p), tube = std::hypot(std::hypot(p.x, p.y) - 3, p.z);
     if (std::abs(r - 5) > 0.02 && std::abs(r - 2) > 0.02) {
       EXPECT_EQ(in_ball(p), r > 2 && r < 5) << r;
@@ -284,16 +333,23 @@ TEST(Stl, AgreesWithBallAndTorus) {
 /// A lattice filled from an STL of a box is the lattice of the box.
 TEST(Stl, FillsALattice) {
   const test::Folder folder("stl");
-  const Facets box = prism({{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}}, {{0, 1, 2}, {0, 2, 3}}, 30);
+  const Facets box =
+      prism({{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}}, {{0, 1, 2}, {0, 2, 3}}, 30);
   std::ofstream(folder.file("box.stl"), std::ios::binary) << binary_stl(box);
   const auto plan = [&](const std::string& shape) {
-    return test::plan_of(R"({ "format": "hyperlattice/1", "pipeline": [ { "type": "lattices.cubic", "spacing": "1 mm", "shape": )" + shape + R"( },
+    return test::plan_of(
+        R"({ "format": "hyperlattice/1", "pipeline": [ { "type": "lattices.cubic", "spacing": "1 mm", "shape": )" +
+        shape + R"( },
       { "type": "materials.elastic", "young": 1e10, "poisson": 0.25, "density": 2500 }, { "type": "solvers.explicit", "end_time": 1e-6 } ] })");
   };
-  const auto from_stl = plan(R"({ "stl": { "file": ")" + folder.file("box.stl") + R"(", "scale": "1 mm" } })");
+  const auto from_stl =
+      plan(R"({ "stl": { "file": ")" + folder.file("box.stl") + R"(", "scale": "1 mm" } })");
   EXPECT_EQ(from_stl->model->body.particles, 3000u);
-  EXPECT_EQ(from_stl->model->body.base_springs(), plan(R"({ "box": { "low": [0, 0, 0], "high": [0.01, 0.01, 0.03] } })")->model->body.base_springs());
-  const std::string why = refusal([&] { plan(R"({ "stl": { "file": ")" + folder.file("none.stl") + R"(" } })"); });
+  EXPECT_EQ(from_stl->model->body.base_springs(),
+            plan(R"({ "box": { "low": [0, 0, 0], "high": [0.01, 0.01, 0.03] } })")
+                ->model->body.base_springs());
+  const std::string why =
+      refusal([&] { plan(R"({ "stl": { "file": ")" + folder.file("none.stl") + R"(" } })"); });
   EXPECT_NE(why.find("/pipeline/0/shape/stl/file"), std::string::npos) << why;
   EXPECT_NE(why.find("there is no such file"), std::string::npos) << why;
 }

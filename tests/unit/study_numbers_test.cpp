@@ -1,4 +1,5 @@
-// The numbers of a study by hand: interpolation, norms, orders, the Pareto front, extrapolation, and what is taken out of tables.
+// The numbers of a study by hand: interpolation, norms, orders, the Pareto front, extrapolation,
+// and what is taken out of tables.
 #include <study/evaluate.hpp>
 #include <study/expected.hpp>
 #include <study/observe.hpp>
@@ -38,10 +39,13 @@ TEST(StudyCurve, IsReducedToOneNumber) {
   EXPECT_EQ(reduced(curve, Reduction::last).values, Numbers{-2});
   EXPECT_EQ(reduced(curve, Reduction::largest).values, Numbers{6});
   EXPECT_EQ(reduced(curve, Reduction::least).values, Numbers{-2});
-  EXPECT_DOUBLE_EQ(reduced(curve, Reduction::mean).values[0], (4.0 + 6.0) / 4);  // of the range: trapezoids of 4 and 6
+  EXPECT_DOUBLE_EQ(reduced(curve, Reduction::mean).values[0],
+                   (4.0 + 6.0) / 4);  // of the range: trapezoids of 4 and 6
 }
 
-double error_of(const Curve& observed, const Curve& truth, Norm norm) { return distance(observed, truth, norm).relative(norm); }
+double error_of(const Curve& observed, const Curve& truth, Norm norm) {
+  return distance(observed, truth, norm).relative(norm);
+}
 
 TEST(StudyNorm, CountsWhatItSays) {
   const Curve truth{{0, 1, 2}, {3, 4, 5}}, observed{{0, 2}, {3, 6}};  // 3, 4.5, 6
@@ -57,7 +61,9 @@ TEST(StudyNorm, CountsWhatItSays) {
 }
 
 TEST(StudyNorm, HasAFloorWhereTheTruthPassesZeroAtItsEnd) {
-  EXPECT_DOUBLE_EQ(error_of({{0, 1, 2}, {0, 4, 0.1}}, {{0, 1, 2}, {0, 4, 1e-12}}, Norm::relative_end), (0.1 - 1e-12) / 4);
+  EXPECT_DOUBLE_EQ(
+      error_of({{0, 1, 2}, {0, 4, 0.1}}, {{0, 1, 2}, {0, 4, 1e-12}}, Norm::relative_end),
+      (0.1 - 1e-12) / 4);
 }
 
 TEST(StudyNorm, SaysWhyThereIsNone) {
@@ -70,8 +76,10 @@ TEST(StudyNorm, SaysWhyThereIsNone) {
     return std::string();
   };
   EXPECT_EQ(why({{0, 1}, {1, 1}}, {{5, 6}, {1, 1}}),
-            "the run and the truth have nothing in common: the run is known from 0 to 1, the truth from 5 to 6");
-  EXPECT_EQ(why({{0, 1}, {1, 1}}, {{0, 1}, {0, 0}}), "the truth is zero, so that there is no relative error");
+            "the run and the truth have nothing in common: the run is known from 0 to 1, the truth "
+            "from 5 to 6");
+  EXPECT_EQ(why({{0, 1}, {1, 1}}, {{0, 1}, {0, 0}}),
+            "the truth is zero, so that there is no relative error");
 }
 
 TEST(StudyOrder, IsTheSlopeOfTheLogarithms) {
@@ -80,7 +88,10 @@ TEST(StudyOrder, IsTheSlopeOfTheLogarithms) {
   EXPECT_NEAR(second->order, 2, 1e-12);
   ASSERT_EQ(second->pairs.size(), 2u);
   for (const double pair : second->pairs) EXPECT_NEAR(pair, 2, 1e-12);
-  const auto mixed = observed_order({{4, 1}, {2, 0.5}, {1, 0.125}});  // 1, then 2: the slope of three evenly spaced points is the mean
+  const auto mixed = observed_order(
+      {{4, 1},
+       {2, 0.5},
+       {1, 0.125}});  // 1, then 2: the slope of three evenly spaced points is the mean
   EXPECT_NEAR(mixed->pairs[0], 1, 1e-12);
   EXPECT_NEAR(mixed->pairs[1], 2, 1e-12);
   EXPECT_NEAR(mixed->order, 1.5, 1e-12);
@@ -90,10 +101,14 @@ TEST(StudyOrder, IsTheSlopeOfTheLogarithms) {
 TEST(StudyOrder, IsDoubtedWhereTheMethodCannotHaveIt) {
   EXPECT_EQ(observed_order({{4, 0.16}, {2, 0.04}, {1, 0.01}})->doubt, "");
   const auto too_high = observed_order({{4, 1}, {2, 0.01}});
-  EXPECT_NE(too_high->doubt.find("an order of 6.64 is more than the method can have"), std::string::npos) << too_high->doubt;
+  EXPECT_NE(too_high->doubt.find("an order of 6.64 is more than the method can have"),
+            std::string::npos)
+      << too_high->doubt;
   EXPECT_FALSE(size_for(*too_high, 1e-6)) << "nothing is promised by it";
-  EXPECT_NE(observed_order({{4, 1}, {2, 0.3}, {1, 0.4}})->doubt.find("does not fall"), std::string::npos);
-  EXPECT_NE(observed_order({{4, 1}, {2, 0.9}, {1, 0.15}})->doubt.find("scatters"), std::string::npos);
+  EXPECT_NE(observed_order({{4, 1}, {2, 0.3}, {1, 0.4}})->doubt.find("does not fall"),
+            std::string::npos);
+  EXPECT_NE(observed_order({{4, 1}, {2, 0.9}, {1, 0.15}})->doubt.find("scatters"),
+            std::string::npos);
 }
 
 TEST(StudyOrder, NeedsTwoErrorsThatAreNotZero) {
@@ -101,7 +116,8 @@ TEST(StudyOrder, NeedsTwoErrorsThatAreNotZero) {
   EXPECT_FALSE(observed_order({{1, 0.1}}));
   EXPECT_FALSE(observed_order({{1, 0.1}, {2, 0}}));
   EXPECT_FALSE(observed_order({{1, 0.1}, {1, 0.2}}));
-  EXPECT_FALSE(size_for(*observed_order({{1, 0.2}, {2, 0.1}}), 0.01)) << "an error that grows never meets a target";
+  EXPECT_FALSE(size_for(*observed_order({{1, 0.2}, {2, 0.1}}), 0.01))
+      << "an error that grows never meets a target";
 }
 
 TEST(StudyFront, HoldsWhatNoOtherBeats) {
@@ -127,31 +143,41 @@ SizedCurve converging(double h, double p) {
 
 TEST(StudyExtrapolation, FindsTheLimitAndTheOrder) {
   for (const double p : {1.0, 1.7, 2.0}) {
-    const std::vector<SizedCurve> even{converging(0.25, p), converging(0.125, p), converging(0.0625, p)};
+    const std::vector<SizedCurve> even{converging(0.25, p), converging(0.125, p),
+                                       converging(0.0625, p)};
     EXPECT_NEAR(order_of(even[0], even[1], even[2]), p, 1e-9);
     const Curve limit = extrapolated(even, std::nullopt);
     EXPECT_EQ(limit.over, even[1].curve.over);
-    for (std::size_t n = 0; n < limit.over.size(); ++n) EXPECT_NEAR(limit.values[n], 1 + limit.over[n], 1e-9);
-    const std::vector<SizedCurve> uneven{converging(0.5, p), converging(0.25, p), converging(0.0625, p)};
+    for (std::size_t n = 0; n < limit.over.size(); ++n)
+      EXPECT_NEAR(limit.values[n], 1 + limit.over[n], 1e-9);
+    const std::vector<SizedCurve> uneven{converging(0.5, p), converging(0.25, p),
+                                         converging(0.0625, p)};
     EXPECT_NEAR(order_of(uneven[0], uneven[1], uneven[2]), p, 1e-9);
     const Curve stated = extrapolated({even[1], even[2]}, p);
-    for (std::size_t n = 0; n < stated.over.size(); ++n) EXPECT_NEAR(stated.values[n], 1 + stated.over[n], 1e-12);
+    for (std::size_t n = 0; n < stated.over.size(); ++n)
+      EXPECT_NEAR(stated.values[n], 1 + stated.over[n], 1e-12);
   }
 }
 
 TEST(StudyExtrapolation, RefusesWhatDoesNotConverge) {
   EXPECT_THROW(extrapolated({converging(0.25, 2)}, 2.0), std::runtime_error);
-  EXPECT_THROW(extrapolated({converging(0.25, 2), converging(0.125, 2)}, std::nullopt), std::runtime_error);
+  EXPECT_THROW(extrapolated({converging(0.25, 2), converging(0.125, 2)}, std::nullopt),
+               std::runtime_error);
   SizedCurve away = converging(0.0625, 2);
   for (double& value : away.curve.values) value += 5;
-  EXPECT_THROW(extrapolated({converging(0.25, 2), converging(0.125, 2), away}, std::nullopt), std::runtime_error);
+  EXPECT_THROW(extrapolated({converging(0.25, 2), converging(0.125, 2), away}, std::nullopt),
+               std::runtime_error);
 }
 
 TEST(StudyExtrapolation, RefusesOrdersThatTheMethodCannotHave) {
-  EXPECT_THROW(extrapolated({converging(0.25, 6.6), converging(0.125, 6.6), converging(0.0625, 6.6)}, std::nullopt), NoLimit);
+  EXPECT_THROW(
+      extrapolated({converging(0.25, 6.6), converging(0.125, 6.6), converging(0.0625, 6.6)},
+                   std::nullopt),
+      NoLimit);
   SizedCurve beyond = converging(0.0625, 2);  // the differences change their sign
   for (double& value : beyond.curve.values) value += 0.04;
-  EXPECT_THROW(extrapolated({converging(0.25, 2), converging(0.125, 2), beyond}, std::nullopt), NoLimit);
+  EXPECT_THROW(extrapolated({converging(0.25, 2), converging(0.125, 2), beyond}, std::nullopt),
+               NoLimit);
 }
 
 Row done_row(Choice choice, double size, double error, double seconds) {
@@ -174,11 +200,16 @@ TEST(StudyCases, AreAnsweredForTheHardest) {
   study.cases = {0};
   study.refinement = 1;
   study.target_error = 0.01;
-  std::vector<Row> rows{done_row({0, 0}, 4, 0.04, 1), done_row({0, 1}, 2, 0.01, 8), done_row({1, 0}, 4, 0.16, 2), done_row({1, 1}, 2, 0.04, 16)};
+  std::vector<Row> rows{done_row({0, 0}, 4, 0.04, 1), done_row({0, 1}, 2, 0.01, 8),
+                        done_row({1, 0}, 4, 0.16, 2), done_row({1, 1}, 2, 0.04, 16)};
   const std::string sentence = cheapest_sentence(study, rows, find(study, rows));
-  EXPECT_NE(sentence.find("the most accurate is spacing 2: error 4 % at most, with nu hard, 24 s for all cases together"), std::string::npos)
+  EXPECT_NE(sentence.find("the most accurate is spacing 2: error 4 % at most, with nu hard, 24 s "
+                          "for all cases together"),
+            std::string::npos)
       << sentence;
-  EXPECT_NE(sentence.find("would meet it in every case at a spacing of about 1 (SI)"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("would meet it in every case at a spacing of about 1 (SI)"),
+            std::string::npos)
+      << sentence;
   study.target_error = 0.05;
   EXPECT_EQ(find(study, rows).cheapest, 3u);
   rows.pop_back();  // a setting that was not asked the hardest is no answer
@@ -186,7 +217,8 @@ TEST(StudyCases, AreAnsweredForTheHardest) {
 }
 
 const CsvTable line = parse_csv(
-    "time,displacement_x@(0.03 0 0),displacement_x@(0.01 0 0),displacement_x@(0.02 -1e-05 0),displacement_y@(0.01 0 0)\n0,0,0,0,0\n1,3,1,2,7\n");
+    "time,displacement_x@(0.03 0 0),displacement_x@(0.01 0 0),displacement_x@(0.02 -1e-05 "
+    "0),displacement_y@(0.01 0 0)\n0,0,0,0,0\n1,3,1,2,7\n");
 
 TEST(StudyObservation, TakesALineAtTheLastTime) {
   Comparison comparison;
@@ -207,11 +239,14 @@ TEST(StudyObservation, TakesOneColumnOverTime) {
   EXPECT_EQ(observed_curve(comparison, line).over, (Numbers{0, 1}));
   EXPECT_EQ(observed_curve(comparison, line).values, (Numbers{0, 7}));
   comparison.column = "displacement_x";
-  EXPECT_NE(column_fault(comparison, line.columns).find("one column; 3 are called so"), std::string::npos);
+  EXPECT_NE(column_fault(comparison, line.columns).find("one column; 3 are called so"),
+            std::string::npos);
   comparison.column = "displacement_x@(0.01 0 0)";
   EXPECT_EQ(observed_curve(comparison, line).values, (Numbers{0, 1}));
   comparison.column = "displacement_w";
-  EXPECT_EQ(column_fault(comparison, line.columns), "a column of probe line: time, displacement_x, displacement_y; did you mean \"displacement_x\"?");
+  EXPECT_EQ(column_fault(comparison, line.columns),
+            "a column of probe line: time, displacement_x, displacement_y; did you mean "
+            "\"displacement_x\"?");
 }
 
 Truth table_truth(const std::string& text) {
@@ -234,12 +269,16 @@ TEST(StudyTruth, IsTakenBetweenPlaces) {
 }
 
 TEST(StudyTruth, IsTakenFromTheRowsThatFit) {
-  Truth truth = table_truth("line,nu,depth,x,ux\na,0.1,0,0.2,2\na,0.1,0,0.1,1\nb,0.1,0,0.1,9\na,0.2,0,0.1,8\na,0.1,0.0025,0.1,7\n");
+  Truth truth = table_truth(
+      "line,nu,depth,x,ux\na,0.1,0,0.2,2\na,0.1,0,0.1,1\nb,0.1,0,0.1,9\na,0.2,0,0.1,8\na,0.1,0."
+      "0025,0.1,7\n");
   Comparison comparison;
   comparison.truth = "ux";
   comparison.along = Coordinate::x;
   comparison.scale = 10;
-  truth.where = {{"line", "a", std::nullopt, std::nullopt, 1}, {"nu", "", std::nullopt, 0, 1}, {"depth", "", std::nullopt, 1, 0.5}};
+  truth.where = {{"line", "a", std::nullopt, std::nullopt, 1},
+                 {"nu", "", std::nullopt, 0, 1},
+                 {"depth", "", std::nullopt, 1, 0.5}};
   const Curve top = true_curve(comparison, truth, std::nullopt, {0.1, 0.0});
   EXPECT_EQ(top.over, (Numbers{0.1, 0.2}));
   EXPECT_EQ(top.values, (Numbers{10, 20}));
@@ -258,14 +297,16 @@ TEST(StudyTruth, RowsWithoutNumbersAreRefusedWithTheirLines) {
     }
     return "";
   };
-  EXPECT_EQ(
-      refusal("t,u\n0,1\n\n1,inf\none,2\n"),
-      "truth.csv, line 4: expected a finite number in column \"u\", not \"inf\"; line 5: expected a finite number in column \"t\", not \"one\"");
+  EXPECT_EQ(refusal("t,u\n0,1\n\n1,inf\none,2\n"),
+            "truth.csv, line 4: expected a finite number in column \"u\", not \"inf\"; line 5: "
+            "expected a finite number in column \"t\", not \"one\"");
   EXPECT_EQ(refusal("t,u,v\n0,1,none\n"), "");
 }
 
-TEST(StudyTruth, ALoadCanStandForTheTime) {  // a curve over the load, in a run whose time is the share of the full load
-  Truth truth = table_truth("load_N,method,uy\n40,linear,-1\n80,linear,-2\n40,nonlinear,-0.9\n80,nonlinear,-1.5\n");
+TEST(StudyTruth, ALoadCanStandForTheTime) {  // a curve over the load, in a run whose time is the
+                                             // share of the full load
+  Truth truth = table_truth(
+      "load_N,method,uy\n40,linear,-1\n80,linear,-2\n40,nonlinear,-0.9\n80,nonlinear,-1.5\n");
   Comparison comparison;
   comparison.truth = "uy";
   comparison.over = "load_N";

@@ -1,4 +1,5 @@
-// Tables grow by whole lines with every digit, and outputs come due at the steps nearest to their instants.
+// Tables grow by whole lines with every digit, and outputs come due at the steps nearest to their
+// instants.
 #include <base/errors.hpp>
 #include <process/file_limit.hpp>
 #include <run/history.hpp>
@@ -32,7 +33,8 @@ std::string text_of(const std::filesystem::path& file) {
 }
 
 TEST(Table, numbers_keep_every_digit_in_any_locale) {
-  std::setlocale(LC_ALL, "de_DE.UTF-8");  // where a comma would stand for the point, if the machine has it
+  std::setlocale(LC_ALL,
+                 "de_DE.UTF-8");  // where a comma would stand for the point, if the machine has it
   const auto file = fresh_folder("digits") / "t.csv";
   const double values[] = {0.1, 1.0 / 3, -1e-300, std::numeric_limits<double>::max()};
   Table table(file, {"a", "b", "c", "d"});
@@ -76,7 +78,9 @@ TEST(Table, a_full_disk_leaves_whole_lines_and_says_so) {
   EXPECT_LE(text.size(), 1003u);
 }
 
-TEST(Table, a_folder_that_is_not_there_is_an_outside_fault) { EXPECT_THROW(Table(fresh_folder("absent") / "no" / "t.csv", {"a"}), OutsideError); }
+TEST(Table, a_folder_that_is_not_there_is_an_outside_fault) {
+  EXPECT_THROW(Table(fresh_folder("absent") / "no" / "t.csv", {"a"}), OutsideError);
+}
 
 TEST(FailureLog, writes_each_breakage_once) {
   const auto folder = fresh_folder("log");
@@ -88,7 +92,8 @@ TEST(FailureLog, writes_each_breakage_once) {
   breakages.push_back({4, 0.75, 1, 2, 1, 2e-6});
   log.write_new(breakages);
   log.write_new(breakages);
-  EXPECT_EQ(text_of(folder / "failures.csv"), "step,time,particle_a,particle_b,elongation\n3,0.5,7,8,1e-06\n4,0.75,1,2,2e-06\n");
+  EXPECT_EQ(text_of(folder / "failures.csv"),
+            "step,time,particle_a,particle_b,elongation\n3,0.5,7,8,1e-06\n4,0.75,1,2,2e-06\n");
 }
 
 TEST(Schedule, picks_the_step_nearest_to_each_instant) {
@@ -98,7 +103,8 @@ TEST(Schedule, picks_the_step_nearest_to_each_instant) {
   for (int n = 0; n * step <= 1.01; ++n)
     if (schedule.due(n * step, step)) seen.push_back(n * step);
   ASSERT_EQ(seen.size(), 5u);
-  for (std::size_t n = 0; n < seen.size(); ++n) EXPECT_NEAR(seen[n], 0.25 * static_cast<double>(n), 0.5 * step + 1e-12);
+  for (std::size_t n = 0; n < seen.size(); ++n)
+    EXPECT_NEAR(seen[n], 0.25 * static_cast<double>(n), 0.5 * step + 1e-12);
 }
 
 TEST(Schedule, shows_once_when_steps_are_longer_than_the_interval) {

@@ -1,4 +1,5 @@
-// Quantities with units: values against the definitions of the units, and refusals with their reason.
+// Quantities with units: values against the definitions of the units, and refusals with their
+// reason.
 #include <scene/units.hpp>
 
 #include <gtest/gtest.h>
@@ -19,7 +20,9 @@ double si(std::string_view text, std::string_view unit) {
   EXPECT_EQ(quantity.problem, "") << text;
   return quantity.value;
 }
-std::string problem(std::string_view text, std::string_view unit) { return read_quantity(text, unit).problem; }
+std::string problem(std::string_view text, std::string_view unit) {
+  return read_quantity(text, unit).problem;
+}
 
 }  // namespace
 
@@ -50,16 +53,20 @@ TEST(Units, OtherUnitsByTheirDefinitions) {
   EXPECT_EQ(si("20 %", ""), 0.2);
 }
 
-TEST(Units, PowersOfTenAreExact) {  // the text's value is the double nearest to it, as if written in SI
+TEST(Units,
+     PowersOfTenAreExact) {  // the text's value is the double nearest to it, as if written in SI
   EXPECT_TRUE(rc::check([] {
     const auto mantissa = *rc::gen::inRange<std::int64_t>(-1'000'000'000'000, 1'000'000'000'000);
     const int exponent = *rc::gen::inRange(-40, 40);
-    const std::vector<std::pair<std::string, int>> prefixes{{"k", 3}, {"M", 6}, {"G", 9}, {"m", -3}, {"u", -6}, {"n", -9}, {"c", -2}};
+    const std::vector<std::pair<std::string, int>> prefixes{
+        {"k", 3}, {"M", 6}, {"G", 9}, {"m", -3}, {"u", -6}, {"n", -9}, {"c", -2}};
     const auto [prefix, power] = *rc::gen::elementOf(prefixes);
-    const std::string digits = std::to_string(mantissa) + "e", truth = digits + std::to_string(exponent + power);
+    const std::string digits = std::to_string(mantissa) + "e",
+                      truth = digits + std::to_string(exponent + power);
     double expected = 0;
     std::from_chars(truth.data(), truth.data() + truth.size(), expected);
-    RC_ASSERT(read_quantity(digits + std::to_string(exponent) + ' ' + prefix + 'm', "m").value == expected);
+    RC_ASSERT(read_quantity(digits + std::to_string(exponent) + ' ' + prefix + 'm', "m").value ==
+              expected);
   }));
 }
 
@@ -78,7 +85,8 @@ TEST(Units, RefusalsSayWhy) {
   EXPECT_EQ(problem("1e400 m", "m"), "the number is too large or too small for double precision");
   EXPECT_EQ(problem("1e305 Gm", "m"), "the number is too large or too small for double precision");
   EXPECT_EQ(problem("5 100 m", "m"), "a number stands where the unit should be: \"100 m\"");
-  EXPECT_EQ(problem("5 seconds since 2000-01-01", "s"), "a number stands after the unit: \"2000-01-01\"");
+  EXPECT_EQ(problem("5 seconds since 2000-01-01", "s"),
+            "a number stands after the unit: \"2000-01-01\"");
   EXPECT_NE(problem("5 lg(re 1 m)", "m"), "");
   EXPECT_NE(problem(std::string_view("5 mm\0m", 7), "m"), "");
   EXPECT_NE(problem("5 " + std::string(100'000, 'm'), "m"), "");
@@ -92,11 +100,15 @@ TEST(Units, NothingStandsAfterTheUnit) {
   EXPECT_EQ(problem("1 mm -2", "m"), "a number stands after the unit: \"-2\"");
   EXPECT_EQ(problem("1 mm + 2", "m"), "\"+\" is no part of a unit");
   EXPECT_EQ(problem("1 mm, 2", "m"), "\",\" is no part of a unit");
-  EXPECT_EQ(problem("10'000 MPa", "Pa"), "\"'\" stands in the number: it has a decimal point, and nothing between thousands");
-  EXPECT_EQ(problem("1,5 mm", "m"), "\",\" stands in the number: it has a decimal point, and nothing between thousands");
-  for (const char* bad : {"1 000 MPa", "10_000 MPa", "10 GPa'",   "10 GPa GPa", "10 2/m Pa m", "10 GPa @ 3", "10 GPa:", "10 Pa s-1 s 1",
-                          "10 (GPa",   "10 GPa)",    "10 Pa^",    "10 Pa^-",    "10 Pa0",      "10 Pa^1.5",  "10 Pa99", "10 Pa m/",
-                          "10 /m",     "10 Pa..m/m", "10 ((Pa))", "10 N/(m",    "10 N/()",     "10 1/",      "10 1 Pa", "10 lg(re 1 Pa)"})
+  EXPECT_EQ(problem("10'000 MPa", "Pa"),
+            "\"'\" stands in the number: it has a decimal point, and nothing between thousands");
+  EXPECT_EQ(problem("1,5 mm", "m"),
+            "\",\" stands in the number: it has a decimal point, and nothing between thousands");
+  for (const char* bad :
+       {"1 000 MPa", "10_000 MPa",    "10 GPa'", "10 GPa GPa", "10 2/m Pa m", "10 GPa @ 3",
+        "10 GPa:",   "10 Pa s-1 s 1", "10 (GPa", "10 GPa)",    "10 Pa^",      "10 Pa^-",
+        "10 Pa0",    "10 Pa^1.5",     "10 Pa99", "10 Pa m/",   "10 /m",       "10 Pa..m/m",
+        "10 ((Pa))", "10 N/(m",       "10 N/()", "10 1/",      "10 1 Pa",     "10 lg(re 1 Pa)"})
     EXPECT_NE(problem(bad, "Pa"), "") << bad;
 }
 
@@ -104,7 +116,8 @@ TEST(Units, NoPercentStandsBehindAUnit) {
   EXPECT_EQ(problem("10 GPa %", "Pa"), "\"%\" stands behind a unit");
   EXPECT_EQ(problem("10 GPa.percent", "Pa"), "\"percent\" stands behind a unit");
   EXPECT_DOUBLE_EQ(si("5 %/s", "1/s"), 0.05);
-  EXPECT_EQ(problem("1_000 MPa", "Pa"), "\"_\" stands in the number: it has a decimal point, and nothing between thousands");
+  EXPECT_EQ(problem("1_000 MPa", "Pa"),
+            "\"_\" stands in the number: it has a decimal point, and nothing between thousands");
 }
 
 TEST(Units, UnknownOnesThatAreMeantToBeKnown) {
@@ -114,12 +127,14 @@ TEST(Units, UnknownOnesThatAreMeantToBeKnown) {
 }
 
 TEST(Units, ProductsQuotientsAndPowers) {
-  for (const char* same : {"3 kg/m3", "3 kg m-3", "3 kg.m^-3", "3 kg*m**-3", "3 kg\u00B7m\u207B\u00B3", "3 kg / m\u00B3", "3 kg/m/m/m",
-                           "3 kg/(m m m)", "3 kg/(m.m2)", "3kg/m^3", "3 (kg m)/m4"})
+  for (const char* same :
+       {"3 kg/m3", "3 kg m-3", "3 kg.m^-3", "3 kg*m**-3", "3 kg\u00B7m\u207B\u00B3",
+        "3 kg / m\u00B3", "3 kg/m/m/m", "3 kg/(m m m)", "3 kg/(m.m2)", "3kg/m^3", "3 (kg m)/m4"})
     EXPECT_DOUBLE_EQ(si(same, "kg/m3"), 3) << same;
   EXPECT_DOUBLE_EQ(si("3 1/s", "1/s"), 3);
   EXPECT_DOUBLE_EQ(si("3 1/(s m)", "Pa s/kg"), 3);
-  EXPECT_EQ(problem("3 kg/m s2", "Pa"), "after \"/\" a product stands in parentheses, as in \"kg/(m s2)\"");
+  EXPECT_EQ(problem("3 kg/m s2", "Pa"),
+            "after \"/\" a product stands in parentheses, as in \"kg/(m s2)\"");
   EXPECT_DOUBLE_EQ(si("3 kg/(m s2)", "Pa"), 3);
 }
 
@@ -162,9 +177,10 @@ TEST(Units, DimensionsHaveNames) {
   EXPECT_EQ(dimension_of("mm").name, "a length");
   EXPECT_EQ(dimension_of("").name, "a number");
   EXPECT_EQ(dimension_of("m7").example, "1 m7");
-  for (const char* unit :
-       {"m", "s", "kg", "K", "rad", "m2", "m3", "1/s", "m/s", "m/s2", "kg/m3", "N", "Pa", "J", "W", "N/m", "J/m2", "Pa s", "kg/s", "rad/s"})
-    EXPECT_EQ(problem(dimension_of(unit).example, unit), "") << unit;  // the examples are right themselves
+  for (const char* unit : {"m",     "s", "kg", "K", "rad", "m2",  "m3",   "1/s",  "m/s",  "m/s2",
+                           "kg/m3", "N", "Pa", "J", "W",   "N/m", "J/m2", "Pa s", "kg/s", "rad/s"})
+    EXPECT_EQ(problem(dimension_of(unit).example, unit), "")
+        << unit;  // the examples are right themselves
 }
 
 TEST(Units, TheLocaleDoesNotMatter) {
@@ -182,7 +198,9 @@ TEST(Units, ThreadsMayReadAtTheSameTime) {
   std::atomic<int> right = 0;
   for (int t = 0; t < 4; ++t)
     threads.emplace_back([&] {
-      for (int n = 0; n < 500; ++n) right += read_quantity("2 mm", "m").value == 0.002 && dimension_of("Pa").name == "a pressure";
+      for (int n = 0; n < 500; ++n)
+        right +=
+            read_quantity("2 mm", "m").value == 0.002 && dimension_of("Pa").name == "a pressure";
     });
   for (auto& thread : threads) thread.join();
   EXPECT_EQ(right, 2000);

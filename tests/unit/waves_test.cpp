@@ -1,4 +1,5 @@
-// Stability and the critical time step of the infinite lattice, against closed forms that were found independently.
+// Stability and the critical time step of the infinite lattice, against closed forms that were
+// found independently.
 #include <model/critical_step.hpp>
 #include <model/stability.hpp>
 #include <support/cubic_lattice.hpp>
@@ -21,7 +22,8 @@ namespace {
 double bound(const Cubic& cubic) {
   StiffnessBound sum;
   for (const NeighbourGeometry& n : cubic.lattice.neighbours)
-    for (const int side : {1, -1}) sum.add(n, side, cubic.lattice.springs[n.site.spring_class], 1, cubic.lattice.membrane);
+    for (const int side : {1, -1})
+      sum.add(n, side, cubic.lattice.springs[n.site.spring_class], 1, cubic.lattice.membrane);
   sum.add_alpha(cubic.lattice.alpha);
   return sum.value();
 }
@@ -31,7 +33,8 @@ double step(const Ratios& r) { return 2 / std::sqrt(stiffest_wave(Cubic(r).latti
 Ratios I_m(double lambda) { return calibration::ratios(calibration::Membrane::I_m, lambda); }
 
 TEST(Waves, TableOfIm) {  // in sqrt(m / k)
-  for (const auto& [lambda, expected] : {std::pair{0.0, .5774}, {.25, .5443}, {1., .4714}, {2., .3780}, {5., .2390}, {7., .2020}})
+  for (const auto& [lambda, expected] :
+       {std::pair{0.0, .5774}, {.25, .5443}, {1., .4714}, {2., .3780}, {5., .2390}, {7., .2020}})
     EXPECT_NEAR(step(I_m(lambda)), expected, 6e-5) << lambda;
 }
 
@@ -51,8 +54,10 @@ TEST(Waves, ClosedFormForPositiveStiffness) {
     const calibration::Elasticity e = calibration::elasticity(r);
     const double expected = r.clamped ? 2 * e.C1 : std::max(2 * e.C1, 2 * e.C3);
     const Cubic cubic(r);
-    EXPECT_NEAR(stiffest_wave(cubic.lattice).stiffness, expected, 1e-7 * expected) << r.alpha << ' ' << r.beta << ' ' << r.gamma;
-    EXPECT_NEAR(bound(cubic), expected, 1e-12 * expected);  // the bound for several materials is sharp for one
+    EXPECT_NEAR(stiffest_wave(cubic.lattice).stiffness, expected, 1e-7 * expected)
+        << r.alpha << ' ' << r.beta << ' ' << r.gamma;
+    EXPECT_NEAR(bound(cubic), expected,
+                1e-12 * expected);  // the bound for several materials is sharp for one
     EXPECT_TRUE(stable(cubic.lattice));
   }
 }
@@ -66,7 +71,8 @@ TEST(Waves, MembraneIVWithNegativeLambda) {
 }
 
 TEST(Waves, NamesTheWave) {
-  EXPECT_EQ(describe(stiffest_wave(Cubic(I_m(5)).lattice)), "the wave with vector (0, 0, 0) a spacing, moving in the fourth dimension");
+  EXPECT_EQ(describe(stiffest_wave(Cubic(I_m(5)).lattice)),
+            "the wave with vector (0, 0, 0) a spacing, moving in the fourth dimension");
   const std::string longitudinal = describe(stiffest_wave(Cubic(I_m(1)).lattice));
   EXPECT_NE(longitudinal.find("pi"), std::string::npos) << longitudinal;
   EXPECT_EQ(longitudinal.find("fourth"), std::string::npos) << longitudinal;
@@ -74,7 +80,9 @@ TEST(Waves, NamesTheWave) {
 
 TEST(WaveStability, ClampedMembranesNeedPositiveSpringsInSpace) {
   using calibration::Membrane;
-  const auto is_stable = [](Membrane membrane, double lambda) { return stable(Cubic(calibration::ratios(membrane, lambda)).lattice); };
+  const auto is_stable = [](Membrane membrane, double lambda) {
+    return stable(Cubic(calibration::ratios(membrane, lambda)).lattice);
+  };
   EXPECT_TRUE(is_stable(Membrane::III, -1.45));
   EXPECT_FALSE(is_stable(Membrane::III, -1.55));
   EXPECT_TRUE(is_stable(Membrane::IV, -1.9));
@@ -92,19 +100,25 @@ TEST(WaveStability, SaysWhatGrows) {
 TEST(WaveStability, ClampedMembranesOfTwoLayersNeedPositiveCrossSprings) {
   using calibration::Membrane;
   for (const Membrane membrane : {Membrane::III, Membrane::IV}) {
-    EXPECT_FALSE(find_instability(Cubic(calibration::ratios(membrane, 0.01)).lattice, Sector::opposed));
-    const auto found = find_instability(Cubic(calibration::ratios(membrane, -0.01)).lattice, Sector::opposed);
+    EXPECT_FALSE(
+        find_instability(Cubic(calibration::ratios(membrane, 0.01)).lattice, Sector::opposed));
+    const auto found =
+        find_instability(Cubic(calibration::ratios(membrane, -0.01)).lattice, Sector::opposed);
     ASSERT_TRUE(found);
-    EXPECT_NE(describe(*found).find("the two layers oppositely, grows"), std::string::npos) << describe(*found);
+    EXPECT_NE(describe(*found).find("the two layers oppositely, grows"), std::string::npos)
+        << describe(*found);
   }
 }
 
-// The dynamical matrix of both layers as it follows from the springs one by one, against the two sectors.
+// The dynamical matrix of both layers as it follows from the springs one by one, against the two
+// sectors.
 Eigen::VectorXd two_layers(const Cubic& cubic, Vec3 q) {
   using Vector8 = Eigen::Matrix<std::complex<double>, 8, 1>;
   Eigen::Matrix<std::complex<double>, 8, 8> sum = Eigen::Matrix<std::complex<double>, 8, 8>::Zero();
-  const auto spring = [&](double stiffness, const Neighbour& site, Eigen::Vector4d along, int from, int to) {
-    const std::complex<double> phase = std::polar(1.0, q.x * site.dx + q.y * site.dy + q.z * site.dz);
+  const auto spring = [&](double stiffness, const Neighbour& site, Eigen::Vector4d along, int from,
+                          int to) {
+    const std::complex<double> phase =
+        std::polar(1.0, q.x * site.dx + q.y * site.dy + q.z * site.dz);
     Vector8 stretch = Vector8::Zero();
     stretch.segment<4>(4 * to) += phase * along.normalized();
     stretch.segment<4>(4 * from) -= along.normalized();
@@ -115,7 +129,8 @@ Eigen::VectorXd two_layers(const Cubic& cubic, Vec3 q) {
     for (const int layer : {0, 1}) {
       const double down = layer == 0 ? -1 : 1;  // layer 0 lies above the mirror
       spring(constants.stiffness, n.site, {n.rest.x, n.rest.y, n.rest.z, 0}, layer, layer);
-      spring(constants.cross_stiffness, n.site, {n.rest.x, n.rest.y, n.rest.z, down}, layer, 1 - layer);
+      spring(constants.cross_stiffness, n.site, {n.rest.x, n.rest.y, n.rest.z, down}, layer,
+             1 - layer);
     }
   }
   spring(cubic.lattice.alpha, {}, {0, 0, 0, -1}, 0, 1);
@@ -134,7 +149,8 @@ TEST(Waves, TwoSectorsAreTheWholeTwoLayerLattice) {
     std::sort(found.begin(), found.end());
     const Eigen::VectorXd expected = two_layers(cubic, q);
     ASSERT_EQ(found.size(), 8u);
-    for (std::size_t mode = 0; mode < 8; ++mode) EXPECT_NEAR(found[mode], expected(static_cast<Eigen::Index>(mode)), 1e-11);
+    for (std::size_t mode = 0; mode < 8; ++mode)
+      EXPECT_NEAR(found[mode], expected(static_cast<Eigen::Index>(mode)), 1e-11);
   }
 }
 

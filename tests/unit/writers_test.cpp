@@ -1,4 +1,5 @@
-// Writers: names of files, tables that read back exactly, refusals with the valid names, no influence of the locale.
+// Writers: names of files, tables that read back exactly, refusals with the valid names, no
+// influence of the locale.
 #include <support/output.hpp>
 
 #include <gtest/gtest.h>
@@ -54,8 +55,10 @@ TEST(Csv, ReadsBackExactly) {
     writer.frame(snapshot);
   }
   writer.end();
-  EXPECT_EQ(folder.names(), (std::vector<std::string>{"state_000000.csv", "state_000001.csv", "state_times.csv"}));
-  EXPECT_EQ(first_line(folder.file("state_000001.csv")), "x,y,z,displacement_x,displacement_y,displacement_z,broken_open");
+  EXPECT_EQ(folder.names(),
+            (std::vector<std::string>{"state_000000.csv", "state_000001.csv", "state_times.csv"}));
+  EXPECT_EQ(first_line(folder.file("state_000001.csv")),
+            "x,y,z,displacement_x,displacement_y,displacement_z,broken_open");
   const auto rows = numbers_below_header(folder.file("state_000001.csv"));
   ASSERT_EQ(rows.size(), 24u);
   for (std::size_t n = 0; n < rows.size(); ++n) {
@@ -66,13 +69,15 @@ TEST(Csv, ReadsBackExactly) {
     }
     EXPECT_EQ(rows[n][6], body.open[n]);
   }
-  EXPECT_EQ(contents(folder.file("state_times.csv")), "file,step,time\nstate_000000.csv,0,0\nstate_000001.csv,1,0.3333333333333333\n");
+  EXPECT_EQ(contents(folder.file("state_times.csv")),
+            "file,step,time\nstate_000000.csv,0,0\nstate_000001.csv,1,0.3333333333333333\n");
 }
 
 TEST(Csv, WritesOnlyTheRegionAndTheDeformedPlaces) {
   Folder folder("csv_region");
   FakeBody body({4, 3, 2});
-  Plugin writer("writers.csv", {{"fields", {"broken_open"}}, {"region", "some"}, {"deformed", true}});
+  Plugin writer("writers.csv",
+                {{"fields", {"broken_open"}}, {"region", "some"}, {"deformed", true}});
   writer.begin(body.context(folder.path()));
   writer.frame(body.at(0.25));
   const auto rows = numbers_below_header(folder.file("frames_000000.csv"));
@@ -80,7 +85,8 @@ TEST(Csv, WritesOnlyTheRegionAndTheDeformedPlaces) {
   for (std::size_t n = 0; n < rows.size(); ++n) {
     const Particle particle = body.some()[n];
     for (std::size_t axis = 0; axis < 3; ++axis)
-      EXPECT_EQ(rows[n][axis], body.positions()[3 * particle + axis] + body.displacements[3 * particle + axis]);
+      EXPECT_EQ(rows[n][axis],
+                body.positions()[3 * particle + axis] + body.displacements[3 * particle + axis]);
     EXPECT_EQ(rows[n][3], body.open[particle]);
   }
 }
@@ -89,16 +95,20 @@ class EveryWriter : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Types, EveryWriter, testing::Values("writers.vtu", "writers.csv"));
 
 TEST_P(EveryWriter, RefusesRepeatedFieldsAndFolders) {
-  const auto faults = Plugin(GetParam(), {{"fields", {"damage", "damage"}}, {"file", "a/b"}}).faults();
-  EXPECT_EQ(faults, (std::vector<std::string>{"file: a name of letters, digits, '_', '-' and '.', without folders, of at most 80 characters",
-                                              "fields: each field once; \"damage\" is there twice"}));
+  const auto faults =
+      Plugin(GetParam(), {{"fields", {"damage", "damage"}}, {"file", "a/b"}}).faults();
+  EXPECT_EQ(faults,
+            (std::vector<std::string>{"file: a name of letters, digits, '_', '-' and '.', without "
+                                      "folders, of at most 80 characters",
+                                      "fields: each field once; \"damage\" is there twice"}));
 }
 
 TEST_P(EveryWriter, RefusesAFieldThatTheRunLacks) {
   Folder folder("missing_field");
   FakeBody body({2, 2, 2});
   Plugin writer(GetParam(), {{"fields", {"height"}}});
-  const std::string expected = "this run has no field \"height\"; it has displacement, velocity, broken_open, broken_closed";
+  const std::string expected =
+      "this run has no field \"height\"; it has displacement, velocity, broken_open, broken_closed";
   OutputContext context = body.context(folder.path());
   writer.begin(context);  // a context that does not know the fields leaves it to the first frame
   EXPECT_EQ(refusal(writer, body.at(0)), expected);
@@ -131,8 +141,11 @@ TEST_P(EveryWriter, IgnoresTheLocale) {
     return all;
   };
   const std::string plain = write();
-  const std::locale before = std::locale::global(std::locale(std::locale::classic(), new CommaPoint));
-  const char* c_locale = std::setlocale(LC_ALL, "de_DE.UTF-8");  // where the system has it; the facet above serves streams in any case
+  const std::locale before =
+      std::locale::global(std::locale(std::locale::classic(), new CommaPoint));
+  const char* c_locale = std::setlocale(
+      LC_ALL,
+      "de_DE.UTF-8");  // where the system has it; the facet above serves streams in any case
   const std::string foreign = write();
   std::locale::global(before);
   if (c_locale != nullptr) std::setlocale(LC_ALL, "C");

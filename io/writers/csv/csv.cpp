@@ -1,5 +1,5 @@
-// One table of numbers a frame: x, y, z and the chosen fields of each particle, every number such that it reads back exactly;
-// and `<file>_times.csv`, which gives each table's step and time.
+// One table of numbers a frame: x, y, z and the chosen fields of each particle, every number such
+// that it reads back exactly; and `<file>_times.csv`, which gives each table's step and time.
 #include <hyperlattice/frames.hpp>
 
 namespace hyperlattice {
@@ -10,7 +10,9 @@ class Csv {
   using Options = FrameOptions;
 
   static Schema<Options> schema() {
-    Schema<Options> schema("writers.csv", "One table of comma-separated values a frame: x, y, z and fields of each particle");
+    Schema<Options> schema(
+        "writers.csv",
+        "One table of comma-separated values a frame: x, y, z and fields of each particle");
     add_frame_options(schema);
     return schema.check(check_frame_options<Options>);
   }
@@ -21,7 +23,8 @@ class Csv {
     for (const std::string& name : options_.fields) require_field(context, name);
     files_ = FrameFiles(context, options_.file, ".csv");
     selection_ = Selection(context.particles(options_.region));
-    for (std::size_t n = 0; n < context.earlier.size(); ++n) add_to_times(files_.name(n), context.earlier[n].step, context.earlier[n].time);
+    for (std::size_t n = 0; n < context.earlier.size(); ++n)
+      add_to_times(files_.name(n), context.earlier[n].step, context.earlier[n].time);
   }
 
   void frame(const Snapshot& snapshot) {

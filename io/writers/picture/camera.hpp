@@ -1,6 +1,7 @@
-// A camera looks along `forward` at a target. In view space x points right, y up, z away from the eye, the target is the origin,
-// and one unit is a pixel at the target's depth. The ray of a pixel at (X, Y) is (X, Y, 0) + z (k X, k Y, 1), with k = 1 / distance of the
-// eye for a perspective view and k = 0 for an orthographic one.
+// A camera looks along `forward` at a target. In view space x points right, y up, z away from the
+// eye, the target is the origin, and one unit is a pixel at the target's depth. The ray of a pixel
+// at (X, Y) is (X, Y, 0) + z (k X, k Y, 1), with k = 1 / distance of the eye for a perspective view
+// and k = 0 for an orthographic one.
 #pragma once
 
 #include <hyperlattice/plain.hpp>
@@ -12,9 +13,10 @@ namespace hyperlattice::picture {
 
 struct Camera {
   Vec3 right, up, forward, target;
-  double scale = 1;     ///< pixels a metre
-  double k = 0;         ///< 1 / pixels
-  double x = 0, y = 0;  ///< pixel of the image, from its top left corner, at which the target appears
+  double scale = 1;  ///< pixels a metre
+  double k = 0;      ///< 1 / pixels
+  double x = 0,
+         y = 0;  ///< pixel of the image, from its top left corner, at which the target appears
 
   Vec3 to_view(Vec3 point) const {
     const Vec3 p = scale * (point - target);
@@ -27,11 +29,14 @@ struct Frame {
   double left = 0, top = 0, width = 0, height = 0;
 };
 
-/// A camera that sees, from the direction `view`, all cubes of the given edge (metres) about the points (x y z each) in the frame.
-inline Camera make_camera(std::span<const double> points, double edge, Vec3 view, bool perspective, Frame frame) {
+/// A camera that sees, from the direction `view`, all cubes of the given edge (metres) about the
+/// points (x y z each) in the frame.
+inline Camera make_camera(std::span<const double> points, double edge, Vec3 view, bool perspective,
+                          Frame frame) {
   Camera camera;
   camera.forward = (-1 / norm(view)) * view;
-  const Vec3 sideways = cross(camera.forward, {0, 0, 1});  // z is up, unless one looks along it; then y is
+  const Vec3 sideways =
+      cross(camera.forward, {0, 0, 1});  // z is up, unless one looks along it; then y is
   camera.right = norm(sideways) > 1e-6 ? (1 / norm(sideways)) * sideways : Vec3{1, 0, 0};
   camera.up = cross(camera.right, camera.forward);
 
@@ -42,12 +47,16 @@ inline Camera make_camera(std::span<const double> points, double edge, Vec3 view
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
-  const auto seen_edge = [&](Vec3 axis) { return edge * (std::abs(axis.x) + std::abs(axis.y) + std::abs(axis.z)); };
+  const auto seen_edge = [&](Vec3 axis) {
+    return edge * (std::abs(axis.x) + std::abs(axis.y) + std::abs(axis.z));
+  };
   const Vec3 centre = 0.5 * (low + high);
-  const Vec3 size = high - low + Vec3{seen_edge(camera.right), seen_edge(camera.up), seen_edge(camera.forward)};
+  const Vec3 size =
+      high - low + Vec3{seen_edge(camera.right), seen_edge(camera.up), seen_edge(camera.forward)};
   camera.target = centre.x * camera.right + centre.y * camera.up + centre.z * camera.forward;
-  const double distance = 2.5 * norm(size);                                   // of the eye, metres
-  const double nearer = perspective ? 1 / (1 - 0.5 * size.z / distance) : 1;  // how much larger the front appears
+  const double distance = 2.5 * norm(size);  // of the eye, metres
+  const double nearer =
+      perspective ? 1 / (1 - 0.5 * size.z / distance) : 1;  // how much larger the front appears
   camera.scale = std::min(frame.width / size.x, frame.height / size.y) / nearer;
   camera.k = perspective ? 1 / (camera.scale * distance) : 0;
   camera.x = frame.left + 0.5 * frame.width;

@@ -10,8 +10,14 @@ namespace hyperlattice::picture {
 using Colour = std::array<std::uint8_t, 3>;  ///< red, green, blue as a screen takes them
 
 struct Image {
-  Image(int w, int h) : width(w), height(h), pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), Colour{255, 255, 255}) {}
-  Colour& at(int x, int y) { return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)]; }
+  Image(int w, int h)
+      : width(w),
+        height(h),
+        pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), Colour{255, 255, 255}) {}
+  Colour& at(int x, int y) {
+    return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                  static_cast<std::size_t>(x)];
+  }
 
   int width, height;
   std::vector<Colour> pixels;  ///< rows from the top

@@ -1,5 +1,6 @@
-// A picture of the particles a frame, drawn without a screen: whole or cut open, coloured by failure or by a field.
-// A particle with a broken spring that is open is red, with only closed ones green, with none blue.
+// A picture of the particles a frame, drawn without a screen: whole or cut open, coloured by
+// failure or by a field. A particle with a broken spring that is open is red, with only closed ones
+// green, with none blue.
 #include "legend.hpp"
 #include "palette.hpp"
 #include "png.hpp"
@@ -16,9 +17,10 @@ namespace {
 using namespace picture;
 
 constexpr std::string_view failure = "failure";
-constexpr std::string_view colourings[] = {failure,    "displacement", "displacement_x", "displacement_y", "displacement_z",
-                                           "velocity", "velocity_x",   "velocity_y",     "velocity_z",     "height",
-                                           "material", "broken_open",  "broken_closed",  "damage"};
+constexpr std::string_view colourings[] = {
+    failure,    "displacement", "displacement_x", "displacement_y", "displacement_z",
+    "velocity", "velocity_x",   "velocity_y",     "velocity_z",     "height",
+    "material", "broken_open",  "broken_closed",  "damage"};
 constexpr std::string_view forms[] = {"cubes", "spheres"};
 constexpr std::string_view cameras[] = {"orthographic", "perspective"};
 constexpr std::string_view fits[] = {"rest", "frame"};
@@ -29,14 +31,22 @@ enum class Projector : std::uint32_t { orthographic, perspective };
 QuantityOptions quantity_of(std::string_view colouring) {
   for (const std::string_view field : {"displacement", "velocity"}) {
     if (colouring == field) return {std::string(field), Projection::magnitude, {}};
-    if (colouring.starts_with(field)) return {std::string(field), static_cast<Projection>(colouring.back() - 'x'), {}};
+    if (colouring.starts_with(field))
+      return {std::string(field), static_cast<Projection>(colouring.back() - 'x'), {}};
   }
   return {std::string(colouring), std::nullopt, {}};
 }
 
 std::string time_text(double time) {
   const bool micro = time < 1e-3, milli = time < 1;
-  return "t = " + short_number(time * (micro ? 1e6 : milli ? 1e3 : 1), 4) + (micro ? " us" : milli ? " ms" : " s");
+  return "t = " +
+         short_number(time * (micro   ? 1e6
+                              : milli ? 1e3
+                                      : 1),
+                      4) +
+         (micro   ? " us"
+          : milli ? " ms"
+                  : " s");
 }
 
 class Picture {
@@ -56,25 +66,32 @@ class Picture {
   };
 
   static Schema<Options> schema() {
-    return Schema<Options>("writers.picture", "A picture of the particles a frame, as PNG, drawn without a screen")
+    return Schema<Options>("writers.picture",
+                           "A picture of the particles a frame, as PNG, drawn without a screen")
         .add<&Options::file>("file", "", "base name of the files")
         .fallback("\"picture\"")
         .add<&Options::region>("region", "", "particles to draw")
         .fallback("\"all\"")
-        .add<&Options::cut>("cut", "", "particles to take away, so that the inside is seen; left out: none")
+        .add<&Options::cut>("cut", "",
+                            "particles to take away, so that the inside is seen; left out: none")
         .add<&Options::colour_by>("colour_by", "",
-                                  "failure (blue intact, red open, green closed) or a field; left out: failure if springs can break, "
+                                  "failure (blue intact, red open, green closed) or a field; left "
+                                  "out: failure if springs can break, "
                                   "else displacement")
         .choices(colourings)
-        .add<&Options::range>("range", "", "least and greatest value of the colours, SI; left out: those of each frame")
+        .add<&Options::range>(
+            "range", "",
+            "least and greatest value of the colours, SI; left out: those of each frame")
         .add<&Options::view>("view", "", "direction from the body to the eye; z is up")
         .fallback("[1, -1.4, 0.9]")
         .add<&Options::camera>("camera", "", "whether far things look smaller")
         .choices(cameras)
         .fallback("\"orthographic\"")
-        .add<&Options::fit>("fit", "",
-                            "what fills the picture: rest: the body at rest, seen from one place in all frames, so that motion is seen as such; "
-                            "frame: the body as it is drawn in each frame, however far it has moved")
+        .add<&Options::fit>(
+            "fit", "",
+            "what fills the picture: rest: the body at rest, seen from one place in all frames, so "
+            "that motion is seen as such; "
+            "frame: the body as it is drawn in each frame, however far it has moved")
         .choices(fits)
         .fallback("\"rest\"")
         .add<&Options::particles>("particles", "", "how a particle is drawn")
@@ -94,7 +111,8 @@ class Picture {
         .check([](const Options& options, const FaultSink& faults) {
           check_file_name(options.file, faults);
           if (norm(options.view) == 0) faults.fault("view", "a direction that is not zero");
-          if (options.range && !(options.range->size() == 2 && options.range->front() < options.range->back()))
+          if (options.range &&
+              !(options.range->size() == 2 && options.range->front() < options.range->back()))
             faults.fault("range", "two numbers, the smaller first");
         });
   }
@@ -109,26 +127,38 @@ class Picture {
     if (options_.cut) {
       const auto cut = context.particles(*options_.cut);
       std::vector<Particle> left;
-      std::set_difference(whole.begin(), whole.end(), cut.begin(), cut.end(), std::back_inserter(left));
+      std::set_difference(whole.begin(), whole.end(), cut.begin(), cut.end(),
+                          std::back_inserter(left));
       if (left.empty()) throw std::runtime_error("the cut takes every particle away");
       drawn_ = Selection(left);
     }
-    if (!options_.colour_by && !context.fields.empty()) options_.colour_by = is_one_of(context.fields, "broken_open") ? failure : "displacement";
-    if (options_.colour_by) require_field(context, *options_.colour_by == failure ? "broken_open" : quantity_of(*options_.colour_by).field);
+    if (!options_.colour_by && !context.fields.empty())
+      options_.colour_by = is_one_of(context.fields, "broken_open") ? failure : "displacement";
+    if (options_.colour_by)
+      require_field(context, *options_.colour_by == failure
+                                 ? "broken_open"
+                                 : quantity_of(*options_.colour_by).field);
   }
 
   void frame(const Snapshot& snapshot) {
-    if (Field field; !options_.colour_by) options_.colour_by = snapshot.field("broken_open", field) ? failure : "displacement";
+    if (Field field; !options_.colour_by)
+      options_.colour_by = snapshot.field("broken_open", field) ? failure : "displacement";
     Image image(static_cast<int>(options_.width), static_cast<int>(options_.height));
     std::vector<double> buffer;
     if (!camera_ || options_.fit == Fit::frame) {
-      const auto shown = options_.fit == Fit::frame ? whole_.positions(snapshot, options_.scale, buffer) : whole_.of(snapshot.positions, 3, buffer);
+      const auto shown = options_.fit == Fit::frame
+                             ? whole_.positions(snapshot, options_.scale, buffer)
+                             : whole_.of(snapshot.positions, 3, buffer);
       const double border = 0.04 * image.width, foot = legend_height(image.width);
-      camera_ = make_camera(shown, snapshot.spacing, options_.view, options_.camera == Projector::perspective,
-                            {border, border, image.width - 2 * border, image.height - border - foot});
+      camera_ = make_camera(
+          shown, snapshot.spacing, options_.view, options_.camera == Projector::perspective,
+          {border, border, image.width - 2 * border, image.height - border - foot});
     }
-    const Colouring colouring = *options_.colour_by == failure ? colour_by_failure(snapshot) : colour_by_field(snapshot);
-    render({drawn_.positions(snapshot, options_.scale, buffer), colouring.colours, snapshot.spacing, options_.particles}, *camera_, image);
+    const Colouring colouring =
+        *options_.colour_by == failure ? colour_by_failure(snapshot) : colour_by_field(snapshot);
+    render({drawn_.positions(snapshot, options_.scale, buffer), colouring.colours, snapshot.spacing,
+            options_.particles},
+           *camera_, image);
     colouring.draw_legend(image);
     const int border = image.width / 40;
     write_text(image, border, border, time_text(snapshot.time));
@@ -153,15 +183,20 @@ class Picture {
   };
 
   Colouring colour_by_failure(const Snapshot& snapshot) const {
-    const auto open = require_field(snapshot, "broken_open").values, closed = require_field(snapshot, "broken_closed").values;
+    const auto open = require_field(snapshot, "broken_open").values,
+               closed = require_field(snapshot, "broken_closed").values;
     Colouring colouring;
     for (std::size_t n = 0; n < drawn_.size(); ++n) {
       const Particle particle = drawn_[n];
-      colouring.colours.push_back(open[particle] > 0 ? open_failure : closed[particle] > 0 ? closed_failure : intact);
+      colouring.colours.push_back(open[particle] > 0     ? open_failure
+                                  : closed[particle] > 0 ? closed_failure
+                                                         : intact);
     }
     colouring.meaning = "blue intact, red open failure, green closed failure";
     colouring.draw_legend = [](Image& image) {
-      draw_keys(image, {{intact, "intact"}, {open_failure, "open failure"}, {closed_failure, "closed failure"}});
+      draw_keys(
+          image,
+          {{intact, "intact"}, {open_failure, "open failure"}, {closed_failure, "closed failure"}});
     };
     return colouring;
   }
@@ -170,17 +205,22 @@ class Picture {
     const Quantity quantity(quantity_of(*options_.colour_by));
     const Field field = require_field(snapshot, quantity.field());
     std::vector<double> values(drawn_.size());
-    for (std::size_t n = 0; n < drawn_.size(); ++n) quantity.evaluate(snapshot, field, drawn_[n], &values[n]);
+    for (std::size_t n = 0; n < drawn_.size(); ++n)
+      quantity.evaluate(snapshot, field, drawn_[n], &values[n]);
     const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
-    const double low = options_.range ? options_.range->front() : *least, high = options_.range ? options_.range->back() : *greatest;
+    const double low = options_.range ? options_.range->front() : *least,
+                 high = options_.range ? options_.range->back() : *greatest;
     Colouring colouring;
-    for (const double value : values) colouring.colours.push_back(viridis(high > low ? (value - low) / (high - low) : 0));
+    for (const double value : values)
+      colouring.colours.push_back(viridis(high > low ? (value - low) / (high - low) : 0));
     std::string name = quantity.names().front();
     std::replace(name.begin(), name.end(), '_', ' ');
     if (quantity.field() == "displacement" || quantity.field() == "height") name += " (m)";
     if (quantity.field() == "velocity") name += " (m/s)";
     colouring.meaning = name + " from " + short_number(low) + " to " + short_number(high);
-    colouring.draw_legend = [=](Image& image) { draw_scale(image, short_number(low, 4), short_number(high, 4), name); };
+    colouring.draw_legend = [=](Image& image) {
+      draw_scale(image, short_number(low, 4), short_number(high, 4), name);
+    };
     return colouring;
   }
 

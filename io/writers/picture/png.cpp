@@ -7,21 +7,28 @@
 namespace hyperlattice::picture {
 namespace {
 
-/// libpng leaves by longjmp when it fails, so nothing here may own memory: all of it belongs to the caller.
-bool encode(png_structp png, png_infop info, const Image& image, png_textp texts, int text_count, std::string& bytes) {
+/// libpng leaves by longjmp when it fails, so nothing here may own memory: all of it belongs to the
+/// caller.
+bool encode(png_structp png, png_infop info, const Image& image, png_textp texts, int text_count,
+            std::string& bytes) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_write_fn(
       png, &bytes,
       [](png_structp self, png_bytep data, png_size_t size) {
-        static_cast<std::string*>(png_get_io_ptr(self))->append(reinterpret_cast<const char*>(data), size);
+        static_cast<std::string*>(png_get_io_ptr(self))
+            ->append(reinterpret_cast<const char*>(data), size);
       },
       nullptr);
-  png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+  png_set_IHDR(png, info, static_cast<png_uint_32>(image.width),
+               static_cast<png_uint_32>(image.height), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_compression_level(png, 4);
   png_set_text(png, info, texts, text_count);
   png_write_info(png, info);
-  for (int y = 0; y < image.height; ++y) png_write_row(png, image.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width)].data());
+  for (int y = 0; y < image.height; ++y)
+    png_write_row(
+        png,
+        image.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width)].data());
   png_write_end(png, info);
   return true;
 }
@@ -39,7 +46,8 @@ std::string encode_png(const Image& image, const Notes& notes) {
   std::string bytes;
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
-  const bool done = info != nullptr && encode(png, info, image, texts.data(), static_cast<int>(texts.size()), bytes);
+  const bool done = info != nullptr &&
+                    encode(png, info, image, texts.data(), static_cast<int>(texts.size()), bytes);
   png_destroy_write_struct(&png, &info);
   if (!done) throw std::runtime_error("libpng cannot encode the picture");
   return bytes;

@@ -1,7 +1,10 @@
-// First each pixel learns which particle it sees and how deep (from the nearest particle to the farthest, skipping those that others hide);
-// then each pixel is lit once. All is done on twice as many pixels each way and averaged, which smooths edges.
-//   light = colour * (ambient * openness + lamp * max(0, n.l)),   openness = 1 - s sum max(0, v.n - b) / (v.v + e)
-// where v leads from the pixel's point to a point seen nearby: what stands above the surface shades it, so cracks and steps are dark.
+// First each pixel learns which particle it sees and how deep (from the nearest particle to the
+// farthest, skipping those that others hide); then each pixel is lit once. All is done on twice as
+// many pixels each way and averaged, which smooths edges.
+//   light = colour * (ambient * openness + lamp * max(0, n.l)),   openness = 1 - s sum max(0, v.n -
+//   b) / (v.v + e)
+// where v leads from the pixel's point to a point seen nearby: what stands above the surface shades
+// it, so cracks and steps are dark.
 #include "render.hpp"
 
 #include <algorithm>
@@ -19,7 +22,9 @@ struct Vec3f {
   float x = 0, y = 0, z = 0;
 };
 float dot(Vec3f a, Vec3f b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Vec3f narrow(Vec3 a) { return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)}; }
+Vec3f narrow(Vec3 a) {
+  return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
+}
 
 struct Hit {
   float depth = far_away;
@@ -36,13 +41,16 @@ struct Cube {
     const Vec3 world[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     for (int n = 0; n < 3; ++n) {
       const Vec3f a = axes[n] =
-          narrow({hyperlattice::dot(world[n], camera.right), hyperlattice::dot(world[n], camera.up), hyperlattice::dot(world[n], camera.forward)});
-      reach = {reach.x + h * std::abs(a.x), reach.y + h * std::abs(a.y), reach.z + h * std::abs(a.z)};
+          narrow({hyperlattice::dot(world[n], camera.right), hyperlattice::dot(world[n], camera.up),
+                  hyperlattice::dot(world[n], camera.forward)});
+      reach = {reach.x + h * std::abs(a.x), reach.y + h * std::abs(a.y),
+               reach.z + h * std::abs(a.z)};
     }
   }
 
   Hit meet(Vec3f centre, float X, float Y) const {
-    const Vec3f to{centre.x - X * (1 + k * centre.z), centre.y - Y * (1 + k * centre.z), 0}, ray{k * X, k * Y, 1};
+    const Vec3f to{centre.x - X * (1 + k * centre.z), centre.y - Y * (1 + k * centre.z), 0},
+        ray{k * X, k * Y, 1};
     float enter = -far_away, leave = far_away;
     Hit hit;
     for (const Vec3f& axis : axes) {
@@ -68,8 +76,10 @@ struct Sphere {
   Sphere(const Camera&, float half, float slope) : h(half), k(slope), reach{half, half, half} {}
 
   Hit meet(Vec3f centre, float X, float Y) const {
-    const Vec3f to{centre.x - X * (1 + k * centre.z), centre.y - Y * (1 + k * centre.z), 0}, ray{k * X, k * Y, 1};
-    const float square = dot(ray, ray), along = dot(ray, to), inside = along * along - square * (dot(to, to) - h * h);
+    const Vec3f to{centre.x - X * (1 + k * centre.z), centre.y - Y * (1 + k * centre.z), 0},
+        ray{k * X, k * Y, 1};
+    const float square = dot(ray, ray), along = dot(ray, to),
+                inside = along * along - square * (dot(to, to) - h * h);
     if (inside < 0) return {};
     const float t = (along - std::sqrt(inside)) / square;
     return {centre.z + t, {(t * ray.x - to.x) / h, (t * ray.y - to.y) / h, (t * ray.z - to.z) / h}};
@@ -91,7 +101,8 @@ struct Canvas {
         depth(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), far_away),
         owner(depth.size(), nobody) {}
   std::size_t index(int column, int row) const {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(column);
   }
   float x(int column) const { return left + static_cast<float>(column); }
   float y(int row) const { return top - static_cast<float>(row); }
@@ -100,11 +111,14 @@ struct Canvas {
 /// Indices sorted from the nearest to the farthest, roughly: by 4096 slices of depth.
 std::vector<std::uint32_t> front_to_back(const std::vector<Vec3f>& centres) {
   constexpr std::size_t slices = 4096;
-  const auto [nearest, farthest] = std::minmax_element(centres.begin(), centres.end(), [](Vec3f a, Vec3f b) { return a.z < b.z; });
-  const float low = nearest->z, scale = static_cast<float>(slices - 1) / std::max(farthest->z - low, 1e-20f);
+  const auto [nearest, farthest] = std::minmax_element(centres.begin(), centres.end(),
+                                                       [](Vec3f a, Vec3f b) { return a.z < b.z; });
+  const float low = nearest->z,
+              scale = static_cast<float>(slices - 1) / std::max(farthest->z - low, 1e-20f);
   const auto slice = [&](Vec3f c) {
     const float place = (c.z - low) * scale;
-    return place > 0 ? static_cast<std::size_t>(std::min(place, static_cast<float>(slices - 1))) : 0;  // no number counts as nearest
+    return place > 0 ? static_cast<std::size_t>(std::min(place, static_cast<float>(slices - 1)))
+                     : 0;  // no number counts as nearest
   };
   std::vector<std::uint32_t> first(slices + 1, 0), order(centres.size());
   for (const Vec3f& c : centres) ++first[slice(c) + 1];
@@ -127,9 +141,13 @@ void draw(const Form& form, Vec3f centre, std::uint32_t particle, Canvas& canvas
   const float x = centre.x * nearer - canvas.left, y = canvas.top - centre.y * nearer;
   const float dx = form.reach.x * grow + std::abs(centre.x) * (grow - nearer) + 1,
               dy = form.reach.y * grow + std::abs(centre.y) * (grow - nearer) + 1;
-  if (!(x + dx > 0 && x - dx < static_cast<float>(canvas.width) && y + dy > 0 && y - dy < static_cast<float>(canvas.height))) return;
-  const int left = static_cast<int>(std::max(0.0f, x - dx)), right = static_cast<int>(std::min(static_cast<float>(canvas.width), x + dx + 1));
-  const int top = static_cast<int>(std::max(0.0f, y - dy)), bottom = static_cast<int>(std::min(static_cast<float>(canvas.height), y + dy + 1));
+  if (!(x + dx > 0 && x - dx < static_cast<float>(canvas.width) && y + dy > 0 &&
+        y - dy < static_cast<float>(canvas.height)))
+    return;
+  const int left = static_cast<int>(std::max(0.0f, x - dx)),
+            right = static_cast<int>(std::min(static_cast<float>(canvas.width), x + dx + 1));
+  const int top = static_cast<int>(std::max(0.0f, y - dy)),
+            bottom = static_cast<int>(std::min(static_cast<float>(canvas.height), y + dy + 1));
   for (int row = top; row < bottom; ++row) {
     float* depth = &canvas.depth[canvas.index(0, row)];
     if (!any_farther(depth + left, right - left, front)) continue;
@@ -146,12 +164,15 @@ void draw(const Form& form, Vec3f centre, std::uint32_t particle, Canvas& canvas
 /// How open the surrounding of a seen point is, 0 to 1.
 class Openness {
  public:
-  Openness(const Canvas& canvas, float particle, float k) : canvas_(canvas), particle_(particle), k_(k) {
-    for (int n = 0; n < turns * samples; ++n) {  // spirals, each turned a little more; neighbouring pixels take different ones
+  Openness(const Canvas& canvas, float particle, float k)
+      : canvas_(canvas), particle_(particle), k_(k) {
+    for (int n = 0; n < turns * samples;
+         ++n) {  // spirals, each turned a little more; neighbouring pixels take different ones
       const int spiral = n / samples, step = n % samples;
       const double radius = 2.5 * particle * std::pow((step + 0.5) / samples, 0.75);
       const double angle = 2.399963 * step + 6.283185 * spiral / turns / samples * 5;
-      offsets_[n] = {static_cast<int>(std::lround(radius * std::cos(angle))), static_cast<int>(std::lround(radius * std::sin(angle)))};
+      offsets_[n] = {static_cast<int>(std::lround(radius * std::cos(angle))),
+                     static_cast<int>(std::lround(radius * std::sin(angle)))};
     }
   }
 
@@ -165,7 +186,8 @@ class Openness {
       const float depth = canvas_.depth[canvas_.index(c, r)];
       if (depth >= far_away) continue;
       const float stretch = 1 + k_ * depth, here = 1 + k_ * hit.depth;
-      const Vec3f v{canvas_.x(c) * stretch - canvas_.x(column) * here, canvas_.y(r) * stretch - canvas_.y(row) * here, depth - hit.depth};
+      const Vec3f v{canvas_.x(c) * stretch - canvas_.x(column) * here,
+                    canvas_.y(r) * stretch - canvas_.y(row) * here, depth - hit.depth};
       shade += std::max(0.0f, dot(v, hit.normal) - bias) / (dot(v, v) + soft);
     }
     return std::clamp(1 - 1.3f * particle_ * shade / static_cast<float>(samples), 0.0f, 1.0f);
@@ -184,11 +206,16 @@ class Openness {
 struct Light {
   float red = 0, green = 0, blue = 0;
 };
-float linear(std::uint8_t value) { return static_cast<float>(value) * static_cast<float>(value) / 65025.0f; }  // screens take about the root of light
-std::uint8_t screen(float light) { return static_cast<std::uint8_t>(std::lround(255 * std::sqrt(std::clamp(light, 0.0f, 1.0f)))); }
+float linear(std::uint8_t value) {
+  return static_cast<float>(value) * static_cast<float>(value) / 65025.0f;
+}  // screens take about the root of light
+std::uint8_t screen(float light) {
+  return static_cast<std::uint8_t>(std::lround(255 * std::sqrt(std::clamp(light, 0.0f, 1.0f))));
+}
 
 template <class Form>
-void paint(const Form& form, const std::vector<Vec3f>& centres, std::span<const Colour> colours, const Canvas& canvas, Image& image) {
+void paint(const Form& form, const std::vector<Vec3f>& centres, std::span<const Colour> colours,
+           const Canvas& canvas, Image& image) {
   const Openness openness(canvas, 2 * form.h, form.k);
   const Vec3f lamp{-0.42f, 0.61f, -0.67f};  // over the viewer's left shoulder
   for (int y = 0; y < image.height; ++y)
@@ -202,13 +229,17 @@ void paint(const Form& form, const std::vector<Vec3f>& centres, std::span<const 
           continue;
         }
         const Hit hit = form.meet(centres[owner], canvas.x(column), canvas.y(row));
-        const float open = openness.at(column, row, hit), lit = std::max(0.0f, dot(hit.normal, lamp));
-        const float light = open * (0.42f + 0.12f * hit.normal.y) + (0.35f + 0.65f * open) * 0.85f * lit;
+        const float open = openness.at(column, row, hit),
+                    lit = std::max(0.0f, dot(hit.normal, lamp));
+        const float light =
+            open * (0.42f + 0.12f * hit.normal.y) + (0.35f + 0.65f * open) * 0.85f * lit;
         const Colour colour = colours[owner];
-        sum = {sum.red + light * linear(colour[0]), sum.green + light * linear(colour[1]), sum.blue + light * linear(colour[2])};
+        sum = {sum.red + light * linear(colour[0]), sum.green + light * linear(colour[1]),
+               sum.blue + light * linear(colour[2])};
       }
       constexpr float share = 1.0f / (fineness * fineness);
-      image.at(x, y) = {screen(share * sum.red), screen(share * sum.green), screen(share * sum.blue)};
+      image.at(x, y) = {screen(share * sum.red), screen(share * sum.green),
+                        screen(share * sum.blue)};
     }
 }
 
@@ -219,10 +250,12 @@ void render_as(const Particles& particles, const Camera& camera, Image& image) {
     const double* p = &particles.positions[3 * n];
     centres[n] = narrow(fineness * camera.to_view({p[0], p[1], p[2]}));
   }
-  const Form form(camera, static_cast<float>(0.5 * fineness * camera.scale * particles.size), static_cast<float>(camera.k / fineness));
+  const Form form(camera, static_cast<float>(0.5 * fineness * camera.scale * particles.size),
+                  static_cast<float>(camera.k / fineness));
   Canvas canvas(image, camera);
   for (const std::uint32_t particle : front_to_back(centres))
-    if (const Vec3f& c = centres[particle]; 1 + form.k * (c.z - form.reach.z) > 0.05f) draw(form, c, particle, canvas);  // not behind the eye
+    if (const Vec3f& c = centres[particle]; 1 + form.k * (c.z - form.reach.z) > 0.05f)
+      draw(form, c, particle, canvas);  // not behind the eye
   paint(form, centres, particles.colours, canvas, image);
 }
 

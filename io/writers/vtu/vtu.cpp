@@ -1,7 +1,9 @@
-// A series for ParaView: one VTK unstructured grid a frame, each particle a vertex, and a collection file (.pvd) that gives the times.
-// Arrays are appended as raw binary, optionally compressed block by block:
-//   uncompressed: bytes, data                                          (each size an unsigned 64-bit number)
-//   compressed:   blocks, bytes of a block, bytes of the last block if it is shorter (else 0), compressed bytes of each; then the blocks
+// A series for ParaView: one VTK unstructured grid a frame, each particle a vertex, and a
+// collection file (.pvd) that gives the times. Arrays are appended as raw binary, optionally
+// compressed block by block:
+//   uncompressed: bytes, data                                          (each size an unsigned
+//   64-bit number) compressed:   blocks, bytes of a block, bytes of the last block if it is shorter
+//   (else 0), compressed bytes of each; then the blocks
 #include <hyperlattice/frames.hpp>
 
 #include <zlib.h>
@@ -17,10 +19,13 @@ std::string_view bytes_of(std::span<const T> values) {
   return {reinterpret_cast<const char*>(values.data()), values.size_bytes()};
 }
 
-void append_sizes(std::string& out, std::span<const std::uint64_t> sizes) { out.append(bytes_of(sizes)); }
+void append_sizes(std::string& out, std::span<const std::uint64_t> sizes) {
+  out.append(bytes_of(sizes));
+}
 
 void append_compressed(std::string& out, std::string_view data) {
-  constexpr std::size_t block_size = 1 << 18;  // large enough for zlib's window to work, small enough to be unpacked piecewise
+  constexpr std::size_t block_size =
+      1 << 18;  // large enough for zlib's window to work, small enough to be unpacked piecewise
   const std::size_t blocks = (data.size() + block_size - 1) / block_size;
   std::vector<std::uint64_t> sizes{blocks, block_size, data.size() % block_size};
   std::vector<Bytef> packed(compressBound(block_size));
@@ -28,7 +33,8 @@ void append_compressed(std::string& out, std::string_view data) {
   for (std::size_t start = 0; start < data.size(); start += block_size) {
     const std::string_view block = data.substr(start, block_size);
     uLongf size = packed.size();
-    if (compress2(packed.data(), &size, reinterpret_cast<const Bytef*>(block.data()), block.size(), Z_BEST_SPEED) != Z_OK)
+    if (compress2(packed.data(), &size, reinterpret_cast<const Bytef*>(block.data()), block.size(),
+                  Z_BEST_SPEED) != Z_OK)
       throw std::runtime_error("zlib cannot compress a block");
     sizes.push_back(size);
     body.append(reinterpret_cast<const char*>(packed.data()), size);
@@ -44,7 +50,9 @@ class Vtu {
   };
 
   static Schema<Options> schema() {
-    Schema<Options> schema("writers.vtu", "Series of VTK unstructured grids for ParaView, with a .pvd file that gives the times");
+    Schema<Options> schema(
+        "writers.vtu",
+        "Series of VTK unstructured grids for ParaView, with a .pvd file that gives the times");
     add_frame_options(schema);
     schema.add<&Options::compress>("compress", "", "compress with zlib").fallback("true");
     return schema.check(check_frame_options<Options>);
@@ -56,30 +64,38 @@ class Vtu {
     for (const std::string& name : options_.fields) require_field(context, name);
     files_ = FrameFiles(context, options_.file, ".vtu");
     selection_ = Selection(context.particles(options_.region));
-    for (std::size_t n = 0; n < context.earlier.size(); ++n) add_to_collection(files_.name(n), context.earlier[n].time);
+    for (std::size_t n = 0; n < context.earlier.size(); ++n)
+      add_to_collection(files_.name(n), context.earlier[n].time);
   }
 
   void frame(const Snapshot& snapshot) {
     std::string appended = encoded_cells();
-    const std::size_t points = append(appended, bytes_of(selection_.positions(snapshot, options_.deformed ? 1 : 0, buffer_)));
+    const std::size_t points = append(
+        appended, bytes_of(selection_.positions(snapshot, options_.deformed ? 1 : 0, buffer_)));
     const std::size_t time = append(appended, bytes_of(std::span(&snapshot.time, 1)));
 
-    std::string xml = "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"";
+    std::string xml =
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"";
     xml += std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
     xml += "\" header_type=\"UInt64\"";
     if (options_.compress) xml += " compressor=\"vtkZLibDataCompressor\"";
     xml += ">\n<UnstructuredGrid>\n<FieldData>\n";
     xml += data_array("Float64", "TimeValue", "NumberOfTuples=\"1\"", time) + "</FieldData>\n";
     const std::string count = std::to_string(selection_.size());
-    xml += "<Piece NumberOfPoints=\"" + count + "\" NumberOfCells=\"" + count + "\">\n<PointData>\n";
+    xml +=
+        "<Piece NumberOfPoints=\"" + count + "\" NumberOfCells=\"" + count + "\">\n<PointData>\n";
     for (const std::string& name : options_.fields) {
       const Field field = require_field(snapshot, name);
-      const std::size_t offset = append(appended, bytes_of(selection_.of(field.values, field.components, buffer_)));
+      const std::size_t offset =
+          append(appended, bytes_of(selection_.of(field.values, field.components, buffer_)));
       xml += data_array("Float64", name, components(field.components), offset);
     }
-    xml += "</PointData>\n<Points>\n" + data_array("Float64", "Points", components(3), points) + "</Points>\n<Cells>\n";
-    xml += data_array("Int64", "connectivity", "", 0) + data_array("Int64", "offsets", "", cell_offsets_);
-    xml += data_array("UInt8", "types", "", cell_types_) + "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
+    xml += "</PointData>\n<Points>\n" + data_array("Float64", "Points", components(3), points) +
+           "</Points>\n<Cells>\n";
+    xml += data_array("Int64", "connectivity", "", 0) +
+           data_array("Int64", "offsets", "", cell_offsets_);
+    xml += data_array("UInt8", "types", "", cell_types_) +
+           "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
 
     AtomicFile file(files_.path());
     file.write(xml);
@@ -94,9 +110,12 @@ class Vtu {
   void end() {}
 
  private:
-  static std::string components(std::uint32_t count) { return "NumberOfComponents=\"" + std::to_string(count) + "\""; }
+  static std::string components(std::uint32_t count) {
+    return "NumberOfComponents=\"" + std::to_string(count) + "\"";
+  }
 
-  static std::string data_array(std::string_view type, std::string_view name, std::string_view shape, std::size_t offset) {
+  static std::string data_array(std::string_view type, std::string_view name,
+                                std::string_view shape, std::size_t offset) {
     std::string text = "<DataArray type=\"";
     text.append(type).append("\" Name=\"").append(name).append("\" ").append(shape);
     return text + " format=\"appended\" offset=\"" + std::to_string(offset) + "\"/>\n";
@@ -115,7 +134,8 @@ class Vtu {
     return offset;
   }
 
-  /// Cell n is a vertex at point n: connectivity 0, 1, ..., offsets 1, 2, ...; the same in every frame, so encoded once.
+  /// Cell n is a vertex at point n: connectivity 0, 1, ..., offsets 1, 2, ...; the same in every
+  /// frame, so encoded once.
   const std::string& encoded_cells() {
     if (!cells_.empty()) return cells_;
     std::vector<std::int64_t> numbers(selection_.size());
@@ -137,8 +157,10 @@ class Vtu {
 
   /// Rewritten with every frame, so that a run that is cut off can be opened.
   void write_collection() const {
-    write_file(files_.path_of_series(".pvd"), "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n" + collection_ +
-                                                  "</Collection>\n</VTKFile>\n");
+    write_file(
+        files_.path_of_series(".pvd"),
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n" +
+            collection_ + "</Collection>\n</VTKFile>\n");
   }
 
   Options options_;

@@ -1,6 +1,7 @@
 // A base spring breaks, at once and for good, when it has become longer by more than a limit:
 //   u_n = |r| - |r0| > u_n*
-// The limit is one absolute length for orthogonal and diagonal springs. Its cross springs (beta, gamma) go with it; alpha springs stay.
+// The limit is one absolute length for orthogonal and diagonal springs. Its cross springs (beta,
+// gamma) go with it; alpha springs stay.
 #include <hyperlattice/failure.hpp>
 
 namespace {
@@ -13,10 +14,13 @@ class Elongation {
   };
 
   static Schema<Options> schema() {
-    return Schema<Options>("failures.elongation", "A spring breaks when it is longer by more than a limit")
+    return Schema<Options>("failures.elongation",
+                           "A spring breaks when it is longer by more than a limit")
         .equation("u_n = |r| - |r0| > limit")
         .source("Zhao 2017, section 3.2")
-        .add<&Options::limit>("limit", "m", "u_n*, the elongation that breaks a base spring, the same for every class")
+        .add<&Options::limit>(
+            "limit", "m",
+            "u_n*, the elongation that breaks a base spring, the same for every class")
         .example("\"1 um\"")
         .positive();
   }

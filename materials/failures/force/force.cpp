@@ -1,6 +1,7 @@
 // A base spring breaks when it pulls with more than a force:
 //   k (|r| - |r0|) > limit
-// The strength of a bond, whatever its stiffness: of two materials' springs in one body the stiffer break at the smaller elongation.
+// The strength of a bond, whatever its stiffness: of two materials' springs in one body the stiffer
+// break at the smaller elongation.
 #include <hyperlattice/failure.hpp>
 
 namespace {
@@ -23,8 +24,12 @@ class Force {
 
   explicit Force(const Options& options) : limit_(options.limit) {}
 
-  double alarm(const SpringFacts& spring) const { return spring.stiffness > 0 ? limit_ / spring.stiffness : infinity; }
-  bool breaks(const SpringFacts& spring, double elongation) const { return spring.stiffness * elongation > limit_; }
+  double alarm(const SpringFacts& spring) const {
+    return spring.stiffness > 0 ? limit_ / spring.stiffness : infinity;
+  }
+  bool breaks(const SpringFacts& spring, double elongation) const {
+    return spring.stiffness * elongation > limit_;
+  }
 
  private:
   double limit_;

@@ -1,4 +1,5 @@
-// A base spring that is pulled faster holds more. It breaks when its strain e passes a limit that grows with the rate of strain e':
+// A base spring that is pulled faster holds more. It breaks when its strain e passes a limit that
+// grows with the rate of strain e':
 //   e > limit [1 + (max(e', 0) / reference)^(1 / exponent)]
 #include <hyperlattice/failure.hpp>
 
@@ -15,14 +16,20 @@ class Rate {
   };
 
   static Schema<Options> schema() {
-    return Schema<Options>("failures.rate", "A spring breaks when its strain passes a limit that grows with the rate of strain")
-        .equation("e = (|r| - |r0|) / |r0| > limit (1 + (max(de/dt, 0) / reference)^(1 / exponent))")
+    return Schema<Options>(
+               "failures.rate",
+               "A spring breaks when its strain passes a limit that grows with the rate of strain")
+        .equation(
+            "e = (|r| - |r0|) / |r0| > limit (1 + (max(de/dt, 0) / reference)^(1 / exponent))")
         .source("Cowper and Symonds 1957, for strains in place of stresses")
-        .restrictions("structured lattices only; the rate is that of half a step before. The stiffness does not depend on the rate")
+        .restrictions(
+            "structured lattices only; the rate is that of half a step before. The stiffness does "
+            "not depend on the rate")
         .add<&Options::limit>("limit", "", "strain that breaks a base spring that is pulled slowly")
         .example("1e-3")
         .positive()
-        .add<&Options::reference>("reference", "1/s", "rate of strain at which the limit is twice as large")
+        .add<&Options::reference>("reference", "1/s",
+                                  "rate of strain at which the limit is twice as large")
         .positive()
         .add<&Options::exponent>("exponent", "", "q of Cowper and Symonds")
         .positive()
@@ -35,7 +42,8 @@ class Rate {
   double alarm(const SpringFacts& spring) const { return o_.limit * spring.rest_length; }
   bool breaks(const SpringFacts& spring, const AlarmedSpring& state) const {
     const double rate = std::max(state.rate, 0.0) / spring.rest_length;
-    return state.elongation > o_.limit * spring.rest_length * (1 + std::pow(rate / o_.reference, 1 / o_.exponent));
+    return state.elongation >
+           o_.limit * spring.rest_length * (1 + std::pow(rate / o_.reference, 1 / o_.exponent));
   }
 
  private:

@@ -1,6 +1,8 @@
-// The strength of springs scatters as Weibull's weakest links. A base spring breaks when its strain passes its own limit,
+// The strength of springs scatters as Weibull's weakest links. A base spring breaks when its strain
+// passes its own limit,
 //   e = scale [least + (1 - least) (-ln p)^(1 / modulus)]
-// with p a number between 0 and 1 that follows from the seed and the spring's two particles, each as likely as any other: of many springs the share
+// with p a number between 0 and 1 that follows from the seed and the spring's two particles, each
+// as likely as any other: of many springs the share
 //   1 - exp(-((e / scale - least) / (1 - least))^modulus)
 // has a limit below e. The same scene has the same strengths in every run, whatever its threads.
 #include <hyperlattice/chance.hpp>
@@ -19,11 +21,16 @@ class Weibull {
   };
 
   static Schema<Options> schema() {
-    return Schema<Options>("failures.weibull", "A spring breaks when its strain passes a limit that scatters from spring to spring")
-        .equation("(|r| - |r0|) / |r0| > scale (least + (1 - least) (-ln p)^(1 / modulus)), p from the seed and the spring's particles")
+    return Schema<Options>(
+               "failures.weibull",
+               "A spring breaks when its strain passes a limit that scatters from spring to spring")
+        .equation(
+            "(|r| - |r0|) / |r0| > scale (least + (1 - least) (-ln p)^(1 / modulus)), p from the "
+            "seed and the spring's particles")
         .source("Weibull 1951, three parameters")
         .restrictions(
-            "springs above the least strain are reviewed at every step: a run with a least far below the strains that occur is slower. Strengths "
+            "springs above the least strain are reviewed at every step: a run with a least far "
+            "below the strains that occur is slower. Strengths "
             "belong "
             "to springs, not to places: another spacing or another shape has others")
         .add<&Options::scale>("scale", "", "strain below which 63 % of all springs break")
@@ -32,7 +39,9 @@ class Weibull {
         .add<&Options::modulus>("modulus", "", "of Weibull: large ones scatter little")
         .example("5")
         .positive()
-        .add<&Options::least>("least", "", "share of scale below which no spring breaks; 0: Weibull with two parameters")
+        .add<&Options::least>(
+            "least", "",
+            "share of scale below which no spring breaks; 0: Weibull with two parameters")
         .at_least(0)
         .below(1)
         .add<&Options::seed>("seed", "", "of the strengths")
@@ -45,7 +54,10 @@ class Weibull {
   double alarm(const SpringFacts& spring) const { return o_.scale * o_.least * spring.rest_length; }
   bool breaks(const SpringFacts& spring, const AlarmedSpring& state) const {
     const double limit =
-        o_.scale * (o_.least + (1 - o_.least) * std::pow(-std::log(chance(static_cast<std::uint64_t>(o_.seed), state.a, state.b)), 1 / o_.modulus));
+        o_.scale *
+        (o_.least + (1 - o_.least) * std::pow(-std::log(chance(static_cast<std::uint64_t>(o_.seed),
+                                                               state.a, state.b)),
+                                              1 / o_.modulus));
     return state.elongation > limit * spring.rest_length;
   }
 

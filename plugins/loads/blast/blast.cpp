@@ -1,8 +1,9 @@
 // A triangular pressure pulse on a surface, acting along the radii from a centre:
-//   F_i = p(t) A_i e_i,  A_i = S * sum over the open faces f of particle i of  a_f (-n_f . e_i),  e_i = (x_i - c) / |x_i - c|
-//   p(t) = 0 until start, rises to peak during `rise`, falls to 0 during `fall`.
-// with a_f the area of the face that is the particle's. A surface of cubic cells is rougher than the true one; S makes the sum of |A_i| the true
-// area.
+//   F_i = p(t) A_i e_i,  A_i = S * sum over the open faces f of particle i of  a_f (-n_f . e_i),
+//   e_i = (x_i - c) / |x_i - c| p(t) = 0 until start, rises to peak during `rise`, falls to 0
+//   during `fall`.
+// with a_f the area of the face that is the particle's. A surface of cubic cells is rougher than
+// the true one; S makes the sum of |A_i| the true area.
 #include <hyperlattice/load.hpp>
 
 #include <stdexcept>
@@ -20,7 +21,8 @@ class Blast {
   };
 
   static Schema<Options> schema() {
-    return Schema<Options>("loads.blast", "Triangular pressure pulse on a surface, along the radii from a centre")
+    return Schema<Options>("loads.blast",
+                           "Triangular pressure pulse on a surface, along the radii from a centre")
         .equation("F = p(t) A e_r; p: 0 at start, peak at start + rise, 0 at start + rise + fall")
         .source("Zhao 2017, section 3.2, figure 7")
         .restrictions("for surfaces around or inside a centre: spheres, cavities, bore holes")
@@ -34,8 +36,12 @@ class Blast {
         .add<&Options::start>("start", "s", "time at which the pulse begins")
         .at_least(0)
         .fallback("0")
-        .add<&Options::centre>("centre", "m", "where the radii begin; left out: the centre of the shape behind the region")
-        .add<&Options::area>("area", "m2", "true area of the loaded surface; left out: the shape's, if known, else that of the cells")
+        .add<&Options::centre>(
+            "centre", "m",
+            "where the radii begin; left out: the centre of the shape behind the region")
+        .add<&Options::area>("area", "m2",
+                             "true area of the loaded surface; left out: the shape's, if known, "
+                             "else that of the cells")
         .positive();
   }
 
@@ -44,17 +50,23 @@ class Blast {
   void declare(const LoadBody& body, const LoadSink& sink) const {
     const std::span<const OpenArea> surface = body.open_areas(o_.on);
     const Vec3 centre = o_.centre.value_or(body.centre(o_.on));
-    const auto projected = [&](const OpenArea& open) { return -dot(open.area, direction(body.position(open.particle), centre)); };
+    const auto projected = [&](const OpenArea& open) {
+      return -dot(open.area, direction(body.position(open.particle), centre));
+    };
     double sum = 0;
     for (const OpenArea& open : surface) sum += std::abs(projected(open));
-    if (sum == 0) throw std::invalid_argument("the region has no open face: expected a surface, such as inner_surface");
+    if (sum == 0)
+      throw std::invalid_argument(
+          "the region has no open face: expected a surface, such as inner_surface");
 
     const double known = o_.area.value_or(body.true_area(o_.on));
     const double scale = known > 0 ? known / sum : 1;
     for (const OpenArea& open : surface)  // positive where the pressure pushes away from the centre
       if (const double area = projected(open); area != 0)
-        sink.force(open.particle, scale * area * o_.peak * direction(body.position(open.particle), centre));
-    for (const double corner : {o_.start, o_.start + o_.rise, o_.start + o_.rise + o_.fall}) sink.corner(corner);
+        sink.force(open.particle,
+                   scale * area * o_.peak * direction(body.position(open.particle), centre));
+    for (const double corner : {o_.start, o_.start + o_.rise, o_.start + o_.rise + o_.fall})
+      sink.corner(corner);
   }
 
   double factor(double time) const {
@@ -67,7 +79,8 @@ class Blast {
   static Vec3 direction(Vec3 position, Vec3 centre) {
     const Vec3 r = position - centre;
     const double length = norm(r);
-    return length > 0 ? (1 / length) * r : Vec3{};  // a particle at the centre has no radius and gets no force
+    return length > 0 ? (1 / length) * r
+                      : Vec3{};  // a particle at the centre has no radius and gets no force
   }
 
   Options o_;

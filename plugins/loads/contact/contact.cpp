@@ -1,9 +1,11 @@
-// Particles that come too near push each other away: fragments that meet, bodies that collide, cracks that close. Two particles that are d apart,
-// nearer than d_0, get the depth p = d_0 - d and, with v_n and v_t their relative velocity along and across their line,
+// Particles that come too near push each other away: fragments that meet, bodies that collide,
+// cracks that close. Two particles that are d apart, nearer than d_0, get the depth p = d_0 - d
+// and, with v_n and v_t their relative velocity along and across their line,
 //   N = max(0, c p - b v_n)                        apart, b = 2 damping sqrt(c m)
 //   T = min(mu N, h |v_t|) against v_t             h = grip sqrt(c m), m = m_1 m_2 / (m_1 + m_2)
-// d_0 is `reach` spacings, but no more than nine tenths of what they are apart in the undeformed body: neighbours whose spring holds are not
-// compressed that far, those whose spring broke meet again.
+// d_0 is `reach` spacings, but no more than nine tenths of what they are apart in the undeformed
+// body: neighbours whose spring holds are not compressed that far, those whose spring broke meet
+// again.
 #include "pairs.hpp"
 
 #include <hyperlattice/penalty_contact.hpp>
@@ -20,31 +22,43 @@ class Contact {
   };
 
   static Schema<Options> schema() {
-    return Schema<Options>("loads.contact", "Particles that come too near push each other away, with friction")
+    return Schema<Options>("loads.contact",
+                           "Particles that come too near push each other away, with friction")
         .equation(
-            "N = max(0, c p - b v_n), T = min(mu N, h |v_t|) against v_t, p = min(reach l, 0.9 d_rest) - d; b = 2 damping sqrt(c m), h = grip sqrt(c "
+            "N = max(0, c p - b v_n), T = min(mu N, h |v_t|) against v_t, p = min(reach l, 0.9 "
+            "d_rest) - d; b = 2 damping sqrt(c m), h = grip sqrt(c "
             "m)")
         .source(
-            "short-range forces between particles (Silling and Askari 2005) with Coulomb friction, regularised by a viscosity; c, b and h enter the "
+            "short-range forces between particles (Silling and Askari 2005) with Coulomb friction, "
+            "regularised by a viscosity; c, b and h enter the "
             "critical step")
         .restrictions(
-            "Springs that are compressed by more than a tenth are pushed too: not for laws of large strains. The work of contacts is in the books as "
+            "Springs that are compressed by more than a tenth are pushed too: not for laws of "
+            "large strains. The work of contacts is in the books as "
             "that of a "
-            "load: what they store counts as taken from the body, and comes back. Particles that are deeper than half a spacing mean a contact too "
-            "soft. Bodies that are drawn less than an empty cell apart are joined by springs (plan counts bodies). With one empty cell between them "
-            "centres are two spacings apart. Contact begins when centres are `reach` spacings apart, so contact begins (1 - reach) spacings later "
+            "load: what they store counts as taken from the body, and comes back. Particles that "
+            "are deeper than half a spacing mean a contact too "
+            "soft. Bodies that are drawn less than an empty cell apart are joined by springs (plan "
+            "counts bodies). With one empty cell between them "
+            "centres are two spacings apart. Contact begins when centres are `reach` spacings "
+            "apart, so contact begins (1 - reach) spacings later "
             "than the drawn faces would touch.")
         .add<&Options::on>("on", "", "the particles that may meet each other")
         .fallback("\"all\"")
-        .add<&Options::reach>("reach", "", "distance below which particles push each other, in spacings")
+        .add<&Options::reach>("reach", "",
+                              "distance below which particles push each other, in spacings")
         .positive()
         .at_most(1)
         .fallback("0.9")
-        .add<&Options::stiffness>("stiffness", "N/m", "c, of a pair; auto: that of the stiffest base spring of the region")
+        .add<&Options::stiffness>(
+            "stiffness", "N/m",
+            "c, of a pair; auto: that of the stiffest base spring of the region")
         .word("auto")
         .fallback("\"auto\"")
         .positive()
-        .add<&Options::damping>("damping", "", "of the motion along the line between two particles, over the critical one of the pair")
+        .add<&Options::damping>(
+            "damping", "",
+            "of the motion along the line between two particles, over the critical one of the pair")
         .at_least(0)
         .at_most(1)
         .fallback("0")
@@ -65,10 +79,12 @@ class Contact {
     for (const Particle particle : body.particles(o_.on)) {
       at_rest.push_back(body.position(particle));
       mass_.push_back(body.mass(particle));
-      // As many as twelve others can be that near, evenly around; a pair's stiffness counts twice where both move, and friction has two directions.
+      // As many as twelve others can be that near, evenly around; a pair's stiffness counts twice
+      // where both move, and friction has two directions.
       constexpr double along = 2 * 12.0 / 3, across = 2 * along;
       const PenaltyContact pair(stiffness_, mass_.back() / 2, o_.damping, o_.grip);
-      sink.watch(particle, {along * stiffness_, along * pair.damping + (o_.friction > 0 ? across * pair.grip : 0)});
+      sink.watch(particle, {along * stiffness_,
+                            along * pair.damping + (o_.friction > 0 ? across * pair.grip : 0)});
     }
     pairs_ = contact::Pairs(std::move(at_rest), reach_);
   }
@@ -84,8 +100,11 @@ class Contact {
       constexpr double held = 0.9;  // of what neighbours are apart at rest
       const double depth = std::min(reach_, held * pairs_.apart_at_rest(other, n)) - distance;
       if (!(depth > 0)) continue;
-      const PenaltyContact pair(stiffness_, mass_[n] * mass_[other] / (mass_[n] + mass_[other]), o_.damping, o_.grip);
-      sum = sum + pair.force(depth, (1 / distance) * apart, motion.velocity[n] - motion.velocity[other], [this](Vec3) { return o_.friction; });
+      const PenaltyContact pair(stiffness_, mass_[n] * mass_[other] / (mass_[n] + mass_[other]),
+                                o_.damping, o_.grip);
+      sum = sum + pair.force(depth, (1 / distance) * apart,
+                             motion.velocity[n] - motion.velocity[other],
+                             [this](Vec3) { return o_.friction; });
     }
     return sum;
   }

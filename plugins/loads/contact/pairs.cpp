@@ -19,7 +19,8 @@ struct Member {
   auto operator<=>(const Member&) const = default;
 };
 
-/// What is nowhere, or beyond all that can be counted, is at the origin: a run that goes so bad is stopped elsewhere.
+/// What is nowhere, or beyond all that can be counted, is at the origin: a run that goes so bad is
+/// stopped elsewhere.
 Cell cell_of(Vec3 at, double width) {
   const auto count = [&](double value) {
     constexpr double most = 1e15;
@@ -45,7 +46,8 @@ void Pairs::find(std::span<const Vec3> displacement) {
   found_at_.assign(displacement.begin(), displacement.end());
   const double width = (1 + margin) * reach_;
   std::vector<Member> members;
-  for (std::uint32_t n = 0; n < at_rest_.size(); ++n) members.push_back({cell_of(at_rest_[n] + displacement[n], width), n});
+  for (std::uint32_t n = 0; n < at_rest_.size(); ++n)
+    members.push_back({cell_of(at_rest_[n] + displacement[n], width), n});
   std::sort(members.begin(), members.end());
   first_.assign(1, 0);
   other_.clear();
@@ -53,8 +55,10 @@ void Pairs::find(std::span<const Vec3> displacement) {
     const Cell here = cell_of(at_rest_[n] + displacement[n], width);
     for (std::int64_t dz = -1; dz <= 1; ++dz)
       for (std::int64_t dy = -1; dy <= 1; ++dy) {  // three cells along x follow each other
-        const Cell from{here.z + dz, here.y + dy, here.x - 1}, to{here.z + dz, here.y + dy, here.x + 1};
-        for (auto m = std::lower_bound(members.begin(), members.end(), Member{from, 0}); m != members.end() && m->cell <= to; ++m) {
+        const Cell from{here.z + dz, here.y + dy, here.x - 1},
+            to{here.z + dz, here.y + dy, here.x + 1};
+        for (auto m = std::lower_bound(members.begin(), members.end(), Member{from, 0});
+             m != members.end() && m->cell <= to; ++m) {
           const Vec3 way = apart(n, m->point, displacement);
           if (m->point != n && dot(way, way) < width * width) other_.push_back(m->point);
         }

@@ -1,4 +1,5 @@
-// Particles that are moved: u_a(t) = value_a min(t / rise, 1) along the given axes; the other axes stay free.
+// Particles that are moved: u_a(t) = value_a min(t / rise, 1) along the given axes; the other axes
+// stay free.
 #include <hyperlattice/load.hpp>
 
 namespace {
@@ -17,9 +18,12 @@ class Displacement {
     return Schema<Options>("loads.displacement", "Prescribed displacement of a region")
         .equation("u(t) = value min(t / rise, 1) along the axes")
         .add<&Options::on>("on", "", "the particles moved")
-        .add<&Options::value>("value", "m", "displacement that is reached at the end of the rise and kept")
+        .add<&Options::value>("value", "m",
+                              "displacement that is reached at the end of the rise and kept")
         .example("[\"1 um\", 0, 0]")
-        .add<&Options::axes>("axes", "", "along which the displacement is prescribed; value is ignored along the others")
+        .add<&Options::axes>(
+            "axes", "",
+            "along which the displacement is prescribed; value is ignored along the others")
         .choices(axis_set_names)
         .fallback("\"xyz\"")
         .add<&Options::rise>("rise", "s", "time from rest to the full value, at constant speed")
@@ -30,7 +34,8 @@ class Displacement {
   explicit Displacement(const Options& options) : o_(options) {}
 
   void declare(const LoadBody& body, const LoadSink& sink) const {
-    for (const Particle particle : body.particles(o_.on)) sink.displacement(particle, axes_of(o_.axes), o_.value);
+    for (const Particle particle : body.particles(o_.on))
+      sink.displacement(particle, axes_of(o_.axes), o_.value);
     sink.corner(o_.rise);
   }
   double factor(double time) const { return ramp(time, o_.rise); }

@@ -1,5 +1,6 @@
-// Drag of a fluid at rest, or that streams, on the open faces of a surface. The face of area A and outward normal n, both as they turn and stretch,
-// moves with the velocity w through the fluid, w_n = (w . n) n across itself and w_t along itself:
+// Drag of a fluid at rest, or that streams, on the open faces of a surface. The face of area A and
+// outward normal n, both as they turn and stretch, moves with the velocity w through the fluid, w_n
+// = (w . n) n across itself and w_t along itself:
 //   F = - A [ (rho/2) C_n min(|w_n|, s) + m_n ] w_n  -  A [ (rho/2) C_t min(|w_t|, s) + m_t ] w_t
 // quadratic up to the speed s and linear beyond, which bounds how stiff it can become.
 #include <hyperlattice/watching.hpp>
@@ -19,12 +20,17 @@ class Drag {
   };
 
   static Schema<Options> schema() {
-    return Schema<Options>("loads.drag", "Drag of a fluid on a surface, across its faces and along them")
+    return Schema<Options>("loads.drag",
+                           "Drag of a fluid on a surface, across its faces and along them")
         .equation(
-            "F = -A (density/2 across min(|w_n|, top_speed) + linear_across) w_n - A (density/2 along min(|w_t|, top_speed) + linear_along) w_t")
-        .source("resistive force theory; Gray and Hancock 1955 for the linear part, Taylor 1952 for the quadratic one")
+            "F = -A (density/2 across min(|w_n|, top_speed) + linear_across) w_n - A (density/2 "
+            "along min(|w_t|, top_speed) + linear_along) w_t")
+        .source(
+            "resistive force theory; Gray and Hancock 1955 for the linear part, Taylor 1952 for "
+            "the quadratic one")
         .restrictions(
-            "the fluid has no motion of its own beside the stream: no added mass, no wake. The open faces of a particle count as one, the sum of "
+            "the fluid has no motion of its own beside the stream: no added mass, no wake. The "
+            "open faces of a particle count as one, the sum of "
             "their "
             "areas: edges are a little rounder than they are")
         .add<&Options::on>("on", "", "the surface in the fluid")
@@ -34,19 +40,23 @@ class Drag {
         .at_least(0)
         .fallback("0")
         .add<&Options::across>("across", "",
-                               "coefficient of quadratic drag for motion across a face; both sides of a plate together have twice of it")
+                               "coefficient of quadratic drag for motion across a face; both sides "
+                               "of a plate together have twice of it")
         .at_least(0)
         .fallback("1")
         .add<&Options::along>("along", "", "the same for motion along a face")
         .at_least(0)
         .fallback("0")
-        .add<&Options::linear_across>("linear_across", "Pa s/m", "linear drag of a unit of area for motion across a face")
+        .add<&Options::linear_across>("linear_across", "Pa s/m",
+                                      "linear drag of a unit of area for motion across a face")
         .at_least(0)
         .fallback("0")
         .add<&Options::linear_along>("linear_along", "Pa s/m", "the same for motion along a face")
         .at_least(0)
         .fallback("0")
-        .add<&Options::top_speed>("top_speed", "m/s", "up to which drag is quadratic; with it the coefficients enter the critical step")
+        .add<&Options::top_speed>(
+            "top_speed", "m/s",
+            "up to which drag is quadratic; with it the coefficients enter the critical step")
         .positive()
         .fallback("10")
         .add<&Options::stream>("stream", "m/s", "velocity of the fluid")
@@ -59,8 +69,11 @@ class Drag {
     const auto steepest = [&](double quadratic, double linear) {
       return o_.density * quadratic * o_.top_speed + linear;
     };  // of a force over velocity
-    const double most = std::max(steepest(o_.across, o_.linear_across), steepest(o_.along, o_.linear_along));
-    areas_.declare(body, sink, o_.on, [&](const OpenArea& open) { return Reaction{0, most * norm(open.area)}; });
+    const double most =
+        std::max(steepest(o_.across, o_.linear_across), steepest(o_.along, o_.linear_along));
+    areas_.declare(body, sink, o_.on, [&](const OpenArea& open) {
+      return LoadStiffnessBound{0, most * norm(open.area)};
+    });
   }
   double factor(double) const { return 1; }
 
@@ -73,7 +86,8 @@ class Drag {
     const auto drag = [&](double quadratic, double linear, double speed) {
       return size * (0.5 * o_.density * quadratic * std::min(speed, o_.top_speed) + linear);
     };
-    return -drag(o_.across, o_.linear_across, norm(across)) * across - drag(o_.along, o_.linear_along, norm(along)) * along;
+    return -drag(o_.across, o_.linear_across, norm(across)) * across -
+           drag(o_.along, o_.linear_along, norm(along)) * along;
   }
 
  private:

@@ -1,4 +1,5 @@
-// Particles that do not move along the given axes: u_a = 0 for every axis a. The other axes, and the fourth dimension, stay free.
+// Particles that do not move along the given axes: u_a = 0 for every axis a. The other axes, and
+// the fourth dimension, stay free.
 #include <hyperlattice/load.hpp>
 
 namespace {
@@ -23,7 +24,8 @@ class Fixed {
   explicit Fixed(const Options& options) : o_(options) {}
 
   void declare(const LoadBody& body, const LoadSink& sink) const {
-    for (const Particle particle : body.particles(o_.on)) sink.displacement(particle, axes_of(o_.axes), {});
+    for (const Particle particle : body.particles(o_.on))
+      sink.displacement(particle, axes_of(o_.axes), {});
   }
   double factor(double) const { return 0; }
 

@@ -1,8 +1,11 @@
-// A half-space that holds the body up, with Coulomb friction. A particle whose rim is a depth d > 0 below the surface gets
+// A half-space that holds the body up, with Coulomb friction. A particle whose rim is a depth d > 0
+// below the surface gets
 //   N = max(0, c d - b v_n)                        outwards, b = damping 2 sqrt(c m)
 //   T = min(mu N, h |v_t|) against v_t             h = grip sqrt(c m)
-// with v_n, v_t the velocity out of the floor and along it. Below the limit mu N friction is viscous, so that a particle at rest creeps with mu N /
-// h, a tiny speed, and time steps stay stable. Along `forward` mu is friction, against it friction_back; between them it goes with the cosine:
+// with v_n, v_t the velocity out of the floor and along it. Below the limit mu N friction is
+// viscous, so that a particle at rest creeps with mu N / h, a tiny speed, and time steps stay
+// stable. Along `forward` mu is friction, against it friction_back; between them it goes with the
+// cosine:
 //   mu = (mu_f + mu_b) / 2 + (mu_f - mu_b) / 2 (v_t . forward) / |v_t|
 #include <hyperlattice/files.hpp>
 #include <hyperlattice/penalty_contact.hpp>
@@ -22,37 +25,53 @@ class Floor {
   };
 
   static Schema<Options> schema() {
-    return Schema<Options>("loads.floor", "A half-space that holds the body up, with friction that may differ forwards and backwards")
-        .equation("N = max(0, c d - b v_n), T = min(mu N, h |v_t|) against v_t; b = 2 damping sqrt(c m), h = grip sqrt(c m)")
-        .source("penalty contact with Coulomb friction, regularised by a viscosity; c, b and h enter the critical step")
-        .restrictions("a particle at rest on the floor creeps with mu N / h; particles that are deeper than half a spacing mean a floor too soft")
+    return Schema<Options>("loads.floor",
+                           "A half-space that holds the body up, with friction that may differ "
+                           "forwards and backwards")
+        .equation(
+            "N = max(0, c d - b v_n), T = min(mu N, h |v_t|) against v_t; b = 2 damping sqrt(c m), "
+            "h = grip sqrt(c m)")
+        .source(
+            "penalty contact with Coulomb friction, regularised by a viscosity; c, b and h enter "
+            "the critical step")
+        .restrictions(
+            "a particle at rest on the floor creeps with mu N / h; particles that are deeper than "
+            "half a spacing mean a floor too soft")
         .add<&Options::on>("on", "", "the particles that may touch the floor")
         .fallback("\"outer_surface\"")
         .add<&Options::point>("point", "m", "on the floor")
         .fallback("[0, 0, 0]")
         .add<&Options::normal>("normal", "", "out of the floor; any length")
         .fallback("[0, 0, 1]")
-        .add<&Options::stiffness>("stiffness", "N/m", "c, of the contact of a whole particle; auto: that of the stiffest base spring of the region")
+        .add<&Options::stiffness>("stiffness", "N/m",
+                                  "c, of the contact of a whole particle; auto: that of the "
+                                  "stiffest base spring of the region")
         .word("auto")
         .fallback("\"auto\"")
         .positive()
-        .add<&Options::damping>("damping", "", "of the normal motion, over the critical one of a particle alone on its contact")
+        .add<&Options::damping>(
+            "damping", "",
+            "of the normal motion, over the critical one of a particle alone on its contact")
         .at_least(0)
         .at_most(1)
         .fallback("0.2")
         .add<&Options::friction>("friction", "", "coefficient mu")
         .at_least(0)
         .fallback("0")
-        .add<&Options::friction_back>("friction_back", "", "the coefficient against `forward`; left out: the same")
+        .add<&Options::friction_back>("friction_back", "",
+                                      "the coefficient against `forward`; left out: the same")
         .at_least(0)
-        .add<&Options::forward>("forward", "", "direction of the smaller or larger friction; its part along the floor counts")
+        .add<&Options::forward>(
+            "forward", "",
+            "direction of the smaller or larger friction; its part along the floor counts")
         .fallback("[0, 0, 0]")
         .add<&Options::grip>("grip", "", "viscosity of friction below its limit, over sqrt(c m)")
         .positive()
         .fallback("1")
         .check([](const Options& o, const FaultSink& faults) {
           if (norm(o.normal) == 0) faults.fault("normal", "a direction");
-          if (o.friction_back && norm(cross(o.normal, o.forward)) == 0) faults.fault("forward", "a direction along the floor, for friction_back");
+          if (o.friction_back && norm(cross(o.normal, o.forward)) == 0)
+            faults.fault("forward", "a direction along the floor, for friction_back");
         });
   }
 
@@ -66,15 +85,17 @@ class Floor {
     const bool rubs = o_.friction > 0 || o_.friction_back.value_or(0) > 0;
     double deepest = 0;
     for (const Particle particle : body.particles(o_.on)) {
-      const PenaltyContact law(whole * body.share(particle), body.mass(particle), o_.damping, o_.grip);
+      const PenaltyContact law(whole * body.share(particle), body.mass(particle), o_.damping,
+                               o_.grip);
       sink.watch(particle, {law.stiffness, std::max(law.damping, rubs ? law.grip : 0)});
       contacts_.push_back({dot(body.position(particle) - o_.point, normal_) - body.rim, law});
       deepest = std::max(deepest, -contacts_.back().height);
     }
     constexpr double noticeable = 0.1;  // spacings
     if (deepest > noticeable * body.spacing)
-      sink.warn("the body begins up to " + short_number(deepest / body.spacing, 3) +
-                " spacings deep in the floor, which throws it out: expected a floor that it touches");
+      sink.warn(
+          "the body begins up to " + short_number(deepest / body.spacing, 3) +
+          " spacings deep in the floor, which throws it out: expected a floor that it touches");
   }
   double factor(double) const { return 1; }
 
@@ -84,7 +105,8 @@ class Floor {
     if (!(depth > 0)) return {};
     return contact.law.force(depth, normal_, motion.velocity[n], [this](Vec3 along) {
       const double back = o_.friction_back.value_or(o_.friction);
-      return 0.5 * (o_.friction + back) + 0.5 * (o_.friction - back) * dot(along, forward_) / norm(along);
+      return 0.5 * (o_.friction + back) +
+             0.5 * (o_.friction - back) * dot(along, forward_) / norm(along);
     });
   }
 

@@ -1,6 +1,7 @@
 // A force on a region: `total`, shared evenly by its particles, or `each`, on every one of them.
 //   F_i = f(t) total w_i / (sum of w)   or   F_i = f(t) each
-// with w_i = 1, or in a body of cells the particle's share of a whole one: on a plane face the stress is then the same everywhere.
+// with w_i = 1, or in a body of cells the particle's share of a whole one: on a plane face the
+// stress is then the same everywhere.
 #include <hyperlattice/load.hpp>
 
 namespace {
@@ -16,16 +17,21 @@ class Force {
 
   static Schema<Options> schema() {
     return Schema<Options>("loads.force", "Force on a region, in total or on each particle")
-        .equation("F = f(t) total w / sum w or f(t) each, w the share of a whole particle; f rises in a straight line to 1 and stays")
+        .equation(
+            "F = f(t) total w / sum w or f(t) each, w the share of a whole particle; f rises in a "
+            "straight line to 1 and stays")
         .add<&Options::on>("on", "", "the loaded particles")
-        .add<&Options::total>("total", "N", "shared evenly by the particles, in a body of cells by their shares of a whole one")
+        .add<&Options::total>(
+            "total", "N",
+            "shared evenly by the particles, in a body of cells by their shares of a whole one")
         .example("[\"10 N\", 0, 0]")
         .add<&Options::each>("each", "N", "on every particle")
         .add<&Options::rise>("rise", "s", "time from nothing to the full force; 0: at once")
         .at_least(0)
         .fallback("0")
         .check([](const Options& o, const FaultSink& faults) {
-          if (o.total.has_value() == o.each.has_value()) faults.fault(o.total ? "each" : "total", "exactly one of total and each");
+          if (o.total.has_value() == o.each.has_value())
+            faults.fault(o.total ? "each" : "total", "exactly one of total and each");
         });
   }
 
@@ -35,7 +41,8 @@ class Force {
     const std::span<const Particle> particles = body.particles(o_.on);
     double sum = 0;
     for (const Particle particle : particles) sum += body.share(particle);
-    for (const Particle particle : particles) sink.force(particle, o_.each ? *o_.each : (body.share(particle) / sum) * *o_.total);
+    for (const Particle particle : particles)
+      sink.force(particle, o_.each ? *o_.each : (body.share(particle) / sum) * *o_.total);
     if (o_.rise > 0) sink.corner(o_.rise);
   }
 

@@ -1,4 +1,5 @@
-// Gravity, or the steady acceleration of a moving frame: F_i = m_i a for every particle, from the start on.
+// Gravity, or the steady acceleration of a moving frame: F_i = m_i a for every particle, from the
+// start on.
 #include <hyperlattice/load.hpp>
 
 namespace {

@@ -1,6 +1,8 @@
 // A pressure on the open faces of a region:
-//   F_i = - p(t) A_i,  A_i the sum of the outward normals of the particle's faces, each by its area:
-// l^2, or a quarter of that for each corner of a face in a body of cells. With `facing`, only the faces that look one way count.
+//   F_i = - p(t) A_i,  A_i the sum of the outward normals of the particle's faces, each by its
+//   area:
+// l^2, or a quarter of that for each corner of a face in a body of cells. With `facing`, only the
+// faces that look one way count.
 #include <hyperlattice/load.hpp>
 
 #include <algorithm>
@@ -10,7 +12,8 @@ namespace {
 using namespace hyperlattice;
 
 enum class Facing : std::uint32_t { any, x_min, x_max, y_min, y_max, z_min, z_max };
-constexpr std::string_view facing_names[] = {"any", "x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
+constexpr std::string_view facing_names[] = {"any",   "x_min", "x_max", "y_min",
+                                             "y_max", "z_min", "z_max"};
 
 class Pressure {
  public:
@@ -23,10 +26,15 @@ class Pressure {
   static Schema<Options> schema() {
     return Schema<Options>("loads.pressure", "Pressure on the open faces of a surface")
         .equation("F = -p(t) A n for each open face; p rises in a straight line and stays")
-        .restrictions("a surface that is not parallel to the axes is loaded as the staircase that its particles make of it")
-        .add<&Options::on>("on", "", "the loaded surface; x_min and its like load only the faces of that side")
+        .restrictions(
+            "a surface that is not parallel to the axes is loaded as the staircase that its "
+            "particles make of it")
+        .add<&Options::on>(
+            "on", "", "the loaded surface; x_min and its like load only the faces of that side")
         .add<&Options::pressure>("pressure", "Pa", "positive pushes on the body, negative pulls")
-        .add<&Options::facing>("facing", "", "which faces of the region are loaded: those that look towards that side of the body")
+        .add<&Options::facing>(
+            "facing", "",
+            "which faces of the region are loaded: those that look towards that side of the body")
         .choices(facing_names)
         .fallback("\"any\"")
         .add<&Options::rise>("rise", "s", "time from nothing to the full pressure; 0: at once")
@@ -44,8 +52,10 @@ class Pressure {
         sink.force(open.particle, -o_.pressure * area);
         any = true;
       }
-    if (surface.empty()) throw std::invalid_argument("the region has no open face: expected a surface, such as x_max");
-    if (!any && o_.facing != Facing::any) throw std::invalid_argument("facing names a side to which no open face of the region looks");
+    if (surface.empty())
+      throw std::invalid_argument("the region has no open face: expected a surface, such as x_max");
+    if (!any && o_.facing != Facing::any)
+      throw std::invalid_argument("facing names a side to which no open face of the region looks");
     if (o_.rise > 0) sink.corner(o_.rise);
   }
 

@@ -1,4 +1,5 @@
-// The velocity with which a region begins: v_i(0) = linear + angular x (x_i - centre). Later it moves freely.
+// The velocity with which a region begins: v_i(0) = linear + angular x (x_i - centre). Later it
+// moves freely.
 #include <hyperlattice/load.hpp>
 
 namespace {
@@ -22,7 +23,8 @@ class StartVelocity {
         .fallback("[0, 0, 0]")
         .add<&Options::angular>("angular", "rad/s", "spin about the centre")
         .fallback("[0, 0, 0]")
-        .add<&Options::centre>("centre", "m", "of the spin; left out: the centre of the shape behind the region");
+        .add<&Options::centre>("centre", "m",
+                               "of the spin; left out: the centre of the shape behind the region");
   }
 
   explicit StartVelocity(const Options& options) : o_(options) {}
@@ -30,7 +32,8 @@ class StartVelocity {
   void declare(const LoadBody& body, const LoadSink& sink) const {
     const Vec3 centre = o_.centre.value_or(body.centre(o_.on));
     for (const Particle particle : body.particles(o_.on))
-      sink.start_velocity(particle, o_.linear + cross(o_.angular, body.position(particle) - centre));
+      sink.start_velocity(particle,
+                          o_.linear + cross(o_.angular, body.position(particle) - centre));
   }
   double factor(double) const { return 0; }
 

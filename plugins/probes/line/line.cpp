@@ -1,4 +1,5 @@
-// A quantity along a straight line over time, at n evenly spaced points: between the particles around each, or that of the nearest one.
+// A quantity along a straight line over time, at n evenly spaced points: between the particles
+// around each, or that of the nearest one.
 #include "interpolation.hpp"
 
 #include <hyperlattice/fields.hpp>
@@ -25,18 +26,23 @@ class LineProbe {
         .fallback("50")
         .at_least(2)
         .at_most(10000)
-        .add<&Options::between>(
-            "between", "", "between particles: interpolated from those around, or that of the nearest particle, each of which then gives one column")
+        .add<&Options::between>("between", "",
+                                "between particles: interpolated from those around, or that of the "
+                                "nearest particle, each of which then gives one column")
         .choices(between_names)
         .fallback("\"interpolated\"");
     add_quantity_options(schema);
     schema.equation(
-        "f(x) = a + b . x, fitted to the particles within R by least squares with weights (1 - d^2 / R^2)^2 / (d^2 / l^2 + 1e-6), d the distance, "
-        "l the spacing, R = 1.5 l, or 1.25 l more than the distance of the nearest particle if that is more");
+        "f(x) = a + b . x, fitted to the particles within R by least squares with weights (1 - d^2 "
+        "/ R^2)^2 / (d^2 / l^2 + 1e-6), d the distance, "
+        "l the spacing, R = 1.5 l, or 1.25 l more than the distance of the nearest particle if "
+        "that is more");
     schema.restrictions(
-        "Points farther than a spacing from every particle are left out; a line with no other point is refused. Affine fields are interpolated "
+        "Points farther than a spacing from every particle are left out; a line with no other "
+        "point is refused. Affine fields are interpolated "
         "exactly, "
-        "to the surface and beyond it. Particles on both sides of a gap narrower than R are fitted together. Of numbers that are labels (material, "
+        "to the surface and beyond it. Particles on both sides of a gap narrower than R are fitted "
+        "together. Of numbers that are labels (material, "
         "source) ask for the nearest.");
     return schema.check([](const Options& options, const FaultSink& faults) {
       check_quantity_options(options, faults);
@@ -54,9 +60,11 @@ class LineProbe {
       add_point(options_.start + along * (options_.end - options_.start), first, near);
     }
     if (points_.empty())
-      throw std::runtime_error("no particle is near the line from " + place_text(options_.start) + " to " + place_text(options_.end) + " (metres)");
+      throw std::runtime_error("no particle is near the line from " + place_text(options_.start) +
+                               " to " + place_text(options_.end) + " (metres)");
     for (const Point& point : points_)
-      for (const std::string& name : quantity_.names()) columns.column(name + "@" + place_text(point.place));
+      for (const std::string& name : quantity_.names())
+        columns.column(name + "@" + place_text(point.place));
   }
 
   void sample(const Snapshot& snapshot, double* row) const {
@@ -64,7 +72,8 @@ class LineProbe {
     for (const Point& point : points_) {
       double value[3] = {};
       for (const line::Share& share : point.shares)
-        for (std::size_t c = 0; c < field.components; ++c) value[c] += share.weight * field.values[share.particle * field.components + c];
+        for (std::size_t c = 0; c < field.components; ++c)
+          value[c] += share.weight * field.values[share.particle * field.components + c];
       quantity_.project(value, point.place, row);
       row += quantity_.names().size();
     }
@@ -90,13 +99,18 @@ class LineProbe {
   }
 
   void add_point(Vec3 place, const Snapshot& first, const std::vector<Particle>& near) {
-    const auto apart = [&](Particle particle) { return norm(position_of(first, particle) - place); };
-    const auto nearest = std::min_element(near.begin(), near.end(), [&](Particle a, Particle b) { return apart(a) < apart(b); });
+    const auto apart = [&](Particle particle) {
+      return norm(position_of(first, particle) - place);
+    };
+    const auto nearest = std::min_element(
+        near.begin(), near.end(), [&](Particle a, Particle b) { return apart(a) < apart(b); });
     if (nearest == near.end() || apart(*nearest) > first.spacing) return;
     if (options_.between == Between::interpolated) {
       const double radius = std::max(1.5 * first.spacing, apart(*nearest) + 1.25 * first.spacing);
       points_.push_back({place, line::shares_at(place, first.spacing, radius, first, near)});
-    } else if (std::none_of(points_.begin(), points_.end(), [&](const Point& point) { return point.shares.front().particle == *nearest; })) {
+    } else if (std::none_of(points_.begin(), points_.end(), [&](const Point& point) {
+                 return point.shares.front().particle == *nearest;
+               })) {
       points_.push_back({position_of(first, *nearest), {{*nearest, 1}}});
     }
   }

@@ -1,4 +1,5 @@
-// A quantity of one particle over time: the one nearest to a given place. The column's name says where that particle truly stands.
+// A quantity of one particle over time: the one nearest to a given place. The column's name says
+// where that particle truly stands.
 #include <hyperlattice/fields.hpp>
 
 namespace hyperlattice {
@@ -11,7 +12,8 @@ class PointProbe {
   };
 
   static Schema<Options> schema() {
-    Schema<Options> schema("probes.point", "A quantity of the particle nearest to a place, over time");
+    Schema<Options> schema("probes.point",
+                           "A quantity of the particle nearest to a place, over time");
     schema.add<&Options::position>("position", "m", "the place, in the body at rest");
     add_quantity_options(schema);
     schema.restrictions("A place farther than two spacings from every particle is refused.");
@@ -25,8 +27,10 @@ class PointProbe {
     particle_ = nearest_particle(first, place_);
     const Vec3 stands = position_of(first, particle_);
     if (norm(stands - place_) > 2 * first.spacing)
-      throw std::runtime_error("no particle is near " + place_text(place_) + "; the nearest stands at " + place_text(stands) + " (metres)");
-    for (const std::string& name : quantity_.names()) columns.column(name + "@" + place_text(stands));
+      throw std::runtime_error("no particle is near " + place_text(place_) +
+                               "; the nearest stands at " + place_text(stands) + " (metres)");
+    for (const std::string& name : quantity_.names())
+      columns.column(name + "@" + place_text(stands));
   }
 
   void sample(const Snapshot& snapshot, double* row) const {

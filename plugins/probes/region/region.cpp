@@ -1,7 +1,8 @@
 // Mean, least and greatest of a quantity over a region, over time:
 //   mean = (1/n) sum of q_i over the n particles of the region, each counting the same.
-// With the component "radial" about the centre of a sphere this is the mean radial motion of a shell or a surface, and a column `radius` says how far
-// from the centre the particles are at rest, in the mean.
+// With the component "radial" about the centre of a sphere this is the mean radial motion of a
+// shell or a surface, and a column `radius` says how far from the centre the particles are at rest,
+// in the mean.
 #include <hyperlattice/fields.hpp>
 
 namespace hyperlattice {
@@ -14,15 +15,21 @@ class RegionProbe {
   };
 
   static Schema<Options> schema() {
-    Schema<Options> schema("probes.region", "Mean and extremes of a quantity over a region, over time");
+    Schema<Options> schema("probes.region",
+                           "Mean and extremes of a quantity over a region, over time");
     schema.add<&Options::region>("region", "", "the particles").fallback("\"all\"");
     add_quantity_options(schema);
-    schema.equation("mean = (1/n) sum q_i; min = min q_i; max = max q_i; with the component radial also radius = (1/n) sum |x_i - centre|, at rest");
+    schema.equation(
+        "mean = (1/n) sum q_i; min = min q_i; max = max q_i; with the component radial also radius "
+        "= (1/n) sum |x_i - centre|, at rest");
     return schema.check(check_quantity_options<Options>);
   }
 
   explicit RegionProbe(const Options& options)
-      : region_(options.region), quantity_(options), is_radial_(options.component == Projection::radial), centre_(options.centre) {}
+      : region_(options.region),
+        quantity_(options),
+        is_radial_(options.component == Projection::radial),
+        centre_(options.centre) {}
 
   void begin(const OutputContext& context, const Snapshot& first, const ColumnSink& columns) {
     require_field(first, quantity_.field());
@@ -33,7 +40,9 @@ class RegionProbe {
       for (const char* statistic : {"_mean", "_min", "_max"}) columns.column(name + statistic);
     if (!is_radial_) return;
     columns.column("radius");
-    for (const Particle particle : particles_) radius_ += norm(position_of(first, particle) - centre_) / static_cast<double>(particles_.size());
+    for (const Particle particle : particles_)
+      radius_ +=
+          norm(position_of(first, particle) - centre_) / static_cast<double>(particles_.size());
   }
 
   void sample(const Snapshot& snapshot, double* row) const {

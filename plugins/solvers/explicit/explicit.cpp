@@ -2,8 +2,9 @@
 //
 //   v(n+1/2) = v(n-1/2) + dt F(u(n)) / m        u(n+1) = u(n) + dt v(n+1/2)
 //
-// stable for dt < dt_c = 2 / omega_max. With Cundall's local damping F becomes F - alpha |F| sign(v), and the limit dt_c / sqrt(1 + alpha).
-// All steps of a stage are equal: steps that change lose or make energy. Loads act by their mean over each step, so that none need end at a corner.
+// stable for dt < dt_c = 2 / omega_max. With Cundall's local damping F becomes F - alpha |F|
+// sign(v), and the limit dt_c / sqrt(1 + alpha). All steps of a stage are equal: steps that change
+// lose or make energy. Loads act by their mean over each step, so that none need end at a corner.
 #include <hyperlattice/files.hpp>
 #include <hyperlattice/solver.hpp>
 
@@ -25,26 +26,38 @@ class Explicit {
   };
 
   static Schema<Options> schema() {
-    return Schema<Options>("solvers.explicit", "Explicit dynamics by central differences, up to an instant")
-        .equation("v(n+1/2) = v(n-1/2) + dt (F - damping |F| sign(v)) / m,  u(n+1) = u(n) + dt v(n+1/2);  dt < dt_c / sqrt(1 + damping)")
-        .source("Zhao 2017, section 2.2 (central differences, local damping); limit: 2 / omega_max of the lattice by Bloch analysis")
+    return Schema<Options>("solvers.explicit",
+                           "Explicit dynamics by central differences, up to an instant")
+        .equation(
+            "v(n+1/2) = v(n-1/2) + dt (F - damping |F| sign(v)) / m,  u(n+1) = u(n) + dt v(n+1/2); "
+            " dt < dt_c / sqrt(1 + damping)")
+        .source(
+            "Zhao 2017, section 2.2 (central differences, local damping); limit: 2 / omega_max of "
+            "the lattice by Bloch analysis")
         .restrictions(
-            "All steps of a stage are equal and the last ends at end_time, so they may be a little shorter than time_step. Loads act by the mean of "
-            "their factor over each step: the impulse is exact whatever the step, if the load names its kinks and jumps (of loads.expression: "
+            "All steps of a stage are equal and the last ends at end_time, so they may be a little "
+            "shorter than time_step. Loads act by the mean of "
+            "their factor over each step: the impulse is exact whatever the step, if the load "
+            "names its kinks and jumps (of loads.expression: "
             "`corners`).")
-        .add<&Options::end_time>("end_time", "s", "instant at which the stage ends, counted from the start of the whole run, not of the stage")
+        .add<&Options::end_time>("end_time", "s",
+                                 "instant at which the stage ends, counted from the start of the "
+                                 "whole run, not of the stage")
         .example("\"20 us\"")
         .positive()
         .add<&Options::time_step>("time_step", "s",
-                                  "longest step; auto: the fraction `safety` of the stable one; a number above the stable step is refused")
+                                  "longest step; auto: the fraction `safety` of the stable one; a "
+                                  "number above the stable step is refused")
         .word("auto")
         .fallback("\"auto\"")
         .positive()
-        .add<&Options::safety>("safety", "", "fraction of the stable step that auto takes; 0.8 for large strains")
+        .add<&Options::safety>("safety", "",
+                               "fraction of the stable step that auto takes; 0.8 for large strains")
         .above(0)
         .below(1)
         .fallback("0.9")
-        .add<&Options::damping>("damping", "", "local non-viscous damping alpha, towards a static solution; 0: none")
+        .add<&Options::damping>(
+            "damping", "", "local non-viscous damping alpha, towards a static solution; 0: none")
         .at_least(0)
         .below(1)
         .fallback("0");
@@ -59,9 +72,12 @@ class Explicit {
     plan.resumes = true;
     plan.stable_time_step = facts.critical_time_step / std::sqrt(1 + options_.damping);
     const double longest = longest_step(facts), length = options_.end_time - facts.start_time;
-    constexpr double round_off = 1 - 1e-12;  // so that a step which divides the length is taken as it is
+    constexpr double round_off =
+        1 - 1e-12;  // so that a step which divides the length is taken as it is
     const double parts = std::ceil(length / longest * round_off);
-    if (!(parts < 1e15)) throw std::runtime_error("a longer time step or an earlier end: this would take more than 1e15 steps");
+    if (!(parts < 1e15))
+      throw std::runtime_error(
+          "a longer time step or an earlier end: this would take more than 1e15 steps");
     plan.steps = static_cast<std::uint64_t>(std::max(1.0, parts));
     plan.time_step = length / static_cast<double>(plan.steps);
     return plan;
@@ -77,14 +93,17 @@ class Explicit {
  private:
   double longest_step(const SolverFacts& facts) const {
     if (!(options_.end_time > facts.start_time))
-      throw std::runtime_error("end_time after " + short_number(facts.start_time) +
-                               " s, where the stage starts: it counts from the start of the whole run");
+      throw std::runtime_error(
+          "end_time after " + short_number(facts.start_time) +
+          " s, where the stage starts: it counts from the start of the whole run");
     const double stable = facts.critical_time_step / std::sqrt(1 + options_.damping);
     const double longest = options_.time_step.value_or(options_.safety * stable);
     if (!(longest <= stable))
       throw std::runtime_error(
           "time_step of at most " + short_number(stable) + " s, the stable limit" +
-          (options_.damping > 0 ? " (the critical step " + short_number(facts.critical_time_step) + " s over sqrt(1 + damping))" : "") +
+          (options_.damping > 0 ? " (the critical step " + short_number(facts.critical_time_step) +
+                                      " s over sqrt(1 + damping))"
+                                : "") +
           "; \"auto\" takes " + short_number(options_.safety * stable) + " s");
     return longest;
   }

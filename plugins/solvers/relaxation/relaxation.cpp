@@ -1,11 +1,14 @@
 // To a state of rest by motion that is damped:
 //
-//   local damping (the paper's way):  v(n+1/2) = v(n-1/2) + dt (F - alpha |F| sign v) / m,  dt < dt_c / sqrt(1 + alpha)
-//   accelerated:                      v(n+1/2) = a v(n-1/2) + (1 + a) / 2 dt F / m,  a = j / (j + 3),  j steps since the last restart,
-//                                     as under a drag of 6 m v / ((2 j + 3) dt); restart when the kinetic energy falls
+//   local damping (the paper's way):  v(n+1/2) = v(n-1/2) + dt (F - alpha |F| sign v) / m,  dt <
+//   dt_c / sqrt(1 + alpha) accelerated:                      v(n+1/2) = a v(n-1/2) + (1 + a) / 2 dt
+//   F / m,  a = j / (j + 3),  j steps since the last restart,
+//                                     as under a drag of 6 m v / ((2 j + 3) dt); restart when the
+//                                     kinetic energy falls
 //
-// until the residual, the largest out-of-balance force over the mean force on held or loaded particles, is small, and the estimated error of the
-// displacements if the scene asks for that. Loads act as they do at the end.
+// until the residual, the largest out-of-balance force over the mean force on held or loaded
+// particles, is small, and the estimated error of the displacements if the scene asks for that.
+// Loads act as they do at the end.
 #include <hyperlattice/rest.hpp>
 
 #include <algorithm>
@@ -19,7 +22,8 @@ namespace hyperlattice {
 enum class Damping : std::uint32_t { local_damping, accelerated };
 inline constexpr std::string_view damping_names[] = {"local_damping", "accelerated"};
 
-/// The drag of the accelerated method: that which takes all momentum at a restart, then less with each step.
+/// The drag of the accelerated method: that which takes all momentum at a restart, then less with
+/// each step.
 class Acceleration {
  public:
   explicit Acceleration(double time_step) : time_step_(time_step) {}
@@ -53,17 +57,24 @@ class Relaxation {
   };
 
   static Schema<Options> schema() {
-    return Schema<Options>("solvers.relaxation", "A state of rest by damped motion in steps of central differences")
+    return Schema<Options>("solvers.relaxation",
+                           "A state of rest by damped motion in steps of central differences")
         .equation(
-            "local_damping: m a = F - damping |F| sign(v), dt < dt_c / sqrt(1 + damping); accelerated: m a = F - 6 m v / ((2 j + 3) dt), dt < dt_c, "
+            "local_damping: m a = F - damping |F| sign(v), dt < dt_c / sqrt(1 + damping); "
+            "accelerated: m a = F - 6 m v / ((2 j + 3) dt), dt < dt_c, "
             "j steps since the kinetic energy last fell")
         .source(
-            "Zhao 2017, section 2.2 (local damping); Nesterov's acceleration as a drag that falls with time, with restarts (Su, Boyd and Candes "
+            "Zhao 2017, section 2.2 (local damping); Nesterov's acceleration as a drag that falls "
+            "with time, with restarts (Su, Boyd and Candes "
             "2016); limit: 2 / omega_max of the lattice by Bloch analysis")
         .restrictions(
-            "Time stands still at end_time, and so do the loads. Springs may break on the way, as in any motion. The residual is not the error of "
-            "the displacements: of slender bodies that is a thousand times larger. displacement_error asks for it.")
-        .add<&Options::method>("method", "", "how motion is damped; accelerated takes a fifth to a third of the steps, local_damping is the paper's")
+            "Time stands still at end_time, and so do the loads. Springs may break on the way, as "
+            "in any motion. The residual is not the error of "
+            "the displacements: of slender bodies that is a thousand times larger. "
+            "displacement_error asks for it.")
+        .add<&Options::method>("method", "",
+                               "how motion is damped; accelerated takes a fifth to a third of the "
+                               "steps, local_damping is the paper's")
         .choices(damping_names)
         .fallback("\"local_damping\"")
         .add<&Options::damping>("damping", "", "alpha of local_damping")
@@ -73,17 +84,22 @@ class Relaxation {
         .add<&Options::tolerance>("tolerance", "", "residual at which the body is at rest")
         .positive()
         .fallback("1e-5")
-        .add<&Options::displacement_error>(
-            "displacement_error", "", "estimated error of the displacements, a share of them, above which the body is not at rest; left out: any")
+        .add<&Options::displacement_error>("displacement_error", "",
+                                           "estimated error of the displacements, a share of them, "
+                                           "above which the body is not at rest; left out: any")
         .positive()
         .add<&Options::end_time>("end_time", "s",
-                                 "instant whose loads act, from the start of the run; left out: when the last load has stopped changing")
+                                 "instant whose loads act, from the start of the run; left out: "
+                                 "when the last load has stopped changing")
         .at_least(0)
-        .add<&Options::time_step>("time_step", "s", "auto: the fraction `safety` of the stable one; a number above the stable step is refused")
+        .add<&Options::time_step>("time_step", "s",
+                                  "auto: the fraction `safety` of the stable one; a number above "
+                                  "the stable step is refused")
         .word("auto")
         .fallback("\"auto\"")
         .positive()
-        .add<&Options::safety>("safety", "", "fraction of the stable step that auto takes; 0.8 for large strains")
+        .add<&Options::safety>("safety", "",
+                               "fraction of the stable step that auto takes; 0.8 for large strains")
         .above(0)
         .below(1)
         .fallback("0.9")
@@ -101,9 +117,12 @@ class Relaxation {
     plan.stable_time_step = facts.critical_time_step / std::sqrt(1 + plan.damping);
     plan.time_step = o_.time_step.value_or(o_.safety * plan.stable_time_step);
     if (!(plan.time_step <= plan.stable_time_step))
-      throw std::runtime_error("time_step of at most " + short_number(plan.stable_time_step) + " s, the stable limit");
-    const double digits = std::max(1.0, -std::log10(o_.tolerance)), per_site = o_.method == Damping::accelerated ? 1.5 : 7.5;  // as cubes take
-    plan.steps = static_cast<std::uint64_t>(std::min(o_.most_steps, per_site * digits * facts.sites_across + 20));
+      throw std::runtime_error("time_step of at most " + short_number(plan.stable_time_step) +
+                               " s, the stable limit");
+    const double digits = std::max(1.0, -std::log10(o_.tolerance)),
+                 per_site = o_.method == Damping::accelerated ? 1.5 : 7.5;  // as cubes take
+    plan.steps = static_cast<std::uint64_t>(
+        std::min(o_.most_steps, per_site * digits * facts.sites_across + 20));
     return plan;
   }
 
@@ -124,17 +143,21 @@ class Relaxation {
         return;
       }
     }
-    std::string why = "the residual is " + short_number(report.residual) + ", and tolerance " + short_number(o_.tolerance);
+    std::string why = "the residual is " + short_number(report.residual) + ", and tolerance " +
+                      short_number(o_.tolerance);
     if (o_.displacement_error)
-      why += "; the estimated error of the displacements " + short_number(report.displacement_error) + ", and displacement_error " +
+      why += "; the estimated error of the displacements " +
+             short_number(report.displacement_error) + ", and displacement_error " +
              short_number(*o_.displacement_error);
-    throw std::runtime_error("the body is not at rest after " + short_number(o_.most_steps) + " steps: " + why);
+    throw std::runtime_error("the body is not at rest after " + short_number(o_.most_steps) +
+                             " steps: " + why);
   }
 
  private:
   bool at_rest(const RestReport& report) const {
     const double error = report.displacement_error;
-    return report.residual <= o_.tolerance && (!o_.displacement_error || (error >= 0 && error <= *o_.displacement_error));
+    return report.residual <= o_.tolerance &&
+           (!o_.displacement_error || (error >= 0 && error <= *o_.displacement_error));
   }
   double alpha() const { return o_.method == Damping::accelerated ? 0 : o_.damping; }
 

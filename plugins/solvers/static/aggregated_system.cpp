@@ -3,7 +3,8 @@
 
 namespace hyperlattice::statics {
 
-AggregatedSystem::AggregatedSystem(const StaticProblem& problem) : ListedSystem(problem), rest_(numbers(), 0) {
+AggregatedSystem::AggregatedSystem(const StaticProblem& problem)
+    : ListedSystem(problem), rest_(numbers(), 0) {
   right_.setZero(static_cast<Eigen::Index>(numbers()));
   left_ = right_;
 }
@@ -13,7 +14,8 @@ double AggregatedSystem::linearise(const Field& displacement, Field& force) {
   return ListedSystem::linearise(displacement, force);
 }
 
-/// Whether no spring has been strained or turned much on the way from made_at_, and heights are held as there.
+/// Whether no spring has been strained or turned much on the way from made_at_, and heights are
+/// held as there.
 bool AggregatedSystem::is_near(const Field& displacement) const {
   if (holds_heights_otherwise(largest_pull() + pull_made_at_, softest_height())) return false;
   constexpr double little = 0.02;
@@ -21,7 +23,8 @@ bool AggregatedSystem::is_near(const Field& displacement) const {
   for (const StaticSpring& spring : grid().springs) {
     double square = 0;
     for (std::size_t c = 0; c < static_cast<std::size_t>(grid().components); ++c) {
-      const std::size_t a = c * places + static_cast<std::size_t>(spring.a), b = c * places + static_cast<std::size_t>(spring.b);
+      const std::size_t a = c * places + static_cast<std::size_t>(spring.a),
+                        b = c * places + static_cast<std::size_t>(spring.b);
       const double apart = (displacement[b] - made_at_[b]) - (displacement[a] - made_at_[a]);
       square += apart * apart;
     }
@@ -40,15 +43,18 @@ void AggregatedSystem::prepare() {
 }
 
 numerics::BlockJacobi AggregatedSystem::own_blocks() const {
-  const auto places = static_cast<std::size_t>(grid().places), components = static_cast<std::size_t>(grid().components);
+  const auto places = static_cast<std::size_t>(grid().places),
+             components = static_cast<std::size_t>(grid().components);
   return {places, components, threads(), [&](std::size_t p) {
             numerics::BlockJacobi::Block own;
-            for (std::size_t a = 0; a < components; ++a) own.unknown[a] = is_unknown(a * places + p);
+            for (std::size_t a = 0; a < components; ++a)
+              own.unknown[a] = is_unknown(a * places + p);
             for (std::size_t a = 0; a < components; ++a)
               if (own.unknown[a])
                 for_row(a * places + p, [&](std::size_t number, double value) {
                   if (number % places == p && own.unknown[number / places])
-                    own.matrix(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(number / places)) = value;
+                    own.matrix(static_cast<Eigen::Index>(a),
+                               static_cast<Eigen::Index>(number / places)) = value;
                 });
             return own;
           }};
@@ -57,10 +63,12 @@ numerics::BlockJacobi AggregatedSystem::own_blocks() const {
 /// What cannot move, or has no stiffness, has a row of its own; so each particle has as many rows.
 numerics::SparseRows AggregatedSystem::rows() const {
   constexpr double shift = 1e-6;  // added to the diagonal, over itself, where nothing holds a body
-  const auto places = static_cast<std::size_t>(grid().places), components = static_cast<std::size_t>(grid().components);
+  const auto places = static_cast<std::size_t>(grid().places),
+             components = static_cast<std::size_t>(grid().components);
   std::vector<bool> unknown(numbers());
   for (std::size_t n = 0; n < numbers(); ++n) unknown[n] = is_unknown(n);
-  numerics::SparseRows rows(static_cast<Eigen::Index>(numbers()), static_cast<Eigen::Index>(numbers()));
+  numerics::SparseRows rows(static_cast<Eigen::Index>(numbers()),
+                            static_cast<Eigen::Index>(numbers()));
   rows.reserve(static_cast<Eigen::Index>(blocks() * components * components));
   for (std::size_t p = 0; p < places; ++p)
     for (std::size_t a = 0; a < components; ++a) {
@@ -72,7 +80,8 @@ numerics::SparseRows AggregatedSystem::rows() const {
           if (!unknown[number]) return;
           if (number % places == p) value += smoother_->diagonal().added(row, number);
           if (value == 0) return;
-          rows.insertBack(at, static_cast<Eigen::Index>(number % places * components + number / places)) =
+          rows.insertBack(
+              at, static_cast<Eigen::Index>(number % places * components + number / places)) =
               number == row ? value * (1 + shift) : value;
         });
       else
@@ -85,12 +94,15 @@ numerics::SparseRows AggregatedSystem::rows() const {
 void AggregatedSystem::apply(const Field& r, Field& z) {
   smoother_->smooth(r, z, true);
   multiply(z.data(), rest_.data());
-  const auto places = static_cast<std::size_t>(grid().places), components = static_cast<std::size_t>(grid().components);
+  const auto places = static_cast<std::size_t>(grid().places),
+             components = static_cast<std::size_t>(grid().components);
   const auto for_numbers = [&](const auto& visit) {
     for (std::size_t p = 0; p < places; ++p)
-      for (std::size_t c = 0; c < components; ++c) visit(c * places + p, static_cast<Eigen::Index>(p * components + c));
+      for (std::size_t c = 0; c < components; ++c)
+        visit(c * places + p, static_cast<Eigen::Index>(p * components + c));
   };
-  for_numbers([&](std::size_t number, Eigen::Index row) { right_[row] = r[number] - rest_[number]; });
+  for_numbers(
+      [&](std::size_t number, Eigen::Index row) { right_[row] = r[number] - rest_[number]; });
   below_->apply(right_, left_);
   for_numbers([&](std::size_t number, Eigen::Index row) { z[number] += left_[row]; });
   mask(z.data());

@@ -1,4 +1,5 @@
-// A listed lattice with multigrid by aggregation. The finest level is smoothed on the tangent itself.
+// A listed lattice with multigrid by aggregation. The finest level is smoothed on the tangent
+// itself.
 #pragma once
 
 #include "listed_system.hpp"
@@ -23,7 +24,8 @@ class AggregatedSystem : public ListedSystem {
   numerics::SparseRows rows() const;
   bool is_near(const Field& displacement) const;
 
-  Field present_, made_at_;  ///< displacements: of the tangent, and of the one that the levels were made for; empty: none
+  Field present_, made_at_;  ///< displacements: of the tangent, and of the one that the levels were
+                             ///< made for; empty: none
   double pull_made_at_ = 0;  ///< largest_pull() there
   std::optional<numerics::ChebyshevSmoother> smoother_;
   std::optional<numerics::AggregationMultigrid> below_;

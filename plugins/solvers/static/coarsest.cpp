@@ -26,7 +26,8 @@ Coarsest::Coarsest(const StencilLevel& level) : factor_(std::make_unique<Factor>
       const double* block = level.block(p, n);
       for (std::size_t a = 0; a < 4; ++a)
         for (std::size_t b = 0; b < 4; ++b) {
-          const int row = row_of[4 * static_cast<std::size_t>(p) + a], column = row_of[4 * static_cast<std::size_t>(other) + b];
+          const int row = row_of[4 * static_cast<std::size_t>(p) + a],
+                    column = row_of[4 * static_cast<std::size_t>(other) + b];
           if (row < 0 || column < 0 || block[4 * a + b] == 0 || (n == 0 && row < column)) continue;
           entries.emplace_back(std::max(row, column), std::min(row, column), block[4 * a + b]);
         }
@@ -42,9 +43,11 @@ Coarsest::~Coarsest() = default;
 
 void Coarsest::solve(const double* b, double* x) const {
   Eigen::VectorXd right(static_cast<Eigen::Index>(factor_->numbers.size()));
-  for (std::size_t n = 0; n < factor_->numbers.size(); ++n) right[static_cast<Eigen::Index>(n)] = b[factor_->numbers[n]];
+  for (std::size_t n = 0; n < factor_->numbers.size(); ++n)
+    right[static_cast<Eigen::Index>(n)] = b[factor_->numbers[n]];
   const Eigen::VectorXd left = factor_->of.solve(right);
-  for (std::size_t n = 0; n < factor_->numbers.size(); ++n) x[factor_->numbers[n]] = left[static_cast<Eigen::Index>(n)];
+  for (std::size_t n = 0; n < factor_->numbers.size(); ++n)
+    x[factor_->numbers[n]] = left[static_cast<Eigen::Index>(n)];
 }
 
 }  // namespace hyperlattice::statics

@@ -1,4 +1,5 @@
-// The diagonal blocks of the springs' stiffness, and their inverses. Compiled once for each instruction set; see rows.hpp.
+// The diagonal blocks of the springs' stiffness, and their inverses. Compiled once for each
+// instruction set; see rows.hpp.
 #include "rows.hpp"
 
 namespace hyperlattice::statics::HYPERLATTICE_INSTRUCTIONS {
@@ -9,18 +10,22 @@ void divide(const Division& division, int components);
 
 namespace {
 
-constexpr std::int64_t chunk = 64;  // springs whose blocks are found before they are added: both ends may lie in one row
+constexpr std::int64_t chunk =
+    64;  // springs whose blocks are found before they are added: both ends may lie in one row
 
-/// One number of the blocks of both ends: that of base springs, and that of cross springs with its sign at the near end.
+/// One number of the blocks of both ends: that of base springs, and that of cross springs with its
+/// sign at the near end.
 template <int size>
-void add(const float (&base)[size], const float (&cross)[size], float sign, std::int64_t count, std::int64_t step, float* own) {
+void add(const float (&base)[size], const float (&cross)[size], float sign, std::int64_t count,
+         std::int64_t step, float* own) {
   float* other = own + step;
   for (std::int64_t t = 0; t < count; ++t) own[t] += base[t] + sign * cross[t];
   for (std::int64_t t = 0; t < count; ++t) other[t] += base[t] + cross[t];
 }
 
-/// A spring sees one end move: the difference of its ends turns its sign, or not, twice. In a cross spring heights add up and space does not, so that
-/// its mixed numbers have one sign at one end and the other at the other.
+/// A spring sees one end move: the difference of its ends turns its sign, or not, twice. In a cross
+/// spring heights add up and space does not, so that its mixed numbers have one sign at one end and
+/// the other at the other.
 template <bool Heights, bool Deformed>
 void diagonal_of(const RowOfSprings& s, const Triangles& blocks) {
   constexpr int components = Heights ? 4 : 3;
@@ -34,12 +39,14 @@ void diagonal_of(const RowOfSprings& s, const Triangles& blocks) {
       }
     for (std::int64_t t = 0; t < count; ++t) {
       total[t] = s.membrane_distance;
-      if constexpr (Deformed && Heights) total[t] += s.moved[3][first + t + s.step] + s.moved[3][first + t];
+      if constexpr (Deformed && Heights)
+        total[t] += s.moved[3][first + t + s.step] + s.moved[3][first + t];
     }
     int number = 0;
     for (int a = 0; a < components; ++a)
       for (int b = a; b < components; ++b, ++number) {
-        const float *x = r[a], *y = r[b], *across = b < 3 ? r[b] : total, *along = a < 3 ? r[a] : total;
+        const float *x = r[a], *y = r[b], *across = b < 3 ? r[b] : total,
+                    *along = a < 3 ? r[a] : total;
         for (std::int64_t t = 0; t < count; ++t) {
           base[t] = s.axial[first + t] * x[t] * y[t];
           cross[t] = 0;
@@ -49,27 +56,34 @@ void diagonal_of(const RowOfSprings& s, const Triangles& blocks) {
             if (Heights && a == b) cross[t] += s.cross_pull[first + t];
           }
         }
-        add(base, cross, (a == 3) == (b == 3) ? 1.0F : -1.0F, count, s.step, blocks.numbers[number] + first);
+        add(base, cross, (a == 3) == (b == 3) ? 1.0F : -1.0F, count, s.step,
+            blocks.numbers[number] + first);
       }
   }
 }
 
-/// 1 / pivot; 0 for one that vanishes beside the block's largest number of its kind, which belongs to nothing that has stiffness.
-[[gnu::always_inline]] inline double inverse_of(double pivot, double least) { return pivot > least ? 1 / pivot : 0.0; }
+/// 1 / pivot; 0 for one that vanishes beside the block's largest number of its kind, which belongs
+/// to nothing that has stiffness.
+[[gnu::always_inline]] inline double inverse_of(double pivot, double least) {
+  return pivot > least ? 1 / pivot : 0.0;
+}
 
 [[gnu::always_inline]] inline double larger(double a, double b) { return a > b ? a : b; }
 
-/// By K = L D L^T and K^-1 = M^T D^-1 M, M = L^-1. A pivot that is left out leaves zeros in its row and column, and the rest is inverted without it.
+/// By K = L D L^T and K^-1 = M^T D^-1 M, M = L^-1. A pivot that is left out leaves zeros in its row
+/// and column, and the rest is inverted without it.
 template <int components>
 void invert_each(std::int64_t count, const std::uint8_t* free, const Triangles& blocks) {
   constexpr bool heights = components == 4;
-  constexpr int at_xx = 0, at_xy = 1, at_xz = 2, at_xh = 3, at_yy = components, at_yz = at_yy + 1, at_yh = at_yy + 2, at_zz = 2 * components - 1,
-                at_zh = at_zz + 1, at_hh = at_zz + 2;
+  constexpr int at_xx = 0, at_xy = 1, at_xz = 2, at_xh = 3, at_yy = components, at_yz = at_yy + 1,
+                at_yh = at_yy + 2, at_zz = 2 * components - 1, at_zh = at_zz + 1, at_hh = at_zz + 2;
   float* const* n = blocks.numbers;
 #pragma omp simd
   for (std::int64_t t = 0; t < count; ++t) {
-    const double fx = free[t] & 1, fy = free[t] >> 1 & 1, fz = free[t] >> 2 & 1, fh = heights ? free[t] >> 3 & 1 : 0;
-    const double xx = fx * double(n[at_xx][t]), xy = fx * fy * double(n[at_xy][t]), xz = fx * fz * double(n[at_xz][t]), yy = fy * double(n[at_yy][t]),
+    const double fx = free[t] & 1, fy = free[t] >> 1 & 1, fz = free[t] >> 2 & 1,
+                 fh = heights ? free[t] >> 3 & 1 : 0;
+    const double xx = fx * double(n[at_xx][t]), xy = fx * fy * double(n[at_xy][t]),
+                 xz = fx * fz * double(n[at_xz][t]), yy = fy * double(n[at_yy][t]),
                  yz = fy * fz * double(n[at_yz][t]), zz = fz * double(n[at_zz][t]);
     double xh = 0, yh = 0, zh = 0, hh = 0;
     if constexpr (heights) {
@@ -78,13 +92,17 @@ void invert_each(std::int64_t count, const std::uint8_t* free, const Triangles& 
       zh = fz * fh * double(n[at_zh][t]);
       hh = fh * double(n[at_hh][t]);
     }
-    // Heights may be a billion times as stiff as space, or as soft: each kind is measured by itself.
+    // Heights may be a billion times as stiff as space, or as soft: each kind is measured by
+    // itself.
     const double least = 1e-7 * larger(larger(xx, yy), zz), least_height = 1e-7 * hh;
     const double dx = inverse_of(xx, least), lyx = xy * dx, lzx = xz * dx, lhx = xh * dx;
-    const double dy = inverse_of(yy - lyx * xy, least), byz = yz - lyx * xz, byh = yh - lyx * xh, lzy = byz * dy, lhy = byh * dy;
-    const double dz = inverse_of(zz - lzx * xz - lzy * byz, least), bzh = zh - lzx * xh - lzy * byh, lhz = bzh * dz;
+    const double dy = inverse_of(yy - lyx * xy, least), byz = yz - lyx * xz, byh = yh - lyx * xh,
+                 lzy = byz * dy, lhy = byh * dy;
+    const double dz = inverse_of(zz - lzx * xz - lzy * byz, least), bzh = zh - lzx * xh - lzy * byh,
+                 lhz = bzh * dz;
     const double dh = inverse_of(hh - lhx * xh - lhy * byh - lhz * bzh, least_height);
-    const double myx = -lyx, mzy = -lzy, mhz = -lhz, mzx = lzy * lyx - lzx, mhy = lhz * lzy - lhy, mhx = -(lhx + lhy * myx + lhz * mzx);
+    const double myx = -lyx, mzy = -lzy, mhz = -lhz, mzx = lzy * lyx - lzx, mhy = lhz * lzy - lhy,
+                 mhx = -(lhx + lhy * myx + lhz * mzx);
     n[at_xx][t] = static_cast<float>(dx + dy * myx * myx + dz * mzx * mzx + dh * mhx * mhx);
     n[at_xy][t] = static_cast<float>(dy * myx + dz * mzx * mzy + dh * mhx * mhy);
     n[at_xz][t] = static_cast<float>(dz * mzx + dh * mhx * mhz);
@@ -126,7 +144,9 @@ void diagonal(const RowOfSprings& s, int components, const Triangles& blocks) {
     deformed ? diagonal_of<false, true>(s, blocks) : diagonal_of<false, false>(s, blocks);
 }
 
-void divide(const Division& division, int components) { components == 4 ? divide_each<4>(division) : divide_each<3>(division); }
+void divide(const Division& division, int components) {
+  components == 4 ? divide_each<4>(division) : divide_each<3>(division);
+}
 
 void invert(std::int64_t count, int components, const std::uint8_t* free, const Triangles& blocks) {
   components == 4 ? invert_each<4>(count, free, blocks) : invert_each<3>(count, free, blocks);

@@ -1,4 +1,5 @@
-// A listed lattice whose tangent is factorised: whole if the body is small, else without the entries that the tangent does not have.
+// A listed lattice whose tangent is factorised: whole if the body is small, else without the
+// entries that the tangent does not have.
 #pragma once
 
 #include "listed_system.hpp"

@@ -8,7 +8,8 @@ namespace {
 /// Where a motion is largest, along what, and how much of the body takes part in it.
 class MotionText {
  public:
-  MotionText(const StaticProblem& problem, const Field& motion) : problem_(problem), motion_(motion) {
+  MotionText(const StaticProblem& problem, const Field& motion)
+      : problem_(problem), motion_(motion) {
     const StaticGrid& grid = problem.grid;
     for (std::int64_t p = 0; p < grid.places; ++p) {
       take_larger(space_, norm(in_space(p)), p);
@@ -19,9 +20,11 @@ class MotionText {
   bool wrinkles() const { return space_.size <= height_.size; }
   std::string text() const {
     if (wrinkles())
-      return "that motion is one of the fourth dimension, of the membrane, largest at " + place_text(height_) + ", and " +
+      return "that motion is one of the fourth dimension, of the membrane, largest at " +
+             place_text(height_) + ", and " +
              part_text([&](std::int64_t p) { return height(p) >= 0.5 * height_.size; });
-    return "that motion is largest at " + place_text(space_) + ", along " + direction_text(in_space(space_.place)) + ", and " +
+    return "that motion is largest at " + place_text(space_) + ", along " +
+           direction_text(in_space(space_.place)) + ", and " +
            part_text([&](std::int64_t p) { return norm(in_space(p)) >= 0.5 * space_.size; });
   }
 
@@ -33,10 +36,16 @@ class MotionText {
   static void take_larger(Largest& largest, double size, std::int64_t place) {
     if (size > largest.size) largest = {size, place};
   }
-  double component(std::int64_t c, std::int64_t p) const { return motion_[static_cast<std::size_t>(c * problem_.grid.places + p)]; }
-  Vec3 in_space(std::int64_t p) const { return {component(0, p), component(1, p), component(2, p)}; }
+  double component(std::int64_t c, std::int64_t p) const {
+    return motion_[static_cast<std::size_t>(c * problem_.grid.places + p)];
+  }
+  Vec3 in_space(std::int64_t p) const {
+    return {component(0, p), component(1, p), component(2, p)};
+  }
   double height(std::int64_t p) const { return std::abs(component(3, p)); }
-  std::string place_text(const Largest& largest) const { return short_vector(problem_.position(largest.place), 6) + " m"; }
+  std::string place_text(const Largest& largest) const {
+    return short_vector(problem_.position(largest.place), 6) + " m";
+  }
   template <class TakesPart>
   std::string part_text(const TakesPart& takes_part) const {
     std::uint64_t all = 0, many = 0;
@@ -55,19 +64,24 @@ class MotionText {
 
 }  // namespace
 
-std::string failure_text(const StaticProblem& problem, double share, double time, const Found& found) {
+std::string failure_text(const StaticProblem& problem, double share, double time,
+                         const Outcome& found) {
   std::string text = "the body finds no state of rest ";
-  text += share == 0 ? "under its loads" : "beyond " + short_number(100 * share) + "% of the load, at " + short_number(time) + " s";
+  text += share == 0 ? "under its loads"
+                     : "beyond " + short_number(100 * share) + "% of the load, at " +
+                           short_number(time) + " s";
   text += ": " + found.why;
   if (found.direction.empty() || found.rigid) return text;
   const MotionText motion(problem, found.direction);
   if (motion.is_nothing()) return text;
   return text + "; " + motion.text() +
-         (motion.wrinkles() ? ". There the body wrinkles in the fourth dimension: a membrane this soft holds its heights no longer under such a "
+         (motion.wrinkles() ? ". There the body wrinkles in the fourth dimension: a membrane this "
+                              "soft holds its heights no longer under such a "
                               "compression (docs/theory/mirror.md)."
           : found.buckles   ? ". There the body buckles."
-          : share == 0      ? ". Supports may be missing, parts not joined, or loads far beyond what the body can resist."
-                            : ". The body may buckle there.");
+          : share == 0 ? ". Supports may be missing, parts not joined, or loads far beyond what "
+                         "the body can resist."
+                       : ". The body may buckle there.");
 }
 
 }  // namespace hyperlattice::statics

@@ -14,7 +14,8 @@ using SixBySix = Eigen::Matrix<double, 6, 6>;
 
 double component(Vec3 v, int c) { return c == 0 ? v.x : c == 1 ? v.y : v.z; }
 
-/// How a particle at r from the centre, in sizes of the piece, moves along c: by one number of a motion each.
+/// How a particle at r from the centre, in sizes of the piece, moves along c: by one number of a
+/// motion each.
 Six row(int c, Vec3 r) {
   Six row = Six::Zero();
   row[c] = 1;
@@ -25,11 +26,13 @@ Six row(int c, Vec3 r) {
 
 }  // namespace
 
-FreeMotions::FreeMotions(const System& system, const Field& displacement) : problem_(system.problem()), displacement_(displacement) {
+FreeMotions::FreeMotions(const System& system, const Field& displacement)
+    : problem_(system.problem()), displacement_(displacement) {
   const StaticGrid& grid = problem_.grid;
   numerics::DisjointSets pieces(grid.places);  // of places that springs join
   std::vector<bool> there(static_cast<std::size_t>(grid.places));
-  for (std::int64_t p = 0; p < grid.places; ++p) there[static_cast<std::size_t>(p)] = grid.free[p] != 0;
+  for (std::int64_t p = 0; p < grid.places; ++p)
+    there[static_cast<std::size_t>(p)] = grid.free[p] != 0;
   system.for_springs([&](std::int64_t a, std::int64_t b) {
     pieces.join(a, b);
     there[static_cast<std::size_t>(a)] = there[static_cast<std::size_t>(b)] = true;
@@ -38,7 +41,8 @@ FreeMotions::FreeMotions(const System& system, const Field& displacement) : prob
   for (std::int64_t p = 0; p < grid.places; ++p) {
     if (!there[static_cast<std::size_t>(p)]) continue;
     ++particles_;
-    std::int64_t& piece = piece_of[static_cast<std::size_t>(pieces.root(p))];  // the root of a piece is its first place
+    std::int64_t& piece = piece_of[static_cast<std::size_t>(
+        pieces.root(p))];  // the root of a piece is its first place
     if (piece < 0) {
       piece = static_cast<std::int64_t>(pieces_.size());
       pieces_.emplace_back();
@@ -50,16 +54,20 @@ FreeMotions::FreeMotions(const System& system, const Field& displacement) : prob
 }
 
 Vec3 FreeMotions::position(std::int64_t place) const {
-  const auto u = [&](std::int64_t c) { return displacement_[static_cast<std::size_t>(c * problem_.grid.places + place)]; };
+  const auto u = [&](std::int64_t c) {
+    return displacement_[static_cast<std::size_t>(c * problem_.grid.places + place)];
+  };
   return problem_.position(place) + Vec3{u(0), u(1), u(2)};
 }
 
 /// Rows of what is held times a free motion are zero.
 void FreeMotions::find_motions(Piece& piece) const {
   const auto number = static_cast<double>(piece.places.size());
-  for (const std::int64_t place : piece.places) piece.centre = piece.centre + (1 / number) * position(place);
+  for (const std::int64_t place : piece.places)
+    piece.centre = piece.centre + (1 / number) * position(place);
   double square = 0;
-  for (const std::int64_t place : piece.places) square += dot(position(place) - piece.centre, position(place) - piece.centre);
+  for (const std::int64_t place : piece.places)
+    square += dot(position(place) - piece.centre, position(place) - piece.centre);
   piece.size = square > 0 ? std::sqrt(square / number) : 1;
   SixBySix held = SixBySix::Zero(), together = SixBySix::Zero();
   for (const std::int64_t place : piece.places)
@@ -71,7 +79,8 @@ void FreeMotions::find_motions(Piece& piece) const {
   constexpr double nothing = 1e-9;
   const Eigen::SelfAdjointEigenSolver<SixBySix> modes(held);
   if (modes.info() != Eigen::Success) return;  // positions are not finite: Newton's method says so
-  for (int n = 0; n < 6 && modes.eigenvalues()[n] <= nothing * std::max(1.0, modes.eigenvalues()[5]); ++n) {
+  for (int n = 0;
+       n < 6 && modes.eigenvalues()[n] <= nothing * std::max(1.0, modes.eigenvalues()[5]); ++n) {
     Six motion = modes.eigenvectors().col(n);
     for (const Motion& before : piece.motions) {
       const Six other = Eigen::Map<const Six>(before.data());
@@ -85,7 +94,8 @@ void FreeMotions::find_motions(Piece& piece) const {
 }
 
 Vec3 FreeMotions::moved(const Piece& piece, const Motion& m, std::int64_t place) const {
-  return Vec3{m[0], m[1], m[2]} + (1 / piece.size) * cross({m[3], m[4], m[5]}, position(place) - piece.centre);
+  return Vec3{m[0], m[1], m[2]} +
+         (1 / piece.size) * cross({m[3], m[4], m[5]}, position(place) - piece.centre);
 }
 
 double FreeMotions::along(const Piece& piece, const Motion& motion, const Field& field) const {
@@ -93,7 +103,8 @@ double FreeMotions::along(const Piece& piece, const Motion& motion, const Field&
   const std::int64_t places = problem_.grid.places;
   for (const std::int64_t place : piece.places) {
     const Vec3 way = moved(piece, motion, place);
-    for (int c = 0; c < 3; ++c) sum += field[static_cast<std::size_t>(c * places + place)] * component(way, c);
+    for (int c = 0; c < 3; ++c)
+      sum += field[static_cast<std::size_t>(c * places + place)] * component(way, c);
   }
   return sum;
 }
@@ -105,7 +116,8 @@ void FreeMotions::remove_from(Field& field) const {
       const double part = along(piece, motion, field);
       for (const std::int64_t place : piece.places) {
         const Vec3 way = moved(piece, motion, place);
-        for (int c = 0; c < 3; ++c) field[static_cast<std::size_t>(c * places + place)] -= part * component(way, c);
+        for (int c = 0; c < 3; ++c)
+          field[static_cast<std::size_t>(c * places + place)] -= part * component(way, c);
       }
     }
 }
@@ -132,19 +144,23 @@ FreeMotions::Driven FreeMotions::driven_by(const Field& force) const {
   Driven most_driven{sentence(*found, with), Field(force.size(), 0)};
   for (const std::int64_t place : found->places)
     for (int c = 0; c < 3; ++c)
-      most_driven.motion[static_cast<std::size_t>(c * problem_.grid.places + place)] = component(moved(*found, with, place), c);
+      most_driven.motion[static_cast<std::size_t>(c * problem_.grid.places + place)] =
+          component(moved(*found, with, place), c);
   return most_driven;
 }
 
 std::string FreeMotions::sentence(const Piece& piece, const Motion& m) const {
   const Vec3 slide{m[0], m[1], m[2]}, turn = (1 / piece.size) * Vec3{m[3], m[4], m[5]};
   const std::uint64_t number = piece.places.size();
-  std::string text = number == particles_ ? "the whole body"
-                                          : "a loose piece of " + std::to_string(number) + " of the " + std::to_string(particles_) +
-                                                " particles, around " + short_vector(piece.centre) + " m,";
+  std::string text = number == particles_
+                         ? "the whole body"
+                         : "a loose piece of " + std::to_string(number) + " of the " +
+                               std::to_string(particles_) + " particles, around " +
+                               short_vector(piece.centre) + " m,";
   text += " can move as a rigid one: it ";
   constexpr double little = 1e-3;
-  if (norm(turn) * piece.size < little * norm(slide)) return text + "slides along " + direction_text(slide);
+  if (norm(turn) * piece.size < little * norm(slide))
+    return text + "slides along " + direction_text(slide);
   return text + "turns about the axis " + direction_text(turn) + " through " +
          short_vector(piece.centre + (1 / dot(turn, turn)) * cross(turn, slide)) + " m";
 }

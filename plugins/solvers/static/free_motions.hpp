@@ -1,4 +1,5 @@
-// Rigid motions that nothing resists: those of each piece of the body, a set of particles that springs join, that leave in place all that is held.
+// Rigid motions that nothing resists: those of each piece of the body, a set of particles that
+// springs join, that leave in place all that is held.
 #pragma once
 
 #include "system.hpp"
@@ -10,7 +11,8 @@ namespace hyperlattice::statics {
 
 class FreeMotions : public numerics::Deflation {
  public:
-  /// Of the body at a displacement, which must outlive this, with the springs that have stiffness in the present tangents.
+  /// Of the body at a displacement, which must outlive this, with the springs that have stiffness
+  /// in the present tangents.
   FreeMotions(const System& system, const Field& displacement);
 
   /// Takes the part of these motions out of a field.
@@ -23,7 +25,8 @@ class FreeMotions : public numerics::Deflation {
   Driven driven_by(const Field& force) const;
 
  private:
-  using Motion = std::array<double, 6>;  ///< translation, and rotation about the piece's centre times its size
+  using Motion =
+      std::array<double, 6>;  ///< translation, and rotation about the piece's centre times its size
   struct Piece {
     std::vector<std::int64_t> places;
     Vec3 centre;                  ///< m

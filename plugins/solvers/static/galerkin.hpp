@@ -1,5 +1,6 @@
-// The stiffness of a coarser level: P^T K P, with P the interpolation from it, 0 in what is held. So a coarse level knows every hole, broken spring,
-// border of materials and support of the level below.
+// The stiffness of a coarser level: P^T K P, with P the interpolation from it, 0 in what is held.
+// So a coarse level knows every hole, broken spring, border of materials and support of the level
+// below.
 #pragma once
 
 #include "spring_level.hpp"

@@ -8,9 +8,12 @@ namespace hyperlattice::statics {
 
 class GridSystem : public System {
  public:
-  explicit GridSystem(const StaticProblem& problem) : System(problem), matrix_(problem), multigrid_(matrix_) {}
+  explicit GridSystem(const StaticProblem& problem)
+      : System(problem), matrix_(problem), multigrid_(matrix_) {}
 
-  double linearise(const Field& displacement, Field& force) override { return matrix_.linearise(displacement, force); }
+  double linearise(const Field& displacement, Field& force) override {
+    return matrix_.linearise(displacement, force);
+  }
   void multiply(const double* x, double* y) const override { matrix_.multiply(x, y); }
   void mask(double* x) const override { matrix_.mask(x); }
   void prepare() override {
@@ -25,7 +28,8 @@ class GridSystem : public System {
     const StaticGrid& grid = matrix_.grid();
     for (std::size_t n = 0; n < grid.neighbours.size(); ++n)
       for (std::int64_t place = grid.origin; place < grid.places; ++place)
-        if (matrix_.has_spring(n, place)) join(place, place + grid.step_to(grid.neighbours[n].site));
+        if (matrix_.has_spring(n, place))
+          join(place, place + grid.step_to(grid.neighbours[n].site));
   }
 
  private:

@@ -3,7 +3,10 @@
 namespace hyperlattice::statics {
 
 ListedSystem::ListedSystem(const StaticProblem& problem)
-    : System(problem), grid_(problem.grid), components_(static_cast<std::size_t>(grid_.components)), block_size_(components_ * components_) {
+    : System(problem),
+      grid_(problem.grid),
+      components_(static_cast<std::size_t>(grid_.components)),
+      block_size_(components_ * components_) {
   axial_.resize(grid_.springs.size());
   pull_.resize(grid_.springs.size());
   if (components_ == 4) {
@@ -16,7 +19,8 @@ ListedSystem::ListedSystem(const StaticProblem& problem)
 
 void ListedSystem::find_pattern() {
   std::vector<std::vector<std::int64_t>> neighbours(static_cast<std::size_t>(grid_.places));
-  for (std::int64_t p = 0; p < grid_.places; ++p) neighbours[static_cast<std::size_t>(p)].push_back(p);
+  for (std::int64_t p = 0; p < grid_.places; ++p)
+    neighbours[static_cast<std::size_t>(p)].push_back(p);
   for (const StaticSpring& spring : grid_.springs) {
     neighbours[static_cast<std::size_t>(spring.a)].push_back(spring.b);
     neighbours[static_cast<std::size_t>(spring.b)].push_back(spring.a);
@@ -31,18 +35,23 @@ void ListedSystem::find_pattern() {
 }
 
 std::size_t ListedSystem::find(std::int64_t row, std::int64_t column) const {
-  const auto from = column_.begin() + static_cast<std::ptrdiff_t>(first_[static_cast<std::size_t>(row)]);
-  const auto to = column_.begin() + static_cast<std::ptrdiff_t>(first_[static_cast<std::size_t>(row) + 1]);
+  const auto from =
+      column_.begin() + static_cast<std::ptrdiff_t>(first_[static_cast<std::size_t>(row)]);
+  const auto to =
+      column_.begin() + static_cast<std::ptrdiff_t>(first_[static_cast<std::size_t>(row) + 1]);
   return static_cast<std::size_t>(std::lower_bound(from, to, column) - column_.begin());
 }
 
 SpringNumbers ListedSystem::numbers_of(std::size_t s) const {
-  return components_ == 4 ? SpringNumbers{axial_[s], pull_[s], cross_axial_[s], cross_pull_[s]} : SpringNumbers{axial_[s], pull_[s], 0, 0};
+  return components_ == 4 ? SpringNumbers{axial_[s], pull_[s], cross_axial_[s], cross_pull_[s]}
+                          : SpringNumbers{axial_[s], pull_[s], 0, 0};
 }
 
 double ListedSystem::linearise(const Field& displacement, Field& force) {
   SpringTangents tangents{axial_.data(), pull_.data(), nullptr, nullptr, nullptr};
-  if (components_ == 4) tangents = {axial_.data(), pull_.data(), cross_axial_.data(), cross_pull_.data(), alpha_.data()};
+  if (components_ == 4)
+    tangents = {axial_.data(), pull_.data(), cross_axial_.data(), cross_pull_.data(),
+                alpha_.data()};
   const double energy = problem().respond(displacement.data(), force.data(), &tangents);
   assemble(displacement);
   return energy;
@@ -53,12 +62,18 @@ void ListedSystem::assemble(const Field& u) {
   const bool heights = components_ == 4;
   for (std::size_t s = 0; s < grid_.springs.size(); ++s) {
     const StaticSpring& spring = grid_.springs[s];
-    const auto at = [&](std::int64_t c, std::int64_t place) { return u[static_cast<std::size_t>(c * grid_.places + place)]; };
+    const auto at = [&](std::int64_t c, std::int64_t place) {
+      return u[static_cast<std::size_t>(c * grid_.places + place)];
+    };
     const auto apart = [&](std::int64_t c) { return at(c, spring.b) - at(c, spring.a); };
-    const auto in_spacings = [&](double length) { return static_cast<float>(length / grid_.spacing); };
-    const float r[4] = {in_spacings(spring.rest.x + apart(0)), in_spacings(spring.rest.y + apart(1)), in_spacings(spring.rest.z + apart(2)),
-                        heights ? in_spacings(apart(3)) : 0};
-    const float total = heights ? in_spacings(grid_.membrane_distance + at(3, spring.a) + at(3, spring.b)) : 0;
+    const auto in_spacings = [&](double length) {
+      return static_cast<float>(length / grid_.spacing);
+    };
+    const float r[4] = {in_spacings(spring.rest.x + apart(0)),
+                        in_spacings(spring.rest.y + apart(1)),
+                        in_spacings(spring.rest.z + apart(2)), heights ? in_spacings(apart(3)) : 0};
+    const float total =
+        heights ? in_spacings(grid_.membrane_distance + at(3, spring.a) + at(3, spring.b)) : 0;
     const SpringBlocks tangent(numbers_of(s), r, total, heights);
     const std::int64_t ends[2] = {spring.a, spring.b};
     for (int e = 0; e < 2; ++e)
@@ -69,11 +84,13 @@ void ListedSystem::assemble(const Field& u) {
           for (std::size_t b = 0; b < components_; ++b) {
             // of a cross spring, heights add up
             const double sign = (a < 3 && e == 0 ? -1.0 : 1.0) * (b < 3 && f == 0 ? -1.0 : 1.0);
-            to[a * components_ + b] += across * tangent.base[4 * a + b] + sign * tangent.cross[4 * a + b];
+            to[a * components_ + b] +=
+                across * tangent.base[4 * a + b] + sign * tangent.cross[4 * a + b];
           }
       }
   }
-  for (std::int64_t p = 0; heights && p < grid_.places; ++p) block(find(p, p))[15] += static_cast<double>(alpha_[static_cast<std::size_t>(p)]);
+  for (std::int64_t p = 0; heights && p < grid_.places; ++p)
+    block(find(p, p))[15] += static_cast<double>(alpha_[static_cast<std::size_t>(p)]);
 }
 
 void ListedSystem::multiply(const double* x, double* y) const {
@@ -84,7 +101,8 @@ void ListedSystem::multiply(const double* x, double* y) const {
       for (std::size_t n = first_[p]; n < first_[p + 1]; ++n)
         for (std::size_t a = 0; a < components_; ++a)
           for (std::size_t b = 0; b < components_; ++b)
-            sum[a] += block(n)[a * components_ + b] * x[b * places + static_cast<std::size_t>(column_[n])];
+            sum[a] += block(n)[a * components_ + b] *
+                      x[b * places + static_cast<std::size_t>(column_[n])];
       for (std::size_t a = 0; a < components_; ++a) y[a * places + p] = sum[a];
     }
   });
@@ -104,7 +122,9 @@ bool ListedSystem::is_unknown(std::size_t number) const {
   return (grid_.free[p] >> c & 1u) != 0 && block(find(place, place))[c * (components_ + 1)] > 0;
 }
 
-double ListedSystem::stiffest() const { return std::max(largest_magnitude(axial_), largest_magnitude(cross_axial_)); }
+double ListedSystem::stiffest() const {
+  return std::max(largest_magnitude(axial_), largest_magnitude(cross_axial_));
+}
 
 double ListedSystem::softest_height() const {
   double softest = infinity;
@@ -115,7 +135,8 @@ double ListedSystem::softest_height() const {
 
 void ListedSystem::for_springs(const Join& join) const {
   for (std::size_t s = 0; s < grid_.springs.size(); ++s)
-    if (const SpringNumbers n = numbers_of(s); n.axial != 0 || n.pull != 0 || n.cross_axial != 0 || n.cross_pull != 0)
+    if (const SpringNumbers n = numbers_of(s);
+        n.axial != 0 || n.pull != 0 || n.cross_axial != 0 || n.cross_pull != 0)
       join(grid_.springs[s].a, grid_.springs[s].b);
 }
 

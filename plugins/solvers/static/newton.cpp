@@ -9,21 +9,26 @@
 namespace hyperlattice::statics {
 
 Newton::Newton(System& system, const SolverHost& host, const Limits& limits)
-    : system_(system), problem_(system.problem()), host_(host), limits_(limits), gradients_(system, system) {
-  for (Field* field : {&external_, &force_, &trial_, &rest_, &right_, &held_part_}) field->assign(system.numbers(), 0);
+    : system_(system),
+      problem_(system.problem()),
+      host_(host),
+      limits_(limits),
+      gradients_(system, system) {
+  for (Field* field : {&external_, &force_, &trial_, &rest_, &right_, &held_part_})
+    field->assign(system.numbers(), 0);
 }
 
-Found Newton::find(double share, Field& displacement) {
-  Found found;
+Outcome Newton::solve_load_step(double share, Field& displacement) {
+  Outcome found;
   for (const bool careful : {false, true}) {
     careful_ = careful;
-    found = search(share, displacement);
+    found = iterate(share, displacement);
     if (found.at_rest || found.hopeless || found.buckles || stopped_) break;
   }
   return found;
 }
 
-Found Newton::search(double share, Field& displacement) {
+Outcome Newton::iterate(double share, Field& displacement) {
   Field u = displacement;
   problem_.load(share, external_.data());
   Field change = u;  // of what the loads move
@@ -32,55 +37,69 @@ Found Newton::search(double share, Field& displacement) {
 
   for (int n = 0; n < limits_.newton; ++n) {
     switch (step(change, u)) {
-      case Step::at_rest: {
-        const bool linear = n == 0 && largest(displacement) == 0 && !may_wrinkle(u);  // the undeformed body's tangents were true to the end
-        Found found = limits_.stable && !linear ? check(u) : Found{.at_rest = true};
+      case StepResult::converged: {
+        const bool linear = n == 0 && largest(displacement) == 0 &&
+                            !may_wrinkle(u);  // the undeformed body's tangents were true to the end
+        Outcome found = limits_.stable && !linear ? check_stability(u) : Outcome{.at_rest = true};
         if (found.at_rest) displacement = u;
         return found;
       }
-      case Step::better:
+      case StepResult::reduced_residual:
         break;
-      case Step::stopped:
+      case StepResult::cancelled:
         stopped_ = true;
         return {};
-      case Step::unsolved:
-        return {.hopeless = n == 0, .why = unsolved_text()};
-      case Step::lost:
-        return give_up(u, n == 0, "it has no stiffness against a motion", gradients_.direction());
-      case Step::useless:  // what they found by then is for the most part the motion that they cannot resist
-        return give_up(u, n == 0, "it has next to no stiffness against a motion that the loads drive", gradients_.x());
-      case Step::wild:
+      case StepResult::linear_solver_failed:
+        return {.hopeless = n == 0, .why = linear_solver_failure()};
+      case StepResult::indefinite_tangent:
+        return no_stiffness(u, n == 0, "it has no stiffness against a motion",
+                            gradients_.direction());
+      case StepResult::no_progress:  // what they found by then is for the most part the motion that
+                                     // they cannot resist
+        return no_stiffness(u, n == 0,
+                            "it has next to no stiffness against a motion that the loads drive",
+                            gradients_.x());
+      case StepResult::not_finite:
         return {.why = "the forces are no longer finite"};
     }
     std::fill(change.begin(), change.end(), 0.0);
   }
-  return careful_ ? blame(displacement, u) : Found{};
+  return careful_ ? explain_failure(displacement, u) : Outcome{};
 }
 
-/// Why a careful search from the state of rest `last` failed: a motion that u, which it came to, does not resist, or else the motion to u.
-Found Newton::blame(const Field& last, const Field& u) {
+/// Why a careful search from the state of rest `last` failed: a motion that u, which it came to,
+/// does not resist, or else the motion to u.
+Outcome Newton::explain_failure(const Field& last, const Field& u) {
   system_.linearise(u, force_);
   system_.prepare();
   if (Field motion = softening_motion(system_, gradients_, u); !motion.empty())
-    return {.why = "Newton's method comes to states whose stiffness against a motion is negative", .buckles = true, .direction = std::move(motion)};
+    return {.why = "Newton's method comes to states whose stiffness against a motion is negative",
+            .buckles = true,
+            .direction = std::move(motion)};
   Field away = u;
   for (std::size_t n = 0; n < away.size(); ++n) away[n] -= last[n];
-  return {.why = "Newton's method leaves the last state of rest by a motion and does not converge", .direction = std::move(away)};
+  return {.why = "Newton's method leaves the last state of rest by a motion and does not converge",
+          .direction = std::move(away)};
 }
 
 /// Why conjugate gradients found no direction.
-std::string Newton::unsolved_text() const {
+std::string Newton::linear_solver_failure() const {
   const double stiffest = system_.stiffest();
-  if (!std::isfinite(stiffest)) return "springs are stiffer than 3e38 N/m, more than the tangent's numbers hold";
-  if (stiffest == 0) return "no spring has a stiffness of at least 1e-38 N/m, the least that the tangent's numbers hold";
+  if (!std::isfinite(stiffest))
+    return "springs are stiffer than 3e38 N/m, more than the tangent's numbers hold";
+  if (stiffest == 0)
+    return "no spring has a stiffness of at least 1e-38 N/m, the least that the tangent's numbers "
+           "hold";
   return "the linear equations of the tangent could not be solved";
 }
 
-Found Newton::give_up(const Field& u, bool hopeless, const char* why, const Field& direction) const {
+Outcome Newton::no_stiffness(const Field& u, bool hopeless, const char* why,
+                             const Field& direction) const {
   Field driving = right_;
   const double unit = power_of_two(largest(driving));
   for (double& value : driving) value /= unit;
-  if (FreeMotions::Driven rigid = FreeMotions(system_, u).driven_by(driving); !rigid.sentence.empty())
+  if (FreeMotions::Driven rigid = FreeMotions(system_, u).driven_by(driving);
+      !rigid.sentence.empty())
     return {.hopeless = hopeless,
             .why = std::move(rigid.sentence) + ", which the loads drive and nothing resists",
             .rigid = true,
@@ -88,31 +107,37 @@ Found Newton::give_up(const Field& u, bool hopeless, const char* why, const Fiel
   return {.hopeless = hopeless, .why = why, .direction = direction};
 }
 
-/// Whether the springs strained by u may hold the heights otherwise than those of the undeformed body, whose tangents are the present ones. That
-/// changes no force while the heights are smooth, so it is not seen in the residual.
+/// Whether the springs strained by u may hold the heights otherwise than those of the undeformed
+/// body, whose tangents are the present ones. That changes no force while the heights are smooth,
+/// so it is not seen in the residual.
 bool Newton::may_wrinkle(const Field& u) const {
   const StaticGrid& grid = problem_.grid;
   if (grid.components < 4) return false;
   double apart = 0;
   system_.for_springs([&](std::int64_t a, std::int64_t b) {
     for (std::int64_t c = 0; c < 3; ++c)
-      apart = std::max(apart, std::abs(u[static_cast<std::size_t>(c * grid.places + b)] - u[static_cast<std::size_t>(c * grid.places + a)]));
+      apart = std::max(apart, std::abs(u[static_cast<std::size_t>(c * grid.places + b)] -
+                                       u[static_cast<std::size_t>(c * grid.places + a)]));
   });
-  return holds_heights_otherwise(system_.stiffest() * apart / grid.spacing, system_.softest_height());
+  return holds_heights_otherwise(system_.stiffest() * apart / grid.spacing,
+                                 system_.softest_height());
 }
 
 /// Whether the state of rest u is stable.
-Found Newton::check(const Field& u) {
+Outcome Newton::check_stability(const Field& u) {
   system_.linearise(u, force_);
   system_.prepare();
   Field motion = softening_motion(system_, gradients_, u);
   prepared_ = motion.empty();
   if (prepared_) return {.at_rest = true};
-  return {.why = "its stiffness against a motion is negative", .buckles = true, .direction = std::move(motion)};
+  return {.why = "its stiffness against a motion is negative",
+          .buckles = true,
+          .direction = std::move(motion)};
 }
 
-/// The out-of-balance forces at a part of the way from u to u + moved, and what they are compared with. False: they are not finite.
-bool Newton::look(const Field& u, const Field& moved, double part) {
+/// The out-of-balance forces at a part of the way from u to u + moved, and what they are compared
+/// with. False: they are not finite.
+bool Newton::evaluate_residual(const Field& u, const Field& moved, double part) {
   for (std::size_t n = 0; n < u.size(); ++n) trial_[n] = u[n] + part * moved[n];
   problem_.respond(trial_.data(), rest_.data(), nullptr);
   scale_ = problem_.force_scale(rest_.data(), external_.data());
@@ -123,27 +148,31 @@ bool Newton::look(const Field& u, const Field& moved, double part) {
   return std::isfinite(left);
 }
 
-/// The end of a step that was just looked at becomes u; in a careful search, where the out-of-balance forces there do not work against the step by
-/// more than half of what they do for it at its start. Else the potential rises again: a shorter step ends about where it is least. False: forces are
-/// not finite.
-bool Newton::go_along(const Field& moved, Field& u) {
+/// The end of a step that was just looked at becomes u; in a careful search, where the
+/// out-of-balance forces there do not work against the step by more than half of what they do for
+/// it at its start. Else the potential rises again: a shorter step ends about where it is least.
+/// False: forces are not finite.
+bool Newton::step_along(const Field& moved, Field& u) {
   constexpr double too_far = 0.5, least = 0.1, most = 0.5;
   constexpr int tries = 8;
   const double start = product(right_.data(), moved.data(), u.size(), system_.threads());
   double part = 1;
   for (int n = 0; careful_ && n < tries; ++n) {
-    const double end = std::isfinite(report_.residual) ? product(rest_.data(), moved.data(), u.size(), system_.threads()) : -infinity;
+    const double end = std::isfinite(report_.residual)
+                           ? product(rest_.data(), moved.data(), u.size(), system_.threads())
+                           : -infinity;
     if (end >= -too_far * start) break;
     part *= std::clamp(start / (start - end), least, most);
-    look(u, moved, part);
+    evaluate_residual(u, moved, part);
   }
   u = trial_;
   return std::isfinite(report_.residual);
 }
 
-/// One step of Newton's method, in which held components change by `change`. Conjugate gradients go on while the forces at the present end of the
-/// step agree with what the tangent says of them; from there on a new tangent serves better.
-Newton::Step Newton::step(const Field& change, Field& u) {
+/// One step of Newton's method, in which held components change by `change`. Conjugate gradients go
+/// on while the forces at the present end of the step agree with what the tangent says of them;
+/// from there on a new tangent serves better.
+Newton::StepResult Newton::step(const Field& change, Field& u) {
   constexpr double first_look = 1e-2, agreement = 0.5, done = 0.7;
   const bool prepared = std::exchange(prepared_, false);
   if (!prepared) system_.linearise(u, force_);
@@ -156,42 +185,48 @@ Newton::Step Newton::step(const Field& change, Field& u) {
   system_.mask(right_.data());
   const double start = largest(right_);
   if (start == 0) {
-    const bool finite = look(u, change);
+    const bool finite = evaluate_residual(u, change);
     u = trial_;
-    return finite && report_.residual <= limits_.tolerance ? Step::at_rest : Step::better;
+    return finite && report_.residual <= limits_.tolerance ? StepResult::converged
+                                                           : StepResult::reduced_residual;
   }
   if (!prepared) system_.prepare();
   gradients_.start(right_);
   Field moved(u.size());
   double next_look = std::max(first_look * start, done * limits_.tolerance * scale_);
   for (int n = 0; n < system_.most_iterations(); ++n) {
-    if (!gradients_.advance()) return gradients_.is_sound() ? Step::lost : Step::unsolved;
+    if (!gradients_.advance())
+      return gradients_.is_sound() ? StepResult::indefinite_tangent
+                                   : StepResult::linear_solver_failed;
     ++report_.iterations;
-    if (!host_.report(report_)) return Step::stopped;
+    if (!host_.report(report_)) return StepResult::cancelled;
     const double unit = gradients_.unit(), left = unit * largest(gradients_.residual());
-    if (!std::isfinite(left)) return Step::unsolved;
+    if (!std::isfinite(left)) return StepResult::linear_solver_failed;
     if (left > next_look) continue;
     for (std::size_t m = 0; m < moved.size(); ++m) moved[m] = unit * gradients_.x()[m] + change[m];
-    if (!look(u, moved)) return !moves && go_along(moved, u) ? Step::better : Step::wild;
+    if (!evaluate_residual(u, moved))
+      return !moves && step_along(moved, u) ? StepResult::reduced_residual : StepResult::not_finite;
     if (report_.residual <= limits_.tolerance) {
       u = trial_;
       Field error(u.size());
       system_.apply(rest_, error);
       const double size = largest(u);
       report_.displacement_error = size > 0 ? largest(error) / size : 0;
-      return host_.report(report_) ? Step::at_rest : Step::stopped;
+      return host_.report(report_) ? StepResult::converged : StepResult::cancelled;
     }
     double bent = 0;  // what the tangent does not know
-    for (std::size_t m = 0; m < rest_.size(); ++m) bent = std::max(bent, std::abs(rest_[m] - unit * gradients_.residual()[m]));
+    for (std::size_t m = 0; m < rest_.size(); ++m)
+      bent = std::max(bent, std::abs(rest_[m] - unit * gradients_.residual()[m]));
     if (bent > agreement * left) {
-      if (!moves) return go_along(moved, u) ? Step::better : Step::wild;
+      if (!moves)
+        return step_along(moved, u) ? StepResult::reduced_residual : StepResult::not_finite;
       u = trial_;  // what is held has to go there
-      return Step::better;
+      return StepResult::reduced_residual;
     }
     next_look = std::max(std::min(bent, 0.5 * left), done * limits_.tolerance * scale_);
     if (next_look >= left) next_look = 0.5 * left;
   }
-  return Step::useless;
+  return StepResult::no_progress;
 }
 
 }  // namespace hyperlattice::statics

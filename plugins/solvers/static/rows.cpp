@@ -16,7 +16,8 @@ using simd::store;
 
 void add(double* to, const Pack& pack) { store(to, load(to) + pack); }
 
-/// Eight places at a time, all springs of these: what they do to their own place stays in registers until the last.
+/// Eight places at a time, all springs of these: what they do to their own place stays in registers
+/// until the last.
 template <bool Heights, bool Deformed>
 void springs_of(const SpringProduct& s) {
   constexpr std::size_t components = Heights ? 4 : 3;
@@ -34,7 +35,9 @@ void springs_of(const SpringProduct& s) {
     }
     for (const Direction* to = s.to; to < s.to + s.neighbours; ++to) {
       const std::int64_t at = t + to->step;
-      const auto moved = [&](std::size_t c) { return load_as<double>(s.moved[c] + at) - load_as<double>(s.moved[c] + t); };
+      const auto moved = [&](std::size_t c) {
+        return load_as<double>(s.moved[c] + at) - load_as<double>(s.moved[c] + t);
+      };
       Pack r[3] = {to->rest[0], to->rest[1], to->rest[2]}, apart[components];
       for (std::size_t c = 0; c < components; ++c) apart[c] = load(s.in[c] + at) - here[c];
       if constexpr (Deformed)
@@ -43,11 +46,13 @@ void springs_of(const SpringProduct& s) {
       Pack sum, straight;  // forces along the spring, and against any motion
       if constexpr (Heights) {
         const Pack cross_axial = next(), together = load(s.in[3] + at) + here[3];
-        Pack total = s.membrane_distance, both;  // of both ends: cross springs press both heights the same way
+        Pack total = s.membrane_distance,
+             both;  // of both ends: cross springs press both heights the same way
         if constexpr (Deformed) {
           const Pack pull = next(), cross_pull = next(), rise = moved(3);
           total += load_as<double>(s.moved[3] + at) + load_as<double>(s.moved[3] + t);
-          const Pack base = axial * (along + rise * apart[3]), cross = cross_axial * (along + total * together);
+          const Pack base = axial * (along + rise * apart[3]),
+                     cross = cross_axial * (along + total * together);
           const Pack difference = base * rise + pull * apart[3];
           sum = base + cross;
           straight = pull + cross_pull;
@@ -72,7 +77,8 @@ void springs_of(const SpringProduct& s) {
         add(s.out[c] + at, force);
       }
     }
-    for (std::size_t c = 0; c < components; ++c) add(s.out[c] + t, own[c]);  // others in the row may have added to it meanwhile
+    for (std::size_t c = 0; c < components; ++c)
+      add(s.out[c] + t, own[c]);  // others in the row may have added to it meanwhile
   }
 }
 
@@ -93,8 +99,12 @@ Vector take(const double* from) {
   __builtin_memcpy(&v, from, sizeof v);
   return v;
 }
-Block tiled(Four x) { return __builtin_shufflevector(x, x, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3); }
-Block repeated(Four x) { return __builtin_shufflevector(x, x, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3); }
+Block tiled(Four x) {
+  return __builtin_shufflevector(x, x, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3);
+}
+Block repeated(Four x) {
+  return __builtin_shufflevector(x, x, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3);
+}
 
 void stencil(const StencilProduct& s) {
   const std::int64_t stride = 16 * (1 + s.neighbours);
@@ -104,7 +114,8 @@ void stencil(const StencilProduct& s) {
     for (int n = 0; n < s.neighbours; ++n) {
       const std::int64_t step = s.steps[n];
       rows += take<Block>(blocks + 16 * (n + 1)) * tiled(take<Four>(x + 4 * step));
-      columns += take<Block>(s.blocks + s.kind[t - step] * stride + 16 * (n + 1)) * repeated(take<Four>(x - 4 * step));
+      columns += take<Block>(s.blocks + s.kind[t - step] * stride + 16 * (n + 1)) *
+                 repeated(take<Four>(x - 4 * step));
     }
     for (int a = 0; a < 4; ++a)
       s.out[4 * t + a] = ((rows[4 * a] + rows[4 * a + 1]) + (rows[4 * a + 2] + rows[4 * a + 3])) +
@@ -112,13 +123,15 @@ void stencil(const StencilProduct& s) {
   }
 }
 
-void add_spring(const BlockSums& sums, const CoarsePart* parts, int count, const double* base, const double* cross) {
+void add_spring(const BlockSums& sums, const CoarsePart* parts, int count, const double* base,
+                const double* cross) {
   const Block of_base = take<Block>(base), of_cross = take<Block>(cross);
   for (int n = 0; n < count; ++n) {
     const std::int32_t kind = sums.making[parts[n].place];
     if (kind < 0) continue;
     double* block = sums.blocks + 16 * (kind * sums.stride + parts[n].neighbour);
-    const Block sum = take<Block>(block) + of_base * take<Block>(parts[n].base) + of_cross * take<Block>(parts[n].cross);
+    const Block sum = take<Block>(block) + of_base * take<Block>(parts[n].base) +
+                      of_cross * take<Block>(parts[n].cross);
     __builtin_memcpy(block, &sum, sizeof sum);
   }
 }
@@ -130,7 +143,8 @@ void add_block(double* block, double factor, const double* other) {
 
 }  // namespace
 
-void diagonal(const RowOfSprings& springs, int components, const Triangles& blocks);  // diagonal.cpp
+void diagonal(const RowOfSprings& springs, int components,
+              const Triangles& blocks);  // diagonal.cpp
 void invert(std::int64_t count, int components, const std::uint8_t* free, const Triangles& blocks);
 void divide(const Division& division, int components);
 

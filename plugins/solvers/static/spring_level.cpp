@@ -24,8 +24,11 @@ GridLayout layout_of(const StaticGrid& grid) {
 }  // namespace
 
 SpringLevel::SpringLevel(const StaticProblem& problem)
-    : GridLevel(layout_of(problem.grid), problem.grid.threads), problem_(problem), grid_(problem.grid) {
-  const auto places = static_cast<std::size_t>(grid_.places), springs = grid_.neighbours.size() * places;
+    : GridLevel(layout_of(problem.grid), problem.grid.threads),
+      problem_(problem),
+      grid_(problem.grid) {
+  const auto places = static_cast<std::size_t>(grid_.places),
+             springs = grid_.neighbours.size() * places;
   axial_.resize(springs);
   pull_.resize(springs);
   if (grid_.components == 4) {
@@ -36,7 +39,9 @@ SpringLevel::SpringLevel(const StaticProblem& problem)
   moved_.resize(grid_.numbers());
   diagonal_.resize(static_cast<std::size_t>(grid_.components == 4 ? 10 : 6) * places);
   for (const NeighbourGeometry& n : grid_.neighbours)
-    directions_.push_back({grid_.step_to(n.site), {n.rest.x / grid_.spacing, n.rest.y / grid_.spacing, n.rest.z / grid_.spacing}});
+    directions_.push_back(
+        {grid_.step_to(n.site),
+         {n.rest.x / grid_.spacing, n.rest.y / grid_.spacing, n.rest.z / grid_.spacing}});
   for (std::int64_t p = 0; p < grid_.places; ++p)
     for (int c = 0; c < grid_.components; ++c)
       if ((grid_.free[p] >> c & 1u) == 0) held_.push_back(c * grid_.places + p);
@@ -44,16 +49,21 @@ SpringLevel::SpringLevel(const StaticProblem& problem)
 
 double SpringLevel::linearise(const Field& displacement, Field& force) {
   SpringTangents tangents{axial_.data(), pull_.data(), nullptr, nullptr, nullptr};
-  if (grid_.components == 4) tangents = {axial_.data(), pull_.data(), cross_axial_.data(), cross_pull_.data(), alpha_.data()};
+  if (grid_.components == 4)
+    tangents = {axial_.data(), pull_.data(), cross_axial_.data(), cross_pull_.data(),
+                alpha_.data()};
   const double energy = problem_.respond(displacement.data(), force.data(), &tangents);
   deformed_ = largest(displacement) > 0;
   rows_.pack(grid_, tangents, deformed_);
-  for (std::size_t n = 0; n < displacement.size(); ++n) moved_[n] = static_cast<float>(displacement[n] / grid_.spacing);
+  for (std::size_t n = 0; n < displacement.size(); ++n)
+    moved_[n] = static_cast<float>(displacement[n] / grid_.spacing);
   invert_diagonal();
   constexpr float little = 0.02F;
-  constexpr double bound = 2.02, slack = 1 + little;  // 2 holds for any sum of springs that are not compressed, see StiffnessBound
+  constexpr double bound = 2.02, slack = 1 + little;  // 2 holds for any sum of springs that are not
+                                                      // compressed, see StiffnessBound
   largest_pull_ = grid_.components == 4 && deformed_ ? largest_magnitude(pull_) : 0;
-  new_ = moved_when_prepared_.empty() || largest_change() > little || holds_heights_otherwise(largest_pull_ + pull_when_prepared_, softest_height_);
+  new_ = moved_when_prepared_.empty() || largest_change() > little ||
+         holds_heights_otherwise(largest_pull_ + pull_when_prepared_, softest_height_);
   if (new_)
     largest_eigenvalue_ = deformed_ ? std::max(bound, power_iteration()) : bound;
   else
@@ -78,13 +88,15 @@ float SpringLevel::largest_change() const {
       for (std::size_t n = 0; n < grid_.neighbours.size(); ++n) {
         if (!has_spring(n, place)) continue;
         const std::int64_t there = place + grid_.step_to(grid_.neighbours[n].site);
-        largest = std::max(largest, std::abs((now[there] - then[there]) - (now[place] - then[place])));
+        largest =
+            std::max(largest, std::abs((now[there] - then[there]) - (now[place] - then[place])));
       }
   }
   return largest;
 }
 
-/// Calls visit(number of the row, its first place, count) for the rows that are not empty; planes at once where their springs share no place.
+/// Calls visit(number of the row, its first place, count) for the rows that are not empty; planes
+/// at once where their springs share no place.
 template <class Visit>
 void SpringLevel::for_rows(const Visit& visit) const {
   int reach = 1;
@@ -93,7 +105,8 @@ void SpringLevel::for_rows(const Visit& visit) const {
 #pragma omp parallel for num_threads(threads_) schedule(static)
     for (int k = colour; k < grid_.sites[2]; k += reach + 1)
       for (int j = 0; j < grid_.sites[1]; ++j) {
-        const auto number = static_cast<std::size_t>(k) * static_cast<std::size_t>(grid_.sites[1]) + static_cast<std::size_t>(j);
+        const auto number = static_cast<std::size_t>(k) * static_cast<std::size_t>(grid_.sites[1]) +
+                            static_cast<std::size_t>(j);
         const StaticRow& row = grid_.rows[number];
         if (row.begin < row.end) visit(number, grid_.place(row.begin, j, k), row.end - row.begin);
       }
@@ -104,7 +117,8 @@ void SpringLevel::multiply(const double* x, double* y) const {
   in_pieces(grid_.numbers(), threads_, [&](std::size_t first, std::size_t last) {
     const auto heights = static_cast<std::size_t>(3 * grid_.places);
     std::fill(y + first, y + last, 0.0);
-    for (std::size_t n = std::max(first, heights); n < last; ++n) y[n] = static_cast<double>(alpha_[n - heights]) * x[n];
+    for (std::size_t n = std::max(first, heights); n < last; ++n)
+      y[n] = static_cast<double>(alpha_[n - heights]) * x[n];
   });
   for_rows([&](std::size_t number, std::int64_t first, std::int64_t count) {
     SpringProduct product{.count = count,
@@ -127,22 +141,29 @@ void SpringLevel::mask(double* x) const {
 }
 
 bool SpringLevel::has_spring(std::size_t neighbour, std::int64_t place) const {
-  const auto at = neighbour * static_cast<std::size_t>(grid_.places) + static_cast<std::size_t>(place);
+  const auto at =
+      neighbour * static_cast<std::size_t>(grid_.places) + static_cast<std::size_t>(place);
   const auto there = [&](const Floats& numbers) { return !numbers.empty() && numbers[at] != 0; };
   return there(axial_) || there(pull_) || there(cross_axial_) || there(cross_pull_);
 }
 
-double SpringLevel::stiffest() const { return std::max(largest_magnitude(axial_), largest_magnitude(cross_axial_)); }
+double SpringLevel::stiffest() const {
+  return std::max(largest_magnitude(axial_), largest_magnitude(cross_axial_));
+}
 
 bool SpringLevel::tangent(std::size_t neighbour, std::int64_t place, SpringBlocks& blocks) const {
   if (!has_spring(neighbour, place)) return false;
-  const auto at = neighbour * static_cast<std::size_t>(grid_.places) + static_cast<std::size_t>(place);
+  const auto at =
+      neighbour * static_cast<std::size_t>(grid_.places) + static_cast<std::size_t>(place);
   const bool heights = grid_.components == 4;
   const NeighbourGeometry& geometry = grid_.neighbours[neighbour];
   const std::int64_t step = grid_.step_to(geometry.site);
-  const auto moved = [&](int c, std::int64_t p) { return moved_[static_cast<std::size_t>(c * grid_.places + p)]; };
+  const auto moved = [&](int c, std::int64_t p) {
+    return moved_[static_cast<std::size_t>(c * grid_.places + p)];
+  };
   const auto spacing = static_cast<float>(grid_.spacing);
-  float r[4] = {static_cast<float>(geometry.rest.x) / spacing, static_cast<float>(geometry.rest.y) / spacing,
+  float r[4] = {static_cast<float>(geometry.rest.x) / spacing,
+                static_cast<float>(geometry.rest.y) / spacing,
                 static_cast<float>(geometry.rest.z) / spacing, 0},
         total = static_cast<float>(grid_.membrane_distance) / spacing;
   for (int c = 0; c < 3; ++c) r[c] += moved(c, place + step) - moved(c, place);
@@ -150,26 +171,36 @@ bool SpringLevel::tangent(std::size_t neighbour, std::int64_t place, SpringBlock
     r[3] = moved(3, place + step) - moved(3, place);
     total += moved(3, place + step) + moved(3, place);
   }
-  blocks = {{axial_[at], pull_[at], heights ? cross_axial_[at] : 0, heights ? cross_pull_[at] : 0}, r, total, heights};
+  blocks = {{axial_[at], pull_[at], heights ? cross_axial_[at] : 0, heights ? cross_pull_[at] : 0},
+            r,
+            total,
+            heights};
   return true;
 }
 
-/// Of all that a site's springs are and what of it can move. In a deformed body every site is its own.
+/// Of all that a site's springs are and what of it can move. In a deformed body every site is its
+/// own.
 Signatures SpringLevel::signatures() const {
-  Signatures all(static_cast<std::size_t>(grid_.sites[0]) * static_cast<std::size_t>(grid_.sites[1]) * static_cast<std::size_t>(grid_.sites[2]));
+  Signatures all(static_cast<std::size_t>(grid_.sites[0]) *
+                 static_cast<std::size_t>(grid_.sites[1]) *
+                 static_cast<std::size_t>(grid_.sites[2]));
   const auto bits = [](float value) { return std::uint64_t{std::bit_cast<std::uint32_t>(value)}; };
   const std::int64_t rows = std::int64_t{grid_.sites[1]} * grid_.sites[2];
 #pragma omp parallel for num_threads(threads_) schedule(static)
   for (std::int64_t r = 0; r < rows; ++r) {
     std::uint64_t* row = all.data() + r * grid_.sites[0];
-    const auto first = static_cast<std::size_t>(grid_.place(0, r % grid_.sites[1], r / grid_.sites[1])),
+    const auto first =
+                   static_cast<std::size_t>(grid_.place(0, r % grid_.sites[1], r / grid_.sites[1])),
                count = static_cast<std::size_t>(grid_.sites[0]);
     for (std::size_t i = 0; i < count; ++i)
-      row[i] = deformed_ ? first + i : std::uint64_t{grid_.free[first + i]} << 32 | bits(alpha(static_cast<std::int64_t>(first + i)));
+      row[i] = deformed_ ? first + i
+                         : std::uint64_t{grid_.free[first + i]} << 32 |
+                               bits(alpha(static_cast<std::int64_t>(first + i)));
     for (std::size_t n = 0; n < grid_.neighbours.size() && !deformed_; ++n) {
       const std::size_t at = n * static_cast<std::size_t>(grid_.places) + first;
       for (std::size_t i = 0; i < count; ++i)
-        row[i] = signed_by(row[i], bits(axial_[at + i]) << 32 | (cross_axial_.empty() ? 0 : bits(cross_axial_[at + i])));
+        row[i] = signed_by(row[i], bits(axial_[at + i]) << 32 |
+                                       (cross_axial_.empty() ? 0 : bits(cross_axial_[at + i])));
     }
   }
   return all;
@@ -179,15 +210,18 @@ void SpringLevel::invert_diagonal() {
   const auto places = static_cast<std::size_t>(grid_.places);
   const auto diagonal = [&](std::size_t first) {
     Triangles blocks;
-    for (std::size_t n = 0; n < diagonal_.size() / places; ++n) blocks.numbers[n] = diagonal_.data() + n * places + first;
+    for (std::size_t n = 0; n < diagonal_.size() / places; ++n)
+      blocks.numbers[n] = diagonal_.data() + n * places + first;
     return blocks;
   };
   std::fill(diagonal_.begin(), diagonal_.end(), 0.0F);
-  if (grid_.components == 4) std::copy(alpha_.begin(), alpha_.end(), diagonal_.end() - grid_.places);
+  if (grid_.components == 4)
+    std::copy(alpha_.begin(), alpha_.end(), diagonal_.end() - grid_.places);
   for_rows([&](std::size_t, std::int64_t first, std::int64_t count) {
     RowOfSprings springs{.count = count};
     springs.membrane_distance = static_cast<float>(grid_.membrane_distance / grid_.spacing);
-    for (int c = 0; c < grid_.components; ++c) springs.moved[c] = moved_.data() + c * grid_.places + first;
+    for (int c = 0; c < grid_.components; ++c)
+      springs.moved[c] = moved_.data() + c * grid_.places + first;
     for (std::size_t n = 0; n < directions_.size(); ++n) {
       const std::int64_t at = static_cast<std::int64_t>(n) * grid_.places + first;
       springs.step = directions_[n].step;
@@ -203,16 +237,20 @@ void SpringLevel::invert_diagonal() {
   });
   softest_height_ = infinity;
   for (std::size_t p = 0; grid_.components == 4 && p < places; ++p)
-    if ((grid_.free[p] >> 3 & 1u) != 0) softest_height_ = std::min(softest_height_, static_cast<double>(diagonal_[diagonal_.size() - places + p]));
+    if ((grid_.free[p] >> 3 & 1u) != 0)
+      softest_height_ =
+          std::min(softest_height_, static_cast<double>(diagonal_[diagonal_.size() - places + p]));
   in_pieces(places, threads_, [&](std::size_t first, std::size_t last) {
-    row_kernels_->invert(static_cast<std::int64_t>(last - first), grid_.components, grid_.free + first, diagonal(first));
+    row_kernels_->invert(static_cast<std::int64_t>(last - first), grid_.components,
+                         grid_.free + first, diagonal(first));
   });
 }
 
 void SpringLevel::divide(std::size_t first, std::size_t last, const double* r, double* z) const {
   Division division{.count = static_cast<std::int64_t>(last - first)};
   const auto places = static_cast<std::size_t>(grid_.places);
-  for (std::size_t n = 0; n < diagonal_.size() / places; ++n) division.inverse[n] = diagonal_.data() + n * places + first;
+  for (std::size_t n = 0; n < diagonal_.size() / places; ++n)
+    division.inverse[n] = diagonal_.data() + n * places + first;
   for (int c = 0; c < grid_.components; ++c) {
     division.in[c] = r + c * grid_.places + first;
     division.out[c] = z + c * grid_.places + first;

@@ -12,7 +12,9 @@ void SpringMultigrid::build() {
   cycle_.reset();
   coarse_.clear();
   std::vector<TrilinearTransfer> transfers;
-  const auto sites = [](const GridLevel& level) { return level.layout().sites[0] * level.layout().sites[1] * level.layout().sites[2]; };
+  const auto sites = [](const GridLevel& level) {
+    return level.layout().sites[0] * level.layout().sites[1] * level.layout().sites[2];
+  };
   do {
     TrilinearTransfer transfer(at(coarse_.size()).layout().sites);
     if (!coarse_.empty() && !transfer.coarsens()) break;
@@ -23,7 +25,8 @@ void SpringMultigrid::build() {
   coarsest_ = std::make_unique<Coarsest>(*coarse_.back());
   std::vector<const GridLevel*> all;
   for (std::size_t level = 0; level < levels(); ++level) all.push_back(&at(level));
-  cycle_.emplace(std::move(all), std::move(transfers), [this](const double* b, double* x) { coarsest_->solve(b, x); });
+  cycle_.emplace(std::move(all), std::move(transfers),
+                 [this](const double* b, double* x) { coarsest_->solve(b, x); });
 }
 
 }  // namespace hyperlattice::statics

@@ -1,4 +1,5 @@
-// The preconditioner of a structured lattice: geometric multigrid, whose coarse levels are made of the springs (galerkin.hpp).
+// The preconditioner of a structured lattice: geometric multigrid, whose coarse levels are made of
+// the springs (galerkin.hpp).
 #pragma once
 
 #include "coarsest.hpp"
@@ -14,14 +15,17 @@ class SpringMultigrid {
  public:
   explicit SpringMultigrid(const SpringLevel& finest) : finest_(finest) {}
 
-  /// The coarse levels, from the finest's present tangents. Throws std::runtime_error if the coarsest cannot be factorised.
+  /// The coarse levels, from the finest's present tangents. Throws std::runtime_error if the
+  /// coarsest cannot be factorised.
   void build();
   /// z, about K^-1 r. After build().
   void apply(const Field& r, Field& z) { cycle_->apply(r, z); }
   std::size_t levels() const { return 1 + coarse_.size(); }
 
  private:
-  const GridLevel& at(std::size_t level) const { return level == 0 ? static_cast<const GridLevel&>(finest_) : *coarse_[level - 1]; }
+  const GridLevel& at(std::size_t level) const {
+    return level == 0 ? static_cast<const GridLevel&>(finest_) : *coarse_[level - 1];
+  }
 
   const SpringLevel& finest_;
   std::vector<std::unique_ptr<StencilLevel>> coarse_;

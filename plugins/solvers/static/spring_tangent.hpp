@@ -12,15 +12,17 @@ struct SpringNumbers {
 struct SpringBlocks {
   double base[16], cross[16];
 
-  /// r: from end to end, with the difference of heights; total: Delta and the heights' sum; all in lattice constants. heights: whether membranes can
-  /// move.
+  /// r: from end to end, with the difference of heights; total: Delta and the heights' sum; all in
+  /// lattice constants. heights: whether membranes can move.
   SpringBlocks(const SpringNumbers& numbers, const float (&r)[4], float total, bool heights) {
     const float q[4] = {r[0], r[1], r[2], total};
     for (int a = 0; a < 4; ++a)
       for (int b = 0; b < 4; ++b) {
         const float unit = a == b && (a < 3 || heights) ? 1.0f : 0.0f;
-        base[4 * a + b] = double(numbers.axial) * double(r[a]) * double(r[b]) + double(numbers.pull * unit);
-        cross[4 * a + b] = double(numbers.cross_axial) * double(q[a]) * double(q[b]) + double(numbers.cross_pull * unit);
+        base[4 * a + b] =
+            double(numbers.axial) * double(r[a]) * double(r[b]) + double(numbers.pull * unit);
+        cross[4 * a + b] = double(numbers.cross_axial) * double(q[a]) * double(q[b]) +
+                           double(numbers.cross_pull * unit);
       }
   }
   SpringBlocks() = default;

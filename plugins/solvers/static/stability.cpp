@@ -23,10 +23,12 @@ Field rough_field(const System& system) {
 
 }  // namespace
 
-Field softening_motion(System& system, numerics::ConjugateGradients& gradients, const Field& displacement) {
+Field softening_motion(System& system, numerics::ConjugateGradients& gradients,
+                       const Field& displacement) {
   constexpr double solved = 1e-3, rounding = 1e-13;
   const auto softens = [&](const Field& motion, double curvature) {
-    return curvature < -rounding * system.stiffest() * product(motion.data(), motion.data(), motion.size(), system.threads());
+    return curvature < -rounding * system.stiffest() *
+                           product(motion.data(), motion.data(), motion.size(), system.threads());
   };
   const FreeMotions free(system, displacement);
   const Field rough = rough_field(system);
@@ -37,11 +39,15 @@ Field softening_motion(System& system, numerics::ConjugateGradients& gradients, 
     if (gradients.unit() * largest(left) <= solved) return {};
     goes_on = gradients.advance();
   }
-  if (!goes_on && softens(gradients.direction(), gradients.curvature())) return gradients.direction();
-  // The preconditioner leaves alone what has no stiffness by itself, such as heights that compression has robbed of theirs: that is left.
+  if (!goes_on && softens(gradients.direction(), gradients.curvature()))
+    return gradients.direction();
+  // The preconditioner leaves alone what has no stiffness by itself, such as heights that
+  // compression has robbed of theirs: that is left.
   Field resisting(left.size());
   system.multiply(left.data(), resisting.data());
-  return softens(left, product(left.data(), resisting.data(), left.size(), system.threads())) ? left : Field{};
+  return softens(left, product(left.data(), resisting.data(), left.size(), system.threads()))
+             ? left
+             : Field{};
 }
 
 }  // namespace hyperlattice::statics

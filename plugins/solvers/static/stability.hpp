@@ -7,8 +7,10 @@
 
 namespace hyperlattice::statics {
 
-/// A motion along which the present tangents, prepared, are negative: the body buckles along it. Empty if none is found. Conjugate gradients from a
-/// rough field meet it, if there is one, as the preconditioner makes the softest motions the largest. Free rigid motions do not count.
-Field softening_motion(System& system, numerics::ConjugateGradients& gradients, const Field& displacement);
+/// A motion along which the present tangents, prepared, are negative: the body buckles along it.
+/// Empty if none is found. Conjugate gradients from a rough field meet it, if there is one, as the
+/// preconditioner makes the softest motions the largest. Free rigid motions do not count.
+Field softening_motion(System& system, numerics::ConjugateGradients& gradients,
+                       const Field& displacement);
 
 }  // namespace hyperlattice::statics

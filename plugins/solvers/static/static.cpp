@@ -1,4 +1,5 @@
-// A state of rest, found as such: Newton's method on the balance of forces, with steps of the load that become shorter where it does not converge.
+// A state of rest, found as such: Newton's method on the balance of forces, with steps of the load
+// that become shorter where it does not converge.
 #include "aggregated_system.hpp"
 #include "factorised_system.hpp"
 #include "failure.hpp"
@@ -12,7 +13,8 @@
 namespace hyperlattice {
 
 enum class Preconditioner : std::uint32_t { automatic, whole, incomplete, multigrid };
-constexpr std::string_view preconditioner_names[] = {"automatic", "whole", "incomplete", "multigrid"};
+constexpr std::string_view preconditioner_names[] = {"automatic", "whole", "incomplete",
+                                                     "multigrid"};
 
 class Static {
  public:
@@ -25,44 +27,55 @@ class Static {
   };
 
   static Schema<Options> schema() {
-    return Schema<Options>("solvers.static", "A state of rest by Newton's method, geometrically nonlinear")
+    return Schema<Options>("solvers.static",
+                           "A state of rest by Newton's method, geometrically nonlinear")
         .equation(
-            "F_springs(u) + F_loads = 0;  K(u) du = F, K the exact tangent, by conjugate gradients with a multigrid V-cycle as preconditioner, of "
+            "F_springs(u) + F_loads = 0;  K(u) du = F, K the exact tangent, by conjugate gradients "
+            "with a multigrid V-cycle as preconditioner, of "
             "small listed lattices with a factorisation")
         .source("docs/theory/statics.md")
         .restrictions(
-            "Springs do not break during the stage; those beyond their limit at its end break in the first step in time that "
-            "follows. A body that is a mechanism under its loads, or buckles, is an error that says where it moves. Energy is booked along the load "
-            "steps by the trapezoidal rule: with large deformations in few steps the balance of this stage is as rough as that rule.")
-        .add<&Options::tolerance>(
-            "tolerance", "", "residual at which the body is at rest: largest out-of-balance force over the mean force on held or loaded particles")
+            "Springs do not break during the stage; those beyond their limit at its end break in "
+            "the first step in time that "
+            "follows. A body that is a mechanism under its loads, or buckles, is an error that "
+            "says where it moves. Energy is booked along the load "
+            "steps by the trapezoidal rule: with large deformations in few steps the balance of "
+            "this stage is as rough as that rule.")
+        .add<&Options::tolerance>("tolerance", "",
+                                  "residual at which the body is at rest: largest out-of-balance "
+                                  "force over the mean force on held or loaded particles")
         .positive()
         .fallback("1e-6")
-        .add<&Options::load_steps>(
-            "load_steps", "",
-            "equal steps from the loads of the stage's start to those of its end; a step that fails is cut in halves; each is a "
-            "state of rest of its own, so more than a million would outlast any run in steps of time")
+        .add<&Options::load_steps>("load_steps", "",
+                                   "equal steps from the loads of the stage's start to those of "
+                                   "its end; a step that fails is cut in halves; each is a "
+                                   "state of rest of its own, so more than a million would outlast "
+                                   "any run in steps of time")
         .at_least(1)
         .at_most(1e6)
         .fallback("1")
         .add<&Options::most_cutbacks>(
             "most_cutbacks", "",
-            "times that a load step may be halved before the run fails; after 20 it is a millionth, which tells no load from the next")
+            "times that a load step may be halved before the run fails; after 20 it is a "
+            "millionth, which tells no load from the next")
         .at_least(0)
         .at_most(20)
         .fallback("10")
-        .add<&Options::stability>(
-            "stability", "",
-            "whether states of rest must be stable: each that took more than one tangent is searched for a motion along which its "
-            "stiffness is negative; left out: of structured lattices, as particles of a list that hang on two springs buckle alone")
+        .add<&Options::stability>("stability", "",
+                                  "whether states of rest must be stable: each that took more than "
+                                  "one tangent is searched for a motion along which its "
+                                  "stiffness is negative; left out: of structured lattices, as "
+                                  "particles of a list that hang on two springs buckle alone")
         .add<&Options::preconditioner>(
             "preconditioner", "",
-            "of listed lattices: a factorisation of the tangent, whole or with no more entries than it has, or algebraic multigrid; automatic: whole "
+            "of listed lattices: a factorisation of the tangent, whole or with no more entries "
+            "than it has, or algebraic multigrid; automatic: whole "
             "up to 4000 numbers, multigrid beyond")
         .choices(preconditioner_names)
         .fallback("\"automatic\"")
         .add<&Options::end_time>("end_time", "s",
-                                 "instant whose loads act at the end, from the start of the run; left out: when the last load has stopped changing")
+                                 "instant whose loads act at the end, from the start of the run; "
+                                 "left out: when the last load has stopped changing")
         .at_least(0);
   }
 
@@ -71,7 +84,10 @@ class Static {
   SolverPlan plan(const SolverFacts& facts) const {
     SolverPlan plan = plan_of_rest(facts, o_.end_time);
     plan.steps = static_cast<std::uint64_t>(o_.load_steps);
-    plan.sweeps_per_step = facts.listed ? 2200 : 400;  // measured, set-up included: a compact grid takes 250, a slender one 550
+    plan.sweeps_per_step =
+        facts.listed
+            ? 2200
+            : 400;  // measured, set-up included: a compact grid takes 250, a slender one 550
     plan.bytes_per_site = facts.listed ? 11000 : 1300;
     return plan;
   }
@@ -81,24 +97,28 @@ class Static {
     const StaticProblem* problem = host.statics();
     if (problem == nullptr) return;
     const std::unique_ptr<statics::System> system = system_of(*problem);
-    statics::Newton newton(*system, host, {.tolerance = o_.tolerance, .stable = o_.stability.value_or(!facts.listed)});
+    statics::Newton newton(
+        *system, host, {.tolerance = o_.tolerance, .stable = o_.stability.value_or(!facts.listed)});
     statics::Field u(problem->state, problem->state + problem->grid.numbers());
-    const double whole = 1 / static_cast<double>(o_.load_steps), shortest = whole * std::exp2(-static_cast<double>(o_.most_cutbacks));
+    const double whole = 1 / static_cast<double>(o_.load_steps),
+                 shortest = whole * std::exp2(-static_cast<double>(o_.most_cutbacks));
     double share = 0, length = whole;
     while (share < 1) {
       constexpr double nearly = 1e-9;
       const double next = share + length > 1 - nearly ? 1 : share + length;
-      const statics::Found found = newton.find(next, u);
+      const statics::Outcome found = newton.solve_load_step(next, u);
       if (newton.stopped()) return;
       if (found.at_rest) {
         share = next;
         length = std::min(whole, 2 * length);
-        if (!host.accept(share, u.data()) || !host.report(newton.report()) || !host.observe()) return;
+        if (!host.accept(share, u.data()) || !host.report(newton.report()) || !host.observe())
+          return;
       } else {
         length /= 2;
         if (!found.hopeless && length >= 0.99 * shortest) continue;
         if (!found.direction.empty() && !host.show_motion(found.direction.data())) return;
-        const double start = facts.start_time, time = start + share * (plan(facts).end_time - start);
+        const double start = facts.start_time,
+                     time = start + share * (plan(facts).end_time - start);
         throw std::runtime_error(statics::failure_text(*problem, share, time, found));
       }
     }
@@ -106,11 +126,15 @@ class Static {
 
  private:
   std::unique_ptr<statics::System> system_of(const StaticProblem& problem) const {
-    constexpr std::int64_t few = 4000;  // numbers, of which a whole factorisation takes no longer than iterations
+    constexpr std::int64_t few =
+        4000;  // numbers, of which a whole factorisation takes no longer than iterations
     const bool small = static_cast<std::int64_t>(problem.grid.numbers()) <= few;
-    if (problem.grid.listed && (o_.preconditioner == Preconditioner::multigrid || (o_.preconditioner == Preconditioner::automatic && !small)))
+    if (problem.grid.listed && (o_.preconditioner == Preconditioner::multigrid ||
+                                (o_.preconditioner == Preconditioner::automatic && !small)))
       return std::make_unique<statics::AggregatedSystem>(problem);
-    if (problem.grid.listed) return std::make_unique<statics::FactorisedSystem>(problem, o_.preconditioner != Preconditioner::incomplete);
+    if (problem.grid.listed)
+      return std::make_unique<statics::FactorisedSystem>(
+          problem, o_.preconditioner != Preconditioner::incomplete);
     return std::make_unique<statics::GridSystem>(problem);
   }
 

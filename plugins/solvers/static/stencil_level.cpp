@@ -21,8 +21,9 @@ GridLayout layout_of(const std::array<std::int64_t, 3>& sites, std::int64_t reac
 /// The inverse of a symmetric block. Rows without stiffness get zeros.
 void invert_block(const double* block, double* inverse) {
   constexpr int size = 4;
-  // Gauss-Jordan of a symmetric positive block; a pivot that vanishes beside the largest of its kind belongs to nothing that has stiffness. Heights
-  // may be a billion times as stiff as space, or as soft: each kind is measured by itself.
+  // Gauss-Jordan of a symmetric positive block; a pivot that vanishes beside the largest of its
+  // kind belongs to nothing that has stiffness. Heights may be a billion times as stiff as space,
+  // or as soft: each kind is measured by itself.
   double a[4][8] = {};
   const double in_space = std::max({block[0], block[5], block[10]}), of_heights = block[15];
   for (int i = 0; i < size; ++i) {
@@ -49,9 +50,11 @@ void invert_block(const double* block, double* inverse) {
 
 }  // namespace
 
-StencilLevel::StencilLevel(const std::array<std::int64_t, 3>& sites, int reach, const Signatures& signatures, int threads)
+StencilLevel::StencilLevel(const std::array<std::int64_t, 3>& sites, int reach,
+                           const Signatures& signatures, int threads)
     : GridLevel(layout_of(sites, reach), threads), reach_(reach) {
-  constexpr std::int64_t few = 16384;  // places; with fewer, threads would wait for each other longer than they work
+  constexpr std::int64_t few =
+      16384;  // places; with fewer, threads would wait for each other longer than they work
   if (layout_.places < few) threads_ = 1;
   // Forward neighbours in the order of neighbour(): every one with a number above 0.
   for (std::int64_t dk = 0; dk <= reach; ++dk)
@@ -64,7 +67,8 @@ StencilLevel::StencilLevel(const std::array<std::int64_t, 3>& sites, int reach, 
   const std::uint64_t* signature = signatures.data();
   layout_.for_sites([&](std::int64_t i, std::int64_t j, std::int64_t k) {
     const auto place = static_cast<std::size_t>(layout_.place(i, j, k));
-    const auto [found, is_new] = kinds.try_emplace(*signature++, static_cast<std::int32_t>(kinds.size() + 1));
+    const auto [found, is_new] =
+        kinds.try_emplace(*signature++, static_cast<std::int32_t>(kinds.size() + 1));
     kind_[place] = found->second;
     if (is_new) making_[place] = found->second;
   });
@@ -75,7 +79,8 @@ StencilLevel::StencilLevel(const std::array<std::int64_t, 3>& sites, int reach, 
 Signatures StencilLevel::signatures() const {
   Signatures all;
   layout_.for_sites([&](std::int64_t i, std::int64_t j, std::int64_t k) {
-    all.push_back(static_cast<std::uint64_t>(kind_[static_cast<std::size_t>(layout_.place(i, j, k))]));
+    all.push_back(
+        static_cast<std::uint64_t>(kind_[static_cast<std::size_t>(layout_.place(i, j, k))]));
   });
   return all;
 }
@@ -84,7 +89,8 @@ void StencilLevel::finish() {
   inverse_.assign(16 * kinds_, 0);
   in_pieces(kinds_, threads_, [&](std::size_t first, std::size_t last) {
     for (std::size_t kind = first; kind < last; ++kind)
-      invert_block(blocks_.data() + at(static_cast<std::int32_t>(kind), 0), inverse_.data() + 16 * kind);
+      invert_block(blocks_.data() + at(static_cast<std::int32_t>(kind), 0),
+                   inverse_.data() + 16 * kind);
   });
   largest_eigenvalue_ = power_iteration();
 }
@@ -95,16 +101,19 @@ void StencilLevel::multiply(const double* x, double* y) const {
 #pragma omp parallel for num_threads(threads_) schedule(static)
   for (std::int64_t r = 0; r < rows; ++r) {
     const std::int64_t first = layout_.place(0, r % layout_.sites[1], r / layout_.sites[1]);
-    kernels.stencil(
-        {layout_.sites[0], static_cast<int>(steps_.size()), steps_.data(), blocks_.data(), kind_.data() + first, x + 4 * first, y + 4 * first});
+    kernels.stencil({layout_.sites[0], static_cast<int>(steps_.size()), steps_.data(),
+                     blocks_.data(), kind_.data() + first, x + 4 * first, y + 4 * first});
   }
 }
 
 void StencilLevel::divide(std::size_t first, std::size_t last, const double* r, double* z) const {
   for (std::size_t p = first; p < last; ++p) {
-    const double *inverse = inverse_.data() + 16 * static_cast<std::size_t>(kind_[p]), *in = r + 4 * p;
+    const double *inverse = inverse_.data() + 16 * static_cast<std::size_t>(kind_[p]),
+                 *in = r + 4 * p;
     double* out = z + 4 * p;
-    for (int a = 0; a < 4; ++a) out[a] = inverse[a] * in[0] + inverse[4 + a] * in[1] + inverse[8 + a] * in[2] + inverse[12 + a] * in[3];
+    for (int a = 0; a < 4; ++a)
+      out[a] = inverse[a] * in[0] + inverse[4 + a] * in[1] + inverse[8 + a] * in[2] +
+               inverse[12 + a] * in[3];
   }
 }
 

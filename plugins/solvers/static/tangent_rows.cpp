@@ -31,7 +31,8 @@ void TangentRows::pack(const StaticGrid& grid, const SpringTangents& tangents, b
   const auto sites = static_cast<std::size_t>(grid.sites[1]);
   for (std::size_t r = 0; r < grid.rows.size(); ++r) {
     const StaticRow& row = grid.rows[r];
-    const std::int64_t first = grid.place(row.begin, static_cast<std::int64_t>(r % sites), static_cast<std::int64_t>(r / sites)),
+    const std::int64_t first = grid.place(row.begin, static_cast<std::int64_t>(r % sites),
+                                          static_cast<std::int64_t>(r / sites)),
                        count = row.end - row.begin;
     if (count == 0) continue;
     const std::size_t start = packed_.size();
@@ -50,7 +51,8 @@ void TangentRows::pack(const StaticGrid& grid, const SpringTangents& tangents, b
     const auto [from, to] = known.equal_range(sum);
     const auto same = std::find_if(from, to, [&](const auto& other) {
       return static_cast<std::size_t>(other.second) + size <= start &&
-             std::memcmp(packed_.data() + other.second, packed_.data() + start, size * sizeof(float)) == 0;
+             std::memcmp(packed_.data() + other.second, packed_.data() + start,
+                         size * sizeof(float)) == 0;
     });
     if (same == to) {
       known.emplace(sum, row_[r]);

@@ -1,6 +1,7 @@
 // A base spring breaks when its strain, its elongation over its rest length, passes a limit:
 //   (|r| - |r0|) / |r0| > limit
-// Orthogonal and diagonal springs then break at the same strain; failures.elongation would break both at the same elongation.
+// Orthogonal and diagonal springs then break at the same strain; failures.elongation would break
+// both at the same elongation.
 #include <hyperlattice/failure.hpp>
 
 namespace {
@@ -22,11 +23,14 @@ class MyLaw {
 
   explicit MyLaw(const Options& options) : limit_(options.limit) {}
 
-  // The elongation below which nothing can happen to a spring: while all are below, the run pays nothing for this law.
+  // The elongation below which nothing can happen to a spring: while all are below, the run pays
+  // nothing for this law.
   double alarm(const SpringFacts& spring) const { return limit_ * spring.rest_length; }
 
   // Asked for springs above their alarm only.
-  bool breaks(const SpringFacts& spring, double elongation) const { return elongation > limit_ * spring.rest_length; }
+  bool breaks(const SpringFacts& spring, double elongation) const {
+    return elongation > limit_ * spring.rest_length;
+  }
 
  private:
   double limit_;

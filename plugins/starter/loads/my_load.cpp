@@ -1,4 +1,5 @@
-// A push that begins and ends smoothly: a force on a region, shared evenly by its particles, that follows
+// A push that begins and ends smoothly: a force on a region, shared evenly by its particles, that
+// follows
 //   f(t) = sin^2(pi t / duration)   up to t = duration, then nothing.
 // Its impulse is half of the force times the duration.
 #include <hyperlattice/load.hpp>
@@ -19,7 +20,9 @@ class MyLoad {
 
   static Schema<Options> schema() {
     return Schema<Options>("loads.my_load", "A push on a region that begins and ends smoothly")
-        .equation("F = total f(t) / n on each of n particles; f(t) = sin^2(pi t / duration) for 0 <= t <= duration, else 0")
+        .equation(
+            "F = total f(t) / n on each of n particles; f(t) = sin^2(pi t / duration) for 0 <= t "
+            "<= duration, else 0")
         .add<&Options::on>("on", "", "the particles pushed")
         .add<&Options::total>("total", "N", "largest force, shared evenly")
         .example("[\"10 N\", 0, 0]")
@@ -30,10 +33,12 @@ class MyLoad {
 
   explicit MyLoad(const Options& options) : o_(options) {}
 
-  // Called once, before the run: what acts on which particle, and where factor(time) has a kink or jump.
+  // Called once, before the run: what acts on which particle, and where factor(time) has a kink or
+  // jump.
   void declare(const LoadBody& body, const LoadSink& sink) const {
     const std::span<const Particle> particles = body.particles(o_.on);
-    for (const Particle particle : particles) sink.force(particle, (1 / static_cast<double>(particles.size())) * o_.total);
+    for (const Particle particle : particles)
+      sink.force(particle, (1 / static_cast<double>(particles.size())) * o_.total);
     sink.corner(o_.duration);
   }
 

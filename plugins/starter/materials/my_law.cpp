@@ -1,5 +1,5 @@
-// The material: its options, what they make of a lattice, its registration. E, nu, density and membrane, and their calibration, come from
-// elastic_solid.
+// The material: its options, what they make of a lattice, its registration. E, nu, density and
+// membrane, and their calibration, come from elastic_solid.
 #include "my_law.hpp"
 
 #include <hyperlattice/elastic_solid.hpp>
@@ -19,7 +19,8 @@ class MyMaterial {
   static Schema<Options> schema() {
     Schema<Options> schema("materials.my_law", "Springs that wear out as they move");
     schema.equation("f = k exp(-p / wear) u, p the way that u has gone")
-        .add<&Options::wear>("wear", "m", "way that a spring's elongation goes while its stiffness falls to 1/e")
+        .add<&Options::wear>("wear", "m",
+                             "way that a spring's elongation goes while its stiffness falls to 1/e")
         .positive()
         .example("\"1 um\"");
     return Options::declare(schema);

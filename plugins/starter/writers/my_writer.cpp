@@ -1,5 +1,5 @@
-// One file a frame in the format XYZ, which many programs for particles read: how many there are, a line about them, then for each its
-// name, its place and its displacement, in metres.
+// One file a frame in the format XYZ, which many programs for particles read: how many there are, a
+// line about them, then for each its name, its place and its displacement, in metres.
 #include <hyperlattice/frames.hpp>
 
 namespace {
@@ -12,10 +12,13 @@ class MyWriter {
   };
 
   static Schema<Options> schema() {
-    return Schema<Options>("writers.my_writer", "One file a frame in the format XYZ: places and displacements")
+    return Schema<Options>("writers.my_writer",
+                           "One file a frame in the format XYZ: places and displacements")
         .add<&Options::file>("file", "", "base name of the files")
         .fallback("\"particles\"")
-        .check([](const Options& options, const FaultSink& faults) { check_file_name(options.file, faults); });
+        .check([](const Options& options, const FaultSink& faults) {
+          check_file_name(options.file, faults);
+        });
   }
 
   explicit MyWriter(const Options& options) : o_(options) {}
@@ -23,10 +26,12 @@ class MyWriter {
   // Writes nothing yet: the plan calls it too.
   void begin(const OutputContext& context) { files_ = FrameFiles(context, o_.file, ".xyz"); }
 
-  // Fields are computed when they are asked for. A file is written under another name and renamed when it is whole.
+  // Fields are computed when they are asked for. A file is written under another name and renamed
+  // when it is whole.
   void frame(const Snapshot& snapshot) {
     const Field displacement = require_field(snapshot, "displacement");
-    std::string text = std::to_string(snapshot.particles) + "\nProperties=species:S:1:pos:R:3:displacement:R:3 Time=";
+    std::string text = std::to_string(snapshot.particles) +
+                       "\nProperties=species:S:1:pos:R:3:displacement:R:3 Time=";
     append_number(text, snapshot.time);
     text += '\n';
     for (std::size_t particle = 0; particle < snapshot.particles; ++particle) {

@@ -13,7 +13,9 @@ struct Law {
     double limit = 0;
   };
   static hyperlattice::Schema<Options> schema() {
-    return hyperlattice::Schema<Options>(TYPE, "Breaks nothing").add<&Options::limit>("limit", "m", "of no effect").fallback("1");
+    return hyperlattice::Schema<Options>(TYPE, "Breaks nothing")
+        .add<&Options::limit>("limit", "m", "of no effect")
+        .fallback("1");
   }
   explicit Law(const Options&) {}
   double alarm(const hyperlattice::SpringFacts&) const { return hyperlattice::infinity; }

@@ -20,7 +20,9 @@ struct BadCriterion {
   };
   static Schema<Options> schema() {
     Schema<Options> schema("failures.misbehaving", "Misbehaves");
-    schema.add<&Options::limit>("limit", "", "strain").positive().example(asked_for("example") ? "1e-3 mm" : "1e-3");
+    schema.add<&Options::limit>("limit", "", "strain")
+        .positive()
+        .example(asked_for("example") ? "1e-3 mm" : "1e-3");
     return schema;
   }
   explicit BadCriterion(const Options& options) : limit(options.limit) {}

@@ -28,7 +28,8 @@ class Misbehaves {
   static Schema<Options> schema() {
     const bool wild = asked_for("wild help");
     Schema<Options> schema("loads.misbehaving", wild ? "Mis\x1b[31mbehaves\nforged" : "Misbehaves");
-    schema.add<&Options::on>("on", "", wild ? "where\x1b[31m\r\nforged" : "where").example("\"z_max\"");
+    schema.add<&Options::on>("on", "", wild ? "where\x1b[31m\r\nforged" : "where")
+        .example("\"z_max\"");
     return schema;
   }
   explicit Misbehaves(const Options& options) : options_(options) {
@@ -55,7 +56,8 @@ class Misbehaves {
   }
 
   double factor(double time) const {
-    if (time < 1e-6 || time > 2e-6) return 1;  // the plan asks about the start, the middle and the end
+    if (time < 1e-6 || time > 2e-6)
+      return 1;  // the plan asks about the start, the middle and the end
     if (asked_for("throw")) throw std::runtime_error("boom");
     if (asked_for("no memory in factor")) throw std::bad_alloc();
     if (asked_for("wild error")) throw std::runtime_error("\x1b[31mred\r\nforged\n");

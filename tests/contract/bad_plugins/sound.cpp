@@ -1,5 +1,5 @@
-// Nothing is wrong with it; how it is compiled, or where it lies, may be. Its static constructor leaves a trace, so that a test sees whether
-// any code of it ran.
+// Nothing is wrong with it; how it is compiled, or where it lies, may be. Its static constructor
+// leaves a trace, so that a test sees whether any code of it ran.
 #include "law.hpp"
 
 #include <cstdlib>

@@ -1,4 +1,5 @@
-// Writes a series with writers.vtu, and beside it the same numbers as plain binary dumps: positions, displacement, velocity, broken_open.
+// Writes a series with writers.vtu, and beside it the same numbers as plain binary dumps:
+// positions, displacement, velocity, broken_open.
 //   vtu_readback FOLDER COMPRESS FILE REGION DEFORMED
 #include <support/output.hpp>
 
@@ -7,16 +8,19 @@ using namespace hyperlattice::test;
 
 namespace {
 
-void dump(const std::string& path, const std::vector<double>& values, const std::vector<Particle>& particles, std::size_t components) {
+void dump(const std::string& path, const std::vector<double>& values,
+          const std::vector<Particle>& particles, std::size_t components) {
   std::ofstream out(path, std::ios::binary);
   for (const Particle particle : particles)
-    out.write(reinterpret_cast<const char*>(&values[particle * components]), static_cast<std::streamsize>(components * sizeof(double)));
+    out.write(reinterpret_cast<const char*>(&values[particle * components]),
+              static_cast<std::streamsize>(components * sizeof(double)));
 }
 
 }  // namespace
 
 int main(int, char** arguments) {
-  const std::string folder = arguments[1], compress = arguments[2], file = arguments[3], region = arguments[4], deformed = arguments[5];
+  const std::string folder = arguments[1], compress = arguments[2], file = arguments[3],
+                    region = arguments[4], deformed = arguments[5];
   FakeBody body({31, 29, 37});  // arrays of more than one compressed block, and no multiple of it
   Plugin writer("writers.vtu", {{"compress", compress == "true"},
                                 {"file", file},
@@ -40,7 +44,8 @@ int main(int, char** arguments) {
     dump(base + ".displacement", body.displacements, particles, 3);
     dump(base + ".velocity", body.velocities, particles, 3);
     dump(base + ".broken_open", body.open, particles, 1);
-    std::ofstream(base + ".time", std::ios::binary).write(reinterpret_cast<const char*>(&time), sizeof time);
+    std::ofstream(base + ".time", std::ios::binary)
+        .write(reinterpret_cast<const char*>(&time), sizeof time);
   }
   writer.end();
 }

@@ -1,4 +1,5 @@
-// A writer that looks at nothing: it writes under the final name, and does not notice when the disk is full.
+// A writer that looks at nothing: it writes under the final name, and does not notice when the disk
+// is full.
 #include <hyperlattice/output.hpp>
 
 #include <fstream>
@@ -14,7 +15,8 @@ class Careless {
   explicit Careless(const Options&) {}
   void begin(const OutputContext& context) { directory_ = context.directory; }
   void frame(const Snapshot& snapshot) {
-    std::ofstream(directory_ + "/frame_" + std::to_string(snapshot.step)) << std::string(snapshot.particles, '.');
+    std::ofstream(directory_ + "/frame_" + std::to_string(snapshot.step))
+        << std::string(snapshot.particles, '.');
   }
   void end() {}
 

@@ -9,7 +9,9 @@ struct LateAlarm {
     double limit = 0;
   };
   static Schema<Options> schema() {
-    return Schema<Options>("failures.late_alarm", "Breaks springs that nobody asks about").add<&Options::limit>("limit", "m", "").fallback("1e-6");
+    return Schema<Options>("failures.late_alarm", "Breaks springs that nobody asks about")
+        .add<&Options::limit>("limit", "m", "")
+        .fallback("1e-6");
   }
   explicit LateAlarm(const Options& options) : limit(options.limit) {}
   double alarm(const SpringFacts&) const { return 2 * limit; }

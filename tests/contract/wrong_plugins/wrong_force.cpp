@@ -1,4 +1,5 @@
-// A law whose springs pull a tenth harder than their energy says. Its kernels are for one instruction set, to be compiled soon.
+// A law whose springs pull a tenth harder than their energy says. Its kernels are for one
+// instruction set, to be compiled soon.
 #define HYPERLATTICE_INSTRUCTIONS baseline
 #include <hyperlattice/elastic_solid.hpp>
 #include <hyperlattice/kernels/sweep.hpp>
@@ -10,7 +11,9 @@ struct WrongLaw {
   struct Memory {};
 
   static void update(const hyperlattice::SpringState&, const Constants&, Memory&) {}
-  static double force(const hyperlattice::SpringState& s, const Constants& c, const Memory&) { return c.factor * s.stiffness * s.elongation; }
+  static double force(const hyperlattice::SpringState& s, const Constants& c, const Memory&) {
+    return c.factor * s.stiffness * s.elongation;
+  }
   static double energy(const hyperlattice::SpringState& s, const Constants&, const Memory&) {
     return 0.5 * s.stiffness * s.elongation * s.elongation;
   }
@@ -26,7 +29,8 @@ class WrongForce {
   static constexpr std::string_view law = "wrong_force";
 
   static Schema<Options> schema() {
-    Schema<Options> schema("materials.wrong_force", "Springs whose force is not the derivative of their energy");
+    Schema<Options> schema("materials.wrong_force",
+                           "Springs whose force is not the derivative of their energy");
     return Options::declare(schema);
   }
   explicit WrongForce(const Options& options) : options_(options) {}
@@ -35,7 +39,9 @@ class WrongForce {
     constants.set_law(WrongLaw::Constants{1.1});
     return constants;
   }
-  static KernelSet kernels(const KernelChoice& choice) { return hyperlattice_kernels_baseline(choice); }
+  static KernelSet kernels(const KernelChoice& choice) {
+    return hyperlattice_kernels_baseline(choice);
+  }
 
  private:
   Options options_;

@@ -1,7 +1,8 @@
-// Multigrid of a matrix, without a grid: smoothed aggregation (Vanek, Mandel and Brezina 1996). Nodes that are strongly joined make an aggregate,
-// which moves as one; one damped Jacobi step smooths these motions, P = (1 - omega D^-1 K) P_0, and their stiffness P^T K P is the coarser level,
-// where aggregates are the nodes. Translations and heights alone: with rotations too, coarse levels would be four times as large, for few iterations
-// less.
+// Multigrid of a matrix, without a grid: smoothed aggregation (Vanek, Mandel and Brezina 1996).
+// Nodes that are strongly joined make an aggregate, which moves as one; one damped Jacobi step
+// smooths these motions, P = (1 - omega D^-1 K) P_0, and their stiffness P^T K P is the coarser
+// level, where aggregates are the nodes. Translations and heights alone: with rotations too, coarse
+// levels would be four times as large, for few iterations less.
 #pragma once
 
 #include <numerics/block_jacobi.hpp>
@@ -15,8 +16,9 @@ using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 class AggregationMultigrid {
  public:
-  /// The levels below the one of this matrix, whose rows are by node and component, three or four a node, the fourth a height. What cannot move has a
-  /// row with nothing but its diagonal. Throws std::runtime_error if the coarsest level cannot be factorised.
+  /// The levels below the one of this matrix, whose rows are by node and component, three or four a
+  /// node, the fourth a height. What cannot move has a row with nothing but its diagonal. Throws
+  /// std::runtime_error if the coarsest level cannot be factorised.
   AggregationMultigrid(const SparseRows& finest, const NodeBlocks& blocks);
   ~AggregationMultigrid();
 

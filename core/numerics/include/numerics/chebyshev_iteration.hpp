@@ -1,5 +1,6 @@
-// The steps of a Chebyshev iteration on A x = b, which damps eigenvalues of D^-1 A from the largest down to a share of it, all alike (Saad 2003,
-// algorithm 12.1): d <- keep d + take D^-1 (b - A x), x <- x + d.
+// The steps of a Chebyshev iteration on A x = b, which damps eigenvalues of D^-1 A from the largest
+// down to a share of it, all alike (Saad 2003, algorithm 12.1): d <- keep d + take D^-1 (b - A x),
+// x <- x + d.
 #pragma once
 
 namespace hyperlattice::numerics {
@@ -7,7 +8,10 @@ namespace hyperlattice::numerics {
 class ChebyshevIteration {
  public:
   /// largest: eigenvalue of D^-1 A, or more; above 0. No errors.
-  explicit ChebyshevIteration(double largest) : middle_(largest * (1 + 1 / share) / 2), half_(largest * (1 - 1 / share) / 2), rho_(half_ / middle_) {}
+  explicit ChebyshevIteration(double largest)
+      : middle_(largest * (1 + 1 / share) / 2),
+        half_(largest * (1 - 1 / share) / 2),
+        rho_(half_ / middle_) {}
 
   static constexpr int degree = 2;  ///< steps of a smoother
 

@@ -1,5 +1,5 @@
-// A smoother of A x = b: Chebyshev polynomials of D^-1 A, D the block diagonal of A (Adams et al. 2003), and the bound of the largest eigenvalue that
-// they need.
+// A smoother of A x = b: Chebyshev polynomials of D^-1 A, D the block diagonal of A (Adams et al.
+// 2003), and the bound of the largest eigenvalue that they need.
 #pragma once
 
 #include <numerics/block_jacobi.hpp>
@@ -17,7 +17,10 @@ class ChebyshevSmoother {
 
   const BlockJacobi& diagonal() const { return diagonal_; }
   /// For the levels below.
-  NodeBlocks blocks() const { return {diagonal_.components(), {diagonal_.inverse().begin(), diagonal_.inverse().end()}, largest_}; }
+  NodeBlocks blocks() const {
+    return {
+        diagonal_.components(), {diagonal_.inverse().begin(), diagonal_.inverse().end()}, largest_};
+  }
 
  private:
   void estimate_largest();

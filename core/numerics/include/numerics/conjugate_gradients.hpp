@@ -1,5 +1,7 @@
-// Preconditioned conjugate gradients for A x = b, A symmetric, an iteration at a time: the caller looks between them. The flexible kind (Golub and Ye
-// 1999, Notay 2000), beta = z . (r - r_before) / (z_before . r_before) and not below 0, as preconditioners differ a little from one call to the next.
+// Preconditioned conjugate gradients for A x = b, A symmetric, an iteration at a time: the caller
+// looks between them. The flexible kind (Golub and Ye 1999, Notay 2000), beta = z . (r - r_before)
+// / (z_before . r_before) and not below 0, as preconditioners differ a little from one call to the
+// next.
 #pragma once
 
 #include <numerics/linear_operator.hpp>
@@ -9,17 +11,25 @@ namespace hyperlattice::numerics {
 class ConjugateGradients {
  public:
   /// Both must outlive this.
-  ConjugateGradients(const LinearOperator& A, Preconditioner& preconditioner) : A_(A), preconditioner_(preconditioner), size_(A.numbers()) {
+  ConjugateGradients(const LinearOperator& A, Preconditioner& preconditioner)
+      : A_(A), preconditioner_(preconditioner), size_(A.numbers()) {
     for (Field* field : {&x_, &r_, &z_, &p_, &q_}) field->assign(size_, 0);
   }
 
-  /// From x = 0. `without`: a subspace in which x shall have no part; null: none. It must outlive the iterations.
+  /// From x = 0. `without`: a subspace in which x shall have no part; null: none. It must outlive
+  /// the iterations.
   void start(const Field& b, const Deflation* without = nullptr);
-  /// One iteration. False: A is not positive along direction(), and x() stays; or the preconditioner is of no use.
+  /// One iteration. False: A is not positive along direction(), and x() stays; or the
+  /// preconditioner is of no use.
   bool advance();
-  bool is_sound() const { return sound_; }  ///< the preconditioner gave a direction, of finite numbers
+  bool is_sound() const {
+    return sound_;
+  }  ///< the preconditioner gave a direction, of finite numbers
 
-  double unit() const { return unit_; }  ///< of x() and residual(): a power of two that keeps squares of the smallest and largest b finite
+  double unit() const {
+    return unit_;
+  }  ///< of x() and residual(): a power of two that keeps squares of the smallest and largest b
+     ///< finite
   const Field& x() const { return x_; }
   const Field& residual() const { return r_; }
   const Field& direction() const { return p_; }

@@ -1,4 +1,5 @@
-// Connected components of a graph: union by the least number, with path halving (Tarjan and van Leeuwen 1984).
+// Connected components of a graph: union by the least number, with path halving (Tarjan and van
+// Leeuwen 1984).
 #pragma once
 
 #include <algorithm>
@@ -11,7 +12,9 @@ namespace hyperlattice::numerics {
 /// Sets of the numbers 0 <= n < size, each a set of its own at first.
 class DisjointSets {
  public:
-  explicit DisjointSets(std::int64_t size) : root_(static_cast<std::size_t>(size)) { std::iota(root_.begin(), root_.end(), 0); }
+  explicit DisjointSets(std::int64_t size) : root_(static_cast<std::size_t>(size)) {
+    std::iota(root_.begin(), root_.end(), 0);
+  }
   /// The least number of a set.
   std::int64_t root(std::int64_t number) {
     while (at(number) != number) number = at(number) = at(at(number));

@@ -1,4 +1,5 @@
-// Arithmetic on fields, in parallel. Sums are of fixed pieces in a fixed order: results do not depend on the number of threads.
+// Arithmetic on fields, in parallel. Sums are of fixed pieces in a fixed order: results do not
+// depend on the number of threads.
 #pragma once
 
 #include <hyperlattice/array_memory.hpp>
@@ -30,7 +31,8 @@ template <class Part>
 double sum_of_pieces(std::size_t size, int threads, const Part& part) {
   constexpr std::size_t piece = 8192;
   std::vector<double> parts((size + piece - 1) / piece);
-  in_pieces(size, threads, [&](std::size_t first, std::size_t last) { parts[first / piece] = part(first, last); });
+  in_pieces(size, threads,
+            [&](std::size_t first, std::size_t last) { parts[first / piece] = part(first, last); });
   double sum = 0;
   for (const double p : parts) sum += p;
   return sum;
@@ -42,7 +44,8 @@ double product(const Real* a, const Real* b, std::size_t size, int threads) {
     double sum[8] = {};
     std::size_t n = first;
     for (; n + 8 <= last; n += 8)
-      for (std::size_t lane = 0; lane < 8; ++lane) sum[lane] += static_cast<double>(a[n + lane]) * static_cast<double>(b[n + lane]);
+      for (std::size_t lane = 0; lane < 8; ++lane)
+        sum[lane] += static_cast<double>(a[n + lane]) * static_cast<double>(b[n + lane]);
     for (; n < last; ++n) sum[0] += static_cast<double>(a[n]) * static_cast<double>(b[n]);
     return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
   });
@@ -65,6 +68,8 @@ inline double largest_magnitude(const Floats& a) {
 }
 
 /// The largest one up to a size; 1 of what is zero or not finite.
-inline double power_of_two(double size) { return size > 0 && std::isfinite(size) ? std::exp2(std::ilogb(size)) : 1; }
+inline double power_of_two(double size) {
+  return size > 0 && std::isfinite(size) ? std::exp2(std::ilogb(size)) : 1;
+}
 
 }  // namespace hyperlattice::numerics

@@ -1,4 +1,5 @@
-// One level of a geometric multigrid: a matrix K on a box of sites with up to four numbers each, and how these are stored.
+// One level of a geometric multigrid: a matrix K on a box of sites with up to four numbers each,
+// and how these are stored.
 #pragma once
 
 #include <numerics/fields.hpp>
@@ -7,15 +8,17 @@
 
 namespace hyperlattice::numerics {
 
-/// Where the numbers of a box of sites are: component c of site (i, j, k) at place(i, j, k) * of_place + c * of_component. Around the box is a
-/// margin of zeros.
+/// Where the numbers of a box of sites are: component c of site (i, j, k) at place(i, j, k) *
+/// of_place + c * of_component. Around the box is a margin of zeros.
 struct GridLayout {
   std::array<std::int64_t, 3> sites{};
   std::int64_t row = 0, plane = 0, origin = 0, places = 0;
   std::int64_t of_place = 1, of_component = 1;
   int components = 4;
 
-  std::int64_t place(std::int64_t i, std::int64_t j, std::int64_t k) const { return origin + i + j * row + k * plane; }
+  std::int64_t place(std::int64_t i, std::int64_t j, std::int64_t k) const {
+    return origin + i + j * row + k * plane;
+  }
   /// Calls visit(i, j, k) for all sites, in the order of the box.
   template <class Visit>
   void for_sites(const Visit& visit) const {
@@ -26,11 +29,16 @@ struct GridLayout {
   /// Calls visit(begin, end) for the stretches of a field that belong to places [first, last).
   template <class Visit>
   void for_numbers(std::size_t first, std::size_t last, const Visit& visit) const {
-    const auto of = static_cast<std::size_t>(of_place), apart = static_cast<std::size_t>(of_component);
+    const auto of = static_cast<std::size_t>(of_place),
+               apart = static_cast<std::size_t>(of_component);
     if (of_place > 1) return visit(of * first, of * last);
-    for (std::size_t c = 0; c < static_cast<std::size_t>(components); ++c) visit(c * apart + first, c * apart + last);
+    for (std::size_t c = 0; c < static_cast<std::size_t>(components); ++c)
+      visit(c * apart + first, c * apart + last);
   }
-  std::size_t numbers() const { return static_cast<std::size_t>(places) * static_cast<std::size_t>(of_place == 1 ? components : of_place); }
+  std::size_t numbers() const {
+    return static_cast<std::size_t>(places) *
+           static_cast<std::size_t>(of_place == 1 ? components : of_place);
+  }
 };
 
 class GridLevel {
@@ -52,7 +60,8 @@ class GridLevel {
   int threads() const { return threads_; }
 
  protected:
-  /// The largest eigenvalue of D^-1 K by the power method, |D^-1 K x| / |x|, times a safety of 1.2; of a K that is zero, the safety alone. No errors.
+  /// The largest eigenvalue of D^-1 K by the power method, |D^-1 K x| / |x|, times a safety of 1.2;
+  /// of a K that is zero, the safety alone. No errors.
   double power_iteration() const;
 
   GridLayout layout_;

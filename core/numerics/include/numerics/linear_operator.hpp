@@ -5,7 +5,8 @@
 
 namespace hyperlattice::numerics {
 
-/// A symmetric matrix A, of which only products are known. Some numbers of a field may be no unknowns; A has zeros in their rows.
+/// A symmetric matrix A, of which only products are known. Some numbers of a field may be no
+/// unknowns; A has zeros in their rows.
 class LinearOperator {
  public:
   LinearOperator() = default;

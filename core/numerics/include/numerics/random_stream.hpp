@@ -5,8 +5,9 @@
 
 namespace hyperlattice::numerics {
 
-/// The linear congruential generator s -> 1664525 s + 1013904223 mod 2^32 of Press et al., Numerical Recipes (1992), section 7.1. Its upper 24 bits
-/// are the number. Good enough to meet every eigenvector; numbers that physics needs come from hyperlattice/chance.hpp.
+/// The linear congruential generator s -> 1664525 s + 1013904223 mod 2^32 of Press et al.,
+/// Numerical Recipes (1992), section 7.1. Its upper 24 bits are the number. Good enough to meet
+/// every eigenvector; numbers that physics needs come from hyperlattice/chance.hpp.
 class RandomStream {
  public:
   /// The next number, -0.5 <= x < 0.5.

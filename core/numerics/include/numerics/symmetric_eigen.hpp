@@ -1,5 +1,5 @@
-// Eigenvalues and eigenvectors of a small dense symmetric matrix, A = Q Lambda Q^T, by tridiagonal QR (Golub and Van Loan 2013, section 8.3, as Eigen
-// has it). It does not fail silently.
+// Eigenvalues and eigenvectors of a small dense symmetric matrix, A = Q Lambda Q^T, by tridiagonal
+// QR (Golub and Van Loan 2013, section 8.3, as Eigen has it). It does not fail silently.
 #pragma once
 
 #include <Eigen/Eigenvalues>
@@ -12,11 +12,14 @@ namespace hyperlattice::numerics {
 template <class Matrix>
 class SymmetricEigen {
  public:
-  /// Of a matrix of which the lower triangle is read; options: Eigen::EigenvaluesOnly, or vectors too. Throws std::runtime_error if the iteration
-  /// does not converge, as that of a matrix with NaN; of one with infinite numbers the eigenvalues may be NaN.
-  explicit SymmetricEigen(const Matrix& A, int options = Eigen::ComputeEigenvectors) : solver_(A, options) {
+  /// Of a matrix of which the lower triangle is read; options: Eigen::EigenvaluesOnly, or vectors
+  /// too. Throws std::runtime_error if the iteration does not converge, as that of a matrix with
+  /// NaN; of one with infinite numbers the eigenvalues may be NaN.
+  explicit SymmetricEigen(const Matrix& A, int options = Eigen::ComputeEigenvectors)
+      : solver_(A, options) {
     if (solver_.info() != Eigen::Success)
-      throw std::runtime_error("the eigenvalues of a symmetric matrix of " + std::to_string(A.rows()) +
+      throw std::runtime_error("the eigenvalues of a symmetric matrix of " +
+                               std::to_string(A.rows()) +
                                " rows cannot be found: it may not be finite");
   }
 

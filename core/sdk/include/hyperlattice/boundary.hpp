@@ -1,8 +1,9 @@
-// The boundary: everything that crosses between the program and a plugin, in one list. From it comes the gate that a plugin must pass before any of
-// its code runs, and what .ci/abi compares with the last release. Included by the header of each family.
+// The boundary: everything that crosses between the program and a plugin, in one list. From it
+// comes the gate that a plugin must pass before any of its code runs, and what .ci/abi compares
+// with the last release. Included by the header of each family.
 //
-//   class Blast { public: struct Options {...}; static Schema<Options> schema(); explicit Blast(const Options&); ... };
-//   HYPERLATTICE_PLUGIN("1.0") { plugin.add<Blast>(); }
+//   class Blast { public: struct Options {...}; static Schema<Options> schema(); explicit
+//   Blast(const Options&); ... }; HYPERLATTICE_PLUGIN("1.0") { plugin.add<Blast>(); }
 #pragma once
 
 #include <hyperlattice/failure.hpp>
@@ -16,7 +17,8 @@
 
 #include <iterator>
 
-/// Raised whenever the meaning of anything in these headers changes; a change of layout is found by itself.
+/// Raised whenever the meaning of anything in these headers changes; a change of layout is found by
+/// itself.
 #ifndef HYPERLATTICE_INTERFACE_VERSION
 #define HYPERLATTICE_INTERFACE_VERSION 2
 #endif
@@ -54,14 +56,14 @@
   CROSSES(MaterialFunctions, constants, kernels, law, stable_step)                                                                                    \
   CROSSES(SpringConstants, stiffness, cross_stiffness, alarm, law)                                                                                    \
   CROSSES(NeighbourGeometry, site, rest, rest_length, cross_rest_length)                                                                              \
-  CROSSES(Row, begin, end, start, neighbours, material, weights, first_support, last_support)                                                         \
-  CROSSES(Support, index, row, site, mass, axes, force, velocity, path, reaction_work, reaction_now, sum, speed_before, place_before)                 \
+  CROSSES(Row, begin, end, start, neighbours, material, weights, first_boundary_particle, last_boundary_particle)                                                         \
+  CROSSES(BoundaryParticle, index, row, site, mass, axes, force, velocity, path, reaction_work, reaction_now, sum, speed_before, place_before)                 \
   CROSSES(AlarmRow, row, neighbour, sites, elongation)                                                                                                \
   CROSSES(RowSums, stored, kinetic, kinetic_mean, momentum, potential, damped)                                                                        \
   CROSSES(ListedSlots, first, neighbour, stiffness, alarm, records, memory)                                                                           \
   CROSSES(KernelRequest, rows_per_plane, planes, reach, rows, displacement, velocity, alive, material, mixture, mixture_springs, memory, memory_stride, weight_sets, weights, \
           listed, neighbours, springs, mass, alpha, materials, spring_classes, membrane_distance, exact, back, forward, damping, damping_rate, acceleration, \
-          supports, self, review, scratch, scratch_width, damped_work, sums)                                                                          \
+          boundary_particles, self, review, scratch, scratch_width, damped_work, sums)                                                                          \
   CROSSES(SpringRow, count, here, there, stiffness, cross_stiffness, weight, rest, rest_length, cross_rest_length, membrane_distance, spacing, pull,  \
           axial, cross_pull, cross_axial)                                                                                                             \
   CROSSES(SpringFacts, rest_length, stiffness, spacing, spring_class, crossings)                                                                      \
@@ -72,7 +74,7 @@
   CROSSES(LoadBody, self, spacing, rim, region_particles, particle_position, particle_mass, particle_share, region_open_areas, region_true_area,      \
           region_centre, region_springs)                                                                                                              \
   CROSSES(WatchedMotion, time, factor, displacement, velocity)                                                                                        \
-  CROSSES(Reaction, stiffness, viscosity)                                                                                                             \
+  CROSSES(LoadStiffnessBound, stiffness, viscosity)                                                                                                             \
   CROSSES(LoadSink, self, receive_force, receive_displacement, receive_velocity, receive_acceleration, receive_start_velocity, receive_corner,        \
           receive_watched, receive_warning, receive_frequency)                                                                                                                            \
   CROSSES(LoadFunctions, declare, factor, answer, prepare)                                                                                            \
@@ -103,9 +105,11 @@ HYPERLATTICE_BOUNDARY(HYPERLATTICE_LAYOUT)
 constexpr std::uint32_t boundary_hash() {
   LayoutHash hash;
   for (const std::uint64_t constant :
-       {std::uint64_t{max_spring_classes}, std::uint64_t{max_neighbours}, std::uint64_t{max_law_constants}, std::uint64_t{max_law_memory},
-        std::uint64_t{lanes}, std::uint64_t{slots_ahead}, std::uint64_t{record_numbers}, std::uint64_t{record_moved}, std::uint64_t{record_material},
-        std::uint64_t{particle_bit}, std::uint64_t{scratch_margin}, std::uint64_t{std::size(family_names)}, std::uint64_t{std::size(field_names)}})
+       {std::uint64_t{max_spring_classes}, std::uint64_t{max_neighbours},
+        std::uint64_t{max_law_constants}, std::uint64_t{max_law_memory}, std::uint64_t{lanes},
+        std::uint64_t{slots_ahead}, std::uint64_t{record_numbers}, std::uint64_t{record_moved},
+        std::uint64_t{record_material}, std::uint64_t{particle_bit}, std::uint64_t{scratch_margin},
+        std::uint64_t{std::size(family_names)}, std::uint64_t{std::size(field_names)}})
     hash.add(constant);
 #define HYPERLATTICE_ADD(Struct, ...) Layout<Struct>::add_to(hash);
   HYPERLATTICE_BOUNDARY(HYPERLATTICE_ADD)
@@ -113,8 +117,10 @@ constexpr std::uint32_t boundary_hash() {
   return hash.folded();
 }
 
-// What else decides whether two libraries can share objects. Eigen aligns by the widest vector unit it was compiled for.
-inline constexpr unsigned compiler_abi = __GXX_ABI_VERSION / 1000;  // the C++ ABI in force, not its minor revision
+// What else decides whether two libraries can share objects. Eigen aligns by the widest vector unit
+// it was compiled for.
+inline constexpr unsigned compiler_abi =
+    __GXX_ABI_VERSION / 1000;  // the C++ ABI in force, not its minor revision
 #if defined(_GLIBCXX_USE_CXX11_ABI)
 inline constexpr unsigned library_abi = _GLIBCXX_USE_CXX11_ABI;
 #else
@@ -130,24 +136,30 @@ inline constexpr unsigned eigen_alignment = 16;
 
 }  // namespace detail
 
-/// A symbol whose mangled name carries the gate's numbers, so that the core reads them from the file without loading it.
-template <unsigned Interface, unsigned CompilerAbi, unsigned LibraryAbi, unsigned EigenAlignment, unsigned Boundary>
+/// A symbol whose mangled name carries the gate's numbers, so that the core reads them from the
+/// file without loading it.
+template <unsigned Interface, unsigned CompilerAbi, unsigned LibraryAbi, unsigned EigenAlignment,
+          unsigned Boundary>
 struct HYPERLATTICE_EXPORT Gate {
   static const char marker;
 };
 template <unsigned A, unsigned B, unsigned C, unsigned D, unsigned E>
 const char Gate<A, B, C, D, E>::marker = 1;
 
-using ThisGate = Gate<HYPERLATTICE_INTERFACE_VERSION, detail::compiler_abi, detail::library_abi, detail::eigen_alignment, detail::boundary_hash()>;
+using ThisGate = Gate<HYPERLATTICE_INTERFACE_VERSION, detail::compiler_abi, detail::library_abi,
+                      detail::eigen_alignment, detail::boundary_hash()>;
 
 }  // namespace hyperlattice
 
 /// Begins the one registration function of a plugin; its body names the components.
-#define HYPERLATTICE_PLUGIN(version_text)                                                                      \
-  static void hyperlattice_register_body(::hyperlattice::Registrar& plugin);                                   \
-  extern "C" HYPERLATTICE_EXPORT const char* hyperlattice_gate() { return &::hyperlattice::ThisGate::marker; } \
-  extern "C" HYPERLATTICE_EXPORT const ::hyperlattice::PluginInfo hyperlattice_plugin{                         \
-      version_text, [](::hyperlattice::Registrar& plugin, const ::hyperlattice::Complaint& why) noexcept {     \
-        return ::hyperlattice::detail::guarded(why, [&] { hyperlattice_register_body(plugin); });              \
-      }};                                                                                                      \
+#define HYPERLATTICE_PLUGIN(version_text)                                                         \
+  static void hyperlattice_register_body(::hyperlattice::Registrar& plugin);                      \
+  extern "C" HYPERLATTICE_EXPORT const char* hyperlattice_gate() {                                \
+    return &::hyperlattice::ThisGate::marker;                                                     \
+  }                                                                                               \
+  extern "C" HYPERLATTICE_EXPORT const ::hyperlattice::PluginInfo hyperlattice_plugin{            \
+      version_text,                                                                               \
+      [](::hyperlattice::Registrar& plugin, const ::hyperlattice::Complaint& why) noexcept {      \
+        return ::hyperlattice::detail::guarded(why, [&] { hyperlattice_register_body(plugin); }); \
+      }};                                                                                         \
   static void hyperlattice_register_body(::hyperlattice::Registrar& plugin)

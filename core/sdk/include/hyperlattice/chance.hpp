@@ -1,4 +1,5 @@
-// Numbers by chance that belong to particles: the same in every run, whatever its threads, and whoever asks first.
+// Numbers by chance that belong to particles: the same in every run, whatever its threads, and
+// whoever asks first.
 #pragma once
 
 #include <hyperlattice/plain.hpp>
@@ -7,7 +8,8 @@
 
 namespace hyperlattice {
 
-/// Every bit of the result depends on every bit of the argument: the finalizer of SplitMix64 (Steele, Lea and Flood 2014).
+/// Every bit of the result depends on every bit of the argument: the finalizer of SplitMix64
+/// (Steele, Lea and Flood 2014).
 constexpr std::uint64_t mixed_bits(std::uint64_t bits) {
   bits += 0x9e3779b97f4a7c15u;
   bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -15,9 +17,11 @@ constexpr std::uint64_t mixed_bits(std::uint64_t bits) {
   return bits ^ (bits >> 31);
 }
 
-/// A number above 0 and below 1, each as likely as any other, of the spring between two particles; a < b.
+/// A number above 0 and below 1, each as likely as any other, of the spring between two particles;
+/// a < b.
 constexpr double chance(std::uint64_t seed, std::uint64_t a, std::uint64_t b) {
-  return (static_cast<double>(mixed_bits(mixed_bits(mixed_bits(seed) ^ a) ^ b) >> 12) + 0.5) * 0x1p-52;
+  return (static_cast<double>(mixed_bits(mixed_bits(mixed_bits(seed) ^ a) ^ b) >> 12) + 0.5) *
+         0x1p-52;
 }
 
 }  // namespace hyperlattice

@@ -1,7 +1,8 @@
-// A component as a plugin registers it. The gate that a plugin must pass before any of its code runs is in boundary.hpp.
+// A component as a plugin registers it. The gate that a plugin must pass before any of its code
+// runs is in boundary.hpp.
 //
-//   class Blast { public: struct Options {...}; static Schema<Options> schema(); explicit Blast(const Options&); ... };
-//   HYPERLATTICE_PLUGIN("1.0") { plugin.add<Blast>(); }
+//   class Blast { public: struct Options {...}; static Schema<Options> schema(); explicit
+//   Blast(const Options&); ... }; HYPERLATTICE_PLUGIN("1.0") { plugin.add<Blast>(); }
 #pragma once
 
 #include <hyperlattice/options.hpp>
@@ -10,8 +11,17 @@
 
 namespace hyperlattice {
 
-enum class Family : std::uint32_t { lattices, materials, failures, loads, solvers, writers, probes };
-inline constexpr std::string_view family_names[] = {"lattices", "materials", "failures", "loads", "solvers", "writers", "probes"};
+enum class Family : std::uint32_t {
+  lattices,
+  materials,
+  failures,
+  loads,
+  solvers,
+  writers,
+  probes
+};
+inline constexpr std::string_view family_names[] = {"lattices", "materials", "failures", "loads",
+                                                    "solvers",  "writers",   "probes"};
 
 /// A component as the core sees it: its declaration, and tables of functions.
 struct ComponentInfo {
@@ -19,21 +29,27 @@ struct ComponentInfo {
   std::string_view name;  ///< "<family>.<name>", the value of "type" in a scene
   std::string_view summary, equation, source, restrictions;
   std::span<const Option> options;
-  void* (*create_options)(const Complaint& why) noexcept = nullptr;  ///< null result: failed, with a sentence
+  void* (*create_options)(const Complaint& why) noexcept =
+      nullptr;  ///< null result: failed, with a sentence
   void (*destroy_options)(void* options) noexcept = nullptr;
-  bool (*check_options)(const void* options, const FaultSink& faults, const Complaint& why) noexcept = nullptr;  ///< null: nothing to check
-  void* (*create)(const void* options, const Complaint& why) noexcept = nullptr;                                 ///< null result: refused, likewise
+  bool (*check_options)(const void* options, const FaultSink& faults,
+                        const Complaint& why) noexcept = nullptr;  ///< null: nothing to check
+  void* (*create)(const void* options,
+                  const Complaint& why) noexcept = nullptr;  ///< null result: refused, likewise
   void (*destroy)(void* component) noexcept = nullptr;
-  const void* functions = nullptr;  ///< the family's table: LatticeFunctions, MaterialFunctions, ...
+  const void* functions =
+      nullptr;  ///< the family's table: LatticeFunctions, MaterialFunctions, ...
   std::uint64_t functions_size = 0;
 };
 
 /// Given to a plugin's registration. What it adds counts only when the whole registration returns.
 class Registrar {
  public:
-  Registrar(void* self, void (*receive)(void* self, const ComponentInfo& info) noexcept) : self_(self), receive_(receive) {}
+  Registrar(void* self, void (*receive)(void* self, const ComponentInfo& info) noexcept)
+      : self_(self), receive_(receive) {}
 
-  /// Registers a component class of any family (see lattice.hpp, material.hpp, failure.hpp, load.hpp, solver.hpp, output.hpp).
+  /// Registers a component class of any family (see lattice.hpp, material.hpp, failure.hpp,
+  /// load.hpp, solver.hpp, output.hpp).
   template <class Component>
   void add();
 
@@ -76,8 +92,10 @@ ComponentInfo describe() {
   info.create_options = &make_options<Options>;
   info.destroy_options = [](void* options) noexcept { delete static_cast<Options*>(options); };
   if (schema.cross_check() != nullptr)
-    info.check_options = [](const void* options, const FaultSink& faults, const Complaint& why) noexcept {
-      return guarded(why, [&] { schema.cross_check()(*static_cast<const Options*>(options), faults); });
+    info.check_options = [](const void* options, const FaultSink& faults,
+                            const Complaint& why) noexcept {
+      return guarded(why,
+                     [&] { schema.cross_check()(*static_cast<const Options*>(options), faults); });
     };
   info.create = [](const void* options, const Complaint& why) noexcept -> void* {
     Component* made = nullptr;

@@ -1,9 +1,11 @@
-// The elastic part of a solid, shared by all laws: from Young's modulus E and the Poisson ratio nu to the stiffness k of the base springs and lambda,
-// the stiffness of the springs in the fourth dimension relative to k. For the cubic lattice by closed forms of the infinite lattice
+// The elastic part of a solid, shared by all laws: from Young's modulus E and the Poisson ratio nu
+// to the stiffness k of the base springs and lambda, the stiffness of the springs in the fourth
+// dimension relative to k. For the cubic lattice by closed forms of the infinite lattice
 // (calibration.hpp):
-//   I-m: lambda = 7 (1 - 4 nu) / (1 + 5 nu),  k = 0.4 E l / eta,  eta = (18/5) (1 + nu) (1 - 2 nu) / (1 + 5 nu)
-// for any other by asking the lattice for its elastic constants (membranes.hpp). E is the modulus of one layer, and every particle has the mass
-// density * V, V the volume of its site.
+//   I-m: lambda = 7 (1 - 4 nu) / (1 + 5 nu),  k = 0.4 E l / eta,  eta = (18/5) (1 + nu) (1 - 2 nu)
+//   / (1 + 5 nu)
+// for any other by asking the lattice for its elastic constants (membranes.hpp). E is the modulus
+// of one layer, and every particle has the mass density * V, V the volume of its site.
 #pragma once
 
 #include <hyperlattice/membranes.hpp>
@@ -20,11 +22,17 @@ constexpr std::string_view parameter_names[] = {"closed_form", "paper"};
 enum class Stiffness : std::uint32_t { bulk, eq15 };
 constexpr std::string_view stiffness_names[] = {"bulk", "eq15"};
 
-/// The lattice of calibration.hpp: 6 orthogonal springs of class 0, 12 diagonal ones of class 1, all as stiff.
+/// The lattice of calibration.hpp: 6 orthogonal springs of class 0, 12 diagonal ones of class 1,
+/// all as stiff.
 inline bool is_cubic_of_18(const LatticeFacts& lattice) {
-  const auto fits = [](const Neighbour& n) { return static_cast<std::uint32_t>(n.dx * n.dx + n.dy * n.dy + n.dz * n.dz) == n.spring_class + 1; };
-  return lattice.basis == cubic_basis && lattice.neighbours.size() == 9 && std::all_of(lattice.neighbours.begin(), lattice.neighbours.end(), fits) &&
-         lattice.class_stiffness[0] == 1 && lattice.class_stiffness[1] == 1 && lattice.membrane_distance == lattice.spacing;
+  const auto fits = [](const Neighbour& n) {
+    return static_cast<std::uint32_t>(n.dx * n.dx + n.dy * n.dy + n.dz * n.dz) ==
+           n.spring_class + 1;
+  };
+  return lattice.basis == cubic_basis && lattice.neighbours.size() == 9 &&
+         std::all_of(lattice.neighbours.begin(), lattice.neighbours.end(), fits) &&
+         lattice.class_stiffness[0] == 1 && lattice.class_stiffness[1] == 1 &&
+         lattice.membrane_distance == lattice.spacing;
 }
 
 /// Springs of k = 1 N/m in the fourth dimension, and what the endless lattice has with them.
@@ -32,7 +40,8 @@ struct Choice {
   calibration::Ratios ratios;
   double poisson = 0, modulus_ratio = 0;
 };
-/// Options of a material that is elastic at first, and what they make of a lattice. A material's own Options derive from them.
+/// Options of a material that is elastic at first, and what they make of a lattice. A material's
+/// own Options derive from them.
 struct Options {
   double young = 0, density = 0;
   std::optional<double> poisson, lambda;
@@ -48,42 +57,58 @@ struct Options {
     return schema.template add<&Options::young>("young", "Pa", "Young's modulus of the body")
         .positive()
         .example("\"10 GPa\"")
-        .template add<&Options::poisson>("poisson", "", "Poisson ratio; may be left out without a membrane, with lambda, and with free ratios")
+        .template add<&Options::poisson>(
+            "poisson", "",
+            "Poisson ratio; may be left out without a membrane, with lambda, and with free ratios")
         .above(-1)
         .below(0.5)
         .template add<&Options::density>("density", "kg/m3", "mass density")
         .positive()
-        .template add<&Options::membrane>("membrane", "", "which springs there are in the fourth dimension; free: k_alpha, k_beta, k_gamma")
+        .template add<&Options::membrane>(
+            "membrane", "",
+            "which springs there are in the fourth dimension; free: k_alpha, k_beta, k_gamma")
         .choices(calibration::membrane_names)
         .fallback("\"none\"")
         .template add<&Options::lambda>("lambda", "", "4D stiffness ratio, in place of poisson")
-        .template add<&Options::k_alpha>("k_alpha", "", "with membrane free: stiffness over k of the spring from a particle to its own mirror copy")
+        .template add<&Options::k_alpha>("k_alpha", "",
+                                         "with membrane free: stiffness over k of the spring from "
+                                         "a particle to its own mirror copy")
         .word("infinite")
         .fallback("0")
         .template add<&Options::k_beta>(
-            "k_beta", "", "with membrane free: stiffness over k of the cross springs beside springs of the lattice's first class: orthogonal ones")
+            "k_beta", "",
+            "with membrane free: stiffness over k of the cross springs beside springs of the "
+            "lattice's first class: orthogonal ones")
         .fallback("0")
         .template add<&Options::k_gamma>(
-            "k_gamma", "", "with membrane free: stiffness over k of the cross springs beside springs of the second class: diagonal ones")
+            "k_gamma", "",
+            "with membrane free: stiffness over k of the cross springs beside springs of the "
+            "second class: diagonal ones")
         .fallback("0")
         .template add<&Options::parameters>(
             "parameters", "",
-            "closed_form: exact for the infinite lattice; paper: polynomials (11) and (13), for I-m in the simple cubic lattice only")
+            "closed_form: exact for the infinite lattice; paper: polynomials (11) and (13), for "
+            "I-m in the simple cubic lattice only")
         .choices(parameter_names)
         .fallback("\"closed_form\"")
-        .template add<&Options::stiffness>("stiffness", "", "bulk: k of the infinite lattice; eq15: equation (15) with the springs that the body has")
+        .template add<&Options::stiffness>("stiffness", "",
+                                           "bulk: k of the infinite lattice; eq15: equation (15) "
+                                           "with the springs that the body has")
         .choices(stiffness_names)
         .fallback("\"bulk\"")
         .check([](const Of& options, const FaultSink& faults) { options.check(faults); });
   }
 
-  /// Throws std::invalid_argument, with a sentence whose first word is an option's name, if the lattice does not reach what is asked.
+  /// Throws std::invalid_argument, with a sentence whose first word is an option's name, if the
+  /// lattice does not reach what is asked.
   MaterialConstants constants(const LatticeFacts& lattice) const {
     const bool cubic = is_cubic_of_18(lattice);
     if (parameters == Parameters::paper && !cubic)
-      throw std::invalid_argument("parameters closed_form: the paper's polynomials are of the simple cubic lattice");
+      throw std::invalid_argument(
+          "parameters closed_form: the paper's polynomials are of the simple cubic lattice");
     const Choice choice = cubic ? choose_in_closed_form(lattice) : choose(lattice);
-    if (!(choice.modulus_ratio > 0)) throw std::invalid_argument("these ratios give a lattice without stiffness");
+    if (!(choice.modulus_ratio > 0))
+      throw std::invalid_argument("these ratios give a lattice without stiffness");
     check_poisson(lattice, choice.poisson);
 
     MaterialConstants constants = membranes::constants(lattice, choice.ratios);
@@ -96,7 +121,8 @@ struct Options {
   /// Of options that must fit each other.
   void check(const FaultSink& faults) const {
     const bool has_ratios = k_beta != 0 || k_gamma != 0 || k_alpha != 0.0;
-    if (membrane != Membrane::free && has_ratios) faults.fault("membrane", "free, because k_alpha, k_beta or k_gamma is given");
+    if (membrane != Membrane::free && has_ratios)
+      faults.fault("membrane", "free, because k_alpha, k_beta or k_gamma is given");
     if (parameters == Parameters::paper && membrane != Membrane::I_m)
       faults.fault("parameters", "closed_form: the paper's polynomials are of membrane I-m");
     if (lambda && (membrane == Membrane::none || membrane == Membrane::free))
@@ -105,19 +131,26 @@ struct Options {
       faults.fault("lambda", "one of poisson and lambda: each follows from the other");
     else if (!lambda && !poisson && membrane != Membrane::none && membrane != Membrane::free)
       faults.fault("poisson", "a Poisson ratio, or lambda in its place");
-    else if (poisson && parameters == Parameters::paper && (*poisson < calibration::paper_poisson_low || *poisson > calibration::paper_poisson_high))
+    else if (poisson && parameters == Parameters::paper &&
+             (*poisson < calibration::paper_poisson_low ||
+              *poisson > calibration::paper_poisson_high))
       faults.fault("poisson",
-                   text(calibration::paper_poisson_low, " to ", calibration::paper_poisson_high, ", where the paper's polynomials were fitted"));
+                   text(calibration::paper_poisson_low, " to ", calibration::paper_poisson_high,
+                        ", where the paper's polynomials were fitted"));
   }
 
  private:
-  calibration::Ratios free_ratios() const { return {k_alpha.value_or(0), k_beta, k_gamma, !k_alpha.has_value()}; }
+  calibration::Ratios free_ratios() const {
+    return {k_alpha.value_or(0), k_beta, k_gamma, !k_alpha.has_value()};
+  }
 
   /// Of the cubic lattice.
   Choice choose_in_closed_form(const LatticeFacts& lattice) const {
     if (!has_lambda(membrane)) return of_cubic(free_ratios());
     const bool paper = parameters == Parameters::paper;
-    const double ratio = lambda ? *lambda : paper ? calibration::paper_lambda(*poisson) : calibration::lambda(membrane, *poisson);
+    const double ratio = lambda  ? *lambda
+                         : paper ? calibration::paper_lambda(*poisson)
+                                 : calibration::lambda(membrane, *poisson);
     check_reach(lattice, ratio);
     Choice choice = of_cubic(calibration::ratios(membrane, ratio));
     if (paper) choice.modulus_ratio = calibration::paper_modulus_ratio(ratio);
@@ -137,19 +170,26 @@ struct Options {
       check_reach(lattice, ratio);
       choice.ratios = membranes::ratios(lattice, membrane, ratio);
     } else if (k_gamma != 0 && lattice.spring_classes < 2) {
-      throw std::invalid_argument("k_gamma 0: this lattice has one class of springs, that of k_beta");
+      throw std::invalid_argument(
+          "k_gamma 0: this lattice has one class of springs, that of k_beta");
     }
-    const ElasticConstants own = lattice.elastic_constants(membranes::constants(lattice, choice.ratios));
+    const ElasticConstants own =
+        lattice.elastic_constants(membranes::constants(lattice, choice.ratios));
     choice.poisson = own.poisson();
-    choice.modulus_ratio = own.young() / lattice.elastic_constants(membranes::constants(lattice, {})).young();
+    choice.modulus_ratio =
+        own.young() / lattice.elastic_constants(membranes::constants(lattice, {})).young();
     return choice;
   }
 
-  /// Of a membrane that has a lambda. Without a stable lattice there is none, unless the scene takes an unstable one.
+  /// Of a membrane that has a lambda. Without a stable lattice there is none, unless the scene
+  /// takes an unstable one.
   void check_reach(const LatticeFacts& lattice, double ratio) const {
-    if (std::isfinite(ratio) && (lattice.allow_unstable || membranes::is_stable(lattice, membrane, ratio))) return;
-    throw std::invalid_argument(lambda ? "lambda " + membranes::stable_sentence(lattice, membrane, ratio)
-                                       : "poisson " + membranes::reach_sentence(lattice, membrane, *poisson));
+    if (std::isfinite(ratio) &&
+        (lattice.allow_unstable || membranes::is_stable(lattice, membrane, ratio)))
+      return;
+    throw std::invalid_argument(
+        lambda ? "lambda " + membranes::stable_sentence(lattice, membrane, ratio)
+               : "poisson " + membranes::reach_sentence(lattice, membrane, *poisson));
   }
 
   /// Membranes without a lambda have the Poisson ratio that they have.
@@ -157,21 +197,30 @@ struct Options {
     constexpr double tolerance = 1e-4;
     if (!poisson || has_lambda(membrane) || std::abs(*poisson - own) <= tolerance) return;
     if (own >= membranes::largest_poisson)
-      throw std::invalid_argument(text("poisson left out: none is possible with this lattice and membrane ", membranes::name(membrane),
-                                       ", which gives ", own, "; a Poisson ratio is below ", membranes::largest_poisson));
-    throw std::invalid_argument(membrane == Membrane::none ? text("poisson ", own, ", or left out: that is what the lattice without a membrane has; ",
-                                                                  membranes::reached_by(lattice, membrane, *poisson))
-                                                           : text("poisson ", own, " along [100], which these ratios give; or leave poisson out"));
+      throw std::invalid_argument(
+          text("poisson left out: none is possible with this lattice and membrane ",
+               membranes::name(membrane), ", which gives ", own, "; a Poisson ratio is below ",
+               membranes::largest_poisson));
+    throw std::invalid_argument(
+        membrane == Membrane::none
+            ? text("poisson ", own,
+                   ", or left out: that is what the lattice without a membrane has; ",
+                   membranes::reached_by(lattice, membrane, *poisson))
+            : text("poisson ", own, " along [100], which these ratios give; or leave poisson out"));
   }
 
   double base_stiffness(const LatticeFacts& lattice, const Choice& choice, bool cubic) const {
     if (stiffness == Stiffness::eq15) {
-      if (lattice.squared_lengths == 0) throw std::invalid_argument("stiffness eq15 needs a body that has springs");
+      if (lattice.squared_lengths == 0)
+        throw std::invalid_argument("stiffness eq15 needs a body that has springs");
       const double volume = static_cast<double>(lattice.particles) * lattice.site_volume;
-      return calibration::stiffness_eq15(young, volume, lattice.squared_lengths, choice.modulus_ratio);
+      return calibration::stiffness_eq15(young, volume, lattice.squared_lengths,
+                                         choice.modulus_ratio);
     }
     if (cubic) return calibration::stiffness_bulk(young, lattice.spacing, choice.modulus_ratio);
-    return young / (choice.modulus_ratio * lattice.elastic_constants(membranes::constants(lattice, {})).young());  // k = 1 N/m there
+    return young /
+           (choice.modulus_ratio * lattice.elastic_constants(membranes::constants(lattice, {}))
+                                       .young());  // k = 1 N/m there
   }
 };
 

@@ -1,5 +1,6 @@
-// A failure criterion: when a base spring breaks. It states an alarm, the elongation below which nothing can happen; fast kernels only
-// compare with it. Springs above their alarm are reviewed in batches, where the criterion decides.
+// A failure criterion: when a base spring breaks. It states an alarm, the elongation below which
+// nothing can happen; fast kernels only compare with it. Springs above their alarm are reviewed in
+// batches, where the criterion decides.
 #pragma once
 
 #include <hyperlattice/component.hpp>
@@ -12,15 +13,18 @@ struct SpringFacts {
   double stiffness = 0;    ///< N/m
   double spacing = 0;      ///< lattice constant, metres
   std::uint32_t spring_class = 0;
-  double crossings = 0;  ///< base springs that pass through a unit of area inside the body, the mean of all its directions, 1/m2
+  double crossings = 0;  ///< base springs that pass through a unit of area inside the body, the
+                         ///< mean of all its directions, 1/m2
 };
 
 /// One base spring, for criteria that ask which it is.
 struct AlarmedSpring {
   double time = 0;        ///< seconds
   double elongation = 0;  ///< metres
-  Particle a = 0, b = 0;  ///< its ends, a < b: the same in every run of a scene, whatever its threads
-  double rate = 0;        ///< of elongation, half a step before, m/s; 0 if the criterion does not ask for it
+  Particle a = 0,
+           b = 0;  ///< its ends, a < b: the same in every run of a scene, whatever its threads
+  double rate =
+      0;  ///< of elongation, half a step before, m/s; 0 if the criterion does not ask for it
 };
 
 /// Base springs above their alarm, at one time.
@@ -33,8 +37,10 @@ struct SpringBatch {
 };
 
 struct FailureFunctions {
-  bool (*alarm)(const void* failure, const SpringFacts& spring, double& elongation, const Complaint& why) noexcept;
-  bool (*review)(const void* failure, const SpringBatch& batch, std::uint8_t* broken, const Complaint& why) noexcept;
+  bool (*alarm)(const void* failure, const SpringFacts& spring, double& elongation,
+                const Complaint& why) noexcept;
+  bool (*review)(const void* failure, const SpringBatch& batch, std::uint8_t* broken,
+                 const Complaint& why) noexcept;
   bool asks_ends, asks_rate;  ///< review wants SpringBatch::a and b, rate
 };
 
@@ -43,14 +49,16 @@ concept AsksElongation = requires(const T& failure, const SpringFacts& spring) {
   { failure.breaks(spring, 0.0) } -> std::convertible_to<bool>;
 };
 template <class T>
-concept AsksState = requires(const T& failure, const SpringFacts& spring, const AlarmedSpring& state) {
+concept AsksState = requires(const T& failure, const SpringFacts& spring,
+                             const AlarmedSpring& state) {
   { failure.breaks(spring, state) } -> std::convertible_to<bool>;
 };
 
 /// A failure class has: double alarm(const SpringFacts&) const, in metres; and
-/// bool breaks(const SpringFacts&, double elongation) const, or with an AlarmedSpring in place of the elongation if it must know which spring it is;
-/// asked for springs above the alarm only. What either throws ends the run. A criterion that needs the state's rate says
-/// static constexpr bool asks_rate = true; it is for structured lattices.
+/// bool breaks(const SpringFacts&, double elongation) const, or with an AlarmedSpring in place of
+/// the elongation if it must know which spring it is; asked for springs above the alarm only. What
+/// either throws ends the run. A criterion that needs the state's rate says static constexpr bool
+/// asks_rate = true; it is for structured lattices.
 template <class T>
 concept FailureComponent = requires(const T& failure, const SpringFacts& spring) {
   { failure.alarm(spring) } -> std::convertible_to<double>;
@@ -68,25 +76,32 @@ constexpr bool asks_rate() {
 
 template <FailureComponent T>
 AlarmedSpring state_in(const SpringBatch& batch, std::size_t n) {
-  return {batch.time, batch.elongation[n], batch.a[n], batch.b[n], asks_rate<T>() ? batch.rate[n] : 0};
+  return {batch.time, batch.elongation[n], batch.a[n], batch.b[n],
+          asks_rate<T>() ? batch.rate[n] : 0};
 }
 
 template <FailureComponent T>
 struct FunctionsOf<T> {
   static constexpr Family family = Family::failures;
-  static constexpr FailureFunctions table{[](const void* failure, const SpringFacts& spring, double& elongation, const Complaint& why) noexcept {
-                                            return guarded(why, [&] { elongation = static_cast<const T*>(failure)->alarm(spring); });
-                                          },
-                                          [](const void* failure, const SpringBatch& batch, std::uint8_t* broken, const Complaint& why) noexcept {
-                                            return guarded(why, [&] {
-                                              for (std::size_t n = 0; n < batch.elongation.size(); ++n)
-                                                if constexpr (AsksElongation<T>)
-                                                  broken[n] = static_cast<const T*>(failure)->breaks(batch.spring, batch.elongation[n]) ? 1 : 0;
-                                                else
-                                                  broken[n] = static_cast<const T*>(failure)->breaks(batch.spring, state_in<T>(batch, n)) ? 1 : 0;
-                                            });
-                                          },
-                                          !AsksElongation<T>, asks_rate<T>()};
+  static constexpr FailureFunctions table{
+      [](const void* failure, const SpringFacts& spring, double& elongation,
+         const Complaint& why) noexcept {
+        return guarded(why, [&] { elongation = static_cast<const T*>(failure)->alarm(spring); });
+      },
+      [](const void* failure, const SpringBatch& batch, std::uint8_t* broken,
+         const Complaint& why) noexcept {
+        return guarded(why, [&] {
+          for (std::size_t n = 0; n < batch.elongation.size(); ++n)
+            if constexpr (AsksElongation<T>)
+              broken[n] =
+                  static_cast<const T*>(failure)->breaks(batch.spring, batch.elongation[n]) ? 1 : 0;
+            else
+              broken[n] =
+                  static_cast<const T*>(failure)->breaks(batch.spring, state_in<T>(batch, n)) ? 1
+                                                                                              : 0;
+        });
+      },
+      !AsksElongation<T>, asks_rate<T>()};
 };
 }  // namespace detail
 }  // namespace hyperlattice

@@ -1,7 +1,8 @@
 // Fields as writers and probes name them, and single numbers taken out of them.
 //
 //   struct Options : QuantityOptions { ... };
-//   static Schema<Options> schema() { ... add_quantity_options(schema); schema.check(check_quantity_options<Options>); ... }
+//   static Schema<Options> schema() { ... add_quantity_options(schema);
+//   schema.check(check_quantity_options<Options>); ... }
 #pragma once
 
 #include <hyperlattice/files.hpp>
@@ -22,13 +23,17 @@ inline bool is_one_of(std::span<const std::string_view> names, std::string_view 
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-[[noreturn]] inline void refuse_field(std::string_view name, std::span<const std::string_view> present) {
-  throw std::runtime_error("this run has no field \"" + std::string(name) + "\"; it has " + joined(present));
+[[noreturn]] inline void refuse_field(std::string_view name,
+                                      std::span<const std::string_view> present) {
+  throw std::runtime_error("this run has no field \"" + std::string(name) + "\"; it has " +
+                           joined(present));
 }
 
-/// Throws std::runtime_error, with the names that the run does have, if this is none of them. For begin(), before anything is computed.
+/// Throws std::runtime_error, with the names that the run does have, if this is none of them. For
+/// begin(), before anything is computed.
 inline void require_field(const OutputContext& context, std::string_view name) {
-  if (!context.fields.empty() && !is_one_of(context.fields, name)) refuse_field(name, context.fields);
+  if (!context.fields.empty() && !is_one_of(context.fields, name))
+    refuse_field(name, context.fields);
 }
 
 /// The field at this time; throws as above.
@@ -46,7 +51,9 @@ inline Vec3 position_of(const Snapshot& snapshot, Particle particle) {
   return {x[0], x[1], x[2]};
 }
 
-inline bool is_vector_field(std::string_view name) { return name == "displacement" || name == "velocity"; }
+inline bool is_vector_field(std::string_view name) {
+  return name == "displacement" || name == "velocity";
+}
 
 /// Which number of a vector; radial: along the line from a centre, outwards.
 enum class Projection : std::uint32_t { x, y, z, magnitude, radial };
@@ -64,9 +71,11 @@ void add_quantity_options(Schema<Options>& schema) {
   schema.template add<&Options::field>("field", "", "what to record")
       .choices(field_names)
       .fallback("\"displacement\"")
-      .template add<&Options::component>("component", "", "which number of a vector; left out: x, y and z")
+      .template add<&Options::component>("component", "",
+                                         "which number of a vector; left out: x, y and z")
       .choices(projection_names)
-      .template add<&Options::centre>("centre", "m", "where the component \"radial\" points away from")
+      .template add<&Options::centre>("centre", "m",
+                                      "where the component \"radial\" points away from")
       .fallback("[0, 0, 0]");
 }
 
@@ -85,7 +94,8 @@ class Quantity {
     if (!is_vector_field(options_.field))
       names_ = {options_.field};
     else if (options_.component)
-      names_ = {options_.field + "_" + std::string(projection_names[static_cast<std::size_t>(*options_.component)])};
+      names_ = {options_.field + "_" +
+                std::string(projection_names[static_cast<std::size_t>(*options_.component)])};
     else
       names_ = {options_.field + "_x", options_.field + "_y", options_.field + "_z"};
   }
@@ -94,8 +104,10 @@ class Quantity {
   const std::vector<std::string>& names() const { return names_; }
   const std::string& field() const { return options_.field; }
 
-  /// Writes the particle's numbers to `out`. `field` is the quantity's field at the snapshot's time.
-  void evaluate(const Snapshot& snapshot, const Field& field, Particle particle, double* out) const {
+  /// Writes the particle's numbers to `out`. `field` is the quantity's field at the snapshot's
+  /// time.
+  void evaluate(const Snapshot& snapshot, const Field& field, Particle particle,
+                double* out) const {
     project(&field.values[particle * field.components], position_of(snapshot, particle), out);
   }
 
@@ -144,7 +156,11 @@ inline Particle nearest_particle(const Snapshot& snapshot, Vec3 point) {
   return best;
 }
 
-/// "(0.01 0 0)": a place in the name of a column; no commas, so that any reader of tables can split the header.
-inline std::string place_text(Vec3 place) { return "(" + short_number(place.x) + " " + short_number(place.y) + " " + short_number(place.z) + ")"; }
+/// "(0.01 0 0)": a place in the name of a column; no commas, so that any reader of tables can split
+/// the header.
+inline std::string place_text(Vec3 place) {
+  return "(" + short_number(place.x) + " " + short_number(place.y) + " " + short_number(place.z) +
+         ")";
+}
 
 }  // namespace hyperlattice

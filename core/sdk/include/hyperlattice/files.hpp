@@ -17,18 +17,21 @@
 
 namespace hyperlattice {
 
-/// A file written under a temporary name, which nobody can guess, and renamed when it is complete, so that no half-written file ever stands under its
-/// final name. No link is followed, and only a regular file is replaced. Every member throws std::runtime_error with the system's reason; an
+/// A file written under a temporary name, which nobody can guess, and renamed when it is complete,
+/// so that no half-written file ever stands under its final name. No link is followed, and only a
+/// regular file is replaced. Every member throws std::runtime_error with the system's reason; an
 /// uncommitted file vanishes with the object.
 class AtomicFile {
  public:
   explicit AtomicFile(std::string path) : path_(std::move(path)) {
     struct stat there {};
     if (::lstat(path_.c_str(), &there) == 0 && !S_ISREG(there.st_mode))
-      throw std::runtime_error("cannot create " + path_ + ": a folder, link, pipe or device of that name is there");
+      throw std::runtime_error("cannot create " + path_ +
+                               ": a folder, link, pipe or device of that name is there");
     for (int tries = 0; file_ == nullptr; ++tries) {
       part_ = path_ + "." + random_digits() + ".part";
-      const int descriptor = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+      const int descriptor =
+          ::open(part_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
       if (descriptor < 0 && errno == EEXIST && tries < 100) continue;
       if (descriptor < 0) fail("create");
       file_ = ::fdopen(descriptor, "wb");
@@ -59,7 +62,8 @@ class AtomicFile {
 
   /// Gives the file its name; an older file of that name is replaced in one go.
   void commit() {
-    if (std::fclose(std::exchange(file_, nullptr)) != 0) fail("write");  // the last bytes leave the buffer here
+    if (std::fclose(std::exchange(file_, nullptr)) != 0)
+      fail("write");  // the last bytes leave the buffer here
     if (std::rename(part_.c_str(), path_.c_str()) != 0) fail("rename");
     committed_ = true;
   }
@@ -73,7 +77,8 @@ class AtomicFile {
     return text;
   }
   [[noreturn]] void fail(const char* what) const {
-    throw std::runtime_error(std::string("cannot ") + what + " " + path_ + ": " + std::generic_category().message(errno));
+    throw std::runtime_error(std::string("cannot ") + what + " " + path_ + ": " +
+                             std::generic_category().message(errno));
   }
 
   std::string path_, part_;
@@ -97,7 +102,9 @@ inline void append_number(std::string& text, double value) {
 /// A number for people: at most `digits` significant digits.
 inline std::string short_number(double value, int digits = 6) {
   char buffer[48];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, digits).ptr};
+  return {
+      buffer,
+      std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, digits).ptr};
 }
 
 }  // namespace hyperlattice

@@ -8,12 +8,14 @@
 
 namespace hyperlattice {
 
-/// Sends the lattice whose sites are x = anchor + spacing (offset + i a1 + j a2 + k a3): those inside the shape, each with a particle; with boundary
-/// cells, the cells whose centres these are. The basis must be such that a1 runs along x, and a2 stays in the plane z = 0.
+/// Sends the lattice whose sites are x = anchor + spacing (offset + i a1 + j a2 + k a3): those
+/// inside the shape, each with a particle; with boundary cells, the cells whose centres these are.
+/// The basis must be such that a1 runs along x, and a2 stays in the plane z = 0.
 class Filling {
  public:
   /// `grid`: all but its origin and sites. The shape must outlive this.
-  Filling(const Grid& grid, const Shape& shape, Vec3 anchor, Vec3 offset) : grid_(grid), shape_(shape), anchor_(anchor), offset_(offset) {
+  Filling(const Grid& grid, const Shape& shape, Vec3 anchor, Vec3 offset)
+      : grid_(grid), shape_(shape), anchor_(anchor), offset_(offset) {
     grid_.shape = &shape;
   }
 
@@ -31,7 +33,9 @@ class Filling {
 
  private:
   static constexpr double most_sites = 4e9;
-  static constexpr const char* nothing_inside = "no lattice site or cell's centre is inside the shape: expected a smaller spacing or a larger shape";
+  static constexpr const char* nothing_inside =
+      "no lattice site or cell's centre is inside the shape: expected a smaller spacing or a "
+      "larger shape";
 
   /// Steps first .. last along one of the basis vectors.
   struct Span {
@@ -55,41 +59,54 @@ class Filling {
       const double begin = i;
       while (++i <= row.last && inside(i)) {
       }
-      sink.run(whole(j - j_.first), whole(k - k_.first), whole(begin - i_.first), whole(i - i_.first));
+      sink.run(whole(j - j_.first), whole(k - k_.first), whole(begin - i_.first),
+               whole(i - i_.first));
       any = true;
     }
     return any;
   }
 
-  Vec3 place(double i, double j, double k) const { return anchor_ + grid_.spacing * (offset_ + combined(grid_.basis, i, j, k)); }
+  Vec3 place(double i, double j, double k) const {
+    return anchor_ + grid_.spacing * (offset_ + combined(grid_.basis, i, j, k));
+  }
 
-  /// The steps that may lie between low and high if `start` is where step 0 is; the shape itself decides.
+  /// The steps that may lie between low and high if `start` is where step 0 is; the shape itself
+  /// decides.
   Span between(double low, double high, double start, double step) const {
     if (!std::isfinite(low) || !std::isfinite(high))
-      throw std::invalid_argument("the shape has no end: expected a bounded one, such as the intersection of a half-space with a box");
+      throw std::invalid_argument(
+          "the shape has no end: expected a bounded one, such as the intersection of a half-space "
+          "with a box");
     constexpr double rounding = 1e-6, most_sites_along_an_axis = 2147483646.0;
-    const Span span{std::ceil((low / grid_.spacing - start) / step - rounding), std::floor((high / grid_.spacing - start) / step + rounding)};
+    const Span span{std::ceil((low / grid_.spacing - start) / step - rounding),
+                    std::floor((high / grid_.spacing - start) / step + rounding)};
     if (span.count() > most_sites_along_an_axis)
-      throw std::invalid_argument("spacing is too small for this shape: more than 2^31 sites along an axis");
+      throw std::invalid_argument(
+          "spacing is too small for this shape: more than 2^31 sites along an axis");
     return span;
   }
   Span along_x(double j, double k) const {
-    return between(shape_.low.x - anchor_.x, shape_.high.x - anchor_.x, offset_.x + j * grid_.basis[1].x + k * grid_.basis[2].x, grid_.basis[0].x);
+    return between(shape_.low.x - anchor_.x, shape_.high.x - anchor_.x,
+                   offset_.x + j * grid_.basis[1].x + k * grid_.basis[2].x, grid_.basis[0].x);
   }
   Span along_y(double k) const {
-    return between(shape_.low.y - anchor_.y, shape_.high.y - anchor_.y, offset_.y + k * grid_.basis[2].y, grid_.basis[1].y);
+    return between(shape_.low.y - anchor_.y, shape_.high.y - anchor_.y,
+                   offset_.y + k * grid_.basis[2].y, grid_.basis[1].y);
   }
 
-  /// The box of steps that holds the shape. Where rows begin may differ from row to row and from plane to plane.
+  /// The box of steps that holds the shape. Where rows begin may differ from row to row and from
+  /// plane to plane.
   void find_box() {
     const Vec3 size = 1 / grid_.spacing * (shape_.high - shape_.low);
     k_ = between(shape_.low.z - anchor_.z, shape_.high.z - anchor_.z, offset_.z, grid_.basis[2].z);
     widen(k_.first);
-    const double about = std::max(1.0, size.x / grid_.basis[0].x) * std::max(1.0, size.y / grid_.basis[1].y) * k_.count();
+    const double about = std::max(1.0, size.x / grid_.basis[0].x) *
+                         std::max(1.0, size.y / grid_.basis[1].y) * k_.count();
     if (about < most_sites)
       for (double k = k_.first; k <= k_.last; ++k) widen(k);
     if (std::max(about, i_.count() * j_.count() * k_.count()) > most_sites)
-      throw std::invalid_argument("spacing is too small for this shape: its box would hold more than 4e9 sites");
+      throw std::invalid_argument(
+          "spacing is too small for this shape: its box would hold more than 4e9 sites");
     if (i_.count() * j_.count() * k_.count() == 0) throw std::invalid_argument(nothing_inside);
     const bool cells = grid_.boundary == Boundary::cells;  // sites are their corners
     const double corner = cells ? 0.5 : 0;

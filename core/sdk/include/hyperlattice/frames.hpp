@@ -1,7 +1,8 @@
 // What writers of one file a frame share: which particles and fields, how the files are called.
 //
 //   struct Options : FrameOptions { bool compress; };
-//   static Schema<Options> schema() { ... add_frame_options(schema); schema.check(check_frame_options<Options>); ... }
+//   static Schema<Options> schema() { ... add_frame_options(schema);
+//   schema.check(check_frame_options<Options>); ... }
 #pragma once
 
 #include <hyperlattice/fields.hpp>
@@ -28,18 +29,23 @@ void add_frame_options(Schema<Options>& schema) {
       .fallback("\"frames\"")
       .template add<&Options::region>("region", "", "particles to write")
       .fallback("\"all\"")
-      .template add<&Options::deformed>("deformed", "", "points at their displaced positions, not those at rest")
+      .template add<&Options::deformed>("deformed", "",
+                                        "points at their displaced positions, not those at rest")
       .fallback("false");
 }
 
 /// A base name becomes part of file names and of XML, so it is kept plain.
 inline void check_file_name(const std::string& file, const FaultSink& faults) {
   const auto plain = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.';
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-' || c == '.';
   };
   constexpr std::size_t longest = 80;
-  if (file.empty() || file.size() > longest || file.front() == '.' || !std::all_of(file.begin(), file.end(), plain))
-    faults.fault("file", "a name of letters, digits, '_', '-' and '.', without folders, of at most 80 characters");
+  if (file.empty() || file.size() > longest || file.front() == '.' ||
+      !std::all_of(file.begin(), file.end(), plain))
+    faults.fault(
+        "file",
+        "a name of letters, digits, '_', '-' and '.', without folders, of at most 80 characters");
 }
 
 /// The cross-field check of the options above.
@@ -47,11 +53,12 @@ template <class Options>
 void check_frame_options(const Options& options, const FaultSink& faults) {
   check_file_name(options.file, faults);
   for (auto name = options.fields.begin(); name != options.fields.end(); ++name)
-    if (std::find(options.fields.begin(), name, *name) != name) faults.fault("fields", "each field once; \"" + *name + "\" is there twice");
+    if (std::find(options.fields.begin(), name, *name) != name)
+      faults.fault("fields", "each field once; \"" + *name + "\" is there twice");
 }
 
-/// The numbered files of one writer: `<directory>/<file>_000000<extension>` and so on. Who asks for a path is about to write the file, so the run is
-/// told that the file is its own.
+/// The numbered files of one writer: `<directory>/<file>_000000<extension>` and so on. Who asks for
+/// a path is about to write the file, so the run is told that the file is its own.
 class FrameFiles {
  public:
   FrameFiles() = default;
@@ -71,13 +78,17 @@ class FrameFiles {
     return file_ + "_" + number + extension_;
   }
   std::string path() const { return announced(name(), false); }
-  /// Path of a file that belongs to the whole series and is rewritten with it: `<directory>/<file><suffix>`.
-  std::string path_of_series(std::string_view suffix) const { return announced(file_ + std::string(suffix), true); }
+  /// Path of a file that belongs to the whole series and is rewritten with it:
+  /// `<directory>/<file><suffix>`.
+  std::string path_of_series(std::string_view suffix) const {
+    return announced(file_ + std::string(suffix), true);
+  }
   void next() { ++frame_; }
 
  private:
   std::string announced(const std::string& name, bool rewritten) const {
-    if (announce_ != nullptr && !announce_(run_, name, rewritten)) throw std::runtime_error(name + " is not a file of this run");
+    if (announce_ != nullptr && !announce_(run_, name, rewritten))
+      throw std::runtime_error(name + " is not a file of this run");
     return base_ + name;
   }
 
@@ -87,35 +98,43 @@ class FrameFiles {
   bool (*announce_)(void* run, std::string_view name, bool rewritten) noexcept = nullptr;
 };
 
-/// The particles of a region, and their part of any field. A region that is the whole body costs nothing.
+/// The particles of a region, and their part of any field. A region that is the whole body costs
+/// nothing.
 class Selection {
  public:
   Selection() = default;
   explicit Selection(std::span<const Particle> particles) : size_(particles.size()) {
     if (particles.empty()) throw std::runtime_error("no particle lies in the region");
     first_ = particles.front();
-    if (particles.back() - first_ + 1 != size_) scattered_.assign(particles.begin(), particles.end());
+    if (particles.back() - first_ + 1 != size_)
+      scattered_.assign(particles.begin(), particles.end());
   }
 
   std::size_t size() const { return size_; }
-  Particle operator[](std::size_t n) const { return scattered_.empty() ? first_ + n : scattered_[n]; }
+  Particle operator[](std::size_t n) const {
+    return scattered_.empty() ? first_ + n : scattered_[n];
+  }
 
   /// The selected particles' values; in `buffer` if they do not stand together.
-  std::span<const double> of(std::span<const double> values, std::size_t components, std::vector<double>& buffer) const {
+  std::span<const double> of(std::span<const double> values, std::size_t components,
+                             std::vector<double>& buffer) const {
     if (scattered_.empty()) return values.subspan(first_ * components, size_ * components);
     buffer.resize(size_ * components);
-    for (std::size_t n = 0; n < size_; ++n) std::copy_n(&values[scattered_[n] * components], components, &buffer[n * components]);
+    for (std::size_t n = 0; n < size_; ++n)
+      std::copy_n(&values[scattered_[n] * components], components, &buffer[n * components]);
     return buffer;
   }
 
   /// Their positions at rest plus `magnification` times their displacement, in `buffer`; metres.
-  std::span<const double> positions(const Snapshot& snapshot, double magnification, std::vector<double>& buffer) const {
+  std::span<const double> positions(const Snapshot& snapshot, double magnification,
+                                    std::vector<double>& buffer) const {
     if (magnification == 0) return of(snapshot.positions, 3, buffer);
     const auto displacement = require_field(snapshot, "displacement").values;
     buffer.resize(3 * size_);
     for (std::size_t n = 0; n < size_; ++n)
       for (std::size_t axis = 0; axis < 3; ++axis)
-        buffer[3 * n + axis] = snapshot.positions[3 * (*this)[n] + axis] + magnification * displacement[3 * (*this)[n] + axis];
+        buffer[3 * n + axis] = snapshot.positions[3 * (*this)[n] + axis] +
+                               magnification * displacement[3 * (*this)[n] + axis];
     return buffer;
   }
 

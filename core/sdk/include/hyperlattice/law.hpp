@@ -1,25 +1,31 @@
-// A law: what one spring does. Two kinds, both plain scalar physics; the kernels that run it over a lattice come from kernels/.
+// A law: what one spring does. Two kinds, both plain scalar physics; the kernels that run it over a
+// lattice come from kernels/.
 //
 // 1. Without memory. Two templates, so that they work on a number as on a vector of them:
 //
 //      struct Linear {
-//        static constexpr bool linear = true;  // only if the force is proportional to the elongation
-//        template <class Real> static Real force(Real stiffness, Real elongation) { return stiffness * elongation; }
-//        template <class Real> static Real energy(Real stiffness, Real elongation) { return stiffness * elongation * elongation / 2; }
+//        static constexpr bool linear = true;  // only if the force is proportional to the
+//        elongation template <class Real> static Real force(Real stiffness, Real elongation) {
+//        return stiffness * elongation; } template <class Real> static Real energy(Real stiffness,
+//        Real elongation) { return stiffness * elongation * elongation / 2; }
 //      };
 //
-// 2. With constants of its own and, if it has any, a memory: numbers that each spring keeps from step to step. Ordinary code, if and else included:
+// 2. With constants of its own and, if it has any, a memory: numbers that each spring keeps from
+// step to step. Ordinary code, if and else included:
 //
 //      struct Slider {
-//        struct Constants { double limit; };         // doubles only; what MaterialConstants::law holds
-//        struct Memory { double slipped = 0; };      // doubles only; all zero at first, if there is no start()
-//        static Memory start(const Constants& c, const SpringIdentity& spring);           // for springs that differ from the beginning
-//        static void update(const SpringState& s, const Constants& c, Memory& m);         // once a step, before the force is asked for
-//        static double force(const SpringState& s, const Constants& c, const Memory& m);  // N, positive if the spring pulls
-//        static double energy(const SpringState& s, const Constants& c, const Memory& m); // J that it would give back
+//        struct Constants { double limit; };         // doubles only; what MaterialConstants::law
+//        holds struct Memory { double slipped = 0; };      // doubles only; all zero at first, if
+//        there is no start() static Memory start(const Constants& c, const SpringIdentity& spring);
+//        // for springs that differ from the beginning static void update(const SpringState& s,
+//        const Constants& c, Memory& m);         // once a step, before the force is asked for
+//        static double force(const SpringState& s, const Constants& c, const Memory& m);  // N,
+//        positive if the spring pulls static double energy(const SpringState& s, const Constants&
+//        c, const Memory& m); // J that it would give back
 //      };
 //
-//    What the spring dissipates need not be said: it is the work of its force less the change of its energy.
+//    What the spring dissipates need not be said: it is the work of its force less the change of
+//    its energy.
 #pragma once
 
 #include <cstddef>
@@ -38,7 +44,8 @@ struct SpringState {
   double time_step = 0;    ///< the step before now, s; 0 at the start
 };
 
-/// Which spring it is, or a cross spring beside it: the particles at its ends, a < b, in the order in which the lattice names them.
+/// Which spring it is, or a cross spring beside it: the particles at its ends, a < b, in the order
+/// in which the lattice names them.
 struct SpringIdentity {
   std::uint64_t a = 0, b = 0;
 };
@@ -55,7 +62,8 @@ concept LawWithMemory = LawWithConstants<Law> && requires {
   typename Law::Memory;
 };
 template <class Law>
-concept LawWithStart = LawWithMemory<Law> && requires(const typename Law::Constants& constants, const SpringIdentity& spring) {
+concept LawWithStart = LawWithMemory<Law> &&
+    requires(const typename Law::Constants& constants, const SpringIdentity& spring) {
   Law::start(constants, spring);
 };
 
@@ -67,8 +75,8 @@ constexpr std::size_t numbers_in() {
   return sizeof(Struct) / sizeof(double);
 }
 
-/// Numbers that each spring keeps: the law's own, and its last elongation and force, of which rate and work follow. A law that needs no number of
-/// its own but the rate has an empty Memory.
+/// Numbers that each spring keeps: the law's own, and its last elongation and force, of which rate
+/// and work follow. A law that needs no number of its own but the rate has an empty Memory.
 template <class Law>
 constexpr std::size_t memory_of() {
   if constexpr (LawWithMemory<Law>) {
@@ -89,17 +97,21 @@ struct SpringStep {
   double dissipated = 0;  ///< J since the step before
 
   /// J that the spring has stored, with the memory as it is.
-  static double energy_of(const SpringState& state, const double* constants, const double* memory) requires LawWithMemory<Law> {
-    return Law::energy(state, read<typename Law::Constants>(constants), read<typename Law::Memory>(memory));
+  static double energy_of(const SpringState& state, const double* constants,
+                          const double* memory) requires LawWithMemory<Law> {
+    return Law::energy(state, read<typename Law::Constants>(constants),
+                       read<typename Law::Memory>(memory));
   }
 
   /// What a new spring keeps.
-  static void start(const double* constants, const SpringIdentity& spring, double* memory) requires LawWithStart<Law> {
+  static void start(const double* constants, const SpringIdentity& spring,
+                    double* memory) requires LawWithStart<Law> {
     const typename Law::Memory begun = Law::start(read<typename Law::Constants>(constants), spring);
     std::memcpy(memory, &begun, own * sizeof(double));
   }
 
-  /// `constants`: those of the law; `memory`: memory_of<Law>() numbers, as they were and then as they are.
+  /// `constants`: those of the law; `memory`: memory_of<Law>() numbers, as they were and then as
+  /// they are.
   static SpringStep take(SpringState state, const double* constants, double* memory) {
     const auto own_constants = read<typename Law::Constants>(constants);
     SpringStep step;
@@ -109,7 +121,8 @@ struct SpringStep {
       double& last_force = memory[own + 1];
       SpringState before = state;
       before.elongation = last_elongation;
-      const double energy_before = Law::energy(before, own_constants, own_memory), stretched = state.elongation - last_elongation;
+      const double energy_before = Law::energy(before, own_constants, own_memory),
+                   stretched = state.elongation - last_elongation;
       state.rate = state.time_step > 0 ? stretched / state.time_step : 0;
       Law::update(state, own_constants, own_memory);
       step.force = Law::force(state, own_constants, own_memory);

@@ -1,4 +1,5 @@
-// The layout of a struct as a number, found by the compiler: size, alignment, and the place, name and type of each member.
+// The layout of a struct as a number, found by the compiler: size, alignment, and the place, name
+// and type of each member.
 #pragma once
 
 #include <cstddef>
@@ -76,12 +77,16 @@ constexpr void add_type(LayoutHash& hash) {
 
 // A macro for each name of a list, up to 64 of them.
 #define HYPERLATTICE_EACH(MACRO, ...) HYPERLATTICE_AGAIN3(HYPERLATTICE_ONE(MACRO, __VA_ARGS__))
-#define HYPERLATTICE_ONE(MACRO, NAME, ...) MACRO(NAME) __VA_OPT__(HYPERLATTICE_NEXT HYPERLATTICE_PARENTHESES(MACRO, __VA_ARGS__))
+#define HYPERLATTICE_ONE(MACRO, NAME, ...) \
+  MACRO(NAME) __VA_OPT__(HYPERLATTICE_NEXT HYPERLATTICE_PARENTHESES(MACRO, __VA_ARGS__))
 #define HYPERLATTICE_NEXT() HYPERLATTICE_ONE
 #define HYPERLATTICE_PARENTHESES ()
-#define HYPERLATTICE_AGAIN3(...) HYPERLATTICE_AGAIN2(HYPERLATTICE_AGAIN2(HYPERLATTICE_AGAIN2(HYPERLATTICE_AGAIN2(__VA_ARGS__))))
-#define HYPERLATTICE_AGAIN2(...) HYPERLATTICE_AGAIN1(HYPERLATTICE_AGAIN1(HYPERLATTICE_AGAIN1(HYPERLATTICE_AGAIN1(__VA_ARGS__))))
-#define HYPERLATTICE_AGAIN1(...) HYPERLATTICE_AGAIN0(HYPERLATTICE_AGAIN0(HYPERLATTICE_AGAIN0(HYPERLATTICE_AGAIN0(__VA_ARGS__))))
+#define HYPERLATTICE_AGAIN3(...) \
+  HYPERLATTICE_AGAIN2(HYPERLATTICE_AGAIN2(HYPERLATTICE_AGAIN2(HYPERLATTICE_AGAIN2(__VA_ARGS__))))
+#define HYPERLATTICE_AGAIN2(...) \
+  HYPERLATTICE_AGAIN1(HYPERLATTICE_AGAIN1(HYPERLATTICE_AGAIN1(HYPERLATTICE_AGAIN1(__VA_ARGS__))))
+#define HYPERLATTICE_AGAIN1(...) \
+  HYPERLATTICE_AGAIN0(HYPERLATTICE_AGAIN0(HYPERLATTICE_AGAIN0(HYPERLATTICE_AGAIN0(__VA_ARGS__))))
 #define HYPERLATTICE_AGAIN0(...) __VA_ARGS__
 
 #define HYPERLATTICE_ADD_MEMBER(member)            \
@@ -90,16 +95,18 @@ constexpr void add_type(LayoutHash& hash) {
   add_type<decltype(Self::member)>(hash);
 
 /// The binding compiles only if these are all of the struct's members.
-#define HYPERLATTICE_LAYOUT(Struct, ...)                                                                                \
-  template <>                                                                                                           \
-  struct Layout<Struct> {                                                                                               \
-    static constexpr std::string_view name = #Struct;                                                                   \
-    static void names_all([[maybe_unused]] const Struct& value) { [[maybe_unused]] const auto& [__VA_ARGS__] = value; } \
-    template <class Self = Struct>                                                                                      \
-    static constexpr void add_to(LayoutHash& hash) {                                                                    \
-      hash.add(name);                                                                                                   \
-      hash.add(std::uint64_t{sizeof(Self)});                                                                            \
-      hash.add(std::uint64_t{alignof(Self)});                                                                           \
-      HYPERLATTICE_EACH(HYPERLATTICE_ADD_MEMBER, __VA_ARGS__)                                                           \
-    }                                                                                                                   \
+#define HYPERLATTICE_LAYOUT(Struct, ...)                          \
+  template <>                                                     \
+  struct Layout<Struct> {                                         \
+    static constexpr std::string_view name = #Struct;             \
+    static void names_all([[maybe_unused]] const Struct& value) { \
+      [[maybe_unused]] const auto& [__VA_ARGS__] = value;         \
+    }                                                             \
+    template <class Self = Struct>                                \
+    static constexpr void add_to(LayoutHash& hash) {              \
+      hash.add(name);                                             \
+      hash.add(std::uint64_t{sizeof(Self)});                      \
+      hash.add(std::uint64_t{alignof(Self)});                     \
+      HYPERLATTICE_EACH(HYPERLATTICE_ADD_MEMBER, __VA_ARGS__)     \
+    }                                                             \
   };

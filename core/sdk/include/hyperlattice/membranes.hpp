@@ -1,5 +1,7 @@
-// The paper's membranes on any lattice: k_beta goes with spring class 0, k_gamma with class 1. Which lambda has a Poisson ratio, and which Poisson
-// ratios a stable lattice reaches, found by asking the lattice for its elastic constants. Of the cubic lattice calibration.hpp has closed forms.
+// The paper's membranes on any lattice: k_beta goes with spring class 0, k_gamma with class 1.
+// Which lambda has a Poisson ratio, and which Poisson ratios a stable lattice reaches, found by
+// asking the lattice for its elastic constants. Of the cubic lattice calibration.hpp has closed
+// forms.
 #pragma once
 
 #include <hyperlattice/calibration.hpp>
@@ -17,12 +19,18 @@ using calibration::Membrane;
 using calibration::Ratios;
 using calibration::Reach;
 
-inline constexpr Membrane with_lambda[] = {Membrane::I_m, Membrane::I, Membrane::II, Membrane::III, Membrane::IV};
+inline constexpr Membrane with_lambda[] = {Membrane::I_m, Membrane::I, Membrane::II, Membrane::III,
+                                           Membrane::IV};
 
 /// Whether lambda means something to it: to all but none and free.
-inline bool has_lambda(Membrane membrane) { return std::find(std::begin(with_lambda), std::end(with_lambda), membrane) != std::end(with_lambda); }
+inline bool has_lambda(Membrane membrane) {
+  return std::find(std::begin(with_lambda), std::end(with_lambda), membrane) !=
+         std::end(with_lambda);
+}
 
-inline std::string_view name(Membrane membrane) { return calibration::membrane_names[static_cast<std::size_t>(membrane)]; }
+inline std::string_view name(Membrane membrane) {
+  return calibration::membrane_names[static_cast<std::size_t>(membrane)];
+}
 
 /// Springs of stiffness k = 1 N/m with these in the fourth dimension.
 inline MaterialConstants constants(const LatticeFacts& lattice, const Ratios& ratios) {
@@ -35,12 +43,13 @@ inline MaterialConstants constants(const LatticeFacts& lattice, const Ratios& ra
   return constants;
 }
 
-/// k_gamma / k_beta that leaves C11 - C12 - 2 C44 as it is without a membrane: an isotropic lattice stays isotropic. 3/4 for the cubic lattice; 0 if
-/// it has one class of springs.
+/// k_gamma / k_beta that leaves C11 - C12 - 2 C44 as it is without a membrane: an isotropic lattice
+/// stays isotropic. 3/4 for the cubic lattice; 0 if it has one class of springs.
 inline double isotropic_ratio(const LatticeFacts& lattice) {
   if (lattice.spring_classes < 2) return 0;
   const auto anisotropy = [&](double beta, double gamma) {
-    const ElasticConstants c = lattice.elastic_constants(constants(lattice, {0, beta, gamma, true}));
+    const ElasticConstants c =
+        lattice.elastic_constants(constants(lattice, {0, beta, gamma, true}));
     return c.C11 - c.C12 - 2 * c.C44;
   };
   const double without = anisotropy(0, 0);
@@ -54,17 +63,23 @@ inline Ratios ratios(const LatticeFacts& lattice, Membrane membrane, double lamb
   return ratios;
 }
 
-inline ElasticConstants elastic_constants(const LatticeFacts& lattice, Membrane membrane, double lambda) {
+inline ElasticConstants elastic_constants(const LatticeFacts& lattice, Membrane membrane,
+                                          double lambda) {
   return lattice.elastic_constants(constants(lattice, ratios(lattice, membrane, lambda)));
 }
 
-/// The lambda that has this Poisson ratio along [100], stable or not, of a membrane that has a lambda; infinite if none has. By secants: exact at
-/// once for structured lattices, whose elastic constants are linear in lambda.
+/// The lambda that has this Poisson ratio along [100], stable or not, of a membrane that has a
+/// lambda; infinite if none has. By secants: exact at once for structured lattices, whose elastic
+/// constants are linear in lambda.
 inline double lambda(const LatticeFacts& lattice, Membrane membrane, double poisson) {
-  const auto miss = [poisson](const ElasticConstants& c) { return c.C12 - poisson * (c.C11 + c.C12); };  // linear in lambda as they are
+  const auto miss = [poisson](const ElasticConstants& c) {
+    return c.C12 - poisson * (c.C11 + c.C12);
+  };  // linear in lambda as they are
   constexpr double rounding = 1e-13, exact = 1e-10, largest = 1e9;
   constexpr int most = 50;
-  if (const ElasticConstants none = elastic_constants(lattice, membrane, 0); std::abs(miss(none)) < rounding * none.C11) return 0;
+  if (const ElasticConstants none = elastic_constants(lattice, membrane, 0);
+      std::abs(miss(none)) < rounding * none.C11)
+    return 0;
   double before = 1, now = 2, miss_before = miss(elastic_constants(lattice, membrane, before));
   for (int n = 0; n < most && std::abs(now) < largest; ++n) {
     const ElasticConstants here = elastic_constants(lattice, membrane, now);
@@ -79,7 +94,8 @@ inline double lambda(const LatticeFacts& lattice, Membrane membrane, double pois
 
 /// The Poisson ratio that the lattice approaches as lambda grows without end.
 inline double limit(const LatticeFacts& lattice, Membrane membrane) {
-  const ElasticConstants one = elastic_constants(lattice, membrane, 1e3), two = elastic_constants(lattice, membrane, 2e3);
+  const ElasticConstants one = elastic_constants(lattice, membrane, 1e3),
+                         two = elastic_constants(lattice, membrane, 2e3);
   const double C11 = two.C11 - one.C11, C12 = two.C12 - one.C12;
   return C12 / (C11 + C12);
 }
@@ -87,7 +103,9 @@ inline double limit(const LatticeFacts& lattice, Membrane membrane) {
 /// Where stability begins, going up; nothing if small positive lambda are unstable already.
 inline std::optional<double> least_stable(const LatticeFacts& lattice, Membrane membrane) {
   constexpr double small = 1e-6;
-  const auto grows = [&](double at) { return !lattice.is_stable(constants(lattice, ratios(lattice, membrane, at))); };
+  const auto grows = [&](double at) {
+    return !lattice.is_stable(constants(lattice, ratios(lattice, membrane, at)));
+  };
   double stable = small, unstable = -8;
   if (grows(stable)) return std::nullopt;
   while (stable - unstable > small) {
@@ -110,8 +128,11 @@ inline bool is_stable(const LatticeFacts& lattice, Membrane membrane, double lam
 inline Reach reach(const LatticeFacts& lattice, Membrane membrane) {
   const std::optional<double> least = least_stable(lattice, membrane);
   if (!least) return {};
-  const auto tidy = [](double nu) { return std::abs(nu) < 1e-5 ? 0 : nu; };  // the edge of stability is known no better
-  const double start = tidy(elastic_constants(lattice, membrane, *least).poisson()), end = tidy(limit(lattice, membrane));
+  const auto tidy = [](double nu) {
+    return std::abs(nu) < 1e-5 ? 0 : nu;
+  };  // the edge of stability is known no better
+  const double start = tidy(elastic_constants(lattice, membrane, *least).poisson()),
+               end = tidy(limit(lattice, membrane));
   return {std::min(start, end), std::max(start, end), *least < 0 || end > start};
 }
 
@@ -120,7 +141,8 @@ template <class Holds>
 std::string others(Membrane but, const Holds& holds) {
   std::string names;
   for (const Membrane other : with_lambda)
-    if (other != but && holds(other)) names += (names.empty() ? "" : ", ") + std::string(name(other));
+    if (other != but && holds(other))
+      names += (names.empty() ? "" : ", ") + std::string(name(other));
   return names;
 }
 
@@ -133,10 +155,13 @@ std::string text(const Parts&... parts) {
   return out.str();
 }
 
-/// Membranes, other than one, that give the lattice this Poisson ratio and are stable; for a message.
+/// Membranes, other than one, that give the lattice this Poisson ratio and are stable; for a
+/// message.
 inline std::string reached_by(const LatticeFacts& lattice, Membrane but, double poisson) {
   const bool is_listed = lattice.lengths > 0;
-  if (is_listed) return "other membranes have other ratios";  // which, costs tens of solutions for all its springs
+  if (is_listed)
+    return "other membranes have other ratios";  // which, costs tens of solutions for all its
+                                                 // springs
   std::string names;
   for (const Membrane other : with_lambda) {
     const double found = other == but ? infinity : lambda(lattice, other, poisson);
@@ -145,32 +170,41 @@ inline std::string reached_by(const LatticeFacts& lattice, Membrane but, double 
     const bool isotropic = std::abs(2 * c.C44 / (c.C11 - c.C12) - 1) < 0.01;
     names += text(names.empty() ? "" : ", ", name(other), isotropic ? "" : " (not isotropic)");
   }
-  return names.empty() ? "no membrane of this lattice reaches it" : text(poisson, " is within the reach of ", names);
+  return names.empty() ? "no membrane of this lattice reaches it"
+                       : text(poisson, " is within the reach of ", names);
 }
 
-/// That of a solid is below this, and no option takes more. A lattice that hardly resists at all may seem to have more.
+/// That of a solid is below this, and no option takes more. A lattice that hardly resists at all
+/// may seem to have more.
 inline constexpr double largest_poisson = 0.5;
 
 /// For a message about a Poisson ratio out of a membrane's reach: that reach, and who reaches it.
 inline std::string reach_sentence(const LatticeFacts& lattice, Membrane membrane, double poisson) {
   Reach own = reach(lattice, membrane);
   if (!(own.low < own.high) || own.low >= largest_poisson)
-    return text("for another lattice or membrane: none is possible with this lattice and membrane ", name(membrane), ", which ",
-                own.low < own.high ? text("gives (", own.low, ", ", own.high, "]; a Poisson ratio is below ", largest_poisson) : "is unstable", "; ",
-                reached_by(lattice, membrane, poisson));
+    return text("for another lattice or membrane: none is possible with this lattice and membrane ",
+                name(membrane), ", which ",
+                own.low < own.high ? text("gives (", own.low, ", ", own.high,
+                                          "]; a Poisson ratio is below ", largest_poisson)
+                                   : "is unstable",
+                "; ", reached_by(lattice, membrane, poisson));
   own.open = own.open || own.high >= largest_poisson;
   own.high = std::min(own.high, largest_poisson);
-  return text("within (", own.low, ", ", own.high, own.open ? ")" : "]", ", the reach of membrane ", name(membrane), "; ",
-              reached_by(lattice, membrane, poisson));
+  return text("within (", own.low, ", ", own.high, own.open ? ")" : "]", ", the reach of membrane ",
+              name(membrane), "; ", reached_by(lattice, membrane, poisson));
 }
 
-/// For a message about a lambda whose lattice is unstable: those that are stable, and membranes that are stable with this one.
+/// For a message about a lambda whose lattice is unstable: those that are stable, and membranes
+/// that are stable with this one.
 inline std::string stable_sentence(const LatticeFacts& lattice, Membrane membrane, double lambda) {
   const std::optional<double> least = least_stable(lattice, membrane);
-  const std::string stable = others(membrane, [&](Membrane other) { return is_stable(lattice, other, lambda); });
+  const std::string stable =
+      others(membrane, [&](Membrane other) { return is_stable(lattice, other, lambda); });
   return (!least ? text("another membrane: ", name(membrane), " is unstable for small lambda")
-                 : text(*least == 0 ? "at least " : "above ", *least, ": with less, membrane ", name(membrane), " is unstable")) +
-         (stable.empty() ? "; no membrane of this lattice is stable with it" : text("; ", lambda, " is stable with ", stable));
+                 : text(*least == 0 ? "at least " : "above ", *least, ": with less, membrane ",
+                        name(membrane), " is unstable")) +
+         (stable.empty() ? "; no membrane of this lattice is stable with it"
+                         : text("; ", lambda, " is stable with ", stable));
 }
 
 }  // namespace hyperlattice::membranes

@@ -1,4 +1,5 @@
-// Points in cells of a coarse grid, to find those within a distance: for lattices that join particles by how near they are.
+// Points in cells of a coarse grid, to find those within a distance: for lattices that join
+// particles by how near they are.
 #pragma once
 
 #include <hyperlattice/plain.hpp>
@@ -12,18 +13,23 @@ namespace hyperlattice {
 
 class Neighbourhood {
  public:
-  /// For about `points` points between `low` and `high` and distances up to `reach`, metres. Periodic: the box repeats in all directions, and is at
-  /// least three times as wide as `reach`, or std::invalid_argument is thrown.
+  /// For about `points` points between `low` and `high` and distances up to `reach`, metres.
+  /// Periodic: the box repeats in all directions, and is at least three times as wide as `reach`,
+  /// or std::invalid_argument is thrown.
   Neighbourhood(Vec3 low, Vec3 high, double reach, std::size_t points, bool periodic = false)
       : low_(low), size_(high - low), reach_(reach), periodic_(periodic) {
-    const double extents[3] = {size_.x, size_.y, size_.z}, most_along = 1e6, most_cells = 8 * static_cast<double>(points) + 4096;
+    const double extents[3] = {size_.x, size_.y, size_.z}, most_along = 1e6,
+                 most_cells = 8 * static_cast<double>(points) + 4096;
     double count[3];
     for (int axis = 0; axis < 3; ++axis) {
       count[axis] = std::clamp(std::floor(extents[axis] / reach), 1.0, most_along);
       if (periodic && count[axis] < 3)
-        throw std::invalid_argument("a periodic box of points must be at least three times as wide as their neighbours' distance");
+        throw std::invalid_argument(
+            "a periodic box of points must be at least three times as wide as their neighbours' "
+            "distance");
     }
-    while (count[0] * count[1] * count[2] > most_cells) {  // cells may be wider than `reach`, never narrower
+    while (count[0] * count[1] * count[2] >
+           most_cells) {  // cells may be wider than `reach`, never narrower
       double& largest = *std::max_element(count, count + 3);
       largest = std::floor(largest / 2);
     }
@@ -31,7 +37,8 @@ class Neighbourhood {
     head_.assign(static_cast<std::size_t>(count[0] * count[1] * count[2]), none);
   }
 
-  /// The fourth argument was `periodic` once. A call that still passes a bool there must not compile: true would be taken as a number of points.
+  /// The fourth argument was `periodic` once. A call that still passes a bool there must not
+  /// compile: true would be taken as a number of points.
   Neighbourhood(Vec3, Vec3, double, std::same_as<bool> auto) = delete;
 
   /// Points are numbered in the order in which they are added.
@@ -43,7 +50,8 @@ class Neighbourhood {
   }
   const std::vector<Vec3>& points() const { return points_; }
 
-  /// Calls visit(number, from here to there) for every point added that is no farther than `reach` from this one.
+  /// Calls visit(number, from here to there) for every point added that is no farther than `reach`
+  /// from this one.
   template <class Visit>
   void for_near(Vec3 point, const Visit& visit) const {
     const std::int64_t i = step(point, 0), j = step(point, 1), k = step(point, 2);
@@ -51,7 +59,8 @@ class Neighbourhood {
       for (std::int64_t y = j - 1; y <= j + 1; ++y)
         for (std::int64_t x = i - 1; x <= i + 1; ++x) {
           if (!periodic_ && (!inside(x, 0) || !inside(y, 1) || !inside(z, 2))) continue;
-          for (std::uint32_t n = head_[cell(wrapped(x, 0), wrapped(y, 1), wrapped(z, 2))]; n != none; n = next_[n]) {
+          for (std::uint32_t n = head_[cell(wrapped(x, 0), wrapped(y, 1), wrapped(z, 2))];
+               n != none; n = next_[n]) {
             const Vec3 away = shortest(points_[n] - point);
             if (dot(away, away) <= reach_ * reach_) visit(n, away);
           }
@@ -64,12 +73,18 @@ class Neighbourhood {
   std::int64_t step(Vec3 point, int axis) const {
     const Vec3 from = point - low_;
     const double along[3] = {from.x, from.y, from.z}, extents[3] = {size_.x, size_.y, size_.z};
-    const double cells = extents[axis] > 0 ? along[axis] / extents[axis] * static_cast<double>(count_[axis]) : 0;
-    return std::clamp(static_cast<std::int64_t>(std::floor(cells)), std::int64_t{0}, count_[axis] - 1);
+    const double cells =
+        extents[axis] > 0 ? along[axis] / extents[axis] * static_cast<double>(count_[axis]) : 0;
+    return std::clamp(static_cast<std::int64_t>(std::floor(cells)), std::int64_t{0},
+                      count_[axis] - 1);
   }
   bool inside(std::int64_t at, int axis) const { return at >= 0 && at < count_[axis]; }
-  std::int64_t wrapped(std::int64_t at, int axis) const { return at < 0 ? at + count_[axis] : at >= count_[axis] ? at - count_[axis] : at; }
-  std::size_t cell(std::int64_t i, std::int64_t j, std::int64_t k) const { return static_cast<std::size_t>((k * count_[1] + j) * count_[0] + i); }
+  std::int64_t wrapped(std::int64_t at, int axis) const {
+    return at < 0 ? at + count_[axis] : at >= count_[axis] ? at - count_[axis] : at;
+  }
+  std::size_t cell(std::int64_t i, std::int64_t j, std::int64_t k) const {
+    return static_cast<std::size_t>((k * count_[1] + j) * count_[0] + i);
+  }
   Vec3 shortest(Vec3 away) const {
     if (!periodic_) return away;
     const auto image = [](double d, double period) { return d - period * std::round(d / period); };
@@ -90,12 +105,16 @@ struct NearPair {
   Vec3 rest;  ///< from a to b, metres
 };
 
-/// All pairs of points up to a distance `reach`, metres, each once. `low`, `high`, `reach` and `periodic` are as in Neighbourhood's constructor.
-inline std::vector<NearPair> near_pairs(std::span<const Vec3> points, Vec3 low, Vec3 high, double reach, bool periodic = false) {
+/// All pairs of points up to a distance `reach`, metres, each once. `low`, `high`, `reach` and
+/// `periodic` are as in Neighbourhood's constructor.
+inline std::vector<NearPair> near_pairs(std::span<const Vec3> points, Vec3 low, Vec3 high,
+                                        double reach, bool periodic = false) {
   Neighbourhood near(low, high, reach, points.size(), periodic);
   std::vector<NearPair> pairs;
   for (std::uint32_t b = 0; b < points.size(); ++b) {
-    near.for_near(points[b], [&](std::uint32_t a, Vec3 away) { pairs.push_back({a, b, -1.0 * away}); });
+    near.for_near(points[b], [&](std::uint32_t a, Vec3 away) {
+      pairs.push_back({a, b, -1.0 * away});
+    });
     near.add(points[b]);
   }
   return pairs;
@@ -104,18 +123,27 @@ inline std::vector<NearPair> near_pairs(std::span<const Vec3> points, Vec3 low, 
 /// The shortest `count` of the pairs, in no order; all of them if there are no more.
 inline std::vector<NearPair> shortest(std::vector<NearPair> pairs, std::size_t count) {
   if (count >= pairs.size()) return pairs;
-  const auto shorter = [](const NearPair& p, const NearPair& q) { return dot(p.rest, p.rest) < dot(q.rest, q.rest); };
-  std::nth_element(pairs.begin(), pairs.begin() + static_cast<std::ptrdiff_t>(count), pairs.end(), shorter);
+  const auto shorter = [](const NearPair& p, const NearPair& q) {
+    return dot(p.rest, p.rest) < dot(q.rest, q.rest);
+  };
+  std::nth_element(pairs.begin(), pairs.begin() + static_cast<std::ptrdiff_t>(count), pairs.end(),
+                   shorter);
   pairs.resize(count);
   return pairs;
 }
 
-/// The shortest pairs of points that give them a mean number of neighbours. Throws std::invalid_argument if that many are not to be had.
-inline std::vector<NearPair> pairs_with_coordination(std::span<const Vec3> points, Vec3 low, Vec3 high, double spacing, double coordination) {
-  const auto wanted = static_cast<std::size_t>(std::llround(coordination * static_cast<double>(points.size()) / 2));
+/// The shortest pairs of points that give them a mean number of neighbours. Throws
+/// std::invalid_argument if that many are not to be had.
+inline std::vector<NearPair> pairs_with_coordination(std::span<const Vec3> points, Vec3 low,
+                                                     Vec3 high, double spacing,
+                                                     double coordination) {
+  const auto wanted =
+      static_cast<std::size_t>(std::llround(coordination * static_cast<double>(points.size()) / 2));
   if (points.size() < 2 || wanted > points.size() * (points.size() - 1) / 2)
     throw std::invalid_argument("coordination is more than the number of particles can have");
-  double reach = 1.2 * spacing * std::cbrt(3 * (coordination + 1) / (4 * 3.141592653589793));  // of an endless body, and some more
+  double reach = 1.2 * spacing *
+                 std::cbrt(3 * (coordination + 1) /
+                           (4 * 3.141592653589793));  // of an endless body, and some more
   for (;; reach *= 1.3) {
     std::vector<NearPair> pairs = near_pairs(points, low, high, reach);
     if (pairs.size() >= wanted) return shortest(std::move(pairs), wanted);

@@ -1,12 +1,13 @@
-// Options are declared once. From one declaration come parsing, units, validation, `hyperlattice plugins NAME`,
-// the JSON Schema and the page in docs/components.
+// Options are declared once. From one declaration come parsing, units, validation, `hyperlattice
+// plugins NAME`, the JSON Schema and the page in docs/components.
 //
 //   struct Options { double peak; std::optional<double> area; std::string law; };
 //   static Schema<Options> schema() {
 //     return Schema<Options>("loads.my_pulse", "Triangular pressure pulse on a surface")
 //         .add<&Options::peak>("peak", "Pa", "largest pressure").at_least(0)
-//         .add<&Options::area>("area", "m2", "true area of the surface").positive()      // optional: absent if not given
-//         .add<&Options::law>("law", "", "how it falls").choices(kLaws).fallback("\"linear\"");
+//         .add<&Options::area>("area", "m2", "true area of the surface").positive()      //
+//         optional: absent if not given .add<&Options::law>("law", "", "how it
+//         falls").choices(kLaws).fallback("\"linear\"");
 //   }
 #pragma once
 
@@ -20,9 +21,22 @@
 
 namespace hyperlattice {
 
-enum class OptionKind : std::uint32_t { number, integer, boolean, text, choice, vector, numbers, texts, shape, region, file };
+enum class OptionKind : std::uint32_t {
+  number,
+  integer,
+  boolean,
+  text,
+  choice,
+  vector,
+  numbers,
+  texts,
+  shape,
+  region,
+  file
+};
 
-/// A validated value in SI units, handed by the core to an option's setter. Texts and shapes outlive the component.
+/// A validated value in SI units, handed by the core to an option's setter. Texts and shapes
+/// outlive the component.
 struct OptionValue {
   bool absent = false;  ///< not given, or given as the option's `word` ("auto")
   bool boolean = false;
@@ -38,11 +52,13 @@ struct OptionValue {
 /// One declared option. Every pointer stays valid while the plugin is loaded, which is for ever.
 struct Option {
   std::string_view name;
-  std::string_view unit;  ///< SI unit that fixes the dimension: "m", "Pa", "kg/m3"; empty: dimensionless or not a number
+  std::string_view unit;  ///< SI unit that fixes the dimension: "m", "Pa", "kg/m3"; empty:
+                          ///< dimensionless or not a number
   std::string_view help;
   std::string_view fallback;  ///< default as JSON text; empty: required, or absent if `optional`
   std::string_view word;      ///< a word accepted in place of the value: "auto"
-  std::string_view example;   ///< a value for examples and contract tests, as JSON text; empty: one is made up from the range
+  std::string_view example;   ///< a value for examples and contract tests, as JSON text; empty: one
+                              ///< is made up from the range
   std::span<const std::string_view> choices;
   double low = -infinity, high = infinity;
   bool low_open = false, high_open = false;  ///< whether the bound itself is outside the range
@@ -54,9 +70,12 @@ struct Option {
 /// A fault that a cross-field check found: which option, and what was expected of it.
 struct FaultSink {
   void* self = nullptr;
-  void (*receive)(void* self, std::string_view option, std::string_view expected) noexcept = nullptr;
+  void (*receive)(void* self, std::string_view option,
+                  std::string_view expected) noexcept = nullptr;
 
-  void fault(std::string_view option, std::string_view expected) const { receive(self, option, expected); }
+  void fault(std::string_view option, std::string_view expected) const {
+    receive(self, option, expected);
+  }
 };
 
 namespace detail {
@@ -98,12 +117,15 @@ constexpr OptionKind kind_of() {
   }
 }
 
-/// Bounds of an option that holds whole numbers: those of its type, so that no value wraps. Values arrive as std::int64_t, whose own end is no bound.
+/// Bounds of an option that holds whole numbers: those of its type, so that no value wraps. Values
+/// arrive as std::int64_t, whose own end is no bound.
 template <class T>
 constexpr void bound_by_type(Option& option) {
   if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
-    if (std::is_unsigned_v<T> || sizeof(T) < sizeof(std::int64_t)) option.low = static_cast<double>(std::numeric_limits<T>::lowest());
-    if (sizeof(T) < sizeof(std::int64_t)) option.high = static_cast<double>(std::numeric_limits<T>::max());
+    if (std::is_unsigned_v<T> || sizeof(T) < sizeof(std::int64_t))
+      option.low = static_cast<double>(std::numeric_limits<T>::lowest());
+    if (sizeof(T) < sizeof(std::int64_t))
+      option.high = static_cast<double>(std::numeric_limits<T>::max());
   }
 }
 
@@ -169,7 +191,8 @@ class Schema {
     return *this;
   }
 
-  /// Declares the member as an option. A std::optional member may be left out of a scene; any other needs a fallback or is required.
+  /// Declares the member as an option. A std::optional member may be left out of a scene; any other
+  /// needs a fallback or is required.
   template <auto Member>
   Schema& add(std::string_view name, std::string_view unit, std::string_view help) {
     using Declared = decltype(detail::member_type(Member));
@@ -184,7 +207,8 @@ class Schema {
     options_.push_back(option);
     return *this;
   }
-  // Each of these says more about the option added last. Bounds only narrow those of an integer's type.
+  // Each of these says more about the option added last. Bounds only narrow those of an integer's
+  // type.
   Schema& fallback(std::string_view json) {
     last().fallback = json;
     return *this;
@@ -193,8 +217,8 @@ class Schema {
     last().word = text;
     return *this;
   }
-  /// A value with which the component does what it is for, to solids of 1 mm and 10 GPa: it stands in the page's example, and
-  /// `hyperlattice plugins --test` runs with it.
+  /// A value with which the component does what it is for, to solids of 1 mm and 10 GPa: it stands
+  /// in the page's example, and `hyperlattice plugins --test` runs with it.
   Schema& example(std::string_view json) {
     last().example = json;
     return *this;
@@ -224,14 +248,16 @@ class Schema {
     last().high_open = true;
     return *this;
   }
-  /// Names allowed for a text, for each of a list of texts, or for an enum member in the order of the enum's values. The array must be static.
+  /// Names allowed for a text, for each of a list of texts, or for an enum member in the order of
+  /// the enum's values. The array must be static.
   template <std::size_t N>
   Schema& choices(const std::string_view (&names)[N]) {
     if (last().kind == OptionKind::text) last().kind = OptionKind::choice;
     last().choices = names;
     return *this;
   }
-  /// The text names a file: relative to the scene's folder, it must exist. The component gets its whole path.
+  /// The text names a file: relative to the scene's folder, it must exist. The component gets its
+  /// whole path.
   Schema& file() {
     last().kind = OptionKind::file;
     return *this;

@@ -1,9 +1,11 @@
-// Contact by penalty, of bodies with floors and with each other: what is a depth p inside is pushed out, and rubs.
+// Contact by penalty, of bodies with floors and with each other: what is a depth p inside is pushed
+// out, and rubs.
 //
 //   N = max(0, c p - b v_n)                        outwards, b = 2 damping sqrt(c m)
 //   T = min(mu N, h |v_t|) against v_t             h = grip sqrt(c m)
 //
-// Below the limit mu N friction is viscous, so that what rests creeps with mu N / h, a tiny speed, and time steps stay stable.
+// Below the limit mu N friction is viscous, so that what rests creeps with mu N / h, a tiny speed,
+// and time steps stay stable.
 #pragma once
 
 #include <hyperlattice/files.hpp>
@@ -16,17 +18,22 @@
 
 namespace hyperlattice {
 
-/// c of a whole particle, N/m: as asked, or that of the stiffest base spring of the region. std::invalid_argument if there is none. Warns of a
-/// contact that is far softer than the body.
-inline double contact_stiffness(const LoadBody& body, RegionId region, std::optional<double> asked, const LoadSink& sink) {
+/// c of a whole particle, N/m: as asked, or that of the stiffest base spring of the region.
+/// std::invalid_argument if there is none. Warns of a contact that is far softer than the body.
+inline double contact_stiffness(const LoadBody& body, RegionId region, std::optional<double> asked,
+                                const LoadSink& sink) {
   double stiffest = 0;
-  for (const RestSpring& spring : body.springs(region)) stiffest = std::max(stiffest, spring.stiffness / spring.share);
+  for (const RestSpring& spring : body.springs(region))
+    stiffest = std::max(stiffest, spring.stiffness / spring.share);
   const double stiffness = asked.value_or(stiffest);
-  if (!(stiffness > 0)) throw std::invalid_argument("stiffness as a number: the region has no springs to take it from");
+  if (!(stiffness > 0))
+    throw std::invalid_argument("stiffness as a number: the region has no springs to take it from");
   constexpr double soft = 1e-4;
   if (stiffness < soft * stiffest)
-    sink.warn("its stiffness of " + short_number(stiffness, 3) + " N/m is " + short_number(stiffness / stiffest, 2) +
-              " of the body's stiffest spring: particles may pass through each other or through the floor");
+    sink.warn("its stiffness of " + short_number(stiffness, 3) + " N/m is " +
+              short_number(stiffness / stiffest, 2) +
+              " of the body's stiffest spring: particles may pass through each other or through "
+              "the floor");
   return stiffness;
 }
 
@@ -42,7 +49,8 @@ struct PenaltyContact {
     grip = grip_share * measure;
   }
 
-  /// The force, N, at a depth above 0, m; `away`: of length 1, outwards; v: velocity against what is touched, m/s. friction(v_t): the coefficient mu.
+  /// The force, N, at a depth above 0, m; `away`: of length 1, outwards; v: velocity against what
+  /// is touched, m/s. friction(v_t): the coefficient mu.
   template <class Friction>
   Vec3 force(double depth, Vec3 away, Vec3 v, const Friction& friction) const {
     const double outwards = dot(v, away), N = std::max(0.0, stiffness * depth - damping * outwards);

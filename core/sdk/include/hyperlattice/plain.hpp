@@ -1,4 +1,5 @@
-// Plain types that cross the boundary between the core and a plugin: no allocation, no exceptions, no library types.
+// Plain types that cross the boundary between the core and a plugin: no allocation, no exceptions,
+// no library types.
 #pragma once
 
 #include <cmath>
@@ -23,7 +24,9 @@ struct Vec3 {
 };
 
 constexpr double dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-constexpr Vec3 cross(Vec3 a, Vec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+constexpr Vec3 cross(Vec3 a, Vec3 b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
 inline double norm(Vec3 a) { return std::sqrt(dot(a, a)); }
 
 /// Index of a particle: its place in the order z, then y, then x of the lattice.
@@ -34,8 +37,8 @@ struct RegionId {
   std::uint32_t index = 0;
 };
 
-/// A solid described by the scene. `anchor` is where a lattice puts a corner of its cells: the centre of round shapes,
-/// the low corner of boxes, so that a box of whole cells is filled exactly.
+/// A solid described by the scene. `anchor` is where a lattice puts a corner of its cells: the
+/// centre of round shapes, the low corner of boxes, so that a box of whole cells is filled exactly.
 struct Shape {
   const void* self = nullptr;
   bool (*contains_point)(const void* self, Vec3 point) noexcept = nullptr;
@@ -56,8 +59,9 @@ struct Complaint {
 /// The sentence of a function that got no memory. The host tells it from any other.
 inline constexpr std::string_view out_of_memory = "std::bad_alloc";
 
-// Errors, in both directions. Every function of a plugin that the host calls returns whether it did its work and takes a Complaint; an exception
-// becomes the complaint's sentence. Functions of the host that a plugin calls throw nothing: the host keeps its error until the plugin's function has
+// Errors, in both directions. Every function of a plugin that the host calls returns whether it did
+// its work and takes a Complaint; an exception becomes the complaint's sentence. Functions of the
+// host that a plugin calls throw nothing: the host keeps its error until the plugin's function has
 // returned. They are called on the thread on which the plugin's function was called.
 
 namespace detail {

@@ -1,4 +1,5 @@
-// What solvers that look for a state of rest have in common: what they cannot do, and when they end.
+// What solvers that look for a state of rest have in common: what they cannot do, and when they
+// end.
 #pragma once
 
 #include <hyperlattice/files.hpp>
@@ -10,17 +11,24 @@
 
 namespace hyperlattice {
 
-/// A plan at rest up to `end_time`, s; by default to when the last load has stopped changing. Throws std::runtime_error for a body of which the core
-/// has no statics, and for an end before the start.
+/// A plan at rest up to `end_time`, s; by default to when the last load has stopped changing.
+/// Throws std::runtime_error for a body of which the core has no statics, and for an end before the
+/// start.
 inline SolverPlan plan_of_rest(const SolverFacts& facts, std::optional<double> end_time) {
-  if (!facts.tangents) throw std::runtime_error("a law without memory; with this one a body comes to rest by steps in time with damping");
+  if (!facts.tangents)
+    throw std::runtime_error(
+        "a law without memory; with this one a body comes to rest by steps in time with damping");
   if (facts.answering)
-    throw std::runtime_error("loads that do not answer to the motion; with such loads a body comes to rest by steps in time with damping");
+    throw std::runtime_error(
+        "loads that do not answer to the motion; with such loads a body comes to rest by steps in "
+        "time with damping");
   SolverPlan plan;
   plan.at_rest = true;
-  plan.end_time = end_time.value_or(facts.corners.empty() ? facts.start_time : std::max(facts.start_time, facts.corners.back()));
+  plan.end_time = end_time.value_or(
+      facts.corners.empty() ? facts.start_time : std::max(facts.start_time, facts.corners.back()));
   if (plan.end_time < facts.start_time)
-    throw std::runtime_error("end_time of at least " + short_number(facts.start_time) + " s, where the stage starts");
+    throw std::runtime_error("end_time of at least " + short_number(facts.start_time) +
+                             " s, where the stage starts");
   return plan;
 }
 

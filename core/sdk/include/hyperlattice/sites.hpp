@@ -8,7 +8,8 @@
 namespace hyperlattice {
 
 inline constexpr std::size_t max_spring_classes = 4;
-inline constexpr std::size_t max_neighbours = 15;  ///< forward neighbours; one bit each in a site's alive bits
+inline constexpr std::size_t max_neighbours =
+    15;  ///< forward neighbours; one bit each in a site's alive bits
 
 /// A forward neighbour: the site that follows in the order z, y, x, so that each pair stands once.
 struct Neighbour {
@@ -16,8 +17,9 @@ struct Neighbour {
   std::uint32_t spring_class = 0;       ///< which stiffness: cubic has 0 orthogonal, 1 diagonal
 };
 
-/// How a body ends. particles: where its last particles are, each a whole one, with whole springs. cells: it is a union of cells, each spanning the
-/// sites (i, j, k) to (i + 1, j + 1, k + 1), with particles at their corners; particles and springs at its surface count by the share of their
+/// How a body ends. particles: where its last particles are, each a whole one, with whole springs.
+/// cells: it is a union of cells, each spanning the sites (i, j, k) to (i + 1, j + 1, k + 1), with
+/// particles at their corners; particles and springs at its surface count by the share of their
 /// cells that are there.
 enum class Boundary : std::uint32_t { particles, cells };
 
@@ -25,6 +27,8 @@ enum class Boundary : std::uint32_t { particles, cells };
 using Basis = std::array<Vec3, 3>;
 inline constexpr Basis cubic_basis{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
 
-constexpr Vec3 combined(const Basis& basis, double i, double j, double k) { return i * basis[0] + j * basis[1] + k * basis[2]; }
+constexpr Vec3 combined(const Basis& basis, double i, double j, double k) {
+  return i * basis[0] + j * basis[1] + k * basis[2];
+}
 
 }  // namespace hyperlattice

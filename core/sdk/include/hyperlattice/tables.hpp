@@ -1,5 +1,6 @@
-// Tables in files: lines of cells, the first line names the columns. As spreadsheets and programs write them: a byte order mark, cells in quotation
-// marks, commas, semicolons, tabs or blanks between cells, blank lines, comments, "+" before numbers, "#" before the names.
+// Tables in files: lines of cells, the first line names the columns. As spreadsheets and programs
+// write them: a byte order mark, cells in quotation marks, commas, semicolons, tabs or blanks
+// between cells, blank lines, comments, "+" before numbers, "#" before the names.
 #pragma once
 
 #include <algorithm>
@@ -16,35 +17,45 @@
 
 namespace hyperlattice {
 
-/// The number of a cell; nothing if it holds none, or one that is not finite. Numbers have a decimal point.
+/// The number of a cell; nothing if it holds none, or one that is not finite. Numbers have a
+/// decimal point.
 inline std::optional<double> table_number(std::string_view cell) {
   if (cell.size() > 1 && cell.front() == '+' && cell[1] != '-') cell.remove_prefix(1);
   double number = 0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
-  if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(number)) return std::nullopt;
+  if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(number))
+    return std::nullopt;
   return number;
 }
 
 /// The place of a column of that name, or else of one that differs in capital letters only.
-inline std::optional<std::size_t> find_column(std::span<const std::string> columns, std::string_view name) {
-  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+inline std::optional<std::size_t> find_column(std::span<const std::string> columns,
+                                              std::string_view name) {
+  const auto lower = [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  };
   const auto alike = [&](char a, char b) { return lower(a) == lower(b); };
   for (const bool exactly : {true, false})
     for (std::size_t n = 0; n < columns.size(); ++n)
-      if (exactly ? columns[n] == name : std::equal(name.begin(), name.end(), columns[n].begin(), columns[n].end(), alike)) return n;
+      if (exactly
+              ? columns[n] == name
+              : std::equal(name.begin(), name.end(), columns[n].begin(), columns[n].end(), alike))
+        return n;
   return std::nullopt;
 }
 
-/// Whether a column looked up by this name is one of several: two are called so, or none is and two differ in capital letters only.
+/// Whether a column looked up by this name is one of several: two are called so, or none is and two
+/// differ in capital letters only.
 inline bool is_ambiguous_column(std::span<const std::string> columns, std::string_view name) {
   const auto found = find_column(columns, name);
   if (!found) return false;
   const auto others = columns.subspan(*found + 1);
-  return columns[*found] == name ? std::find(others.begin(), others.end(), name) != others.end() : find_column(others, name).has_value();
+  return columns[*found] == name ? std::find(others.begin(), others.end(), name) != others.end()
+                                 : find_column(others, name).has_value();
 }
 
-/// Whether a column is likely to be meant by the other name: letters are wrong or swapped (one, of a long name two), its end is cut off, or a unit
-/// follows it.
+/// Whether a column is likely to be meant by the other name: letters are wrong or swapped (one, of
+/// a long name two), its end is cut off, or a unit follows it.
 inline bool is_nearly_column(std::string_view column, std::string_view meant) {
   column = column.substr(0, std::min(column.find_first_of(" ([", 1), column.size()));
   const auto letter = [](std::string_view text, std::size_t n) {
@@ -52,7 +63,8 @@ inline bool is_nearly_column(std::string_view column, std::string_view meant) {
   };
   const std::size_t most = meant.size() < 8 ? 1 : 2, fewest_letters = 3;
   if (column.size() < fewest_letters || column.size() > meant.size() + most) return false;
-  std::vector<std::size_t> before, above(meant.size() + 1), row(meant.size() + 1);  // edits from the beginnings of one to those of the other
+  std::vector<std::size_t> before, above(meant.size() + 1),
+      row(meant.size() + 1);  // edits from the beginnings of one to those of the other
   for (std::size_t j = 0; j <= meant.size(); ++j) row[j] = j;
   for (std::size_t i = 1; i <= column.size(); ++i) {
     before = std::move(above);
@@ -61,7 +73,8 @@ inline bool is_nearly_column(std::string_view column, std::string_view meant) {
     for (std::size_t j = 1; j <= meant.size(); ++j) {
       const bool same = letter(column, i - 1) == letter(meant, j - 1);
       row[j] = std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + (same ? 0u : 1u)});
-      if (i > 1 && j > 1 && letter(column, i - 1) == letter(meant, j - 2) && letter(column, i - 2) == letter(meant, j - 1))
+      if (i > 1 && j > 1 && letter(column, i - 1) == letter(meant, j - 2) &&
+          letter(column, i - 2) == letter(meant, j - 1))
         row[j] = std::min(row[j], before[j - 2] + 1);
     }
   }
@@ -82,9 +95,12 @@ inline std::string shown_cell(std::string_view cell, std::size_t most = 40) {
   return shown;
 }
 
-/// Why no table can be read from a file that begins with these bytes; empty: nothing speaks against it.
+/// Why no table can be read from a file that begins with these bytes; empty: nothing speaks against
+/// it.
 inline std::string table_encoding_fault(std::string_view bytes) {
-  return bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF") ? "it is a text in UTF-16: save it in ASCII or UTF-8" : "";
+  return bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")
+             ? "it is a text in UTF-16: save it in ASCII or UTF-8"
+             : "";
 }
 
 /// The lines of a text file. They end with LF, CR or both.
@@ -110,8 +126,8 @@ class TableLines {
   std::size_t at_ = 1;
 };
 
-/// The columns of a table, and how its lines are cut into cells: the separator is the first of tab, semicolon, comma and blank that its first line
-/// has.
+/// The columns of a table, and how its lines are cut into cells: the separator is the first of tab,
+/// semicolon, comma and blank that its first line has.
 class TableColumns {
  public:
   explicit TableColumns(std::string_view first_line) {
@@ -136,25 +152,30 @@ class TableColumns {
     return count;
   }
 
-  /// Why a row of these cells has more than there are columns; empty: it has not. Empty cells at its end do not count.
+  /// Why a row of these cells has more than there are columns; empty: it has not. Empty cells at
+  /// its end do not count.
   std::string excess(std::span<const std::string> cells) const {
     const std::size_t most = count();
     std::size_t given = cells.size();
     while (given > most && cells[given - 1].empty()) --given;
     if (given <= most) return "";
-    return "a row of at most " + std::to_string(most) + (most == 1 ? " cell" : " cells") + ", one a column, not of " + std::to_string(given) +
+    return "a row of at most " + std::to_string(most) + (most == 1 ? " cell" : " cells") +
+           ", one a column, not of " + std::to_string(given) +
            (separator_ == ',' ? " (decimal commas? numbers have a decimal point)" : "");
   }
 
   bool has_all(std::span<const std::string_view> names) const {
-    return std::all_of(names.begin(), names.end(), [&](std::string_view name) { return find(name).has_value(); });
+    return std::all_of(names.begin(), names.end(),
+                       [&](std::string_view name) { return find(name).has_value(); });
   }
 
   /// The cells of a line, without blanks around them and without their quotation marks.
   std::vector<std::string> cells(std::string_view line) const {
     std::vector<std::string> found;
     if (separator_ == '\t')
-      line = line.substr(0, std::min(line.find('\r'), line.size()));  // a tab at either end stands beside an empty cell
+      line =
+          line.substr(0, std::min(line.find('\r'),
+                                  line.size()));  // a tab at either end stands beside an empty cell
     else
       line = trimmed(line);
     for (bool more = true; more;) {
@@ -167,7 +188,9 @@ class TableColumns {
 
   static bool is_blank(std::string_view line) { return trimmed(without_mark(line)).empty(); }
   /// Whether a line begins with "#". Such a line above all others may still name the columns.
-  static bool is_comment(std::string_view line) { return trimmed(without_mark(line)).starts_with('#'); }
+  static bool is_comment(std::string_view line) {
+    return trimmed(without_mark(line)).starts_with('#');
+  }
   /// Whether a line below the names holds no cells.
   static bool is_empty(std::string_view line) { return is_blank(line) || is_comment(line); }
 
@@ -191,11 +214,16 @@ class TableColumns {
   }
   static std::string_view trimmed(std::string_view text) {
     const auto first = text.find_first_not_of(blank_);
-    return first == std::string_view::npos ? std::string_view() : text.substr(first, text.find_last_not_of(blank_) - first + 1);
+    return first == std::string_view::npos
+               ? std::string_view()
+               : text.substr(first, text.find_last_not_of(blank_) - first + 1);
   }
   /// Cuts the first cell off the line; whether there is another.
   bool take_cell(std::string_view& line, std::string& cell) const {
-    const auto after_blanks = [&] { line.remove_prefix(std::min(line.find_first_not_of(separator_ == '\t' ? " " : " \t"), line.size())); };
+    const auto after_blanks = [&] {
+      line.remove_prefix(
+          std::min(line.find_first_not_of(separator_ == '\t' ? " " : " \t"), line.size()));
+    };
     after_blanks();
     if (line.starts_with('"')) {
       line.remove_prefix(1);
@@ -222,13 +250,17 @@ class TableColumns {
   std::vector<std::string> names_;
 };
 
-/// The columns asked for, one vector each in their order; a missing one that may be missing is empty. The first line that is neither blank nor a
-/// comment names the columns; if it does not name all required columns, but a comment above it does, that comment names them. Throws
-/// std::invalid_argument with the file, the lines (the first few that are wrong) and what was expected there, also where a column is nearly called as
-/// one that may be missing, or if the file cannot be read to its end.
+/// The columns asked for, one vector each in their order; a missing one that may be missing is
+/// empty. The first line that is neither blank nor a comment names the columns; if it does not name
+/// all required columns, but a comment above it does, that comment names them. Throws
+/// std::invalid_argument with the file, the lines (the first few that are wrong) and what was
+/// expected there, also where a column is nearly called as one that may be missing, or if the file
+/// cannot be read to its end.
 class NumberTable {
  public:
-  NumberTable(const std::string& file, std::span<const std::string_view> required, std::span<const std::string_view> optional = {}) : file_(file) {
+  NumberTable(const std::string& file, std::span<const std::string_view> required,
+              std::span<const std::string_view> optional = {})
+      : file_(file) {
     std::ifstream in(file, std::ios::binary);
     if (!in) throw std::invalid_argument("file " + file + " cannot be read");
     check_encoding(in);
@@ -236,7 +268,8 @@ class NumberTable {
     std::string line;
     std::size_t number = 0, header_number = 1;
     TableColumns header("");
-    bool is_named = false, is_row = false;  // whether `header` has all required columns, and whether `line` is a row below a comment that has them
+    bool is_named = false, is_row = false;  // whether `header` has all required columns, and
+                                            // whether `line` is a row below a comment that has them
     for (bool is_comment = true; is_comment && lines.next(line);) {
       ++number;
       if (TableColumns::is_blank(line)) continue;
@@ -251,7 +284,9 @@ class NumberTable {
     }
     check_reading(in);
     for (const std::string_view name : required) {
-      if (!header.find(name)) complain(header_number, "a column \"" + std::string(name) + "\", named in the first line; it names " + header.text());
+      if (!header.find(name))
+        complain(header_number, "a column \"" + std::string(name) +
+                                    "\", named in the first line; it names " + header.text());
       take_column(name, header, header_number);
     }
     for (const std::string_view name : optional) {
@@ -264,7 +299,8 @@ class NumberTable {
       if (!TableColumns::is_empty(line)) read_line(header, line, number);
     }
     check_reading(in);
-    if (bad_rows_ > most_shown) complaints_ += "; and " + std::to_string(bad_rows_ - most_shown) + " such lines more";
+    if (bad_rows_ > most_shown)
+      complaints_ += "; and " + std::to_string(bad_rows_ - most_shown) + " such lines more";
     if (bad_rows_ > 0) throw std::invalid_argument("file " + file_ + complaints_);
   }
 
@@ -279,7 +315,9 @@ class NumberTable {
   std::size_t line(std::size_t row) const { return lines_[row]; }
 
   /// Throws std::invalid_argument with the file, the row's line and what was expected there.
-  [[noreturn]] void refuse(std::size_t row, const std::string& expected) const { complain(lines_[row], expected); }
+  [[noreturn]] void refuse(std::size_t row, const std::string& expected) const {
+    complain(lines_[row], expected);
+  }
 
  private:
   static constexpr std::size_t most_shown = 5;  // rows that a message names
@@ -293,7 +331,8 @@ class NumberTable {
   void check_encoding(std::ifstream& in) const {
     std::array<char, 2> mark{};
     in.read(mark.data(), mark.size());
-    const std::string fault = table_encoding_fault({mark.data(), static_cast<std::size_t>(in.gcount())});
+    const std::string fault =
+        table_encoding_fault({mark.data(), static_cast<std::size_t>(in.gcount())});
     if (!fault.empty()) throw std::invalid_argument("file " + file_ + " cannot be read: " + fault);
     check_reading(in);
     in.clear();
@@ -302,27 +341,38 @@ class NumberTable {
   void check_reading(const std::ifstream& in) const {
     if (in.bad()) throw std::invalid_argument("file " + file_ + " cannot be read to its end");
   }
-  static std::string complaint(std::size_t line, const std::string& expected) { return "line " + std::to_string(line) + ": expected " + expected; }
+  static std::string complaint(std::size_t line, const std::string& expected) {
+    return "line " + std::to_string(line) + ": expected " + expected;
+  }
   [[noreturn]] void complain(std::size_t line, const std::string& expected) const {
     throw std::invalid_argument("file " + file_ + ", " + complaint(line, expected));
   }
   void take_column(std::string_view name, const TableColumns& header, std::size_t line) {
-    if (is_ambiguous_column(header.names(), name)) complain(line, "one column \"" + std::string(name) + "\", not several; it names " + header.text());
+    if (is_ambiguous_column(header.names(), name))
+      complain(line,
+               "one column \"" + std::string(name) + "\", not several; it names " + header.text());
     columns_.push_back({name, header.find(name), {}});
   }
-  void refuse_nearly(std::string_view name, const TableColumns& header, std::size_t line, std::span<const std::string_view> required,
+  void refuse_nearly(std::string_view name, const TableColumns& header, std::size_t line,
+                     std::span<const std::string_view> required,
                      std::span<const std::string_view> optional) const {
     for (const std::string& column : header.names()) {
-      const auto is_it = [&column](std::string_view asked) { return find_column({&column, 1}, asked).has_value(); };
-      if (std::any_of(required.begin(), required.end(), is_it) || std::any_of(optional.begin(), optional.end(), is_it)) continue;
+      const auto is_it = [&column](std::string_view asked) {
+        return find_column({&column, 1}, asked).has_value();
+      };
+      if (std::any_of(required.begin(), required.end(), is_it) ||
+          std::any_of(optional.begin(), optional.end(), is_it))
+        continue;
       if (is_nearly_column(column, name))
-        complain(line, "the name \"" + std::string(name) + "\" for column \"" + shown_cell(column) + "\", or one that is less like it");
+        complain(line, "the name \"" + std::string(name) + "\" for column \"" + shown_cell(column) +
+                           "\", or one that is less like it");
     }
   }
   void read_line(const TableColumns& header, const std::string& line, std::size_t number) {
     const std::vector<std::string> cells = header.cells(line);
     const std::string fault = read_cells(header, cells);
-    if (!fault.empty() && ++bad_rows_ <= most_shown) complaints_ += (complaints_.empty() ? ", " : "; ") + complaint(number, fault);
+    if (!fault.empty() && ++bad_rows_ <= most_shown)
+      complaints_ += (complaints_.empty() ? ", " : "; ") + complaint(number, fault);
     lines_.push_back(number);
   }
   /// What was expected of a row that cannot be read; empty: it was read.
@@ -333,7 +383,8 @@ class NumberTable {
       const std::string cell = *column.place < cells.size() ? cells[*column.place] : "";
       const auto value = table_number(cell);
       if (!value)
-        return "a number in column \"" + std::string(column.name) + "\", not \"" + shown_cell(cell) + "\"" +
+        return "a number in column \"" + std::string(column.name) + "\", not \"" +
+               shown_cell(cell) + "\"" +
                (cell.find(',') == std::string::npos ? "" : "; numbers have a decimal point");
       column.numbers.push_back(*value);
     }

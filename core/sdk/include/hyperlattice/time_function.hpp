@@ -1,9 +1,11 @@
-// Functions of time as loads name them: shapes of height 1, which a load multiplies by its own amplitude.
+// Functions of time as loads name them: shapes of height 1, which a load multiplies by its own
+// amplitude.
 //
 //   struct Options : TimeOptions { ... };
-//   static Schema<Options> schema() { ... add_time_options(schema); schema.check(check_time_options<Options>); ... }
-//   void declare(const LoadBody&, const LoadSink& sink) const { ... time_.corners(sink); }
-//   double factor(double time) const { return time_(time); }
+//   static Schema<Options> schema() { ... add_time_options(schema);
+//   schema.check(check_time_options<Options>); ... } void declare(const LoadBody&, const LoadSink&
+//   sink) const { ... time_.corners(sink); } double factor(double time) const { return time_(time);
+//   }
 #pragma once
 
 #include <hyperlattice/load.hpp>
@@ -14,7 +16,8 @@
 namespace hyperlattice {
 
 enum class TimeForm : std::uint32_t { constant, triangle, half_sine, harmonic, table };
-inline constexpr std::string_view time_form_names[] = {"constant", "triangle", "half_sine", "harmonic", "table"};
+inline constexpr std::string_view time_form_names[] = {"constant", "triangle", "half_sine",
+                                                       "harmonic", "table"};
 
 struct TimeOptions {
   TimeForm form = TimeForm::constant;
@@ -34,23 +37,29 @@ void add_time_options(Schema<Options>& schema) {
       .at_least(0)
       .fallback("0")
       .template add<&Options::rise>("rise", "s",
-                                    "of triangle: from nothing to the peak; of constant and harmonic: to the full size, at once if left out")
+                                    "of triangle: from nothing to the peak; of constant and "
+                                    "harmonic: to the full size, at once if left out")
       .positive()
       .template add<&Options::fall>("fall", "s", "of triangle: from the peak to nothing")
       .positive()
       .template add<&Options::duration>("duration", "s",
-                                        "of half_sine: its length; of constant and harmonic: after it nothing, without end if left out")
+                                        "of half_sine: its length; of constant and harmonic: after "
+                                        "it nothing, without end if left out")
       .positive()
       .template add<&Options::frequency>("frequency", "Hz", "of harmonic")
       .positive()
       .template add<&Options::phase>("phase", "rad", "of harmonic: at start; 0 if left out")
-      .template add<&Options::times>("times", "s", "of table: ascending, counted from start; after the last nothing")
+      .template add<&Options::times>(
+          "times", "s", "of table: ascending, counted from start; after the last nothing")
       .fallback("[]")
-      .template add<&Options::values>("values", "", "of table: one for each time, over the load's amplitude")
+      .template add<&Options::values>("values", "",
+                                      "of table: one for each time, over the load's amplitude")
       .fallback("[]")
       .template add<&Options::period>("period", "s", "from one pulse to the next")
       .positive()
-      .template add<&Options::pulses>("pulses", "", "how often triangle, half_sine or table follows; more than one needs a period")
+      .template add<&Options::pulses>(
+          "pulses", "",
+          "how often triangle, half_sine or table follows; more than one needs a period")
       .at_least(1)
       .at_most(100000)
       .fallback("1");
@@ -74,24 +83,32 @@ void check_time_options(const Options& options, const FaultSink& faults) {
   const TimeOptions& o = options;
   const std::string_view form = time_form_names[static_cast<std::size_t>(o.form)];
   const auto is = [&](auto... forms) { return ((o.form == forms) || ...); };
-  const auto say = [&](std::string_view option, const std::string& what) { faults.fault(option, what + " with the form " + std::string(form)); };
+  const auto say = [&](std::string_view option, const std::string& what) {
+    faults.fault(option, what + " with the form " + std::string(form));
+  };
   const auto rule = [&](std::string_view option, bool given, bool needed, bool allowed) {
     if (needed && !given) say(option, "it is needed");
     if (given && !allowed) say(option, "it left out");
   };
-  rule("rise", o.rise.has_value(), is(TimeForm::triangle), is(TimeForm::triangle, TimeForm::constant, TimeForm::harmonic));
+  rule("rise", o.rise.has_value(), is(TimeForm::triangle),
+       is(TimeForm::triangle, TimeForm::constant, TimeForm::harmonic));
   rule("fall", o.fall.has_value(), is(TimeForm::triangle), is(TimeForm::triangle));
-  rule("duration", o.duration.has_value(), is(TimeForm::half_sine), is(TimeForm::half_sine, TimeForm::constant, TimeForm::harmonic));
+  rule("duration", o.duration.has_value(), is(TimeForm::half_sine),
+       is(TimeForm::half_sine, TimeForm::constant, TimeForm::harmonic));
   rule("frequency", o.frequency.has_value(), is(TimeForm::harmonic), is(TimeForm::harmonic));
   rule("phase", o.phase.has_value(), false, is(TimeForm::harmonic));
   rule("times", !o.times.empty(), is(TimeForm::table), is(TimeForm::table));
   rule("values", !o.values.empty(), is(TimeForm::table), is(TimeForm::table));
-  rule("period", o.period.has_value(), o.pulses > 1, is(TimeForm::triangle, TimeForm::half_sine, TimeForm::table));
-  if (o.times.size() != o.values.size()) faults.fault("values", "as many as there are times, " + std::to_string(o.times.size()));
+  rule("period", o.period.has_value(), o.pulses > 1,
+       is(TimeForm::triangle, TimeForm::half_sine, TimeForm::table));
+  if (o.times.size() != o.values.size())
+    faults.fault("values", "as many as there are times, " + std::to_string(o.times.size()));
   for (std::size_t n = 1; n < o.times.size(); ++n)
     if (!(o.times[n] > o.times[n - 1])) return faults.fault("times", "times that ascend");
-  if (!o.times.empty() && o.times[0] < 0) faults.fault("times", "times of at least 0: they count from start");
-  if (o.period && *o.period < pulse_length(o) * (1 - 1e-12)) faults.fault("period", "at least as long as one pulse");
+  if (!o.times.empty() && o.times[0] < 0)
+    faults.fault("times", "times of at least 0: they count from start");
+  if (o.period && *o.period < pulse_length(o) * (1 - 1e-12))
+    faults.fault("period", "at least as long as one pulse");
 }
 
 class TimeFunction {
@@ -136,7 +153,8 @@ class TimeFunction {
       case TimeForm::half_sine:
         return std::sin(std::numbers::pi * t / length_);
       case TimeForm::harmonic:
-        return ramp(t, o_.rise.value_or(0)) * std::sin(2 * std::numbers::pi * *o_.frequency * t + o_.phase.value_or(0));
+        return ramp(t, o_.rise.value_or(0)) *
+               std::sin(2 * std::numbers::pi * *o_.frequency * t + o_.phase.value_or(0));
       case TimeForm::table:
         return between(t);
       default:

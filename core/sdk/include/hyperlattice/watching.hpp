@@ -1,7 +1,8 @@
 // For loads that answer: forces along springs, and areas that follow a surface.
 //
-//   void declare(const LoadBody& body, const LoadSink& sink) { pull_.declare(body, sink, region, ...); }
-//   Vec3 answer(const WatchedMotion& motion, std::size_t n) const { return pull_.force(motion, n); }
+//   void declare(const LoadBody& body, const LoadSink& sink) { pull_.declare(body, sink, region,
+//   ...); } Vec3 answer(const WatchedMotion& motion, std::size_t n) const { return
+//   pull_.force(motion, n); }
 #pragma once
 
 #include <hyperlattice/load.hpp>
@@ -14,30 +15,39 @@
 
 namespace hyperlattice {
 
-/// Equal and opposite forces on the ends of each base spring of a region, along the line between them in space wherever they are: momentum and
-/// angular momentum stay what they are, to round-off. A spring is the region's if both of its ends are.
+/// Equal and opposite forces on the ends of each base spring of a region, along the line between
+/// them in space wherever they are: momentum and angular momentum stay what they are, to round-off.
+/// A spring is the region's if both of its ends are.
 class SpringPush {
  public:
-  /// Watches the ends. `strength`: of a RestSpring, the force with which it pushes its ends apart at factor 1, N.
+  /// Watches the ends. `strength`: of a RestSpring, the force with which it pushes its ends apart
+  /// at factor 1, N.
   template <class Strength>
-  void declare(const LoadBody& body, const LoadSink& sink, RegionId region, const Strength& strength) {
+  void declare(const LoadBody& body, const LoadSink& sink, RegionId region,
+               const Strength& strength) {
     const std::span<const Particle> particles = body.particles(region);
     std::map<Particle, std::vector<Link>> links;
     const auto number = [&](Particle particle) {
       const auto found = std::lower_bound(particles.begin(), particles.end(), particle);
-      return found == particles.end() || *found != particle ? particles.size() : static_cast<std::size_t>(found - particles.begin());
+      return found == particles.end() || *found != particle
+                 ? particles.size()
+                 : static_cast<std::size_t>(found - particles.begin());
     };
     for (const RestSpring& spring : body.springs(region)) {
       const std::size_t a = number(spring.a), b = number(spring.b);
       if (a == particles.size() || b == particles.size()) continue;
       if (spring.breakable)
-        throw std::invalid_argument("a region whose springs do not break: the load would go on pushing along those that are gone");
+        throw std::invalid_argument(
+            "a region whose springs do not break: the load would go on pushing along those that "
+            "are gone");
       const Vec3 rest = body.position(spring.b) - body.position(spring.a);
       const double push = strength(spring);
       links[spring.a].push_back({b, rest, push});
       links[spring.b].push_back({a, -1.0 * rest, push});
     }
-    if (!particles.empty() && links.empty()) throw std::invalid_argument("a region with springs: no spring has both of its ends in this one");
+    if (!particles.empty() && links.empty())
+      throw std::invalid_argument(
+          "a region with springs: no spring has both of its ends in this one");
     for (const Particle particle : particles) {
       sink.watch(particle);
       first_.push_back(links_.size());
@@ -68,13 +78,16 @@ class SpringPush {
   std::vector<std::size_t> first_;  ///< link of each watched particle; one more at the end
 };
 
-/// The open areas of a region, turned and stretched as the body about each particle is: cof(F) A with the deformation gradient F that fits the
-/// particle's springs best. The first count() watched particles are those that have an area.
+/// The open areas of a region, turned and stretched as the body about each particle is: cof(F) A
+/// with the deformation gradient F that fits the particle's springs best. The first count() watched
+/// particles are those that have an area.
 class MovingAreas {
  public:
   void declare(const LoadBody& body, const LoadSink& sink, RegionId region, const auto& reaction) {
     const std::span<const OpenArea> surface = body.open_areas(region);
-    if (surface.empty()) throw std::invalid_argument("the region has no open face: expected a surface, such as inner_surface");
+    if (surface.empty())
+      throw std::invalid_argument(
+          "the region has no open face: expected a surface, such as inner_surface");
     areas_.assign(surface.begin(), surface.end());
     std::map<Particle, std::size_t> numbers;
     for (const OpenArea& open : areas_) {
@@ -106,7 +119,8 @@ class MovingAreas {
   Vec3 area(const WatchedMotion& motion, std::size_t n) const {
     std::array<Vec3, 3> F = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};  // columns
     for (std::size_t a = first_[n]; a < first_[n + 1]; ++a) {
-      const Vec3 moved = motion.displacement[arms_[a].other] - motion.displacement[n], w = arms_[a].weight;
+      const Vec3 moved = motion.displacement[arms_[a].other] - motion.displacement[n],
+                 w = arms_[a].weight;
       F[0] = F[0] + w.x * moved;
       F[1] = F[1] + w.y * moved;
       F[2] = F[2] + w.z * moved;
@@ -133,9 +147,14 @@ class MovingAreas {
     }
     const double determinant = dot(x, cross(y, z));
     if (!(determinant > 1e-6 * size * size * size / 27))
-      throw std::invalid_argument("a surface of a body at least two particles thick: the springs of one of its particles lie in a plane");
-    const Vec3 u = cross(y, z), v = cross(z, x), w = cross(x, y);  // of the symmetric sum, rows of the inverse times the determinant
-    for (Arm& arm : arms) arm.weight = (1 / determinant) * Vec3{dot(u, arm.weight), dot(v, arm.weight), dot(w, arm.weight)};
+      throw std::invalid_argument(
+          "a surface of a body at least two particles thick: the springs of one of its particles "
+          "lie in a plane");
+    const Vec3 u = cross(y, z), v = cross(z, x),
+               w = cross(x, y);  // of the symmetric sum, rows of the inverse times the determinant
+    for (Arm& arm : arms)
+      arm.weight =
+          (1 / determinant) * Vec3{dot(u, arm.weight), dot(v, arm.weight), dot(w, arm.weight)};
   }
 
   std::vector<OpenArea> areas_;
@@ -143,20 +162,27 @@ class MovingAreas {
   std::vector<std::size_t> first_;  ///< arm of each area; one more at the end
 };
 
-/// What acts inside a body: forces along its springs, rest lengths that change, or the pressure of a chamber; one of them, each at factor 1.
+/// What acts inside a body: forces along its springs, rest lengths that change, or the pressure of
+/// a chamber; one of them, each at factor 1.
 struct Actuator {
-  std::optional<double> force;     ///< of each whole base spring, N; positive pushes its ends apart
-  std::optional<double> strain;    ///< change of rest length over rest length: a linear spring pushes with k L0 strain besides what it does already
+  std::optional<double> force;   ///< of each whole base spring, N; positive pushes its ends apart
+  std::optional<double> strain;  ///< change of rest length over rest length: a linear spring pushes
+                                 ///< with k L0 strain besides what it does already
   std::optional<double> pressure;  ///< Pa, on faces as they turn and stretch
 
   void declare(const LoadBody& body, const LoadSink& sink, RegionId region) {
-    if (pressure) return areas.declare(body, sink, region, [](const OpenArea&) { return Reaction{}; });
-    push.declare(body, sink, region,
-                 [&](const RestSpring& spring) { return force ? *force * spring.share : spring.stiffness * spring.rest_length * *strain; });
+    if (pressure)
+      return areas.declare(body, sink, region,
+                           [](const OpenArea&) { return LoadStiffnessBound{}; });
+    push.declare(body, sink, region, [&](const RestSpring& spring) {
+      return force ? *force * spring.share : spring.stiffness * spring.rest_length * *strain;
+    });
   }
   Vec3 answer(const WatchedMotion& motion, std::size_t n) const {
     if (!pressure) return push.force(motion, n);
-    return motion.factor == 0 || n >= areas.count() ? Vec3{} : (-motion.factor * *pressure) * areas.area(motion, n);
+    return motion.factor == 0 || n >= areas.count()
+               ? Vec3{}
+               : (-motion.factor * *pressure) * areas.area(motion, n);
   }
 
   SpringPush push;

@@ -1,4 +1,5 @@
-// Which of a material's compiled kernels this processor gets. Included by the material's own source.
+// Which of a material's compiled kernels this processor gets. Included by the material's own
+// source.
 #pragma once
 
 #include <hyperlattice/kernels/processor.hpp>
@@ -10,7 +11,8 @@ hyperlattice::KernelSet hyperlattice_kernels_avx512(const hyperlattice::KernelCh
 
 namespace hyperlattice {
 
-/// The fastest kernels that the processor can run; HYPERLATTICE_INSTRUCTIONS=baseline or avx2 in the environment asks for less.
+/// The fastest kernels that the processor can run; HYPERLATTICE_INSTRUCTIONS=baseline or avx2 in
+/// the environment asks for less.
 inline KernelSet kernels_for_processor(const KernelChoice& choice) {
 #if defined(HYPERLATTICE_X86_KERNELS)
   switch (processor_instructions()) {

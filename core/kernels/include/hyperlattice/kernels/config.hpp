@@ -1,5 +1,5 @@
-// What a kernel is compiled for. Each class of the kernels is a template of one configuration; parts that do not depend on a member of it are
-// compiled once, for its default value.
+// What a kernel is compiled for. Each class of the kernels is a template of one configuration;
+// parts that do not depend on a member of it are compiled once, for its default value.
 #pragma once
 
 #include <hyperlattice/law.hpp>
@@ -11,7 +11,9 @@ namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
 using Membrane = KernelChoice::Membrane;
 constexpr int components_of(Membrane membrane) { return membrane == Membrane::free ? 4 : 3; }
-constexpr std::size_t kinds_of(Membrane membrane) { return membrane == Membrane::none ? 1 : 2; }  // of springs: base, cross
+constexpr std::size_t kinds_of(Membrane membrane) {
+  return membrane == Membrane::none ? 1 : 2;
+}  // of springs: base, cross
 
 enum class Task { step, step_damped, measure };
 
@@ -48,9 +50,11 @@ struct KernelConfig {
 template <Precision precision>
 using NumberOf = std::conditional_t<precision == Precision::floats, float, double>;
 
-/// What is measured is computed in doubles, whatever the state is stored in; so is what a law with constants of its own does.
+/// What is measured is computed in doubles, whatever the state is stored in; so is what a law with
+/// constants of its own does.
 template <class Law>
-constexpr KernelConfig config_of(Membrane membrane, bool breakable, bool mixed, Task task, Precision stored) {
+constexpr KernelConfig config_of(Membrane membrane, bool breakable, bool mixed, Task task,
+                                 Precision stored) {
   const bool in_doubles = task == Task::measure || LawWithConstants<Law>;
   return {membrane, stored, in_doubles ? Precision::doubles : stored, task, breakable, mixed};
 }

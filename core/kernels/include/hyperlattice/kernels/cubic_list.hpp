@@ -1,4 +1,5 @@
-// The cubic lattice's forward neighbours, edges and face diagonals of a cube, known when a kernel is compiled.
+// The cubic lattice's forward neighbours, edges and face diagonals of a cube, known when a kernel
+// is compiled.
 #pragma once
 
 #include <hyperlattice/kernel_request.hpp>
@@ -10,18 +11,27 @@ namespace hyperlattice {
 
 /// Bits and places are those of the neighbours in the list.
 struct CubicList {
-  static constexpr std::array<Neighbour, 9> neighbours{
-      {{1, 0, 0, 0}, {-1, 1, 0, 1}, {0, 1, 0, 0}, {1, 1, 0, 1}, {0, -1, 1, 1}, {-1, 0, 1, 1}, {0, 0, 1, 0}, {1, 0, 1, 1}, {0, 1, 1, 1}}};
+  static constexpr std::array<Neighbour, 9> neighbours{{{1, 0, 0, 0},
+                                                        {-1, 1, 0, 1},
+                                                        {0, 1, 0, 0},
+                                                        {1, 1, 0, 1},
+                                                        {0, -1, 1, 1},
+                                                        {-1, 0, 1, 1},
+                                                        {0, 0, 1, 0},
+                                                        {1, 0, 1, 1},
+                                                        {0, 1, 1, 1}}};
   struct Line {
     int dy, dz;
   };
-  static constexpr std::array<Line, 5> lines{{{0, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}};  ///< the rows that they stand in
+  static constexpr std::array<Line, 5> lines{
+      {{0, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}};  ///< the rows that they stand in
 
   /// Springs that are worked on side by side, so that the processor need not wait for any.
   template <bool heights>
   static constexpr auto batches() {  // as many as there are registers for
     if constexpr (heights)
-      return std::array<std::uint16_t, 5>{0b000010001, 0b000000110, 0b000001000, 0b001100000, 0b110000000};
+      return std::array<std::uint16_t, 5>{0b000010001, 0b000000110, 0b000001000, 0b001100000,
+                                          0b110000000};
     else
       return std::array<std::uint16_t, 3>{0b000001110, 0b011100000, 0b100010001};
   }
@@ -55,8 +65,10 @@ struct CubicList {
     for (std::size_t n = 0; n < list.size(); ++n) {
       const Neighbour &a = list[n].site, &b = neighbours[n];
       const Vec3 rest = spacing(list) * Vec3{double(b.dx), double(b.dy), double(b.dz)};
-      if (a.dx != b.dx || a.dy != b.dy || a.dz != b.dz || a.spring_class != b.spring_class) return false;
-      if (list[n].rest.x != rest.x || list[n].rest.y != rest.y || list[n].rest.z != rest.z) return false;
+      if (a.dx != b.dx || a.dy != b.dy || a.dz != b.dz || a.spring_class != b.spring_class)
+        return false;
+      if (list[n].rest.x != rest.x || list[n].rest.y != rest.y || list[n].rest.z != rest.z)
+        return false;
     }
     return true;
   }

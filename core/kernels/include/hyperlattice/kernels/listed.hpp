@@ -1,6 +1,8 @@
-// One pass over a block of a listed lattice: each particle sums the forces of all its springs, then moves. A pack holds particles that follow each
-// other; its springs stand in slots, one of each particle in each. Neighbours are read from their records, which hold the displacements at the
-// step's start, so that the particles may move as the pass reaches them, and no sum depends on where the body is cut into blocks.
+// One pass over a block of a listed lattice: each particle sums the forces of all its springs, then
+// moves. A pack holds particles that follow each other; its springs stand in slots, one of each
+// particle in each. Neighbours are read from their records, which hold the displacements at the
+// step's start, so that the particles may move as the pass reaches them, and no sum depends on
+// where the body is cut into blocks.
 #pragma once
 
 #include <hyperlattice/kernels/records.hpp>
@@ -18,7 +20,8 @@ class ListedForces {
   using Pack = PackOf<Real>;
   static constexpr Membrane membrane = config.membrane;
   static constexpr bool measuring = config.measures(), Breakable = config.breakable;
-  static constexpr int components = config.components(), width = lanes_of<Real>, slot_width = lanes_of<Stored>;
+  static constexpr int components = config.components(), width = lanes_of<Real>,
+                       slot_width = lanes_of<Stored>;
 
  public:
   explicit ListedForces(const KernelRequest& request) : request_(request), slots_(request.listed) {}
@@ -27,13 +30,16 @@ class ListedForces {
     for (std::int32_t index = 0; index < request_.rows_per_plane; ++index) {
       const Row& row = request_.rows[index];
       for (std::uint64_t n = row.start; n < row.start + static_cast<std::uint64_t>(row.end); ++n)
-        for (std::size_t c = 0; c < components; ++c) record(n)[record_moved + c] = static_cast<const Stored*>(request_.displacement[c])[n];
+        for (std::size_t c = 0; c < components; ++c)
+          record(n)[record_moved + c] = static_cast<const Stored*>(request_.displacement[c])[n];
     }
   }
 
-  /// Adds the forces of a row's springs to those on its particles, one array a component, and half of each spring's energies: the other half is its
-  /// other end's. `index`: the row's. Not inlined: every sweep has the same.
-  [[gnu::noinline]] void add(const Row& row, std::uint32_t index, Real* const (&forces)[components], Energies<Pack>& energies) const {
+  /// Adds the forces of a row's springs to those on its particles, one array a component, and half
+  /// of each spring's energies: the other half is its other end's. `index`: the row's. Not inlined:
+  /// every sweep has the same.
+  [[gnu::noinline]] void add(const Row& row, std::uint32_t index, Real* const (&forces)[components],
+                             Energies<Pack>& energies) const {
     if (slots_.stiffness != nullptr)
       all_packs<true>(row, index, forces, energies);
     else
@@ -43,11 +49,14 @@ class ListedForces {
   }
 
  private:
-  Stored* record(std::uint64_t place) const { return static_cast<Stored*>(slots_.records) + record_numbers * place; }
+  Stored* record(std::uint64_t place) const {
+    return static_cast<Stored*>(slots_.records) + record_numbers * place;
+  }
 
   /// Several: each spring has a stiffness of its own.
   template <bool Several>
-  void all_packs(const Row& row, std::uint32_t index, Real* const (&forces)[components], Energies<Pack>& energies) const {
+  void all_packs(const Row& row, std::uint32_t index, Real* const (&forces)[components],
+                 Energies<Pack>& energies) const {
     for (int t = 0; t < row.end; t += width) one_pack<Several>(row, index, t, forces, energies);
   }
 
@@ -69,21 +78,26 @@ class ListedForces {
   };
 
   template <bool Several>
-  HYPERLATTICE_INLINE void one_pack(const Row& row, std::uint32_t index, int t, Real* const (&forces)[components], Energies<Pack>& energies) const {
-    const std::uint64_t start = row.start + static_cast<std::uint64_t>(t), pack = start / slot_width;
+  HYPERLATTICE_INLINE void one_pack(const Row& row, std::uint32_t index, int t,
+                                    Real* const (&forces)[components],
+                                    Energies<Pack>& energies) const {
+    const std::uint64_t start = row.start + static_cast<std::uint64_t>(t),
+                        pack = start / slot_width;
     Pack force[components];
     for (int c = 0; c < components; ++c) force[c] = load(forces[c] + t);
     std::uint32_t own[width];
-    for (std::uint32_t lane = 0; lane < width; ++lane) own[lane] = static_cast<std::uint32_t>(start) + lane;
+    for (std::uint32_t lane = 0; lane < width; ++lane)
+      own[lane] = static_cast<std::uint32_t>(start) + lane;
     const Records<Real> here = records(own);
     for (std::uint32_t number = slots_.first[pack]; number < slots_.first[pack + 1]; ++number) {
       const Slot slot{index, number, t, slot_width * std::size_t{number} + start % slot_width};
       fetch(slots_.neighbour + slot.first_lane + slots_ahead * slot_width);
       const Reach reach = between(here, records(slots_.neighbour + slot.first_lane));
-      const Pack base_stiffness = Several ? stiffness(slot, 0) : fill<Real>(request_.springs->stiffness);
+      const Pack base_stiffness =
+          Several ? stiffness(slot, 0) : fill<Real>(request_.springs->stiffness);
       const Pack cross_stiffness = membrane == Membrane::none ? Pack(0)
                                    : Several                  ? stiffness(slot, 1)
-                                                              : fill<Real>(request_.springs->cross_stiffness);
+                                             : fill<Real>(request_.springs->cross_stiffness);
       Pulls pulls;
       if constexpr (LawWithConstants<Law>)
         pulls = pulls_by_law(reach, base_stiffness, cross_stiffness, slot, energies);
@@ -92,26 +106,34 @@ class ListedForces {
       Pack pull = pulls.base;
       if constexpr (membrane != Membrane::none) pull += pulls.cross;
       if constexpr (membrane == Membrane::free)
-        force[3] += pulls.base * reach.height_difference - pulls.cross * (request_.membrane_distance + reach.height_sum);
-      each<3>([&]<std::size_t c>() __attribute__((always_inline)) { force[c] += pull * (reach.rest[c] + reach.d[c]); });
+        force[3] += pulls.base * reach.height_difference -
+                    pulls.cross * (request_.membrane_distance + reach.height_sum);
+      each<3>([&]<std::size_t c>() __attribute__((always_inline)) {
+        force[c] += pull * (reach.rest[c] + reach.d[c]);
+      });
     }
     for (int c = 0; c < components; ++c) store(forces[c] + t, force[c]);
   }
 
   HYPERLATTICE_INLINE Pack stiffness(const Slot& slot, std::size_t cross) const {
-    return load_as<Real>(static_cast<const Stored*>(slots_.stiffness) + slot_width * (std::size_t{slot.number} + cross) + slot.first_lane);
+    return load_as<Real>(static_cast<const Stored*>(slots_.stiffness) +
+                         slot_width * (std::size_t{slot.number} + cross) + slot.first_lane);
   }
-  HYPERLATTICE_INLINE const Stored* alarms(const Slot& slot) const { return static_cast<const Stored*>(slots_.alarm) + slot.first_lane; }
+  HYPERLATTICE_INLINE const Stored* alarms(const Slot& slot) const {
+    return static_cast<const Stored*>(slots_.alarm) + slot.first_lane;
+  }
 
   HYPERLATTICE_INLINE Records<Real> records(const std::uint32_t* places) const {
     const Stored* all[width];
-    each<width>([&]<std::size_t lane>() __attribute__((always_inline)) { all[lane] = record(places[lane]); });
+    each<width>([&]<std::size_t lane>()
+                    __attribute__((always_inline)) { all[lane] = record(places[lane]); });
     return load_records_as<Real>(all);
   }
 
   /// The processor cannot foresee which records a list leads to.
   HYPERLATTICE_INLINE void fetch(const std::uint32_t* places) const {
-    each<width>([&]<std::size_t lane>() __attribute__((always_inline)) { __builtin_prefetch(record(places[lane])); });
+    each<width>([&]<std::size_t lane>()
+                    __attribute__((always_inline)) { __builtin_prefetch(record(places[lane])); });
   }
 
   HYPERLATTICE_INLINE Reach between(const Records<Real>& here, const Records<Real>& there) const {
@@ -134,7 +156,9 @@ class ListedForces {
     return reach;
   }
 
-  HYPERLATTICE_INLINE Pulls pulls_of(const Reach& reach, const Pack& stiffness, const Pack& cross_stiffness, const Slot& slot, Pack& stored) const {
+  HYPERLATTICE_INLINE Pulls pulls_of(const Reach& reach, const Pack& stiffness,
+                                     const Pack& cross_stiffness, const Slot& slot,
+                                     Pack& stored) const {
     constexpr Real smallest = std::numeric_limits<Real>::min();  // m2: where there is no spring
     Pulls pulls;
     if constexpr (!measuring && is_linear<Law>) {
@@ -144,13 +168,16 @@ class ListedForces {
       outside.look(p, -range, range);
       Pack cross_p;
       if constexpr (membrane != Membrane::none) {
-        cross_p = reach.cross_growth / (reach.square + request_.membrane_distance * request_.membrane_distance);
+        cross_p = reach.cross_growth /
+                  (reach.square + request_.membrane_distance * request_.membrane_distance);
         outside.look(cross_p, -range, range);
       }
       if constexpr (Breakable) outside.look_above(reach.growth, load(alarms(slot)));
       if (!outside && !request_.exact) [[likely]] {
         pulls.base = pull_near_rest<Law>(stiffness, p);
-        if constexpr (membrane != Membrane::none) pulls.cross = where(not_zero(reach.square), pull_near_rest<Law>(cross_stiffness, cross_p));
+        if constexpr (membrane != Membrane::none)
+          pulls.cross =
+              where(not_zero(reach.square), pull_near_rest<Law>(cross_stiffness, cross_p));
         return pulls;
       }
     }
@@ -161,16 +188,19 @@ class ListedForces {
     return pulls;
   }
 
-  [[gnu::noinline]] Pulls pulls_by_root(const Reach& reach, const Pack& stiffness, const Pack& cross_stiffness, const Slot& slot,
+  [[gnu::noinline]] Pulls pulls_by_root(const Reach& reach, const Pack& stiffness,
+                                        const Pack& cross_stiffness, const Slot& slot,
                                         Pack& stored) const {
     const LanesOf<Real> there_is = not_zero(reach.square);
     Pulls pulls;
-    const ResponseOf<Pack> base = respond<Law, measuring>(stiffness, root(reach.square), reach.growth);
+    const ResponseOf<Pack> base =
+        respond<Law, measuring>(stiffness, root(reach.square), reach.growth);
     pulls.base = where(there_is, base.force_over_length);
     if constexpr (measuring) stored += where(there_is, base.energy);
     if constexpr (membrane != Membrane::none) {
       const double delta = request_.membrane_distance;
-      const ResponseOf<Pack> cross = respond<Law, measuring>(cross_stiffness, root(reach.square + delta * delta), reach.cross_growth);
+      const ResponseOf<Pack> cross = respond<Law, measuring>(
+          cross_stiffness, root(reach.square + delta * delta), reach.cross_growth);
       pulls.cross = where(there_is, cross.force_over_length);
       if constexpr (measuring) stored += where(there_is, cross.energy);
     }
@@ -179,42 +209,55 @@ class ListedForces {
   }
 
   /// The same of a law with constants, and perhaps a memory, of its own.
-  [[gnu::noinline]] Pulls pulls_by_law(const Reach& reach, const Pack& stiffness, const Pack& cross_stiffness, const Slot& slot,
+  [[gnu::noinline]] Pulls pulls_by_law(const Reach& reach, const Pack& stiffness,
+                                       const Pack& cross_stiffness, const Slot& slot,
                                        Energies<Pack>& energies) const {
     LawSprings springs;
     springs.time_step = 2 * request_.back;
     springs.memory_stride = slot_width;
     const SpringConstants* constants[lanes];
     for (std::uint32_t lane = 0; lane < lanes; ++lane) {
-      const std::uint32_t own = own_place(slot, lane), other = slots_.neighbour[slot.first_lane + lane];
-      constants[lane] = request_.springs + (material(own) * request_.materials + material(other)) * request_.spring_classes;
+      const std::uint32_t own = own_place(slot, lane),
+                          other = slots_.neighbour[slot.first_lane + lane];
+      constants[lane] = request_.springs + (material(own) * request_.materials + material(other)) *
+                                               request_.spring_classes;
       if (other != own) springs.there |= 1u << lane;
     }
-    const auto pull = [&](std::size_t cross, const Pack& square, const Pack& growth, const Pack& k) {
+    const auto pull = [&](std::size_t cross, const Pack& square, const Pack& growth,
+                          const Pack& k) {
       springs.rest_length = root(square);
-      springs.memory = slots_.memory + (kinds_of(membrane) * slot.number + cross) * slot_width * memory_of<Law>() + slot.first_lane % slot_width;
-      for (int lane = 0; lane < lanes; ++lane) springs.constants[lane] = constants[lane]->law[cross];
+      springs.memory = slots_.memory +
+                       (kinds_of(membrane) * slot.number + cross) * slot_width * memory_of<Law>() +
+                       slot.first_lane % slot_width;
+      for (int lane = 0; lane < lanes; ++lane)
+        springs.constants[lane] = constants[lane]->law[cross];
       const LawResponse response = springs.template ask<Law, !measuring>(k, growth);
       energies.dissipated += response.dissipated;
       if constexpr (measuring) energies.stored += response.energy;
-      return where(not_zero(reach.square), response.force_over_length);  // not a number where there is no spring
+      return where(not_zero(reach.square),
+                   response.force_over_length);  // not a number where there is no spring
     };
     Pulls pulls;
     pulls.base = pull(0, reach.square, reach.growth, stiffness);
     if constexpr (membrane != Membrane::none)
-      pulls.cross = pull(1, reach.square + request_.membrane_distance * request_.membrane_distance, reach.cross_growth, cross_stiffness);
+      pulls.cross = pull(1, reach.square + request_.membrane_distance * request_.membrane_distance,
+                         reach.cross_growth, cross_stiffness);
     if constexpr (Breakable && !measuring)
       if (slots_.alarm != nullptr) review(reach, slot);
     return pulls;
   }
 
   std::uint32_t own_place(const Slot& slot, std::uint32_t lane) const {
-    return static_cast<std::uint32_t>(request_.rows[slot.row].start) + static_cast<std::uint32_t>(slot.site) + lane;
+    return static_cast<std::uint32_t>(request_.rows[slot.row].start) +
+           static_cast<std::uint32_t>(slot.site) + lane;
   }
-  std::uint32_t material(std::uint32_t place) const { return static_cast<std::uint32_t>(record(place)[record_material]); }
+  std::uint32_t material(std::uint32_t place) const {
+    return static_cast<std::uint32_t>(record(place)[record_material]);
+  }
 
-  /// Asks the failure criterion about the slot's springs above their alarm, and removes those that broke. Each end of a spring asks and finds the
-  /// same, because it sees the same numbers but for their signs.
+  /// Asks the failure criterion about the slot's springs above their alarm, and removes those that
+  /// broke. Each end of a spring asks and finds the same, because it sees the same numbers but for
+  /// their signs.
   void review(const Reach& reach, const Slot& slot) const {
     const Stored* alarm = alarms(slot);
     std::uint32_t* neighbour = slots_.neighbour + slot.first_lane;
@@ -227,7 +270,8 @@ class ListedForces {
       const std::uint32_t own = own_place(slot, static_cast<std::uint32_t>(lane));
       if (!(growth[lane] > alarm[lane]) || neighbour[lane] == own) continue;
       const double found = elongation[lane];
-      const std::uint8_t* broken = request_.review(request_.self, {slot.row, slot.number, {&site, 1}, {&found, 1}});
+      const std::uint8_t* broken =
+          request_.review(request_.self, {slot.row, slot.number, {&site, 1}, {&found, 1}});
       if (broken != nullptr && *broken != 0) neighbour[lane] = own;
     }
   }
@@ -244,11 +288,13 @@ struct ListedSweep {
     using Pack = PackOf<Real>;
     const ListedForces<Law, config.of_springs(false, false)> springs(request);
     springs.write_records();
-    for (std::uint32_t index = 0; index < static_cast<std::uint32_t>(request.rows_per_plane); ++index) {
+    for (std::uint32_t index = 0; index < static_cast<std::uint32_t>(request.rows_per_plane);
+         ++index) {
       const Row& row = request.rows[index];
       Motion<config.of_motion()> motion(request, row);
       Real* forces[components];
-      for (int c = 0; c < components; ++c) forces[c] = static_cast<Real*>(request.scratch) + c * request.scratch_width;
+      for (int c = 0; c < components; ++c)
+        forces[c] = static_cast<Real*>(request.scratch) + c * request.scratch_width;
       motion.set_body_force(forces, row.end);
       Energies<Pack> energies;
       springs.add(row, index, forces, energies);

@@ -1,5 +1,5 @@
-// How a row of particles moves once the forces on it are summed: damping, integration, prescribed motion; or what a measurement takes of it.
-// The same for every lattice.
+// How a row of particles moves once the forces on it are summed: damping, integration, prescribed
+// motion; or what a measurement takes of it. The same for every lattice.
 #pragma once
 
 #include <hyperlattice/kernel_request.hpp>
@@ -23,7 +23,8 @@ HYPERLATTICE_INLINE void store_as(Stored* to, const PackOf<Real>& pack) {
   }
 }
 
-/// A pack of weights: `places` of the sets of the vectors of `lanes` sites that it covers; `offset` into the sets.
+/// A pack of weights: `places` of the sets of the vectors of `lanes` sites that it covers; `offset`
+/// into the sets.
 template <class Real>
 inline PackOf<Real> load_weights(const double* weights, const std::uint32_t* places, int offset) {
   if constexpr (lanes_of<Real> == lanes) {
@@ -33,15 +34,20 @@ inline PackOf<Real> load_weights(const double* weights, const std::uint32_t* pla
   }
 }
 
-/// Numbers of a row's particles that follow from their materials and their shares of a whole particle.
+/// Numbers of a row's particles that follow from their materials and their shares of a whole
+/// particle.
 template <bool Mixed, class Real>
 class RowValues {
   using Pack = PackOf<Real>;
 
  public:
   RowValues(const KernelRequest& request, const Row& row)
-      : material_(Mixed && row.material < 0 && request.mixture == nullptr ? request.material + row.start : nullptr),
-        mixture_(Mixed && row.material < 0 && request.mixture != nullptr ? request.mixture + row.start : nullptr),
+      : material_(Mixed && row.material < 0 && request.mixture == nullptr
+                      ? request.material + row.start
+                      : nullptr),
+        mixture_(Mixed && row.material < 0 && request.mixture != nullptr
+                     ? request.mixture + row.start
+                     : nullptr),
         uniform_(row.material < 0 ? 0 : row.material),
         weight_sets_(row.weights == no_weights ? nullptr : request.weight_sets + row.weights),
         weights_(request.weights) {}
@@ -51,16 +57,21 @@ class RowValues {
     Pack pack = values[uniform_];
     if (material_ != nullptr) pack = of_lanes(values, material_ + t);
     if (mixture_ != nullptr) pack = of_lanes(values, mixture_ + t);
-    return weight_sets_ == nullptr ? pack : pack * load_weights<Real>(weights_, weight_sets_ + t / lanes, 0);
+    return weight_sets_ == nullptr
+               ? pack
+               : pack * load_weights<Real>(weights_, weight_sets_ + t / lanes, 0);
   }
   /// Whether the values are the same along the row.
-  bool constant() const { return material_ == nullptr && mixture_ == nullptr && weight_sets_ == nullptr; }
+  bool constant() const {
+    return material_ == nullptr && mixture_ == nullptr && weight_sets_ == nullptr;
+  }
 
  private:
   template <class Number>
   static Pack of_lanes(const double* values, const Number* numbers) {
     Real of_lane[lanes_of<Real>];
-    for (int lane = 0; lane < lanes_of<Real>; ++lane) of_lane[lane] = static_cast<Real>(values[numbers[lane]]);
+    for (int lane = 0; lane < lanes_of<Real>; ++lane)
+      of_lane[lane] = static_cast<Real>(values[numbers[lane]]);
     return load(of_lane);
   }
 
@@ -81,15 +92,18 @@ struct Energies {
   Pack stored = 0, dissipated = 0;
 };
 
-inline double with_sign(double magnitude, double sign) { return sign == 0 ? 0 : __builtin_copysign(magnitude, sign); }
+inline double with_sign(double magnitude, double sign) {
+  return sign == 0 ? 0 : __builtin_copysign(magnitude, sign);
+}
 
-/// A kick of a damped particle along one component, v+ = v- + kick (F - drag) / m; drag = damping |F| sign(v-) + damping_rate m (v- + v+) / 2.
+/// A kick of a damped particle along one component, v+ = v- + kick (F - drag) / m; drag = damping
+/// |F| sign(v-) + damping_rate m (v- + v+) / 2.
 template <class Number>
 struct Kick {
   Number after, drag;
 
-  HYPERLATTICE_INLINE Kick(const KernelRequest& request, double kick, const Number& force, const Number& velocity, const Number& mass,
-                           const Number& inverse_mass) {
+  HYPERLATTICE_INLINE Kick(const KernelRequest& request, double kick, const Number& force,
+                           const Number& velocity, const Number& mass, const Number& inverse_mass) {
     drag = with_sign(request.damping * force, velocity);
     after = velocity + kick * inverse_mass * (force - drag);
     if (request.damping_rate == 0) return;
@@ -99,7 +113,8 @@ struct Kick {
   }
 };
 
-/// Moves or measures a row: vectors() with the forces on its particles, or a vector() at a time, then finish().
+/// Moves or measures a row: vectors() with the forces on its particles, or a vector() at a time,
+/// then finish().
 template <KernelConfig config>
 class Motion {
   using Stored = NumberOf<config.stored>;
@@ -112,28 +127,40 @@ class Motion {
 
  public:
   Motion(const KernelRequest& request, const Row& row)
-      : request_(request), row_(row), values_(request, row), mass_(values_.at(request.mass, 0)), inverse_mass_(1.0 / mass_) {}
+      : request_(request),
+        row_(row),
+        values_(request, row),
+        mass_(values_.at(request.mass, 0)),
+        inverse_mass_(1.0 / mass_) {}
 
   /// Whether the whole body is accelerated.
-  bool accelerated() const { return request_.acceleration.x != 0 || request_.acceleration.y != 0 || request_.acceleration.z != 0; }
+  bool accelerated() const {
+    return request_.acceleration.x != 0 || request_.acceleration.y != 0 ||
+           request_.acceleration.z != 0;
+  }
   /// The body acceleration's force on a vector of particles.
   Pack body_force(int c, int t) const {
-    const double acceleration[4] = {request_.acceleration.x, request_.acceleration.y, request_.acceleration.z, 0};
-    return where(lanes_with<Real>(load_bits<Real>(request_.alive + row_.start + t), particle_bit), acceleration[c] * values_.at(request_.mass, t));
+    const double acceleration[4] = {request_.acceleration.x, request_.acceleration.y,
+                                    request_.acceleration.z, 0};
+    return where(lanes_with<Real>(load_bits<Real>(request_.alive + row_.start + t), particle_bit),
+                 acceleration[c] * values_.at(request_.mass, t));
   }
 
   /// Sets the forces on the row's `count` sites to the body acceleration's, or adds these.
   [[gnu::noinline]] void set_body_force(Real* const (&force)[components], int count) const {
     const bool accelerated = this->accelerated();
     for (int c = 0; c < components; ++c)
-      for (int t = 0; t < count; t += width) store(force[c] + t, accelerated ? body_force(c, t) : Pack(0));
+      for (int t = 0; t < count; t += width)
+        store(force[c] + t, accelerated ? body_force(c, t) : Pack(0));
   }
   [[gnu::noinline]] void add_body_force(Real* const (&force)[components], int count) const {
     for (int c = 0; c < components; ++c)
-      for (int t = 0; t < count; t += width) store(force[c] + t, load(force[c] + t) + body_force(c, t));
+      for (int t = 0; t < count; t += width)
+        store(force[c] + t, load(force[c] + t) + body_force(c, t));
   }
 
-  /// `force`: one array a component, whole vectors. Visits the row's supports too. Not inlined: every sweep has the same.
+  /// `force`: one array a component, whole vectors. Visits the row's supports too. Not inlined:
+  /// every sweep has the same.
   [[gnu::noinline]] void vectors(Real* const (&force)[components]) {
     supports_before(force);
     for (int t = 0; t < row_.end - row_.begin; t += width) {
@@ -158,12 +185,14 @@ class Motion {
       Stored* v = velocity(c) + row_.start + t;
       const Pack displacement = load_as<Real>(u), velocity = load_as<Real>(v);
       Pack force = forces[c];
-      if (membrane == Membrane::free && c == 3) {  // the alpha spring joins the particle to its own mirror copy
+      if (membrane == Membrane::free &&
+          c == 3) {  // the alpha spring joins the particle to its own mirror copy
         force -= 2.0 * alpha * displacement;
         if constexpr (measuring) stored_ += alpha * displacement * displacement;
       }
       if constexpr (measuring) {
-        const double acceleration[4] = {request_.acceleration.x, request_.acceleration.y, request_.acceleration.z, 0};
+        const double acceleration[4] = {request_.acceleration.x, request_.acceleration.y,
+                                        request_.acceleration.z, 0};
         const Kick<Pack> kicked(request_, 2 * request_.back, force, velocity, mass_, inverse_mass_);
         const Pack mean = 0.5 * (velocity + kicked.after);
         kinetic_ += 0.5 * mass_ * velocity * kicked.after;
@@ -188,7 +217,8 @@ class Motion {
   template <bool Dissipating = false>
   [[gnu::noinline]] void finish(std::uint32_t index, const Energies<Pack>& springs) {
     damped_ += springs.dissipated;
-    if constexpr (task == Task::step_damped || (task == Task::step && Dissipating)) request_.damped_work[index] += sum(damped_) - not_damped_;
+    if constexpr (task == Task::step_damped || (task == Task::step && Dissipating))
+      request_.damped_work[index] += sum(damped_) - not_damped_;
     if constexpr (measuring) {
       RowSums measured;
       measured.stored = sum(springs.stored + stored_);
@@ -203,13 +233,16 @@ class Motion {
   }
 
  private:
-  Stored* displacement(std::size_t c) const { return static_cast<Stored*>(request_.displacement[c]); }
+  Stored* displacement(std::size_t c) const {
+    return static_cast<Stored*>(request_.displacement[c]);
+  }
   Stored* velocity(std::size_t c) const { return static_cast<Stored*>(request_.velocity[c]); }
 
-  // The few particles with external forces or prescribed motion. Their state before the row is moved waits in the support itself.
+  // The few particles with external forces or prescribed motion. Their state before the row is
+  // moved waits in the support itself.
   void supports_before(Real* const (&forces)[components]) {
-    for (std::uint32_t n = row_.first_support; n < row_.last_support; ++n) {
-      Support& support = request_.supports[n];
+    for (std::uint32_t n = row_.first_boundary_particle; n < row_.last_boundary_particle; ++n) {
+      BoundaryParticle& support = request_.boundary_particles[n];
       const double force[3] = {support.force.x, support.force.y, support.force.z};
       for (std::size_t c = 0; c < 3; ++c) {
         Real& sum_of_forces = forces[c][support.site - row_.begin];
@@ -223,8 +256,8 @@ class Motion {
 
   void supports_after() {
     const double kick = request_.back + request_.forward, drift = 2 * request_.forward;
-    for (std::uint32_t n = row_.first_support; n < row_.last_support; ++n) {
-      Support& support = request_.supports[n];
+    for (std::uint32_t n = row_.first_boundary_particle; n < row_.last_boundary_particle; ++n) {
+      BoundaryParticle& support = request_.boundary_particles[n];
       const double prescribed[3] = {support.velocity.x, support.velocity.y, support.velocity.z};
       double path[3];
       for (std::size_t c = 0; c < 3; ++c) {
@@ -232,23 +265,29 @@ class Motion {
         const bool held = (support.axes >> c & 1u) != 0;
         if (held) {
           if constexpr (task == Task::step_damped) {  // what drives it does not feel the drag
-            const Kick<double> free(request_, kick, support.sum[c], support.speed_before[c], support.mass, 1 / support.mass);
-            not_damped_ += free.drag * (request_.back * support.speed_before[c] + request_.forward * free.after);
+            const Kick<double> free(request_, kick, support.sum[c], support.speed_before[c],
+                                    support.mass, 1 / support.mass);
+            not_damped_ += free.drag * (request_.back * support.speed_before[c] +
+                                        request_.forward * free.after);
           }
           v = static_cast<Stored>(prescribed[c]);
-          displacement(c)[support.index] = static_cast<Stored>(support.place_before[c] + drift * prescribed[c]);
+          displacement(c)[support.index] =
+              static_cast<Stored>(support.place_before[c] + drift * prescribed[c]);
         }
         path[c] = request_.back * support.speed_before[c] + request_.forward * v;
-        if (held) support.reaction_work += (support.mass * (v - support.speed_before[c]) / kick - support.sum[c]) * path[c];
+        if (held)
+          support.reaction_work +=
+              (support.mass * (v - support.speed_before[c]) / kick - support.sum[c]) * path[c];
       }
       support.path = {path[0], path[1], path[2]};
     }
   }
 
-  /// A prescribed component ends the half step before now with the prescribed velocity, not with what its forces would give it.
+  /// A prescribed component ends the half step before now with the prescribed velocity, not with
+  /// what its forces would give it.
   void supports_measured(RowSums& measured) {
-    for (std::uint32_t n = row_.first_support; n < row_.last_support; ++n) {
-      Support& support = request_.supports[n];
+    for (std::uint32_t n = row_.first_boundary_particle; n < row_.last_boundary_particle; ++n) {
+      BoundaryParticle& support = request_.boundary_particles[n];
       const double prescribed[3] = {support.velocity.x, support.velocity.y, support.velocity.z};
       double half_path[3], momentum[3] = {0, 0, 0};
       support.reaction_now = 0;
@@ -256,14 +295,18 @@ class Motion {
         const double before = support.speed_before[c];
         half_path[c] = request_.back * before;
         if ((support.axes >> c & 1u) == 0) continue;
-        const Kick<double> free(request_, 2 * request_.back, support.sum[c], before, support.mass, 1 / support.mass);
+        const Kick<double> free(request_, 2 * request_.back, support.sum[c], before, support.mass,
+                                1 / support.mass);
         const double after = request_.back > 0 ? prescribed[c] : before;
         const double mean = 0.5 * (before + after), free_mean = 0.5 * (before + free.after);
         measured.damped -= free.drag * half_path[c];
         measured.kinetic += 0.5 * support.mass * before * (after - free.after);
         measured.kinetic_mean += 0.5 * support.mass * (mean * mean - free_mean * free_mean);
         momentum[c] = support.mass * (mean - free_mean);
-        if (request_.back > 0) support.reaction_now += (support.mass * (after - before) / (2 * request_.back) - support.sum[c]) * half_path[c];
+        if (request_.back > 0)
+          support.reaction_now +=
+              (support.mass * (after - before) / (2 * request_.back) - support.sum[c]) *
+              half_path[c];
       }
       measured.momentum = measured.momentum + Vec3{momentum[0], momentum[1], momentum[2]};
       support.path = {half_path[0], half_path[1], half_path[2]};
@@ -274,7 +317,8 @@ class Motion {
   const Row& row_;
   RowValues<config.mixed, Real> values_;
   Pack mass_, inverse_mass_;
-  Pack stored_ = 0, damped_ = 0, kinetic_ = 0, kinetic_mean_ = 0, momentum_[4] = {0, 0, 0, 0}, potential_ = 0;
+  Pack stored_ = 0, damped_ = 0, kinetic_ = 0, kinetic_mean_ = 0, momentum_[4] = {0, 0, 0, 0},
+       potential_ = 0;
   double not_damped_ = 0;  ///< of damped_, what was counted for components that are held
 };
 

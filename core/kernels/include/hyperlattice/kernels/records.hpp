@@ -1,5 +1,6 @@
-// The particles of a list, a record each: where they are at rest and their displacements at the step's start, side by side in memory because whoever
-// needs one needs the other. The records of a pack of particles are loaded in pieces of 16 bytes, which are transposed in registers.
+// The particles of a list, a record each: where they are at rest and their displacements at the
+// step's start, side by side in memory because whoever needs one needs the other. The records of a
+// pack of particles are loaded in pieces of 16 bytes, which are transposed in registers.
 #pragma once
 
 #include <hyperlattice/kernels/simd.hpp>
@@ -13,13 +14,17 @@ using Records = std::array<PackOf<Real>, record_numbers>;
 /// Elements index(0), index(1), ... of a, then b: as many as `size`.
 template <std::size_t size, class Vector, class Index>
 HYPERLATTICE_INLINE auto picked(const Vector& a, const Vector& b, Index) {
-  return [&]<std::size_t... n>(std::index_sequence<n...>) __attribute__((always_inline)) { return __builtin_shufflevector(a, b, Index{}(n)...); }
+  return [&]<std::size_t... n>(std::index_sequence<n...>) __attribute__((always_inline)) {
+    return __builtin_shufflevector(a, b, Index{}(n)...);
+  }
   (std::make_index_sequence<size>());
 }
 
 /// A vector of pieces, `apart` records from each other.
 template <class Real>
-HYPERLATTICE_INLINE typename VectorsOf<Real>::Vector pieces(const Real* const* records, std::size_t offset, [[maybe_unused]] std::size_t apart) {
+HYPERLATTICE_INLINE typename VectorsOf<Real>::Vector pieces(const Real* const* records,
+                                                            std::size_t offset,
+                                                            [[maybe_unused]] std::size_t apart) {
 #if defined(__AVX__)
   const auto piece = [&](std::size_t n) __attribute__((always_inline)) {
     return _mm_loadu_ps(reinterpret_cast<const float*>(records[n * apart] + offset));
@@ -28,7 +33,8 @@ HYPERLATTICE_INLINE typename VectorsOf<Real>::Vector pieces(const Real* const* r
     return _mm256_insertf128_ps(_mm256_castps128_ps256(piece(n)), piece(n + 1), 1);
   };
 #if defined(__AVX512F__)
-  return reinterpret_cast<typename VectorsOf<Real>::Vector>(_mm512_insertf32x8(_mm512_castps256_ps512(two(0)), two(2), 1));
+  return reinterpret_cast<typename VectorsOf<Real>::Vector>(
+      _mm512_insertf32x8(_mm512_castps256_ps512(two(0)), two(2), 1));
 #else
   return reinterpret_cast<typename VectorsOf<Real>::Vector>(two(0));
 #endif
@@ -37,7 +43,8 @@ HYPERLATTICE_INLINE typename VectorsOf<Real>::Vector pieces(const Real* const* r
 #endif
 }
 
-/// a0 b0 of each 16 bytes of two vectors, or what stands `half` of them further; a number is `as` elements.
+/// a0 b0 of each 16 bytes of two vectors, or what stands `half` of them further; a number is `as`
+/// elements.
 template <std::size_t as, std::size_t half, class Vector>
 HYPERLATTICE_INLINE auto interleaved(const Vector& a, const Vector& b) {
   constexpr std::size_t size = sizeof(Vector) / sizeof a[0];
@@ -54,7 +61,9 @@ HYPERLATTICE_INLINE Records<Real> load_records(const Real* const (&records)[lane
   Records<Real> numbers;
   each<vectors>([&]<std::size_t p>() __attribute__((always_inline)) {
     each<record_numbers / in_piece>([&]<std::size_t q>() __attribute__((always_inline)) {
-      const auto of = [&](std::size_t n) __attribute__((always_inline)) { return pieces(records + p * in_vector + n, q * in_piece, in_piece); };
+      const auto of = [&](std::size_t n) __attribute__((always_inline)) {
+        return pieces(records + p * in_vector + n, q * in_piece, in_piece);
+      };
       auto* const to = &numbers[q * in_piece];
       if constexpr (in_piece == 2) {
         const auto a = of(0), b = of(1);
@@ -62,8 +71,8 @@ HYPERLATTICE_INLINE Records<Real> load_records(const Real* const (&records)[lane
         to[1].part[p] = interleaved<1, 1>(a, b);
       } else {
         const auto a = of(0), b = of(1), c = of(2), d = of(3);
-        const auto ab = interleaved<1, 0>(a, b), cd = interleaved<1, 0>(c, d), ab_further = interleaved<1, 1>(a, b),
-                   cd_further = interleaved<1, 1>(c, d);
+        const auto ab = interleaved<1, 0>(a, b), cd = interleaved<1, 0>(c, d),
+                   ab_further = interleaved<1, 1>(a, b), cd_further = interleaved<1, 1>(c, d);
         to[0].part[p] = interleaved<2, 0>(ab, cd);
         to[1].part[p] = interleaved<2, 1>(ab, cd);
         to[2].part[p] = interleaved<2, 0>(ab_further, cd_further);
@@ -82,7 +91,8 @@ HYPERLATTICE_INLINE Records<Real> load_records_as(const Stored* const (&records)
   } else {
     Real number[record_numbers][lanes];
     for (std::size_t lane = 0; lane < lanes; ++lane)
-      for (std::size_t n = 0; n < record_numbers; ++n) number[n][lane] = static_cast<Real>(records[lane][n]);
+      for (std::size_t n = 0; n < record_numbers; ++n)
+        number[n][lane] = static_cast<Real>(records[lane][n]);
     Records<Real> numbers;
     for (std::size_t n = 0; n < record_numbers; ++n) numbers[n] = load(number[n]);
     return numbers;

@@ -1,9 +1,10 @@
-// How a spring answers: the force along it over its length, from the growth q of its squared length.
+// How a spring answers: the force along it over its length, from the growth q of its squared
+// length.
 //
 // A law that is linear in the elongation gives with p = q / L0^2
 //   k (L - L0) / L = k (1 - 1 / sqrt(1 + p)) = k p (1/2 - 3/8 p + 5/16 p^2 - ...),
-// and for |p| up to a few hundredths the series is as exact as root and division, and much faster. Springs that grow more, and other laws, take
-// the root.
+// and for |p| up to a few hundredths the series is as exact as root and division, and much faster.
+// Springs that grow more, and other laws, take the root.
 #pragma once
 
 #include <hyperlattice/kernel_request.hpp>
@@ -14,7 +15,8 @@
 
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
-/// A law may say `static constexpr bool linear = true`: its force is proportional to the elongation, which saves arithmetic.
+/// A law may say `static constexpr bool linear = true`: its force is proportional to the
+/// elongation, which saves arithmetic.
 template <class Law>
 constexpr bool is_linear = requires {
   requires Law::linear;
@@ -38,7 +40,8 @@ inline ResponseOf<Pack> respond(Pack stiffness, Length rest_length, Pack q) {
     if constexpr (Energy) response.energy = Law::energy(stiffness, q * length * inverse);
   } else {
     const Pack elongation = q * length * inverse;
-    response.force_over_length = Law::force(stiffness, elongation) * ((length + rest_length) * inverse);
+    response.force_over_length =
+        Law::force(stiffness, elongation) * ((length + rest_length) * inverse);
     if constexpr (Energy) response.energy = Law::energy(stiffness, elongation);
   }
   return response;
@@ -55,12 +58,14 @@ struct Series {
   /// which are small all over the range.
   explicit constexpr Series(double r) : range(r) {
     std::array<double, 20> taylor{0.5};
-    for (std::size_t n = 1; n < taylor.size(); ++n) taylor[n] = -taylor[n - 1] * static_cast<double>(2 * n + 1) / static_cast<double>(2 * n + 2);
+    for (std::size_t n = 1; n < taylor.size(); ++n)
+      taylor[n] = -taylor[n - 1] * static_cast<double>(2 * n + 1) / static_cast<double>(2 * n + 2);
     for (std::size_t n = taylor.size() - 1; n >= terms; --n) {
       double term = taylor[n];
       for (std::size_t i = 1; 2 * i <= n; ++i) {
         const std::size_t power = n - 2 * i;
-        term *= -range * range / 4 * static_cast<double>((power + 2) * (power + 1)) / static_cast<double>(i * (n - i));
+        term *= -range * range / 4 * static_cast<double>((power + 2) * (power + 1)) /
+                static_cast<double>(i * (n - i));
         taylor[power] -= term;
       }
     }
@@ -68,7 +73,8 @@ struct Series {
   }
 };
 
-/// What is summed: the few terms that small strains need, and for the others as many as still cost less than a root.
+/// What is summed: the few terms that small strains need, and for the others as many as still cost
+/// less than a root.
 template <class Real>
 struct Terms;
 template <>
@@ -82,29 +88,36 @@ struct Terms<float> {
   static constexpr Series<8> many{1.0 / 4};
 };
 
-/// The force over length of springs of a stiffness k and relative growth p = q / L0^2, all within the short series.
+/// The force over length of springs of a stiffness k and relative growth p = q / L0^2, all within
+/// the short series.
 template <class Law, class Real>
-HYPERLATTICE_INLINE PackOf<Real> pull_near_rest(const PackOf<Real>& stiffness, const PackOf<Real>& p) {
+HYPERLATTICE_INLINE PackOf<Real> pull_near_rest(const PackOf<Real>& stiffness,
+                                                const PackOf<Real>& p) {
   constexpr auto& c = Terms<Real>::few.coefficients;
   PackOf<Real> sum = c.back();
-  each<c.size() - 1>([&]<std::size_t n>() __attribute__((always_inline)) { sum = sum * p + PackOf<Real>(c[c.size() - 2 - n]); });
+  each<c.size() - 1>([&]<std::size_t n>() __attribute__((always_inline)) {
+    sum = sum * p + PackOf<Real>(c[c.size() - 2 - n]);
+  });
   return Law::force(stiffness, sum * p);
 }
 
 /// Springs of one class between two materials, base or cross: constants made ready for the loop.
 ///
-/// The short series is one in q, whose coefficients hold the rest length: the force over length is q times its sum. The long one is in p.
+/// The short series is one in q, whose coefficients hold the rest length: the force over length is
+/// q times its sum. The long one is in p.
 template <class Law, class Real>
 class SpringKind {
   using Pack = PackOf<Real>;
   using Few = decltype(Terms<Real>::few);
   using Many = decltype(Terms<Real>::many);
-  static constexpr std::size_t few_terms = Terms<Real>::few.coefficients.size(), many_terms = Terms<Real>::many.coefficients.size();
+  static constexpr std::size_t few_terms = Terms<Real>::few.coefficients.size(),
+                               many_terms = Terms<Real>::many.coefficients.size();
 
  public:
   SpringKind() = default;
   /// `alarm`: elongation; infinity if nothing asks.
-  [[gnu::noinline]] SpringKind(double stiffness, double rest_length, double alarm) : stiffness_(stiffness), rest_length_(rest_length) {
+  [[gnu::noinline]] SpringKind(double stiffness, double rest_length, double alarm)
+      : stiffness_(stiffness), rest_length_(rest_length) {
     if (alarm < infinity) alarm_ = static_cast<Real>(squared_growth<Real>(rest_length, alarm));
     if constexpr (is_linear<Law>) {
       const double square = rest_length * rest_length;
@@ -116,11 +129,15 @@ class SpringKind {
     if (alarm_ < highest_) highest_ = alarm_;
   }
 
-  /// Force over length of several springs at a time. Returns a bit for each that has one above its alarm.
+  /// Force over length of several springs at a time. Returns a bit for each that has one above its
+  /// alarm.
   template <std::size_t number>
-  HYPERLATTICE_INLINE static std::uint32_t pull(const SpringKind* const (&kinds)[number], const Pack (&q)[number], Pack (&pull)[number]) {
+  HYPERLATTICE_INLINE static std::uint32_t pull(const SpringKind* const (&kinds)[number],
+                                                const Pack (&q)[number], Pack (&pull)[number]) {
     Outside<Real> outside;
-    each<number>([&]<std::size_t s>() __attribute__((always_inline)) { outside.look(q[s], kinds[s]->lowest_, kinds[s]->highest_); });
+    each<number>([&]<std::size_t s>() __attribute__((always_inline)) {
+      outside.look(q[s], kinds[s]->lowest_, kinds[s]->highest_);
+    });
     if (outside) [[unlikely]] {
       std::uint32_t rung = 0;
       for (std::size_t s = 0; s < number; ++s) {
@@ -129,23 +146,31 @@ class SpringKind {
       }
       return rung;
     }
-    each<number>([&]<std::size_t s>() __attribute__((always_inline)) { pull[s] = kinds[s]->few_[few_terms - 1]; });
-    each<few_terms - 1>([&]<std::size_t n>() __attribute__((always_inline)) {  // side by side, so that no sum waits for itself
-      each<number>([&]<std::size_t s>() __attribute__((always_inline)) { pull[s] = pull[s] * q[s] + Pack(kinds[s]->few_[few_terms - 2 - n]); });
+    each<number>([&]<std::size_t s>()
+                     __attribute__((always_inline)) { pull[s] = kinds[s]->few_[few_terms - 1]; });
+    each<few_terms - 1>([&]<std::size_t n>() __attribute__((
+        always_inline)) {  // side by side, so that no sum waits for itself
+      each<number>([&]<std::size_t s>() __attribute__((always_inline)) {
+        pull[s] = pull[s] * q[s] + Pack(kinds[s]->few_[few_terms - 2 - n]);
+      });
     });
     each<number>([&]<std::size_t s>() __attribute__((always_inline)) { pull[s] *= q[s]; });
     return 0;
   }
 
  private:
-  /// Coefficients of the n-th power, over square^(n + 1), as the law answers to them. False if they are not numbers of this precision.
+  /// Coefficients of the n-th power, over square^(n + 1), as the law answers to them. False if they
+  /// are not numbers of this precision.
   template <std::size_t terms>
-  static bool set(Real (&to)[terms], const std::array<double, terms>& series, double stiffness, double square) {
-    constexpr double most = std::numeric_limits<Real>::max() / 1e3, least = std::numeric_limits<Real>::min() * 1e3;
+  static bool set(Real (&to)[terms], const std::array<double, terms>& series, double stiffness,
+                  double square) {
+    constexpr double most = std::numeric_limits<Real>::max() / 1e3,
+                     least = std::numeric_limits<Real>::min() * 1e3;
     double power = 1 / square;
     bool fits = true;
     for (std::size_t n = 0; n < terms; ++n, power /= square) {
-      const double coefficient = Law::force(stiffness, series[n] * power), size = coefficient < 0 ? -coefficient : coefficient;
+      const double coefficient = Law::force(stiffness, series[n] * power),
+                   size = coefficient < 0 ? -coefficient : coefficient;
       fits = fits && (size == 0 || (size > least && size < most));
       to[n] = fits ? static_cast<Real>(coefficient) : Real{};
     }
@@ -162,7 +187,9 @@ class SpringKind {
       outside.look(p, -range, range);
       if (!outside) {
         Pack pull = many_[many_terms - 1];
-        each<many_terms - 1>([&]<std::size_t n>() __attribute__((always_inline)) { pull = pull * p + Pack(many_[many_terms - 2 - n]); });
+        each<many_terms - 1>([&]<std::size_t n>() __attribute__((always_inline)) {
+          pull = pull * p + Pack(many_[many_terms - 2 - n]);
+        });
         return pull * p;
       }
     }
@@ -170,7 +197,8 @@ class SpringKind {
   }
 
   Real few_[few_terms] = {}, many_[many_terms] = {};
-  Real lowest_ = 1, highest_ = -1;                      ///< growth within which the short series holds and nothing rings
+  Real lowest_ = 1,
+       highest_ = -1;  ///< growth within which the short series holds and nothing rings
   Real alarm_ = std::numeric_limits<Real>::infinity();  ///< growth
   double stiffness_ = 0, rest_length_ = 0;
 };

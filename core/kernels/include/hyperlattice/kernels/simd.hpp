@@ -1,7 +1,8 @@
-// Several numbers at a time: one notation for both precisions and every instruction set. A pack is 64 bytes, eight doubles or sixteen floats, made of
-// as many vectors as the processor needs for them, in the vector extension that gcc and clang share. (A single vector wider than the processor's is
-// taken apart by gcc, but through memory.) Included only by kernels, which are compiled once for each instruction set; the namespace keeps their
-// functions apart.
+// Several numbers at a time: one notation for both precisions and every instruction set. A pack is
+// 64 bytes, eight doubles or sixteen floats, made of as many vectors as the processor needs for
+// them, in the vector extension that gcc and clang share. (A single vector wider than the
+// processor's is taken apart by gcc, but through memory.) Included only by kernels, which are
+// compiled once for each instruction set; the namespace keeps their functions apart.
 #pragma once
 
 #include <hyperlattice/kernel_request.hpp>
@@ -23,10 +24,13 @@
 
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
-/// Calls body<0>(), ..., body<number - 1>(): a loop that is unrolled from the start, so that small arrays stay in registers.
+/// Calls body<0>(), ..., body<number - 1>(): a loop that is unrolled from the start, so that small
+/// arrays stay in registers.
 template <std::size_t number, class Body>
 HYPERLATTICE_INLINE void each(const Body& body) {
-  [&]<std::size_t... n>(std::index_sequence<n...>) __attribute__((always_inline)) { (body.template operator()<n>(), ...); }
+  [&]<std::size_t... n>(std::index_sequence<n...>) __attribute__((always_inline)) {
+    (body.template operator()<n>(), ...);
+  }
   (std::make_index_sequence<number>());
 }
 
@@ -39,7 +43,8 @@ inline constexpr int vector_bytes = 16;
 #endif
 inline constexpr std::size_t vectors = 64 / vector_bytes;  ///< of a pack
 
-/// The vectors of a precision. An integer is as wide as a number; all its bits set in a lane of a Choice: chosen. Bits are of the sites in a pack.
+/// The vectors of a precision. An integer is as wide as a number; all its bits set in a lane of a
+/// Choice: chosen. Bits are of the sites in a pack.
 template <class Real>
 struct VectorsOf;
 template <>
@@ -79,13 +84,16 @@ struct PackOf {
 
   PackOf() = default;
   HYPERLATTICE_INLINE PackOf(double value) {  // in each lane
-    each<vectors>([&]<std::size_t p>() __attribute__((always_inline)) { part[p] = Vector{} + static_cast<Real>(value); });
+    each<vectors>([&]<std::size_t p>() __attribute__((always_inline)) {
+      part[p] = Vector{} + static_cast<Real>(value);
+    });
   }
 
   template <class Operation>
   HYPERLATTICE_INLINE static PackOf of(const Operation& operation) {
     PackOf pack;
-    each<vectors>([&]<std::size_t p>() __attribute__((always_inline)) { pack.part[p] = operation(p); });
+    each<vectors>([&]<std::size_t p>()
+                      __attribute__((always_inline)) { pack.part[p] = operation(p); });
     return pack;
   }
   HYPERLATTICE_INLINE friend PackOf operator+(const PackOf& a, const PackOf& b) {
@@ -105,7 +113,8 @@ struct PackOf {
   }
   HYPERLATTICE_INLINE friend Mask operator>(const PackOf& a, const PackOf& b) {
     Mask mask;
-    each<vectors>([&]<std::size_t p>() __attribute__((always_inline)) { mask.part[p] = a.part[p] > b.part[p]; });
+    each<vectors>([&]<std::size_t p>()
+                      __attribute__((always_inline)) { mask.part[p] = a.part[p] > b.part[p]; });
     return mask;
   }
   HYPERLATTICE_INLINE PackOf& operator+=(const PackOf& other) { return *this = *this + other; }
@@ -121,7 +130,9 @@ HYPERLATTICE_INLINE PackOf<Real> fill(double value) {
 template <class Real>
 HYPERLATTICE_INLINE PackOf<Real> load(const Real* from) {
   using Anywhere = typename VectorsOf<Real>::VectorAnywhere;
-  return PackOf<Real>::of([&](std::size_t p) __attribute__((always_inline)) { return reinterpret_cast<const Anywhere*>(from)[p]; });
+  return PackOf<Real>::of([&](std::size_t p) __attribute__((always_inline)) {
+    return reinterpret_cast<const Anywhere*>(from)[p];
+  });
 }
 /// The same of numbers that are stored in another precision.
 template <class Real, class Stored>
@@ -131,7 +142,9 @@ HYPERLATTICE_INLINE PackOf<Real> load_as(const Stored* from) {
     return load(from);
   } else if constexpr (std::is_same_v<Real, double>) {
     return Pack::of([&](std::size_t p) __attribute__((always_inline)) {
-      return __builtin_convertvector(reinterpret_cast<const typename Vectors::NarrowAnywhere*>(from)[p], typename Vectors::Vector);
+      return __builtin_convertvector(
+          reinterpret_cast<const typename Vectors::NarrowAnywhere*>(from)[p],
+          typename Vectors::Vector);
     });
   } else {
     Real values[lanes_of<Real>];
@@ -150,14 +163,17 @@ HYPERLATTICE_INLINE PackOf<float> load_halves(const double* low, const double* h
   };
   return PackOf<float>::of([&](std::size_t p) __attribute__((always_inline)) {
     const Half left = half(2 * p), right = half(2 * p + 1);
-    return [&]<std::size_t... n>(std::index_sequence<n...>) __attribute__((always_inline)) { return __builtin_shufflevector(left, right, n...); }
+    return [&]<std::size_t... n>(std::index_sequence<n...>) __attribute__((always_inline)) {
+      return __builtin_shufflevector(left, right, n...);
+    }
     (std::make_index_sequence<vector_bytes / sizeof(float)>());
   });
 }
 template <class Real>
 HYPERLATTICE_INLINE void store(Real* to, const PackOf<Real>& pack) {
-  each<vectors>([&]<std::size_t p>()
-                    __attribute__((always_inline)) { reinterpret_cast<typename VectorsOf<Real>::VectorAnywhere*>(to)[p] = pack.part[p]; });
+  each<vectors>([&]<std::size_t p>() __attribute__((always_inline)) {
+    reinterpret_cast<typename VectorsOf<Real>::VectorAnywhere*>(to)[p] = pack.part[p];
+  });
 }
 /// Sum of the lanes, always in the same order.
 template <class Real>
@@ -189,15 +205,24 @@ inline bool same(Bits a, Bits b) {
 template <class Real>
 using LanesOf = std::conditional_t<std::is_same_v<Real, double>, __mmask8, __mmask16>;
 template <class Real = double>
-HYPERLATTICE_INLINE LanesOf<Real> lanes_with(BitsOf<Real> bits, std::uint16_t bit) {  // whose bits have `bit` set
+HYPERLATTICE_INLINE LanesOf<Real> lanes_with(BitsOf<Real> bits,
+                                             std::uint16_t bit) {  // whose bits have `bit` set
   if constexpr (std::is_same_v<Real, double>)
-    return _mm_test_epi16_mask(reinterpret_cast<__m128i>(bits), _mm_set1_epi16(static_cast<short>(bit)));
+    return _mm_test_epi16_mask(reinterpret_cast<__m128i>(bits),
+                               _mm_set1_epi16(static_cast<short>(bit)));
   else
-    return _mm256_test_epi16_mask(reinterpret_cast<__m256i>(bits), _mm256_set1_epi16(static_cast<short>(bit)));
+    return _mm256_test_epi16_mask(reinterpret_cast<__m256i>(bits),
+                                  _mm256_set1_epi16(static_cast<short>(bit)));
 }
-HYPERLATTICE_INLINE LanesOf<double> lanes_of_byte(std::uint8_t byte) { return byte; }  // whose bit is set
-HYPERLATTICE_INLINE LanesOf<double> not_zero(const Pack& pack) { return _mm512_cmp_pd_mask(pack.part[0], _mm512_setzero_pd(), _CMP_NEQ_UQ); }
-HYPERLATTICE_INLINE LanesOf<float> not_zero(const PackOf<float>& pack) { return _mm512_cmp_ps_mask(pack.part[0], _mm512_setzero_ps(), _CMP_NEQ_UQ); }
+HYPERLATTICE_INLINE LanesOf<double> lanes_of_byte(std::uint8_t byte) {
+  return byte;
+}  // whose bit is set
+HYPERLATTICE_INLINE LanesOf<double> not_zero(const Pack& pack) {
+  return _mm512_cmp_pd_mask(pack.part[0], _mm512_setzero_pd(), _CMP_NEQ_UQ);
+}
+HYPERLATTICE_INLINE LanesOf<float> not_zero(const PackOf<float>& pack) {
+  return _mm512_cmp_ps_mask(pack.part[0], _mm512_setzero_ps(), _CMP_NEQ_UQ);
+}
 HYPERLATTICE_INLINE Pack where(LanesOf<double> lanes, Pack pack) {  // 0 elsewhere
   pack.part[0] = _mm512_maskz_mov_pd(lanes, pack.part[0]);
   return pack;
@@ -222,9 +247,15 @@ HYPERLATTICE_INLINE LanesOf<Real> lanes_with(BitsOf<Real> bits, std::uint16_t bi
     if constexpr (std::is_same_v<Real, double>) {
       std::int64_t four;
       std::memcpy(&four, &of_vector[p], sizeof four);
-      lanes.part[p] = reinterpret_cast<typename Vectors::Choice>(_mm256_cvtepu16_epi64(_mm_cvtsi64_si128(four))) << shift >> top;
+      lanes.part[p] =
+          reinterpret_cast<typename Vectors::Choice>(_mm256_cvtepu16_epi64(_mm_cvtsi64_si128(four)))
+              << shift >>
+          top;
     } else {
-      lanes.part[p] = reinterpret_cast<typename Vectors::Choice>(_mm256_cvtepu16_epi32(reinterpret_cast<__m128i>(of_vector[p]))) << shift >> top;
+      lanes.part[p] = reinterpret_cast<typename Vectors::Choice>(
+                          _mm256_cvtepu16_epi32(reinterpret_cast<__m128i>(of_vector[p])))
+                          << shift >>
+                      top;
     }
 #else
     lanes.part[p] = __builtin_convertvector(of_vector[p], typename Vectors::Choice) << shift >> top;
@@ -242,14 +273,17 @@ inline LanesOf<double> lanes_of_byte(std::uint8_t byte) {
 template <class Real>
 HYPERLATTICE_INLINE LanesOf<Real> not_zero(const PackOf<Real>& pack) {
   LanesOf<Real> lanes;
-  each<vectors>([&]<std::size_t p>() __attribute__((always_inline)) { lanes.part[p] = pack.part[p] != Real{0}; });
+  each<vectors>([&]<std::size_t p>()
+                    __attribute__((always_inline)) { lanes.part[p] = pack.part[p] != Real{0}; });
   return lanes;
 }
 template <class Real>
-HYPERLATTICE_INLINE PackOf<Real> where(const MaskOf<Real>& mask, const PackOf<Real>& pack) {  // 0 elsewhere
+HYPERLATTICE_INLINE PackOf<Real> where(const MaskOf<Real>& mask,
+                                       const PackOf<Real>& pack) {  // 0 elsewhere
   using Vectors = VectorsOf<Real>;
   return PackOf<Real>::of([&](std::size_t p) __attribute__((always_inline)) {
-    return reinterpret_cast<typename Vectors::Vector>(mask.part[p] & reinterpret_cast<typename Vectors::Choice>(pack.part[p]));
+    return reinterpret_cast<typename Vectors::Vector>(
+        mask.part[p] & reinterpret_cast<typename Vectors::Choice>(pack.part[p]));
   });
 }
 #endif
@@ -262,16 +296,19 @@ inline bool any(const MaskOf<Real>& mask) {
   return joined != 0;
 }
 
-/// Gathers whether a lane of any pack is not between its bounds, or not a number; asked once for several packs.
+/// Gathers whether a lane of any pack is not between its bounds, or not a number; asked once for
+/// several packs.
 template <class Real>
 class Outside {
  public:
 #if defined(__AVX512F__)
   HYPERLATTICE_INLINE void look(const PackOf<Real>& x, Real low, Real high) {
     if constexpr (std::is_same_v<Real, double>)
-      found_ |= _mm512_cmp_pd_mask(x.part[0], _mm512_set1_pd(low), _CMP_NGE_UQ) | _mm512_cmp_pd_mask(x.part[0], _mm512_set1_pd(high), _CMP_NLE_UQ);
+      found_ |= _mm512_cmp_pd_mask(x.part[0], _mm512_set1_pd(low), _CMP_NGE_UQ) |
+                _mm512_cmp_pd_mask(x.part[0], _mm512_set1_pd(high), _CMP_NLE_UQ);
     else
-      found_ |= _mm512_cmp_ps_mask(x.part[0], _mm512_set1_ps(low), _CMP_NGE_UQ) | _mm512_cmp_ps_mask(x.part[0], _mm512_set1_ps(high), _CMP_NLE_UQ);
+      found_ |= _mm512_cmp_ps_mask(x.part[0], _mm512_set1_ps(low), _CMP_NGE_UQ) |
+                _mm512_cmp_ps_mask(x.part[0], _mm512_set1_ps(high), _CMP_NLE_UQ);
   }
   HYPERLATTICE_INLINE void look_above(const PackOf<Real>& x, const PackOf<Real>& high) {
     if constexpr (std::is_same_v<Real, double>)
@@ -285,13 +322,18 @@ class Outside {
   unsigned found_ = 0;
 #else
   HYPERLATTICE_INLINE void look(const PackOf<Real>& x, Real low, Real high) {
-    each<vectors>([&]<std::size_t p>() __attribute__((always_inline)) { found_ |= ~((x.part[p] >= low) & (x.part[p] <= high)); });
+    each<vectors>([&]<std::size_t p>() __attribute__((always_inline)) {
+      found_ |= ~((x.part[p] >= low) & (x.part[p] <= high));
+    });
   }
   HYPERLATTICE_INLINE void look_above(const PackOf<Real>& x, const PackOf<Real>& high) {
-    each<vectors>([&]<std::size_t p>() __attribute__((always_inline)) { found_ |= ~(x.part[p] <= high.part[p]); });
+    each<vectors>([&]<std::size_t p>()
+                      __attribute__((always_inline)) { found_ |= ~(x.part[p] <= high.part[p]); });
   }
 #if defined(__AVX__)
-  explicit operator bool() const { return _mm256_movemask_ps(reinterpret_cast<__m256>(found_)) != 0; }
+  explicit operator bool() const {
+    return _mm256_movemask_ps(reinterpret_cast<__m256>(found_)) != 0;
+  }
 #else
   explicit operator bool() const {
     std::int64_t words[2];
@@ -330,13 +372,15 @@ HYPERLATTICE_INLINE PackOf<Real> one_back(const PackOf<Real>& now, const PackOf<
   });
 }
 
-/// a b, rounded: where it is added to two sums, a product and two additions share the processor's units better than two fused ones.
+/// a b, rounded: where it is added to two sums, a product and two additions share the processor's
+/// units better than two fused ones.
 template <class Real>
 HYPERLATTICE_INLINE PackOf<Real> product(const PackOf<Real>& a, const PackOf<Real>& b) {
 #if defined(__GNUC__) && !defined(__clang__)
   return PackOf<Real>::of([&](std::size_t p) __attribute__((always_inline)) {
 #if defined(__AVX512F__)
-    if constexpr (std::is_same_v<Real, float>) {  // gcc 12 takes sixteen floats apart for its own barrier
+    if constexpr (std::is_same_v<Real,
+                                 float>) {  // gcc 12 takes sixteen floats apart for its own barrier
       typename PackOf<Real>::Vector rounded = a.part[p] * b.part[p];
       __asm__("" : "+v"(rounded));
       return rounded;
@@ -376,12 +420,15 @@ HYPERLATTICE_INLINE PackOf<Real> root(const PackOf<Real>& x) {
 }
 /// |magnitude| with the sign of `sign`; 0 where `sign` is 0.
 template <class Real>
-HYPERLATTICE_INLINE PackOf<Real> with_sign(const PackOf<Real>& magnitude, const PackOf<Real>& sign) {
+HYPERLATTICE_INLINE PackOf<Real> with_sign(const PackOf<Real>& magnitude,
+                                           const PackOf<Real>& sign) {
   using Choice = typename PackOf<Real>::Choice;
   using Integer = typename VectorsOf<Real>::Integer;
-  constexpr Integer lowest = std::is_same_v<Real, double> ? static_cast<Integer>(INT64_MIN) : static_cast<Integer>(INT32_MIN);
+  constexpr Integer lowest = std::is_same_v<Real, double> ? static_cast<Integer>(INT64_MIN)
+                                                          : static_cast<Integer>(INT32_MIN);
   return PackOf<Real>::of([&](std::size_t p) __attribute__((always_inline)) {
-    const Choice bits = (reinterpret_cast<Choice>(magnitude.part[p]) & ~lowest) | (reinterpret_cast<Choice>(sign.part[p]) & lowest);
+    const Choice bits = (reinterpret_cast<Choice>(magnitude.part[p]) & ~lowest) |
+                        (reinterpret_cast<Choice>(sign.part[p]) & lowest);
     return reinterpret_cast<typename PackOf<Real>::Vector>((sign.part[p] != Real{0}) & bits);
   });
 }

@@ -1,10 +1,14 @@
-// The springs of one row of particles to one neighbour: elongation, law, forces on both ends. This is the inner loop of everything.
+// The springs of one row of particles to one neighbour: elongation, law, forces on both ends. This
+// is the inner loop of everything.
 //
-// Base spring i-j and cross spring i-j' share the vector r between their ends in space. With the rest vector R, the difference d of
-// displacements, heights h over the mirror plane's rest and Delta the distance to the mirror copy:
+// Base spring i-j and cross spring i-j' share the vector r between their ends in space. With the
+// rest vector R, the difference d of displacements, heights h over the mirror plane's rest and
+// Delta the distance to the mirror copy:
 //   base:  |r|^2 + (h_j - h_i)^2           = L0^2 + q_b,   q_b = d.(2 R + d) + (h_j - h_i)^2
-//   cross: |r|^2 + (Delta + h_i + h_j)^2   = Lc^2 + q_c,   q_c = d.(2 R + d) + (h_i + h_j)(2 Delta + h_i + h_j)
-// so that the elongation L - L0 = q / (L + L0) comes without cancellation, however small it is. See docs/theory/mirror.md.
+//   cross: |r|^2 + (Delta + h_i + h_j)^2   = Lc^2 + q_c,   q_c = d.(2 R + d) + (h_i + h_j)(2 Delta
+//   + h_i + h_j)
+// so that the elongation L - L0 = q / (L + L0) comes without cancellation, however small it is. See
+// docs/theory/mirror.md.
 #pragma once
 
 #include <hyperlattice/kernels/law_springs.hpp>
@@ -13,7 +17,8 @@
 
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
-/// Where the particles of a row, and their neighbours, stand in the arrays. Element t belongs to site begin + t.
+/// Where the particles of a row, and their neighbours, stand in the arrays. Element t belongs to
+/// site begin + t.
 template <KernelConfig config>
 struct RowPair {
   using Stored = NumberOf<config.stored>;
@@ -25,10 +30,11 @@ struct RowPair {
   Real* received[components];  ///< forces on the neighbours' row
   const std::uint16_t* alive;
   const std::uint8_t *material_here, *material_there;
-  const std::uint32_t* mixture;      ///< of the row itself; null: springs are between the materials of their ends
+  const std::uint32_t*
+      mixture;  ///< of the row itself; null: springs are between the materials of their ends
   const std::uint32_t* weight_sets;  ///< of a row that has weights, for each vector
   const double* weights;             ///< what these places count from: the neighbour's in the sets
-  double* memory;                    ///< of the row's springs to the neighbour, [base, cross][number][site]
+  double* memory;  ///< of the row's springs to the neighbour, [base, cross][number][site]
 };
 
 template <class Law, KernelConfig config>
@@ -41,25 +47,33 @@ class Springs {
   static constexpr bool energy = config.measures();
 
  public:
-  /// Adds the forces of `count` springs (padded to whole vectors). Returns whether any is above its alarm; adds to the energies.
-  [[gnu::noinline]] static bool add(const KernelRequest& request, const Pair& pair, const NeighbourGeometry& neighbour, std::uint16_t bit,
-                                    const SpringConstants& constants, int count, Energies<Pack>& energies) {
+  /// Adds the forces of `count` springs (padded to whole vectors). Returns whether any is above its
+  /// alarm; adds to the energies.
+  [[gnu::noinline]] static bool add(const KernelRequest& request, const Pair& pair,
+                                    const NeighbourGeometry& neighbour, std::uint16_t bit,
+                                    const SpringConstants& constants, int count,
+                                    Energies<Pack>& energies) {
     const Vec3 rest = neighbour.rest;
     const double twice_delta = 2 * request.membrane_distance;
     Pack base_stiffness = constants.stiffness, cross_stiffness = constants.cross_stiffness;
     Pack alarm = squared_growth<Real>(neighbour.rest_length, constants.alarm);
     bool rung = false;
-    const auto difference_of = [&](std::size_t c, int t) { return load_as<Real>(pair.there[c] + t) - load_as<Real>(pair.here[c] + t); };
+    const auto difference_of = [&](std::size_t c, int t) {
+      return load_as<Real>(pair.there[c] + t) - load_as<Real>(pair.here[c] + t);
+    };
     for (int t = 0; t < count; t += width) {
       const LanesOf<Real> alive = lanes_with<Real>(load_bits<Real>(pair.alive + t), bit);
       const auto counted = [&](Pack whole) {
-        if constexpr (config.weighted) whole *= load_weights<Real>(pair.weights, pair.weight_sets + t / lanes, 0);
+        if constexpr (config.weighted)
+          whole *= load_weights<Real>(pair.weights, pair.weight_sets + t / lanes, 0);
         return where(alive, whole);
       };
       /// Force over length, counted; cross: 0 the base springs, 1 their cross springs.
-      const auto pull_of = [&](int cross, const Pack& stiffness, double rest_length, const Pack& growth) {
+      const auto pull_of = [&](int cross, const Pack& stiffness, double rest_length,
+                               const Pack& growth) {
         if constexpr (LawWithConstants<Law>) {
-          const LawSprings springs = law_springs(request, pair, neighbour, bit, constants, cross, rest_length, t);
+          const LawSprings springs =
+              law_springs(request, pair, neighbour, bit, constants, cross, rest_length, t);
           const LawResponse response = springs.template ask<Law, !energy>(stiffness, growth);
           energies.dissipated += counted(response.dissipated);
           if constexpr (energy) energies.stored += counted(response.energy);
@@ -70,7 +84,8 @@ class Springs {
           return counted(response.force_over_length);
         }
       };
-      if constexpr (config.mixed) constants_of_lanes(request, pair, neighbour, t, base_stiffness, cross_stiffness, alarm);
+      if constexpr (config.mixed)
+        constants_of_lanes(request, pair, neighbour, t, base_stiffness, cross_stiffness, alarm);
       const Pack dx = difference_of(0, t), dy = difference_of(1, t), dz = difference_of(2, t);
       const Pack q = dx * (2 * rest.x + dx) + dy * (2 * rest.y + dy) + dz * (2 * rest.z + dz);
 
@@ -87,10 +102,13 @@ class Springs {
       Pack pull = base_pull;
 
       if constexpr (membrane != Membrane::none) {
-        const Pack cross_pull = pull_of(1, cross_stiffness, neighbour.cross_rest_length, q + total * (twice_delta + total));
+        const Pack cross_pull = pull_of(1, cross_stiffness, neighbour.cross_rest_length,
+                                        q + total * (twice_delta + total));
         pull += cross_pull;
-        if constexpr (membrane == Membrane::free) {  // the cross spring pushes both heights the same way: no action and reaction
-          const Pack along = base_pull * difference, both = cross_pull * (request.membrane_distance + total);
+        if constexpr (membrane == Membrane::free) {  // the cross spring pushes both heights the
+                                                     // same way: no action and reaction
+          const Pack along = base_pull * difference,
+                     both = cross_pull * (request.membrane_distance + total);
           add_to(pair.own[3] + t, along - both);
           add_to(pair.received[3] + t, -(along + both));
         }
@@ -106,9 +124,12 @@ class Springs {
     return rung;
   }
 
-  /// Asks the failure criterion about the row's springs above their alarm, and removes those that broke.
-  [[gnu::noinline]] static void review(const KernelRequest& request, const Pair& pair, const Row& row, std::uint32_t row_index,
-                                       std::uint32_t neighbour_index, const SpringConstants* uniform) {
+  /// Asks the failure criterion about the row's springs above their alarm, and removes those that
+  /// broke.
+  [[gnu::noinline]] static void review(const KernelRequest& request, const Pair& pair,
+                                       const Row& row, std::uint32_t row_index,
+                                       std::uint32_t neighbour_index,
+                                       const SpringConstants* uniform) {
     constexpr int batch = 64;
     const NeighbourGeometry& neighbour = request.neighbours[neighbour_index];
     const auto bit = static_cast<std::uint16_t>(1u << neighbour_index);
@@ -117,9 +138,12 @@ class Springs {
     int found = 0;
     const auto ask = [&] {
       const auto number = static_cast<std::size_t>(found);
-      const std::uint8_t* broken = request.review(request.self, {row_index, neighbour_index, {sites, number}, {elongations, number}});
+      const std::uint8_t* broken = request.review(
+          request.self, {row_index, neighbour_index, {sites, number}, {elongations, number}});
       for (int n = 0; broken != nullptr && n < found; ++n)
-        if (broken[n] != 0) request.alive[row.start + static_cast<std::uint64_t>(sites[n] - row.begin)] &= static_cast<std::uint16_t>(~bit);
+        if (broken[n] != 0)
+          request.alive[row.start + static_cast<std::uint64_t>(sites[n] - row.begin)] &=
+              static_cast<std::uint16_t>(~bit);
       found = 0;
     };
     for (int t = 0; t < row.end - row.begin; ++t) {
@@ -128,8 +152,11 @@ class Springs {
       const Vec3 d{moved(0), moved(1), moved(2)};
       double q = dot(d, 2 * neighbour.rest + d);
       if constexpr (membrane == Membrane::free) q += moved(3) * moved(3);
-      const SpringConstants& constants = uniform != nullptr ? *uniform : between(request, pair, neighbour, t);
-      const double elongation = q / (__builtin_sqrt(neighbour.rest_length * neighbour.rest_length + q) + neighbour.rest_length);
+      const SpringConstants& constants =
+          uniform != nullptr ? *uniform : between(request, pair, neighbour, t);
+      const double elongation =
+          q / (__builtin_sqrt(neighbour.rest_length * neighbour.rest_length + q) +
+               neighbour.rest_length);
       if (!(elongation > constants.alarm)) continue;
       sites[found] = row.begin + t;
       elongations[found] = elongation;
@@ -139,38 +166,48 @@ class Springs {
   }
 
  private:
-  static LawSprings law_springs(const KernelRequest& request, const Pair& pair, const NeighbourGeometry& neighbour, std::uint16_t bit,
-                                const SpringConstants& constants, int cross, double rest_length, int t) {
+  static LawSprings law_springs(const KernelRequest& request, const Pair& pair,
+                                const NeighbourGeometry& neighbour, std::uint16_t bit,
+                                const SpringConstants& constants, int cross, double rest_length,
+                                int t) {
     LawSprings springs;
     springs.rest_length = rest_length;
     springs.time_step = 2 * request.back;
     for (int lane = 0; lane < lanes; ++lane)
-      springs.constants[lane] = (config.mixed ? between(request, pair, neighbour, t + lane) : constants).law[cross];
-    for (int lane = 0; lane < lanes; ++lane) springs.there |= ((pair.alive[t + lane] & bit) != 0 ? 1u : 0u) << lane;
+      springs.constants[lane] =
+          (config.mixed ? between(request, pair, neighbour, t + lane) : constants).law[cross];
+    for (int lane = 0; lane < lanes; ++lane)
+      springs.there |= ((pair.alive[t + lane] & bit) != 0 ? 1u : 0u) << lane;
     springs.memory_stride = request.memory_stride;
-    springs.memory = pair.memory + static_cast<std::size_t>(cross) * memory_of<Law>() * request.memory_stride + t;
+    springs.memory = pair.memory +
+                     static_cast<std::size_t>(cross) * memory_of<Law>() * request.memory_stride + t;
     return springs;
   }
 
   static void add_to(Real* target, Pack value) { store(target, load(target) + value); }
 
-  static const SpringConstants& between(const KernelRequest& request, const Pair& pair, const NeighbourGeometry& neighbour, int t) {
+  static const SpringConstants& between(const KernelRequest& request, const Pair& pair,
+                                        const NeighbourGeometry& neighbour, int t) {
     if (pair.mixture != nullptr) {
       const auto n = static_cast<std::size_t>(&neighbour - request.neighbours.data());
-      return request.springs[request.mixture_springs[pair.mixture[t] * request.neighbours.size() + n]];
+      return request
+          .springs[request.mixture_springs[pair.mixture[t] * request.neighbours.size() + n]];
     }
     const std::uint32_t a = pair.material_here[t], b = pair.material_there[t];
-    return request.springs[(a * request.materials + b) * request.spring_classes + neighbour.site.spring_class];
+    return request.springs[(a * request.materials + b) * request.spring_classes +
+                           neighbour.site.spring_class];
   }
 
-  static void constants_of_lanes(const KernelRequest& request, const Pair& pair, const NeighbourGeometry& neighbour, int t, Pack& base_stiffness,
+  static void constants_of_lanes(const KernelRequest& request, const Pair& pair,
+                                 const NeighbourGeometry& neighbour, int t, Pack& base_stiffness,
                                  Pack& cross_stiffness, Pack& alarm) {
     Real base[width], cross[width], alarms[width];
     for (int lane = 0; lane < width; ++lane) {
       const SpringConstants& constants = between(request, pair, neighbour, t + lane);
       base[lane] = static_cast<Real>(constants.stiffness);
       cross[lane] = static_cast<Real>(constants.cross_stiffness);
-      alarms[lane] = static_cast<Real>(squared_growth<Real>(neighbour.rest_length, constants.alarm));
+      alarms[lane] =
+          static_cast<Real>(squared_growth<Real>(neighbour.rest_length, constants.alarm));
     }
     base_stiffness = load(base);
     cross_stiffness = load(cross);

@@ -1,8 +1,10 @@
-// The springs from a row of particles to all its forward neighbours in one pass, a vector of sites at a time, for a list of neighbours that is known
-// when the kernel is compiled: what a spring does stays in registers until all springs of these sites are summed.
+// The springs from a row of particles to all its forward neighbours in one pass, a vector of sites
+// at a time, for a list of neighbours that is known when the kernel is compiled: what a spring does
+// stays in registers until all springs of these sites are summed.
 //
-// A spring that leans forward (dx = 1) pulls at sites one further than its own; one that leans backward (dx = -1) is taken from its far end, so that
-// its own sites are one further. What falls one further waits for the next vector: nothing goes back.
+// A spring that leans forward (dx = 1) pulls at sites one further than its own; one that leans
+// backward (dx = -1) is taken from its far end, so that its own sites are one further. What falls
+// one further waits for the next vector: nothing goes back.
 #pragma once
 
 #include <hyperlattice/kernels/cubic_list.hpp>
@@ -34,8 +36,9 @@ class Stencil {
   };
   /// Where a row and those of its neighbours are stored. Element t belongs to site begin + t.
   struct Rows {
-    std::ptrdiff_t displacement[lines];  ///< places of the row's sites in each line; the first line is the row itself
-    Real* received[lines];               ///< forces on them, x; the next component is `scratch_width` further
+    std::ptrdiff_t displacement[lines];  ///< places of the row's sites in each line; the first line
+                                         ///< is the row itself
+    Real* received[lines];  ///< forces on them, x; the next component is `scratch_width` further
     const std::uint16_t* alive;
     const std::uint32_t* weight_sets;  ///< null: all count in full
     const Kinds* kinds;                ///< of each class
@@ -43,10 +46,11 @@ class Stencil {
     int count;                         ///< sites, padded to whole vectors
   };
 
-  Stencil(const KernelRequest& request, const Rows& rows) : request_(request), rows_(rows), spacing_(List::spacing(request.neighbours)) {}
+  Stencil(const KernelRequest& request, const Rows& rows)
+      : request_(request), rows_(rows), spacing_(List::spacing(request.neighbours)) {}
 
-  /// Adds to what later rows receive; gives the whole force on each vector of sites to take(t, forces), and clears what they received.
-  /// Returns the bits of neighbours with an alarm.
+  /// Adds to what later rows receive; gives the whole force on each vector of sites to take(t,
+  /// forces), and clears what they received. Returns the bits of neighbours with an alarm.
   template <class Take>
   HYPERLATTICE_INLINE std::uint32_t run(const Take& take) {
     Carried carried;
@@ -65,7 +69,8 @@ class Stencil {
     last(carried);
     return rung_;
   }
-  /// The same, with the forces kept in one array a component. Not inlined: every sweep that moves its particles later has the same.
+  /// The same, with the forces kept in one array a component. Not inlined: every sweep that moves
+  /// its particles later has the same.
   [[gnu::noinline]] std::uint32_t run(Real* const (&forces)[components]) {
     return run([&](int t, const Packs& sums) __attribute__((always_inline)) {
       for (std::size_t c = 0; c < components; ++c) store(forces[c] + t, sums[c]);
@@ -73,14 +78,17 @@ class Stencil {
   }
 
  private:
-  static constexpr bool leans_forward(std::size_t line) { return line != 0 && (List::in_line(List::lines[line]) & List::leaning(1)) != 0; }
+  static constexpr bool leans_forward(std::size_t line) {
+    return line != 0 && (List::in_line(List::lines[line]) & List::leaning(1)) != 0;
+  }
   static constexpr std::size_t leaning_before(std::size_t line) {
     std::size_t number = 0;
     for (std::size_t l = 0; l < line; ++l) number += leans_forward(l) ? 1 : 0;
     return number;
   }
 
-  /// What falls one site further than a vector, on the row itself and on the lines that springs lean to: its last lane belongs to the next vector.
+  /// What falls one site further than a vector, on the row itself and on the lines that springs
+  /// lean to: its last lane belongs to the next vector.
   struct Carried {
     static constexpr std::size_t rows = 1 + leaning_before(lines);
     Packs row[rows];  // the row itself first
@@ -88,8 +96,11 @@ class Stencil {
       every([&](std::size_t r, std::size_t c) __attribute__((always_inline)) { row[r][c] = 0; });
     }
     HYPERLATTICE_INLINE Carried(const Carried& other) { *this = other; }
-    HYPERLATTICE_INLINE Carried& operator=(const Carried& other) {  // by vectors: what a compiler makes of an array of this size is slow to begin
-      every([&](std::size_t r, std::size_t c) __attribute__((always_inline)) { row[r][c] = other.row[r][c]; });
+    HYPERLATTICE_INLINE Carried& operator=(
+        const Carried&
+            other) {  // by vectors: what a compiler makes of an array of this size is slow to begin
+      every([&](std::size_t r, std::size_t c)
+                __attribute__((always_inline)) { row[r][c] = other.row[r][c]; });
       return *this;
     }
     template <std::size_t line>
@@ -104,8 +115,9 @@ class Stencil {
    private:
     template <class Visit>
     HYPERLATTICE_INLINE static void every(const Visit& visit) {
-      each<rows>([&]<std::size_t r>()
-                     __attribute__((always_inline)) { each<components>([&]<std::size_t c>() __attribute__((always_inline)) { visit(r, c); }); });
+      each<rows>([&]<std::size_t r>() __attribute__((always_inline)) {
+        each<components>([&]<std::size_t c>() __attribute__((always_inline)) { visit(r, c); });
+      });
     }
   };
   static constexpr auto batches = List::template batches<membrane == Membrane::free>();
@@ -119,11 +131,14 @@ class Stencil {
   const Real* displacement(std::size_t line, std::size_t c) const {
     return static_cast<const Real*>(request_.displacement[c]) + rows_.displacement[line];
   }
-  Real* received(std::size_t line, std::size_t c) const { return rows_.received[line] + static_cast<std::ptrdiff_t>(c) * request_.scratch_width; }
+  Real* received(std::size_t line, std::size_t c) const {
+    return rows_.received[line] + static_cast<std::ptrdiff_t>(c) * request_.scratch_width;
+  }
 
   /// Of the springs of a vector that begins at t, each taken from its own lanes.
   Bits alive(int t) const {
-    Bits there = t < 0 ? Bits{} : load_bits<Real>(rows_.alive + t), ahead = load_bits<Real>(rows_.alive + t + 1);
+    Bits there = t < 0 ? Bits{} : load_bits<Real>(rows_.alive + t),
+         ahead = load_bits<Real>(rows_.alive + t + 1);
     if (t < 0)
       for (int lane = 0; lane < width - 1; ++lane) ahead[lane] = 0;
     if (t + width >= rows_.count) ahead[width - 1] = 0;
@@ -134,7 +149,9 @@ class Stencil {
     return (there & rest) | (ahead & back);
   }
   bool all_there(int t) const {
-    return t + width < rows_.count && same(of_lanes(load_bits<Real>(rows_.alive + t), load_bits<Real>(rows_.alive + t + 1)), Bits{} + List::all()) &&
+    return t + width < rows_.count &&
+           same(of_lanes(load_bits<Real>(rows_.alive + t), load_bits<Real>(rows_.alive + t + 1)),
+                Bits{} + List::all()) &&
            (rows_.weight_sets == nullptr || whole(rows_.weight_sets + t / lanes));
   }
   static bool whole(const std::uint32_t* sets) {  // of the vector and the site after it
@@ -149,7 +166,8 @@ class Stencil {
     HYPERLATTICE_INLINE Sums() {
       each<components>([&]<std::size_t c>() __attribute__((always_inline)) {
         own[c] = own_further[c] = 0;
-        each<lines>([&]<std::size_t l>() __attribute__((always_inline)) { line[l][c] = line_further[l][c] = 0; });
+        each<lines>([&]<std::size_t l>()
+                        __attribute__((always_inline)) { line[l][c] = line_further[l][c] = 0; });
       });
     }
   };
@@ -159,9 +177,12 @@ class Stencil {
     Packs none;
     add<false, List::leaning(-1)>(-width, carried, none);
   }
-  [[gnu::noinline]] void some(int t, Carried& carried, Packs& forces) { add<false, List::all()>(t, carried, forces); }
+  [[gnu::noinline]] void some(int t, Carried& carried, Packs& forces) {
+    add<false, List::all()>(t, carried, forces);
+  }
 
-  /// All springs of a vector of sites, or those of `only`. AllThere: none is missing and all count in full.
+  /// All springs of a vector of sites, or those of `only`. AllThere: none is missing and all count
+  /// in full.
   template <bool AllThere, std::uint16_t only>
   HYPERLATTICE_INLINE void add(int t, Carried& carried, Packs& forces) {
     const Bits bits = AllThere ? Bits{} : alive(t);
@@ -172,16 +193,19 @@ class Stencil {
     });
     Sums sums;
     each<batches.size()>([&]<std::size_t b>() __attribute__((always_inline)) {
-      if constexpr ((batches[b] & only) != 0) add_batch<AllThere, batches[b] & only>(t, bits, here, further, sums);
+      if constexpr ((batches[b] & only) != 0)
+        add_batch<AllThere, batches[b] & only>(t, bits, here, further, sums);
       each<lines>([&]<std::size_t line>() __attribute__((always_inline)) {
-        if constexpr (line != 0 && (List::in_line(List::lines[line]) & only) != 0 && last_batch(line) == b)
+        if constexpr (line != 0 && (List::in_line(List::lines[line]) & only) != 0 &&
+                      last_batch(line) == b)
           end_line<AllThere, line>(t, sums, carried);
       });
     });
     if constexpr (only == List::all())
       each<components>([&]<std::size_t c>() __attribute__((always_inline)) {
         Real* const so_far = received(0, c) + t;
-        forces[c] = sums.own[c] + load(so_far) + one_further(carried.row[0][c], sums.own_further[c]);
+        forces[c] =
+            sums.own[c] + load(so_far) + one_further(carried.row[0][c], sums.own_further[c]);
         store(so_far, Pack(0));
       });
     carried.row[0] = sums.own_further;
@@ -194,7 +218,8 @@ class Stencil {
     each<components>([&]<std::size_t c>() __attribute__((always_inline)) {
       Real* const so_far = received(line, c) + t;
       Pack sum = load(so_far) + sums.line[line][c];
-      if constexpr (leans_forward(line)) sum += one_further(carried.template to_line<line>()[c], sums.line_further[line][c]);
+      if constexpr (leans_forward(line))
+        sum += one_further(carried.template to_line<line>()[c], sums.line_further[line][c]);
       store(so_far, sum);
     });
     if constexpr (leans_forward(line)) carried.template to_line<line>() = sums.line_further[line];
@@ -210,8 +235,11 @@ class Stencil {
 
   /// The springs of one batch: where they stand, how they answer, what they push.
   template <bool AllThere, std::uint16_t batch>
-  HYPERLATTICE_INLINE void add_batch(int t, Bits bits, const Packs& here, const Packs& further, Sums& sums) {
-    constexpr std::size_t number = std::popcount(batch), answers = has_cross ? 2 * number : number;  // base springs, then their cross springs
+  HYPERLATTICE_INLINE void add_batch(int t, Bits bits, const Packs& here, const Packs& further,
+                                     Sums& sums) {
+    constexpr std::size_t number = std::popcount(batch),
+                          answers = has_cross ? 2 * number
+                                              : number;  // base springs, then their cross springs
     constexpr auto neighbour = List::template indices<number>(batch);
     Alike springs[number];
     const Kind* kinds[answers];
@@ -230,21 +258,26 @@ class Stencil {
     if (config.breakable && rung != 0) [[unlikely]]
       for (std::size_t s = 0; s < number; ++s)
         if ((rung >> s & 1u) != 0) rung_ |= 1u << neighbour[s];
-    each<number>([&]<std::size_t s>()
-                     __attribute__((always_inline)) { push<AllThere, neighbour[s]>(t, springs[s], pulls[s], pulls[answers - number + s], sums); });
+    each<number>([&]<std::size_t s>() __attribute__((always_inline)) {
+      push<AllThere, neighbour[s]>(t, springs[s], pulls[s], pulls[answers - number + s], sums);
+    });
   }
 
   template <bool AllThere, std::size_t n>
   HYPERLATTICE_INLINE Alike between(int t, Bits bits, const Packs& here) const {
     constexpr Neighbour to = List::neighbours[n];
     constexpr int offset[3] = {to.dx, to.dy, to.dz};
-    const auto there = [&](std::size_t c) { return load(displacement(List::line_of(to), c) + t + (to.dx > 0 ? 1 : 0)); };
+    const auto there = [&](std::size_t c) {
+      return load(displacement(List::line_of(to), c) + t + (to.dx > 0 ? 1 : 0));
+    };
     Alike springs;
     Pack growth[3];
     each<3>([&]<std::size_t c>() __attribute__((always_inline)) {  // d (2 rest + d) along each axis
       const Pack d = here[c] - there(c);
       springs.r[c] = offset[c] == 0 ? d : offset[c] > 0 ? d - spacing_ : d + spacing_;
-      growth[c] = d * (offset[c] == 0 ? d : offset[c] > 0 ? springs.r[c] - spacing_ : springs.r[c] + spacing_);
+      growth[c] = d * (offset[c] == 0  ? d
+                       : offset[c] > 0 ? springs.r[c] - spacing_
+                                       : springs.r[c] + spacing_);
     });
     springs.cross_q = springs.base_q = growth[0] + growth[1] + growth[2];
     if constexpr (membrane == Membrane::free) {
@@ -264,11 +297,14 @@ class Stencil {
 
   /// `base`, `cross`: force over length of the springs.
   template <bool AllThere, std::size_t n>
-  HYPERLATTICE_INLINE void push(int t, const Alike& springs, Pack base, Pack cross, Sums& sums) const {
+  HYPERLATTICE_INLINE void push(int t, const Alike& springs, Pack base, Pack cross,
+                                Sums& sums) const {
     constexpr Neighbour to = List::neighbours[n];
     constexpr std::size_t line = List::line_of(to);
     Packs& own = to.dx < 0 ? sums.own_further : sums.own;
-    Packs& other = line == 0 ? sums.own_further : to.dx > 0 ? sums.line_further[line] : sums.line[line];
+    Packs& other = line == 0   ? sums.own_further
+                   : to.dx > 0 ? sums.line_further[line]
+                               : sums.line[line];
     if constexpr (!AllThere) {
       if (rows_.weight_sets != nullptr) {
         const Pack weight = weights<n>(t);
@@ -280,8 +316,10 @@ class Stencil {
     }
     Pack pull = base;
     if constexpr (has_cross) pull += cross;
-    if constexpr (membrane == Membrane::free) {  // the cross spring pushes both heights the same way: no action and reaction
-      const Pack along = base * springs.height_difference, both = cross * (request_.membrane_distance + springs.height_sum);
+    if constexpr (membrane == Membrane::free) {  // the cross spring pushes both heights the same
+                                                 // way: no action and reaction
+      const Pack along = base * springs.height_difference,
+                 both = cross * (request_.membrane_distance + springs.height_sum);
       own[3] += along - both;
       other[3] -= along + both;
     }
@@ -295,7 +333,8 @@ class Stencil {
   template <std::size_t n>
   Pack weights(int t) const {
     const auto of = [&](int site) {
-      return load_weights<Real>(request_.weights, rows_.weight_sets + site / lanes, lanes * (static_cast<int>(n) + 1));
+      return load_weights<Real>(request_.weights, rows_.weight_sets + site / lanes,
+                                lanes * (static_cast<int>(n) + 1));
     };
     if constexpr (List::neighbours[n].dx >= 0) return of(t);
     return one_back(of(t < 0 ? 0 : t), of(t + width < rows_.count ? t + width : t));

@@ -1,9 +1,12 @@
-// One pass over a block of a structured lattice: forces, failure, damping and integration together, rows along x, each pair of particles
-// visited once. A row's springs go only forward (to later rows or later sites), so when a row is reached everything it receives from
-// earlier rows is there, and its velocities and displacements are updated in place. Received forces wait in a ring of reach + 1 planes.
+// One pass over a block of a structured lattice: forces, failure, damping and integration together,
+// rows along x, each pair of particles visited once. A row's springs go only forward (to later rows
+// or later sites), so when a row is reached everything it receives from earlier rows is there, and
+// its velocities and displacements are updated in place. Received forces wait in a ring of reach +
+// 1 planes.
 //
-// The ghost planes before the block repeat the neighbour block's springs into this one, in the same order as the whole body would have
-// them: sums do not depend on where the body is cut, hence not on the number of threads.
+// The ghost planes before the block repeat the neighbour block's springs into this one, in the same
+// order as the whole body would have them: sums do not depend on where the body is cut, hence not
+// on the number of threads.
 #pragma once
 
 #include <hyperlattice/kernels/listed.hpp>
@@ -19,7 +22,8 @@ class Sweep {
   using Pack = PackOf<Real>;
   using Pair = RowPair<config.of_rows()>;
   static constexpr int components = config.components(), width = lanes_of<Real>;
-  static constexpr bool measuring = config.measures(), Breakable = config.breakable, Mixed = config.mixed;
+  static constexpr bool measuring = config.measures(), Breakable = config.breakable,
+                        Mixed = config.mixed;
 
  public:
   static void run(const KernelRequest& request) { Sweep(request).all_rows(); }
@@ -28,9 +32,12 @@ class Sweep {
   template <bool Several, bool Weighted>
   using OneByOne = Springs<Law, config.of_springs(Several, Weighted)>;
   using Fused = Stencil<Law, config.of_springs(false, false), CubicList>;
-  static constexpr bool can_fuse = !measuring && !LawWithConstants<Law> && vectors <= 2;  // processors with shorter vectors have too few registers
+  static constexpr bool can_fuse =
+      !measuring && !LawWithConstants<Law> &&
+      vectors <= 2;  // processors with shorter vectors have too few registers
 
-  explicit Sweep(const KernelRequest& request) : request_(request), fused_(can_fuse && !request.exact && CubicList::is(request.neighbours)) {
+  explicit Sweep(const KernelRequest& request)
+      : request_(request), fused_(can_fuse && !request.exact && CubicList::is(request.neighbours)) {
     for (int c = 0; c < components; ++c) own_[c] = own_row(c);
   }
 
@@ -41,7 +48,8 @@ class Sweep {
         const Row& row = request_.rows[index];
         if (row.begin < row.end) one_row(row, index, j, k);
       }
-    for (int k = request_.planes; k < request_.planes + request_.reach; ++k) {  // forces on the next block's planes: it finds them itself
+    for (int k = request_.planes; k < request_.planes + request_.reach;
+         ++k) {  // forces on the next block's planes: it finds them itself
       Real* plane = received_plane(k);
       const std::size_t size = static_cast<std::size_t>(request_.rows_per_plane) * row_size();
       for (std::size_t n = 0; n < size; ++n) plane[n] = 0;
@@ -53,9 +61,11 @@ class Sweep {
     const int count = (row.end - row.begin + width - 1) / width * width;
     Motion<config.of_motion()> motion(request_, row);
     const bool accelerated = motion.accelerated();
-    // Particles can move as soon as the forces on them are known if no criterion and no support must see them first.
+    // Particles can move as soon as the forces on them are known if no criterion and no support
+    // must see them first.
     constexpr bool may_move_at_once = !Breakable && !Mixed && !measuring;
-    const bool at_once = may_move_at_once && fused && owned && row.first_support == row.last_support;
+    const bool at_once = may_move_at_once && fused && owned &&
+                         row.first_boundary_particle == row.last_boundary_particle;
     Energies<Pack> energies;
     if (!fused) {
       motion.set_body_force(own_, count);
@@ -67,7 +77,8 @@ class Sweep {
         if constexpr (may_move_at_once)
           stencil.run([&](int t, Forces<components, Real>& forces) __attribute__((always_inline)) {
             if (accelerated)
-              for (std::size_t c = 0; c < components; ++c) forces[c] += motion.body_force(static_cast<int>(c), t);
+              for (std::size_t c = 0; c < components; ++c)
+                forces[c] += motion.body_force(static_cast<int>(c), t);
             motion.vector(t, forces);
           });
       } else {
@@ -82,14 +93,17 @@ class Sweep {
   }
 
   typename Fused::Rows rows_of(const Row& row, int j, int k, int count) {
-    if (const std::int32_t material = Mixed ? row.material : 0; material != kinds_of_) set_kinds(material);
+    if (const std::int32_t material = Mixed ? row.material : 0; material != kinds_of_)
+      set_kinds(material);
     typename Fused::Rows rows;
     for (std::size_t line = 0; line < CubicList::lines.size(); ++line) {
       const auto [dy, dz] = CubicList::lines[line];
-      const bool there = (row.neighbours & CubicList::in_line({dy, dz})) != 0;  // if not, the row itself stands in, without springs
+      const bool there = (row.neighbours & CubicList::in_line({dy, dz})) !=
+                         0;  // if not, the row itself stands in, without springs
       const int to_j = there ? j + dy : j, to_k = there ? k + dz : k;
       const Row& other = request_.rows[row_index(to_j, to_k)];
-      rows.displacement[line] = static_cast<std::ptrdiff_t>(other.start) + (row.begin - other.begin);
+      rows.displacement[line] =
+          static_cast<std::ptrdiff_t>(other.start) + (row.begin - other.begin);
       rows.received[line] = received_row(0, to_j, to_k) + row.begin;
     }
     rows.alive = request_.alive + row.start;
@@ -103,33 +117,42 @@ class Sweep {
   void review_all(const Row& row, std::uint32_t index, int j, int k, std::uint32_t rung) {
     for (std::uint32_t n = 0; n < request_.neighbours.size(); ++n)
       if ((rung >> n & 1u) != 0)
-        OneByOne<Mixed, false>::review(request_, pair_of(row, request_.neighbours[n].site, j, k), row, index, n,
+        OneByOne<Mixed, false>::review(request_, pair_of(row, request_.neighbours[n].site, j, k),
+                                       row, index, n,
                                        constants_of(row, request_.neighbours[n].site.spring_class));
   }
 
-  [[gnu::noinline]] void one_by_one(const Row& row, std::uint32_t index, int j, int k, int count, Energies<Pack>& energies) {
+  [[gnu::noinline]] void one_by_one(const Row& row, std::uint32_t index, int j, int k, int count,
+                                    Energies<Pack>& energies) {
     const bool owned = k >= 0;
     for (std::uint32_t n = 0; n < request_.neighbours.size(); ++n) {
       const NeighbourGeometry& neighbour = request_.neighbours[n];
       if ((row.neighbours >> n & 1u) == 0 || (!owned && k + neighbour.site.dz < 0)) continue;
       Pair pair = pair_of(row, neighbour.site, j, k);
       if constexpr (memory_of<Law>() > 0)
-        pair.memory = request_.memory + n * kinds_of(config.membrane) * memory_of<Law>() * request_.memory_stride + row.start;
+        pair.memory = request_.memory +
+                      n * kinds_of(config.membrane) * memory_of<Law>() * request_.memory_stride +
+                      row.start;
       const auto bit = static_cast<std::uint16_t>(1u << n);
       const bool uniform = !Mixed || row.material >= 0;
       const SpringConstants* constants = constants_of(row, neighbour.site.spring_class);
       const auto add = [&]<bool Several, bool Weighted>() {
-        return OneByOne<Several, Weighted>::add(request_, pair, neighbour, bit, *constants, count, energies);
+        return OneByOne<Several, Weighted>::add(request_, pair, neighbour, bit, *constants, count,
+                                                energies);
       };
       bool rung;
       if (row.weights == no_weights) {
-        rung = uniform ? add.template operator()<false, false>() : add.template operator()<Mixed, false>();
+        rung = uniform ? add.template operator()<false, false>()
+                       : add.template operator()<Mixed, false>();
       } else {
         pair.weight_sets = request_.weight_sets + row.weights;
         pair.weights = request_.weights + lanes * (n + 1);
-        rung = uniform ? add.template operator()<false, true>() : add.template operator()<Mixed, true>();
+        rung = uniform ? add.template operator()<false, true>()
+                       : add.template operator()<Mixed, true>();
       }
-      if (Breakable && rung && owned && !measuring) OneByOne<Mixed, false>::review(request_, pair, row, index, n, uniform ? constants : nullptr);
+      if (Breakable && rung && owned && !measuring)
+        OneByOne<Mixed, false>::review(request_, pair, row, index, n,
+                                       uniform ? constants : nullptr);
     }
     join_received(row, j, k, count);
   }
@@ -148,32 +171,46 @@ class Sweep {
   // Constants of springs.
   const SpringConstants* constants_of(const Row& row, std::uint32_t spring_class) const {
     const SpringConstants* constants = request_.springs + spring_class;
-    if (Mixed && row.material >= 0) constants += static_cast<std::uint32_t>(row.material) * (request_.materials + 1) * request_.spring_classes;
+    if (Mixed && row.material >= 0)
+      constants += static_cast<std::uint32_t>(row.material) * (request_.materials + 1) *
+                   request_.spring_classes;
     return constants;
   }
   void set_kinds(std::int32_t material) {
     kinds_of_ = material;
-    const SpringConstants* of_material = request_.springs + static_cast<std::uint32_t>(material) * (request_.materials + 1) * request_.spring_classes;
+    const SpringConstants* of_material = request_.springs + static_cast<std::uint32_t>(material) *
+                                                                (request_.materials + 1) *
+                                                                request_.spring_classes;
     for (const NeighbourGeometry& neighbour : request_.neighbours) {
       const SpringConstants& constants = of_material[neighbour.site.spring_class];
       auto& kinds = kinds_[neighbour.site.spring_class];
-      kinds.base = {constants.stiffness, neighbour.rest_length, Breakable ? constants.alarm : infinity};
+      kinds.base = {constants.stiffness, neighbour.rest_length,
+                    Breakable ? constants.alarm : infinity};
       kinds.cross = {constants.cross_stiffness, neighbour.cross_rest_length, infinity};
     }
   }
 
   // Where things are.
-  std::uint32_t row_index(int j, int k) const { return static_cast<std::uint32_t>((k + request_.reach) * request_.rows_per_plane + j); }
-  std::size_t row_size() const { return static_cast<std::size_t>(components) * static_cast<std::size_t>(request_.scratch_width); }
-  Real* received_plane(int k) const {  // at the same address in every precision: steps and measurements find zeros there
+  std::uint32_t row_index(int j, int k) const {
+    return static_cast<std::uint32_t>((k + request_.reach) * request_.rows_per_plane + j);
+  }
+  std::size_t row_size() const {
+    return static_cast<std::size_t>(components) * static_cast<std::size_t>(request_.scratch_width);
+  }
+  Real* received_plane(int k)
+      const {  // at the same address in every precision: steps and measurements find zeros there
     const auto slot = static_cast<std::size_t>((k + request_.reach) % (request_.reach + 1));
     void* first = static_cast<double*>(request_.scratch) + row_size();
-    return static_cast<Real*>(first) + row_size() * slot * static_cast<std::size_t>(request_.rows_per_plane);
+    return static_cast<Real*>(first) +
+           row_size() * slot * static_cast<std::size_t>(request_.rows_per_plane);
   }
   Real* received_row(int c, int j, int k) const {  // element i belongs to site i
-    return received_plane(k) + row_size() * static_cast<std::size_t>(j) + c * request_.scratch_width + scratch_margin;
+    return received_plane(k) + row_size() * static_cast<std::size_t>(j) +
+           c * request_.scratch_width + scratch_margin;
   }
-  Real* own_row(int c) const { return static_cast<Real*>(request_.scratch) + c * request_.scratch_width; }  // element t belongs to site begin + t
+  Real* own_row(int c) const {
+    return static_cast<Real*>(request_.scratch) + c * request_.scratch_width;
+  }  // element t belongs to site begin + t
 
   Pair pair_of(const Row& row, const Neighbour& to, int j, int k) const {
     const Row& other = request_.rows[row_index(j + to.dy, k + to.dz)];
@@ -212,13 +249,15 @@ class Kernels {
     KernelSet set = of_membrane(choice);
     set.memory = memory_of<Law>();
     if constexpr (LawWithStart<Law>)
-      set.start = [](const double* law, const SpringIdentity& spring, double* kept, const Complaint& why) noexcept {
+      set.start = [](const double* law, const SpringIdentity& spring, double* kept,
+                     const Complaint& why) noexcept {
         return detail::guarded(why, [&] { SpringStep<Law>::start(law, spring, kept); });
       };
     set.ask = [](const OneSpring& spring, SpringAnswer& answer, const Complaint& why) noexcept {
       return detail::guarded(why, [&] { answer = asked(spring); });
     };
-    set.take = [](const OneSpring& spring, double time_step, double* kept, SpringAnswer& answer, const Complaint& why) noexcept {
+    set.take = [](const OneSpring& spring, double time_step, double* kept, SpringAnswer& answer,
+                  const Complaint& why) noexcept {
       return detail::guarded(why, [&] { answer = taken(spring, time_step, kept); });
     };
     set.instructions = instructions;
@@ -229,17 +268,22 @@ class Kernels {
   static SpringAnswer asked(const OneSpring& spring) {
     const double k = spring.stiffness, u = spring.elongation;
     if constexpr (LawWithMemory<Law>)
-      return {spring.memory[SpringStep<Law>::own + 1], SpringStep<Law>::energy_of({k, spring.rest_length, u, 0, 0}, spring.law, spring.memory)};
+      return {
+          spring.memory[SpringStep<Law>::own + 1],
+          SpringStep<Law>::energy_of({k, spring.rest_length, u, 0, 0}, spring.law, spring.memory)};
     else
       return taken(spring, 0, nullptr);
   }
 
   static SpringAnswer taken(const OneSpring& spring, double time_step, double* kept) {
     if constexpr (LawWithConstants<Law>) {
-      const auto step = SpringStep<Law>::take({spring.stiffness, spring.rest_length, spring.elongation, 0, time_step}, spring.law, kept);
+      const auto step = SpringStep<Law>::take(
+          {spring.stiffness, spring.rest_length, spring.elongation, 0, time_step}, spring.law,
+          kept);
       return {step.force, step.energy};
     } else {
-      return {Law::force(spring.stiffness, spring.elongation), Law::energy(spring.stiffness, spring.elongation)};
+      return {Law::force(spring.stiffness, spring.elongation),
+              Law::energy(spring.stiffness, spring.elongation)};
     }
   }
 
@@ -262,30 +306,41 @@ class Kernels {
   template <Membrane membrane>
   static KernelSet of_failure(const KernelChoice& choice) {
     if constexpr (LawWithConstants<Law>) return of_mixture<membrane, true>(choice);
-    return choice.breakable ? of_mixture<membrane, true>(choice) : of_mixture<membrane, false>(choice);
+    return choice.breakable ? of_mixture<membrane, true>(choice)
+                            : of_mixture<membrane, false>(choice);
   }
   template <Membrane membrane, bool breakable>
   static KernelSet of_mixture(const KernelChoice& choice) {
-    if constexpr (LawWithConstants<Law>) return of_precision<membrane, breakable, true>(choice);  // asks lane by lane: nothing to gain from less
-    return choice.mixed ? of_precision<membrane, breakable, true>(choice) : of_precision<membrane, breakable, false>(choice);
+    if constexpr (LawWithConstants<Law>)
+      return of_precision<membrane, breakable, true>(
+          choice);  // asks lane by lane: nothing to gain from less
+    return choice.mixed ? of_precision<membrane, breakable, true>(choice)
+                        : of_precision<membrane, breakable, false>(choice);
   }
   template <Membrane membrane, bool breakable, bool mixed>
   static KernelSet of_precision(const KernelChoice& choice) {
-    return choice.precision == Precision::floats ? of_topology<membrane, breakable, mixed, Precision::floats>(choice)
-                                                 : of_topology<membrane, breakable, mixed, Precision::doubles>(choice);
+    return choice.precision == Precision::floats
+               ? of_topology<membrane, breakable, mixed, Precision::floats>(choice)
+               : of_topology<membrane, breakable, mixed, Precision::doubles>(choice);
   }
   template <Membrane membrane, bool breakable, bool mixed, Precision stored>
   static KernelSet of_topology(const KernelChoice& choice) {
-    constexpr auto config = [](Task task) { return config_of<Law>(membrane, breakable && task != Task::measure, mixed, task, stored); };
-    if (choice.listed) return of_sweep<ListedSweep, config(Task::step), config(Task::step_damped), config(Task::measure)>();
-    KernelSet set = of_sweep<Sweep, config(Task::step), config(Task::step_damped), config(Task::measure)>();
+    constexpr auto config = [](Task task) {
+      return config_of<Law>(membrane, breakable && task != Task::measure, mixed, task, stored);
+    };
+    if (choice.listed)
+      return of_sweep<ListedSweep, config(Task::step), config(Task::step_damped),
+                      config(Task::measure)>();
+    KernelSet set =
+        of_sweep<Sweep, config(Task::step), config(Task::step_damped), config(Task::measure)>();
     if constexpr (!LawWithConstants<Law>)
       set.linearise = [](const SpringRow& row, double& energy, const Complaint& why) noexcept {
         return detail::guarded(why, [&] { energy = Tangent<Law, membrane>::run(row); });
       };
     return set;
   }
-  template <template <class, KernelConfig> class Of, KernelConfig step, KernelConfig step_damped, KernelConfig measure>
+  template <template <class, KernelConfig> class Of, KernelConfig step, KernelConfig step_damped,
+            KernelConfig measure>
   static KernelSet of_sweep() {
     KernelSet set;
     set.step = &run<Of<Law, step>>;
@@ -303,7 +358,9 @@ class Kernels {
 #define HYPERLATTICE_JOIN(a, b) HYPERLATTICE_JOIN_OF(a, b)
 
 /// Written once in each generated file: hyperlattice_kernels_avx2(choice), and so on.
-#define HYPERLATTICE_KERNELS(Law)                                                                                                         \
-  hyperlattice::KernelSet HYPERLATTICE_JOIN(hyperlattice_kernels_, HYPERLATTICE_INSTRUCTIONS)(const hyperlattice::KernelChoice& choice) { \
-    return hyperlattice::HYPERLATTICE_INSTRUCTIONS::Kernels<Law>::of(choice, HYPERLATTICE_TEXT(HYPERLATTICE_INSTRUCTIONS));               \
+#define HYPERLATTICE_KERNELS(Law)                                                              \
+  hyperlattice::KernelSet HYPERLATTICE_JOIN(hyperlattice_kernels_, HYPERLATTICE_INSTRUCTIONS)( \
+      const hyperlattice::KernelChoice& choice) {                                              \
+    return hyperlattice::HYPERLATTICE_INSTRUCTIONS::Kernels<Law>::of(                          \
+        choice, HYPERLATTICE_TEXT(HYPERLATTICE_INSTRUCTIONS));                                 \
   }

@@ -1,16 +1,19 @@
-// What the springs of one row answer to a displacement: the force along each over its length, and how it changes; what a static solver needs.
+// What the springs of one row answer to a displacement: the force along each over its length, and
+// how it changes; what a static solver needs.
 //
-// A spring with the vector r between its ends, length L, force f(L - L0) and stiffness f' has, on the difference of its ends, the tangent
+// A spring with the vector r between its ends, length L, force f(L - L0) and stiffness f' has, on
+// the difference of its ends, the tangent
 //   K = axial r r^T / l^2 + pull I,   pull = f / L,   axial = (f' - f / L) l^2 / L^2,
-// with l the lattice constant, so that both are in N/m. `pull` alone is its force, pull r. The same holds for cross springs, with the fourth
-// component Delta + h_i + h_j. See docs/theory/statics.md.
+// with l the lattice constant, so that both are in N/m. `pull` alone is its force, pull r. The same
+// holds for cross springs, with the fourth component Delta + h_i + h_j. See docs/theory/statics.md.
 #pragma once
 
 #include <hyperlattice/kernels/springs.hpp>
 
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
-/// A law may give its tangent, the derivative of its force; a linear law need not, and of others it is found by a small difference.
+/// A law may give its tangent, the derivative of its force; a linear law need not, and of others it
+/// is found by a small difference.
 template <class Law>
 inline Pack tangent_of(Pack stiffness, Pack elongation, double rest_length) {
   if constexpr (requires { Law::tangent(stiffness, elongation); }) {
@@ -19,7 +22,8 @@ inline Pack tangent_of(Pack stiffness, Pack elongation, double rest_length) {
     return stiffness;
   } else {
     const double h = 1e-6 * rest_length;
-    return (Law::force(stiffness, elongation + h) - Law::force(stiffness, elongation - h)) / (2 * h);
+    return (Law::force(stiffness, elongation + h) - Law::force(stiffness, elongation - h)) /
+           (2 * h);
   }
 }
 
@@ -42,21 +46,27 @@ struct Tangent {
         difference = there - here;
         total = there + here;
       }
-      stored += one(row, row.rest_length, load(row.stiffness + t), q + difference * difference, weight, row.pull + t, row.axial + t);
+      stored += one(row, row.rest_length, load(row.stiffness + t), q + difference * difference,
+                    weight, row.pull + t, row.axial + t);
       if constexpr (membrane != Membrane::none) {
         const Pack growth = q + total * (2 * row.membrane_distance + total);
-        stored += one(row, row.cross_rest_length, load(row.cross_stiffness + t), growth, weight, row.cross_pull + t, row.cross_axial + t);
+        stored += one(row, row.cross_rest_length, load(row.cross_stiffness + t), growth, weight,
+                      row.cross_pull + t, row.cross_axial + t);
       }
     }
     return sum(stored);
   }
 
  private:
-  static Pack one(const SpringRow& row, double rest_length, Pack stiffness, Pack q, Pack weight, double* pull, double* axial) {
-    const Pack square = rest_length * rest_length + q, length = root(square), elongation = q / (length + rest_length);
+  static Pack one(const SpringRow& row, double rest_length, Pack stiffness, Pack q, Pack weight,
+                  double* pull, double* axial) {
+    const Pack square = rest_length * rest_length + q, length = root(square),
+               elongation = q / (length + rest_length);
     const Pack force_over_length = Law::force(stiffness, elongation) / length;
-    const Pack along = (tangent_of<Law>(stiffness, elongation, rest_length) - force_over_length) * (row.spacing * row.spacing) / square;
-    const LanesOf<double> there_is = not_zero(weight);  // where there is no spring, what stands in its place need not be finite
+    const Pack along = (tangent_of<Law>(stiffness, elongation, rest_length) - force_over_length) *
+                       (row.spacing * row.spacing) / square;
+    const LanesOf<double> there_is =
+        not_zero(weight);  // where there is no spring, what stands in its place need not be finite
     store(pull, where(there_is, weight * force_over_length));
     store(axial, where(there_is, weight * along));
     return where(there_is, weight * Law::energy(stiffness, elongation));

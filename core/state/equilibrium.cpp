@@ -1,5 +1,6 @@
-// From rest to rest: what a static solver finds becomes the state, and its books continue those of the steps in time. A path of states of rest is
-// known at its ends only; the work along it is the mean of the forces at both ends over the way between them.
+// From rest to rest: what a static solver finds becomes the state, and its books continue those of
+// the steps in time. A path of states of rest is known at its ends only; the work along it is the
+// mean of the forces at both ends over the way between them.
 #include <state/parts.hpp>
 
 #include <algorithm>
@@ -12,8 +13,10 @@ void Simulation::hold_time(double time) {
     for (Contribution& part : block.contributions) {
       if (part.driven == 0) continue;
       const double way = parts_->model.loads[part.load].integral(parts_->time, time);
-      const std::uint64_t index = block.supports[part.support].index;
-      for (int c = 0; c < 3; ++c) set_component(part.goal, c, block.displacement[c][index] + way * component(part.velocity, c));
+      const std::uint64_t index = block.boundary_particles[part.support].index;
+      for (int c = 0; c < 3; ++c)
+        set_component(part.goal, c,
+                      block.displacement[c][index] + way * component(part.velocity, c));
     }
   set_time(time);
 }
@@ -21,16 +24,19 @@ void Simulation::release_time() { parts_->time_held = false; }
 
 void Simulation::alive(std::vector<std::uint16_t>& bits) const {
   bits.resize(parts_->model.body.particles);
-  parts_->for_runs([&](const Block& block, std::uint64_t place, Particle first, std::uint64_t count) {
-    std::copy_n(block.alive.get() + place, count, bits.begin() + static_cast<std::ptrdiff_t>(first));
-  });
+  parts_->for_runs(
+      [&](const Block& block, std::uint64_t place, Particle first, std::uint64_t count) {
+        std::copy_n(block.alive.get() + place, count,
+                    bits.begin() + static_cast<std::ptrdiff_t>(first));
+      });
 }
 
 double Simulation::kinetic() const {
   std::vector<double>& masses = parts_->particle_masses;
   const Model& model = parts_->model;
   if (masses.empty())
-    for (Particle particle = 0; particle < model.body.particles; ++particle) masses.push_back(model.mass(particle));
+    for (Particle particle = 0; particle < model.body.particles; ++particle)
+      masses.push_back(model.mass(particle));
   struct Piece {
     const Block* block;
     std::uint64_t place, count;
@@ -38,10 +44,12 @@ double Simulation::kinetic() const {
     double twice;
   };
   std::vector<Piece> pieces;  // the same for any number of blocks: these are cut between rows
-  parts_->for_runs([&](const Block& block, std::uint64_t place, Particle first, std::uint64_t count) {
-    for (std::uint64_t n = 0; n < count; n += Listed::stretch)
-      pieces.push_back({&block, place + n, std::min<std::uint64_t>(Listed::stretch, count - n), first + n, 0});
-  });
+  parts_->for_runs(
+      [&](const Block& block, std::uint64_t place, Particle first, std::uint64_t count) {
+        for (std::uint64_t n = 0; n < count; n += Listed::stretch)
+          pieces.push_back({&block, place + n, std::min<std::uint64_t>(Listed::stretch, count - n),
+                            first + n, 0});
+      });
   parts_->team.for_each(pieces.size(), [&](std::size_t number) {
     Piece& piece = pieces[number];
     for (std::uint64_t n = 0; n < piece.count; ++n) {
@@ -66,13 +74,16 @@ void Simulation::halt() {
   parts_->halted_energy += error - parts_->balance().error;
 }
 
-void Simulation::close_books() { parts_->start_energy += parts_->balance().error; }
+void Simulation::reset_energy_balance() { parts_->start_energy += parts_->balance().error; }
 
-void Simulation::settle(const Settling& to) {
+void Simulation::apply_equilibrium(const EquilibriumUpdate& to) {
   halt();
   const Model& model = parts_->model;
-  const auto moved_of = [&](const Block& block, const Support& support, Particle particle) {
-    const auto way = [&](std::size_t c) { return to.xyz[3 * particle + c] - block.displacement[c][support.index]; };
+  const auto moved_of = [&](const Block& block, const BoundaryParticle& support,
+                            Particle particle) {
+    const auto way = [&](std::size_t c) {
+      return to.xyz[3 * particle + c] - block.displacement[c][support.index];
+    };
     return Vec3{way(0), way(1), way(2)};
   };
   for (std::size_t l = 0; l < model.loads.size(); ++l) {
@@ -80,7 +91,7 @@ void Simulation::settle(const Settling& to) {
     for (Block& block : parts_->blocks)
       for (Contribution& part : block.contributions) {
         if (part.load != l) continue;
-        Support& support = block.supports[part.support];
+        BoundaryParticle& support = block.boundary_particles[part.support];
         const Particle particle = part.particle;
         const Vec3 moved = moved_of(block, support, particle);
         part.work += mean * dot(part.force, moved);
@@ -97,7 +108,8 @@ void Simulation::settle(const Settling& to) {
     std::vector<double> before;
     displacements(before);
     for (Particle p = 0; p < model.body.particles; ++p) {
-      const Vec3 moved{to.xyz[3 * p] - before[3 * p], to.xyz[3 * p + 1] - before[3 * p + 1], to.xyz[3 * p + 2] - before[3 * p + 2]};
+      const Vec3 moved{to.xyz[3 * p] - before[3 * p], to.xyz[3 * p + 1] - before[3 * p + 1],
+                       to.xyz[3 * p + 2] - before[3 * p + 2]};
       parts_->gravity_unused += unused * model.mass(p) * dot(model.acceleration, moved);
     }
   }
