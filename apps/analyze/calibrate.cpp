@@ -18,7 +18,8 @@ void check_positive(const char* option, const std::optional<double>& value, Faul
     faults.add(option, fmt::format("{}", *value), "a positive, finite number");
 }
 
-/// Whether the paper's polynomials are asked for, and may be.
+/// Returns whether to use the paper's polynomials. Adds a fault if they do not hold for this
+/// choice.
 bool by_paper(const CalibrationChoice& choice, const LatticeGeometry& geometry, Faults& faults) {
   if (choice.parameters == "closed_form") return false;
   if (choice.parameters != "paper") {
@@ -50,7 +51,7 @@ bool by_paper(const CalibrationChoice& choice, const LatticeGeometry& geometry, 
   return true;
 }
 
-/// A Poisson ratio was found to be in reach already.
+/// Adds a fault if the lattice is unstable. resolve() has checked a Poisson ratio already.
 void check_stable(const CalibrationChoice& choice, const ChosenMembrane& chosen,
                   const LatticeGeometry& geometry, Faults& faults) {
   if (choice.membrane.lambda && !is_stable(geometry, chosen.membrane, *chosen.lambda))

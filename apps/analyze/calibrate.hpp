@@ -1,4 +1,5 @@
-// From Young's modulus and the Poisson ratio to the springs of an endless lattice, and back.
+// Calibration: the springs of an infinite lattice from Young's modulus and the Poisson ratio, and
+// back.
 #pragma once
 
 #include <analyze/membrane_choice.hpp>
@@ -6,38 +7,40 @@
 
 namespace hyperlattice {
 
-/// As written on a command line; what was not given is empty.
+/// The arguments of the command line; those not given are empty.
 struct CalibrationChoice {
   MembraneChoice membrane;
   std::optional<double> young;    ///< Pa
   std::optional<double> spacing;  ///< l, m
-  std::string parameters =
-      "closed_form";  ///< exact for the endless lattice; or "paper": polynomials (11) and (13)
+  /// "closed_form": exact for the infinite lattice; or "paper": polynomials (11) and (13).
+  std::string parameters = "closed_form";
 };
 
+/// The result of a calibration.
 struct Calibration {
   ChosenMembrane chosen;
-  ElasticPair pair;                             ///< by the method asked for
-  ElasticPair infinite;                         ///< what the endless lattice of these springs has
-  double zener = 1;                             ///< its A: 1 if isotropic
-  std::optional<double> young;                  ///< Pa
+  ElasticPair pair;             ///< by the method of CalibrationChoice::parameters
+  ElasticPair infinite;         ///< of the infinite lattice with these springs
+  double zener = 1;             ///< Zener ratio A of the infinite lattice; 1 if isotropic
+  std::optional<double> young;  ///< Pa
   std::optional<double> stiffness_per_spacing;  ///< k / l, Pa
   std::optional<double> base_stiffness;         ///< k, N/m
 };
 
-/// Throws InputError with every fault: what does not fit together, and values out of a stable
-/// lattice's reach, with that reach and who reaches it.
+/// Calibrates a membrane. Throws InputError with every fault: arguments that contradict each other,
+/// and values for which no lattice is stable, with the stable range and the membranes that reach
+/// the value.
 Calibration calibrate(const CalibrationChoice& choice, const LatticeGeometry& geometry);
 
-/// What the endless lattice with these springs has.
+/// Returns the constants of the infinite lattice with these stiffness ratios.
 ElasticPair elastic_pair(const LatticeGeometry& geometry, const calibration::Ratios& ratios);
 
-/// The same of a listed lattice if all particles were strained alike; nothing for others, whose
-/// particles are.
+/// Returns the same for a listed lattice under affine strain (all springs see the mean strain);
+/// nothing for a grid, where the strain is affine anyway.
 std::optional<ElasticPair> affine_pair(const LatticeGeometry& geometry,
                                        const calibration::Ratios& ratios);
 
-// For machines, and as a page.
+// The results as JSON and as text.
 Json calibration_json(const Calibration& calibration);
 std::string calibration_text(const Calibration& calibration);
 Json measured_json(const Measured& measured, const VirtualTest::Options& options);

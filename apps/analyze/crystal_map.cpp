@@ -1,6 +1,6 @@
-// A pair nu', nu'' is a crystal but for its scale: C11 = 1, C12 = nu' / (1 - nu'), C44 = (1 - 2
-// nu'') / (2 - 2 nu''). So each spot of the map is asked the same as a crystal: is there a lattice,
-// and a stable one?
+// The map of figure 4. A pair nu', nu'' defines a crystal up to its scale: C11 = 1, C12 = nu' / (1
+// - nu'), C44 = (1 - 2 nu'') / (2 - 2 nu''). So each spot of the map is fitted like a crystal: does
+// a lattice exist, and a stable one?
 #include <analyze/crystal_report.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -35,7 +35,7 @@ using Map = std::array<std::array<Kind, columns>, rows>;
 double bulk_at(double column) { return cell * column; }
 double shear_at(double row) { return cell * row - 0.5; }
 
-/// The map as bars of one kind along nu': x, y, half width, half height.
+/// Appends the cells of one kind as bars along nu': x, y, half width, half height.
 void append_region(std::string& text, const Map& map, Kind kind) {
   fmt::format_to(std::back_inserter(text), "$region{} << EOD\n", static_cast<int>(kind));
   for (std::size_t row = 0; row < rows; ++row)
@@ -47,7 +47,7 @@ void append_region(std::string& text, const Map& map, Kind kind) {
                      bulk_at((first + last) / 2), shear_at(static_cast<double>(row) + 0.5),
                      cell * (last - first) / 2, cell / 2);
     }
-  text += "0 -9 0 0\nEOD\n";  // never empty
+  text += "0 -9 0 0\nEOD\n";  // gnuplot needs at least one row
 }
 
 void append_regions(std::string& text) {
@@ -60,7 +60,8 @@ void append_regions(std::string& text) {
   append_region(text, *map, stable);
 }
 
-/// From the membrane's first stable lambda upwards, evenly in lambda / (lambda + 4).
+/// Appends the curve of a membrane from its first stable lambda upwards, evenly in lambda / (lambda
+/// + 4).
 void append_membrane(std::string& text, calibration::Membrane membrane, double first) {
   constexpr int points = 200;
   const auto name = calibration::membrane_names[static_cast<std::size_t>(membrane)];

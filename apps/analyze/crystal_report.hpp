@@ -1,5 +1,5 @@
-// What is said of crystals and the lattices that have their constants: for machines, as a table,
-// and as the map of figure 4.
+// Reports on crystals and on the lattices with their elastic constants: as JSON, as a table, and as
+// the map of figure 4 (Zhao 2017).
 #pragma once
 
 #include <analyze/crystals.hpp>
@@ -7,7 +7,7 @@
 
 namespace hyperlattice {
 
-/// Constants in GPa.
+/// A crystal (constants in GPa) and its lattice, if one exists.
 struct FittedCrystal {
   Crystal crystal;
   std::optional<CrystalFit> fit;
@@ -22,9 +22,9 @@ struct MapPoint {
   double poisson_bulk = 0, poisson_shear = 0;
 };
 
-/// The map in gnuplot's commands: which pairs nu', nu'' lattices with ratios from -4 to 5 have at
-/// all, and which stable ones; the paper's membranes; the crystals; and `lattice`, the one
-/// analysed, if there is one.
+/// Returns the map as gnuplot commands: the pairs nu', nu'' for which lattices with ratios from -4
+/// to 5 exist, and those for which a stable one exists; the membranes of the paper; the crystals;
+/// and the analysed `lattice`, if given.
 std::string crystal_map_script(const std::vector<FittedCrystal>& crystals,
                                const std::optional<MapPoint>& lattice);
 

@@ -34,7 +34,7 @@ std::optional<Columns> columns_of(const TableColumns& header, const std::string&
   return faults.size() > before ? std::nullopt : std::optional(columns);
 }
 
-/// The constants of one line; they must be those of a crystal that does not fall apart.
+/// Reads the constants of one line. Adds a fault if they do not belong to a stable crystal.
 std::optional<Crystal> crystal_of(const std::vector<std::string>& cells, const Columns& columns,
                                   const std::string& where, Faults& faults) {
   if (cells.size() <= *std::max_element(columns.at.begin(), columns.at.end())) {

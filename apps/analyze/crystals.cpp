@@ -1,8 +1,8 @@
 // With t = 2 l / k, the constants t C11, t C12, t C44 are D1, D2, D3 of the lattice, and
-//   k_gamma = 3/4 (t C44 - 2),   k_beta = t (C11 - C12 - C44) - 2,   k_alpha = (t P - 6)^2 / (t X)
-//   - 3 t (C11 - C12) + 12
-// with P = C11 - C12 + C44 and X = C44 - C12: what the free height takes away, C4^2 / C3 = t X, is
-// what makes C12 less than C44.
+//   k_gamma = 3/4 (t C44 - 2),   k_beta = t (C11 - C12 - C44) - 2,
+//   k_alpha = (t P - 6)^2 / (t X) - 3 t (C11 - C12) + 12
+// with P = C11 - C12 + C44 and X = C44 - C12. The relaxation of a free height reduces C12 below C44
+// by C4^2 / C3 = t X.
 #include <analyze/crystals.hpp>
 #include <analyze/cubic_stability.hpp>
 
@@ -19,7 +19,7 @@ calibration::Ratios ratios_at(const Crystal& c, double t) {
   if (X == 0)
     ratios.beta =
         t * c.C11 - 6 -
-        8 * ratios.gamma / 3;  // Cauchy's relation holds: only a clamped height takes nothing away
+        8 * ratios.gamma / 3;  // Cauchy's relation C12 = C44 holds for clamped heights only
   else
     ratios.alpha = (t * P - 6) * (t * P - 6) / (t * X) - 3 * t * (c.C11 - c.C12) + 12;
   return ratios;
@@ -30,7 +30,7 @@ bool within(const calibration::Ratios& r) {
   return within(r.alpha) && within(r.beta) && within(r.gamma);
 }
 
-/// Every t at which a ratio passes a limit, ascending, from 0 on.
+/// Returns every t at which a ratio crosses a limit, ascending, with 0 first.
 std::vector<double> crossings(const Crystal& c) {
   std::vector<double> found{0};
   const double P = c.C11 - c.C12 + c.C44, X = c.C44 - c.C12;
@@ -63,7 +63,7 @@ std::optional<CrystalFit> fit(const Crystal& crystal) {
     for (int sample = 0; sample < samples; ++sample) {
       const double t = ends[n - 1] + (ends[n] - ends[n - 1]) * (sample + 0.5) / samples;
       CrystalFit found{ratios_at(crystal, t), 2 / t, false, false};
-      if (!within(found.ratios)) break;  // nor is any other t before the next crossing
+      if (!within(found.ratios)) break;  // as all t up to the next crossing
       found.mirrored = mirrored_margin(found.ratios) > 0;
       found.two_layer = found.mirrored && opposed_margin(found.ratios) >= 0;
       if (!best || rank(found) > rank(*best) ||

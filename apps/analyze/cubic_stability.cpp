@@ -6,9 +6,10 @@ namespace hyperlattice {
 
 namespace {
 
-/// Waves (pi, pi, q), along the zone's edge from M to R, in which lengthwise motion and height push
-/// each other: the least determinant of their 2 x 2 matrix, a quadratic in sin^2(q/2). The special
-/// points of the zone alone miss it, for about one mixture in a thousand.
+/// Returns the margin of the waves (pi, pi, q) on the edge of the zone from M to R, in which
+/// longitudinal motion and height are coupled: the least determinant of their 2 x 2 matrix, a
+/// quadratic in sin^2(q/2). The special points of the zone miss this instability for about one
+/// mixture in a thousand.
 double edge_margin(const calibration::Ratios& r) {
   const double P = 16 * r.gamma / 3, coupling = 2 * r.beta - P;
   const double u0 = 8 + P, u1 = 4 + 2 * r.beta - u0, h0 = 2 * r.alpha + P / 2 + 2 * r.beta,

@@ -42,7 +42,7 @@ std::string horner(std::span<const double> coefficients, const char* x) {
   return text;
 }
 
-/// 1, 2 or 5 times a power of ten, that divides a range into five parts at most.
+/// Returns 1, 2 or 5 times a power of ten that divides a range into at most five parts.
 double tic_step(double range) {
   const double power = std::pow(10, std::floor(std::log10(range / 5))), share = range / 5 / power;
   return power * (share <= 1 ? 1 : share <= 2 ? 2 : share <= 5 ? 5 : 10);

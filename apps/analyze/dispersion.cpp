@@ -18,8 +18,8 @@ struct Direction {
 };
 constexpr Direction directions[] = {{"100", {1, 0, 0}}, {"110", {1, 1, 0}}, {"111", {1, 1, 1}}};
 
-/// Half of the shortest vector in a direction that gives the same waves as 0: from there on the
-/// curves run back. If there is none, as far as that of the cubic lattice.
+/// Returns half of the shortest reciprocal lattice vector in a direction: beyond it the curves
+/// repeat backwards. If there is none, returns the length of the cubic lattice.
 Vec3 turning_point(const Basis& basis, Vec3 along) {
   constexpr int farthest = 12;
   const auto is_whole = [](double number) { return std::abs(number - std::round(number)) < 1e-6; };

@@ -12,7 +12,7 @@ constexpr std::size_t ww = 6;
 
 double mean(double a, double b, double c) { return (a + b + c) / 3; }
 
-/// How far the matrix is from that of a cubic lattice along the axes.
+/// Returns the distance of the matrix from that of a cubic lattice along the axes.
 double cubic_distance(const LatticeElasticity& e) {
   double distance = 0;
   for (std::size_t i = 0; i < 6; ++i)
@@ -23,7 +23,8 @@ double cubic_distance(const LatticeElasticity& e) {
   return distance;
 }
 
-/// Isotropic as a mean; C1 to C4, which are sums over the springs of a site, it has none.
+/// Returns the isotropic mean of a listed lattice. C1 to C4 are NaN: they are sums over the springs
+/// of one site, which a list does not have.
 LatticeElasticity elasticity_of_list(const SpringLattice& lattice) {
   const double unit = lattice.geometry().spacing / lattice.base_stiffness();
   const ElasticConstants constants =

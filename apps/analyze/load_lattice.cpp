@@ -14,7 +14,8 @@ namespace {
 
 constexpr const char* where = "--lattice";
 
-/// The lattice component of that type; "cubic" alone will not do, but is understood.
+/// Returns the lattice component of this type. Throws InputError if there is none, with a
+/// suggestion for "cubic" alone.
 const Component& find_lattice(Host& host, const std::string& type) {
   if (const Component* component = host.find(type);
       component != nullptr && component->info.family == Family::lattices)
@@ -70,7 +71,7 @@ LatticeGeometry load_lattice(Host& host, const std::string& type,
     const auto body = std::make_shared<const Body>(
         build_body(stage.functions<LatticeFunctions>(), lattice.get(), true, stage.component));
     LatticeGeometry geometry = geometry_from(*body);
-    if (geometry.listed) geometry.listed = {body, &body->listed};  // which it now owns
+    if (geometry.listed) geometry.listed = {body, &body->listed};  // geometry now owns the body
     return geometry;
   } catch (const std::invalid_argument& refused) {
     throw refusal(stage, refused.what());

@@ -1,4 +1,4 @@
-// A lattice plugin's structure, for the analysis of its endless lattice.
+// The structure of a lattice component, for the analysis of its infinite lattice.
 #pragma once
 
 #include <model/spring_lattice.hpp>
@@ -7,10 +7,10 @@
 
 namespace hyperlattice {
 
-/// The structure of a lattice plugin with spacing 1 m, by building a small body. `options`: of the
-/// component, each as "name=value". InputError at
-/// --lattice if there is no such lattice, or if it is not one that a spacing, a shape and these
-/// options describe; OutsideError if its library is refused.
+/// Returns the structure of a lattice component with spacing 1 m; builds a small body for it.
+/// `options`: the component's options, each as "name=value". Throws InputError at --lattice or
+/// --option if the type is unknown, an option is wrong, or the lattice needs more than a spacing, a
+/// shape and these options; OutsideError if the host refuses its library.
 LatticeGeometry load_lattice(Host& host, const std::string& type,
                              const std::vector<std::string>& options = {});
 

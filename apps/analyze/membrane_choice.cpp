@@ -19,7 +19,7 @@ void check_finite(const char* option, const std::optional<double>& value, Faults
     faults.add(option, fmt::format("{}", *value), "a finite number");
 }
 
-/// "infinite" clamps the membrane.
+/// Returns the ratios of the membrane "free"; k_alpha = "infinite" clamps the heights.
 calibration::Ratios free_ratios(const MembraneChoice& choice, const LatticeGeometry& geometry,
                                 Faults& faults) {
   calibration::Ratios ratios{0, choice.k_beta.value_or(0), choice.k_gamma.value_or(0), false};
@@ -37,7 +37,7 @@ calibration::Ratios free_ratios(const MembraneChoice& choice, const LatticeGeome
   return ratios;
 }
 
-/// lambda as given, or from the Poisson ratio.
+/// Returns the given lambda, or the lambda of the given Poisson ratio.
 double lambda_of(const MembraneChoice& choice, Membrane membrane, const LatticeGeometry& geometry,
                  Faults& faults) {
   if (choice.poisson.has_value() == choice.lambda.has_value()) {
@@ -50,7 +50,7 @@ double lambda_of(const MembraneChoice& choice, Membrane membrane, const LatticeG
   if (choice.lambda) return *choice.lambda;
   const double lambda = *lambda_for(geometry, membrane, *choice.poisson);
   const auto within = reach(geometry, membrane);
-  constexpr double rounding = 1e-9;  // of the reach's own ends
+  constexpr double rounding = 1e-9;  // rounding error of the ends of the range
   const double high = within->open ? *choice.poisson : *choice.poisson - rounding;
   if (!std::isfinite(lambda) || !within->holds(high))
     faults.add("--poisson", fmt::format("{}", *choice.poisson),

@@ -1,4 +1,4 @@
-// The membrane of a lattice as a user chooses it, and what is wrong with the choice.
+// The choice of a membrane on the command line, and its checks.
 #pragma once
 
 #include <analyze/membranes.hpp>
@@ -6,7 +6,7 @@
 
 namespace hyperlattice {
 
-/// As written on a command line; what was not given is empty.
+/// The arguments of the command line; those not given are empty.
 struct MembraneChoice {
   std::string membrane;
   std::optional<double> poisson, lambda;
@@ -14,20 +14,21 @@ struct MembraneChoice {
   std::optional<double> k_beta, k_gamma;
 };
 
+/// A membrane with its stiffness ratios.
 struct ChosenMembrane {
   calibration::Membrane membrane = calibration::Membrane::none;
-  std::optional<double> lambda;  ///< of membranes that have one
+  std::optional<double> lambda;  ///< empty for membranes without a lambda
   calibration::Ratios ratios;
 };
 
-/// Empty, and a fault at --membrane, if there is none of that name.
+/// Returns the membrane of this name; nothing, with a fault at --membrane, if there is none.
 std::optional<calibration::Membrane> membrane_named(const std::string& name, Faults& faults);
 
-/// Throws InputError with every fault. A lambda or ratios that make an unstable lattice are no
-/// fault: to find that out is what one asks for.
+/// Computes the stiffness ratios of a choice. Throws InputError with every fault. A lambda or
+/// ratios of an unstable lattice are not a fault here: callers may want to analyse it.
 ChosenMembrane resolve(const MembraneChoice& choice, const LatticeGeometry& geometry);
 
-/// Its keys for `--json`.
+/// Returns the keys of the membrane for `--json`.
 Json chosen_json(const ChosenMembrane& chosen);
 
 }  // namespace hyperlattice

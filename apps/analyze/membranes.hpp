@@ -1,5 +1,5 @@
-// The paper's membranes on the endless lattice of a geometry: hyperlattice/membranes.hpp for those
-// who analyse it.
+// The paper's membranes on the infinite lattice of a geometry: functions of
+// hyperlattice/membranes.hpp for a LatticeGeometry.
 #pragma once
 
 #include <model/spring_lattice.hpp>
@@ -12,31 +12,34 @@ namespace hyperlattice {
 
 using membranes::has_lambda;
 
-/// Springs of stiffness k = 1 N/m with these in the fourth dimension.
+/// Returns the lattice with base springs of k = 1 N/m and these ratios in the fourth dimension.
 SpringLattice with_ratios(const LatticeGeometry& geometry, const calibration::Ratios& ratios);
 
-/// Those of a membrane, with the lattice's own k_gamma / k_beta in I-m.
+/// Returns the ratios of a membrane; in I-m, k_gamma / k_beta is that of the lattice.
 calibration::Ratios ratios_of(const LatticeGeometry& geometry, calibration::Membrane membrane,
                               double lambda);
 
-/// The lambda that has this Poisson ratio along [100], stable or not; infinite if none has; nothing
-/// for membranes without a lambda.
+/// Returns the lambda with this Poisson ratio along [100], stable or not; infinity if no lambda has
+/// it; nothing for membranes without a lambda.
 std::optional<double> lambda_for(const LatticeGeometry& geometry, calibration::Membrane membrane,
                                  double poisson);
 
-/// Poisson ratios for which the mirrored lattice is stable; nothing for membranes without a lambda.
+/// Returns the range of Poisson ratios with a stable mirrored lattice; nothing for membranes
+/// without a lambda.
 std::optional<calibration::Reach> reach(const LatticeGeometry& geometry,
                                         calibration::Membrane membrane);
 
-/// Whether the mirrored lattice of a membrane that has a lambda is stable, the edge excluded.
+/// Returns whether the mirrored lattice is stable; the edge of stability does not count. The
+/// membrane must have a lambda.
 bool is_stable(const LatticeGeometry& geometry, calibration::Membrane membrane, double lambda);
 
-/// For a message about a lambda whose lattice is unstable: those that are stable, and membranes
-/// that are stable with this one.
+/// For an error message about an unstable lambda: returns the stable values of lambda, and the
+/// membranes that are stable with this one.
 std::string stable_sentence(const LatticeGeometry& geometry, calibration::Membrane membrane,
                             double lambda);
 
-/// For a message about a Poisson ratio out of a membrane's reach: that reach, and who reaches it.
+/// For an error message about a Poisson ratio out of reach: returns the membrane's range, and the
+/// membranes that reach this value.
 std::string reach_sentence(const LatticeGeometry& geometry, calibration::Membrane membrane,
                            double poisson);
 

@@ -13,7 +13,7 @@ using namespace calibration;
 constexpr const char* why = "where the paper's polynomials were fitted";
 const double most_lambda = paper_lambda(paper_poisson_low);
 
-/// Whether it is the lattice of the paper.
+/// Returns whether this is the lattice of the paper.
 bool is_the_papers(const LatticeGeometry& geometry) {
   std::vector<Neighbour> sites;
   for (const NeighbourGeometry& neighbour : geometry.neighbours) sites.push_back(neighbour.site);
@@ -39,7 +39,7 @@ std::string range_of_lambda(double lambda) {
   return fmt::format("0 to {:.4g}, {}", most_lambda, why);
 }
 
-double poisson(double lambda) {  // (11) falls all the way
+double poisson(double lambda) {  // equation (11) decreases monotonically
   double low = paper_poisson_low, high = 0.25;
   for (int n = 0; n < 60; ++n) {
     const double middle = (low + high) / 2;

@@ -12,14 +12,15 @@ namespace {
 
 double along(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
-/// The particles at rest, and how far a cube of them has grown along an axis.
+/// The rest positions of a cube's particles, for its start displacements and its growth along an
+/// axis.
 class Cube {
  public:
   explicit Cube(const Body& body) : places_(body.particles) {
     for (Particle p = 0; p < body.particles; ++p) places_[p] = body.position(p);
   }
 
-  /// All particles moved as if each plane across the axis z approached the middle evenly.
+  /// Returns displacements, x y z each, of a uniform shortening along z towards the middle.
   std::vector<double> shortened(double strain) const {
     const auto [low, high] = ends(2);
     std::vector<double> xyz(3 * places_.size(), 0.0);
@@ -28,7 +29,7 @@ class Cube {
     return xyz;
   }
 
-  /// Mean displacement of the upper face less that of the lower one.
+  /// Returns the mean displacement of the upper face less that of the lower face, m.
   double growth(int axis, const std::vector<double>& xyz) const {
     constexpr double nearby = 1e-6;
     const auto [low, high] = ends(axis);
@@ -69,7 +70,7 @@ VirtualTest::VirtualTest(Host& host, Components components, Options options)
       length_(length_at_rest()),
       base_young_(compress({}).young) {}
 
-/// The cube, in units of its own: spacing 1 m, E 1 Pa.
+/// Returns the scene of the cube, in units with spacing 1 m and E = 1 Pa.
 std::string VirtualTest::scene(const calibration::Ratios& ratios, double shortening) const {
   const int n = options_.particles;
   Json material = {
@@ -78,7 +79,7 @@ std::string VirtualTest::scene(const calibration::Ratios& ratios, double shorten
   material["k_beta"] = ratios.beta;
   material["k_gamma"] = ratios.gamma;
   const auto platen = [&](const char* on, double displacement) {
-    const double at_once = 1e-9;  // a fraction of any step
+    const double at_once = 1e-9;  // a rise shorter than any time step
     return Json{{"type", components_.displacement},
                 {"on", on},
                 {"value", {0, 0, displacement}},
@@ -87,8 +88,8 @@ std::string VirtualTest::scene(const calibration::Ratios& ratios, double shorten
   };
   Json scene;
   scene["format"] = "hyperlattice/1";
-  // `stability`: what is measured is the linear answer, also of lattices so soft to shear that any
-  // pressure makes them buckle.
+  // no check of stability: the test measures the linear response, also of lattices that are so soft
+  // in shear that any pressure makes them buckle
   scene["pipeline"] = {{{"type", options_.lattice},
                         {"spacing", 1},
                         {"shape", {{"box", {{"low", {0, 0, 0}}, {"high", {n, n, n}}}}}}},

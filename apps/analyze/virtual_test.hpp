@@ -1,6 +1,5 @@
-// The virtual uniaxial compression test: elastic constants measured on a cube of particles as one
-// would in a laboratory (Zhao 2017, section 2.3 and figure 2). The cube is an ordinary scene, run
-// by the ordinary runtime.
+// The virtual uniaxial compression test: elastic constants from a compressed cube of particles
+// (Zhao 2017, section 2.3 and figure 2). The cube is a normal scene in the normal runtime.
 #pragma once
 
 #include <host/host.hpp>
@@ -12,47 +11,51 @@
 
 namespace hyperlattice {
 
-/// Elastic constants as an experiment or the infinite lattice has them, along [100].
+/// Elastic constants along [100], of the infinite lattice or of a test.
 struct ElasticPair {
   double poisson = 0;  ///< nu
-  double modulus_ratio =
-      0;  ///< eta: E over that of the lattice without a membrane, of the same base springs
+  /// eta: E over the E of the lattice with the same base springs and no membrane.
+  double modulus_ratio = 0;
 };
 
+/// The result of a test.
 struct Measured : ElasticPair {
-  double young = 0;              ///< E l / k, with the area of N^2 cells
+  double young = 0;              ///< E l / k, for the area of N^2 cells
   std::uint64_t particles = 0;   ///< of the cube
   double residual = 0;           ///< see RestReport
   std::uint64_t iterations = 0;  ///< of the static solver
-  double seconds = 0;            ///< building and running
+  double seconds = 0;            ///< wall time to build and run the cube, s
 };
 
-/// A cube of N^3 cells between frictionless platens: only the axial displacement of the two end
-/// layers is prescribed. nu is the mean outward displacement of the lateral faces over the mean
-/// inward one of the end faces, all over all particles of a face.
+/// Compresses a cube of N^3 cells between frictionless platens: only the axial displacement of the
+/// two end layers is prescribed. nu is the mean outward displacement of the lateral faces over the
+/// mean inward displacement of the end faces; each mean is over all particles of a face.
 class VirtualTest {
  public:
-  /// Types of what the scene is made of besides the lattice.
+  /// The types of the components in the scene, besides the lattice.
   struct Components {
-    std::string material;      ///< an elastic solid: young, density, membrane free with k_alpha,
-                               ///< k_beta, k_gamma
-    std::string displacement;  ///< a load that leads particles: on, value, axes, rise
-    std::string solver;        ///< finds a state of rest: tolerance, most_cutbacks, stability
+    std::string material;  ///< an elastic solid; options: young, density, membrane free with
+                           ///< k_alpha, k_beta, k_gamma
+    /// A load with a prescribed displacement; options: on, value, axes, rise.
+    std::string displacement;
+    std::string solver;  ///< finds a state of rest; options: tolerance, most_cutbacks, stability
   };
   struct Options {
-    std::string lattice;  ///< its type
-    int particles =
-        20;  ///< N, along an edge; of lattices with several particles in a cubic cell, cells
-    double strain = 1e-3;  ///< by which the platens shorten the distance of the end layers: (N - 1)
-                           ///< l in the cubic lattice
-    double residual = 1e-8;  ///< at which the cube counts as at rest
+    std::string lattice;  ///< type of the lattice component
+    /// N along an edge; cells, if a cubic cell of the lattice has several particles.
+    int particles = 20;
+    /// Shortening over the distance of the end layers, which is (N - 1) l in the cubic lattice.
+    double strain = 1e-3;
+    double residual = 1e-8;  ///< the cube is at rest below this residual, see RestReport
     Threads threads = 1;
   };
 
-  /// Measures the lattice without a membrane, to compare others with. Throws as read_scene and
-  /// build_model do; RunError if a cube does not come to rest.
+  /// Measures the lattice without a membrane, as the reference for eta. Throws as read_scene and
+  /// build_model do; RunError if a cube finds no state of rest.
   VirtualTest(Host& host, Components components, Options options);
 
+  /// Measures the lattice with these stiffness ratios. Throws RunError if the cube finds no state
+  /// of rest.
   Measured measure(const calibration::Ratios& ratios);
 
  private:

@@ -4,7 +4,8 @@
 namespace hyperlattice::contract {
 namespace {
 
-/// The option that names a file which the example cannot have; empty: none.
+/// Returns the option that names an input file, which an example cannot have; empty if there is
+/// none.
 std::string missing_file(const ComponentInfo& info, const Json& example) {
   for (const Option& option : info.options)
     if (std::string name(option.name); option.kind == OptionKind::file && example.contains(name))
@@ -47,7 +48,7 @@ std::vector<Check> check(const Component& component, Host& host, const Surroundi
   else
     try {
       check_family(trial);
-    } catch (const std::exception& error) {  // what all of the family's checks need
+    } catch (const std::exception& error) {  // affects all checks of the family
       trial.check("example", [&] {
         return Finding{Verdict::failed, trial.example.dump() + ": " + error.what()};
       });

@@ -1,6 +1,6 @@
-// The contracts of the families: what every component must do, whatever it is for, and whoever
-// wrote it. Each is checked with the component's example (scene/examples.hpp) in small scenes, by
-// the ordinary runtime; `hyperlattice plugins --test` prints what was found.
+// The contract of each family: checks that every component of the family must pass. The runtime
+// runs each check with the component's example (scene/examples.hpp) in small scenes; `hyperlattice
+// plugins --test` prints the results.
 #pragma once
 
 #include <host/host.hpp>
@@ -14,27 +14,28 @@ namespace hyperlattice::contract {
 enum class Verdict { passed, failed, not_applicable };
 inline constexpr std::string_view verdict_names[] = {"passed", "failed", "not applicable"};
 
-/// What one check found.
+/// The result of one check.
 struct Check {
   std::string name;
   Verdict verdict = Verdict::passed;
-  std::string detail;  ///< figures, what is wrong, or why it does not apply
+  std::string detail;  ///< numbers, the fault, or why the check does not apply
 };
 
-/// The types of the components that stand around the one under test in the scenes.
+/// The types of the other components in the scenes of the component under test.
 struct Surroundings {
-  std::string
-      grid;  ///< a structured lattice of cubic cells, with the options spacing, shape, boundary
-  std::string list;          ///< a lattice that is a list of springs: spacing, shape
-  std::string material;      ///< an elastic solid: young, poisson, density, membrane
-  std::string failure;       ///< springs that break at an elongation: limit
-  std::string displacement;  ///< a load that leads particles: on, value, axes, rise
-  std::string steps;         ///< a solver that steps in time: end_time
+  std::string grid;      ///< a structured lattice of cubic cells; options: spacing, shape, boundary
+  std::string list;      ///< a lattice that is a list of springs; options: spacing, shape
+  std::string material;  ///< an elastic solid; options: young, poisson, density, membrane
+  std::string failure;   ///< springs that break at an elongation; option: limit
+  /// A load with a prescribed displacement; options: on, value, axes, rise.
+  std::string displacement;
+  std::string steps;  ///< a solver that steps in time; option: end_time
 };
 
-/// Runs the component through its family's contract. `host` must also find those around it.
-/// `pictures`: folder for <type>.svg of those that have a picture, made if need be; empty: none is
-/// drawn. Never throws for what a component does.
+/// Runs all checks of the component's family. `host` must also find the components of `around`.
+/// Writes a picture <type>.svg into the folder `pictures`, which is created if needed; an empty
+/// path: no pictures. Never throws because of an error in the component; such an error is a failed
+/// check.
 std::vector<Check> check(const Component& component, Host& host, const Surroundings& around,
                          const std::filesystem::path& pictures = {});
 

@@ -1,5 +1,5 @@
-// What every criterion must do: leave springs below its alarm alone, break one where it says so,
-// and never let it heal.
+// The contract of failure criteria: springs below their alarm do not break, springs break at the
+// threshold that the criterion states, and broken springs do not heal.
 #include <contract/families.hpp>
 #include <scene/stage_call.hpp>
 
@@ -13,7 +13,7 @@
 namespace hyperlattice::contract {
 namespace {
 
-/// The criterion as the model has made it, asked about one spring.
+/// The failure criterion of a model, evaluated for one spring at a time.
 class Criterion {
  public:
   explicit Criterion(const Model& model)
@@ -21,7 +21,7 @@ class Criterion {
         material_(model.materials.front()),
         functions_(material_.failure_stage->functions<FailureFunctions>()) {}
 
-  /// One entry for each class of base springs.
+  /// Returns one entry for each class of base springs.
   std::vector<SpringFacts> springs() const {
     std::vector<SpringFacts> all;
     for (const NeighbourGeometry& neighbour : model_.neighbours) {
@@ -54,7 +54,8 @@ class Criterion {
     });
     return broken != 0;
   }
-  /// The elongation at which the spring to that particle breaks; none up to ten times its length.
+  /// Returns the elongation, m, at which the spring to particle `other` breaks; nothing if it holds
+  /// up to ten times its length.
   std::optional<double> threshold(const SpringFacts& spring, Particle other = 1) const {
     double low = 0, high = 1e-7 * spring.rest_length;
     while (!breaks(spring, high, other)) {
@@ -100,8 +101,8 @@ Finding alarm_is_conservative(const Criterion& criterion) {
   return passes_if(true, "nothing breaks below " + alarms);
 }
 
-/// A pair of particles, a step each at these shares of the threshold: whether their spring was
-/// there afterwards, and how it pulls.
+/// Moves two particles just below and just above the threshold, and checks whether their spring
+/// breaks there.
 Finding breaks_at_the_criterion(const Model& model, double threshold) {
   Led pair(model);
   Simulation& simulation = pair.simulation();
@@ -157,7 +158,7 @@ Finding takes_its_energy(const Model& model, double threshold) {
 }
 
 Finding same_bits(const Model& model, double threshold) {
-  Shaking how{threshold / model.critical_time_step};  // a step's way is a threshold's
+  Shaking how{threshold / model.critical_time_step};  // moves by a threshold in a step
   const Shaken one = shake(model, how);
   how.threads = 3;
   const Shaken three = shake(model, how);

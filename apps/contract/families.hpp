@@ -1,5 +1,5 @@
-// The checks of each family, a file each. What they share: the component with its example, the
-// scenes around it, and where findings go.
+// The checks of the families; each family has its own file. This header has what all of them use:
+// the component with its example, the scenes, and the list of results.
 #pragma once
 
 #include <contract/scenes.hpp>
@@ -11,7 +11,7 @@
 
 namespace hyperlattice::contract {
 
-/// What a check says.
+/// The result of a check, before it gets its name.
 struct Finding {
   Verdict verdict = Verdict::passed;
   std::string detail;
@@ -23,7 +23,7 @@ inline Finding not_applicable(std::string reason) {
   return {Verdict::not_applicable, std::move(reason)};
 }
 
-/// A component under test.
+/// The component under test, with what its checks need.
 class Trial {
  public:
   Trial(const Component& component, const Scenes& scenes, const std::filesystem::path& pictures,
@@ -33,9 +33,10 @@ class Trial {
   const Component& component;
   const Scenes& scenes;
   const std::filesystem::path& pictures;
-  Json example;  ///< the component's stage, or a material's failure
+  Json example;  ///< the component's stage; for a failure criterion, the value of the material's
+                 ///< key "failure"
 
-  /// Runs one check; what it throws is a failure.
+  /// Runs one check and stores its result; an exception is a failed check.
   template <class Code>
   void check(const char* name, Code&& code) {
     Finding finding;

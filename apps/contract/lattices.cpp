@@ -1,5 +1,5 @@
-// What every lattice must do: have the modulus and the Poisson ratio that are asked of it, and no
-// force inside when it is strained evenly.
+// The contract of lattices: Young's modulus and the Poisson ratio are as calibrated, and a uniform
+// strain causes no force on inner particles.
 #include <contract/families.hpp>
 #include <model/spring_lattice.hpp>
 
@@ -12,7 +12,7 @@
 namespace hyperlattice::contract {
 namespace {
 
-/// The example in a box of eight spacings, if it fills a shape.
+/// Returns the example with a box of eight spacings as its shape, if it has the option.
 Json in_a_box(const Trial& trial) {
   Json lattice = trial.example;
   const double l = 1e-3, side = 8 * l;
@@ -43,8 +43,8 @@ Finding calibration(const Scenes& scenes, const Json& lattice, const char* membr
           young, poisson, asks_poisson ? " (asked 0.1)" : "", anisotropy));
 }
 
-/// A force on a particle that has all its springs is the difference of opposite ones, which are
-/// alike.
+/// Checks that a uniform strain causes no force on particles with all their springs: opposite
+/// springs have equal forces.
 Finding patch(const Model& model) {
   if (model.body.is_listed())
     return not_applicable(

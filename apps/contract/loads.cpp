@@ -1,5 +1,5 @@
-// What every load must do: have a factor at all times, and give to the body's energy what the books
-// say it gave.
+// The contract of loads: the load factor is finite at all times, and the injected energy is the
+// work that the body receives.
 #include <contract/families.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -24,8 +24,8 @@ Finding factor(const Model& model) {
   return passes_if(true, fmt::format("{:.4g} to {:.4g} in the first 0.1 ms", least, most));
 }
 
-/// Errors of central differences fall by the square of the step, and of loads that answer to
-/// velocities by its first power.
+/// Checks the error of the energy balance at two time steps. Errors of central differences are of
+/// second order in the step; with loads that depend on velocities, of first order.
 Finding work(const Model& model) {
   const Shaken coarse = shake(model, {0.5, 0.4}), fine = shake(model, {0.5, 0.1});
   const double power = model.answering ? 2.5 : 8;

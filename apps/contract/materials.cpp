@@ -1,6 +1,6 @@
-// What every law must do: its force is the derivative of its energy, it gives back no more than it
-// took, it does not know how the body is turned, and the kernels made of it keep the books and the
-// bits.
+// The contract of laws: the force is the derivative of the energy, dissipation is never negative,
+// forces rotate with the body, and the kernels of the law keep the energy balance and give the same
+// bits with any number of threads.
 #include <contract/families.hpp>
 #include <contract/lone_spring.hpp>
 #include <model/kernel_calls.hpp>
@@ -22,7 +22,7 @@ double largest_force(const std::vector<PathPoint>& path) {
   return largest(forces);
 }
 
-/// With the memory held, and no rate.
+/// Compares the force with differences of the energy, at constant memory and zero rate.
 Finding force_from_energy(const LoneSpring& lone) {
   LoneSpring spring = lone;
   const double reach = spring.reach(), h = 1e-4 * reach, time_step = spring.period() / 10;
@@ -49,8 +49,8 @@ Finding force_from_energy(const LoneSpring& lone) {
                   worst / scale, at, force_there, slope_there));
 }
 
-/// Where a lagging force meets a rate that turns, the work of a step is off by the square of the
-/// step.
+/// Checks that dissipation is never negative. The tolerance: where the rate changes its sign and
+/// the force lags, the work of a step has an error of second order in the step.
 Finding dissipates(const LoneSpring& spring) {
   constexpr double allowed = 1e-3;
   double gained = 0, spent = 0, scale = 0;
@@ -58,7 +58,7 @@ Finding dissipates(const LoneSpring& spring) {
     for (std::size_t n = 1; n < path.size(); ++n) {
       const double dissipated = path[n].dissipated(path[n - 1]);
       (dissipated >= 0 ? spent : gained) +=
-          std::abs(dissipated);  // what is no number passes nothing
+          std::abs(dissipated);  // NaN counts as gained, so that it fails
       scale += std::abs(path[n].work);
     }
   };
@@ -70,8 +70,8 @@ Finding dissipates(const LoneSpring& spring) {
                                spent / scale, gained / scale));
 }
 
-/// Of laws that static solvers can use: `axial` and `pull` of a row of one spring, see
-/// kernels/tangent.hpp.
+/// Checks the tangent of laws that static solvers can use: `axial` and `pull` of a row of one
+/// spring, see kernels/tangent.hpp.
 Finding tangent(const Model& model, const LoneSpring& lone) {
   if (model.kernels.linearise == nullptr)
     return not_applicable(
@@ -123,7 +123,8 @@ Finding tangent(const Model& model, const LoneSpring& lone) {
                   worst));
 }
 
-/// The pair of particles of one spring, led along the usual path, against the spring alone.
+/// Compares the forces of a body of two particles and one spring on the usual path with those of
+/// the spring alone.
 Finding kernels_follow_the_law(const Model& model, const LoneSpring& spring, double allowed) {
   if (model.choice.membrane != KernelChoice::Membrane::none)
     return not_applicable(
@@ -160,7 +161,8 @@ std::vector<double> turned(const Model& model, const std::vector<double>& displa
   return result;
 }
 
-/// A cell of eight particles with springs pulled at random, upright and turned by a radian.
+/// Compares the forces of a cell of eight particles with random displacements, upright and rotated
+/// by one radian.
 Finding objective(const Model& model, const LoneSpring& spring) {
   const std::size_t count = 3 * model.body.particles;
   const double time_step = spring.period() / 10, amplitude = spring.reach();
@@ -171,8 +173,7 @@ Finding objective(const Model& model, const LoneSpring& spring) {
     forces = upright.forces(u, time_step);
     seen = leaning.forces(turned(model, u), time_step);
   }
-  // forces turn as the places do: the body's rest position drops out of the difference of two
-  // turned states
+  // forces rotate like positions: the rest positions cancel in the difference of two rotated states
   const std::vector<double> origin = turned(model, std::vector<double>(count, 0.0));
   expected = turned(model, forces);
   for (std::size_t n = 0; n < count; ++n) expected[n] -= origin[n];
@@ -212,7 +213,7 @@ Finding restart(const Model& model, const LoneSpring& spring) {
                    "the same bits, and the same books, when it is cut off half-way and goes on");
 }
 
-/// What a scene with the material is refused for; empty: it is not.
+/// Plans a scene with the material. Returns the first fault; empty if there is none.
 std::string refusal_of(const Scenes& scenes, const std::vector<Json>& stages,
                        std::unique_ptr<Plan>& plan, const char* precision = "double") {
   try {
@@ -257,8 +258,8 @@ Finding path_and_picture(const Trial& trial, const LoneSpring& spring) {
   return passes_if(std::isfinite(force) && force > 0, std::move(detail));
 }
 
-/// What a cell of a large body takes until nothing is left of it, pulled along x without
-/// contraction.
+/// Measures the fracture energy, J/m2: the work that separates a cell inside a large body, pulled
+/// along x without lateral contraction.
 Finding fracture_energy(const Scenes& scenes, const Json& material) {
   const auto plan = scenes.plan_of({scenes.grid_box(1, 1, 1, "cells"), material});
   const Model& model = *plan->model;

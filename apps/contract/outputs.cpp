@@ -1,5 +1,5 @@
-// What every writer and probe must do: whole files and nothing else, numbers that are numbers, and
-// on a full disk a sentence in place of half a file.
+// The contract of writers and probes: they leave whole files and no others, write valid numbers,
+// and report a full disk without leaving half of a file.
 #include <base/csv.hpp>
 #include <contract/families.hpp>
 #include <contract/small_disk.hpp>
@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of its own that ends with this object.
+/// A temporary folder; its destructor deletes it.
 class Folder {
  public:
   Folder() {
@@ -37,7 +37,7 @@ class Folder {
   }
   const fs::path& path() const { return path_; }
 
-  /// Every file below, by its path from here.
+  /// Returns the content of every file, by its path relative to the folder.
   std::map<std::string, std::string> files() const {
     std::map<std::string, std::string> all;
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(path_)) {
@@ -53,7 +53,7 @@ class Folder {
   fs::path path_;
 };
 
-/// A small block in motion, whose springs may break, and the output that watches it.
+/// A small block in motion, whose springs may break, and the output under test.
 class Watched {
  public:
   Watched(const Plan& plan, const Folder& folder)
@@ -71,7 +71,7 @@ class Watched {
   void move() { simulation_->step(0.5 * model_.critical_time_step); }
   void end() { outputs_->end(); }
 
-  /// As if the program had ended here, and another went on.
+  /// Imitates the end of the program and a resumed run.
   void restart() {
     const std::string shown = saved([&](Archive& archive) { outputs_->save(archive); });
     const auto marks = run_folder_->sync();
@@ -100,7 +100,7 @@ std::unique_ptr<Plan> plan_with(const Trial& trial, int threads = 1) {
       threads);
 }
 
-/// What three frames leave.
+/// Returns the files after three frames.
 std::map<std::string, std::string> written(const Plan& plan, bool cut_off = false,
                                            std::string* unannounced = nullptr) {
   const Folder folder;
@@ -137,7 +137,8 @@ Finding finishes_files(const Plan& plan) {
                    fmt::format("three frames leave {} files, {} bytes", files.size(), bytes));
 }
 
-/// Other files, or other bytes, of the same frames.
+/// Returns the name of the first file that differs or that only one side has; empty if there is
+/// none.
 std::string difference(const std::map<std::string, std::string>& a,
                        const std::map<std::string, std::string>& b) {
   for (const auto& [name, bytes] : a)
@@ -147,7 +148,7 @@ std::string difference(const std::map<std::string, std::string>& a,
   return "";
 }
 
-/// Two frames, the second when nothing more can be written, and a third when there is room again.
+/// Writes one frame, a second one on a full disk, and a third one when there is room again.
 Finding full_disk(const Plan& plan) {
   constexpr rlim_t nothing = 16;
   const Folder folder;
@@ -155,7 +156,7 @@ Finding full_disk(const Plan& plan) {
   watched.show();
   const auto before = folder.files();
   watched.move();
-  std::cout.flush();  // it may be a file
+  std::cout.flush();  // standard output may be a file
   std::string sentence;
   {
     const SmallDisk disk(nothing);

@@ -1,4 +1,5 @@
-// A path of one spring as SVG, drawn by hand: small, and the same bytes wherever it is drawn.
+// The path of one spring as an SVG, written without a library: small, and the same bytes on every
+// machine.
 #include <contract/lone_spring.hpp>
 
 #include <hyperlattice/files.hpp>
@@ -14,7 +15,7 @@ namespace {
 
 constexpr double width = 420, height = 300, left = 64, right = 16, top = 32, bottom = 44;
 
-/// A range of values and where it is drawn.
+/// A range of values and its range in the picture.
 struct Axis {
   double low = 0, high = 0, from = 0, to = 0;
 
@@ -22,8 +23,8 @@ struct Axis {
     low = std::min(low, value);
     high = std::max(high, value);
   }
-  /// In tenths of a pixel. Rounded twice: kernels of other instruction sets differ in the last
-  /// bits, which must not tip a half.
+  /// Returns the position in pixels, rounded to tenths. It is rounded twice, since kernels of other
+  /// instruction sets differ in the last bits, which must not decide how a half is rounded.
   double place(double value) const {
     const double at = from + (to - from) * (value - low) / (high > low ? high - low : 1);
     return std::round(std::round(at * 1e6) / 1e6 * 10) / 10 + 0.0;
@@ -36,7 +37,7 @@ std::string line(double x1, double y1, double x2, double y2, const char* colour)
 std::string text(double x, double y, const char* anchor, const std::string& words) {
   return fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"{}\">{}</text>\n", x, y, anchor, words);
 }
-/// To three digits, without a sign before nothing.
+/// Returns a number with three digits, without "-0".
 std::string label(double value, double unit) { return short_number(value / unit + 0.0, 3); }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// The small scenes that a component under test stands in, in millimetres, and what their bodies do.
+// The small scenes in which a component is tested (lengths of some millimetres), and measurements
+// of the motion of their bodies.
 #pragma once
 
 #include <contract/contract.hpp>
@@ -13,32 +14,33 @@
 
 namespace hyperlattice::contract {
 
-/// The membrane that a body has whose material is not what is tested: springs of all kinds, a
+/// The membrane of a body whose material is not under test: it has springs of all kinds and a
 /// Poisson ratio of 0.1.
 inline constexpr const char* usual_membrane = "I-m";
 
-/// Makes stages of the components around, and plans of stages.
+/// Makes stages from the components of `around`, and plans from stages.
 class Scenes {
  public:
   Scenes(Host& host, const Surroundings& around) : host_(host), around_(around) {}
 
-  /// A box of that many cells of the grid, 1 mm wide, its low corner at the origin.
+  /// Returns a grid of nx x ny x nz cells 1 mm wide, with its low corner at the origin.
   Json grid_box(int nx, int ny, int nz, const char* boundary = "particles") const;
 
-  /// The same box of the list.
+  /// Returns a lattice that is a list of springs, in the same box.
   Json listed_box(int nx, int ny, int nz) const;
 
-  /// Of 10 GPa and 2500 kg/m3 with a membrane; none: with the Poisson ratio that the lattice has.
+  /// Returns a material of 10 GPa and 2500 kg/m3. With the membrane "none" it has the Poisson ratio
+  /// of the lattice itself.
   Json material(const char* membrane = "none") const;
 
-  /// The same, with springs that break at that elongation, m.
+  /// Returns the same material with springs that break at the elongation `limit`, m.
   Json brittle(const char* membrane, double limit) const;
 
-  /// Leads a face along z that far, m, within 0.01 ms.
+  /// Returns a load that moves a face by `way`, m, along z within 0.01 ms.
   Json platen(const char* face, double way) const;
 
-  /// Plans a scene of these stages, stepped in time if there is no solver. InputError with the
-  /// faults.
+  /// Plans a scene of these stages; adds a solver that steps in time if there is none. Throws
+  /// InputError with all faults of the scene.
   std::unique_ptr<Plan> plan_of(const std::vector<Json>& stages, int threads = 1,
                                 const char* precision = "double") const;
 
@@ -47,41 +49,44 @@ class Scenes {
   const Surroundings& around_;
 };
 
-/// Numbers drawn evenly from [-amplitude, amplitude], the same in every run.
+/// Returns random numbers, uniform in [-amplitude, amplitude]; the same seed gives the same numbers
+/// in every run.
 std::vector<double> noise(std::size_t count, double amplitude, std::uint64_t seed = 1);
 
-/// What a body that starts with random velocities has come to.
+/// The result of the motion of a body from random start velocities.
 struct Shaken {
-  double largest_error = 0;  ///< of the energy balance, relative
+  double largest_error = 0;  ///< largest relative error of the energy balance
   EnergyBalance balance;
   std::uint64_t hash = 0;
-  bool is_finite() const {
-    return std::isfinite(largest_error);
-  }  ///< equal bits of what is no number prove nothing
+  /// Equal hashes prove nothing if the energies are not finite.
+  bool is_finite() const { return std::isfinite(largest_error); }
 };
+/// A motion from random start velocities.
 struct Shaking {
-  double speed = 1;      ///< largest component of a velocity at the start, m/s
-  double step = 0.4;     ///< over the critical one
-  double duration = 40;  ///< in critical steps
+  double speed = 1;      ///< largest component of a start velocity, m/s
+  double step = 0.4;     ///< time step over the critical time step
+  double duration = 40;  ///< in critical time steps
   int threads = 1;
-  bool cut_off = false;  ///< half-way, and gone on with from its archive in another simulation
+  /// Continue half-way in another simulation, from the archive of the first one.
+  bool cut_off = false;
 };
 Shaken shake(const Model& model, const Shaking& how);
 
-/// What is visited, as bytes, and back.
+/// saved() returns what `visit` archives as bytes; restore() reads it back from these bytes.
 std::string saved(const std::function<void(Archive&)>& visit);
 void restore(const std::string& bytes, const std::function<void(Archive&)>& visit);
 
-/// The state of a simulation in another of the same model.
+/// Returns a new simulation of the same model with the state of `simulation`.
 std::unique_ptr<Simulation> restarted(Simulation& simulation, const Model& model, int threads);
 
-/// A body that nothing moves but the caller.
+/// A body whose displacements the caller prescribes in each step.
 class Led {
  public:
   explicit Led(const Model& model) : model_(model), simulation_(model, 1) {}
 
-  /// Puts all particles where they are told, heights at rest, one step after the last. The forces
-  /// of the springs on them, x y z each, N.
+  /// Sets the displacements of all particles, m, with heights 0 and velocities 0, and takes one
+  /// step of `time_step` seconds. Returns the forces of the springs on the particles, x y z each,
+  /// N.
   std::vector<double> forces(const std::vector<double>& displacements, double time_step);
   Simulation& simulation() { return simulation_; }
 
@@ -91,10 +96,12 @@ class Led {
   double last_step_ = 0;
 };
 
-/// Makes `largest` the larger of itself and a number's size; infinite for ever after a value that
-/// is no number, so that it passes no comparison.
+/// Sets `largest` to the larger of itself and abs(value). A value that is not a number makes it
+/// infinite for good, so that no later comparison passes.
 void take_largest(double& largest, double value);
-double largest(const std::vector<double>& values);  ///< size; infinite if one is no number
+/// Returns the largest absolute value; infinite if a value is not a number.
+double largest(const std::vector<double>& values);
+/// Returns the largest absolute difference of two vectors of the same length.
 double distance(const std::vector<double>& a, const std::vector<double>& b);
 
 }  // namespace hyperlattice::contract

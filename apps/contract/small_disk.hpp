@@ -1,4 +1,4 @@
-// A disk that is full, for those who test what happens then.
+// Imitates a full disk, for tests of what components do then.
 #pragma once
 
 #include <sys/resource.h>
@@ -7,8 +7,8 @@
 
 namespace hyperlattice::contract {
 
-/// No file may grow beyond `bytes` while this lives; a write beyond fails as on a full disk, with
-/// "File too large".
+/// Limits the size of all files to `bytes` during its life; a write beyond that fails as on a full
+/// disk, with "File too large".
 class SmallDisk {
  public:
   explicit SmallDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {

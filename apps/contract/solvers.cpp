@@ -1,5 +1,5 @@
-// What every solver must do: keep to the stable step that it states, come to its end, and not
-// depend on the number of threads.
+// The contract of solvers: the time step is at most the stable one, the solver reaches its end, and
+// results do not depend on the number of threads.
 #include <contract/families.hpp>
 #include <engine/stage_calls.hpp>
 
@@ -11,7 +11,7 @@
 namespace hyperlattice::contract {
 namespace {
 
-/// A bar held at its low end and shortened from the other.
+/// Returns a bar that is held at its low end and shortened from the other.
 std::vector<Json> pressed_bar(const Scenes& scenes) {
   return {scenes.grid_box(4, 4, 8), scenes.material(usual_membrane), scenes.platen("z_min", 0),
           scenes.platen("z_max", -1e-6)};
@@ -19,11 +19,12 @@ std::vector<Json> pressed_bar(const Scenes& scenes) {
 
 struct Solved {
   double time = 0;
-  double relative_error = 0;  ///< of the energy balance
+  double relative_error = 0;  ///< relative error of the energy balance
   std::uint64_t steps = 0, hash = 0;
   RestReport rest;
 };
-/// Cut off and gone on with after that many steps, if any.
+/// Runs the solver; with `cut_off` > 0, stops after that many steps and continues in another
+/// simulation.
 Solved solve(const Plan& plan, std::uint64_t cut_off = 0) {
   auto simulation = std::make_unique<Simulation>(*plan.model, plan.threads);
   simulation->balance();

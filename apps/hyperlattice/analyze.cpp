@@ -22,7 +22,7 @@ struct Arguments : LatticeArguments {
   bool json = false;
 };
 
-/// What was asked for together makes sense.
+/// Throws InputError if the arguments contradict each other.
 void check(const Arguments& arguments) {
   Faults faults;
   const MembraneChoice& m = arguments.membrane;

@@ -1,4 +1,4 @@
-// hyperlattice calibrate: from E and nu to springs and back, in closed form, by the paper's
+// hyperlattice calibrate: stiffnesses from E and nu and back, in closed form, by the paper's
 // polynomials, or measured on a cube; figure 2.
 #include "commands.hpp"
 
@@ -37,7 +37,7 @@ struct Arguments {
   }
 };
 
-/// What was asked for together makes sense.
+/// Throws InputError if the arguments contradict each other.
 void check(const Arguments& a) {
   Faults faults;
   constexpr int least = 3, most = 500;
@@ -80,7 +80,7 @@ int calibrate_curve(const Arguments& a, Host& host, const LatticeGeometry& geome
   return exit_done;
 }
 
-/// A curve for each value of one of the lattice's options.
+/// Computes a curve for each value of one of the lattice's options.
 int calibrate_family(const Arguments& a, Host& host) {
   const auto& [from, to, points] = *a.curve;
   const CurveChoice choice{from, to, points};

@@ -1,5 +1,5 @@
-// The commands of the program, one file each. A command declares its arguments, and acts when it
-// was the one named.
+// The commands of the program, one file each. A command declares its arguments; the program calls
+// `act` of the command that the user named.
 #pragma once
 
 #include "components.hpp"
@@ -16,6 +16,7 @@
 
 namespace hyperlattice {
 
+/// A command of the program.
 struct Command {
   CLI::App* arguments = nullptr;
   std::function<int()> act;  ///< returns the exit code
@@ -30,33 +31,33 @@ Command calibrate_command(CLI::App& program);
 Command study_command(CLI::App& program);
 Command report_command(CLI::App& program);
 
-/// Writes the project of a plugin of that type into a new folder, by default ./<name>. InputError
-/// if there is no such family, or the folder is there.
+/// Writes the project of a plugin of this type into a new folder, by default ./<name>. Throws
+/// InputError if the family is unknown or the folder exists.
 int write_new_plugin(const std::string& type, std::filesystem::path folder);
 
-/// Prints a line for each check of the components' contracts, and the counts; exit_run if one
-/// failed. `pictures`: see contract::check.
+/// Runs the contract tests of the components; prints a line for each check and the counts. Returns
+/// exit_run if a check failed. `pictures`: see contract::check.
 int test_plugins(Host& host, const std::vector<const Component*>& components,
                  const std::filesystem::path& pictures, bool json);
 
-/// The folder of the results: <input>_out here, if none was given. InputError if something else
-/// stands there.
+/// Sets an empty `directory` to <input>_out in the working directory. Throws InputError if
+/// something that is not a folder has this name.
 void choose_directory(std::filesystem::path& directory, const std::filesystem::path& input);
 
-/// A signal that would end the program stops the run after its present step instead: an
-/// interruption, the end of a terminal or a batch system's time, a closed pipe. A second
-/// interruption ends the program at once.
+/// Installs signal handlers that stop the run after its present step, for an interruption, the end
+/// of a terminal, the time limit of a batch system or a closed pipe. A second interruption ends the
+/// program at once.
 void stop_gently_when_interrupted();
 
-/// --threads.
+/// The argument --threads.
 struct ThreadArgument {
-  int threads = 0;  ///< 0: nobody asked for a number
+  int threads = 0;  ///< 0: not given
 
   void declare(CLI::App& command);
   Threads count() const;
 };
 
-/// What `run` and `plan` are both told.
+/// The arguments that `run` and `plan` share.
 struct SceneArguments {
   std::filesystem::path scene;
   std::vector<std::string> settings;
@@ -66,14 +67,15 @@ struct SceneArguments {
   std::unique_ptr<Plan> plan(Host& host) const;
 };
 
-/// What `analyze` and `calibrate` are both told.
+/// The arguments that `analyze` and `calibrate` share.
 struct LatticeArguments {
   std::string lattice = bundled::cubic;
   std::vector<std::string> options;
   MembraneChoice membrane;
 
   void declare(CLI::App& command);
-  std::vector<std::filesystem::path> files() const;  ///< that options may name: their values
+  /// The values of the options, which may be names of input files.
+  std::vector<std::filesystem::path> files() const;
 };
 
 }  // namespace hyperlattice

@@ -1,5 +1,4 @@
-// The components that the commands bring along: what their scenes are made of where a user has
-// named nothing.
+// The components that the commands use in their own scenes, where the user has named none.
 #pragma once
 
 #include <analyze/virtual_test.hpp>
@@ -7,10 +6,10 @@
 
 namespace hyperlattice::bundled {
 
-/// The lattice that is meant if none is named, and the one whose crystals are known.
+/// The default lattice; `analyze` knows crystals for this one only.
 inline constexpr const char* cubic = "lattices.cubic";
 
-/// Of `plugins --test`.
+/// The components around the one under test in `plugins --test`.
 inline const contract::Surroundings surroundings{
     .grid = cubic,
     .list = "lattices.random",
@@ -20,7 +19,7 @@ inline const contract::Surroundings surroundings{
     .steps = "solvers.explicit",
 };
 
-/// Of `calibrate --measure`.
+/// The components of the virtual test in `calibrate --measure`.
 inline const VirtualTest::Components virtual_test{.material = "materials.elastic",
                                                   .displacement = "loads.displacement",
                                                   .solver = "solvers.static"};

@@ -12,7 +12,8 @@ namespace hyperlattice {
 
 namespace {
 
-/// Refuses seconds that are no whole number: host/crash.cpp would take its own 60 in their place.
+/// Adds a fault for a value that is not a whole number; host/crash.cpp would use its default of 60
+/// s.
 void check_load_seconds(Faults& faults) {
   constexpr const char* name = "HYPERLATTICE_LOAD_SECONDS";
   const char* value = std::getenv(name);
@@ -42,7 +43,7 @@ void check_environment() {
     const char* value = std::getenv(name);
     if (value == nullptr) continue;
     if (*value == '\0') {
-      unsetenv(name);  // as shells leave it
+      unsetenv(name);  // empty means unset
       continue;
     }
     if (std::find(values.begin(), values.end(), value) != values.end()) continue;

@@ -1,9 +1,10 @@
-// The environment variables that the program obeys.
+// The environment variables that the program reads.
 #pragma once
 
 namespace hyperlattice {
 
-/// InputError with each variable of the program's own whose value means nothing.
+/// Throws InputError with each variable of the program whose value is not allowed. Unsets variables
+/// with an empty value.
 void check_environment();
 
 }  // namespace hyperlattice

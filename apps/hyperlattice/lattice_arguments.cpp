@@ -1,4 +1,4 @@
-// The lattice and its membrane, as `analyze` and `calibrate` are both told.
+// The arguments for the lattice and its membrane, shared by `analyze` and `calibrate`.
 #include "commands.hpp"
 
 namespace hyperlattice {

@@ -31,7 +31,7 @@ void suggest(const std::string& word, const std::vector<std::string>& names) {
     std::cerr << "Did you mean '" << near << "'?\n";
 }
 
-/// Names the command that was most likely meant by a word that is none.
+/// Suggests the command that is nearest to an unknown word.
 void suggest_command(const CLI::App& program, const std::string& word) {
   std::vector<std::string> names;
   for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
@@ -39,7 +39,7 @@ void suggest_command(const CLI::App& program, const std::string& word) {
   suggest(word, names);
 }
 
-/// Names the options that were most likely meant by words that are none.
+/// Suggests the options that are nearest to unknown words.
 void suggest_options(const CLI::App& program, const CLI::App& command,
                      std::span<char* const> words) {
   std::vector<std::string> names;
@@ -54,13 +54,13 @@ void suggest_options(const CLI::App& program, const CLI::App& command,
   }
 }
 
-/// Input or a run that only lack of memory made fail is not at fault.
+/// Reports an error of the scene or the run; as lack of memory, if that is its cause.
 int complain_of_scene(int code, const std::string& message) {
   return memory_ran_out() ? complain(exit_outside, lack_of_memory() + "\n" + message)
                           : complain(code, message);
 }
 
-/// CLI11 reads nan and inf as numbers, and nothing as a file.
+/// Refuses nan and inf for numbers and an empty text for a file, which CLI11 accepts.
 void refuse_odd_values(CLI::App& command) {
   const auto finite = [](const std::string& text) {
     double number = 0;
@@ -78,8 +78,8 @@ void refuse_odd_values(CLI::App& command) {
 }
 
 int obey(int count, char** words) {
-  spdlog::set_default_logger(
-      spdlog::stderr_logger_mt("hyperlattice"));  // standard output is for what a command prints
+  // Log on standard error: standard output is for the results of a command.
+  spdlog::set_default_logger(spdlog::stderr_logger_mt("hyperlattice"));
   spdlog::set_pattern("hyperlattice: %v");
   CLI::App program("Simulates solids with the four-dimensional lattice spring model.",
                    "hyperlattice");
@@ -87,7 +87,7 @@ int obey(int count, char** words) {
   program.footer(
       "Exit codes: 0 done, 2 wrong input, 3 the run failed, 4 the outside failed (disk, memory, "
       "plugin), 130 interrupted.");
-  program.fallthrough();  // an option of the program may stand behind a command
+  program.fallthrough();  // options of the program may follow a command
   bool no_plugins = false;
   program.add_flag(
       "--no-plugins", no_plugins,

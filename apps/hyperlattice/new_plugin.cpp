@@ -16,7 +16,7 @@
 namespace hyperlattice {
 namespace {
 
-/// "tearing_apart" as a class: "TearingApart".
+/// Returns the class name of "tearing_apart", "TearingApart".
 std::string class_name(std::string_view name) {
   std::string result;
   bool begins = true;
@@ -35,7 +35,7 @@ std::string replaced(std::string text, std::string_view from, const std::string&
   return text;
 }
 
-/// What a family's starter is called, by its source: "my_law".
+/// Returns the name of a family's template, from its source file: "my_law".
 std::string starter_name(const std::string& family) {
   for (const StarterFile& file : starter_files)
     if (file.path.starts_with(family + "/my_") && file.path.ends_with(".cpp"))

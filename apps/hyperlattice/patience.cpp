@@ -11,7 +11,7 @@ namespace hyperlattice {
 Patience::Patience() {
   try {
     thread_ = std::thread([this] { watch(); });
-  } catch (const std::system_error&) {  // no thread, no sign of life
+  } catch (const std::system_error&) {  // no thread, no messages
   }
 }
 
@@ -24,7 +24,7 @@ Patience::~Patience() {
   if (thread_.joinable()) thread_.join();
 }
 
-/// Takes no memory: a limit on it may be what the work is near to.
+/// Allocates no memory, since the planned work may be near the memory limit.
 void Patience::watch() noexcept {
   constexpr int every = 5;  // s
   std::unique_lock lock(mutex_);

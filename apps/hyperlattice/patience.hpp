@@ -1,4 +1,4 @@
-// A sign of life while a large body is planned.
+// Progress messages while a large body is planned.
 #pragma once
 
 #include <condition_variable>
@@ -7,8 +7,8 @@
 
 namespace hyperlattice {
 
-/// While it lives, a line on standard error every few seconds says how long it has been. Short work
-/// says nothing.
+/// Prints the elapsed time on standard error every few seconds during its life, from its own
+/// thread. Short work prints nothing.
 class Patience {
  public:
   Patience();

@@ -1,5 +1,5 @@
-// hyperlattice plan: what a run will load, allocate and compute, and what it leaves out; writes
-// nothing.
+// hyperlattice plan: shows what a run will load, allocate and compute, and what it leaves out;
+// writes no file.
 #include "commands.hpp"
 #include "patience.hpp"
 
@@ -20,12 +20,12 @@ namespace {
 
 constexpr int most_threads = 4096;
 
-/// The folder that `run` writes into where no other is named.
+/// Returns the default folder of `run`; empty if something else has its name.
 std::filesystem::path results_by_default(const std::filesystem::path& scene) {
   std::filesystem::path directory;
   try {
     choose_directory(directory, scene);
-  } catch (const InputError&) {  // something else has that name: a run will need --out
+  } catch (const InputError&) {  // something else has this name; `run` will need --out
   }
   return directory;
 }
@@ -44,8 +44,8 @@ Threads ThreadArgument::count() const {
   if (threads > 0) return threads;
   const char* wish = std::getenv("OMP_NUM_THREADS");
   if (wish == nullptr || *wish == '\0') return Threads::up_to(std::min(processors(), most_threads));
-  const std::string_view list = wish, first = list.substr(
-                                          0, list.find(','));  // a number for each level of nesting
+  // OpenMP lists one number for each level of nesting; the first one counts.
+  const std::string_view list = wish, first = list.substr(0, list.find(','));
   int number = 0;
   const auto [end, error] = std::from_chars(first.data(), first.data() + first.size(), number);
   if (error != std::errc() || end != first.data() + first.size() || number < 1 ||

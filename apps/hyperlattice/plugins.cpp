@@ -1,5 +1,5 @@
-// hyperlattice plugins: what can be named in a scene, components' pages and tests, and where it was
-// all looked for.
+// hyperlattice plugins: lists the components and the searched folders, shows a component's page,
+// tests components.
 #include "commands.hpp"
 
 #include <scene/json.hpp>
@@ -69,7 +69,7 @@ nlohmann::json searched_json(const Host& host) {
   return places;
 }
 
-/// The components asked for, or all.
+/// Returns the named components, or all if none is named.
 std::vector<const Component*> named(Host& host, const Arguments& arguments) {
   if (arguments.names.empty()) return host.load_all();
   std::vector<const Component*> components;
@@ -85,7 +85,8 @@ std::vector<const Component*> named(Host& host, const Arguments& arguments) {
   return components;
 }
 
-/// Makes the folder of the pictures, so that what stands in its way is no fault of a component.
+/// Creates the folder of the pictures before the tests, so that a failure is not blamed on a
+/// component.
 void make_folder(const std::filesystem::path& pictures) {
   std::error_code error, unseen;
   std::filesystem::create_directories(pictures, error);

@@ -42,7 +42,7 @@ Command report_command(CLI::App& program) {
             const report::Report report = report::read_report(folders);
             const std::string page = report::report_page(report);
             if (is_default)
-              write_file(file.string(), page);  // through no link that was made meanwhile
+              write_file(file.string(), page);  // does not follow a link that was created meanwhile
             else
               write_named_file(file, page);
             if (json) {

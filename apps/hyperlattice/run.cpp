@@ -6,8 +6,8 @@
 namespace hyperlattice {
 void choose_directory(std::filesystem::path& directory, const std::filesystem::path& input) {
   if (directory.empty()) directory = input.stem().string() + "_out";
-  std::error_code unreadable;  // of a link to itself, of a folder above that is closed: creating
-                               // the folder says why
+  std::error_code unreadable;  // not reported here (a link to itself, an unreadable parent folder):
+                               // the creation of the folder reports it
   const bool is_link = std::filesystem::is_symlink(directory, unreadable);
   if ((is_link || std::filesystem::exists(directory, unreadable)) &&
       !std::filesystem::is_directory(directory, unreadable))
@@ -36,7 +36,7 @@ Command run_command(CLI::App& program) {
   command
       ->add_option("--checkpoint-every", arguments->options.checkpoint_every,
                    "seconds between checkpoints (default: 600; 0: only when interrupted)")
-      ->check(CLI::Range(0.0, 1e12));  // no nan
+      ->check(CLI::Range(0.0, 1e12));  // refuses nan
   command->add_flag("--quiet", arguments->options.quiet, "no progress lines");
   return {command, [arguments] {
             RunOptions& options = arguments->options;

@@ -1,4 +1,4 @@
-// hyperlattice schema: the JSON Schema of a scene with every component found, for editors.
+// hyperlattice schema: prints the JSON Schema of a scene with all components found, for editors.
 #include "commands.hpp"
 
 #include <iostream>

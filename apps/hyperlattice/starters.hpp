@@ -1,5 +1,5 @@
-// The projects that `plugins --new` writes: one folder a family, of a plugin called my_law,
-// my_lattice, ...
+// The template projects of `plugins --new`: one folder for each family, with a plugin called
+// my_law, my_lattice, ...
 #pragma once
 
 #include <string_view>

@@ -1,5 +1,5 @@
 // hyperlattice study: error against run time. Runs a scene over a grid of settings and compares
-// each with the truth.
+// each run with the truth.
 #include "commands.hpp"
 
 #include <base/gnuplot.hpp>
@@ -30,7 +30,7 @@ struct Arguments {
   bool json = false;
 };
 
-/// "1%" or 0.01.
+/// Reads "1%" or 0.01 as 0.01.
 double read_target(const std::string& text) {
   const auto plain = csv_number(text);
   const Quantity share = plain ? Quantity{*plain, ""} : read_quantity(text, "");
@@ -48,7 +48,7 @@ void write_results(const Study& study, const std::vector<Row>& rows, const Findi
   try {
     draw_svg(directory / "study.svg", script, 860, 620);
   } catch (const OutsideError& error) {
-    spdlog::warn("{}", error.what());  // the figures are there all the same
+    spdlog::warn("{}", error.what());  // only the picture is missing; the results are complete
   }
 }
 

@@ -1,4 +1,4 @@
-// hyperlattice plugins --test: components through the contracts of their families.
+// hyperlattice plugins --test: runs the contract tests of components.
 #include "commands.hpp"
 
 #include <contract/contract.hpp>

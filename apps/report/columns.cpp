@@ -10,7 +10,8 @@ namespace hyperlattice::report {
 
 namespace {
 
-/// The cell's number, which may be none or infinite; false if the cell is no number.
+/// Reads the number of a cell, which may be nan or infinite; returns false if the cell is no
+/// number.
 bool read_number(const std::string& cell, double& number) {
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
   return error == std::errc() && end == cell.data() + cell.size();

@@ -1,4 +1,4 @@
-// A table of numbers as a run leaves it, column by column.
+// A table of numbers that a run wrote, stored by column.
 #pragma once
 
 #include <base/errors.hpp>
@@ -10,20 +10,21 @@
 
 namespace hyperlattice::report {
 
+/// A table of numbers.
 struct Columns {
   std::vector<std::string> names;
-  std::vector<std::vector<double>>
-      values;  ///< one a name, all of one length; "nan" and "inf" are read as what they are
-  bool is_cut =
-      false;  ///< the file ended within a line, which is left out: its run goes on, or was killed
+  /// One vector for each name, all of the same length; may contain nan and infinity.
+  std::vector<std::vector<double>> values;
+  /// The file ends within a line, because the run goes on or was killed; that line is left out.
+  bool is_cut = false;
 
   std::size_t rows() const { return values.empty() ? 0 : values.front().size(); }
-  const std::vector<double>* find(
-      std::string_view name) const;  ///< null if there is no such column
+  /// Returns the column of this name; null if there is none.
+  const std::vector<double>* find(std::string_view name) const;
 };
 
-/// A table from its text; adds a fault at `file` for a missing first line, and for the first line
-/// that is wrong.
+/// Parses a table. Adds a fault at `file` if the first line is missing, and for the first invalid
+/// line.
 Columns read_columns(const std::filesystem::path& file, std::string_view text, Faults& faults);
 
 }  // namespace hyperlattice::report

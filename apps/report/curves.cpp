@@ -19,7 +19,7 @@ constexpr Quantity energies[] = {{"kinetic", "kinetic"},
                                  {"injected", "injected"}};
 constexpr Quantity broken[] = {{"broken_open", "open"}, {"broken_closed", "closed"}};
 
-/// Whether anything happened in time; in states of rest all may stand at one instant.
+/// Returns whether time passed in the run; states of rest may all have the same time.
 bool has_time(const RunRecord& run) {
   const auto* time = run.history.find("time");
   return time != nullptr && !time->empty() && time->back() > time->front();
@@ -52,7 +52,7 @@ std::vector<Plot> plots_of(const RunRecord& run) {
   Plot energy{"Energies", x, {"energy", "J"}, {}};
   for (const auto& [column, name] : energies)
     energy.series.push_back(series_of(run, over_time, column, name));
-  energy.series.back().is_dashed = true;  // often all that is injected is stored
+  energy.series.back().is_dashed = true;  // the curves of injected and stored energy often coincide
   keep(plots, std::move(energy));
   keep(plots, {"Error of the energy balance",
                x,

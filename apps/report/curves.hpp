@@ -1,4 +1,4 @@
-// The plots of a report, from what runs recorded.
+// The plots of a report, from the tables of runs.
 #pragma once
 
 #include <report/plot.hpp>
@@ -8,11 +8,12 @@
 
 namespace hyperlattice::report {
 
-/// Energies, balance error, broken springs if any broke, each probe; those that have points.
+/// Returns the plots of one run that have points: energies, error of the energy balance, broken
+/// springs (if any broke), each probe.
 std::vector<Plot> plots_of(const RunRecord& run);
 
-/// The same quantities of all runs together: a plot for each energy, for the balance, for broken
-/// springs, and for each number of probes of the same name.
+/// Returns plots that compare all runs: one for each energy, for the balance, for broken springs,
+/// and for each number of probes of the same name.
 std::vector<Plot> plots_together(std::span<const RunRecord> runs);
 
 }  // namespace hyperlattice::report

@@ -10,7 +10,7 @@ namespace {
 
 const Json none;
 
-/// Values at one place of the scenes that are compared: null where a scene has nothing.
+/// The values at one place, one for each scene; null if the scene has none.
 using Values = std::vector<const Json*>;
 
 bool all(const Values& values, bool (*holds)(const Json&)) {
@@ -28,7 +28,8 @@ const Json& in(const Json& object, const std::string& key) {
   return found == object.end() ? none : *found;
 }
 
-/// One value, not a vector: its parts can be told apart.
+/// Returns whether a value is an array with arrays or objects in it. Other arrays, such as vectors,
+/// are compared as one value.
 bool has_structure(const Json& value) {
   return value.is_array() && std::any_of(value.begin(), value.end(),
                                          [](const Json& part) { return part.is_structured(); });

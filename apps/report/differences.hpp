@@ -1,4 +1,4 @@
-// In what scenes differ.
+// The differences between scenes.
 #pragma once
 
 #include <scene/json.hpp>
@@ -11,11 +11,12 @@ namespace hyperlattice::report {
 
 struct Difference {
   std::string pointer;       ///< JSON pointer
-  std::vector<Json> values;  ///< one a scene; null if it has none there
+  std::vector<Json> values;  ///< one for each scene; null if the scene has none at this place
 };
 
-/// The innermost places at which not all scenes have the same. Of what one of them lacks, or has as
-/// another type of stage, the whole is one difference. Scenes that are null are not compared.
+/// Returns the innermost places at which not all scenes are equal. A part that one scene lacks, or
+/// that has another type of stage there, is one difference as a whole. Null scenes are not
+/// compared.
 std::vector<Difference> differences(const std::vector<Json>& scenes);
 
 }  // namespace hyperlattice::report

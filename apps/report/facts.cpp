@@ -73,7 +73,7 @@ std::string text_of(const RunRecord& run, const Shown& figure) {
       return quantity_text(*number, figure.unit);
     case Kind::step:
       return *number > 0 ? quantity_text(*number, figure.unit)
-                         : "";  // a search for rest may have none
+                         : "";  // static solvers may have none
     default:
       return short_number(*number, 4) + figure.unit;
   }

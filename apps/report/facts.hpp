@@ -1,21 +1,22 @@
-// The figures of a run for a table: what ran, how large, how long.
+// The main numbers of a run for a table: component types, sizes, times.
 #pragma once
 
 #include <report/record.hpp>
 
 namespace hyperlattice::report {
 
-/// A figure of summary.json.
+/// One number or text of summary.json.
 struct Fact {
   std::string name;     ///< "Particles"
   std::string pointer;  ///< "/particles"
-  std::string text;     ///< "490 432"; empty: the run does not have it
+  std::string text;     ///< "490 432"; empty if the run does not have it
 };
 
-/// All figures that a report shows, in order: the same names for every run.
+/// Returns all facts of a report, in order; the names are the same for every run.
 std::vector<Fact> facts(const RunRecord& run);
 
-/// The same figures as they stand in summary.json, under the same keys; those that the run has.
+/// Returns the same facts with the keys and values of summary.json, without those that the run does
+/// not have.
 Json figures(const RunRecord& run);
 
 }  // namespace hyperlattice::report

@@ -10,7 +10,7 @@ namespace hyperlattice::report {
 
 namespace {
 
-/// The same in UTF-8, whatever it was: the JSON library knows how.
+/// Returns the text as valid UTF-8; the JSON library replaces invalid bytes.
 std::string in_utf8(std::string_view text) {
   const std::string quoted =
       nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);

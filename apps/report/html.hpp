@@ -1,4 +1,4 @@
-// Text, bytes and tables in a page that is both HTML and well-formed XML.
+// Text, bytes and tables for a page that is both HTML and well-formed XML.
 #pragma once
 
 #include <string>
@@ -7,15 +7,15 @@
 
 namespace hyperlattice::report {
 
-/// Text that can stand between tags or in quotes. What is not UTF-8, or a character that XML does
-/// not allow, becomes U+FFFD.
+/// Escapes text for use between tags or in quotes. Bytes that are not UTF-8 and characters that XML
+/// does not allow become U+FFFD.
 std::string escaped(std::string_view text);
 
-/// "data:image/png;base64,...".
+/// Returns "data:image/png;base64,..." for these bytes.
 std::string data_uri(std::string_view media_type, std::string_view bytes);
 
-/// One row a vector. The first cell of each names the row; with `head`, those are the names of the
-/// columns. Cells are plain text.
+/// A table of plain text, one vector for each row. The first cell of each row names the row; `head`
+/// has the names of the columns, or is empty.
 struct HtmlTable {
   std::vector<std::string> head;
   std::vector<std::vector<std::string>> rows;

@@ -1,4 +1,4 @@
-// The page: what stands where.
+// The layout of the page.
 #include <base/figures.hpp>
 #include <report/curves.hpp>
 #include <report/facts.hpp>
@@ -22,7 +22,7 @@ namespace {
 
 struct Mark {
   const char* style;
-  const char* sign;  ///< for those who see no colours, and for paper
+  const char* sign;  ///< readable without colours and on paper
 };
 constexpr std::array<Mark, 4> marks = {{{"ok", "✓"}, {"warn", "!"}, {"bad", "✗"}, {"note", "·"}}};
 
@@ -70,7 +70,7 @@ void put_verdict(std::string& page, const RunRecord& run) {
   page += "</ul>\n";
 }
 
-/// In two tables, which stand side by side where there is room.
+/// Appends the facts of a run as two tables, side by side if the page is wide enough.
 void put_facts(std::string& page, const RunRecord& run) {
   std::vector<std::vector<std::string>> rows;
   for (const Fact& fact : facts(run))
@@ -118,7 +118,7 @@ void put_run(std::string& page, const RunRecord& run, bool is_only) {
   page += "</section>\n";
 }
 
-/// The figures of all runs side by side.
+/// Returns a table of the facts of all runs, one column for each run.
 HtmlTable comparison(const Report& report) {
   HtmlTable table{{""}, {}};
   for (const RunRecord& run : report.runs) {

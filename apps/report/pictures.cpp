@@ -14,25 +14,26 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t head_bytes = 4096;  // of a picture: the texts stand before the pixels
-constexpr std::size_t most_told = 3;      // files of a writer that are not shown, by name
+// Bytes to read from the start of a picture; its texts are before the pixels.
+constexpr std::size_t head_bytes = 4096;
+constexpr std::size_t most_told = 3;  // notes of each writer about files that are not shown
 constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
 
-/// "1e-05 s" is what the writer says.
+/// Returns the time of a picture, s, from its text, as "1e-05 s".
 std::optional<double> time_of(std::string_view head) {
   for (const auto& [key, text] : png_texts(head))
     if (key == "Time") return csv_number(std::string_view(text).substr(0, text.find(' ')));
   return std::nullopt;
 }
 
-/// Why a file is not shown as a picture; empty: it is.
+/// Returns why a file cannot be shown as a picture; empty if it can.
 std::string fault_of(const FolderFile& file) {
   if (!file.refusal.empty()) return file.refusal;
   return file.text.starts_with(signature) ? "" : "no PNG picture";
 }
 
-/// Whether a file is one of the folder's, or of folders in it, with no link on the way. What is
-/// wrong with the way is wrong for every frame.
+/// Returns whether a file is in the folder or its subfolders, without a link on its path. An error
+/// of the path is the same for every frame.
 bool stands_inside(const fs::path& folder, const fs::path& name) {
   fs::path way = folder;
   std::error_code error;
@@ -42,7 +43,7 @@ bool stands_inside(const fs::path& folder, const fs::path& name) {
   return !name.is_absolute();
 }
 
-/// The writer's frames in their order; those that cannot be shown are left out.
+/// Returns the frames of a writer in their order, without those that cannot be shown.
 std::vector<PictureFile> frames(const fs::path& folder, const fs::path& base, double end_time,
                                 std::vector<std::string>& notes) {
   std::vector<PictureFile> found;
@@ -120,9 +121,8 @@ std::vector<PictureSeries> find_pictures(const fs::path& folder, const Json& sce
     const std::string type = word_in(stage, "type"), file = word_in(stage, "file");
     if (!type.starts_with("writers.") || file.empty()) continue;
     PictureSeries series{word_in(stage, "name"), {}, 0};
-    const bool is_labelled =
-        series.name !=
-        type.substr(type.find('.') + 1);  // it then writes into a folder of that name
+    // A writer with a label writes into a folder of that name.
+    const bool is_labelled = series.name != type.substr(type.find('.') + 1);
     const auto found = frames(folder, is_labelled ? fs::path(series.name) / file : fs::path(file),
                               end_time ? *end_time * (1 + rounding) : always, notes);
     series.count = found.size();

@@ -17,15 +17,15 @@ namespace {
 
 constexpr double width = 640, inner_height = 270, line_height = 18, letter = 6.6, right = 18,
                  bottom = 40, sample = 22;
-constexpr std::size_t few = 24;  // points that get a dot each
+constexpr std::size_t few = 24;  // a curve with at most so many points has dots
 
-/// Whether a number has a place; beyond, differences overflow.
+/// Returns whether a number can be drawn; differences of larger numbers overflow.
 bool is_drawable(double value) { return std::abs(value) < 1e300; }
 bool has_point(const Series& series, std::size_t n) {
   return is_drawable(series.x[n]) && is_drawable(series.y[n]);
 }
 
-/// Letters of UTF-8 text.
+/// Returns the number of characters of UTF-8 text.
 double letters(const std::string& text) {
   return static_cast<double>(std::count_if(text.begin(), text.end(), [](char c) {
     return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
@@ -42,7 +42,7 @@ struct Range {
     empty = false;
   }
   double largest() const { return std::max(std::abs(low), std::abs(high)); }
-  /// Never of no extent, which could not be drawn.
+  /// Gives an empty range an extent, so that it can be drawn.
   void widen() {
     if (high - low > 1e-9 * largest()) return;
     const double half = largest() > 0 ? 0.5 * largest() : 0.5;
@@ -52,11 +52,11 @@ struct Range {
   }
 };
 
-/// An axis: what is drawn of it, in scaled numbers, and where on the picture.
+/// An axis in the picture: its range in scaled numbers, its ticks, and its position.
 struct Drawn {
   Scale scale;
   Range range;
-  double begin = 0, end = 0;  ///< on the picture
+  double begin = 0, end = 0;  ///< position in the picture
   std::vector<Tick> ticks;
 
   double place(double value) const {
@@ -79,7 +79,8 @@ std::string axis_label(const Axis& axis, const Scale& scale) {
   return scale.unit.empty() ? axis.name : axis.name + " in " + scale.unit;
 }
 
-/// Curves over a little more than their range; from zero on, if they come near it.
+/// Returns the range of the curves with a margin; it starts or ends at zero if the curves come near
+/// zero.
 Range padded(Range range) {
   const double margin = 0.05 * (range.high - range.low);
   const bool from_zero = range.low >= 0 && range.low < 0.3 * range.high,
@@ -192,7 +193,7 @@ class Picture {
 
   const Plot& plot_;
   Drawn x_, y_;
-  double top_ = 0;  ///< of what is free
+  double top_ = 0;  ///< upper end of the free space
   std::string body_;
 };
 

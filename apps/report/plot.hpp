@@ -1,7 +1,7 @@
-// A plot as an SVG element of a page: curves, axes, ticks in round numbers, units, legend. Its
-// colours come from the page's style (style.hpp), so that they suit light, dark and paper.
-// (Pictures that are files of their own, with logarithmic axes and labels at points, are drawn by
-// gnuplot: base/gnuplot.hpp. A report has to work without it.)
+// A plot as an SVG element of a page: curves, axes, ticks at round numbers, units, legend. Its
+// colours come from the style of the page (style.hpp) and suit light, dark and paper. (Pictures in
+// their own files, with logarithmic axes and labels at points, use gnuplot: base/gnuplot.hpp. A
+// report must work without gnuplot.)
 #pragma once
 
 #include <string>
@@ -9,28 +9,31 @@
 
 namespace hyperlattice::report {
 
+/// One curve of a plot.
 struct Series {
   std::string label;
-  std::vector<double> x, y;  ///< as many of each, in SI; what is not finite is a gap
-  bool is_dashed = false;    ///< so that a curve below it shows
+  std::vector<double> x, y;  ///< of equal length, in SI; a value that is not finite is a gap
+  bool is_dashed = false;    ///< a dashed curve does not hide the curve below it
 };
 
+/// One axis of a plot.
 struct Axis {
   std::string name;  ///< "time"
-  std::string unit;  ///< in SI; empty: a number
+  std::string unit;  ///< SI unit; empty for a number without unit
   bool is_count = false;
 };
 
+/// A plot with its curves.
 struct Plot {
   std::string title;
   Axis x, y;
   std::vector<Series> series;
 };
 
-/// Whether there is anything to draw.
+/// Returns whether the plot has a point to draw.
 bool has_points(const Plot& plot);
 
-/// The element. A curve of few points has a dot at each.
+/// Returns the SVG element. A curve with few points has a dot at each.
 std::string svg(const Plot& plot);
 
 }  // namespace hyperlattice::report

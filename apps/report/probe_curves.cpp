@@ -27,7 +27,8 @@ bool ends_in(const std::string& name, std::initializer_list<const char*> endings
                      [&](const char* ending) { return name.ends_with(ending); });
 }
 
-/// What stands in one plot: the statistics of a number, or the components of a vector.
+/// Returns the name of the plot of a column: the statistics of a number, or the components of a
+/// vector, share one plot.
 std::string quantity_of(const std::string& name) {
   const bool is_statistic = ends_in(name, {"_mean", "_min", "_max"});
   return is_statistic || (!unit_of(name).empty() && ends_in(name, {"_x", "_y", "_z"}))
@@ -35,7 +36,7 @@ std::string quantity_of(const std::string& name) {
              : name;
 }
 
-/// Columns of a probe by a name for each, in the order of the table.
+/// Groups the columns of a probe by the name that `key` returns, in the order of the table.
 std::vector<std::pair<std::string, std::vector<std::size_t>>> grouped(
     const Columns& table, std::string (*key)(const std::string&)) {
   std::vector<std::pair<std::string, std::vector<std::size_t>>> groups;
@@ -59,7 +60,8 @@ bool is_along_places(const Columns& table) {
                      [](const std::string& name) { return column_place(name).has_value(); });
 }
 
-/// The columns at one row, over the distance of their places from the first.
+/// Returns the values of the columns in one row, over the distance of their places from the first
+/// place, m.
 Series profile(const Columns& table, const std::vector<std::size_t>& columns, std::size_t row,
                std::string label) {
   Series series{std::move(label), {}, {}};
@@ -72,7 +74,7 @@ Series profile(const Columns& table, const std::vector<std::size_t>& columns, st
   return series;
 }
 
-/// Some rows of different times; of several at one time the last.
+/// Returns some rows with different times; of several rows with one time, the last.
 std::vector<std::size_t> chosen_rows(const Columns& table) {
   const auto& time = table.values.front();
   std::vector<std::size_t> last;
@@ -111,7 +113,7 @@ std::vector<Plot> plots_of(const Probe& probe) {
   }
   for (const auto& [name, columns] :
        grouped(table, [](const std::string& column) { return quantity_of(column_name(column)); })) {
-    // a number alone has no legend: its own name says which it is
+    // a single curve has no legend, so that the title gives the full name of its column
     Plot& plot = plots.emplace_back(over_time(
         probe.name, columns.size() == 1 ? column_name(table.names[columns.front()]) : name));
     for (const std::size_t c : columns)
@@ -122,19 +124,21 @@ std::vector<Plot> plots_of(const Probe& probe) {
 
 std::vector<Plot> probes_together(std::span<const RunRecord> runs) {
   std::vector<Plot> plots;
-  std::map<std::pair<std::string, std::string>, std::size_t> place;  // of probe and number
+  // Index of the plot, by probe and number.
+  std::map<std::pair<std::string, std::string>, std::size_t> place;
   for (const RunRecord& run : runs)
     for (const Probe& probe : run.probes) {
       const Columns& table = probe.table;
       const bool is_profile = is_along_places(table);
       if (table.rows() == 0) continue;
       for (const auto& [name, columns] : grouped(table, column_name)) {
-        if (ends_in(name, {"_min", "_max"})) continue;  // the mean will do
+        if (ends_in(name, {"_min", "_max"})) continue;  // comparisons show only the mean
         const auto [found, is_new] = place.try_emplace({probe.name, name}, plots.size());
         if (is_new)
           plots.push_back(is_profile ? along(probe.name, name) : over_time(probe.name, name));
         Plot& plot = plots[found->second];
-        if (is_profile != (plot.x.unit == "m")) continue;  // another kind of probe by the same name
+        if (is_profile != (plot.x.unit == "m"))
+          continue;  // another kind of probe with the same name
         plot.series.push_back(
             is_profile ? profile(table, columns, table.rows() - 1, run.label)
                        : Series{run.label, table.values.front(), table.values[columns.front()]});

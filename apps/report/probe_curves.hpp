@@ -1,4 +1,4 @@
-// The plots of probes: over time, or, of those that have many places, along these.
+// The plots of probes: over time, or along their places for probes with many places.
 #pragma once
 
 #include <report/plot.hpp>
@@ -8,12 +8,13 @@
 
 namespace hyperlattice::report {
 
-/// A plot for each quantity: its components, or its mean, least and greatest value, over time; of a
-/// probe with several places each component along them, at some times.
+/// Returns a plot over time for each quantity, with its components or its mean, least and greatest
+/// value. For a probe with several places, returns a plot of each component along the places, at
+/// some times.
 std::vector<Plot> plots_of(const Probe& probe);
 
-/// A plot for each number of the probes that at least two runs have by the same name, a curve a
-/// run; along places at the last time.
+/// Returns a plot for each number of probes that have the same name in at least two runs, with a
+/// curve for each run; plots along places show the last time.
 std::vector<Plot> probes_together(std::span<const RunRecord> runs);
 
 }  // namespace hyperlattice::report

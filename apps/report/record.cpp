@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The table of that name, if there is one.
+/// Reads a table; empty if the file does not exist.
 Columns read_table(const fs::path& name, RunRecord& run, Faults& faults) {
   const auto text = read_text(run.folder, name, largest_table, faults);
   if (!text) return {};
@@ -36,8 +36,8 @@ void check_history(const RunRecord& run, Faults& faults) {
                fmt::format("the columns of a history; it has no {}", fmt::join(missing, ", ")));
 }
 
-/// The names of the run's probes: those of its scene. What else stands in the folder, an earlier
-/// run left. Without the scene, all that is there.
+/// Returns the names of the probes in the run's scene, since other tables in the folder belong to
+/// an earlier run. Without a scene, returns the names of all tables.
 std::vector<std::string> probe_names(const RunRecord& run) {
   std::vector<std::string> names;
   if (run.scene.is_object() && run.scene.contains("pipeline")) {
@@ -64,12 +64,12 @@ void read_probes(RunRecord& run, Faults& faults) {
   }
 }
 
-/// When the first spring broke: of a log that may have millions of lines, only the first two are
-/// read.
+/// Returns the time, s, at which the first spring broke. Reads only the first two lines of the log,
+/// which may have millions.
 std::optional<double> read_first_break(const RunRecord& run) {
   constexpr std::uint64_t enough = 4096;
   if (run.summary.is_object() && run.summary.value("breakable", Json()) == false)
-    return std::nullopt;  // the log is of an earlier run
+    return std::nullopt;  // the log belongs to an earlier run
   const auto file = read_folder_file(run.folder, "failures.csv", enough, true);
   if (!file || std::count(file->text.begin(), file->text.end(), '\n') < 2) return std::nullopt;
   const auto second = file->text.find('\n', file->text.find('\n') + 1);

@@ -1,4 +1,4 @@
-// What a run left in its folder, read for a report.
+// The files of a run's folder, read for a report.
 #pragma once
 
 #include <report/columns.hpp>
@@ -11,45 +11,49 @@
 
 namespace hyperlattice::report {
 
+/// The table of a probe.
 struct Probe {
   std::string name;
   Columns table;
 };
 
+/// The content of a run's folder.
 struct RunRecord {
   std::filesystem::path folder;
-  std::string label;          ///< tells it from the other runs of the report
-  Json summary;               ///< null: the run goes on, or was killed
-  Json scene;                 ///< as resolved; null if the folder does not hold it
+  std::string label;          ///< unique name of the run in the report
+  Json summary;               ///< null if the run goes on or was killed
+  Json scene;                 ///< the resolved scene; null if the folder does not have it
   Columns history;            ///< no columns if the run ended before its first record
-  std::vector<Probe> probes;  ///< by name
+  std::vector<Probe> probes;  ///< in the order of their names
   std::vector<PictureSeries> pictures;
-  std::optional<double> first_break;  ///< s
+  std::optional<double> first_break;  ///< time at which the first spring broke, s
   bool has_failing_motion = false;
   bool has_checkpoint = false;
-  std::vector<std::string> notes;  ///< sentences on what is left out
+  std::vector<std::string> notes;  ///< sentences about data that the report leaves out
 
-  std::string title() const;  ///< of the scene; of a scene without one, the label
-  std::string status()
-      const;  ///< "done", "failed", "interrupted", or "unfinished" without a summary
-  std::optional<double> number(const std::string& pointer)
-      const;  ///< of the summary; nothing if it is not there, or no number
-  std::string word(const std::string& pointer) const;  ///< likewise; or empty
+  std::string title() const;  ///< title of the scene; the label if it has none
+  /// Returns "done", "failed", "interrupted", or "unfinished" without a summary.
+  std::string status() const;
+  /// Returns a number of the summary; nothing if it is missing or not a number.
+  std::optional<double> number(const std::string& pointer) const;
+  std::string word(const std::string& pointer) const;  ///< a text of the summary, or empty
 };
 
-/// Whether the folder holds a run, finished or not.
+/// Returns whether the folder contains a run, finished or not.
 bool is_run(const std::filesystem::path& folder);
 
-/// Adds a fault for each file that cannot be understood. OutsideError if one cannot be read.
+/// Reads a run. Adds a fault for each file with invalid content. Throws OutsideError if a file
+/// cannot be read.
 RunRecord read_run(const std::filesystem::path& folder, Faults& faults);
 
-/// The text of a file of the folder; nothing if there is no such file, or after a fault: it is no
-/// regular file, or larger than `most` bytes.
+/// Returns the text of a file in the folder; nothing if the file does not exist. A file that is not
+/// a regular file or is larger than `most` bytes is a fault.
 std::optional<std::string> read_text(const std::filesystem::path& folder,
                                      const std::filesystem::path& name, std::uint64_t most,
                                      Faults& faults);
 
-/// A JSON file's content; a fault if it is not whole or no object. Null if there is no such file.
+/// Returns the content of a JSON file; null if the file does not exist. Truncated JSON, or a value
+/// that is not an object, is a fault.
 Json read_json_object(const std::filesystem::path& folder, const std::filesystem::path& name,
                       Faults& faults);
 

@@ -13,7 +13,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The last part of the folder's name, unless another run's is the same.
+/// Labels each run with the last part of its folder's path, or with the whole path if two runs have
+/// the same last part.
 void label(std::vector<RunRecord>& runs) {
   const auto last_part = [](const fs::path& folder) {
     const fs::path whole = fs::absolute(folder).lexically_normal();

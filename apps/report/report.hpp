@@ -1,4 +1,4 @@
-// A report of runs and studies: one page for people, the same figures for machines.
+// A report of runs and studies: one page for people, and the same numbers as JSON.
 #pragma once
 
 #include <report/differences.hpp>
@@ -6,23 +6,24 @@
 
 namespace hyperlattice::report {
 
+/// The content of a report.
 struct Report {
   std::vector<RunRecord> runs;
   std::vector<StudyRecord> studies;
-  std::vector<Difference> differing;  ///< of the runs' scenes
+  std::vector<Difference> differing;  ///< differences between the scenes of the runs
 };
 
-/// Reads the folders. InputError with every fault of all of them: no folder, nothing of a run or a
-/// study in it, a file that cannot be understood.
+/// Reads the folders. Throws InputError with every fault: a missing folder, a folder without a run
+/// or a study, a file with invalid content.
 Report read_report(const std::vector<std::filesystem::path>& folders);
 
-/// A page that needs no other file and no network: style, plots and pictures are in it. HTML that
-/// is well-formed XML, too; the same bits for the same results.
+/// Returns a page that contains its style, plots and pictures, and needs no other file and no
+/// network. The page is HTML and also well-formed XML; the same results give the same bytes.
 std::string report_page(const Report& report);
 
 Json report_json(const Report& report);
 
-/// Titles and findings.
+/// Returns the titles and findings as text.
 std::string report_text(const Report& report);
 
 }  // namespace hyperlattice::report

@@ -1,4 +1,4 @@
-// What a study left in its folder, read for a report.
+// The files of a study's folder, read for a report.
 #pragma once
 
 #include <base/csv.hpp>
@@ -6,18 +6,19 @@
 
 namespace hyperlattice::report {
 
+/// The content of a study's folder.
 struct StudyRecord {
   std::filesystem::path folder;
   Json found;        ///< study.json
-  CsvTable table;    ///< study.csv; empty if it is not there
-  std::string plot;  ///< study.svg; empty if it is not there
+  CsvTable table;    ///< study.csv; empty if the file is missing
+  std::string plot;  ///< study.svg; empty if the file is missing
 
   std::string title() const;
 };
 
 bool is_study(const std::filesystem::path& folder);
 
-/// Adds a fault for what cannot be understood.
+/// Reads a study. Adds a fault for each file with invalid content.
 StudyRecord read_study_record(const std::filesystem::path& folder, Faults& faults);
 
 }  // namespace hyperlattice::report

@@ -1,4 +1,4 @@
-// How a report looks: light, dark, and on paper.
+// The style sheet of a report, for light and dark screens and for paper.
 #pragma once
 
 #include <cstddef>
@@ -6,8 +6,8 @@
 
 namespace hyperlattice::report {
 
-inline constexpr std::size_t curve_colours = 8,
-                             curve_dashes = 3;  ///< classes c0.. and d0.. of the style
+/// Classes c0.. and d0.. of the style.
+inline constexpr std::size_t curve_colours = 8, curve_dashes = 3;
 
 inline constexpr std::string_view style = R"css(
 :root { color-scheme: light dark; --page: #fff; --ink: #1d2329; --soft: #5a646e; --line: #dde2e7; --shade: #f4f6f8; --ok: #1e7d4f; --warn: #9a6200;

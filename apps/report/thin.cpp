@@ -8,7 +8,7 @@ namespace hyperlattice::report {
 
 namespace {
 
-/// Points that stand for [begin, end), which is one column.
+/// Appends the points that represent the column [begin, end).
 void keep_column(std::span<const double> y, std::size_t begin, std::size_t end,
                  std::vector<std::size_t>& kept) {
   std::vector<std::size_t> some{begin, end - 1};

@@ -1,4 +1,4 @@
-// Which points of a long curve a picture needs.
+// Reduces a long curve to the points that a picture needs.
 #pragma once
 
 #include <cstddef>
@@ -7,10 +7,10 @@
 
 namespace hyperlattice::report {
 
-/// Indices, ascending, of the points that draw the same picture as all of them: the first, least,
-/// greatest and last of each of `columns` equal parts of x, so that peaks stay, and a point that is
-/// no number where the curve has a gap. All points if they are few, or if x falls or is not finite
-/// somewhere.
+/// Returns ascending indices of points that draw the same picture as all points. Divides x into
+/// `columns` equal parts and keeps the first, least, greatest and last point of each part, so that
+/// peaks stay, and a point that is not a number where the curve has a gap. Returns all points if
+/// they are few, or if x decreases or is not finite.
 std::vector<std::size_t> thinned(std::span<const double> x, std::span<const double> y,
                                  std::size_t columns);
 

@@ -26,7 +26,7 @@ std::vector<Tick> round_ticks(double low, double high, int most, bool whole) {
   std::vector<Tick> ticks;
   const double last = std::floor(high / step + rounding);
   for (double n = std::ceil(low / step - rounding); n <= last; n += 1) {
-    const double value = n == 0 ? 0 : n * step;  // no "-0"
+    const double value = n == 0 ? 0 : n * step;  // avoids "-0"
     ticks.push_back({value, fmt::format("{:.{}f}", value, decimals)});
   }
   return ticks;

@@ -1,4 +1,4 @@
-// The marks of an axis.
+// The ticks of an axis.
 #pragma once
 
 #include <string>
@@ -8,12 +8,12 @@ namespace hyperlattice::report {
 
 struct Tick {
   double value = 0;
-  std::string label;  ///< with as many decimals as tell the ticks apart
+  std::string label;  ///< with as many decimals as needed to distinguish the ticks
 };
 
-/// Multiples of 1, 2 or 5 times a power of ten within [low, high], about `most` of them and never
-/// more than one above that. Empty if low >= high or either is not finite. `whole`: of counts,
-/// between which nothing is.
+/// Returns multiples of 1, 2 or 5 times a power of ten in [low, high], about `most` of them and at
+/// most `most` + 1. Returns none if low >= high or either is not finite. `whole`: ticks at whole
+/// numbers only, for counts.
 std::vector<Tick> round_ticks(double low, double high, int most, bool whole = false);
 
 }  // namespace hyperlattice::report

@@ -12,10 +12,10 @@ namespace hyperlattice::report {
 
 namespace {
 
-/// Up to these a number is called fine. A run's own tolerances may be wider: they say where it
-/// stops.
-constexpr double fine_balance = 0.01;   ///< of the largest energy
-constexpr double fine_residual = 1e-3;  ///< of the mean force on held or loaded particles
+/// The largest values that the report calls fine. The tolerances of a run, at which it stops, may
+/// be larger.
+constexpr double fine_balance = 0.01;   ///< fraction of the largest energy
+constexpr double fine_residual = 1e-3;  ///< fraction of the mean force on held or loaded particles
 constexpr double fine_displacement = 0.01;
 
 std::string seconds(double value) { return quantity_text(value, "s"); }
@@ -25,7 +25,7 @@ double number_in(const Json& json, const char* key, double otherwise) {
   return found != json.end() && found->is_number() ? found->get<double>() : otherwise;
 }
 
-/// The scene's solver stages, in order.
+/// Returns the solver stages of the scene, in order.
 std::vector<Json> solvers(const RunRecord& run) {
   std::vector<Json> found;
   if (run.scene.is_object() && run.scene.contains("pipeline"))
@@ -89,7 +89,7 @@ class Sceptic {
                          numbers.is_null() ? Json::object() : std::move(numbers)});
   }
 
-  /// How far a run came that did not end.
+  /// Reports the progress of a run that has not ended.
   void ask_progress() {
     if (!run_.summary.is_null()) return;
     const auto time = last_of(run_.history, "time"), step = last_of(run_.history, "step");
@@ -132,7 +132,7 @@ class Sceptic {
     double tolerance = 0;
     for (std::size_t n = 0; n < stages_.size() && n < solvers_.size(); ++n)
       if (is_at_rest(stages_[n]))
-        tolerance = number_in(solvers_[n], "tolerance", 0);  // the last counts, as in the summary
+        tolerance = number_in(solvers_[n], "tolerance", 0);  // the last one, as in the summary
     std::string sentence = fmt::format(
         "At rest: the largest force out of balance is {} of the mean force on held or loaded "
         "particles",
@@ -157,7 +157,8 @@ class Sceptic {
     add("rest", is_fine ? Judgement::fine : Judgement::doubtful, sentence + ".", numbers);
   }
 
-  /// The strictest tolerance of the stages in time, which are those that mind it; 0: none.
+  /// Returns the smallest energy tolerance of the stages with time steps (static stages ignore it);
+  /// 0 if there is none.
   double energy_tolerance() const {
     double strictest = 0;
     for (std::size_t n = 0; n < solvers_.size(); ++n) {

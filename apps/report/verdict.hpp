@@ -1,27 +1,24 @@
-// Is it stable, and is it right? What a run's numbers say, in sentences.
+// Judges whether a run is stable and right: sentences from the numbers of the run.
 #pragma once
 
 #include <report/record.hpp>
 
 namespace hyperlattice::report {
 
-enum class Judgement {
-  fine,
-  doubtful,
-  wrong,
-  plain
-};  ///< plain: a fact that speaks neither for nor against
+/// The judgement of a finding; plain: a fact that is neither good nor bad.
+enum class Judgement { fine, doubtful, wrong, plain };
 inline constexpr std::string_view judgement_names[] = {"fine", "doubtful", "wrong", "plain"};
 
+/// One sentence about a run.
 struct Finding {
   std::string about;  ///< "time_step", "energy_balance", "rest", "momentum", "broken_springs",
                       ///< "warning", "failing_motion", "progress", "checkpoint", "reason", "note"
   Judgement judgement = Judgement::plain;
   std::string sentence;
-  Json numbers;  ///< what the sentence tells, in SI
+  Json numbers;  ///< the numbers of the sentence, in SI
 };
 
-/// In the order in which a sceptic asks.
+/// Returns the findings, the most critical questions first.
 std::vector<Finding> verdict(const RunRecord& run);
 
 }  // namespace hyperlattice::report

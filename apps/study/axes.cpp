@@ -10,7 +10,7 @@ namespace hyperlattice::study {
 
 namespace {
 
-/// Keys of a row beside what was varied; an axis of such a name would hide them.
+/// The other keys of a row in study.json; an axis of such a name would hide them.
 constexpr const char* row_keys[] = {"run",     "status",  "reason", "particles", "steps",
                                     "size",    "error",   "errors", "seconds",   "setup_seconds",
                                     "repeats", "pareto",  "order",  "pairs",     "target_error",
@@ -43,7 +43,8 @@ bool good_list(const Json& list, const std::string& pointer, std::size_t length,
   return false;
 }
 
-/// Labels from the values of the first pointer whose values are texts or numbers and all different.
+/// Labels the values by those of the first pointer whose values are texts or numbers and all
+/// different. Returns false if there is no such pointer.
 bool label_by_value(Axis& axis) {
   for (std::size_t p = 0; p < axis.values.front().size(); ++p) {
     std::vector<std::string> labels;
@@ -132,7 +133,7 @@ bool read_axis(const Json& given, const std::string& pointer, Axis& axis, Faults
   return false;
 }
 
-/// The value of an axis by its label, or as it stands in the list.
+/// Returns the index of a value of an axis, given by its label or as in the list.
 std::size_t value_of(const Axis& axis, const Json& wanted, const std::string& pointer,
                      Faults& faults) {
   const auto found = std::find(axis.labels.begin(), axis.labels.end(), text_of(wanted));

@@ -67,7 +67,7 @@ void check_columns(const Study& study, const std::vector<PlannedTable>& tables) 
 
 namespace {
 
-/// Why a truth over time cannot be compared with a run; empty: nothing speaks against it.
+/// Returns why a truth over time cannot be compared with a run; empty if no reason is known.
 std::string fault_of_times(const Comparison& comparison, const Truth& truth, const Curve& curve,
                            const Foreseen* run) {
   if (run == nullptr || truth.kind != Truth::Kind::table || comparison.along ||
@@ -97,15 +97,15 @@ void check_truth(const Study& study, const Row& row, const Foreseen* foreseen) {
                fmt::format("a truth of \"{}\" for every run; {}", comparison.name, error.what()));
   };
   bool all_zero = true;
-  std::string zero;  // where the latest one stands
+  std::string zero;  // JSON pointer to the latest zero truth
   for (const Comparison& comparison : study.comparisons) {
     const std::string place = truth.kind == Truth::Kind::table ? truth.pointer + "/csv"
                               : comparison.truth.empty()
                                   ? truth.pointer + "/value"
                                   : member(truth.pointer + "/values", comparison.truth);
-    if (comparison.at_column) {  // the run will say where; all places have numbers
+    if (comparison.at_column) {  // the place is known only after the run
       all_zero = false;
-      std::string fault;  // the same at all places, since they share their times
+      std::string fault;  // the columns of all places have the same times
       try {
         if (truth.table)
           for (const auto& [at, column] : placed_columns(*truth.table, comparison.truth))
@@ -148,8 +148,8 @@ void check_truth(const Study& study, const Row& row, const Foreseen* foreseen) {
 
 std::optional<std::vector<PlannedTable>> tables_in(const std::filesystem::path& run_directory,
                                                    const Scene& scene) {
-  constexpr std::uint64_t longest_head = 64
-                                         << 20;  // bytes; a probe of many places has many columns
+  // In bytes; the first line is long if a probe has many places.
+  constexpr std::uint64_t longest_head = 64 << 20;
   std::vector<PlannedTable> tables;
   for (const Stage* probe : scene.of(Family::probes)) {
     const auto file =

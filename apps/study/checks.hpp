@@ -1,4 +1,4 @@
-// What is checked of a study's runs before the first of them begins.
+// The checks of a study's runs before the first run begins.
 #pragma once
 
 #include <plan/plan.hpp>
@@ -7,12 +7,13 @@
 
 namespace hyperlattice::study {
 
-/// Faults that runs have: what is common to all is said once, the rest with the runs that have it.
+/// Collects the faults of runs. A fault that all runs have is reported once; others with the names
+/// of their runs.
 class RunFaults {
  public:
-  void add(const InputError& error, const std::string& run,
-           const std::string& prefix);        ///< the prefix says whose pointers they are
-  void throw_if_any(std::size_t runs) const;  ///< InputError; `runs`: how many there are
+  /// `prefix` goes before the pointers of the faults.
+  void add(const InputError& error, const std::string& run, const std::string& prefix);
+  void throw_if_any(std::size_t runs) const;  ///< throws InputError; `runs`: number of all runs
 
  private:
   struct Found {
@@ -22,27 +23,27 @@ class RunFaults {
   std::vector<Found> found_;
 };
 
-/// Every comparison must find its probe and its column. Throws InputError.
+/// Checks that the tables have the probe and the column of every comparison. Throws InputError.
 void check_columns(const Study& study, const std::vector<PlannedTable>& tables);
 
-/// What is known of a run before it, or of one that is there.
+/// The known properties of a planned or finished run.
 struct Foreseen {
   std::vector<PlannedTable> tables;
   double end_time = infinity;  ///< s
-  double step = 0;             ///< s, by less than which a solver may pass the end
+  double step = 0;             ///< s; a solver passes the end time by less than this
 };
 
-/// The truth of a row must be there, must not be zero and must not lie at times alone that the run
-/// does not reach, as far as that is known before its run: `foreseen` is null if nothing is. Throws
+/// Checks that the truth of a row exists, is not zero, and does not lie only at times that the run
+/// does not reach. `foreseen`: the properties of the run; null if they are not known. Throws
 /// InputError.
 void check_truth(const Study& study, const Row& row, const Foreseen* foreseen);
 
-/// The tables that the scene's probes left in a finished run; nothing if one is missing.
+/// Returns the tables of the scene's probes in a finished run; nothing if one is missing.
 std::optional<std::vector<PlannedTable>> tables_in(const std::filesystem::path& run_directory,
                                                    const Scene& scene);
 
-/// Why the tables of a scene's probes are not as the run that is done left them, by its list of
-/// files: "probes/point.csv has changed"; empty: they are.
+/// Compares the tables of a finished run's probes with the run's list of files. Returns the first
+/// difference, as "probes/point.csv has changed"; empty if there is none.
 std::string changed_table(const std::filesystem::path& run_directory, const Scene& scene);
 
 }  // namespace hyperlattice::study

@@ -42,7 +42,7 @@ struct Compared {
   }
 };
 
-/// A place in metres, as a number, a text with a unit, or by the name of a column.
+/// Reads a place: a number in m, a text with a unit, or the name of a column.
 void read_place(const Json& given, Comparison& comparison, Faults& faults) {
   if (given.is_number())
     comparison.at = given.get<double>();
@@ -120,7 +120,7 @@ void check(const Comparison& comparison, bool names_truth, const Truth& truth, F
                                  did_you_mean(comparison.truth, names));
 }
 
-/// Keys that mean something only where the truth is a table.
+/// Adds faults for keys that are used only if the truth is a table.
 void check_table_keys(const Json& given, const Comparison& comparison,
                       const std::vector<Truth>& truths, Faults& faults) {
   if (std::any_of(truths.begin(), truths.end(),

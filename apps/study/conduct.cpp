@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Nothing is logged while it lives: a study has its own line for each run.
+/// Turns the log off during its life, since a study has its own line for each run.
 class QuietLog {
  public:
   QuietLog() : before_(spdlog::get_level()) { spdlog::set_level(spdlog::level::off); }
@@ -31,7 +31,7 @@ class QuietLog {
   spdlog::level::level_enum before_;
 };
 
-/// The summary that a run left; null if there is none, discarded if it cannot be read.
+/// Returns the summary of a run; null if there is none, discarded if it is invalid.
 Json summary_in(const fs::path& folder) {
   const auto file = read_folder_file(folder, "summary.json", largest_json);
   if (!file) return {};
@@ -39,14 +39,14 @@ Json summary_in(const fs::path& folder) {
   return summary.is_object() ? summary : Json(Json::value_t::discarded);
 }
 
-/// A run that is there already.
+/// A run that exists already.
 struct Earlier {
-  Json summary;         ///< null: it is not there, is not done, or cannot be taken
-  std::string changed;  ///< why a run that is done cannot be taken
+  Json summary;         ///< null if the run does not exist, is not done, or cannot be reused
+  std::string changed;  ///< why a finished run cannot be reused
 };
 
-/// The run in a folder, if it is done and depends on the same as a run of now, with as many
-/// threads: these do not change results, but times.
+/// Returns the finished run in a folder if it depends on the same input as the new run and used the
+/// same number of threads, which changes its times.
 Earlier find_earlier(const fs::path& folder, const Scene& scene, const Identity& identity,
                      Threads threads) {
   Earlier earlier{summary_in(folder), ""};
@@ -69,7 +69,7 @@ Earlier find_earlier(const fs::path& folder, const Scene& scene, const Identity&
   return earlier;
 }
 
-/// A count of a summary; 0 if it has none.
+/// Returns a count from a summary; 0 if it has none.
 std::uint64_t count_in(const Json& summary, const char* key) {
   const Json count = summary.value(key, Json());
   return count.is_number_unsigned() ? count.get<std::uint64_t>() : 0;
@@ -135,7 +135,7 @@ class Conductor {
   Conducted result() && { return std::move(result_); }
 
  private:
-  /// A study's results take the place of nothing else.
+  /// Throws InputError if the results of the study would replace foreign files.
   void check_folder() const {
     const fs::path& folder = options_.directory;
     Faults faults;
@@ -173,8 +173,8 @@ class Conductor {
     return read_scene_text(point.scene.dump(), study_.scene_file, host_);
   }
 
-  /// What the run left, or will leave; nothing if it is too large for this machine: its row will
-  /// say so, and the others go on.
+  /// Returns the properties of the finished or planned run; nothing if it is too large for this
+  /// machine: it becomes a failed row later, and the other runs go on.
   std::optional<Foreseen> foresee(const Point& point, std::unique_ptr<Scene> scene) const {
     const fs::path folder = run_directory(options_.directory, point.name, 1);
     if (!options_.fresh)
@@ -198,7 +198,7 @@ class Conductor {
     }
   }
 
-  /// What each axis set, as the resolved scene has it: in SI.
+  /// Returns the value of each axis in the resolved scene, in SI.
   std::vector<std::optional<double>> numbers(const Point& point, const Scene& scene) const {
     const Json resolved = Json::parse(scene.resolved);
     std::vector<std::optional<double>> found;
@@ -231,7 +231,7 @@ class Conductor {
 
   void run_one(const Point& point, Row& row, std::int64_t repeat, const std::string& title) {
     RunOptions run_options{run_directory(options_.directory, row.run, repeat), true};
-    run_options.overwrite = true;  // the folder is the study's
+    run_options.overwrite = true;  // the folder belongs to the study
     auto scene = read(point);
     Identity identity = identity_of(*scene);
     auto [summary, changed] =
@@ -251,7 +251,7 @@ class Conductor {
           code = run(*plan, run_options);
         } catch (const std::bad_alloc&) {
           reason = "not enough memory";
-        } catch (const InputError& error) {  // what stands in its folder
+        } catch (const InputError& error) {  // a foreign file in its folder
           reason = error.what();
         } catch (const OutsideError& error) {
           reason = error.what();

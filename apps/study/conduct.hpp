@@ -1,4 +1,4 @@
-// Runs what a study asks for, and takes up what is there already.
+// Runs all points of a study, and reuses runs that exist already.
 #pragma once
 
 #include <study/folder_lock.hpp>
@@ -10,29 +10,31 @@
 
 namespace hyperlattice::study {
 
+/// Options of conduct.
 struct ConductOptions {
-  std::filesystem::path directory;  ///< of the study's results; the runs are in runs/<name>/,
-                                    ///< further repeats of one in runs/<name>/repeat_2/ ...
-  Threads threads = 1;              ///< of runs whose threads the study does not vary
-  bool fresh = false;               ///< run again what is there already
+  std::filesystem::path directory;  ///< folder of the study's results; runs are in runs/<name>/,
+                                    ///< further repeats of a run in runs/<name>/repeat_2/ ...
+  Threads threads = 1;              ///< for runs whose threads the study does not vary
+  bool fresh = false;               ///< repeat runs that exist already
 };
 
+/// Results of conduct.
 struct Conducted {
-  std::vector<Row> rows;     ///< one a point, in the grid's order
-  bool interrupted = false;  ///< by a signal, before all was done
-  FolderLock lock;           ///< on the study's folder, as long as its results are written
+  std::vector<Row> rows;     ///< one for each point, in the order of the grid
+  bool interrupted = false;  ///< a signal stopped the study before its end
+  FolderLock lock;           ///< on the study's folder, until its results are written
 };
 
-/// Checks the folder, which holds no run and no other file of the names of a study's results, and
-/// then every scene; throws InputError with all faults, before anything is written. Then locks the
-/// folder and runs the points in turn, once around for each repeat, so that a machine that changes
-/// its speed is unfair to none. A run that is there, done, with the same threads and of the same
-/// identity (plan/identity.hpp), is taken as it is; of another one the log says what changed. A run
-/// that fails is a row with its reason.
+/// Runs a study. First checks the folder, which must not contain a run or foreign files with the
+/// names of a study's results, and every scene; throws InputError with all faults before anything
+/// is written. Then locks the folder and runs all points once for each repeat, so that a change of
+/// the machine's speed affects all points alike. Reuses a finished run with the same threads and
+/// the same identity (plan/identity.hpp); if the identity differs, the log says what changed. A
+/// failed run is a row with its reason.
 Conducted conduct(const Study& study, const std::vector<Point>& points,
                   const ConductOptions& options, Host& host);
 
-/// Where the files of a repeat (from 1) are.
+/// Returns the folder of a repeat of a run; repeats count from 1.
 std::filesystem::path run_directory(const std::filesystem::path& directory, const std::string& run,
                                     std::int64_t repeat);
 

@@ -12,7 +12,7 @@ namespace hyperlattice::study {
 
 namespace {
 
-/// The integral over the curve's range, by trapezoids.
+/// Returns the integral over the range of the curve by the trapezoidal rule.
 double integral(const Curve& curve) {
   double sum = 0;
   for (std::size_t n = 1; n < curve.over.size(); ++n)

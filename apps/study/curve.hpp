@@ -1,4 +1,4 @@
-// A quantity over time or place, and how far one is from another.
+// Curves (a quantity over time or place), and the distance between two of them.
 #pragma once
 
 #include <string>
@@ -7,45 +7,49 @@
 
 namespace hyperlattice::study {
 
-/// Values between which it runs straight. A single number is a curve of one point, at 0.
+/// A piecewise linear curve. A single number is a curve of one point, at 0.
 struct Curve {
   std::vector<double> over;    ///< time or place, ascending
-  std::vector<double> values;  ///< as many
+  std::vector<double> values;  ///< of the same length
 };
 
-/// Puts the points in order; of several at one place their mean counts.
+/// Sorts the points; several points at one place become their mean.
 Curve sorted(Curve curve);
 
-/// The value at a time or place within the curve's range (up to rounding); not a number outside.
+/// Returns the value at a time or place in the range of the curve (up to rounding); NaN outside.
 double value_at(const Curve& curve, double over);
 
-/// What is compared of a curve in place of all its points.
+/// One number of a curve that is compared in place of all points.
 enum class Reduction { none, last, largest, least, mean };
 inline constexpr std::string_view reduction_names[] = {"none", "last", "max", "min", "mean"};
 
-/// The mean is over the range of the curve, not over its points.
+/// Reduces a curve to one number. The mean is the integral over the range, not the mean of the
+/// points.
 Curve reduced(Curve curve, Reduction reduction);
 
-/// How an error is counted, at the points x of the truth t that the observed curve u reaches:
+/// The norm of an error, over the points x of the truth t that the observed curve u reaches:
 enum class Norm {
   relative_l2,   ///< sqrt(sum (u - t)^2 / sum t^2)
   relative_max,  ///< max |u - t| / max |t|
-  relative_end,  ///< |u - t| at the last of them / max |t|: the truth may pass zero there
-  together_l2    ///< as relative_l2, with the sums over the points of all curves that are compared,
-                 ///< as of the components of one vector
+  relative_end,  ///< |u - t| at the last point / max |t|, since t may be 0 there
+  together_l2    ///< as relative_l2, with sums over the points of all compared curves, like
+                 ///< components of one vector
 };
 inline constexpr std::string_view norm_names[] = {"relative_l2", "relative_max", "relative_end",
                                                   "together_l2"};
 
-/// How far a curve is from its truth, and how large that is: squares summed, or magnitudes.
+/// The distance of a curve from its truth, and the size of the truth: sums of squares or maxima, as
+/// the norm needs.
 struct Distance {
   double difference = 0, size = 0;
 
-  /// Their ratio in the norm. Throws std::runtime_error, with a sentence, where the truth is zero.
+  /// Returns their ratio in the norm. Throws std::runtime_error with a sentence if the truth is
+  /// zero.
   double relative(Norm norm) const;
 };
 
-/// Throws std::runtime_error, with a sentence, where the curves have nothing in common.
+/// Returns the distance of two curves. Throws std::runtime_error with a sentence if they have no
+/// points in common.
 Distance distance(const Curve& observed, const Curve& truth, Norm norm);
 
 }  // namespace hyperlattice::study

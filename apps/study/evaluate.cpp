@@ -48,7 +48,8 @@ class Evaluation {
     std::optional<double> place;
   };
 
-  /// A run that cannot be compared is a failed one, and the others go on.
+  /// Runs `code`. NoLimit leaves the row done, with a reason; other exceptions make it a failed
+  /// row.
   template <class Code>
   static void guarded(Row& row, Code&& code) {
     try {
@@ -113,8 +114,8 @@ class Evaluation {
     row.error = whole;
   }
 
-  /// All quantities are one: each of their errors is in relation to the whole, so that their
-  /// squares add up.
+  /// Computes the errors of Norm::together_l2. The error of each quantity is relative to the size
+  /// of all together, so that the squares of the errors add up.
   static double compare_together(Row& row, const std::vector<Distance>& apart) {
     const Distance whole = sum(apart);
     for (const Distance& one : apart)
@@ -129,7 +130,7 @@ class Evaluation {
     return whole;
   }
 
-  /// The limits of two rows' families, as an error of one against the other; nothing where they
+  /// Returns the distance of the limits of two rows' families in the study's norm; nothing if they
   /// cannot be compared.
   std::optional<double> apart(std::size_t r, std::size_t other) const {
     std::vector<Distance> parts;
@@ -146,12 +147,12 @@ class Evaluation {
     }
   }
 
-  /// Each setting's limit against that of the first setting of the same case: if both answer the
-  /// same question, they should be one.
+  /// Compares the limit of each setting with that of the first setting of the same case. Both
+  /// settings solve the same problem, so that the limits should agree.
   std::vector<LimitGap> compare_limits() const {
     std::vector<LimitGap> gaps;
     if (!study_.refinement) return gaps;
-    std::vector<std::size_t> firsts;  // rows: one a family
+    std::vector<std::size_t> firsts;  // the first row of each family
     for (std::size_t r = 0; r < rows_.size(); ++r) {
       const auto same_family = [&](std::size_t first) {
         return same_but({*study_.refinement}, rows_[first].choice, rows_[r].choice);
@@ -180,7 +181,7 @@ class Evaluation {
                : true_curve(study_.comparisons[c], truth, curves_[r][c].place, rows_[r].numbers);
   }
 
-  /// Where the runs lead that differ from this one in the refinement alone.
+  /// Returns the limit of the runs that differ from row `r` in the refinement alone.
   Curve limit(std::size_t r, std::size_t c) const {
     std::vector<SizedCurve> family;
     for (std::size_t other = 0; other < rows_.size(); ++other)
@@ -195,7 +196,7 @@ class Evaluation {
   const Study& study_;
   const std::filesystem::path& directory_;
   std::vector<Row>& rows_;
-  std::vector<std::vector<Observed>> curves_;  // of each row and comparison
+  std::vector<std::vector<Observed>> curves_;  // for each row and comparison
 };
 
 std::vector<ChoiceOrder> find_orders(std::size_t refinement, const std::vector<Row>& rows) {
@@ -216,14 +217,14 @@ std::vector<ChoiceOrder> find_orders(std::size_t refinement, const std::vector<R
   return orders;
 }
 
-/// A setting that must do for several cases costs what they take together, and its error is the
-/// largest; `row` has it.
+/// The cost of a setting over all cases: the sum of the run times and the largest error, which row
+/// `row` has.
 struct Setting {
   std::size_t row = 0;
   Cost cost;
 };
 
-/// Those whose error is known in every case that the study asks about.
+/// Returns the settings whose error is known in every case of the study.
 std::vector<Setting> settings_of(const Study& study, const std::vector<Row>& rows) {
   std::vector<Setting> settings;
   std::vector<bool> taken(rows.size());
@@ -259,7 +260,7 @@ Findings find(const Study& study, const std::vector<Row>& rows, std::vector<Limi
   Findings findings;
   findings.limits = std::move(limits);
   std::vector<Cost> costs;
-  std::vector<std::size_t> place;  // of each cost, its row
+  std::vector<std::size_t> place;  // row of each cost
   for (std::size_t r = 0; r < rows.size(); ++r)
     if (rows[r].error) {
       costs.push_back({*rows[r].error, rows[r].seconds()});

@@ -1,5 +1,4 @@
-// From runs that are done to what they teach: errors, orders of convergence, the Pareto front, the
-// cheapest setting.
+// Evaluates finished runs: errors, orders of convergence, Pareto front, cheapest setting.
 #pragma once
 
 #include <study/front.hpp>
@@ -9,40 +8,44 @@
 
 namespace hyperlattice::study {
 
-/// The order observed for one choice of everything but the refinement.
+/// The observed order of convergence for one choice of all axes but the refinement.
 struct ChoiceOrder {
   Choice choice;  ///< that of the refinement counts for nothing
   ObservedOrder observed;
 };
 
-/// How far the limits are apart to which the finest runs of two settings lead that answer the same.
+/// The distance between the limits of two settings of the same case. A limit is the extrapolation
+/// from the finest runs.
 struct LimitGap {
   Choice one, other;  ///< that of the refinement counts for nothing
-  double apart = 0;   ///< in the study's norm
+  double apart = 0;   ///< in the norm of the study
 };
 
+/// What the rows of a study show together.
 struct Findings {
-  std::vector<bool> pareto;         ///< of each row
-  std::vector<ChoiceOrder> orders;  ///< none without a refinement
-  std::vector<LimitGap> limits;  ///< only where the truth is the finest run: each setting's against
-                                 ///< the first one of the same case
-  std::optional<double> target;  ///< the error sought
-  std::optional<std::size_t> cheapest;  ///< row with an error of at most the target
-  std::optional<std::size_t> best;      ///< the most accurate row
+  std::vector<bool> pareto;         ///< for each row: it is on the Pareto front
+  std::vector<ChoiceOrder> orders;  ///< empty without a refinement
+  std::vector<LimitGap> limits;  ///< only if the truth is the finest run: each setting against the
+                                 ///< first setting of the same case
+  std::optional<double> target;  ///< the target error
+  /// Row of the cheapest setting with an error of at most the target.
+  std::optional<std::size_t> cheapest;
+  std::optional<std::size_t> best;  ///< row of the most accurate setting
 };
 
-/// Fills the rows' errors from the tables in `directory`, and returns how far limits are apart. A
-/// run that cannot be compared fails with the reason; one whose truth would be a limit that the
-/// runs do not show stays done, has no error, and a reason.
+/// Computes the errors of the rows from the tables in `directory`, and returns the distances
+/// between limits. A run that cannot be compared becomes a failed row with the reason. A run stays
+/// done, without error but with a reason, if its truth is a limit that the runs do not show.
 std::vector<LimitGap> find_errors(const Study& study, const std::filesystem::path& directory,
                                   std::vector<Row>& rows);
 
+/// Computes the findings from rows with errors.
 Findings find(const Study& study, const std::vector<Row>& rows, std::vector<LimitGap> limits = {});
 
-/// Whether two choices differ in some axes alone.
+/// Returns whether two choices differ at most in these axes.
 bool same_but(const std::vector<std::size_t>& axes, Choice a, const Choice& b);
 
-/// How many cases the rows ask about; 1 without cases.
+/// Returns the number of cases in the rows; 1 without cases.
 std::size_t count_cases(const Study& study, const std::vector<Row>& rows);
 
 }  // namespace hyperlattice::study

@@ -13,8 +13,8 @@ namespace hyperlattice::study {
 
 namespace {
 
-/// Reads the numbers of a truth's rows, and throws std::runtime_error with the first few rows that
-/// have none.
+/// Reads numbers from the rows of a truth's table. throw_if_any throws std::runtime_error with the
+/// first rows that have no number.
 class RowNumbers {
  public:
   explicit RowNumbers(const Truth& truth) : truth_(truth) {}
@@ -43,13 +43,13 @@ class RowNumbers {
   static constexpr std::size_t most_shown = 5;
 
   const Truth& truth_;
-  std::optional<std::size_t> row_;  // the latest one without a number
+  std::optional<std::size_t> row_;  // the latest row without a number
   std::size_t count_ = 0;
   std::string faults_;
 };
 
-/// A row's number in a column that may be one of several at known places: straight between the two
-/// around the place.
+/// The value of a row in a column, or, if columns at several places have it, by linear
+/// interpolation between the two places around `place`.
 class RowValue {
  public:
   RowValue(const Comparison& comparison, const Truth& truth, std::optional<double> place)
@@ -113,7 +113,7 @@ Curve table_curve(const Comparison& comparison, const Truth& truth, std::optiona
   return reduced(sorted(std::move(curve)), comparison.reduction);
 }
 
-/// b at those points of a that both have.
+/// Returns b at the points of a that are in the range of both.
 Curve common_part(const Curve& a, const Curve& b) {
   Curve part;
   for (const double over : a.over)
@@ -124,7 +124,7 @@ Curve common_part(const Curve& a, const Curve& b) {
   return part;
 }
 
-/// The differences of two curves at the points of `where`, which both reach.
+/// Returns a - b at the points of `where`, which must be in the range of both.
 std::vector<double> difference(const Curve& where, const Curve& a, const Curve& b) {
   std::vector<double> apart;
   for (const double over : where.over) apart.push_back(value_at(a, over) - value_at(b, over));
@@ -153,7 +153,7 @@ double order_of(const SizedCurve& coarse, const SizedCurve& middle, const SizedC
   if (product(first, second) <= 0)
     throw NoLimit("the finest three runs lie on both sides of where they lead" + advice);
   const double fall = std::sqrt(product(first, first) / product(second, second));
-  // (h1^p - h2^p) / (h2^p - h3^p) grows with p; it is the ratio of the differences.
+  // solves (h1^p - h2^p) / (h2^p - h3^p) = ratio of the differences; the left side grows with p
   const auto ratio = [&](double p) {
     return (std::pow(coarse.size / middle.size, p) - 1) /
            (1 - std::pow(fine.size / middle.size, p));
@@ -181,9 +181,8 @@ Curve extrapolated(const std::vector<SizedCurve>& curves, std::optional<double> 
   const SizedCurve &fine = curves[count - 1], &middle = curves[count - 2];
   const double p = order ? *order : order_of(curves[count - 3], middle, fine);
   const double gain = 1 / (std::pow(middle.size / fine.size, p) - 1);
-  Curve result = common_part(
-      middle.curve,
-      fine.curve);  // the middle's points: where lattices nest, the fine one has them too
+  // At the points of `middle`: in nested lattices the fine one has them too.
+  Curve result = common_part(middle.curve, fine.curve);
   for (std::size_t n = 0; n < result.over.size(); ++n)
     result.values[n] += gain * (result.values[n] - value_at(middle.curve, result.over[n]));
   return result;

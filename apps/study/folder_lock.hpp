@@ -7,8 +7,9 @@
 
 namespace hyperlattice::study {
 
-/// While it lives, no other study runs in the folder. It leaves no file, and ends with the process.
-/// OutsideError if another study has the lock; where the file system knows no locks, it warns.
+/// Prevents other studies from running in the folder during its life. The lock leaves no file and
+/// ends with the process. Throws OutsideError if another study has the lock; warns if the file
+/// system has no locks.
 class FolderLock {
  public:
   FolderLock() = default;

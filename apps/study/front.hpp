@@ -1,4 +1,4 @@
-// Error against run time: who is on the Pareto front, and who is the cheapest that is good enough.
+// Error against run time: the Pareto front and the cheapest run that is accurate enough.
 #pragma once
 
 #include <optional>
@@ -6,17 +6,20 @@
 
 namespace hyperlattice::study {
 
+/// The error (a fraction) and the run time, s, of a run.
 struct Cost {
   double error = 0, seconds = 0;
 };
 
-/// Of each, whether no other is at least as good in both and better in one.
+/// Marks the Pareto-optimal points: no other point is at least as good in both numbers and better
+/// in one.
 std::vector<bool> pareto_front(const std::vector<Cost>& costs);
 
-/// The quickest with an error of at most `target`; of two equally quick the more accurate one.
+/// Returns the index of the fastest with an error of at most `target`, of two equally fast ones the
+/// more accurate; nothing if there is none.
 std::optional<std::size_t> cheapest(const std::vector<Cost>& costs, double target);
 
-/// The most accurate one; nothing if there is none at all.
+/// Returns the index of the most accurate; nothing if `costs` is empty.
 std::optional<std::size_t> most_accurate(const std::vector<Cost>& costs);
 
 }  // namespace hyperlattice::study

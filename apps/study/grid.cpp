@@ -28,7 +28,8 @@ std::string folder_text(const std::string& text) {
   return plain;
 }
 
-/// A plain name for a folder, made unique by a number at its end if need be.
+/// Returns a folder name of letters, digits and ". - + _"; a number at its end makes it unique if
+/// needed.
 std::string name_of(const std::vector<Axis>& axes, const Choice& choice,
                     std::map<std::string, int>& taken) {
   constexpr std::size_t longest = 150;
@@ -59,7 +60,7 @@ class Setter {
 
  private:
   Faults& faults_;
-  std::set<std::string> told_;  // once is enough
+  std::set<std::string> told_;  // reports each fault once
 };
 
 }  // namespace

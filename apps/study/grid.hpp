@@ -1,20 +1,21 @@
-// The runs of a study: every combination of the axes' values that is not excluded, each with its
-// own scene.
+// The grid of a study: one run, with its own scene, for every combination of the axes' values that
+// is not excluded.
 #pragma once
 
 #include <study/study_file.hpp>
 
 namespace hyperlattice::study {
 
+/// One point of the grid.
 struct Point {
   Choice choice;
-  std::string name;            ///< of its folder: "spacing-4mm_boundary-cells"; unique
+  std::string name;            ///< unique name of its folder, "spacing-4mm_boundary-cells"
   Json scene;                  ///< not yet validated
-  std::optional<int> threads;  ///< if the study varies them
+  std::optional<int> threads;  ///< only if the study varies them
 };
 
-/// The first axis varies slowest. Throws InputError if a value cannot be put into the scene, or if
-/// nothing is left to run.
+/// Returns all points; the first axis varies slowest. Throws InputError if a value does not fit
+/// into the scene, or if no point is left.
 std::vector<Point> grid(const Study& study);
 
 }  // namespace hyperlattice::study

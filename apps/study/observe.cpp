@@ -10,7 +10,7 @@ namespace hyperlattice::study {
 
 namespace {
 
-/// Columns of that name, or of that name before an "@".
+/// Returns the columns with the name of the comparison, with or without "@<place>".
 std::vector<std::size_t> columns_of(const Comparison& comparison,
                                     const std::vector<std::string>& columns) {
   std::vector<std::size_t> found;
@@ -20,7 +20,7 @@ std::vector<std::size_t> columns_of(const Comparison& comparison,
   return found;
 }
 
-/// A coordinate of the place in a column's name.
+/// Returns a coordinate, m, of the place in a column's name; nothing if it has no place.
 std::optional<double> coordinate_in(const std::string& column, Coordinate coordinate) {
   const auto place = column_place(column);
   return place ? std::optional<double>((*place)[static_cast<std::size_t>(coordinate)])

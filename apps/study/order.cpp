@@ -59,7 +59,7 @@ std::optional<ObservedOrder> observed_order(std::vector<SizedError> errors) {
 }
 
 std::optional<double> size_for(const ObservedOrder& order, double target) {
-  constexpr double least = 0.1;  // an error that hardly falls says nothing of where it would end
+  constexpr double least = 0.1;  // a smaller order does not allow an extrapolation
   if (!order.doubt.empty() || order.order < least) return std::nullopt;
   const SizedError& finest = order.errors.back();
   return finest.size * std::pow(target / finest.error, 1 / order.order);

@@ -1,4 +1,4 @@
-// Tables that a user gives to a study.
+// The tables that a study reads as input.
 #pragma once
 
 #include <base/csv.hpp>
@@ -9,9 +9,9 @@
 
 namespace hyperlattice::study {
 
-/// Reads a table that comes from outside. It adds a fault at `pointer` for a text in UTF-16, for
-/// rows with more or fewer cells than there are columns and for a name that several columns have;
-/// the table is then of no use. InputError and OutsideError as read_input_file.
+/// Reads an input table. Adds a fault at `pointer` for UTF-16 text, for rows whose number of cells
+/// differs from the number of columns, and for repeated column names; the table is not usable then.
+/// Throws InputError and OutsideError as read_input_file does.
 CsvTable read_outside_table(const std::filesystem::path& file, const std::string& pointer,
                             const std::string& what, Faults& faults);
 

@@ -1,5 +1,5 @@
-// Objects of a study file whose options are plain: declared by Schema<Options> and read as those of
-// a scene, without regions or shapes.
+// Reads objects of a study file by a Schema<Options>, as the options of a scene, but without
+// regions and shapes.
 #pragma once
 
 #include <scene/option_reader.hpp>
@@ -15,8 +15,8 @@ class PlainReader {
 
   Faults& faults() { return faults_; }
 
-  /// The options of a class that has `struct Options` and `static Schema<Options> schema()`; none
-  /// after faults. Keys that are neither options nor among `others` are faults.
+  /// Returns the options of a class that has `struct Options` and `static Schema<Options>
+  /// schema()`; nothing after faults. Keys that are neither options nor among `others` are faults.
   template <class Declared>
   std::optional<typename Declared::Options> read(const Json& object, const std::string& pointer,
                                                  std::vector<std::string> others = {}) {

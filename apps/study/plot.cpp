@@ -16,7 +16,7 @@ constexpr const char* colours[] = {"#1b6ca8", "#e67e22", "#27825a", "#8e44ad",
                                    "#b03a2e", "#7f6000", "#2e86c1", "#7f8c8d",
                                    "#c2185b", "#00796b", "#5d4037", "#9e9d24"};
 
-/// Points as a named block of gnuplot's, and a label at each that has one.
+/// Appends points as a named gnuplot data block, and the labels of those that have one.
 void append_points(std::string& text, const std::string& name,
                    const std::vector<std::pair<Cost, std::string>>& points, const char* colour) {
   fmt::format_to(std::back_inserter(text), "{} << EOD\n", name);
@@ -97,7 +97,7 @@ class Plot {
         mark, colour, gnuplot_text(title)));
   }
 
-  /// Widens the range of the axes to hold this too.
+  /// Widens the range of the axes to include this cost.
   void include(const Cost& cost) {
     least_ = {std::min(least_.error, cost.error), std::min(least_.seconds, cost.seconds)};
     most_ = {std::max(most_.error, cost.error), std::max(most_.seconds, cost.seconds)};
@@ -119,7 +119,8 @@ class Plot {
                                   100 * *findings_.target, 100 * *findings_.target));
   }
 
-  /// What the refinement was set to; without one nothing: the line's title says it all.
+  /// Returns the value of the refinement; empty without a refinement, since the title of the line
+  /// says all.
   std::string label(const Row& row) const {
     return study_.refinement
                ? study_.axes[*study_.refinement].labels[row.choice[*study_.refinement]]

@@ -11,12 +11,12 @@ namespace hyperlattice::study {
 
 namespace {
 
-/// The text without what a terminal would act on.
+/// Returns the text without control characters that a terminal would act on.
 std::string shown_whole(const std::string& text) { return visible(text, std::string::npos); }
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
-/// What was varied, as keys of an object.
+/// Appends the values of the axes as keys of an object.
 void append_choice(Json& json, const std::vector<Axis>& axes, const Choice& choice,
                    std::size_t except) {
   for (std::size_t a = 0; a < axes.size(); ++a) {
@@ -67,8 +67,8 @@ Json order_json(const Study& study, const ChoiceOrder& order) {
 
 using Lines = std::vector<std::vector<std::string>>;
 
-/// Columns as wide as their widest cell; the first `left` of them begin at the left, the others end
-/// at the right.
+/// Returns lines with aligned columns; the first `left` columns are flush left, the others flush
+/// right.
 std::string aligned(const Lines& lines, std::size_t left) {
   std::vector<std::size_t> widths;
   for (const auto& line : lines) {
@@ -124,7 +124,7 @@ std::string orders_text(const Study& study, const Findings& findings) {
   return text;
 }
 
-/// "boundary particles"; of a study that varies the refinement alone, "this scene".
+/// Returns "boundary particles"; "this scene" if the study varies the refinement alone.
 std::string setting_text(const Study& study, const Choice& choice) {
   const std::string text = choice_text(study.axes, choice, {refinement_of(study)});
   return text.empty() ? "this scene" : text;
@@ -143,7 +143,8 @@ std::string limits_text(const Study& study, const Findings& findings) {
          "truth.\n";
 }
 
-/// What is said of a row whose error is smaller than its limit is uncertain; empty: nothing.
+/// Returns a warning if the error of a row is smaller than the uncertainty of its limit; empty
+/// otherwise.
 std::string limit_warning(const Study& study, const Findings& findings, const Row& row) {
   const LimitGap* widest = nullptr;
   for (const LimitGap& gap : findings.limits)
@@ -168,12 +169,12 @@ std::string peers_text(const Study& study) {
   return '\n' + aligned(lines, 1);
 }
 
-/// Where the settings that do not meet the target would meet it, by their observed orders: the
-/// coarsest size is the cheapest promise. A setting meets it at the size that its hardest case
-/// needs.
+/// Predicts by the observed orders which setting meets the target at the coarsest size, which is
+/// the cheapest. A setting with several cases needs the size of its hardest case.
 std::string promise(const Study& study, const std::vector<Row>& rows, const Findings& findings) {
   const std::size_t cases = count_cases(study, rows);
-  std::vector<std::size_t> free = study.cases;  // axes in which the cases of a setting differ
+  std::vector<std::size_t> free =
+      study.cases;  // axes that may differ between the cases of a setting
   free.push_back(*study.refinement);
   const ChoiceOrder* best = nullptr;
   double size = 0;

@@ -1,4 +1,4 @@
-// What the runs of a study gave: a row each.
+// The results of a study's runs, one row for each point.
 #pragma once
 
 #include <study/axes.hpp>
@@ -8,23 +8,25 @@
 
 namespace hyperlattice::study {
 
+/// The results of one point of the grid.
 struct Row {
   Choice choice;
-  std::string run;       ///< its folder's name below runs/
-  std::string identity;  ///< hash of all that it depends on
-  std::vector<std::optional<double>>
-      numbers;                     ///< what each axis was set to, in SI, where it is a number
+  std::string run;       ///< name of its folder in runs/
+  std::string identity;  ///< hash of everything that its results depend on
+  /// The value of each axis in SI, if it is a number.
+  std::vector<std::optional<double>> numbers;
   std::string status = "waiting";  ///< "waiting", "done", "failed"
-  std::string reason;              ///< why it failed
-  int exit_code = 0;               ///< of the run
+  std::string reason;              ///< why the run failed or has no error
+  int exit_code = 0;               ///< exit code of the run
   std::uint64_t particles = 0, steps = 0;
-  std::vector<double> solve_seconds;  ///< of each repeat: apart from set-up and output
-  double setup_seconds = 0;           ///< of the first
-  std::vector<double> errors;         ///< of each comparison; empty: none is known
-  std::optional<double> error;        ///< the largest of them
+  std::vector<double> solve_seconds;  ///< s, for each repeat; without set-up and output
+  double setup_seconds = 0;           ///< set-up time of the first repeat, s
+  std::vector<double> errors;         ///< one for each comparison; empty if not known
+  /// Largest of errors; with Norm::together_l2, the error of all together.
+  std::optional<double> error;
 
   bool is_done() const { return status == "done"; }
-  double seconds() const;  ///< the median; 0 if nothing was timed
+  double seconds() const;  ///< median of solve_seconds; 0 without a time
   void fail(std::string why, int code);
 };
 

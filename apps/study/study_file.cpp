@@ -92,7 +92,8 @@ class StudyReader {
     if (axis < study_.axes.size()) study_.refinement = axis;
   }
 
-  /// The axis called "spacing", or the first that sets something called so.
+  /// Sets the refinement to the axis "spacing", or else to the first axis that sets an option
+  /// "spacing".
   void find_spacing() {
     const auto sets_spacing = [](const Axis& axis) {
       for (const std::string& pointer : axis.pointers)
@@ -148,7 +149,7 @@ class StudyReader {
           read_condition(list[n], member("/exclude", n), study_.axes, faults_));
   }
 
-  /// A truth by extrapolation needs sizes to extrapolate from.
+  /// Adds a fault if an extrapolated truth has no refinement or too few sizes.
   void check_finest() {
     for (const Truth& truth : study_.truths) {
       if (truth.kind != Truth::Kind::finest) continue;

@@ -1,4 +1,4 @@
-// A study as its file tells it: a scene, what to vary, the truth, and how the error is counted.
+// The content of a study file: a scene, the axes, the truth and the norm of the error.
 #pragma once
 
 #include <study/comparison.hpp>
@@ -6,16 +6,17 @@
 
 namespace hyperlattice::study {
 
+/// The content of a study file.
 struct Study {
   std::filesystem::path file;
   std::string title;
-  Json scene;  ///< with the study's "set" applied, not yet validated
-  std::filesystem::path
-      scene_file;  ///< where the scene stands; the study's own file if it is inline
+  Json scene;  ///< after the study's "set", not yet validated
+  /// File of the scene; the study's own file if the scene is inline.
+  std::filesystem::path scene_file;
   std::vector<Axis> axes;
-  std::optional<std::size_t>
-      refinement;  ///< the axis whose values are sizes: spacing, or what "refine" names
-  std::vector<std::size_t> cases;  ///< axes that change what is asked, not how it is answered
+  /// The axis whose values are sizes: spacing, or the axis that "refine" names.
+  std::optional<std::size_t> refinement;
+  std::vector<std::size_t> cases;  ///< axes that change the problem, not the method of its solution
   std::vector<Condition> excluded;
   std::vector<Truth> truths;
   std::vector<Comparison> comparisons;
@@ -25,8 +26,7 @@ struct Study {
   std::vector<Peer> peers;
 };
 
-/// Reads and checks a study, after the settings (`--set`) are applied to it. Throws InputError with
-/// every fault found.
+/// Reads a study, applies the settings (`--set`) and checks it. Throws InputError with every fault.
 Study read_study(const std::filesystem::path& file, const std::vector<std::string>& settings);
 
 }  // namespace hyperlattice::study

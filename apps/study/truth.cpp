@@ -79,7 +79,7 @@ void read_table(Truth& truth, const Json& given, const std::filesystem::path& fo
   try {
     auto table = std::make_shared<CsvTable>(
         read_outside_table(truth.file, truth.pointer + "/csv", "a table", reader.faults()));
-    if (table->columns.empty() && reader.faults().size() > before) return;  // it is no table at all
+    if (table->columns.empty() && reader.faults().size() > before) return;  // not readable
     if (table->rows.empty() && reader.faults().size() == before)
       reader.faults().add(truth.pointer + "/csv", shown(options->csv),
                           "a table with at least one row below the columns' names");

@@ -1,4 +1,4 @@
-// The truth of a study: a table, numbers, or the study's own finest run.
+// The truth of a study: a table, numbers, or the limit of the study's own runs.
 #pragma once
 
 #include <base/csv.hpp>
@@ -12,33 +12,34 @@
 
 namespace hyperlattice::study {
 
-/// Which rows of a truth's table count: those with this value in a column.
+/// Selects the rows of a table that have this value in a column.
 struct RowFilter {
   std::string column;
-  std::string text;              ///< the value, if it is no number
-  std::optional<double> number;  ///< the value, if it is one
-  std::optional<std::size_t>
-      axis;  ///< the value is what this axis was set to, a number in SI times `scale`
+  std::string text;              ///< the value, if it is a text
+  std::optional<double> number;  ///< the value, if it is a number
+  /// The value is the value of this axis, a number in SI, times `scale`.
+  std::optional<std::size_t> axis;
   double scale = 1;
 };
 
+/// One truth of a study.
 struct Truth {
   enum class Kind { table, numbers, finest };
 
-  std::string pointer;  ///< where it stands in the study
-  Condition when;       ///< of several truths the first one whose condition holds counts
+  std::string pointer;  ///< JSON pointer into the study
+  Condition when;       ///< of several truths, the first whose condition holds is used
   Kind kind = Kind::numbers;
-  std::filesystem::path file;             ///< table: where it is
+  std::filesystem::path file;             ///< table: its file
   std::shared_ptr<const CsvTable> table;  ///< table
-  std::optional<std::string> over;        ///< table: the column of time or place
-  double over_scale = 1;                  ///< table: times what stands there
+  std::optional<std::string> over;        ///< table: column of time or place
+  double over_scale = 1;                  ///< table: factor for the values of that column
   std::vector<RowFilter> where;           ///< table
-  std::map<std::string, double> numbers;  ///< numbers: by name; a single one has the name ""
-  std::optional<double>
-      order;  ///< finest: the order of convergence assumed; the one observed if there is none
+  std::map<std::string, double> numbers;  ///< numbers: by name; a single number has the name ""
+  /// finest: the assumed order of convergence; if empty, the observed order.
+  std::optional<double> order;
 };
 
-/// Reads the study's "truth": one, or a list of them. Paths are relative to `folder`.
+/// Reads the study's "truth", one or a list. Paths are relative to `folder`.
 std::vector<Truth> read_truths(const Json& given, const std::filesystem::path& folder,
                                const std::vector<Axis>& axes, PlainReader& reader);
 
@@ -46,8 +47,8 @@ std::vector<Truth> read_truths(const Json& given, const std::filesystem::path& f
 std::vector<RowFilter> read_filters(const Json& given, const std::string& pointer,
                                     const std::vector<Axis>& axes, PlainReader& reader);
 
-/// Whether a row of the table fulfils all conditions; `numbers` has what each axis is set to, in
-/// SI, where it is a number.
+/// Returns whether a row of the table passes all filters. `numbers`: the value of each axis in SI,
+/// if it is a number.
 bool passes(const CsvTable& table, std::size_t row, const std::vector<RowFilter>& filters,
             const std::vector<std::optional<double>>& numbers);
 

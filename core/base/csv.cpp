@@ -41,8 +41,8 @@ std::string_view take_line(std::string_view& text) {
   return line;
 }
 
-/// What is wrong with the number of a row's cells; empty: nothing. Columns without a name at the
-/// end need no cell.
+/// Returns what is wrong with the number of cells of a row; empty if it is right. Columns without a
+/// name at the end need no cell.
 std::string fault_of_length(const TableColumns& columns, const std::vector<std::string>& cells) {
   if (std::string excess = columns.excess(cells); !excess.empty()) return excess;
   const std::size_t needed = columns.count();
@@ -51,8 +51,8 @@ std::string fault_of_length(const TableColumns& columns, const std::vector<std::
                                : "";
 }
 
-/// The columns that a comment among these lines names for the row that follows them; nothing if
-/// there is no comment.
+/// Returns the columns that a comment in `lines` names for the row that follows; nothing if there
+/// is no comment.
 std::optional<TableColumns> columns_in_comments(std::string_view lines, std::string_view row) {
   std::optional<TableColumns> found;
   bool found_fits = false;

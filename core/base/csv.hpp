@@ -1,5 +1,5 @@
-// Tables as text: the first line names the columns, see parse_csv. How lines are cut into cells is
-// the SDK's <hyperlattice/tables.hpp>.
+// Tables as text (CSV): the first line names the columns, see parse_csv(). The SDK's
+// <hyperlattice/tables.hpp> cuts lines into cells.
 #pragma once
 
 #include <optional>
@@ -9,37 +9,41 @@
 
 namespace hyperlattice {
 
-/// The cells of a line that stands alone, such as a table's first.
+/// Returns the cells of a single line, for example of a table's first line.
 std::vector<std::string> csv_cells(std::string_view line);
 
-/// The cell's number; nothing if it is none, or not finite.
+/// Returns the number in a cell; nothing if the cell holds no number or one that is not finite.
 std::optional<double> csv_number(std::string_view cell);
 
+/// A row with a wrong number of cells.
 struct CsvFault {
-  std::size_t line = 0;  ///< from 1
-  std::string expected;  ///< there
+  std::size_t line = 0;  ///< number of the line, from 1
+  std::string expected;  ///< what was expected in this line
 };
 
+/// A table: names of columns and rows of cells.
 struct CsvTable {
   std::vector<std::string> columns;
-  std::vector<std::vector<std::string>> rows;  ///< each as long as the columns; short lines are
-                                               ///< filled with empty cells, what is too long is cut
-  std::vector<std::size_t> lines;              ///< of each row, where it stands in the text, from 1
-  std::vector<CsvFault>
-      faults;  ///< the first few rows that have more or fewer cells than there are columns
+  /// cells of each row, as many as columns; short rows are filled with empty cells, long rows are
+  /// cut
+  std::vector<std::vector<std::string>> rows;
+  std::vector<std::size_t> lines;  ///< line number of each row in the text, from 1
+  /// the first rows with more or fewer cells than columns, at most 5
+  std::vector<CsvFault> faults;
 
-  /// The place of a column of that name, or else of one that differs in capital letters only.
+  /// Returns the index of the column with this name, otherwise of one whose name differs in capital
+  /// letters only.
   std::optional<std::size_t> column(std::string_view name) const;
 };
 
-/// The first name that several columns have; nothing if there is none. Columns without a name do
-/// not count.
+/// Returns the first name that several columns have; nothing if all names differ. Columns without a
+/// name do not count.
 std::optional<std::string> name_of_several(const CsvTable& table);
 
-/// The first line that is neither blank nor begins with "#" names the columns. If this line holds a
-/// number, it is a row instead, and the last line above it that begins with "#" and has as many
-/// cells, or else the last such line, names the columns. All other lines that begin with "#" are
-/// skipped. Lines end with LF, CR or both.
+/// Reads a table. The first line that is neither blank nor begins with "#" names the columns. If
+/// this line holds a number, it is a row, and the columns are named by the last line above it that
+/// begins with "#" and has as many cells, otherwise by the last line above it that begins with "#".
+/// All other lines that begin with "#" are skipped. Lines end with LF, CR or both.
 CsvTable parse_csv(std::string_view text);
 
 }  // namespace hyperlattice

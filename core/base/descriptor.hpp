@@ -1,4 +1,4 @@
-// An open file that closes itself, and folders whose entries reach the disk.
+// A file descriptor with an owner, and the writing of a folder's entries to the disk.
 #pragma once
 
 #include <unistd.h>
@@ -8,6 +8,7 @@
 
 namespace hyperlattice {
 
+/// Owns a file descriptor and closes it at the end; -1: no file.
 class Descriptor {
  public:
   explicit Descriptor(int number = -1) : number_(number) {}
@@ -27,8 +28,8 @@ class Descriptor {
   int number_;
 };
 
-/// Waits until a folder's entries are on the disk: new names, renamed and removed files.
-/// OutsideError if the system refuses; file systems that know no such thing pass.
+/// Waits until a folder's entries (new, renamed and removed files) are on the disk. Throws
+/// OutsideError if the system refuses; does nothing on file systems without this function.
 void sync_directory(const std::filesystem::path& directory);
 
 }  // namespace hyperlattice

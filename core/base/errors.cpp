@@ -8,8 +8,8 @@ namespace hyperlattice {
 
 namespace {
 
-constexpr std::size_t longest_place = 200, longest_value = 300,
-                      longest_expectation = 2000;  // bytes: an input may be 4 GB of one name
+// bytes; one name in an input may have up to 4 GB
+constexpr std::size_t longest_place = 200, longest_value = 300, longest_expectation = 2000;
 constexpr std::size_t most_lines = 100, most_kept = 1000;  // faults
 
 std::string lines(const std::vector<Fault>& faults) {
@@ -26,8 +26,8 @@ std::string lines(const std::vector<Fault>& faults) {
   return text;
 }
 
-/// Edits (insert, delete, replace, swap of neighbours) that turn a into b: Damerau-Levenshtein,
-/// restricted.
+/// Returns the number of edits (insert, delete, replace, swap of neighbours) that turn a into b:
+/// restricted Damerau-Levenshtein distance.
 std::size_t edits(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before, above(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -61,18 +61,17 @@ void Faults::throw_if_any() const {
 }
 
 std::string nearest(std::string_view name, const std::vector<std::string>& candidates) {
-  constexpr std::size_t
-      longest = 100,
-      most = 1000;  // comparing takes the product of both lengths, for each candidate
+  // The time of a comparison is proportional to the product of both lengths, for each candidate.
+  constexpr std::size_t longest = 100, most = 1000;
   if (name.size() > longest || candidates.size() > most) return "";
   std::string best;
-  std::size_t fewest = 2 + name.size() / 3;  // one more than what still counts as near
+  std::size_t fewest = 2 + name.size() / 3;  // one more than the most edits of a near name
   for (const std::string& candidate : candidates) {
     const std::size_t apart =
         std::max(name.size(), candidate.size()) - std::min(name.size(), candidate.size());
     if (apart >= fewest) continue;
     const std::size_t count = edits(name, candidate);
-    if (count < fewest && count < candidate.size()) {  // not if every letter would have to change
+    if (count < fewest && count < candidate.size()) {  // not if all letters change
       fewest = count;
       best = candidate;
     }

@@ -1,4 +1,4 @@
-// The ways a command can fail; each has its exit code (docs/guide: exit codes).
+// The kinds of failure of a command, each with its exit code (docs/guide: exit codes).
 #pragma once
 
 #include <stdexcept>
@@ -8,29 +8,30 @@
 
 namespace hyperlattice {
 
-/// One thing wrong with the input.
+/// One error in the input.
 struct Fault {
-  std::string pointer;  ///< JSON pointer, e.g. "/pipeline/2/peak"; or an option of the command line
-  std::string value;    ///< the offending value as written; may be empty
-  std::string expected;  ///< what was expected, with the nearest valid name where there is one
+  /// JSON pointer, for example "/pipeline/2/peak", or an option of the command line
+  std::string pointer;
+  std::string value;     ///< the wrong value as written; may be empty
+  std::string expected;  ///< what was expected, with the nearest valid name if one exists
 };
 
-/// All faults of an input, to be shown together. Exit code 2.
+/// All faults of an input, shown together. Exit code 2.
 class InputError : public std::runtime_error {
  public:
-  explicit InputError(std::vector<Fault> faults);  ///< at least one
+  explicit InputError(std::vector<Fault> faults);  ///< `faults`: at least one
   const std::vector<Fault>& faults() const { return faults_; }
 
  private:
   std::vector<Fault> faults_;
 };
 
-/// The run itself failed: unstable, lost energy balance, non-finite. Exit code 3.
+/// The run failed: unstable, energy balance lost, or numbers not finite. Exit code 3.
 class RunError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The outside failed: disk, memory, a plugin. Exit code 4.
+/// The environment failed: disk, memory, or a plugin. Exit code 4.
 class OutsideError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -50,13 +51,13 @@ class Faults {
   bool empty() const { return faults_.empty(); }
   std::size_t size() const { return faults_.size(); }
   const std::vector<Fault>& all() const { return faults_; }
-  void throw_if_any() const;  ///< InputError with everything collected
+  void throw_if_any() const;  ///< throws InputError with all faults
 
  private:
   std::vector<Fault> faults_;
 };
 
-/// The candidate nearest to `name` in spelling, or "" if none is near.
+/// Returns the candidate nearest to `name` in spelling, or "" if none is near.
 std::string nearest(std::string_view name, const std::vector<std::string>& candidates);
 
 }  // namespace hyperlattice

@@ -13,7 +13,8 @@ namespace hyperlattice {
 
 namespace {
 
-constexpr int least_power = -18, greatest_power = 12;  // of ten, of the prefixes below
+// powers of ten of the first and the last prefix below
+constexpr int least_power = -18, greatest_power = 12;
 
 std::string superscript(int number) {
   static constexpr const char* digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
@@ -22,15 +23,15 @@ std::string superscript(int number) {
   return text;
 }
 
-/// Whether its first unit stands alone and to the first power: the prefix of "m2" would be squared
-/// with it.
+/// Returns whether the unit can take a prefix: its first factor has the power 1. The prefix of "m2"
+/// would be squared.
 bool bears_prefix(std::string_view unit) {
   static constexpr std::array<std::string_view, 7> units = {"s", "m", "N", "J", "Pa", "Hz", "W"};
   const std::string_view first = unit.substr(0, unit.find_first_of(" /"));
   return std::find(units.begin(), units.end(), first) != units.end();
 }
 
-/// The multiple of three at or below the magnitude's power of ten.
+/// Returns the largest multiple of three that is at most the power of ten of the magnitude.
 int power_of_thousand(double largest) {
   return 3 * static_cast<int>(std::floor(std::log10(largest) / 3 + 1e-12));
 }

@@ -1,4 +1,4 @@
-// Numbers for people, as they stand in plans and reports: the same words everywhere, no locale.
+// Numbers as text in plans and reports, in one format everywhere and independent of the locale.
 #pragma once
 
 #include <cstdint>
@@ -7,30 +7,30 @@
 
 namespace hyperlattice {
 
-/// "490 432": thousands apart.
+/// Returns a count with a space between thousands: "490 432".
 std::string count_text(std::uint64_t number);
-std::string count_text_of(
-    double number);  ///< of a count that was read as a number; what is none counts as 0
+/// Returns the same for a count read as a double; negative or NaN counts as 0
+std::string count_text_of(double number);
 
-/// "1.25 GB".
+/// Returns an amount of memory: "1.25 GB".
 std::string bytes_text(double bytes);
 
-/// "0.37 %" of 0.0037, three digits.
+/// Returns a share in percent, three digits: "0.37 %" for 0.0037.
 std::string percent_text(double share);
 
-/// What numbers are divided by to be readable, and their unit then.
+/// A divisor for readable numbers, and the unit after the division.
 struct Scale {
-  double factor = 1;  ///< of the unit
-  std::string
-      unit;  ///< "us" is written with a Greek mu; "10⁻⁵" for numbers without a unit; may be empty
+  double factor = 1;  ///< divisor
+  /// unit with prefix (micro is a Greek mu); "10⁻⁵" for numbers without a unit; may be empty
+  std::string unit;
 };
 
-/// Brings the largest magnitude to between 1 and 1000 by the prefix of a unit in SI ("s", "m/s", "N
-/// s"), or by a power of ten of numbers without a unit that are below 1e-3 or from 1e5 on. A unit
-/// that bears no prefix ("kg", "%") stays.
+/// Returns the scale that brings the largest magnitude to between 1 and 1000: by the prefix of an
+/// SI unit ("s", "m/s", "N s"), or by a power of ten for numbers without a unit that are below 1e-3
+/// or at least 1e5. A unit that takes no prefix ("kg", "%") stays.
 Scale scale_for(double largest, std::string_view unit);
 
-/// "1.81 µs": `digits` significant digits and the unit with its prefix.
+/// Returns a value with `digits` significant digits and the unit with its prefix: "1.81 µs".
 std::string quantity_text(double value, std::string_view unit, int digits = 4);
 
 }  // namespace hyperlattice

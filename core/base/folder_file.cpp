@@ -39,8 +39,8 @@ bool leads_out(const std::filesystem::path& name) {
   return false;
 }
 
-/// Opens each part of the name by itself, so that no part may be a link. Returns 0 or the system's
-/// error. A pipe is opened without waiting for a writer.
+/// Opens the parts of the name one by one, so that none of them may be a link. Returns 0 or the
+/// system's error. Opens a pipe without waiting for a writer.
 int open_within(Descriptor& file, const std::filesystem::path& folder,
                 const std::filesystem::path& name) {
   constexpr int flags = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
@@ -52,7 +52,7 @@ int open_within(Descriptor& file, const std::filesystem::path& folder,
   return file.number() < 0 ? errno : 0;
 }
 
-/// Bytes up to the end of the file or of the text.
+/// Reads until the text is full or the file ends. Returns 0 or the system's error.
 int fill(const Descriptor& file, std::string& text) {
   std::size_t filled = 0;
   while (filled < text.size()) {

@@ -29,7 +29,7 @@ namespace {
 
 std::string reason(int error) { return std::system_category().message(error); }
 
-/// A file in memory, which has no name that another program could know.
+/// A file in memory; it has no name, so no other program can open it.
 class MemoryFile {
  public:
   explicit MemoryFile(const std::filesystem::path& picture)
@@ -69,7 +69,7 @@ class MemoryFile {
   int descriptor_;
 };
 
-/// The environment without what changes gnuplot's pictures.
+/// Returns the environment without variables that change gnuplot's pictures.
 std::vector<char*> environment() {
   std::vector<char*> kept;
   for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
@@ -82,7 +82,7 @@ std::vector<char*> environment() {
   return kept;
 }
 
-/// Waits until the child has ended; kills it if it takes longer than that, and says so by false.
+/// Waits until the child ends and returns true. After `patience` kills the child and returns false.
 bool wait_for(pid_t child, int& status, std::chrono::milliseconds patience) {
   const auto until = std::chrono::steady_clock::now() + patience;
   for (;;) {
@@ -97,7 +97,7 @@ bool wait_for(pid_t child, int& status, std::chrono::milliseconds patience) {
   return false;
 }
 
-/// gnuplot's last words: the line that says what is wrong.
+/// Returns the last line of gnuplot's messages, which gives the error.
 std::string last_line(const std::string& text) {
   const auto end = text.find_last_not_of(" \n\r\t");
   if (end == std::string::npos) return "";
@@ -109,9 +109,10 @@ std::string last_line(const std::string& text) {
 }  // namespace
 
 std::string gnuplot_text(std::string_view text) {
-  // Double quotes: gnuplot 5.4 loses a plot whose single-quoted texts hold or begin with single
-  // quotes. Within double quotes it runs what stands in backquotes, and reads backslashes. So all
-  // such marks stand as octal numbers; those of three digits need no look at what follows them.
+  // Double quotes, because gnuplot 5.4 loses a plot whose single-quoted texts contain or begin with
+  // single quotes. Within double quotes gnuplot runs commands in backquotes and interprets
+  // backslashes. So all such characters become octal numbers, with three digits, so that a
+  // following digit cannot be read as part of them.
   const std::string quoted =
       nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   std::string out = "\"";

@@ -1,4 +1,4 @@
-// Pictures drawn by gnuplot.
+// Pictures drawn by gnuplot, in a process of its own.
 #pragma once
 
 #include <chrono>
@@ -8,21 +8,20 @@
 
 namespace hyperlattice {
 
-/// Runs gnuplot on the commands, and returns what they plot, as SVG. No shell and no start-up file
-/// of the user has a part in it. OutsideError, which names the `file` that it is for, if gnuplot is
-/// not installed, fails or takes longer than `patience`.
+/// Runs gnuplot on the commands and returns the picture as SVG, `width` x `height` pixels. Uses no
+/// shell and no start-up file of the user. Throws OutsideError with the name of `file` if gnuplot
+/// is not installed, fails or takes longer than `patience`.
 std::string svg_picture(const std::filesystem::path& file, const std::string& commands,
                         int width = 760, int height = 760,
                         std::chrono::milliseconds patience = std::chrono::seconds(60));
 
-/// The same into a file, which is whole or not there. OutsideError if it cannot be written, or if
-/// no regular file stands there.
+/// Draws into a file; after an error no partial file is left. Throws OutsideError also if the file
+/// cannot be written or is not a regular file.
 void draw_svg(const std::filesystem::path& file, const std::string& commands, int width = 760,
               int height = 760, std::chrono::milliseconds patience = std::chrono::seconds(60));
 
-/// A text as gnuplot's commands take it: drawn as it stands, whatever it holds, where the command
-/// says `noenhanced`. Lines stay apart; other control characters become blanks, and what is no
-/// UTF-8 becomes U+FFFD.
+/// Returns a text quoted for gnuplot's commands; with `noenhanced` gnuplot draws it unchanged. Line
+/// ends stay; other control characters become blanks, and bytes that are not UTF-8 become U+FFFD.
 std::string gnuplot_text(std::string_view text);
 
 }  // namespace hyperlattice

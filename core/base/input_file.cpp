@@ -63,7 +63,7 @@ std::string read_input_file(const std::filesystem::path& file, const std::string
     return OutsideError(fmt::format("{} cannot be read: {}", file.string(),
                                     std::generic_category().message(error)));
   };
-  refuse(input_file_fault(file));  // before it is opened, which itself may act on a device
+  refuse(input_file_fault(file));  // before opening, since opening a device can have effects
   const Descriptor descriptor(file);
   if (descriptor.number() < 0) throw fail(errno);
   struct stat status {};
@@ -71,8 +71,8 @@ std::string read_input_file(const std::filesystem::path& file, const std::string
   refuse(fault_of(status));
   std::string text;
   std::size_t filled = 0;
-  text.resize(static_cast<std::size_t>(status.st_size) +
-              1);  // one more, to see the end without another block
+  // one byte more, so that the end shows without another block
+  text.resize(static_cast<std::size_t>(status.st_size) + 1);
   for (;;) {
     const ssize_t count = ::read(descriptor.number(), text.data() + filled, text.size() - filled);
     if (count < 0 && errno == EINTR) continue;
@@ -80,9 +80,8 @@ std::string read_input_file(const std::filesystem::path& file, const std::string
     if (count == 0) break;
     filled += static_cast<std::size_t>(count);
     if (filled > largest_input) refuse(too_large);
-    if (filled == text.size())
-      text.resize(std::max<std::size_t>(2 * filled,
-                                        4096));  // it grows, or its size is not known, as in /proc
+    // the file grows, or its size is unknown, as in /proc
+    if (filled == text.size()) text.resize(std::max<std::size_t>(2 * filled, 4096));
   }
   text.resize(filled);
   return text;

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What is written to is neither made nor replaced.
+/// Writes into an existing file, which is neither created nor replaced.
 void write_into(const fs::path& file, std::string_view bytes) {
   const auto fail = [&](const char* what) {
     throw OutsideError(std::string("cannot ") + what + " " + file.string() + ": " +

@@ -1,4 +1,4 @@
-// Files whose names a user gave.
+// Output files that a user names.
 #pragma once
 
 #include <filesystem>
@@ -6,9 +6,9 @@
 
 namespace hyperlattice {
 
-/// Writes a file: whole and in one go if its name is free or that of a regular file; into it if it
-/// is a device, a pipe or a link to anything, which stays what it is. Throws OutsideError with the
-/// system's reason.
+/// Writes a file. If the name is free or belongs to a regular file, the new file appears at once
+/// and complete. If it belongs to a device, a pipe or a link, the bytes are written into the
+/// target, which is not replaced. Throws OutsideError with the system's reason.
 void write_named_file(const std::filesystem::path& file, std::string_view bytes);
 
 }  // namespace hyperlattice

@@ -1,28 +1,31 @@
-// The options of anything that declares them with Schema<Options>, as plain functions: of a
-// plugin's component, of a shape, or of the core.
+// The options of anything that declares them with Schema<Options> (a plugin's component, a shape,
+// or the core), as a table of plain functions.
 #pragma once
 
 #include <hyperlattice/component.hpp>
 
 namespace hyperlattice {
 
+/// Declarations of options, and functions on an object that holds their values.
 struct OptionSet {
   std::span<const Option> options;
   void* (*create)(const Complaint& why) noexcept = nullptr;
   void (*destroy)(void* options) noexcept = nullptr;
+  /// null: no cross-check
   bool (*check)(const void* options, const FaultSink& faults,
-                const Complaint& why) noexcept = nullptr;  ///< null: nothing to check
-  std::string_view name;  ///< of the plugin's component; none: code of the host
+                const Complaint& why) noexcept = nullptr;
+  std::string_view name;  ///< name of the plugin's component; empty: code of the host
   const char* library = "";
 };
 
-/// `library`: the file of the component's plugin, outlives the set.
+/// Returns the options of a plugin's component. `library`: the plugin's file; the text must outlive
+/// the set.
 inline OptionSet option_set(const ComponentInfo& info, const char* library) {
   return {info.options,       info.create_options, info.destroy_options,
           info.check_options, info.name,           library};
 }
 
-/// Of a class that has `struct Options` and `static Schema<Options> schema()`.
+/// Returns the options of a class with `struct Options` and `static Schema<Options> schema()`.
 template <class Declared>
 OptionSet option_set() {
   using Options = typename Declared::Options;

@@ -1,4 +1,4 @@
-// Errors inside parallel regions, which no exception may leave.
+// Errors inside parallel loops, which no exception may leave.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 
 namespace hyperlattice {
 
-/// Keeps what the parts of a parallel loop throw. The exception of the part that comes first goes
-/// on after the loop, whatever the number of threads.
+/// Keeps the exceptions of the parts of a parallel loop. After the loop, rethrow() throws the one
+/// of the lowest part, so the result does not depend on the number of threads.
 class ThreadErrors {
  public:
   template <class Code>
@@ -24,7 +24,7 @@ class ThreadErrors {
       }
     }
   }
-  /// Only after the loop, or behind its barrier.
+  /// Returns whether a part failed. Call it only after the loop or its barrier.
   bool any() const { return thrown_ != nullptr; }
   void rethrow() {
     if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));

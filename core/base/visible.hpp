@@ -1,4 +1,4 @@
-// Text from an input or a plugin as a message shows it.
+// Text from an input or a plugin in a form that is safe to show in a message.
 #pragma once
 
 #include <string>
@@ -6,15 +6,15 @@
 
 namespace hyperlattice {
 
-/// The text, characters that nobody sees (control characters but the end of a line, no-break
-/// spaces, marks without width) as "U+00A0", cut behind `most` bytes with "...". Bytes that are no
-/// UTF-8 stay as they are.
+/// Returns the text with invisible characters (control characters except line ends, no-break
+/// spaces, marks without width) as "U+00A0"; cut after `most` bytes, with "..." at the end. Bytes
+/// that are not UTF-8 stay.
 std::string visible(std::string_view text, std::size_t most);
 
-/// The same in one line: ends of lines are spaces, and none stands at the end.
+/// Returns the same in one line: line ends become spaces; those at the end are dropped.
 std::string visible_line(std::string_view text, std::size_t most);
 
-/// Bytes of the character at the start of a text that is not empty.
+/// Returns the number of bytes of the first character of a text that is not empty.
 std::size_t length_of_character(std::string_view text);
 
 }  // namespace hyperlattice

@@ -11,8 +11,8 @@ void Guard::check_motion(double time_step) const {
   bool finite = true;
   simulation_.fastest(speed, finite);
   if (!finite) fail("the state is no longer finite", time_step);
-  constexpr double spacings =
-      100;  // a body may fly faster than its own waves; nothing sound does this
+  // A body may fly faster than its own waves, but no sound motion is as fast as this.
+  constexpr double spacings = 100;
   if (speed * time_step > spacings * model_.body.grid.spacing)
     fail("a particle moves by more than 100 lattice spacings in one step", time_step);
 }

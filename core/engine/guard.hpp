@@ -1,5 +1,5 @@
-// Stops a run that goes bad, and says when, where, under which law, and how the time step stood to
-// the critical one.
+// Stops a failing run with a message that has the time, the place, the law, and the ratio of the
+// time step to the critical one.
 #pragma once
 
 #include <plan/plan.hpp>
@@ -13,11 +13,11 @@ class Guard {
       : model_(model), simulation_(simulation) {}
 
   void start(const PlannedStage& stage) { stage_ = &stage; }
-  /// RunError if a number is not finite or a particle runs away. Reads all velocities once.
+  /// Reads all velocities once. Throws RunError if a number is not finite or a particle runs away.
   void check_motion(double time_step) const;
-  /// RunError if an energy is not a number.
+  /// Throws RunError if an energy is not a number.
   void check_finite(const EnergyBalance& balance, double time_step) const;
-  /// RunError if the error of the balance passes the stage's tolerance.
+  /// Throws RunError if the error of the balance passes the stage's tolerance.
   void check_balance(const EnergyBalance& balance, double time_step) const;
 
  private:

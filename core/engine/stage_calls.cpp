@@ -105,7 +105,7 @@ StageCalls::StageCalls(const Model& model, Simulation& simulation, const Planned
   };
 }
 
-/// A sum of equal steps ends at the stage's end but for round-off.
+/// Sets the time to the stage's end if the sum of equal steps differs from it only by round-off.
 void StageCalls::meet_end(double time_step) {
   constexpr double nearby = 1e-3;  // of a step
   const double end = stage_.plan.end_time;
@@ -116,7 +116,7 @@ void StageCalls::run() {
   const Stage& stage = *stage_.stage;
   simulation_.set_damping(stage_.plan.damping);
   if (stage_.plan.at_rest && stage_.plan.time_step > 0)
-    simulation_.hold_time(stage_.plan.end_time);  // else the solver says what time it is
+    simulation_.hold_time(stage_.plan.end_time);  // otherwise the solver sets the time
   const SolverFacts facts = solver_facts(model_, stage_.start_time);
   const auto failed = refusal_of(stage, "run", [&](const Complaint& why) {
     const bool done =

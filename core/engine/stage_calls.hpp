@@ -1,5 +1,5 @@
-// What a solver calls while its stage runs. The solver is a plugin's: an exception thrown below it
-// waits until its call has returned (plugin_call.hpp).
+// The functions that a solver calls during its stage. The solver is in a plugin: an exception
+// thrown inside these functions is kept until the solver has returned (plugin_call.hpp).
 #pragma once
 
 #include <plan/plan.hpp>
@@ -14,12 +14,12 @@ namespace hyperlattice {
 
 class StageCalls {
  public:
-  /// What else is to be done when a solver calls; each may be empty.
+  /// Further actions when a solver calls; each may be empty.
   struct Hooks {
     std::function<void(double time_step)> stepped;
     std::function<void()> observe;
     std::function<void(const RestReport&)> report;
-    /// Three numbers a particle, and one of the height where membranes can move.
+    /// Three numbers per particle, and one height per particle in free membranes.
     std::function<void(const std::vector<double>& motion, const std::vector<double>& heights)>
         failing_motion;
     std::function<bool()> must_stop;
@@ -29,14 +29,14 @@ class StageCalls {
   StageCalls(const StageCalls&) = delete;
   StageCalls& operator=(const StageCalls&) = delete;
 
-  /// Runs the stage. RunError if the solver fails; what was thrown inside its calls, if anything
-  /// was.
+  /// Runs the stage. Throws RunError if the solver fails, or the exception that was thrown inside
+  /// the solver's calls.
   void run();
 
  private:
   template <class Code>
   bool guarded(Code&& code) noexcept;
-  Statics& statics();  ///< built when first asked for
+  Statics& statics();  ///< made at the first call
   void meet_end(double time_step);
 
   const Model& model_;
@@ -48,8 +48,8 @@ class StageCalls {
   std::unique_ptr<Statics> statics_;
 };
 
-/// Runs a stage that looks for rest, outside of a run: no history, no outputs. RunError if it
-/// fails.
+/// Runs a stage that looks for rest outside of a run, without history and outputs. Throws RunError
+/// if it fails.
 RestReport bring_to_rest(const Plan& plan, Simulation& simulation);
 
 }  // namespace hyperlattice

@@ -1,7 +1,7 @@
-// The plane z = const cuts every facet that reaches from below it to it or above in one segment,
-// from the edge that leads up to the edge that leads down. The segments of a closed surface are
-// closed polygons, since neighbours compute their common end alike; and so for the line y = const
-// in that plane.
+// The plane z = const cuts each facet that has points below it and others on or above it in one
+// segment, from the edge that leads up to the edge that leads down. The segments of a closed
+// surface form closed polygons, since neighbours compute their common end identically. The same
+// holds for the line y = const in that plane.
 #include <geometry/triangle_mesh.hpp>
 
 #include <algorithm>
@@ -11,8 +11,8 @@ namespace hyperlattice {
 
 namespace {
 
-/// Where the edge between two points crosses the plane: the same for both facets, since the lower
-/// point always comes first.
+/// The point where an edge crosses the plane. It is the same for both facets, since the lower point
+/// always comes first.
 struct Crossing {
   double x = 0, y = 0;
 };
@@ -24,7 +24,7 @@ Crossing crossing(Vec3 a, Vec3 b, double z) {
 
 bool reaches(double z, double plane) {
   return z >= plane;
-}  // a point on the plane counts as above it, for all facets alike
+}  // a point on the plane counts as above, for all facets
 
 }  // namespace
 
@@ -41,7 +41,7 @@ InsideTest::InsideTest(TriangleMesh mesh)
       std::clamp(std::sqrt(static_cast<double>(mesh_.facets.size())), 1.0, finest));
   bins_.resize(side_ * side_);
   const double slack = 1e-12 * std::max(high_.y - low_.y,
-                                        high_.z - low_.z);  // a crossing may be off by its rounding
+                                        high_.z - low_.z);  // rounding error of a crossing
   for (std::uint32_t f = 0; f < mesh_.facets.size(); ++f) {
     const Facet& facet = mesh_.facets[f];
     const Vec3 a = mesh_.points[facet[0]], b = mesh_.points[facet[1]], c = mesh_.points[facet[2]];

@@ -24,7 +24,7 @@ Region solid(Vec3 low, Vec3 high, Vec3 anchor, Vec3 centre, std::function<bool(V
   return region;
 }
 
-/// Edges along the axes, by two corners or by centre and size.
+/// A box with edges along the axes, given by two corners or by centre and size.
 struct Box {
   struct Options {
     std::optional<Vec3> low, high, centre, size;
@@ -119,8 +119,8 @@ struct HollowSphere {
   }
 };
 
-/// Anchored at its start: on the axis across, at the end along, so that whole cells fill an upright
-/// cylinder's length exactly.
+/// The anchor is the start of the axis, so that whole cells fill the length of an upright cylinder
+/// exactly.
 struct Cylinder {
   struct Options {
     Vec3 start, end;
@@ -159,7 +159,7 @@ struct Cylinder {
   }
 };
 
-/// Unbounded; for cutting other solids, and for regions.
+/// An unbounded solid, to cut other solids and for regions.
 struct HalfSpace {
   struct Options {
     Vec3 point, normal;
@@ -210,8 +210,8 @@ struct Stl {
     TriangleMesh mesh = read_stl(read_input_file(stl.file, "", "an STL file"), stl.scale);
     const std::string fault = solid_fault(mesh);
     if (!fault.empty() && !sections_are_solids(mesh)) throw std::runtime_error(fault);
-    const SurfaceAreas areas =
-        fault.empty() ? surface_areas(mesh) : SurfaceAreas();  // unknown where solids touch
+    // areas are unknown if solids touch
+    const SurfaceAreas areas = fault.empty() ? surface_areas(mesh) : SurfaceAreas();
     const auto inside = std::make_shared<const InsideTest>(std::move(mesh));
     if (const std::string turned = orientation_fault(*inside); !turned.empty())
       throw std::runtime_error(turned);
@@ -224,8 +224,8 @@ struct Stl {
   }
 };
 
-/// What an image shows; anchored at the image's corner, so that cells of the voxels' size are the
-/// voxels.
+/// The solid in an image. The anchor is the image's corner, so that cells of the voxels' size
+/// coincide with the voxels.
 struct Voxels {
   static constexpr std::string_view file_holds = "such an image";
   struct Options {

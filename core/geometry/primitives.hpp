@@ -1,5 +1,5 @@
-// The solids that a scene can describe by a key and a few lengths. Each declares its parameters
-// once, like a component its options.
+// The solids that a scene describes by a key and a few lengths. Each primitive declares its
+// parameters as a component declares its options.
 #pragma once
 
 #include <base/option_set.hpp>
@@ -7,17 +7,21 @@
 
 namespace hyperlattice {
 
+/// The declaration of a solid.
 struct Primitive {
   std::string_view name, summary;
   OptionSet options;
-  std::string_view file_holds;  ///< what the file that the options name must hold, if they name one
-  Region (*make)(const void* options) = nullptr;  ///< throws std::runtime_error if a file that the
-                                                  ///< options name is no solid, and says why
+  /// required content of the file that an option names, if an option does
+  std::string_view file_holds;
+  /// builds the solid; throws std::runtime_error with the reason if the named file contains no
+  /// solid
+  Region (*make)(const void* options) = nullptr;
 };
 
+/// Returns all primitives.
 std::span<const Primitive> primitives();
 
-/// The option of a primitive that is a path, relative to the scene.
+/// Name of a primitive's option that is a path, relative to the scene.
 inline constexpr std::string_view path_option = "file";
 
 }  // namespace hyperlattice

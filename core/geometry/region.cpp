@@ -31,7 +31,7 @@ bool is_finite(Vec3 v) { return std::isfinite(norm(v)); }
 using Axis = double Vec3::*;
 constexpr Axis axes[] = {&Vec3::x, &Vec3::y, &Vec3::z};
 
-/// Whether a solid is all of its box: a box, or a half-space along an axis.
+/// Returns whether a solid fills its bounding box: a box, or a half-space along an axis.
 bool fills_its_box(const Region& region) {
   if (region.primitive == "box") return true;
   return region.primitive == "half_space" &&
@@ -40,7 +40,7 @@ bool fills_its_box(const Region& region) {
          });
 }
 
-/// Takes off what a part cuts away over a whole side.
+/// Removes from the box what a part cuts off over a whole side.
 void cut(SolidExtent& extent, const Region& part) {
   if (part.kind == Region::Kind::set_union)
     for (const auto& piece : part.parts) cut(extent, *piece);
@@ -59,11 +59,11 @@ void cut(SolidExtent& extent, const Region& part) {
   }
 }
 
-/// Whether some point close to a side, one of many laid out evenly, is inside.
+/// Returns whether at least one of many evenly spaced points close to a side is inside.
 bool reaches(const Region& solid, const SolidExtent& extent, std::size_t along, bool upper_side) {
-  constexpr int points = 24;  // along each of the side's edges
-  constexpr double in_from_the_side =
-      2.5e-3;  // of the width: so near are some points to the summit of a round side
+  constexpr int points = 24;  // number along each edge of the side
+  // distance from the side over the width; some points are as near to the summit of a round side
+  constexpr double in_from_the_side = 2.5e-3;
   const Vec3 size = extent.high - extent.low;
   const auto at = [&](int n, Axis axis) {
     return extent.low.*axis + (n + 0.5) / points * (size.*axis);

@@ -1,5 +1,5 @@
-// Solids, surfaces and sets of them, as a scene names them. A region is an immutable tree; what it
-// means for particles is model/'s work.
+// Regions of a scene: solids, surfaces and sets of regions. A region is an immutable tree;
+// core/model/ finds its particles.
 #pragma once
 
 #include <hyperlattice/plain.hpp>
@@ -12,73 +12,78 @@
 
 namespace hyperlattice {
 
+/// A node of the tree. Lengths in m.
 struct Region {
   enum class Kind {
     all,            ///< every particle
-    solid,          ///< inside `contains`
-    surface,        ///< particles with an uncovered face
-    inner_surface,  ///< with a face to a cavity that is closed off from outside
-    outer_surface,  ///< with a face to the outside
+    solid,          ///< points for which `inside` is true
+    surface,        ///< particles with a free face
+    inner_surface,  ///< particles with a face to a closed cavity
+    outer_surface,  ///< particles with a face to the outside
     face,           ///< the outermost layer towards face_normals[direction]: x_min ... z_max
     set_union,
     intersection,
-    difference  ///< of `parts`; difference: the first without the others
+    difference  ///< the first of `parts` without the others
   };
   Kind kind = Kind::all;
   int direction = 0;
   std::vector<std::shared_ptr<const Region>> parts;
 
-  // of a solid: what a primitive knows
-  std::string primitive;             ///< "box", "sphere", "hollow_sphere", "cylinder", "half_space"
-  std::function<bool(Vec3)> inside;  ///< on the boundary counts as inside
+  // The following members describe a solid.
+  std::string primitive;             ///< name of the primitive, such as "box"
+  std::function<bool(Vec3)> inside;  ///< true also on the boundary
   Vec3 low, high;                    ///< bounding box; infinite for a half-space
   Vec3 anchor, centre;               ///< see Shape::anchor
-  double volume = 0;                 ///< m3, 0 if unknown
-  double outer_area = 0,
-         inner_area =
-             0;  ///< true areas in m2 of the outer surface and of the cavity's, 0 if unknown
+  double volume = 0;                 ///< m3; 0 if unknown
+  /// exact areas of the outer surface and of the cavity's surface, m2; 0 if unknown
+  double outer_area = 0, inner_area = 0;
 
-  /// Whether the region is a solid (or a set of solids), so that `contains` has a meaning without a
+  /// Returns whether the region is a solid or a set of solids, for which contains() needs no
   /// lattice.
   bool is_solid() const;
-  bool contains(Vec3 point) const;  ///< of a solid or a set of solids
+  bool contains(Vec3 point) const;  ///< for a solid or a set of solids; otherwise false
 };
 
-/// Regions that need no description: "all", "surface", "inner_surface", "outer_surface", "x_min"
-/// ... "z_max". Null: no such name.
+/// Returns a predefined region: "all", "surface", "inner_surface", "outer_surface", "x_min" ...
+/// "z_max". Null for other names.
 std::shared_ptr<const Region> built_in_region(std::string_view name);
+/// Returns the names of all predefined regions.
 const std::vector<std::string>& built_in_region_names();
 
-/// A set of regions: union, intersection, or the first without the others. Box, anchor and centre
-/// follow from the parts when all are solids; parts without a common point give an inverted box
-/// (low > high).
+/// Returns a set of regions: union, intersection, or the first without the others. If all parts are
+/// solids, box, anchor and centre follow from them. An intersection of separate boxes has an
+/// inverted box (low > high).
 std::shared_ptr<const Region> make_set(Region::Kind kind,
                                        std::vector<std::shared_ptr<const Region>> parts);
 
-/// The box around a solid.
+/// The bounding box of a solid, m.
 struct SolidExtent {
-  Vec3 low, high;  ///< infinite for a half-space
-  bool attained =
-      false;  ///< the solid is known to reach all its sides; false: it lies inside, perhaps farther
+  Vec3 low, high;  ///< corners of the box; infinite for a half-space
+  /// true: the solid is known to reach all sides of the box; false: it lies inside and may not
+  /// reach them
+  bool attained = false;
 };
-/// Of a solid or a set of solids. What is cut off over a whole side makes it smaller; a cut solid
-/// is known to reach a side if one of many points within 1/4 % of the width is inside.
+/// Returns the box of a solid or a set of solids. A part that cuts off a whole side makes the box
+/// smaller. A cut solid is known to reach a side if one of many points within 1/4 % of the width
+/// from that side is inside.
 SolidExtent extent_of(const Region& solid);
 
-/// The regions of a scene, by index (RegionId); index 0 is "all". Entries stay where they are.
+/// The regions of a scene, by index (RegionId); index 0 is "all". An index stays valid.
 class Regions {
  public:
   Regions();
+  /// Adds a region under a name or an expression.
   RegionId add(std::shared_ptr<const Region> region, std::string name);
   const Region& operator[](RegionId id) const { return *regions_[id.index].region; }
   const std::string& name(RegionId id) const {
     return regions_[id.index].name;
-  }  ///< as in the scene; for messages
+  }  ///< name or expression in the scene, for messages
+  /// Returns the region of this name; nothing if there is none.
   std::optional<RegionId> find(const std::string& name) const;
   std::vector<std::string> names() const;
   std::size_t size() const { return regions_.size(); }
 
-  /// A Shape for a solid region, for a lattice plugin; valid as long as this object.
+  /// Returns a Shape of a solid region for a lattice plugin; valid as long as this object.
   const Shape* shape(std::shared_ptr<const Region> region);
 
  private:

@@ -1,4 +1,5 @@
-// STL files: a list of facets, three corners each, as text or as 50 bytes a facet.
+// STL files: a list of facets with three corners each, as text or as binary with 50 bytes per
+// facet.
 #include <base/visible.hpp>
 #include <geometry/triangle_mesh.hpp>
 
@@ -24,7 +25,7 @@ class MeshBuilder {
   void corner(double x, double y, double z, const std::string& where) {
     if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z))
       throw std::runtime_error(where + ": a coordinate is not finite");
-    const std::array<double, 3> key{x + 0.0, y + 0.0, z + 0.0};  // -0 and 0 are one place
+    const std::array<double, 3> key{x + 0.0, y + 0.0, z + 0.0};  // makes -0 and 0 equal
     const auto [found, is_new] =
         known_.emplace(key, static_cast<std::uint32_t>(mesh_.points.size()));
     if (is_new) mesh_.points.push_back(scale_ * Vec3{key[0], key[1], key[2]});
@@ -49,7 +50,7 @@ class MeshBuilder {
   std::map<std::array<double, 3>, std::uint32_t> known_;
   std::array<std::uint32_t, 3> facet_{};
   std::size_t corners_ = 0;
-  std::uint32_t count_ = 0;  // facets, those without area too
+  std::uint32_t count_ = 0;  // number of facets, also those without area
 };
 
 constexpr std::size_t header_bytes = 80, facet_bytes = 50;
@@ -62,8 +63,8 @@ Number little_endian(const char* bytes) {
   return number;
 }
 
-/// No byte of a text is 0, while the count behind a binary file's header has one up to 16 million
-/// facets.
+/// Returns whether the start of the file has no byte 0. A text has none, while the count after a
+/// binary file's header has one up to 16 million facets.
 bool looks_like_text(std::string_view bytes) {
   return bytes.substr(0, header_bytes + 4).find('\0') == std::string_view::npos;
 }
@@ -80,7 +81,7 @@ TriangleMesh read_binary(std::string_view bytes, double scale) {
     throw std::runtime_error(fmt::format(
         "it is cut short: {} facets need {} bytes, and it has {}{}", facets, needed, bytes.size(),
         looks_like_text(bytes) ? "; a text would begin with \"solid\"" : ""));
-  const std::string_view behind = bytes.substr(needed);  // some programs fill the file up
+  const std::string_view behind = bytes.substr(needed);  // some programs pad the file
   if (behind.find_first_not_of(std::string_view(" \t\r\n\0", 5)) != std::string_view::npos)
     throw std::runtime_error(
         fmt::format("it counts {} facets, and {} bytes stand behind them: are these several "
@@ -98,8 +99,8 @@ TriangleMesh read_binary(std::string_view bytes, double scale) {
   return builder.take();
 }
 
-/// Words between blanks, with the line that they stand in. Capital letters are as good as small
-/// ones; lines end with LF, CR or both.
+/// Splits a text at blanks into words and counts lines. Comparisons ignore case; lines end with LF,
+/// CR or both.
 class Words {
  public:
   explicit Words(std::string_view text) : text_(text) {}
@@ -114,7 +115,7 @@ class Words {
   void expect(std::string_view word) {
     if (const auto found = next(); !is(found, word)) fail(fmt::format("\"{}\"", word), found);
   }
-  /// "endloop", or as some programs write it, "end loop".
+  /// Reads "endloop", which some programs write as "end loop".
   void expect_end(std::string_view of) {
     if (const auto found = next(); is(found, "end"))
       expect(of);
@@ -156,7 +157,7 @@ class Words {
 
 void read_facet(Words& words, MeshBuilder& builder) {
   words.expect("normal");
-  for (int n = 0; n < 3; ++n) words.next();  // the order of the corners says it too
+  for (int n = 0; n < 3; ++n) words.next();  // the order of the corners gives the normal
   words.expect("outer");
   words.expect("loop");
   for (int corner = 0; corner < 3; ++corner) {
@@ -168,14 +169,14 @@ void read_facet(Words& words, MeshBuilder& builder) {
   words.expect_end("facet");
 }
 
-/// Sections from "solid" to "endsolid", one after the other: several solids, or patches of one
-/// surface.
+/// Reads sections from "solid" to "endsolid", one after the other: several solids, or patches of
+/// one surface.
 TriangleMesh read_text(std::string_view text, double scale) {
   MeshBuilder builder(scale);
   Words words(text);
   for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
     if (!Words::is(word, "solid")) words.fail("\"solid\" or the end", word);
-    words.skip_line();  // its name
+    words.skip_line();  // name of the solid
     builder.begin_section();
     for (word = words.next(); !Words::is(word, "endsolid"); word = words.next()) {
       if (Words::is(word, "end")) {
@@ -190,12 +191,12 @@ TriangleMesh read_text(std::string_view text, double scale) {
   return builder.take();
 }
 
-/// The text behind a byte order mark and blanks, if the file is one. Binary files may begin with
-/// "solid" too: their length and their count tell.
+/// Returns the text after a byte order mark, if the file is a text. Binary files may also begin
+/// with "solid"; their length and their count identify them.
 std::optional<std::string_view> text_in(std::string_view bytes) {
   constexpr std::string_view mark = "\xEF\xBB\xBF", solid = "solid";
-  const std::string_view whole =
-      bytes.substr(bytes.starts_with(mark) ? mark.size() : 0);  // lines are counted from here
+  // line 1 begins here
+  const std::string_view whole = bytes.substr(bytes.starts_with(mark) ? mark.size() : 0);
   std::string_view text = whole;
   while (!text.empty() && Words::is_blank(text.front())) text.remove_prefix(1);
   if (!Words::is(text.substr(0, solid.size()), solid)) return std::nullopt;

@@ -10,7 +10,7 @@ namespace hyperlattice {
 
 namespace {
 
-constexpr std::size_t different = 1 << 16;  // values
+constexpr std::size_t different = 1 << 16;  // number of possible values
 
 std::size_t bytes_of(VoxelType type) { return type == VoxelType::uint8 ? 1 : 2; }
 
@@ -21,7 +21,7 @@ std::size_t value_at(std::string_view bytes, std::size_t voxel, VoxelType type) 
   return type == VoxelType::uint8 ? byte(voxel) : byte(2 * voxel) + 256 * byte(2 * voxel + 1);
 }
 
-/// "0 (12 voxels), 3 (4 voxels)": the first few of those that are there.
+/// Returns the first few values in the image: "0 (12 voxels), 3 (4 voxels)".
 std::string values_text(const std::vector<std::uint64_t>& voxels_of) {
   constexpr int most = 8;
   std::string text;
@@ -34,7 +34,7 @@ std::string values_text(const std::vector<std::uint64_t>& voxels_of) {
   return text;
 }
 
-/// What an image of the wrong size may be.
+/// Returns a guess why an image has the wrong size.
 std::string hint(std::size_t bytes, std::size_t voxels, VoxelType type) {
   const bool is_short = type == VoxelType::uint8;
   const std::size_t needed = voxels * bytes_of(type);

@@ -1,4 +1,4 @@
-// Images of solids: a box of equal cubes, each with a value.
+// Images of solids: a box of equal cubes (voxels), each with a value.
 #pragma once
 
 #include <hyperlattice/plain.hpp>
@@ -10,24 +10,27 @@
 
 namespace hyperlattice {
 
-enum class VoxelType : std::uint32_t { uint8, uint16 };  ///< uint16: little-endian
+/// type of a voxel's value; uint16 is little-endian
+enum class VoxelType : std::uint32_t { uint8, uint16 };
 
-/// The voxels of an image that have one of some values.
+/// The voxels of an image whose values are in a given set.
 class VoxelSet {
  public:
-  /// Of the bytes of a raw image, x running fastest, then y, then z. `values`: those inside; empty:
-  /// all but 0. Throws std::runtime_error, with a sentence, if the bytes are not so many voxels, or
-  /// if no voxel is inside, or none has one of the values.
+  /// Reads a raw image, x fastest, then y, then z. `values`: values of voxels inside; empty: all
+  /// but 0. `low`: corner of the image, m; `edge`: edge of a voxel, m. Throws std::runtime_error
+  /// with a sentence if the number of bytes is wrong, if no voxel is inside, or if no voxel has one
+  /// of the values.
   VoxelSet(std::string_view bytes, const std::array<std::int64_t, 3>& counts, VoxelType type,
            const std::vector<double>& values, Vec3 low, double edge);
 
-  /// A point between voxels is in the one with the larger coordinates, so that images that fill
-  /// space fill it once; at the image's end in the last.
+  /// Returns whether a point is in a voxel of the set. A point on a face between voxels belongs to
+  /// the voxel with the larger coordinates, so that images side by side do not overlap; a point on
+  /// the image's end belongs to the last voxel.
   bool contains(Vec3 point) const;
   Vec3 low() const { return corner(first_); }
   Vec3 high() const {
     return corner({last_[0] + 1, last_[1] + 1, last_[2] + 1});
-  }  ///< of the box around the voxels inside
+  }  ///< corner of the bounding box of the set, m
 
  private:
   using Index = std::array<std::int64_t, 3>;

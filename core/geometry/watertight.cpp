@@ -1,5 +1,5 @@
-// Whether triangles bound a solid. Each edge is run through once in each direction if every facet
-// has one neighbour across it and both face the same way.
+// Checks whether triangles bound a solid. If each facet has one neighbour at each edge and both
+// face the same way, the facets pass each edge once in each direction.
 #include <geometry/triangle_mesh.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -17,15 +17,16 @@ std::uint64_t key(std::uint32_t from, std::uint32_t to) { return (std::uint64_t{
 
 std::string place(Vec3 p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z); }
 
-/// Six times the volume of the tetrahedron of a facet and a point: summed over a closed surface, of
-/// what it encloses.
+/// Returns six times the volume of the tetrahedron of a facet and a point. The sum over a closed
+/// surface is six times the enclosed volume.
 double volume(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& facet, Vec3 origin) {
   const Vec3 a = mesh.points[facet[0]] - origin, b = mesh.points[facet[1]] - origin,
              c = mesh.points[facet[2]] - origin;
   return dot(a, cross(b, c));
 }
 
-/// For each point the number of the connected part it belongs to, which is one of its points.
+/// Returns for each point the number of its connected part, which is the index of one point of the
+/// part.
 std::vector<std::uint32_t> parts(const TriangleMesh& mesh) {
   std::vector<std::uint32_t> parent(mesh.points.size());
   std::iota(parent.begin(), parent.end(), 0u);
@@ -43,15 +44,16 @@ Vec3 centroid(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& face
   return (1.0 / 3) * (mesh.points[facet[0]] + mesh.points[facet[1]] + mesh.points[facet[2]]);
 }
 
-/// Twice the facet's area, along its outward normal.
+/// Returns the outward normal with twice the facet's area as its length.
 Vec3 doubled_area(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& facet) {
   const Vec3 a = mesh.points[facet[0]];
   return cross(mesh.points[facet[1]] - a, mesh.points[facet[2]] - a);
 }
 
-/// Whether a surface that is open at two points has a neighbour's corner there but for a rounding.
+/// Returns a hint if another corner is almost at one of the ends a, b of an open edge, so that only
+/// rounding separates them; otherwise an empty text.
 std::string near_miss(const TriangleMesh& mesh, std::uint32_t a, std::uint32_t b) {
-  constexpr double close = 1e-5;  // of the surface's extent
+  constexpr double close = 1e-5;  // relative to the surface's extent
   Vec3 low = mesh.points.front(), high = low;
   double distance = infinity;
   for (std::uint32_t p = 0; p < mesh.points.size(); ++p) {
@@ -68,10 +70,10 @@ std::string near_miss(const TriangleMesh& mesh, std::uint32_t a, std::uint32_t b
       distance);
 }
 
-/// What keeps the facets from `first` up to `last` from being a closed surface, each edge between
-/// two of them; empty: nothing.
+/// Returns why the facets from `first` up to `last` are not a closed surface, in which each edge
+/// belongs to two facets; empty if they are one.
 std::string closed_fault(const TriangleMesh& mesh, std::size_t first, std::size_t last) {
-  std::unordered_map<std::uint64_t, std::size_t> facet_of;  // of an edge in this direction
+  std::unordered_map<std::uint64_t, std::size_t> facet_of;  // key: directed edge
   const auto edge_text = [&](std::uint32_t a, std::uint32_t b) {
     return fmt::format("the edge from {} to {} (metres)", place(mesh.points[a]),
                        place(mesh.points[b]));
@@ -133,8 +135,8 @@ std::string orientation_fault(const InsideTest& inside) {
   const double step = 1e-7 * norm(inside.high() - inside.low());
   for (const auto& [point, part] : found) {
     const bool is_outer = part.volume > 0;
-    const auto is_right = [&](std::size_t f) {  // outside of an outer part is no material; beside a
-                                                // cavity there is some
+    // An outer part has no material at its outside; a cavity has material around it.
+    const auto is_right = [&](std::size_t f) {
       const Vec3 normal = doubled_area(mesh, mesh.facets[f]);
       const double size = norm(normal);
       if (!(size > 0)) return false;

@@ -19,7 +19,7 @@ bool is_identifier(std::string_view text) {
                      [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '_'; });
 }
 
-// Whether each function of a family's table is there.
+// Returns whether each function of a family's table is set.
 bool whole(const LatticeFunctions& f) { return f.build; }
 bool whole(const MaterialFunctions& f) { return f.constants && f.kernels && !f.law.empty(); }
 bool whole(const FailureFunctions& f) { return f.alarm && f.review; }
@@ -55,16 +55,16 @@ bool has_functions(const ComponentInfo& info) {
   return false;
 }
 
-// Texts that a plugin hands over are shown to people; longer ones are an error, most likely a
-// length that was never set.
+// bytes. Texts of a plugin are shown to people; a longer one is most likely a length that was never
+// set.
 constexpr std::size_t longest_name = 200, longest_text = 1 << 16;
 
 bool is_text(std::string_view text) {
   return text.size() <= longest_text && (text.empty() || text.data() != nullptr);
 }
 
-/// Of a text that a scene repeats, or that is read as a unit: it cannot be shown otherwise than it
-/// is.
+/// Returns whether a text has only visible characters. This is required of texts that a scene
+/// repeats or that are read as units, since they cannot be changed for display.
 bool is_seen(std::string_view text) { return visible_line(text, longest_text) == text; }
 
 std::string option_fault(const Option& option) {

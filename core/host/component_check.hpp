@@ -1,4 +1,5 @@
-// Whether what a plugin registers can be used: names, options, and every function of its family.
+// Checks of the components that a plugin registers: names, options, and all functions of the
+// family.
 #pragma once
 
 #include <hyperlattice/component.hpp>
@@ -7,11 +8,11 @@
 
 namespace hyperlattice {
 
-/// Whether the text has the form "<family>.<name>", the name in small letters, digits and
-/// underscores.
+/// Returns whether the text has the form "<family>.<name>", with a name of small letters, digits
+/// and underscores.
 bool is_type_name(std::string_view text);
 
-/// What is wrong with a component, or an empty text.
+/// Returns what is wrong with a component; empty if nothing is wrong.
 std::string component_fault(const ComponentInfo& info);
 
 }  // namespace hyperlattice

@@ -32,7 +32,7 @@ const char* loading = nullptr;
 std::terminate_handler other_ends = nullptr;
 struct sigaction alarm_before;
 
-/// A line on standard error, by nothing but write(): signal handlers may call no more.
+/// A line for standard error. Uses only write(), since signal handlers may call little more.
 class Line {
  public:
   Line& operator<<(std::string_view text) {
@@ -77,8 +77,8 @@ void on_exit_of_plugin() {
   _exit(exit_outside);
 }
 
-/// An exception that nothing can catch, as one thrown in a destructor. For others than lack of
-/// memory the signal of the abort follows.
+/// Handles an exception that nothing catches, for example one from a destructor. For causes other
+/// than lack of memory, the abort signal follows.
 [[noreturn]] void on_terminate() {
   if (const PluginCall* call = PluginCall::running(); call != nullptr && ends_for_memory()) {
     write_end_of(*call, "not enough memory");
@@ -96,7 +96,7 @@ void on_alarm(int) {
   _exit(exit_outside);
 }
 
-/// Seconds that a library may take to load; 0: for ever.
+/// Returns the time that a library may take to load, s; 0: no limit.
 long most_load_seconds() {
   constexpr long usual = 60, most = 86400;
   const char* wish = std::getenv("HYPERLATTICE_LOAD_SECONDS");
@@ -114,7 +114,7 @@ void set_alarm(long seconds) {
 }  // namespace
 
 void report_crashes() {
-  static const SignalStack stack;  // of the main thread; those of a Team have their own
+  static const SignalStack stack;  // for the main thread; the threads of a Team have their own
   for (CrashSignal& signal : crash_signals) {
     struct sigaction action {};
     action.sa_sigaction = on_crash;

@@ -12,14 +12,14 @@
 namespace hyperlattice {
 namespace {
 
-// Boost.DLL's library_info reads the table of symbols that stripping removes, and in Boost 1.74 it
-// takes the names from whichever string table comes last in the file. The dynamic symbols are what
-// the loader itself goes by, so they are read here, every offset checked.
+// Reads the dynamic symbols of an ELF file, which the loader itself uses, and checks every offset.
+// Boost.DLL's library_info does not serve: it reads the symbol table that stripping removes, and in
+// Boost 1.74 it takes the names from the last string table in the file.
 class ElfFile {
  public:
   explicit ElfFile(const std::filesystem::path& path) {
-    if (!std::filesystem::is_regular_file(path))
-      throw Refusal("is not a regular file");  // to open a pipe would be to wait for its writer
+    // opening a pipe would wait for its writer
+    if (!std::filesystem::is_regular_file(path)) throw Refusal("is not a regular file");
     file_.open(path, std::ios::binary);
     if (!file_) throw Refusal("cannot be read: check its permissions");
     size_ = std::filesystem::file_size(path);
@@ -30,7 +30,7 @@ class ElfFile {
       throw Refusal("is not a shared library (no ELF file)");
   }
 
-  /// Names of the symbols that the library exports.
+  /// Returns the names of the symbols that the library exports.
   std::vector<std::string> exported() {
     const auto header = read<Elf64_Ehdr>(0, 1).front();
     if (header.e_ident[EI_CLASS] != ELFCLASS64 || header.e_machine != own_machine)
@@ -82,8 +82,8 @@ class ElfFile {
 
 constexpr std::string_view marker_begin = "_ZN12hyperlattice4GateI", marker_end = "E6markerE";
 
-/// The template arguments `Lj<number>E` of a marker's mangled name; nothing if the symbol is no
-/// marker.
+/// Returns the template arguments `Lj<number>E` in a marker's mangled name; nothing if the symbol
+/// is no marker.
 std::optional<std::vector<unsigned>> marker_numbers(std::string_view symbol) {
   if (!symbol.starts_with(marker_begin) || !symbol.ends_with(marker_end)) return std::nullopt;
   symbol.remove_prefix(marker_begin.size());
@@ -119,9 +119,8 @@ GateNumbers read_gate(const std::filesystem::path& library) {
     const auto numbers = marker_numbers(symbol);
     if (!numbers || numbers->empty()) continue;
     const auto& n = *numbers;
-    if (n.size() != 5)
-      return {.interface_version =
-                  n[0]};  // another version's gate; a gate of this version has five numbers
+    // the gate of another version; this version's has five numbers
+    if (n.size() != 5) return {.interface_version = n[0]};
     return {n[0], n[1], n[2], n[3], n[4]};
   }
   throw Refusal(
@@ -131,7 +130,7 @@ GateNumbers read_gate(const std::filesystem::path& library) {
 
 std::string gate_mismatch(const GateNumbers& library, const GateNumbers& own) {
   const std::string headers = "rebuild it against these headers";
-  // In another version the other numbers may mean other things.
+  // In another version the other numbers may have other meanings.
   if (library.interface_version != own.interface_version)
     return differs("interface version", library.interface_version, own.interface_version, headers);
 

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 const std::string suffix = ".so";
 
-/// One spelling for each file or folder, whichever links lead to it.
+/// Returns one path for each file or folder, whichever links lead to it.
 fs::path resolved(const fs::path& path) {
   std::error_code error;
   fs::path result = fs::weakly_canonical(fs::absolute(path), error);
@@ -31,8 +31,8 @@ fs::path resolved(const fs::path& path) {
   return result.has_filename() ? result : result.parent_path();
 }
 
-/// The entries of HYPERLATTICE_PLUGIN_PATH. An empty entry would mean the current directory, and is
-/// left out.
+/// Returns the entries of HYPERLATTICE_PLUGIN_PATH. Omits empty entries, which would mean the
+/// current folder.
 std::vector<fs::path> environment_folders() {
   std::vector<fs::path> folders;
   const char* value = std::getenv("HYPERLATTICE_PLUGIN_PATH");
@@ -45,13 +45,12 @@ std::vector<fs::path> environment_folders() {
   return folders;
 }
 
-/// The folder `hyperlattice` beside this library, in a build as in an installed tree.
+/// Returns the folder `hyperlattice` beside this library, in a build and in an installation.
 fs::path install_folder() {
   return resolved(boost::dll::this_line_location()).parent_path() / "hyperlattice";
 }
 
-/// Boost's message holds the loader's between words of its own; the loader's names symbols as the
-/// linker does.
+/// Extracts the loader's message from Boost's, and demangles the undefined symbol in it.
 std::string loader_sentence(std::string message, const fs::path& library) {
   const std::string before = "dlerror system message: ";
   if (const auto begin = message.find(before); begin != message.npos) {
@@ -69,8 +68,8 @@ std::string loader_sentence(std::string message, const fs::path& library) {
   return "cannot be loaded: " + message;
 }
 
-/// Loads a library that has passed the gate. It stays loaded for as long as the process lives: code
-/// of it may be needed until the very end.
+/// Loads a library that has passed the gate. It stays loaded until the process ends, since its code
+/// may be needed until then.
 const boost::dll::shared_library& open(const fs::path& path) {
   static auto& libraries = *new std::vector<std::unique_ptr<boost::dll::shared_library>>;
   try {
@@ -91,7 +90,7 @@ const Component* keep(Component component) {
 constexpr std::size_t longest_text = 1 << 16, longest_refusal = 8192,
                       longest_version = 200;  // bytes
 
-/// A text as people are shown it. It stays for as long as the plugin, which is for ever.
+/// Returns `shown` as a text that lives until the process ends, or `text` itself if both are equal.
 std::string_view kept(std::string_view text, std::string shown) {
   static auto& texts = *new std::deque<std::string>;
   return shown == text ? text : texts.emplace_back(std::move(shown));
@@ -103,22 +102,22 @@ std::string_view shown_lines(std::string_view text) {
   return kept(text, visible(text, longest_text));
 }
 
-/// A sound component, its texts as people are shown them.
+/// Returns a checked component with its texts in visible form.
 ComponentInfo shown(ComponentInfo info) {
   static auto& lists = *new std::deque<std::vector<Option>>;
   info.summary = shown_line(info.summary);
   for (std::string_view* text : {&info.equation, &info.source, &info.restrictions})
     *text = shown_lines(*text);
   auto& options = lists.emplace_back(info.options.begin(), info.options.end());
+  // one line: JSON allows line ends only between values
   for (Option& option : options)
-    for (std::string_view* text : {&option.help, &option.fallback})
-      *text = shown_line(*text);  // JSON may have ends of lines between values only
+    for (std::string_view* text : {&option.help, &option.fallback}) *text = shown_line(*text);
   info.options = options;
   return info;
 }
 
-/// What a library registers, in the order of its registration. Each is sound by itself and none
-/// comes twice.
+/// Returns the components that a library registers, in order of registration. Throws Refusal if one
+/// is faulty or comes twice.
 std::vector<Component> registered(const fs::path& path) {
   if (const std::string mismatch = gate_mismatch(read_gate(path), own_gate()); !mismatch.empty())
     throw Refusal(mismatch);
@@ -202,7 +201,8 @@ std::vector<fs::path> Host::libraries_of(const std::string& type) const {
   return found;
 }
 
-/// Why a library that stands in the folders cannot be found there; empty: none stands there.
+/// Returns why a library in the folders cannot be found: it is a link to no file. Empty if there is
+/// no such link.
 std::string Host::dangling(const std::string& type) {
   for (const fs::path& folder : folders_) {
     const fs::path library = folder / (type + suffix);
@@ -238,8 +238,8 @@ const Component* Host::find(const std::string& type) {
   }
   const SearchOutcome& outcome = load(libraries.front(), type);
   if (!outcome.accepted) return refuse(type, outcome.reason);
-  const auto given = components_.find(
-      type);  // a library that was named directly may have been loaded before, for other types
+  // A library that was named directly may have been loaded before, for other types.
+  const auto given = components_.find(type);
   return given != components_.end()
              ? given->second
              : refuse(type, outcome.path.filename().string() + ": " + outcome.reason +

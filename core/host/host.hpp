@@ -1,6 +1,6 @@
-// The plugin host: finds the library of a type by its name, checks the gate before any of its code
-// runs, loads it with immediate binding, and registers its components, all or none. Libraries are
-// never unloaded.
+// The plugin host. It finds the library of a type by its file name, checks the gate before any code
+// of the library runs, loads it with immediate binding, and registers all of its components or
+// none. Libraries are never unloaded.
 #pragma once
 
 #include <hyperlattice/component.hpp>
@@ -12,60 +12,64 @@
 
 namespace hyperlattice {
 
-/// A component and where it comes from. Lives as long as the process.
+/// A component and its plugin. Lives as long as the process.
 struct Component {
   ComponentInfo info;
   std::string plugin;          ///< "family.name": the file's name without its suffix
-  std::string version;         ///< the plugin's
-  std::filesystem::path path;  ///< of its library, absolute
+  std::string version;         ///< version of the plugin
+  std::filesystem::path path;  ///< absolute path of the library
+  /// Returns the component's type, "<family>.<name>".
   std::string type() const { return std::string(info.name); }
 };
 
-/// What became of one file or folder that was searched.
+/// The result of the search of one file or folder.
 struct SearchOutcome {
   std::filesystem::path path;
   bool accepted = false;
-  bool absent = false;  ///< no such file or folder; if neither accepted nor absent, it was refused
-  std::string reason;   ///< a sentence: why it was refused, or what it gave
+  bool absent = false;  ///< true: no such file or folder; neither accepted nor absent: refused
+  std::string reason;   ///< a sentence: the reason of the refusal, or the components found
 };
 
+/// Finds, loads and keeps the components of plugins.
 class Host {
  public:
-  /// Folders are searched in this order: those of the scene's "plugins", HYPERLATTICE_PLUGIN_PATH,
-  /// the install's. A missing folder is no error.
+  /// Searches folders in this order: the scene's "plugins", HYPERLATTICE_PLUGIN_PATH, the folder of
+  /// the installation. A missing folder is no error.
   explicit Host(std::vector<std::filesystem::path> scene_paths = {});
 
-  /// Adds the entries of a scene's "plugins" (folders or libraries, relative to `scene_folder`),
-  /// searched before all others. A library named directly is loaded at once, so that it may give
-  /// any type. One outcome an entry: an absent one is the scene's fault, a refused one the
-  /// library's.
+  /// Adds the entries of a scene's "plugins" (folders or libraries, relative to `scene_folder`)
+  /// before all other places. Loads a library that is named directly at once, because it may have
+  /// components of any type. Returns one outcome per entry: an absent one is an error of the scene,
+  /// a refused one an error of the library.
   std::vector<SearchOutcome> add_scene_paths(const std::vector<std::string>& entries,
                                              const std::filesystem::path& scene_folder);
 
-  /// The component of that type, loading only `<type>.so` unless a library named directly gave it.
-  /// Null if there is none; then why_not(type) says why in a sentence.
+  /// Returns the component of a type. Loads only `<type>.so`, unless a library that was named
+  /// directly has the component. Returns null if there is none; why_not(type) then gives the reason
+  /// as a sentence.
   const Component* find(const std::string& type);
   std::string why_not(const std::string& type) const;
-  /// Whether find(type) met a library of that name and refused it, rather than none.
+  /// Returns whether find(type) refused a library of that name (false: it found none).
   bool refused(const std::string& type) const { return refusals_.count(type) != 0; }
 
-  /// Types that could be named, from file names alone; nothing is opened.
+  /// Returns the types that a scene may name, from file names alone; opens no file.
   std::vector<std::string> known_types() const;
 
-  /// Loads everything on the search path; for `plugins` and `schema`.
+  /// Loads all libraries on the search path; for the commands `plugins` and `schema`.
   std::vector<const Component*> load_all();
 
-  /// Every place searched so far and what became of it.
+  /// Returns the outcomes of all places searched so far.
   const std::vector<SearchOutcome>& searched() const { return searched_; }
 
-  /// Components loaded so far, in the order of loading.
+  /// Returns the components loaded so far, in the order of loading.
   const std::vector<const Component*>& loaded() const { return order_; }
 
  private:
   SearchOutcome look_into(const std::filesystem::path& folder) const;
   const SearchOutcome& load(const std::filesystem::path& library, const std::string& expected_type);
   const Component* refuse(const std::string& type, const std::string& reason);
-  /// Libraries called `<type>.so` in the folders; each file once, however many paths lead to it.
+  /// Returns the libraries `<type>.so` in the folders; each file once, also if several paths lead
+  /// to it.
   std::vector<std::filesystem::path> libraries_of(const std::string& type) const;
   std::string dangling(const std::string& type);
 

@@ -9,7 +9,7 @@
 namespace hyperlattice {
 namespace {
 
-// Read by signal handlers: in memory that stands from the thread's beginning.
+// Signal handlers read this variable, so its memory must exist from the thread's beginning.
 [[gnu::tls_model("initial-exec")]] constinit thread_local PluginCall* current = nullptr;
 
 constexpr std::size_t longest_sentence = 4096;

@@ -1,6 +1,6 @@
-// How kernels compute springs: by series where these are exact to rounding, or by roots and
-// divisions everywhere. The environment asks for the latter by HYPERLATTICE_SPRINGS=exact; it is
-// the oracle of tests.
+// The arithmetic of springs in kernels: by series where these are exact to round-off, or everywhere
+// by roots and divisions. The environment variable HYPERLATTICE_SPRINGS=exact chooses the latter;
+// tests use it as their reference.
 #pragma once
 
 #include <cstdlib>

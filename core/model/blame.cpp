@@ -8,7 +8,7 @@ namespace hyperlattice {
 
 namespace {
 
-/// A load as the scene has it, cut to a line.
+/// Returns the scene's text of a load, cut to at most 300 characters.
 std::string text_of(const Model& model, const Stage& stage) {
   std::string text;
   const nlohmann::json resolved = nlohmann::json::parse(model.scene->resolved, nullptr, false);

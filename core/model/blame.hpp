@@ -1,4 +1,4 @@
-// A run that fails for what a load gave says which load it was.
+// The error of a run that fails because of a load; it names the load.
 #pragma once
 
 #include <model/model.hpp>
@@ -7,8 +7,8 @@
 
 namespace hyperlattice {
 
-/// Throws RunError: the load with that place in the model, what is wrong with it, and how the scene
-/// describes it.
+/// Throws RunError that names the load with index `load` in the model, what is wrong (`what`), and
+/// the scene's text of the load.
 [[noreturn]] void blame_load(const Model& model, std::size_t load, const std::string& what);
 
 }  // namespace hyperlattice

@@ -10,7 +10,7 @@ namespace hyperlattice {
 
 namespace {
 
-/// The place at which a particle stands in its run.
+/// Returns the site of a particle, given the runs.
 Site site_in(std::span<const Run> runs, Particle particle) {
   const auto after = std::upper_bound(runs.begin(), runs.end(), particle,
                                       [](Particle p, const Run& run) { return p < run.first; });
@@ -18,7 +18,7 @@ Site site_in(std::span<const Run> runs, Particle particle) {
   return {run.begin + static_cast<std::int32_t>(particle - run.first), run.j, run.k};
 }
 
-/// Follows (dx, dy, dz) in the order z, y, x.
+/// Returns whether the neighbour follows the site in the order z, y, x.
 bool is_forward(const Neighbour& n) {
   return n.dz != 0 ? n.dz > 0 : n.dy != 0 ? n.dy > 0 : n.dx > 0;
 }
@@ -26,7 +26,8 @@ bool is_forward(const Neighbour& n) {
 /// Positive and finite.
 bool is_size(double value) { return value > 0 && std::isfinite(value); }
 
-/// Takes what a lattice component describes, and refuses what would break the order or the box.
+/// Receives the description of a lattice component. Throws std::invalid_argument for values that
+/// would break the order or leave the box.
 struct Builder {
   Body body;
   bool has_grid = false;
@@ -142,7 +143,7 @@ struct Builder {
 
   void end_rows() { body.row_runs.resize(row_count() + 1, body.runs.size()); }
 
-  /// The runs were of cells: particles stand at their corners.
+  /// Converts the runs of cells to runs of their corners, the particles.
   void take_corners() {
     body.cells =
         Cells(std::exchange(body.runs, {}), std::exchange(body.row_runs, {}), body.grid.sites[1]);

@@ -1,5 +1,5 @@
-// The body: where particles are and which springs join them. Most bodies are structured: sites of a
-// grid; others are listed.
+// The body: the places of the particles and the springs between them. A structured body has sites
+// of a grid; a listed body has a list of particles and springs.
 #pragma once
 
 #include <geometry/region.hpp>
@@ -17,28 +17,29 @@ namespace hyperlattice {
 struct Component;  // host/host.hpp
 
 struct Body {
-  Grid grid;  ///< its neighbours point into `neighbours`; of a listed body spacing, volume,
-              ///< membrane distance and shape only
+  /// Its neighbours point into `neighbours`. A listed body sets only spacing, volume, membrane
+  /// distance and shape.
+  Grid grid;
   std::vector<Neighbour> neighbours;
   std::vector<Run> runs;  ///< in the order z, y, x
-  std::vector<std::size_t>
-      row_runs;   ///< [k * ny + j] first run of a row; one more entry at the end
-  Cells cells;    ///< none if the boundary is particles
+  /// [k * ny + j]: first run of a row; one more entry at the end
+  std::vector<std::size_t> row_runs;
+  Cells cells;    ///< empty if the boundary is particles
   Listed listed;  ///< empty if the body is structured
   std::uint64_t particles = 0;
   std::uint64_t springs[max_spring_classes] = {};
-  std::int32_t reach = 1;  ///< planes that the farthest neighbour is away
-  Site low, high;          ///< first and last site of the box of sites that the particles fill
-  Vec3 lowest, highest;    ///< corners of the box in space that their places fill, metres
+  std::int32_t reach = 1;  ///< distance of the farthest neighbour along z, planes
+  Site low, high;          ///< lowest and highest site of the box that the particles fill
+  Vec3 lowest, highest;    ///< corners of the box around the positions of the particles, m
 
   bool is_listed() const { return !listed.empty(); }
-  bool is_cubic() const {
-    return !is_listed() && grid.basis == cubic_basis;
-  }  ///< its particles stand for cubic cells, or are their corners
+  /// Returns whether the particles stand for cubic cells or are the corners of cubic cells.
+  bool is_cubic() const { return !is_listed() && grid.basis == cubic_basis; }
   Vec3 position(Particle particle) const {
     return is_listed() ? listed.positions[particle] : position(site(particle));
   }  ///< at rest, metres
-  /// What counts of a particle: 1, or less at the surface of a body of cells, or what a list says.
+  /// Returns the share of a whole particle: 1, or less at the surface of a body of cells, or the
+  /// value in the list.
   double share(Particle particle) const {
     if (is_listed()) return listed.shares.empty() ? 1 : listed.shares[particle];
     return share(site(particle));
@@ -47,22 +48,24 @@ struct Body {
   template <class Visit>
   void for_springs(const Visit& visit) const;
 
-  // of a structured body
+  // The functions below, except base_springs(), are for structured bodies.
   Site site(Particle particle) const;
   Vec3 position(Site site) const {
     return grid.origin + grid.spacing * combined(grid.basis, site.i, site.j, site.k);
-  }                                          ///< at rest, metres
-  Vec3 centre_of_cell(Particle cell) const;  ///< by its place in `cells`, metres
-  /// The particle at a site, or no_particle.
+  }  ///< at rest, metres
+  /// Returns the centre, m, of a cell, given its index in `cells`.
+  Vec3 centre_of_cell(Particle cell) const;
+  /// Returns the particle at a site, or no_particle.
   Particle at(Site site) const;
   static constexpr Particle no_particle = ~Particle{0};
 
-  std::span<const Run> row(std::int32_t j,
-                           std::int32_t k) const;  ///< its runs; none outside the box
-  /// Ranges of sites of row (j, k) that a spring joins to the neighbour, ascending and apart.
+  /// Returns the runs of a row; none outside the box.
+  std::span<const Run> row(std::int32_t j, std::int32_t k) const;
+  /// Returns the ranges of sites in row (j, k) that have a spring to the neighbour, ascending and
+  /// disjoint.
   std::vector<Range> springs_of(std::int32_t j, std::int32_t k, const Neighbour& to) const;
-  /// What counts of a spring from a site, or with `to` {} of the particle there: 1, or less at the
-  /// surface of a body of cells.
+  /// Returns the share of the spring from a site to the neighbour; with `to` {} the share of the
+  /// particle at the site: 1, or less at the surface of a body of cells.
   double share(Site site, const Neighbour& to = {}) const {
     return cells.empty() ? 1 : cells.share(site, to);
   }
@@ -87,8 +90,8 @@ void Body::for_springs(const Visit& visit) const {
 }
 
 /// Builds the body that a lattice component describes. Throws std::invalid_argument with the
-/// component's sentence if it refuses. `for_analysis`: only what stands behind it is wanted, see
-/// LatticeSink. `component`: whose functions they are; null: the host's own.
+/// component's sentence if the component refuses. `for_analysis`: only the elastic constants are
+/// needed, see LatticeSink. `component`: the owner of the functions; null: the host.
 Body build_body(const LatticeFunctions& functions, const void* lattice, bool for_analysis = false,
                 const Component* component = nullptr);
 

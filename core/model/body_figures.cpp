@@ -10,8 +10,8 @@ namespace hyperlattice {
 
 namespace {
 
-/// How far apart the lattice's planes of sites are along each axis, m: a particle stands for half
-/// of that on both sides.
+/// Returns the distance of the lattice's planes of sites along each axis, m. A particle stands for
+/// half of it on both sides.
 Vec3 between_planes(const Grid& grid) {
   const auto least = [&](double Vec3::*axis) {
     double step = 1;

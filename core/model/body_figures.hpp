@@ -1,5 +1,5 @@
-// How large a body came out, beside what its shape asks for: whole cells fill a shape only if its
-// edges are multiples of the spacing.
+// The size of a body beside that of its shape. They differ if the edges of the shape are not
+// multiples of the spacing, because the body consists of whole cells.
 #pragma once
 
 #include <model/model.hpp>
@@ -9,30 +9,32 @@
 namespace hyperlattice {
 
 struct BodyFigures {
-  Vec3 size;  ///< m, edges of the box around the body's cells, or around the particles of a list
-  bool of_particles =
-      false;  ///< the body is a list: its size is that between its outermost particles
-  bool is_centred = false;         ///< a particle stands for less than a cube of the lattice
-  std::optional<Vec3> asked_size;  ///< of the box around the shape
-  bool asked_at_most = false;      ///< that box may be larger than the shape
+  /// Edges of the box around the body's cells, or around the particles of a list, m.
+  Vec3 size;
+  /// Whether the body is a list: its size is then the box around the outermost particles.
+  bool of_particles = false;
+  bool is_centred = false;  ///< whether a particle stands for less than a cube of the lattice
+  std::optional<Vec3> asked_size;  ///< edges of the box around the shape, m
+  bool asked_at_most = false;      ///< whether that box may be larger than the shape
   double volume = 0, mass = 0;     ///< m3, kg
-  std::optional<double> asked_volume,
-      asked_mass;           ///< of a shape whose volume is known; mass: of one material
-  std::uint64_t parts = 0;  ///< bodies that no spring joins to each other
+  /// Volume, m3, and mass, kg, of the shape if its volume is known; the mass only for one material.
+  std::optional<double> asked_volume, asked_mass;
+  std::uint64_t parts = 0;  ///< number of bodies without a spring between them
 };
 
 BodyFigures body_figures(const Model& model);
 
-/// Names and values for people: size, volume, mass, bodies; those that the shape asks for beside
-/// them unless they look alike.
+/// Returns names and values as texts: size, volume, mass, number of bodies. The value of the shape
+/// follows if its text is different.
 std::vector<std::pair<std::string, std::string>> body_lines(const BodyFigures& figures);
 
-/// Warns of each axis along which the body is more than 1 % wider or narrower than its shape; if
-/// there is none, of a volume that differs by more than 2 %, which a lattice of particles between
-/// its planes may have. What a list is lies inside its shape.
+/// Returns a warning for each axis along which the body is more than 1 % wider or narrower than its
+/// shape; if there is none, for a volume that differs by more than 2 %, which can happen in
+/// lattices with particles between the planes of sites. A listed body gives no warning: its
+/// particles are inside the shape.
 std::vector<std::string> size_warnings(const BodyFigures& figures, double spacing);
 
-/// The number of sets of particles that springs join.
+/// Returns the number of sets of particles that are connected by springs.
 std::uint64_t count_parts(const Body& body);
 
 }  // namespace hyperlattice

@@ -1,4 +1,4 @@
-// The steps of build_model, and how a component's refusal becomes a fault.
+// The steps of build_model, and the faults that report what a component refuses.
 #pragma once
 
 #include <model/model.hpp>
@@ -7,40 +7,41 @@
 
 namespace hyperlattice {
 
-/// What a component said when it refused, as a fault of its stage.
+/// Returns a fault of the stage with the sentence of the component that refused.
 inline InputError refusal(const Stage& stage, const std::string& sentence) {
   return InputError({{stage.pointer, stage.component->type(),
                       "what the component accepts; it says: " + sentence}});
 }
 
-/// The same of an objection to how it was configured: a fault of the option that the sentence's
-/// first word names, if it names one.
+/// Returns the same for a component that refused its options: if the first word of the sentence is
+/// the name of an option, the fault is at this option.
 InputError objection(const Scene& scene, const Stage& stage, const std::string& sentence);
 
 inline void add_all(Faults& faults, const InputError& error) {
   for (const Fault& fault : error.faults()) faults.add(fault.pointer, fault.value, fault.expected);
 }
 
-// The steps, in their order. Each adds its faults and leaves the model usable for the next where it
-// can.
+// The steps, in their order. Each step adds its faults and, where it can, leaves a model that the
+// next step can use.
 
-/// Makes the materials and their failure criteria, and says which particle is of which.
+/// Makes the materials and their failure criteria, and assigns a material to each particle.
 void add_materials(Model& model, RegionIndex& regions, Faults& faults);
 
-/// Neighbour geometry, the springs between all materials, alarms, and which kernel is needed.
+/// Sets the geometry of the neighbours, the springs between all materials, the alarms, and the
+/// kernels.
 void set_springs(Model& model, Faults& faults);
 
-/// Springs, masses and alpha springs of each mixture, behind those of the materials.
+/// Appends the springs, masses and alpha springs of each mixture to those of the materials.
 void add_mixtures(Model& model);
 
-/// Loads, merged for each particle, with start velocities, corners and body acceleration.
+/// Makes the loads, merged for each particle, with start velocities, corners and body acceleration.
 void add_loads(Model& model, RegionIndex& regions, Faults& faults);
 
-/// Shortens the critical step to one that is stable with what the loads answer.
+/// Shortens the critical step to one that is stable with the loads that answer to the motion.
 void limit_step_by_loads(Model& model);
 
-/// The base springs with one end or both among the particles, which ascend; each once, by a, then
-/// b.
+/// Returns the base springs with one end or both among the particles, which must be ascending; each
+/// spring once, sorted by a, then b.
 std::vector<RestSpring> springs_at(const Model& model, std::span<const Particle> particles);
 
 }  // namespace hyperlattice

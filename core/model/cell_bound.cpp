@@ -1,6 +1,6 @@
-// Waves of the endless lattice do not bound those of a body of cells: at its edges and corners a
-// particle has less mass, but its springs help each other less than inside, where they pull from
-// all sides.
+// The waves of the infinite lattice give no bound for a body of cells: at edges and corners a
+// particle has less mass, while the springs, which do not pull from all sides, support each other
+// less.
 #include <model/critical_step.hpp>
 #include <numerics/symmetric_eigen.hpp>
 
@@ -15,21 +15,22 @@ using Membrane = KernelChoice::Membrane;
 
 int number(Site s) { return s.i + 2 * s.j + 4 * s.k; }
 
-/// omega^2 of the stiffest motion of one cell: its share of the springs on its share of the masses.
+/// Returns omega^2, 1/s2, of the stiffest motion of one free cell, with its share of the springs
+/// and of the masses.
 double stiffest(const Model& model, std::uint8_t material) {
   const int size = model.choice.membrane == Membrane::free ? 4 : 3;
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(corners * size, corners * size);
   Eigen::VectorXd mass(corners * size);
   const auto add = [&](int a, int b, double k, Vec3 r, double height, double length) {
-    Eigen::VectorXd growth =
-        Eigen::VectorXd::Zero(corners * size);  // of the spring's length by each displacement
+    // Derivatives of the spring's length by the displacements.
+    Eigen::VectorXd growth = Eigen::VectorXd::Zero(corners * size);
     growth.segment<3>(size * b) = Eigen::Vector3d(r.x, r.y, r.z) / length;
     growth.segment<3>(size * a) = -growth.segment<3>(size * b);
     if (size == 4) growth(size * a + 3) = growth(size * b + 3) = height / length;
     stiffness += k * growth * growth.transpose();
   };
   for (const NeighbourGeometry& n : model.neighbours) {
-    int cells = 0;  // that share a spring
+    int cells = 0;  // number of cells of a spring
     for_cells_of(n.site, [&](int, int, int) { ++cells; });
     for_cells_of(n.site, [&](int di, int dj, int dk) {
       const int a = number({-di, -dj, -dk}),

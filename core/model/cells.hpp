@@ -1,7 +1,7 @@
 // The cells whose union is a body with boundary "cells". Cell (i, j, k) spans the sites from (i, j,
-// k) to (i + 1, j + 1, k + 1): particles stand at its corners, springs are its edges and diagonals.
-// A particle or spring inside the body belongs to several cells; what counts of it at a surface is
-// the share of them that are there. See docs/theory/boundaries.md.
+// k) to (i + 1, j + 1, k + 1): its corners are particles, its edges and diagonals are springs. A
+// particle or spring inside the body belongs to several cells; at a surface its share is the
+// fraction of these cells that exist. See docs/theory/boundaries.md.
 #pragma once
 
 #include <model/sites.hpp>
@@ -13,9 +13,9 @@
 
 namespace hyperlattice {
 
-/// Calls visit(di, dj, dk) with the offset, from a site's own, of each cell that the spring from
-/// the site to a neighbour belongs to; with `to`
-/// {}: of each cell around the site. A neighbour's steps are -1, 0 or 1.
+/// Calls visit(di, dj, dk) for each cell of the spring from a site to a neighbour; with `to` {} for
+/// each cell around the site. The arguments are the offset of the cell from the cell of the site.
+/// The steps of a neighbour are -1, 0 or 1.
 template <class Visit>
 void for_cells_of(const Neighbour& to, const Visit& visit) {
   for (int dk = to.dz > 0 ? 0 : -1; dk <= (to.dz < 0 ? -1 : 0); ++dk)
@@ -23,7 +23,7 @@ void for_cells_of(const Neighbour& to, const Visit& visit) {
       for (int di = to.dx > 0 ? 0 : -1; di <= (to.dx < 0 ? -1 : 0); ++di) visit(di, dj, dk);
 }
 
-/// The share of those cells for which present(di, dj, dk) holds.
+/// Returns the fraction of those cells for which present(di, dj, dk) holds.
 template <class Present>
 double share_of_cells(const Neighbour& to, const Present& present) {
   int all = 0, there = 0;
@@ -37,20 +37,22 @@ double share_of_cells(const Neighbour& to, const Present& present) {
 class Cells {
  public:
   Cells() = default;
-  /// Runs in the order z, y, x, and the first run of each row [k * rows + j], with one more entry
-  /// at the end.
+  /// Takes the runs in the order z, y, x, and the first run of each row [k * rows + j], with one
+  /// more entry at the end.
   Cells(std::vector<Run> runs, std::vector<std::size_t> row_runs, std::int32_t rows);
 
   bool empty() const { return runs_.empty(); }
   std::uint64_t count() const { return count_; }
   std::span<const Run> runs() const { return runs_; }
-  std::span<const Run> row(std::int32_t j, std::int32_t k) const;  ///< none outside the box
+  /// Returns the runs of a row; none outside the box.
+  std::span<const Run> row(std::int32_t j, std::int32_t k) const;
   bool holds(Site cell) const { return at(cell) != ~Particle{0}; }
-  Particle at(Site cell) const;  ///< its place in the order of runs(); ~0: there is none
+  /// Returns the index of a cell in the order of runs(); ~0 if the cell does not exist.
+  Particle at(Site cell) const;
 
-  double share(Site site, const Neighbour& to = {})
-      const;  ///< of a spring, or with `to` {} of the particle at the site
-  /// Sites of row (j, k) where that share is not nothing, ascending and apart.
+  /// Returns the share of a spring; with `to` {} that of the particle at the site.
+  double share(Site site, const Neighbour& to = {}) const;
+  /// Returns the sites of row (j, k) with a share above 0, ascending and disjoint.
   std::vector<Range> sites(std::int32_t j, std::int32_t k, const Neighbour& to = {}) const;
 
  private:

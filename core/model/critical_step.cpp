@@ -24,8 +24,8 @@ InfiniteLattice lattice_of(const Model& model, std::size_t material) {
           model.body.grid.basis};
 }
 
-/// A particle's material, and those of its neighbours on both sides; absent neighbours count as
-/// more of its own, which is on the safe side.
+/// The material of a particle and those of its neighbours on both sides. Absent neighbours count as
+/// neighbours of the same material, which is on the safe side.
 using Environment = std::array<std::uint8_t, 1 + 2 * max_neighbours>;
 
 Environment uniform(std::uint8_t material) {
@@ -50,8 +50,9 @@ double bound(const Model& model, const Environment& environment) {
   return sum.value();
 }
 
-/// Every environment that occurs, with one particle that has it. Most particles are surrounded by
-/// their own material and are passed over.
+/// Returns every environment that occurs, each with one particle that has it. Most particles have
+/// neighbours of their own material only; these have one entry for each material, without a
+/// particle.
 std::map<Environment, Particle> environments(const Model& model) {
   std::map<Environment, Particle> found;
   for (std::size_t material = 0; material < model.materials.size(); ++material)
@@ -77,7 +78,8 @@ std::map<Environment, Particle> environments(const Model& model) {
 
 double step_of(double stiffness, double mass) { return 2 / std::sqrt(stiffness / mass); }
 
-/// Waves say nothing of a list; the springs of each particle do.
+/// Sets the critical step of a listed body. A list has no plane waves, so the springs of each
+/// particle give a bound.
 void find_critical_step_of_list(Model& model, Faults& faults) {
   const ListedBound bound = listed_bound(model);
   const Stage& stage = *model.materials.front().stage;
@@ -106,8 +108,8 @@ bool has_negative_springs(const InfiniteLattice& lattice) {
                      [](const SpringConstants& spring) { return spring.cross_stiffness < 0; });
 }
 
-/// For a material by itself. Waves that grow limit no step; if all do, springs of the opposite sign
-/// stand for them.
+/// Sets the critical step of one material alone. Waves that grow do not limit the step. If all
+/// waves grow, a bound with the absolute stiffnesses replaces them.
 void limit_step(Model& model, std::size_t n, const InfiniteLattice& lattice, bool unstable) {
   Material& material = model.materials[n];
   const Wave wave = stiffest_wave(lattice);
@@ -122,7 +124,7 @@ void limit_step(Model& model, std::size_t n, const InfiniteLattice& lattice, boo
   model.critical_time_step = material.critical_time_step = step_of(stiffness, material.mass);
 }
 
-/// What laws that do more than elastic springs leave of it.
+/// Shortens the critical step to the stable step of laws that are not purely elastic.
 void limit_by_laws(Model& model) {
   const double elastic = model.critical_time_step;
   for (const Material& material : model.materials) {

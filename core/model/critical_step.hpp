@@ -1,18 +1,18 @@
-// Stability and the critical time step of central differences, 2 / omega_max, from the lattice's
-// waves.
+// Stability and the critical time step of central differences, 2 / omega_max, from the waves of the
+// lattice.
 #pragma once
 
 #include <model/waves.hpp>
 
 namespace hyperlattice {
 
-/// Bound of m omega^2 for any body of springs: twice the largest eigenvalue of the sum of |k| n n^T
-/// over the springs of a particle, n in four dimensions. It holds because (n.a - n.b)^2 <= 2
-/// (n.a)^2 + 2 (n.b)^2 for every spring.
+/// Upper bound of m omega^2 for any body of springs: twice the largest eigenvalue of the sum of |k|
+/// n n^T over the springs of a particle, with unit vectors n in four dimensions. It holds because
+/// (n.a - n.b)^2 <= 2 (n.a)^2 + 2 (n.b)^2 for every spring.
 class StiffnessBound {
  public:
-  /// Adds the springs from the particle to a neighbour: side 1, or to the one on the opposite side:
-  /// side -1.
+  /// Adds the base spring and the cross springs from the particle to a neighbour (side 1) or to the
+  /// neighbour on the opposite side (side -1).
   void add(const NeighbourGeometry& neighbour, int side, const SpringConstants& spring,
            double membrane_distance, KernelChoice::Membrane membrane);
   void add_alpha(double alpha);  ///< N/m
@@ -22,12 +22,12 @@ class StiffnessBound {
   double sum_[10] = {};  // lower triangle of the 4 x 4 matrix, by rows
 };
 
-/// Bound of omega^2 for a body of cells. Its stiffness and its mass are sums over its cells, so
-/// that for any motion u.K.u / u.M.u is at most the largest of its cells' own: those of a cell that
-/// moves alone. Exact for a body of one cell.
+/// Returns an upper bound of omega^2, 1/s2, for a body of cells. Stiffness and mass are sums over
+/// the cells, so for any motion u.K.u / u.M.u is at most the largest value of a single free cell.
+/// The bound is exact for a body of one cell.
 double cell_bound(const Model& model);
 
-/// Bound of omega^2 for a listed body: the largest of its particles' StiffnessBound over their
+/// Upper bound of omega^2 for a listed body: the largest StiffnessBound of a particle over its
 /// mass.
 struct ListedBound {
   double square = 0;  ///< omega^2, 1/s2
@@ -36,8 +36,9 @@ struct ListedBound {
 };
 ListedBound listed_bound(const Model& model);
 
-/// Sets the model's critical time step and what limits it: exact for one material and whole
-/// particles, a safe bound otherwise. A fault for each unstable material.
+/// Sets the model's critical time step and the sentence about what limits it: exact for one
+/// material and whole particles, a safe bound otherwise. Adds a fault for each unstable material,
+/// unless the scene allows unstable ones.
 void find_critical_step(Model& model, Faults& faults);
 
 }  // namespace hyperlattice

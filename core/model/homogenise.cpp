@@ -1,9 +1,9 @@
-// A spring with rest vector R grows by (R.e.R + R.(u_b - u_a)) / |R| under the uniform strain e and
-// the particles' own displacements u; a cross spring by (R.e.R + R.(u_b - u_a) + Delta (h_a + h_b))
-// / sqrt(R^2 + Delta^2), h the heights over the mirror plane's rest. The energy
+// The elongation of a spring with rest vector R under the uniform strain e and the displacements u
+// of the particles relative to it is (R.e.R + R.(u_b - u_a)) / |R|; that of a cross spring is
+// (R.e.R + R.(u_b - u_a) + Delta (h_a + h_b)) / sqrt(R^2 + Delta^2), with the heights h. The energy
 //   V e.C.e / 2 = e.A.e / 2 - f(e).u + u.K.u / 2
-// is least where K u = f(e), which conjugate gradients find for each of six strains; there C = (A -
-// f.u) / V.
+// has its minimum where K u = f(e). Conjugate gradients solve this for six strains; then
+//   C = (A - f.u) / V.
 #include <model/homogenise.hpp>
 
 #include <Eigen/Dense>
@@ -17,16 +17,17 @@ namespace {
 constexpr int strains = 6;  // xx, yy, zz, 2 yz, 2 xz, 2 xy
 using Strains = Eigen::Matrix<double, strains, 1>;
 using Stiffness = Eigen::Matrix<double, strains, strains>;
-using Field = Eigen::Matrix<double, Eigen::Dynamic, strains,
-                            Eigen::RowMajor>;  ///< a row a degree of freedom, a column a strain
+/// One row for each degree of freedom, one column for each strain.
+using Field = Eigen::Matrix<double, Eigen::Dynamic, strains, Eigen::RowMajor>;
 
-/// A spring of a pair of particles: how its length grows.
+/// The elongation of one spring as a linear function of the strain and of the displacements.
 struct Growth {
   std::uint32_t a = 0, b = 0;
   double stiffness = 0;
   Strains by_strain;
-  double by_b[4] = {};  ///< by b's displacement x y z and height; a's displacement is opposite, its
-                        ///< height counts alike
+  /// Derivatives by b's displacement x, y, z and height. Those by a's displacement have the
+  /// opposite sign, the one by a's height is the same.
+  double by_b[4] = {};
 };
 
 class Sample {
@@ -44,16 +45,18 @@ class Sample {
     common_stiffness_ += 2 * alpha * particles_;
   }
 
-  /// Times the volume; all particles strained alike, with one height for all.
+  /// Returns the elastic constants times the volume, J, for equal strain of all particles and one
+  /// height of all.
   Stiffness strained_alike() const {
     if (common_stiffness_ == 0) return affine_;
     return affine_ - common_load_ * common_load_.transpose() / common_stiffness_;
   }
 
-  /// Times the volume; each particle at its own rest, which conjugate gradients find for all
-  /// strains at once.
+  /// Returns the elastic constants times the volume, J, with each particle at rest. Conjugate
+  /// gradients solve for all strains at once.
   Stiffness relaxed() const {
-    constexpr double tolerance = 1e-8;  // of the load; its square is about the error of the energy
+    // Relative to the load. The relative error of the energy is about the square of it.
+    constexpr double tolerance = 1e-8;
     constexpr int most = 20000;
     const Field load = this->load();
     const Eigen::VectorXd inverse = diagonal().cwiseInverse();
@@ -80,11 +83,11 @@ class Sample {
   }
 
  private:
-  /// Scalar products, column by column.
+  /// Returns the scalar products of corresponding columns.
   static Strains columns(const Field& a, const Field& b) {
     return a.cwiseProduct(b).colwise().sum().transpose();
   }
-  /// 0 where there is nothing left to do.
+  /// Returns a / b, and 0 for columns with b = 0, which have converged.
   static Strains ratio(const Strains& a, const Strains& b) {
     return (b.array() != 0).select(a.array() / b.array(), 0.0).matrix();
   }
@@ -92,7 +95,8 @@ class Sample {
   Eigen::Index at(std::uint32_t particle) const {
     return static_cast<Eigen::Index>(particle) * components_;
   }
-  /// Adds to the rows of both ends what a row vector pulls along the spring.
+  /// Adds the generalised forces of a spring to the rows of both ends; `pull`: one force for each
+  /// strain.
   template <class Pull>
   void spread(Field& field, const Growth& growth, const Pull& pull) const {
     for (int c = 0; c < components_; ++c) {
@@ -130,7 +134,7 @@ class Sample {
           sum(at(end) + c) += growth.stiffness * growth.by_b[c] * growth.by_b[c];
     for (std::uint32_t p = 0; components_ == 4 && p < particles_; ++p) sum(at(p) + 3) += 2 * alpha_;
     for (double& value : sum)
-      if (value == 0) value = 1;  // a particle that nothing holds
+      if (value == 0) value = 1;  // a degree of freedom that no spring holds
     return sum;
   }
 
@@ -152,7 +156,7 @@ Growth growth_of(std::uint32_t a, std::uint32_t b, Vec3 rest, double length, dou
   return growth;
 }
 
-/// The isotropic constants nearest to these in Voigt's sense.
+/// Returns the isotropic constants by Voigt's means.
 ElasticConstants isotropic(const Stiffness& c) {
   const double C11 = (c(0, 0) + c(1, 1) + c(2, 2)) / 3, C12 = (c(0, 1) + c(0, 2) + c(1, 2)) / 3,
                C44 = (c(3, 3) + c(4, 4) + c(5, 5)) / 3;

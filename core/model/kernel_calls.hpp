@@ -1,5 +1,5 @@
-// Calls of the functions of a model's law. Each throws OutsideError, naming the material's plugin,
-// if the law throws.
+// Calls of the functions of a model's law. Each function throws OutsideError with the name of the
+// material's plugin if the law throws.
 #pragma once
 
 #include <model/model.hpp>
@@ -7,14 +7,14 @@
 
 namespace hyperlattice {
 
-/// `kernel`: one of the model's step, step_damped, measure.
+/// Calls a kernel. `kernel`: one of step, step_damped and measure of model.kernels.
 inline void call_kernel(const Model& model, decltype(KernelSet::step) kernel,
                         const KernelRequest& request) {
   call(*model.materials.front().stage, "kernel",
        [&](const Complaint& why) { return kernel(request, why); });
 }
 
-/// Forces and tangents of a row of springs; returns their energy, J.
+/// Computes the forces and tangents of a row of springs. Returns their energy, J.
 inline double linearise_springs(const Model& model, const SpringRow& row) {
   double energy = 0;
   call(*model.materials.front().stage, "force",
@@ -22,7 +22,7 @@ inline double linearise_springs(const Model& model, const SpringRow& row) {
   return energy;
 }
 
-/// Force and energy of one spring as it is.
+/// Returns the force, N, and energy, J, of one spring in its present state.
 inline SpringAnswer ask_spring(const Model& model, const OneSpring& spring) {
   SpringAnswer answer;
   call(*model.materials.front().stage, "force",
@@ -30,7 +30,8 @@ inline SpringAnswer ask_spring(const Model& model, const OneSpring& spring) {
   return answer;
 }
 
-/// The same after a step of that many seconds; `kept`: its memory, which becomes that of now.
+/// Returns the same after a step of `time_step` seconds. `kept`: in: memory of the spring before
+/// the step; out: after it.
 inline SpringAnswer take_spring(const Model& model, const OneSpring& spring, double time_step,
                                 double* kept) {
   SpringAnswer answer;
@@ -40,7 +41,7 @@ inline SpringAnswer take_spring(const Model& model, const OneSpring& spring, dou
   return answer;
 }
 
-/// Sets what a spring keeps at first. `law`: its constants.
+/// Sets the start values of a spring's memory `kept`. `law`: the constants of the spring.
 inline void start_spring(const Model& model, const double* law, const SpringIdentity& spring,
                          double* kept) {
   if (model.kernels.start == nullptr) return;

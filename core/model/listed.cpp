@@ -44,7 +44,7 @@ void check_spring(const ListedSpring& spring, Vec3 rest, std::size_t particles) 
     throw std::invalid_argument(which + " has no stiffness");
 }
 
-/// The particles along slabs and strips.
+/// Returns the particles sorted by slabs and strips.
 std::vector<std::uint64_t> along_strips(const PointList& points) {
   struct Key {
     double slab, strip, x;
@@ -57,7 +57,7 @@ std::vector<std::uint64_t> along_strips(const PointList& points) {
   keys.reserve(points.positions.size());
   for (std::size_t n = 0; n < points.positions.size(); ++n) {
     const Vec3 x = (1 / points.spacing) * (points.positions[n] - low);
-    constexpr double rounding = 1e-6;  // particles that lie in planes of the spacing stay together
+    constexpr double rounding = 1e-6;  // keeps particles in planes of the spacing together
     keys.push_back({std::floor(x.z + rounding), std::floor(x.y + rounding), x.x, n});
   }
   std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
@@ -72,7 +72,7 @@ std::vector<std::uint64_t> along_strips(const PointList& points) {
   return order;
 }
 
-/// Each stretch of the order by number of springs, most first.
+/// Sorts each stretch of the order by number of springs, descending.
 void sort_stretches(std::vector<std::uint64_t>& order, const PointList& points) {
   std::vector<std::uint32_t> springs(order.size(), 0);
   for (const ListedSpring& spring : points.springs)

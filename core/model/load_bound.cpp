@@ -1,12 +1,11 @@
-// The stable step with loads that answer to the motion. If the answers change with displacement by
-// at most c and with velocity by at most d on a particle of mass m, central differences with the
-// velocity of half a step before are stable while
-//
-//   M - dt D / 2 - dt^2 (K + C) / 4 > 0,   which  1 > dt max(d / m) / 2 + dt^2 (omega_max^2 + max(c
-//   / m)) / 4  ensures:
-//
-// with a velocity of the step's middle in place of the one before, M - dt D / 2 stands for the
-// mass.
+// Stable time step with loads that answer to the motion. On a particle of mass m the answer has at
+// most the derivative c by displacement and d by velocity. Central differences, which use the
+// velocity of half a step before, are stable while
+//   M - dt D / 2 - dt^2 (K + C) / 4 > 0,
+// and this holds if
+//   1 > dt max(d / m) / 2 + dt^2 (omega_max^2 + max(c / m)) / 4.
+// The reason: with the velocity of the step's middle in place of the one before, M - dt D / 2
+// replaces the mass.
 #include <model/build.hpp>
 
 #include <spdlog/fmt/fmt.h>

@@ -1,5 +1,5 @@
-// A load's factor of time over an interval. Corners cut the interval into pieces; in each the
-// factor is smooth and is taken at points inside, never at a corner itself, where it may jump.
+// Means and integrals of a load factor over an interval. Corners cut the interval into pieces.
+// Inside a piece the factor is smooth; it is never evaluated at a corner itself, where it may jump.
 #include <model/model.hpp>
 
 #include <boost/math/quadrature/gauss.hpp>
@@ -12,8 +12,9 @@ namespace hyperlattice {
 
 namespace {
 
-/// By Gauss's rule with an odd number of points. Exact for constants to the last bit: the mean is
-/// the middle value and weighted differences from it.
+/// Returns the mean over a piece by Gauss quadrature with an odd number of points. The result is
+/// exact for constants to the last bit, because it is the middle value plus weighted differences
+/// from it.
 template <unsigned points>
 double mean_of_piece(const Load& load, double from, double to) {
   using Gauss = boost::math::quadrature::gauss<double, points>;
@@ -54,7 +55,7 @@ double Load::mean(double from, double to) const {
   double first = 0, differences = 0;
   bool any = false;
   for_pieces(corners, from, to, [&](double begin, double end) {
-    const double piece = mean_of_piece<15>(*this, begin, end);  // it may be a whole pulse
+    const double piece = mean_of_piece<15>(*this, begin, end);  // a piece may be a whole pulse
     if (!any) first = piece;
     any = true;
     differences += (end - begin) * (piece - first);
@@ -67,8 +68,9 @@ double Load::integral(double from, double to) const {
   double sum = 0;
   for_pieces(corners, from, to, [&](double begin, double end) {
     constexpr unsigned halvings = 12;
-    constexpr double tolerance = 1e-9;  // of the difference of two rules, the better of which errs
-                                        // far less; time itself is known to little more
+    // Relative to the difference of two rules; the better rule has a far smaller error. Time itself
+    // has little more accuracy.
+    constexpr double tolerance = 1e-9;
     sum += boost::math::quadrature::gauss_kronrod<double, 15>::integrate(
         [this](double time) { return factor(time); }, begin, end, halvings, tolerance);
   });
@@ -76,13 +78,13 @@ double Load::integral(double from, double to) const {
 }
 
 Load::Limit Load::limit(double time, double reach) const {
-  const double nearby = 1e-6 * std::abs(reach);  // a corner that is nearer is at `time`
+  const double nearby = 1e-6 * std::abs(reach);  // a nearer corner is at `time`
   const auto from = std::lower_bound(corners.begin(), corners.end(), time - nearby);
   const auto to = std::upper_bound(from, corners.end(), time + nearby);
   if (reach > 0 && to != corners.end()) reach = std::min(reach, *to - time);
   if (reach < 0 && from != corners.begin()) reach = std::max(reach, *std::prev(from) - time);
   const double apart = reach / 4, a = factor(time + apart), b = factor(time + 2 * apart),
-               c = factor(time + 3 * apart);  // on a parabola
+               c = factor(time + 3 * apart);  // three points of a parabola
   const double value = from == to ? factor(time) : a + 2 * (a - b) + (c - b);
   return {value, (2.5 * (b - a) + 1.5 * (b - c)) / apart};
 }

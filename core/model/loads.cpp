@@ -20,13 +20,13 @@ bool is_finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std:
 
 std::string axis_names(Axes axes) { return std::string(axis_set_names[axes - 1]); }
 
-/// The body as one load sees it; remembers a region that turned out empty.
+/// The body as one load sees it. It stores the id of a region that turned out to be empty.
 struct View {
   const Model& model;
   RegionIndex& regions;
   std::optional<RegionId> empty;
   std::map<std::uint32_t, std::vector<RestSpring>> springs;
-  bool springs_unknown = false;  ///< they were asked for, but the materials have faults
+  bool springs_unknown = false;  ///< springs were asked for, but the materials have faults
 
   std::span<const Particle> particles(RegionId region) {
     const std::span<const Particle> found = regions.particles(region);
@@ -40,7 +40,7 @@ struct View {
     return particle;
   }
 
-  /// Answers the load, which gets `otherwise` if the answer fails.
+  /// Calls `code` and returns its result to the load, or `otherwise` if `code` throws.
   template <class Result, class Code>
   static Result answer(void* self, Result otherwise, Code&& code) noexcept {
     return PluginCall::answer(otherwise,
@@ -62,10 +62,8 @@ struct View {
     };
     seen.particle_mass = [](void* self, Particle particle) noexcept {
       return answer(self, 0.0, [&](View& view) {
-        return view.model.masses.empty()
-                   ? 0
-                   : view.model.mass(view.existing(
-                         particle));  // none only if the materials have faults: nothing runs
+        // Masses are missing only if the materials have faults; then nothing runs.
+        return view.model.masses.empty() ? 0 : view.model.mass(view.existing(particle));
       });
     };
     seen.particle_share = [](void* self, Particle particle) noexcept {
@@ -98,7 +96,7 @@ struct View {
   }
 };
 
-/// Takes what one load declares, merged for each particle.
+/// Receives the declarations of one load and merges them for each particle.
 struct Collector {
   const Body& body;
   std::unordered_map<Particle, LoadedParticle> particles{};
@@ -109,8 +107,8 @@ struct Collector {
   double frequency = 0;
   Vec3 acceleration{};
   std::vector<std::string> warnings{};
-  std::uint64_t warned = 0;  ///< more than are kept
-  std::string fault{};       ///< of what the load handed over
+  std::uint64_t warned = 0;  ///< number of warnings, including those that are not kept
+  std::string fault{};       ///< first fault in the declarations
 
   LoadedParticle& at(Particle particle, Vec3 amplitude) {
     if (particle >= body.particles)
@@ -133,8 +131,8 @@ struct Collector {
     if (axes & 4U) value.z = amplitude.z;
   }
 
-  /// What the load hands over that cannot be used is its fault: the first one is told, and what
-  /// follows is not taken.
+  /// Runs one call of the load. The first invalid value is stored as the fault, and later calls are
+  /// ignored.
   template <class Code>
   static void take(void* self, Code&& code) noexcept {
     auto& collector = *static_cast<Collector*>(self);

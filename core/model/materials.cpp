@@ -11,16 +11,15 @@ namespace {
 
 constexpr std::uint8_t no_material = 255;
 
-/// Base springs of a class, in whole ones.
+/// Returns the number of base springs of a class, the sum of their shares.
 double whole_springs(const Body& body, std::uint32_t spring_class) {
   if (body.cells.empty()) return static_cast<double>(body.springs[spring_class]);
   const auto of_class = [spring_class](const Neighbour& to) {
     return to.spring_class == spring_class;
   };
   const auto neighbours = std::count_if(body.neighbours.begin(), body.neighbours.end(), of_class);
-  return static_cast<double>(neighbours) *
-         static_cast<double>(
-             body.cells.count());  // a cell's shares sum to one spring to each neighbour
+  // The shares of one cell sum to one spring to each neighbour.
+  return static_cast<double>(neighbours) * static_cast<double>(body.cells.count());
 }
 
 LatticeFacts facts_of(const Model& model, const LatticeGeometry& geometry) {
@@ -28,14 +27,14 @@ LatticeFacts facts_of(const Model& model, const LatticeGeometry& geometry) {
   LatticeFacts facts = facts_of(geometry);
   facts.neighbours = body.neighbours;
   facts.allow_unstable = model.scene->allow_unstable;
-  facts.particles = body.cells.empty() ? body.particles
-                                       : body.cells.count();  // a cell's shares sum to one particle
+  // The shares of one cell sum to one particle.
+  facts.particles = body.cells.empty() ? body.particles : body.cells.count();
   for (std::uint32_t c = 0; c < facts.spring_classes; ++c)
     for (const NeighbourGeometry& n : geometry.neighbours)
       if (n.site.spring_class == c) {
         facts.squared_lengths +=
             facts.class_stiffness[c] * whole_springs(body, c) * n.rest_length * n.rest_length;
-        break;  // all of a class are of one length
+        break;  // all springs of a class have one length
       }
   if (!body.is_listed()) return facts;
   facts.particles =
@@ -49,7 +48,8 @@ LatticeFacts facts_of(const Model& model, const LatticeGeometry& geometry) {
   return facts;
 }
 
-/// What the core counts on. A law's own constants may be infinite: a limit that is never reached.
+/// Throws InputError if a constant of the material has no valid value. Constants of the law may be
+/// infinite: a limit that is never reached.
 void check_constants(const Stage& stage, const MaterialConstants& constants) {
   if (!(constants.density > 0 && constants.base_stiffness > 0 && std::isfinite(constants.density) &&
         std::isfinite(constants.base_stiffness)))
@@ -65,7 +65,8 @@ void check_constants(const Stage& stage, const MaterialConstants& constants) {
         stage, "the stiffness of its cross springs or a constant of its law came out as no number");
 }
 
-/// What else there is to say of a Poisson ratio that a random body does not reach.
+/// Returns an addition to the error about a Poisson ratio that a random body does not reach; empty
+/// for other errors.
 std::string reach_of_sample(const Body& body, const std::string& sentence) {
   if (body.listed.sample_particles == 0 || !sentence.starts_with("poisson ")) return "";
   const double mean =
@@ -100,7 +101,8 @@ Material make_material(const Model& model, const Stage& stage, const LatticeFact
   return material;
 }
 
-/// Materials of one body share their kernels, so they need one law.
+/// Adds a fault for each material with another law than the first: the materials of a body share
+/// their kernels.
 void check_laws(const std::vector<Material>& materials, Faults& faults) {
   const std::string_view law = materials[0].stage->functions<MaterialFunctions>().law;
   for (const Material& material : materials) {
@@ -113,14 +115,14 @@ void check_laws(const std::vector<Material>& materials, Faults& faults) {
   }
 }
 
-/// Says of which material each particle is, or each cell of a body of cells. Later stages take over
-/// what earlier ones had.
+/// Assigns a material to each particle, or to each cell of a body of cells. A later stage overrides
+/// earlier ones.
 void assign(Model& model, RegionIndex& regions, Faults& faults) {
   const auto has_all = [&](const Material& material) {
     return model.scene->regions[material.stage->region].kind == Region::Kind::all;
   };
   if (model.materials.size() == 1 && has_all(model.materials[0]))
-    return;  // nobody asks which particles these are, not even in a large body
+    return;  // not needed, and expensive in a large body
   const bool of_cells = !model.body.cells.empty();
   const char* member = of_cells ? "cell" : "particle";
   std::vector<std::uint8_t> material_of(of_cells ? model.body.cells.count() : model.body.particles,

@@ -1,10 +1,10 @@
-// What a region means in terms of points and faces, whatever these are in a body. `Places` answers
-// for one kind of body:
-//   Point, Face                                         a particle; an open piece of the surface
-//   bool in_solid(region, point), has_face(region, point), is_outermost(point, direction)
-//   bool is_open(region, face)                          whether the face is open to the side that
-//   the region means void for_points(face, visit)                        the particles that the
-//   face belongs to
+// The points and faces of a region, for any kind of body. `Places` describes one kind of body:
+//   Point, Face: a particle (or cell); an open face of the surface
+//   bool in_solid(region, point): whether the point is in the solid
+//   bool has_face(region, point): whether the point has a face for which is_open() holds
+//   bool is_outermost(point, direction): whether the point is outermost in the direction
+//   bool is_open(region, face): whether the face is open to the side of the region
+//   void for_points(face, visit): calls visit(point) for each point of the face
 #pragma once
 
 #include <geometry/region.hpp>
@@ -45,7 +45,8 @@ class Meaning {
     return false;
   }
 
-  /// Whether the region means the open face.
+  /// Returns whether the open face is part of the region. A region without parts has the face if it
+  /// holds all points of it and the face is open to the side of the region.
   bool means(const Region& region, const Face& face) const {
     const auto part_means = [&](const auto& part) { return means(*part, face); };
     const auto part_holds = [&](const auto& part) { return holds_all(*part, face); };

@@ -1,4 +1,4 @@
-// What the regions of a scene mean for a body on a cubic grid: particles and faces of cells.
+// The particles, cells and faces of a region in a body on a cubic grid.
 #include <model/meaning.hpp>
 #include <model/surfaces.hpp>
 
@@ -8,7 +8,7 @@ namespace hyperlattice {
 
 namespace {
 
-/// A body's sites and the faces of its cells.
+/// The sites of a body and the faces of its cells, see meaning.hpp.
 struct Sites {
   using Point = Site;
   struct Face {
@@ -24,7 +24,7 @@ struct Sites {
                               : touches(region, body.position(particle));
   }
 
-  /// Whether the face is open to the side that the region means.
+  /// Returns whether the face is open to the side of the region.
   bool is_open(const Region& region, const Face& face) const {
     const auto among = [&](OpenFaces open) { return (open >> face.direction & 1U) != 0; };
     switch (region.kind) {
@@ -39,14 +39,14 @@ struct Sites {
     }
   }
 
-  /// Calls visit(site) for each particle that the face belongs to: its corners, or the one whose
-  /// cell it is.
+  /// Calls visit(site) for each particle of the face: its four corners, or the particle in the
+  /// middle of the cell.
   template <class Visit>
   void for_points(const Face& face, const Visit& visit) const {
     const Site cell = face.cell;
     if (body.cells.empty()) return visit(cell);
-    const auto corner = [&](int axis, int along,
-                            int across) {  // 0 or 1 cells from the low corner, along one axis
+    // Returns the offset of a corner from the low corner of the cell along one axis, 0 or 1 cells.
+    const auto corner = [&](int axis, int along, int across) {
       return axis == face.direction / 2             ? face.direction % 2
              : axis == (face.direction / 2 + 1) % 3 ? along
                                                     : across;
@@ -57,7 +57,7 @@ struct Sites {
                    cell.k + corner(2, along, across)});
   }
 
-  /// Whether a face that belongs to the particle is open to the side that the region means.
+  /// Returns whether a face of the particle is open to the side of the region.
   bool has_face(const Region& region, Site particle) const {
     const auto any_open = [&](Site cell, auto&& touched) {
       for (int direction = 0; direction < 6; ++direction)
@@ -68,8 +68,9 @@ struct Sites {
     bool found = false;
     for_cells_of({}, [&](int di, int dj, int dk) {
       const Site cell{particle.i + di, particle.j + dj, particle.k + dk};
-      const int offset[3] = {di, dj,
-                             dk};  // of a cell below the particle, that is at the cell's upper face
+      // If the cell is below the particle (offset -1), the particle is at the upper face of the
+      // cell.
+      const int offset[3] = {di, dj, dk};
       found = found || (body.cells.holds(cell) && any_open(cell, [&](int direction) {
                           return (direction % 2 == 1) == (offset[direction / 2] < 0);
                         }));
@@ -77,7 +78,7 @@ struct Sites {
     return found;
   }
 
-  /// Whether the solid holds the point or one near to it.
+  /// Returns whether the point, or one within round-off of it, is in the solid.
   bool touches(const Region& solid, Vec3 point) const {
     const double rounding = 1e-6 * body.grid.spacing;
     const Vec3 low = solid.low - point, high = solid.high - point;
@@ -99,7 +100,7 @@ struct Sites {
   }
 };
 
-/// The cells of a body, each at its centre.
+/// The cells of a body as points at their centres, see meaning.hpp.
 struct Centres {
   using Point = Site;
   using Face = Sites::Face;

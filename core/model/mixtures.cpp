@@ -54,8 +54,8 @@ double Mixtures::bytes() const {
 
 namespace {
 
-/// Constants of the springs that are the mean of cells of these materials. The weakest material
-/// says when they break.
+/// Returns the mean of the springs of these cells' materials. The lowest alarm of them decides when
+/// the spring is checked for failure.
 SpringConstants mean_spring(const Model& model, const std::vector<std::uint8_t>& cells,
                             std::uint32_t spring_class) {
   const double part = 1 / static_cast<double>(cells.size());
@@ -78,14 +78,14 @@ void add_mixtures(Model& model) {
   const auto mixtures = static_cast<std::uint32_t>(model.mixtures.count()),
              materials = static_cast<std::uint32_t>(model.materials.size());
   std::map<std::pair<std::uint32_t, std::vector<std::uint8_t>>, std::uint32_t>
-      known;  // by class and materials
+      known;  // key: spring class and materials
   std::vector<std::uint8_t> cells;
   for (std::uint32_t mixture = 0; mixture < mixtures; ++mixture) {
     for (const Neighbour& to : model.body.neighbours) {
       cells.clear();
       model.mixtures.for_cells(mixture, to,
                                [&](std::uint8_t material) { cells.push_back(material); });
-      std::sort(cells.begin(), cells.end());  // sums do not depend on where a cell is
+      std::sort(cells.begin(), cells.end());  // makes sums independent of the order of the cells
       const std::uint8_t first = cells.empty() ? std::uint8_t{0} : cells.front();
       std::uint32_t place =
           (first * materials + first) * model.body.grid.spring_classes + to.spring_class;

@@ -1,7 +1,7 @@
-// Bodies of cells of several materials. A cell is of the material at its centre; a particle or a
-// spring is the mean of the cells that it belongs to, so that the body is the sum of its cells.
-// What the cells around a particle are of, its mixture, says what its mass is and which springs it
-// has.
+// Bodies of cells of several materials. A cell has the material at its centre; a particle or spring
+// is the mean of its cells, so that the body is the sum of its cells. A mixture is the list of
+// materials of the cells around a particle. It sets the particle's mass and the constants of its
+// springs.
 #pragma once
 
 #include <model/body.hpp>
@@ -13,7 +13,7 @@
 
 namespace hyperlattice {
 
-/// The materials that a spring is made of, each once.
+/// The materials of a spring, each once.
 class SpringMaterials {
  public:
   void add(std::uint8_t material) {
@@ -23,31 +23,32 @@ class SpringMaterials {
   const std::uint8_t* end() const { return materials_.data() + count_; }
 
  private:
-  std::array<std::uint8_t, 4> materials_{};  // a spring is of four cells at most
+  std::array<std::uint8_t, 4> materials_{};  // a spring belongs to at most four cells
   std::size_t count_ = 0;
 };
 
 class Mixtures {
  public:
   static constexpr std::uint8_t no_cell = 255;
-  using Around = std::array<std::uint8_t, 8>;  ///< materials of the cells around a particle, x
-                                               ///< fastest; no_cell where none is
+  /// Materials of the cells around a particle, x fastest; no_cell where there is no cell.
+  using Around = std::array<std::uint8_t, 8>;
 
   Mixtures() = default;
-  /// `material_of`: of each cell, in the order of the body's runs of cells.
+  /// `material_of`: the material of each cell, in the order of the body's runs of cells.
   Mixtures(const Body& body, std::span<const std::uint8_t> material_of, std::size_t materials);
 
   bool empty() const { return of_particle_.empty(); }
   std::size_t count() const { return around_.size(); }
-  /// The first mixtures are of one material alone, in the order of the materials.
+  /// Returns the mixture of a particle. The first mixtures have one material each, in the order of
+  /// the materials.
   std::uint32_t of(Particle particle) const { return of_particle_[particle]; }
   const Around& around(std::uint32_t mixture) const { return around_[mixture]; }
-  std::uint8_t commonest(std::uint32_t mixture)
-      const;  ///< the material that most of its cells are of; of equals the first
+  /// Returns the material of most cells of a mixture; among equals the one with the smallest index.
+  std::uint8_t commonest(std::uint32_t mixture) const;
   double bytes() const;
 
-  /// Calls visit(material) for each cell that is there of the spring to a neighbour; with `to` {}:
-  /// for each around the particle.
+  /// Calls visit(material) for each existing cell of the spring to a neighbour; with `to` {} for
+  /// each existing cell around the particle.
   template <class Visit>
   void for_cells(std::uint32_t mixture, const Neighbour& to, const Visit& visit) const {
     for_cells_of(to, [&](int di, int dj, int dk) {

@@ -34,8 +34,8 @@ std::span<const Particle> Nearby::particles(Cell cell) const {
   return {sorted_.data() + first_[number], sorted_.data() + first_[number + 1]};
 }
 
-/// Shell by shell of cells, until none farther out can hold a nearer one. Of several as near, the
-/// first in the particles' order.
+/// Searches shells of cells until no farther shell can hold a nearer particle. Among equally near
+/// particles it returns the first in the order of the particles.
 Nearby::Found Nearby::nearest(Vec3 point) const {
   const Cell centre = cell_of(point);
   const auto beyond = [](std::int64_t at, std::int64_t size) {

@@ -1,4 +1,5 @@
-// The particle nearest to a point: particles sorted into the cells of a coarse grid.
+// Search for the particle nearest to a point: the particles are sorted into the cells of a coarse
+// grid.
 #pragma once
 
 #include <model/body.hpp>
@@ -25,7 +26,8 @@ class Nearby {
   const Body& body_;
   double width_ = 0;
   Cell size_;
-  std::vector<std::uint64_t> first_;  ///< of each cell, and one more
+  /// For each cell the index of its first particle in sorted_; one more entry at the end.
+  std::vector<std::uint64_t> first_;
   std::vector<Particle> sorted_;
 };
 

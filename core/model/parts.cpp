@@ -1,5 +1,6 @@
-// Which particles springs join. Most bodies are long rows of particles that springs along x join:
-// those are joined as one, so that a body of many millions of particles is counted by its rows.
+// The number of connected parts of a body (union-find). Most bodies are long rows that springs
+// along x connect; each such row is one entry, so that a body of many millions of particles is
+// counted by rows.
 #include <model/body_figures.hpp>
 
 #include <algorithm>
@@ -34,7 +35,7 @@ class Sets {
   std::size_t sets_;
 };
 
-/// Sites begin <= i < end of a row that springs along x join, or a site alone.
+/// The sites begin <= i < end of a row, connected by springs along x, or a single site.
 struct Piece {
   std::int32_t begin = 0, end = 0;
 };
@@ -42,7 +43,7 @@ struct Piece {
 /// The pieces of all rows, in the order z, y, x.
 struct Pieces {
   std::vector<Piece> all;
-  std::vector<std::size_t> rows;  ///< [k * ny + j] first piece of a row; one more entry at the end
+  std::vector<std::size_t> rows;  ///< [k * ny + j]: first piece of a row; one more entry at the end
 
   explicit Pieces(const Body& body) {
     const auto along_x =
@@ -67,7 +68,7 @@ struct Pieces {
     rows.push_back(all.size());
   }
 
-  /// The first piece of a row that ends beyond the site.
+  /// Returns the index of the first piece of a row that ends after the site.
   std::size_t from(std::size_t row, std::int32_t site) const {
     const auto first = all.begin() + static_cast<std::ptrdiff_t>(rows[row]),
                last = all.begin() + static_cast<std::ptrdiff_t>(rows[row + 1]);

@@ -68,7 +68,7 @@ const Region* RegionIndex::filled() const {
 }
 
 std::span<const Particle> RegionIndex::particles(RegionId region) {
-  const Region& wanted = existing(region);  // before an entry stands for it
+  const Region& wanted = existing(region);  // checks the id before an entry is made
   const auto [entry, is_new] = particles_.try_emplace(region.index);
   if (is_new)
     entry->second = body_.is_cubic()
@@ -132,7 +132,7 @@ std::string RegionIndex::expected(RegionId region, const char* members, const ch
   const std::string named =
       name.starts_with('{')
           ? ""
-          : fmt::format("\"{}\", ", name);  // one that the scene describes in place has no name
+          : fmt::format("\"{}\", ", name);  // a region without a name begins with {
   return fmt::format("a region with {}; {}{}, holds {} between {} and {} m", members, named,
                      what(regions_[region]), held, text(body_.lowest), text(body_.highest));
 }

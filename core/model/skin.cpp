@@ -8,7 +8,7 @@ namespace hyperlattice {
 
 namespace {
 
-/// The cubes as a lattice: one at each site.
+/// The cubes as a lattice with one site for each cube.
 struct Cubes {
   const Body& body;
   const Nearby& nearby;
@@ -17,7 +17,7 @@ struct Cubes {
   bool holds(Vec3 centre) const {
     if (body.grid.shape != nullptr) return body.grid.shape->contains(centre);
     return nearby.nearest(centre).distance <=
-           0.87 * body.grid.spacing;  // half a spacing's diagonal
+           0.87 * body.grid.spacing;  // 0.87: half the diagonal of a unit cube
   }
 
   void send(const LatticeSink& sink) const {
@@ -64,7 +64,8 @@ constexpr LatticeFunctions cubes_functions{
       return detail::guarded(why, [&] { static_cast<const Cubes*>(lattice)->send(sink); });
     }};
 
-/// A body's particles, and the faces of its skin, made when first asked for.
+/// The particles of a body and the faces of its skin, see meaning.hpp. The skin is built on first
+/// use.
 struct SkinPlaces {
   using Point = Particle;
   using Face = Skin::Face;
@@ -79,8 +80,9 @@ struct SkinPlaces {
     return (region.kind != Region::Kind::outer_surface && skin().has_inner(particle)) ||
            (region.kind != Region::Kind::inner_surface && skin().has_outer(particle));
   }
-  /// Of a list, whose particles need not lie in planes, all within a spacing of the shape's end, or
-  /// half a spacing of the last particle.
+  /// Returns whether a particle is in the outermost layer of a side. The particles of a list need
+  /// not lie in planes: their layer is one spacing thick from the end of the shape, or without a
+  /// shape half a spacing from the last particle.
   bool is_outermost(Particle particle, int direction) const {
     const Shape* shape = body.is_listed() ? body.grid.shape : nullptr;
     const Vec3 low = shape != nullptr ? shape->low : body.lowest,
@@ -120,8 +122,8 @@ Skin::Skin(const Body& body) : width_(body.grid.spacing / 2), sides_(body.partic
                       inner = open == 0 ? 0 : surfaces.inner_faces(cube);
       for (std::uint8_t direction = 0; direction < 6; ++direction) {
         if ((open >> direction & 1U) == 0) continue;
-        // nearest to a point a little outside, so that particles of the outermost plane come before
-        // those behind them
+        // The nearest particle to a point slightly outside: particles of the outermost plane come
+        // before those behind them.
         const Particle particle =
             nearby.nearest(cubes.position(cube) + width_ * face_normals[direction]).particle;
         const bool is_inner = (inner >> direction & 1U) != 0;

@@ -1,6 +1,6 @@
-// The surface of a body that is not made of cubic cells: that of the small cubes which fill its
-// shape, each open face given to the nearest particle. Its area is right where the shape's faces
-// are flat and fit the cubes, whatever the particles are like behind it.
+// The surface of a body that does not consist of cubic cells: the surface of small cubes that fill
+// its shape. Each open face belongs to the nearest particle. The area is exact where the faces of
+// the shape are flat and fit the cubes, for any arrangement of the particles.
 #pragma once
 
 #include <model/surfaces.hpp>
@@ -11,14 +11,14 @@ namespace hyperlattice {
 
 class Skin {
  public:
-  /// Cubes half a spacing wide inside the shape that the lattice filled; without one, those near to
-  /// a particle.
+  /// Fills the body's shape with cubes half a spacing wide; without a shape, the neighbourhood of
+  /// the particles.
   explicit Skin(const Body& body);
 
   struct Face {
-    Particle particle = 0;       ///< the nearest
-    std::uint8_t direction = 0;  ///< as face_normals
-    bool inner = false;          ///< open to a cavity, not to the outside
+    Particle particle = 0;       ///< the nearest particle
+    std::uint8_t direction = 0;  ///< index in face_normals
+    bool inner = false;          ///< whether the face is open to a cavity, not to the outside
   };
   const std::vector<Face>& faces() const { return faces_; }
   double face_area() const { return width_ * width_; }  ///< m2
@@ -31,7 +31,8 @@ class Skin {
   std::vector<std::uint8_t> sides_;
 };
 
-/// As those of surfaces.hpp. The skin is asked for only by regions that mean a surface.
+/// Return the same as the functions in surfaces.hpp. They ask for the skin only if a region needs a
+/// surface.
 std::vector<Particle> particles_in(const Body& body, const std::function<const Skin&()>& skin,
                                    const Region& region);
 std::vector<OpenArea> open_areas(const Body& body, const std::function<const Skin&()>& skin,

@@ -16,7 +16,7 @@ Membrane membrane_of(const MaterialConstants& constants) {
                                                                      : Membrane::none;
 }
 
-/// No number if the springs make no solid: a plugin asks, and nothing may be thrown across its
+/// Returns NaN if the springs make no solid: a plugin calls this, and no exception may cross its
 /// library.
 ElasticConstants list_constants(const LatticeGeometry& of,
                                 const MaterialConstants& constants) noexcept {
@@ -84,9 +84,9 @@ LatticeFacts facts_of(const LatticeGeometry& geometry) {
   facts.get_stable = [](void* self, const MaterialConstants& constants) noexcept {
     return PluginCall::answer(false, [&] {
       const auto& of = *static_cast<const LatticeGeometry*>(self);
+      // A list counts as stable only without negative springs: no wave analysis exists for it.
       if (of.listed)
-        return constants.cross_ratio[0] >= 0 &&
-               (constants.clamped || constants.alpha_ratio >= 0);  // no more is known
+        return constants.cross_ratio[0] >= 0 && (constants.clamped || constants.alpha_ratio >= 0);
       return !find_instability(SpringLattice(of, constants).endless(), Sector::mirrored);
     });
   };

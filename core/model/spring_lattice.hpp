@@ -1,5 +1,5 @@
-// An endless lattice: any grid's neighbours, or a list's sample, with the springs that a material's
-// constants make of them.
+// An infinite lattice, from the neighbours of a grid or from the sample of a list, with the springs
+// that follow from the constants of a material.
 #pragma once
 
 #include <model/waves.hpp>
@@ -16,13 +16,13 @@ struct LatticeGeometry {
   double membrane_distance = 0;  ///< Delta, metres
   Basis basis = cubic_basis;     ///< in units of the spacing
   std::array<double, max_spring_classes> class_stiffness{1, 1, 1, 1};
-  std::shared_ptr<const Listed>
-      listed;         ///< in place of neighbours; null: the lattice is structured
-  double volume = 0;  ///< m3, of the list's own particles
+  /// The list, in place of neighbours; null if the lattice is structured.
+  std::shared_ptr<const Listed> listed;
+  double volume = 0;  ///< volume of the particles of the list, m3
 };
 
 LatticeGeometry geometry_from(const Grid& grid);
-/// The list, if there is one, stays the body's, which must outlive the geometry.
+/// For a listed body the geometry refers to the body's list, so the body must outlive it.
 LatticeGeometry geometry_from(const Body& body);
 
 class SpringLattice {
@@ -32,7 +32,8 @@ class SpringLattice {
   const LatticeGeometry& geometry() const { return geometry_; }
   const MaterialConstants& constants() const { return constants_; }
   double base_stiffness() const { return constants_.base_stiffness; }  ///< k, N/m
-  /// As the wave analysis sees it, which only structured lattices have; points into this object.
+  /// Returns the lattice for the wave analysis, structured lattices only; it points into this
+  /// object.
   InfiniteLattice endless() const;
 
  private:
@@ -43,8 +44,8 @@ class SpringLattice {
   KernelChoice::Membrane membrane_;
 };
 
-/// What a material may ask about a geometry, which must outlive the facts; those of the body are
-/// left empty.
+/// Returns the facts that a material may ask about a geometry, which must outlive them. Facts about
+/// the body stay empty.
 LatticeFacts facts_of(const LatticeGeometry& geometry);
 
 }  // namespace hyperlattice

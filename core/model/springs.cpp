@@ -1,8 +1,8 @@
-// Springs between all pairs of materials, and those of mixtures. A spring between two particles of
-// two materials is half of each: two half springs in series,
+// Springs between all pairs of materials, and those of mixtures. A spring between particles of two
+// materials consists of two half springs in series,
 //   k = 2 a b / (a + b),
-// nothing if either has none; constants of the law are the mean of both. (Stiffnesses of opposite
-// sign, which only some membranes have, add up to no series; they take the mean.)
+// and k = 0 if a or b is 0. The constants of the law are the mean of both. (Stiffnesses of opposite
+// sign, which only some membranes have, are not in series; they take the mean.)
 #include <model/build.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -22,7 +22,7 @@ double between(double a, double b) {
   return (a > 0) == (b > 0) ? 2 * a * b / (a + b) : (a + b) / 2;
 }
 
-/// Of a class; of a listed body, whose springs are of all lengths, nothing.
+/// Returns the rest length of a class, m; 0 for a listed body, whose springs have all lengths.
 double rest_length(const Model& model, std::uint32_t spring_class) {
   const auto of_class = [spring_class](const NeighbourGeometry& n) {
     return n.site.spring_class == spring_class;
@@ -31,7 +31,8 @@ double rest_length(const Model& model, std::uint32_t spring_class) {
   return found == model.neighbours.end() ? 0 : found->rest_length;
 }
 
-/// A spring whose alarm is no number would never break, without a word.
+/// Returns the alarm of a criterion, m. NaN is an error, because such a spring would never break
+/// and nobody would notice.
 double alarm_of(const Material& material, const SpringFacts& facts) {
   if (!material.failure) return infinity;
   const Stage& stage = *material.failure_stage;
@@ -41,7 +42,8 @@ double alarm_of(const Material& material, const SpringFacts& facts) {
   });
   if (std::isnan(alarm))
     throw plugin_error(stage, "alarm", "it gives an elongation that is no number (nan)");
-  return std::max(alarm, -facts.rest_length);  // no spring is shorter than nothing
+  return std::max(alarm,
+                  -facts.rest_length);  // no length is negative, so no elongation is below -L0
 }
 
 KernelSet kernels_of(const Stage& stage, const KernelChoice& choice) {
@@ -76,10 +78,10 @@ SpringConstants spring_between(const Model& model, const Material& a, const Mate
   return spring;
 }
 
-/// A spring of length L crosses a plane that is nearer than its own part along the normal, L / 2 in
-/// the mean of all directions.
+/// Returns the number of springs through a unit of area, 1/m2. A spring crosses a plane that is
+/// nearer than the spring's component along the normal, in the mean of all directions L / 2.
 double crossings(const Model& model) {
-  double length = 0;  // of a particle's springs
+  double length = 0;  // total length of the springs of one particle
   for (const NeighbourGeometry& neighbour : model.neighbours) length += neighbour.rest_length;
   const Listed& listed = model.body.listed;
   for (const ListedSpring& spring : listed.springs)
@@ -88,7 +90,8 @@ double crossings(const Model& model) {
   return length / (2 * model.body.grid.site_volume);
 }
 
-/// Free as soon as one material's membrane is; clamped and free ones cannot stand in one body.
+/// Returns the membrane of the body: free if one material's membrane is free. Adds a fault if
+/// another one is clamped.
 Membrane membrane_of(const std::vector<Material>& materials, Faults& faults) {
   const Material *clamped = nullptr, *free = nullptr;
   for (const Material& material : materials)
@@ -102,9 +105,9 @@ Membrane membrane_of(const std::vector<Material>& materials, Faults& faults) {
   return free != nullptr ? Membrane::free : clamped != nullptr ? Membrane::clamped : Membrane::none;
 }
 
-/// Where a membrane can move, a material without one still has heights, which nothing would hold.
-/// An alpha spring holds them at rest; as stiff as the sum of the base springs along an axis, it
-/// changes neither the body's elasticity nor its time step.
+/// In a body with a free membrane, a material without one still has heights, and no spring would
+/// hold them. An alpha spring as stiff as the sum of the base springs along an axis holds them at
+/// rest; it changes neither the elasticity nor the time step of the body.
 void hold_heights(Model& model) {
   for (Material& material : model.materials) {
     if (material.constants.has_cross_springs()) continue;
@@ -112,7 +115,7 @@ void hold_heights(Model& model) {
     for (const NeighbourGeometry& n : model.neighbours)
       ratio += 2 * model.body.grid.class_stiffness[n.site.spring_class] * n.rest.x * n.rest.x /
                (n.rest_length * n.rest_length);
-    if (model.body.is_listed())  // as the mean particle has it
+    if (model.body.is_listed())  // for a particle with the mean number of springs
       ratio = 2 * static_cast<double>(model.body.listed.springs.size()) /
               static_cast<double>(model.body.particles) / 3;
     material.constants.alpha_ratio = std::max(material.constants.alpha_ratio, ratio);
@@ -194,7 +197,7 @@ void set_springs(Model& model, Faults& faults) {
                  "a criterion that does not ask for the rate, for a listed lattice");
   }
   model.kernels = kernels_of(*model.materials[0].stage, model.choice);
-  KernelChoice row = model.choice;  // a listed spring is a row of one
+  KernelChoice row = model.choice;  // linearise takes listed springs as rows of one spring
   row.listed = false;
   if (model.choice.listed)
     model.kernels.linearise = kernels_of(*model.materials[0].stage, row).linearise;

@@ -14,8 +14,8 @@ using Membrane = KernelChoice::Membrane;
 
 constexpr double round_off = 1e-9;  // relative to the stiffest deformation
 
-/// The energies, N/m, of uniform strains that the lattice can have: a clamped membrane keeps its
-/// thickness.
+/// Returns the energies, N/m, of the uniform strains that the lattice can have. A clamped membrane
+/// keeps its thickness.
 Eigen::MatrixXd homogeneous(const InfiniteLattice& lattice) {
   StrainEnergy energy = strain_energy(lattice);
   double length = 0;
@@ -27,8 +27,8 @@ Eigen::MatrixXd homogeneous(const InfiniteLattice& lattice) {
       .topLeftCorner(size, size);  // symmetric
 }
 
-/// How much neighbours move differently: 0 for an endless wave, its square for long ones; with the
-/// lattice's symmetry.
+/// Returns a measure of the different motion of neighbours: 0 for infinite wavelength, proportional
+/// to q^2 for long waves. It has the symmetry of the lattice.
 double waviness(const InfiniteLattice& lattice, Vec3 q) {
   double sum = 0;
   for (const NeighbourGeometry& n : lattice.neighbours)
@@ -40,7 +40,7 @@ double waviness(const InfiniteLattice& lattice, Vec3 q) {
 
 std::optional<Instability> find_instability(const InfiniteLattice& lattice, Sector sector) {
   if (sector == Sector::opposed && lattice.membrane == Membrane::none)
-    return std::nullopt;  // two layers that do not know of each other
+    return std::nullopt;  // the two layers are not connected
   const numerics::SymmetricEigen<Eigen::MatrixXd> strains(homogeneous(lattice));
   const double largest = strains.eigenvalues().cwiseAbs().maxCoeff();
   if (sector == Sector::mirrored && strains.eigenvalues()(0) < -round_off * largest) {
@@ -51,15 +51,15 @@ std::optional<Instability> find_instability(const InfiniteLattice& lattice, Sect
     return found;
   }
 
-  // Long mirrored waves are always soft; what counts is their stiffness for their length. Opposed
-  // ones have no such limit: uniform displacements shear the membrane, and heights with them turn
-  // it, which costs nothing.
+  // Long mirrored waves are always soft, so their stiffness is divided by their waviness. Opposed
+  // waves have no such limit: uniform displacements shear the membrane; together with heights they
+  // rotate it, which costs no energy.
   const auto softness = [&](Vec3 q) {
     const double softest = stiffness_range(lattice, q, sector).softest;
     if (sector == Sector::opposed) return -softest;
     const double size = waviness(lattice, q);
-    constexpr double too_long =
-        1e-4;  // to tell its stiffness from rounding; uniform strains stand for such waves
+    // Longer waves have a stiffness within round-off; the uniform strains replace them.
+    constexpr double too_long = 1e-4;
     return size < too_long ? -infinity : -softest / size;
   };
   const Wave softest = waves(lattice, zone_peak(lattice, softness), sector).front();

@@ -1,4 +1,4 @@
-// Stability of the endless lattice over the whole Brillouin zone.
+// Stability of the infinite lattice over the whole Brillouin zone.
 #pragma once
 
 #include <model/strain_energy.hpp>
@@ -7,18 +7,19 @@
 
 namespace hyperlattice {
 
-/// What releases energy and so grows by itself.
+/// A deformation that releases energy and therefore grows.
 struct Instability {
-  bool homogeneous = false;                      ///< a uniform strain; else a wave
-  std::array<double, uniform_strains> strain{};  ///< homogeneous: the share of each
-  Wave wave;  ///< if not homogeneous; its sector says which lattice has it
+  bool homogeneous = false;  ///< true: a uniform strain; false: a wave
+  /// If homogeneous: the part of each uniform strain.
+  std::array<double, uniform_strains> strain{};
+  Wave wave;  ///< if not homogeneous: the wave; its sector tells which lattice has it
 };
 
-/// What grows in the mirrored layer (Sector::mirrored), or in the full two-layer lattice besides
-/// that (Sector::opposed); nothing if stable.
+/// Returns the deformation that grows in the mirrored layer (Sector::mirrored), or that grows only
+/// in the full two-layer lattice (Sector::opposed); nothing if stable.
 std::optional<Instability> find_instability(const InfiniteLattice& lattice, Sector sector);
 
-/// A sentence that names what grows.
+/// Returns a sentence that names the deformation.
 std::string describe(const Instability& instability);
 
 }  // namespace hyperlattice

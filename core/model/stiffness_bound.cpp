@@ -13,7 +13,7 @@ void StiffnessBound::add(const NeighbourGeometry& neighbour, int side,
                       n[static_cast<std::size_t>(column)];
   };
   const auto [x, y, z] =
-      -side * neighbour.rest;  // a particle that goes away from its neighbour lengthens the spring
+      -side * neighbour.rest;  // a particle that moves away from its neighbour lengthens the spring
   const double base = neighbour.rest_length, cross = neighbour.cross_rest_length;
   add_square(spring.stiffness, {x / base, y / base, z / base, 0});
   if (membrane == KernelChoice::Membrane::none) return;

@@ -1,5 +1,5 @@
-// A spring of direction n and length L takes up K (L n.e.n)^2 / 2. A site of a layer has every
-// forward base spring, one cross spring beside each, and half of its alpha spring.
+// A spring of direction n and length L has the energy K (L n.e.n)^2 / 2. One site of a layer has
+// all forward base springs, one cross spring beside each of them, and half of an alpha spring.
 #include <model/strain_energy.hpp>
 
 namespace hyperlattice {
@@ -37,7 +37,7 @@ LayerStiffness layer_stiffness(const InfiniteLattice& lattice, double site_volum
   LayerStiffness stiffness;
   for (std::size_t i = 0; i < ww; ++i)
     for (std::size_t j = 0; j < ww; ++j) {
-      const double height = energy[i][ww] * energy[j][ww];  // what the free height takes away
+      const double height = energy[i][ww] * energy[j][ww];  // the part that a free height relaxes
       stiffness[i][j] =
           (energy[i][j] - (relaxes && height != 0 ? height / energy[ww][ww] : 0)) / site_volume;
     }

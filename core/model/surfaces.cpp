@@ -23,7 +23,7 @@ Surfaces::Surfaces(const Body& body)
 void Surfaces::flood() const {
   const auto [nx, ny, nz] = widened_;
   const auto size = static_cast<std::size_t>(nx * ny * nz);
-  std::vector<bool> blocked(size);  // a cell that is there, or reached by the flood
+  std::vector<bool> blocked(size);  // an existing cell, or one that the flood fill has reached
   for (const Run& run : body_.cells.empty() ? std::span(body_.runs) : body_.cells.runs()) {
     const auto row = static_cast<std::size_t>(((run.k + 1) * ny + run.j + 1) * nx + 1);
     std::fill(blocked.begin() + static_cast<std::ptrdiff_t>(row) + run.begin,

@@ -1,5 +1,5 @@
-// The surface of a body: which faces of which cells are open, which particles a region means, and
-// how much surface each of them stands for. A particle stands for its own cell; in a body of cells,
+// The surface of a body: the open faces of its cells, the particles of a region, and the area that
+// each particle stands for. A particle stands for the faces of its own cell; in a body of cells,
 // for a quarter of each face that it is a corner of.
 #pragma once
 
@@ -12,18 +12,18 @@
 
 namespace hyperlattice {
 
-/// Faces of a cell that no other cell covers: bit 0 -x, 1 +x, 2 -y, 3 +y, 4 -z, 5 +z, as
+/// Set of the faces of a cell that no other cell covers: bit 0 -x, 1 +x, 2 -y, 3 +y, 4 -z, 5 +z, as
 /// face_normals.
 using OpenFaces = std::uint32_t;
 
-/// The open faces of cells. A cavity is an empty space that no path through faces joins to the
+/// Finds the open faces of cells. A cavity is an empty space without a path through faces to the
 /// outside.
 class Surfaces {
  public:
   explicit Surfaces(const Body& body);
-  OpenFaces faces(Site cell) const;        ///< all; of a cell that is there
-  OpenFaces outer_faces(Site cell) const;  ///< to the outside
-  OpenFaces inner_faces(Site cell) const;  ///< to cavities
+  OpenFaces faces(Site cell) const;        ///< all open faces of an existing cell
+  OpenFaces outer_faces(Site cell) const;  ///< faces open to the outside
+  OpenFaces inner_faces(Site cell) const;  ///< faces open to cavities
 
  private:
   void flood() const;
@@ -31,24 +31,26 @@ class Surfaces {
 
   const Body& body_;
   std::array<std::int64_t, 3> widened_;
-  mutable std::vector<bool>
-      outside_;  ///< of each cell of the box widened by one; flooded when first asked for
+  /// For each cell of the box widened by one cell: whether it is outside the body. Computed on
+  /// first use.
+  mutable std::vector<bool> outside_;
 };
 
-/// Particles of a region, ascending. A solid holds a particle inside it; one that is a corner of
-/// cells, also if it only touches it, up to rounding.
+/// Returns the particles of a region, ascending. A solid holds the particles inside it; in a body
+/// of cells also those on its surface, up to round-off.
 std::vector<Particle> particles_in(const Body& body, const Surfaces& surfaces,
                                    const Region& region);
 
-/// Cells of a region in a body of cells, by their place in its runs, ascending. A solid holds a
-/// cell whose centre is inside.
+/// Returns the cells of a region in a body of cells, as indices in its runs, ascending. A solid
+/// holds a cell if the centre of the cell is inside.
 std::vector<Particle> cells_in(const Body& body, const Surfaces& surfaces, const Region& region);
 
-/// The surface that a region means (see LoadBody), by particles, ascending. Faces count if they are
-/// open to the side that the region means: to the cavity for inner_surface, to the outside for
-/// outer_surface, that one direction for x_min ... z_max, any for others; and if the region holds
-/// all particles that the face belongs to. Of a union faces of any part, of an intersection those
-/// of all, of a difference those of the first part that no other part holds.
+/// Returns the open area of a region (see LoadBody) for each particle, ascending. A face counts if
+/// the region holds all particles of the face, and if the face is open to the side of the region:
+/// to the cavity for inner_surface, to the outside for outer_surface, in that one direction for
+/// x_min ... z_max, to any side for others. A union has the faces of any part, an intersection the
+/// faces that all parts have, a difference the faces of the first part whose particles are not all
+/// in one other part.
 std::vector<OpenArea> open_areas(const Body& body, const Surfaces& surfaces, const Region& region);
 
 }  // namespace hyperlattice

@@ -1,11 +1,11 @@
-// With q the wave vector, radians a spacing, and theta = q . r / l for a neighbour at r, a base
-// spring contributes
+// With q the wave vector, radians per spacing, and theta = q . r / l for a neighbour at r, a base
+// spring contributes to the dynamical matrix
 //   4 k sin^2(theta/2) n n^T,                                 n = r / |r|,
-// and a cross spring, which joins a layer to the other,
+// and a cross spring, which joins the two layers,
 //   4 k_c w w^T,   mirrored: w = (r sin(theta/2), Delta cos(theta/2)) / sqrt(r^2 + Delta^2)
 //                  opposed:  w = (r cos(theta/2), Delta sin(theta/2)) / sqrt(r^2 + Delta^2)
-// (the height taken a quarter of a period late, which makes the Hermitian matrix a real one); alpha
-// contributes 2 k_alpha to a mirrored height.
+// (the height lags by a quarter of a period, which makes the Hermitian matrix real). The alpha
+// spring contributes 2 k_alpha to a mirrored height.
 #include <model/waves.hpp>
 #include <model/zone.hpp>
 #include <numerics/symmetric_eigen.hpp>
@@ -48,7 +48,7 @@ Matrix dynamical_matrix(const InfiniteLattice& lattice, Vec3 q, Sector sector) {
   return sum.topLeftCorner(size, size);
 }
 
-/// One of the waves found, with its sign chosen so that the largest part of its motion is positive.
+/// Returns the wave of one eigenvector, with the sign that makes its largest component positive.
 Wave wave(const Modes& found, Vec3 q, Eigen::Index mode, Sector sector) {
   Eigen::VectorXd motion = found.eigenvectors().col(mode);
   Eigen::Index largest = 0;

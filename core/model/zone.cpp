@@ -1,6 +1,6 @@
-// Phases t_i = q . a_i of a wave have the period 2 pi, whatever the basis. With A the matrix whose
-// columns are the basis, q = A^-T t, and a symmetry q -> S q of the lattice takes phases to A^T S
-// A^-T t, a matrix of integers: it maps a grid of phases onto itself.
+// The phases t_i = q . a_i of a wave have the period 2 pi, for any basis. With the matrix A, whose
+// columns are the basis, q = A^-T t, and a symmetry q -> S q of the lattice maps phases to A^T S
+// A^-T t. This is a matrix of integers, so a grid of phases is mapped onto itself.
 #include <model/zone.hpp>
 
 #include <Eigen/Dense>
@@ -11,7 +11,7 @@ namespace hyperlattice {
 
 namespace {
 
-constexpr double nearby = 1e-6;  // of a spacing
+constexpr double nearby = 1e-6;  // in units of the spacing
 
 Eigen::Vector3d vector(Vec3 v) { return {v.x, v.y, v.z}; }
 
@@ -21,7 +21,7 @@ Eigen::Matrix3d matrix(const Basis& basis) {
   return columns;
 }
 
-/// The 48 operations of a cube: axes swapped and reversed.
+/// Returns the 48 symmetries of a cube: permutations and reflections of the axes.
 std::vector<Eigen::Matrix3d> operations_of_a_cube() {
   std::vector<Eigen::Matrix3d> all;
   std::array<int, 3> axes{0, 1, 2};
@@ -36,7 +36,7 @@ std::vector<Eigen::Matrix3d> operations_of_a_cube() {
   return all;
 }
 
-/// Whether every spring comes to lie on one of its class.
+/// Returns whether the operation maps every spring onto a spring of its class.
 bool keeps_springs(const Eigen::Matrix3d& operation, const InfiniteLattice& lattice) {
   const auto on_another = [&](const NeighbourGeometry& n) {
     const Eigen::Vector3d turned = operation * vector(n.rest);
@@ -96,7 +96,7 @@ const std::array<Vec3, 27>& steps_around() {
 }
 
 Vec3 in_first_zone(const Basis& basis, Vec3 q) {
-  constexpr double clearly = 1 - 1e-3;  // of two equal ones, the one that was given
+  constexpr double clearly = 1 - 1e-3;  // of equally long vectors the given one stays
   const Basis b = reciprocal(basis);
   for (bool shorter = true; shorter;) {
     shorter = false;

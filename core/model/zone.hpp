@@ -1,5 +1,5 @@
-// Searching the Brillouin zone: where a function of the wave vector that has the lattice's symmetry
-// is largest.
+// Search of the Brillouin zone for the maximum of a function of the wave vector that has the
+// symmetry of the lattice.
 #pragma once
 
 #include <model/waves.hpp>
@@ -12,36 +12,37 @@ namespace hyperlattice {
 
 inline constexpr double pi = std::numbers::pi;
 
-/// The reciprocal basis in radians a spacing over 2 pi: b_i . a_j is 1 for i = j, else 0.
+/// Returns the reciprocal basis, radians per spacing, over 2 pi: b_i . a_j is 1 for i = j, else 0.
 Basis reciprocal(const Basis& basis);
 
-/// A turn or reflection that maps the lattice onto itself, as it acts on the phases of a wave along
-/// a1, a2, a3: integers, by rows.
+/// A rotation or reflection that maps the lattice onto itself, as a matrix of integers, by rows,
+/// that acts on the phases of a wave along a1, a2, a3.
 using PhaseMap = std::array<std::array<int, 3>, 3>;
 
-/// Those of the 48 of a cube that map springs onto springs of their class. At least there and back,
-/// q -> -q.
+/// Returns those of the 48 symmetries of a cube that map springs onto springs of their class. These
+/// are at least the identity and q -> -q.
 std::vector<PhaseMap> symmetries(const InfiniteLattice& lattice);
 
-/// The 27 steps of -1, 0 or 1 along each axis.
+/// Returns the 27 steps of -1, 0 or 1 along each axis.
 const std::array<Vec3, 27>& steps_around();
 
-/// The shortest of the vectors that give the same wave.
+/// Returns the shortest of all wave vectors that describe the same wave as q.
 Vec3 in_first_zone(const Basis& basis, Vec3 q);
 
-/// Wave vectors, radians a spacing, on a grid over the zone: of each set that symmetry makes equal,
-/// one.
+/// Returns wave vectors, radians per spacing, on a grid over the zone with `half` steps from 0 to
+/// pi: one of each set that is equal by symmetry.
 std::vector<Vec3> zone_grid(const InfiniteLattice& lattice, int half);
 
-/// The wave vector where `value` is largest: the zone on a grid, then each of the best climbed by
-/// halved steps.
+/// Returns the wave vector with the largest `value`: evaluates a grid over the zone, then refines
+/// the best points by a search with halved steps.
 template <class Value>
 Vec3 zone_peak(const InfiniteLattice& lattice, const Value& value) {
-  constexpr int half = 12;        // steps from 0 to pi along an axis
-  constexpr int refined = 4;      // how many of the best are climbed
-  constexpr double fine = 1e-6;   // radians, the last step
-  constexpr double gain = 1e-11;  // of the largest value on the grid: less is rounding, which would
-                                  // lead a climb along flat ridges for ever
+  constexpr int half = 12;       // steps from 0 to pi along an axis
+  constexpr int refined = 4;     // number of the best points that are refined
+  constexpr double fine = 1e-6;  // radians, smallest step of the search
+  // Smallest gain, relative to the largest value on the grid. A smaller gain is round-off, and the
+  // search would never end on flat ridges.
+  constexpr double gain = 1e-11;
   struct Candidate {
     double value;
     Vec3 q;
@@ -59,8 +60,9 @@ Vec3 zone_peak(const InfiniteLattice& lattice, const Value& value) {
   for (Candidate& candidate : best)
     for (double step = pi / half / 2; step > fine;) {
       Candidate next = candidate;
-      for (const Vec3 direction : steps_around()) {  // along edges and diagonals too: ridges run
-                                                     // along the lattice's axes of symmetry
+      // Steps include edges and diagonals, because ridges run along the symmetry axes of the
+      // lattice.
+      for (const Vec3 direction : steps_around()) {
         const Vec3 q = candidate.q + step * direction;
         if (const double here = value(q); here > next.value) next = {here, q};
       }

@@ -8,7 +8,7 @@ namespace hyperlattice::numerics {
 
 namespace {
 
-constexpr Eigen::Index few_rows = 2000;  // for the factorisation
+constexpr Eigen::Index few_rows = 2000;  // few enough for the factorisation
 constexpr std::size_t most_levels = 12;
 constexpr int none = -1;
 
@@ -33,7 +33,7 @@ std::vector<double> units_of_height(const SparseRows& K, int components) {
   return units;
 }
 
-/// How stiffly nodes are joined: the norm of the block between them, other than 0, with heights in
+/// The stiffness between nodes: the norm of each nonzero block between two nodes, with heights in
 /// each node's own unit.
 struct Graph {
   std::vector<int> first{0}, other;
@@ -69,8 +69,9 @@ struct Graph {
   }
 };
 
-/// The aggregate of each node, or none of those that nothing is joined to. Whole neighbourhoods
-/// first, then what is left goes to the stiffest neighbour.
+/// Finds the aggregate of each node, `none` for nodes without connections; returns their number.
+/// First makes aggregates of whole neighbourhoods; then each node left joins its stiffest
+/// neighbour.
 int aggregate(const Graph& graph, double threshold, std::vector<int>& of) {
   const int nodes = static_cast<int>(graph.first.size()) - 1;
   of.assign(static_cast<std::size_t>(nodes), none);
@@ -158,7 +159,7 @@ NodeBlocks blocks_of(const SparseRows& K, std::size_t components) {
   return blocks;
 }
 
-/// What each aggregate's components do to the nodes, smoothed.
+/// Returns the smoothed motions of the nodes for each component of each aggregate: P.
 SparseRows interpolation(const SparseRows& K, const NodeBlocks& blocks,
                          const std::vector<int>& aggregates, int count) {
   const auto size = static_cast<int>(blocks.components);
@@ -185,7 +186,8 @@ SparseRows interpolation(const SparseRows& K, const NodeBlocks& blocks,
 }  // namespace
 
 struct AggregationMultigrid::Level {
-  SparseRows from_coarse, to_coarse;  ///< between the finer level and this one
+  /// P between the finer level and this one, and its transpose.
+  SparseRows from_coarse, to_coarse;
   SparseRows K;
   NodeBlocks blocks;
   Eigen::VectorXd b, x, rest, step, product;
@@ -206,7 +208,7 @@ struct AggregationMultigrid::Level {
 
 AggregationMultigrid::AggregationMultigrid(const SparseRows& finest,
                                            const NodeBlocks& finest_blocks) {
-  constexpr double threshold = 0.08;  // on the finest level; aggregates are joined to few others
+  constexpr double threshold = 0.08;  // on the finest level; aggregates have few neighbours
   const SparseRows* K = &finest;
   const NodeBlocks* blocks = &finest_blocks;
   std::vector<int> aggregates;
@@ -220,7 +222,7 @@ AggregationMultigrid::AggregationMultigrid(const SparseRows& finest,
     level->from_coarse = interpolation(*K, *blocks, aggregates, count);
     level->to_coarse = level->from_coarse.transpose();
     level->K = level->to_coarse * SparseRows(*K * level->from_coarse);
-    for (Eigen::Index row = 0; row < rows; ++row)  // of what no node of an aggregate can do
+    for (Eigen::Index row = 0; row < rows; ++row)  // for unused components
       if (!(level->K.coeff(row, row) > 0)) level->K.coeffRef(row, row) = 1;
     level->K.makeCompressed();
     level->blocks = blocks_of(level->K, blocks->components);
@@ -232,7 +234,7 @@ AggregationMultigrid::AggregationMultigrid(const SparseRows& finest,
     blocks = &levels_.back()->blocks;
   } while (K->rows() > few_rows && levels_.size() < most_levels);
   if (levels_.empty()) return;
-  constexpr double shift = 1e-9;  // where nothing holds the body
+  constexpr double shift = 1e-9;  // for bodies that are not held
   coarsest_.compute(levels_.back()->K, shift);
 }
 

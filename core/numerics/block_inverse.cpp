@@ -13,12 +13,12 @@ double unit_of_height(double in_space, double of_height) {
 }
 
 BlockInverse::BlockInverse(const Eigen::Matrix4d& block) {
-  constexpr double softest = 1e-3;  // of the largest stiffness
+  constexpr double softest = 1e-3;  // smallest stiffness over the largest
   const double height = unit_of_height(block.diagonal().head<3>().maxCoeff(), block(3, 3));
   const Eigen::Vector4d unit{1, 1, 1, height};
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> modes(unit.asDiagonal() * block *
                                                              unit.asDiagonal());
-  if (modes.info() != Eigen::Success) {  // numbers that are not finite: Newton's method says so
+  if (modes.info() != Eigen::Success) {  // numbers are not finite: Newton's method reports them
     inverse.diagonal() = block.diagonal().unaryExpr(
         [](double value) { return value > 0 && std::isfinite(value) ? 1 / value : 0.0; });
     return;

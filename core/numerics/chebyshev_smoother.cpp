@@ -10,8 +10,8 @@ ChebyshevSmoother::ChebyshevSmoother(const LinearOperator& A, BlockJacobi diagon
   estimate_largest();
 }
 
-/// It is at most 2 of a sum of positive terms between two nodes each: the energy of one is at most
-/// twice that of its ends moving alone.
+/// For a sum of positive terms between two nodes each the eigenvalue is at most 2: the energy of a
+/// term is at most twice that of its ends moving alone.
 void ChebyshevSmoother::estimate_largest() {
   RandomStream random;
   for (double& value : step_) value = random.next();

@@ -16,7 +16,7 @@ bool ConjugateGradients::advance() {
   const int threads = A_.threads();
   preconditioner_.apply(r_, z_);
   if (without_ != nullptr) without_->remove_from(z_);
-  // The change of r in place of r: round-off in the preconditioner then does not spoil the
+  // beta uses the change of r instead of r: round-off in the preconditioner then does not spoil the
   // directions.
   const double rz = product(r_.data(), z_.data(), size_, threads);
   const double changed = first_ ? 0 : -last_step_ * product(q_.data(), z_.data(), size_, threads);

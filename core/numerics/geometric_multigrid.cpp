@@ -15,7 +15,7 @@ void GeometricMultigrid::apply(const Field& r, Field& z) {
   z = work_.front().x;
 }
 
-/// Solves K x = b of a level, about.
+/// Solves K x = b of a level approximately.
 void GeometricMultigrid::cycle(std::size_t level) {
   Work& work = work_[level];
   if (level + 1 == levels_.size()) return coarsest_(work.b.data(), work.x.data());
@@ -23,7 +23,7 @@ void GeometricMultigrid::cycle(std::size_t level) {
   Work& below = work_[level + 1];
   smooth(here, work, true);
   here.multiply(work.d.data(),
-                work.t.data());  // the last step of the smoother is not yet in its residual
+                work.t.data());  // the smoother's residual lacks its last step
   in_pieces(work.r.size(), here.threads(), [&](std::size_t first, std::size_t last) {
     for (std::size_t n = first; n < last; ++n) work.r[n] -= work.t[n];
   });
@@ -33,11 +33,11 @@ void GeometricMultigrid::cycle(std::size_t level) {
   smooth(here, work, false);
 }
 
-/// Chebyshev iteration on D^-1 K x = D^-1 b; leaves in r what was left before the last step d.
+/// Chebyshev iteration on D^-1 K x = D^-1 b; leaves in r the residual before the last step d.
 void GeometricMultigrid::smooth(const GridLevel& level, Work& w, bool from_zero) {
   ChebyshevIteration chebyshev(level.largest_eigenvalue());
   constexpr std::size_t piece =
-      512;  // places, whose numbers stay in the processor's caches from one loop to the next
+      512;  // places; their numbers stay in the processor's caches between the loops
   for (int step = 0; step < ChebyshevIteration::degree; ++step) {
     const ChebyshevIteration::Step weights = step == 0 ? chebyshev.first() : chebyshev.next();
     const bool from_nothing = from_zero && step == 0;

@@ -19,11 +19,11 @@ double GridLevel::power_iteration() const {
     growth = norm / std::sqrt(product(x.data(), x.data(), size, threads_));
     for (std::size_t m = 0; m < size; ++m) x[m] = z[m] / norm;
   }
-  constexpr double safety = 1.2;  // the iterations approach it from below
+  constexpr double safety = 1.2;  // the estimates approach the eigenvalue from below
   return safety * growth;
 }
 
-/// Zeros everywhere but at the sites of the box, and where something can move.
+/// Sets to zero all numbers that are not at sites of the box, or cannot move.
 void GridLevel::clear_margin(Field& x) const {
   std::vector<bool> inside(static_cast<std::size_t>(layout_.places), false);
   layout_.for_sites([&](std::int64_t i, std::int64_t j, std::int64_t k) {

@@ -4,9 +4,9 @@ namespace hyperlattice::numerics {
 
 namespace {
 
-constexpr std::int64_t shortest = 4;  // sites along an axis that is still halved
+constexpr std::int64_t shortest = 4;  // smallest number of sites along an axis that is halved
 
-/// Children of a coarse site along an axis, with the weights with which they look to it.
+/// Fine sites that are interpolated from a coarse site along an axis, with their weights.
 struct Children {
   int count = 0;
   std::int64_t at[3] = {};
@@ -68,7 +68,7 @@ void TrilinearTransfer::restrict_to(const GridLevel& coarse, double* to, const G
         for (std::int64_t component = 0; component < 4; ++component) {
           const double* s = sum.data() + 4 * ((halved_[0] ? 2 * I : I) + 1) + component;
           const bool beyond =
-              halved_[0] && 2 * I >= fine_[0];  // the last coarse site may stand past the end
+              halved_[0] && 2 * I >= fine_[0];  // the last coarse site may be beyond the box
           const double here = beyond ? 0.0 : s[0],
                        right = halved_[0] && !beyond && 2 * I + 1 < fine_[0] ? s[4] : 0.0;
           row[4 * I + component] = halved_[0] ? here + 0.5 * (s[-4] + right) : here;

@@ -16,15 +16,15 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Seconds a step; the least mean of several spells, because other work on the machine only ever
-/// adds to it.
+/// Returns the seconds per step: the least mean of several short measurements, because other work
+/// on the machine only adds to it.
 double measure_step(const Plan& plan) {
   constexpr double spell = 0.05;  // s
   constexpr int spells = 5, most_steps = 200;
   Simulation simulation(*plan.model, plan.threads);
   const double shortest =
-      1e-6 * plan.model->critical_time_step;  // the body stays where it is, whatever acts on it
-  simulation.step(shortest);                  // the first one finds the start of the energy books
+      1e-6 * plan.model->critical_time_step;  // so short that the body stays at rest under any load
+  simulation.step(shortest);                  // the first step also finds the energy at the start
   double least = infinity;
   for (int n = 0; n < spells; ++n) {
     const auto start = Clock::now();
@@ -51,7 +51,7 @@ void calibrate_run_time(Plan& plan) try {
   for (const PlannedStage& stage : plan.stages)
     seconds += step * static_cast<double>(stage.plan.steps) * stage.plan.sweeps_per_step;
   plan.expected_seconds = seconds + output_seconds(plan, step, true);
-} catch (const std::exception&) {  // steps that fail are the run's to tell
+} catch (const std::exception&) {  // the run itself reports steps that fail
 }
 
 }  // namespace hyperlattice

@@ -1,4 +1,4 @@
-// The columns of a probe's table, as the probe names them.
+// The names of the columns in a probe's table.
 #pragma once
 
 #include <host/plugin_call.hpp>
@@ -11,8 +11,8 @@
 
 namespace hyperlattice {
 
-/// A name that any reader of tables can take: at most 200 printable characters, no comma, quote or
-/// line end.
+/// Returns whether any reader of tables can take the name: 1 to 200 printable characters, no comma,
+/// quote or line end.
 inline bool is_column_name(std::string_view name) {
   constexpr std::size_t longest = 200;
   const auto breaks_table = [](char c) {
@@ -22,7 +22,7 @@ inline bool is_column_name(std::string_view name) {
          std::none_of(name.begin(), name.end(), breaks_table);
 }
 
-/// Appends what the probe names to `columns`, which outlive the sink.
+/// Returns a sink that appends the probe's names to `columns`, which must outlive the sink.
 inline ColumnSink columns_into(std::vector<std::string>& columns) {
   return {
       &columns, [](void* self, std::string_view name) noexcept {

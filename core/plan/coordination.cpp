@@ -7,7 +7,7 @@
 namespace hyperlattice {
 
 Coordination coordination_of(const Body& body) {
-  constexpr std::uint32_t holding = 3;  // springs that are not in a plane hold a point
+  constexpr std::uint32_t holding = 3;  // springs that are not in a plane hold a particle
   std::vector<std::uint32_t> springs(body.particles, 0);
   for (const ListedSpring& spring : body.listed.springs) {
     ++springs[spring.a];
@@ -20,8 +20,9 @@ Coordination coordination_of(const Body& body) {
 }
 
 std::string coordination_warning(const Body& body) {
-  constexpr double mostly_surface = 100;  // particles, of which a body of few springs each may be
-                                          // stiff if it is laid out in order
+  // A body of fewer particles is mostly surface: with few springs per particle it may still be
+  // stiff, if it is laid out in order.
+  constexpr double mostly_surface = 100;
   const double particles = static_cast<double>(body.particles),
                springs = static_cast<double>(body.listed.springs.size());
   const double mean = 2 * springs / particles, least = 3 * particles - 6;

@@ -1,5 +1,5 @@
-// How many springs hold each particle of a list: a particle on fewer than three swings, and a body
-// with too few on the mean gives way.
+// The number of springs at each particle of a list. A particle with fewer than three springs
+// swings; a body with too few on average is not stiff.
 #pragma once
 
 #include <model/body.hpp>
@@ -11,11 +11,12 @@ struct Coordination {
   std::uint64_t swinging = 0;  ///< particles with fewer than three springs
 };
 
-Coordination coordination_of(const Body& body);  ///< of a listed body
+/// Returns the coordination of a listed body.
+Coordination coordination_of(const Body& body);
 
-/// What there is to say of a listed body with too few springs to be stiff: fewer than its
-/// particles' coordinates (Maxwell 1864), or hardly more. Cross springs in the fourth dimension
-/// stand beside those and add nothing. "": they are enough.
+/// Returns a warning if a listed body has too few springs to be stiff: fewer than the coordinates
+/// of its particles (Maxwell 1864), or hardly more. Cross springs in the fourth dimension accompany
+/// base springs and do not count. Returns "" if the springs suffice.
 std::string coordination_warning(const Body& body);
 
 }  // namespace hyperlattice

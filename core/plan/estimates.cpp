@@ -10,7 +10,7 @@ namespace hyperlattice {
 
 namespace {
 
-/// Numbers a particle that the asked fields hold.
+/// Returns how many numbers per particle the fields of an output have.
 double numbers_per_particle(const Plan& plan, const Stage& output) {
   double numbers = 0;
   for (const std::string& name : plan.asked_fields.at(&output))
@@ -27,7 +27,8 @@ double frames_of(const Plan& plan, const Stage& output) {
                intervals = every > 0 ? plan.end_time() / every : 0;
   constexpr double nearly = 1e-6;  // of an interval
   double frames = std::floor(intervals + nearly) + (output.cadence.first ? 1 : 0);
-  for (const PlannedStage& stage : plan.stages)  // a state of rest is shown whatever its time
+  // Each state of rest is shown, whatever its time.
+  for (const PlannedStage& stage : plan.stages)
     if (stage.plan.at_rest && &stage != &plan.stages.back()) ++frames;
   const bool ends_between = intervals == 0 || intervals - std::floor(intervals + nearly) > nearly;
   const bool shows_end =
@@ -80,7 +81,7 @@ void estimate_memory(Plan& plan) {
   for (const BlockLayout& block : layout->blocks)
     bytes += static_cast<double>(block.rows.size() * 2 * sizeof(Row));
 
-  double output_numbers = 0;  // positions, and the fields of the most demanding output
+  double output_numbers = 0;  // positions, and the fields of the output with the most numbers
   for (const Family family : {Family::writers, Family::probes})
     for (const Stage* stage : plan.scene->of(family))
       output_numbers = std::max(output_numbers, 3 + numbers_per_particle(plan, *stage));
@@ -116,7 +117,7 @@ void estimate_output(Plan& plan) {
 }
 
 double output_seconds(const Plan& plan, double sweep, bool measured) {
-  constexpr double write = 30e-9;  // s a number of a frame
+  constexpr double write = 30e-9;  // s per number of a frame
   double seconds = 0;
   for (const Stage* stage : plan.scene->of(Family::writers)) {
     const auto cost = plan.frame_costs.find(stage);
@@ -130,14 +131,13 @@ double output_seconds(const Plan& plan, double sweep, bool measured) {
 }
 
 double slowest(const Model& model) {
-  constexpr double breaking = 3,
-                   answering =
-                       5;  // measured on a sphere that a blast breaks, and whose pieces collide
+  // Measured on a sphere that a blast breaks and whose pieces collide.
+  constexpr double breaking = 3, answering = 5;
   return (model.choice.breakable ? breaking : 1) * (model.answering ? answering : 1);
 }
 
 void estimate_time(Plan& plan) {
-  constexpr double baseline = 4, avx2 = 1.4, avx512 = 0.9;  // ns a base spring and step
+  constexpr double baseline = 4, avx2 = 1.4, avx512 = 0.9;  // ns per base spring and step
   constexpr double fourth_dimension = 1.8, damped = 1.1, floats = 0.6, listed = 4,
                    second_thread = 0.6;
   const Model& model = *plan.model;

@@ -1,29 +1,33 @@
-// What a plan will take: memory, disk, time.
+// Estimates of the memory, disk space and time that a plan needs.
 #pragma once
 
 #include <plan/plan.hpp>
 
 namespace hyperlattice {
 
+/// Sets bytes_per_particle and memory_bytes of the plan.
 void estimate_memory(Plan& plan);
+/// Sets output_bytes of the plan.
 void estimate_output(Plan& plan);
-/// From what kernels take on a common server processor; see calibration.hpp for this one.
+/// Sets expected_seconds of the plan from the cost of kernels on a common server processor;
+/// calibration.hpp measures this machine.
 void estimate_time(Plan& plan);
 
-/// Bytes of the plan's memory that stand already: the model.
+/// Returns the bytes of the plan's memory that are allocated already: those of the model.
 double model_bytes(const Model& model);
-/// Bytes of one frame of a writer, all its fields in motion: as the writer's trial says, else from
-/// the count of numbers.
+/// Returns the bytes of one frame of a writer with all its fields in motion: from the writer's
+/// trial, else from the count of numbers.
 double frame_bytes(const Plan& plan, const Stage& writer);
-/// How often a writer or probe will be shown the body: at the start, at its intervals, at each
-/// state of rest and at the end, at most once a step.
+/// Returns how often a writer or probe is shown the body: at the start, at its intervals, at each
+/// state of rest and at the end, at most once per step.
 double frames_of(const Plan& plan, const Stage& output);
-double records_of(const PlannedStage& stage);  ///< of the history
-/// Seconds that all frames and records take, if a sweep over all springs takes `sweep`. `measured`:
-/// frames take what their trial took here.
+/// Returns the number of the stage's records in the history.
+double records_of(const PlannedStage& stage);
+/// Returns the seconds that all frames and records take, if a sweep over all springs takes `sweep`
+/// seconds. `measured`: frames take the time of their trial on this machine.
 double output_seconds(const Plan& plan, double sweep, bool measured);
-/// How many times longer a run may take than at rest: springs that break are asked about one at a
-/// time, and particles that touch answer each other.
+/// Returns how many times longer a run may take than at rest: the criterion is asked about one
+/// breaking spring at a time, and particles in contact answer each other.
 double slowest(const Model& model);
 
 }  // namespace hyperlattice

@@ -1,4 +1,4 @@
-// Which fields of the body a run has, and which its outputs ask for.
+// The fields that a run has, and those that its outputs ask for.
 #pragma once
 
 #include <model/model.hpp>
@@ -10,11 +10,11 @@
 
 namespace hyperlattice {
 
-/// Whether a run has the field: no height without a membrane that moves, nothing broken without a
-/// failure law.
+/// Returns whether a run has the field: heights need a free membrane, broken springs and damage
+/// need a failure criterion, a source needs a listed body.
 bool has_field(const Model& model, std::string_view name);
 
-/// The fields that each writer and probe names in any of its options.
+/// For each writer and probe, the fields that any of its options names.
 using AskedFields = std::map<const Stage*, std::vector<std::string>>;
 AskedFields asked_fields(const Scene& scene);
 

@@ -11,20 +11,20 @@ namespace hyperlattice {
 
 namespace {
 
-/// A writer that has no label of its own puts its files into the run's folder; another has a folder
-/// called like its label.
+/// Returns whether a writer has its own folder, named by its label. A writer without a label puts
+/// its files into the run's folder.
 bool has_folder(const Stage& writer) {
   const std::string type = writer.component->type();
   return writer.name != type.substr(type.find('.') + 1);
 }
 
-/// A writer, and the text that all its files' names begin with.
+/// A writer and the text with which the names of all its files begin.
 struct Named {
   const Stage* writer;
   std::string base;
 };
 
-/// The writers that have an option `file`.
+/// Returns the writers that have an option `file`.
 std::vector<Named> named_of(const std::vector<const Stage*>& writers,
                             const nlohmann::json& resolved) {
   std::vector<Named> named;

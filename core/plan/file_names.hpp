@@ -1,4 +1,4 @@
-// Names of files that every run may leave in its folder, so that no output may be called like one.
+// The names of files that every run may leave in its folder. No output may have such a name.
 #pragma once
 
 #include <base/errors.hpp>
@@ -17,17 +17,19 @@ inline constexpr std::string_view run_file_names[] = {
     "failing_motion.csv",    "files.csv",           "probes",      checkpoint_file,
     earlier_checkpoint_file, "report.html"};
 
-/// What a writer or probe will call its files, in a folder inside the run's ("": that itself).
+/// The names of a writer's or probe's files, in a folder inside the run's ("": the run's folder).
 struct OutputName {
   std::string folder, base;
-  double frames = 0;  ///< how many there may be: "base_000000...", beside "base..."; 0: `base` is
-                      ///< the whole name of one file
+  /// The number of files "base_000000..." beside "base..." at most; 0: one file, named `base`.
+  double frames = 0;
 
-  bool may_be(std::string_view name) const;  ///< whether a file may have this name
+  /// Returns whether a file may have this name.
+  bool may_be(std::string_view name) const;
 };
+/// Returns the names of the files of all writers with an option `file` and of all probes.
 std::vector<OutputName> output_names(const Plan& plan);
 
-/// A fault for each writer whose folder would be called like a file of the run or of another
+/// Adds a fault for each writer whose folder would have the name of a file of the run or of another
 /// writer.
 void check_file_names(const Scene& scene, Faults& faults);
 

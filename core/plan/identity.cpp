@@ -25,8 +25,8 @@ using Kind = Dependence::Kind;
 constexpr std::string_view kind_names[] = {"scene", "file", "plugin", "program", "mode"};
 constexpr std::string_view instruction_names[] = {"baseline", "avx2", "avx512"};
 
-/// The hash of code that this process runs. It is taken once: what is loaded stays, whatever
-/// becomes of the file.
+/// Returns the hash of code that this process runs. It is computed once, because loaded code stays
+/// the same if its file changes.
 std::string hash_of_code(const std::filesystem::path& file) {
   static std::mutex mutex;
   static std::map<std::filesystem::path, std::string> known;
@@ -36,15 +36,15 @@ std::string hash_of_code(const std::filesystem::path& file) {
   return found->second;
 }
 
-/// The library that holds the core.
+/// Returns the path of the library that contains the core.
 std::filesystem::path core_library() {
   Dl_info info{};
   static const int here = 0;
   return dladdr(&here, &info) != 0 && info.dli_fname != nullptr ? info.dli_fname : "/proc/self/exe";
 }
 
-/// Each part of the scene by itself, so that a change can be named. Where files stand does not
-/// count.
+/// Adds each part of the scene separately, so that messages can name a change. The paths of files
+/// do not count.
 void add_scene(Identity& identity, const Scene& scene) {
   Json parts = Json::parse(scene.resolved);
   parts.erase("plugins");
@@ -85,13 +85,13 @@ std::string shown(const Dependence& one) {
   }
 }
 
-/// Finds the entries of an identity by kind and name; of several alike, the first.
+/// Finds entries of an identity by kind and name; the first of several equal ones.
 class Index {
  public:
   explicit Index(const Identity& identity) {
     for (const Dependence& one : identity) entries_.try_emplace({one.kind, one.name}, &one);
   }
-  /// The entry of the same kind and name; null if there is none.
+  /// Returns the entry of the same kind and name, or null.
   const Dependence* find(const Dependence& wanted) const {
     const auto found = entries_.find({wanted.kind, wanted.name});
     return found == entries_.end() ? nullptr : found->second;

@@ -7,7 +7,7 @@
 namespace hyperlattice {
 namespace {
 
-/// Whether a load has amplitudes that its factor multiplies: forces or displacements, velocities.
+/// Returns whether the load has forces or displacements for its factor to multiply.
 bool pushes(const Load& load) {
   return std::any_of(load.particles.begin(), load.particles.end(),
                      [](const LoadedParticle& loaded) {
@@ -19,8 +19,8 @@ bool drives(const Load& load) {
                      [](const LoadedParticle& loaded) { return !(loaded.velocity == Vec3{}); });
 }
 
-/// A state of rest meets what a load is at the stage's end, and the way that it drives particles
-/// until then.
+/// Returns whether the load changes a state of rest: by its factor at the stage's end, or by the
+/// distance over which it drives particles until then.
 bool acts_at_rest(const Load& load, const PlannedStage& stage) {
   const double end = stage.plan.end_time;
   return (pushes(load) && load.after(end) != 0) ||

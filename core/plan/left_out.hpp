@@ -1,11 +1,11 @@
-// What a run does without, and why.
+// The features that a run does not compute, and why.
 #pragma once
 
 #include <plan/plan.hpp>
 
 namespace hyperlattice {
 
-/// Needs the plan's scene, model and stages.
+/// Returns these features; needs the plan's scene, model and stages.
 std::vector<LeftOut> left_out(const Plan& plan);
 
 }  // namespace hyperlattice

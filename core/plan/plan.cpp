@@ -27,7 +27,7 @@ namespace hyperlattice {
 
 namespace {
 
-/// The core counts steps and bytes by these numbers.
+/// Checks the numbers of a solver's plan, by which the core counts steps and bytes.
 void check_plan(const Stage& stage, const PlannedStage& planned) {
   const SolverPlan& plan = planned.plan;
   const auto counts = [](double number) { return std::isfinite(number) && number >= 0; };
@@ -45,7 +45,7 @@ void check_plan(const Stage& stage, const PlannedStage& planned) {
             plan.time_step));
 }
 
-/// Each stage starts where the one before ends.
+/// Plans the stages. Each one starts at the time at which the one before ends.
 void plan_stages(Plan& plan, Faults& faults) {
   double start = 0;
   for (const Stage* stage : plan.scene->of(Family::solvers)) {
@@ -67,7 +67,7 @@ void plan_stages(Plan& plan, Faults& faults) {
   }
 }
 
-/// Refuses outputs of fields that the run does not have, before anything is written.
+/// Adds a fault for each output of a field that the run does not have.
 void check_fields(const Plan& plan, Faults& faults) {
   std::vector<std::string_view> present;
   for (const std::string_view name : field_names)

@@ -36,22 +36,22 @@ struct PlannedTable {
   std::vector<std::string> columns;
 };
 
-/// What a frame of a writer takes when the body moves, as frames of a few of its particles say.
+/// The cost of a writer's frame when the body moves, from frames of a few of its particles.
 struct FrameCost {
   double bytes = 0, seconds = 0;
 };
 
 struct Plan {
   std::unique_ptr<Scene> scene;
-  Identity identity;  ///< of the run, when it was planned
+  Identity identity;  ///< of the run, at the time of planning
   std::unique_ptr<Model> model;
-  BodyFigures body;  ///< how large it came out
+  BodyFigures body;  ///< its size and mass as built
   std::vector<PlannedStage> stages;
   AskedFields asked_fields;
   std::vector<PlannedTable> tables;               ///< in the order of the scene's probes
   std::map<const Stage*, FrameCost> frame_costs;  ///< of the writers that could be tried
   int threads = 1;
-  double bytes_per_particle = 0;  ///< of the state: what the kernel works on
+  double bytes_per_particle = 0;  ///< of the state that the kernel works on
   double memory_bytes = 0;        ///< of the state, the model and the scratch
   double output_bytes = 0;        ///< estimated
   double setup_seconds = 0;       ///< spent on building the model
@@ -62,24 +62,26 @@ struct Plan {
   double end_time() const;
 };
 
-/// Validates everything, writes nothing. Throws as read_scene and build_model do, and InputError if
-/// a solver refuses its time step.
+/// Validates everything and writes nothing. Throws as read_scene and build_model do, and InputError
+/// if a solver refuses its time step.
 std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, Threads threads);
 
-/// Gives a plan another number of threads, and estimates anew what depends on it.
+/// Sets another number of threads and repeats the estimates that depend on it.
 void set_threads(Plan& plan, int threads);
 
-/// Seconds between the outputs of a writer or probe in a run of `end_time` seconds; a scene that
-/// does not say gets 20 frames, 200 samples.
+/// Returns the seconds between the outputs of a writer or probe in a run of `end_time` seconds. By
+/// default a run has 20 frames of a writer and 200 samples of a probe.
 double output_interval(const Stage& output, double end_time);
 
-/// Seconds between the records of a stage's history; a scene that does not say gets 200.
+/// Returns the seconds between the records of a stage's history; by default a stage has at most 200
+/// records.
 double record_interval(const PlannedStage& stage);
-/// The same in steps, of a stage that looks for rest.
+/// Returns the steps between the records of a stage that looks for rest.
 std::uint64_t record_steps(const PlannedStage& stage);
 
-std::string plan_text(const Plan& plan);  ///< for people
-nlohmann::json plan_json(
-    const Plan& plan);  ///< the keys of summary.json that are known before a run, and left_out
+/// Returns the plan as text for people.
+std::string plan_text(const Plan& plan);
+/// Returns the keys of summary.json that are known before a run, and `left_out`.
+nlohmann::json plan_json(const Plan& plan);
 
 }  // namespace hyperlattice

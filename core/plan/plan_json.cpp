@@ -12,7 +12,7 @@ namespace hyperlattice {
 
 namespace {
 
-/// The plugins that the scene's stages come from, each once.
+/// Returns the plugins of the scene's stages, each once.
 nlohmann::json plugins_json(const Scene& scene) {
   auto list = nlohmann::json::array();
   const auto add = [&](const Component& component) {
@@ -39,7 +39,7 @@ const char* motion_name(KernelChoice::Membrane membrane) {
   }
 }
 
-/// As the scene names it; of several materials with several membranes, all of them.
+/// Returns the membrane's name in the scene; if materials have different membranes, all names.
 std::string membrane_name(const Model& model) {
   const auto resolved = nlohmann::json::parse(model.scene->resolved);
   std::vector<std::string> names;
@@ -55,7 +55,7 @@ std::string membrane_name(const Model& model) {
                        : fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// What the body is, beside what its shape asks for where that is known.
+/// Returns the size of the body, and that of its shape where it is known.
 nlohmann::json body_json(const BodyFigures& body) {
   const auto vector = [](Vec3 v) { return nlohmann::json{v.x, v.y, v.z}; };
   nlohmann::json json = {{"size", vector(body.size)},
@@ -69,7 +69,7 @@ nlohmann::json body_json(const BodyFigures& body) {
   return json;
 }
 
-/// What every plan has.
+/// Returns the facts that every plan has.
 nlohmann::json common_facts(const Plan& plan) {
   const Model& model = *plan.model;
   double time_step = 0;

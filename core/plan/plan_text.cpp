@@ -1,5 +1,4 @@
-// The plan as a page for people; every number comes from the JSON form, so that the two never
-// differ.
+// The plan as text for people. Every number comes from the JSON form, so that the two agree.
 #include <base/figures.hpp>
 #include <plan/estimates.hpp>
 #include <state/simulation.hpp>

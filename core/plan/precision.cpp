@@ -10,8 +10,8 @@
 namespace hyperlattice {
 namespace {
 
-/// How far the start velocities, at most, move a particle until `end`. What turns as one body goes
-/// round in circles, no wider than it is.
+/// Returns the largest distance, m, that start velocities can move a particle until `end`. A
+/// particle of a rotating body moves by no more than the diameter of its circle.
 double started(const Model& model, double end) {
   const auto vector = [](Vec3 v) { return Eigen::Vector3d(v.x, v.y, v.z); };
   const double count = static_cast<double>(model.start_velocities.size());
@@ -38,7 +38,8 @@ double started(const Model& model, double end) {
   return travel;
 }
 
-/// How far, at most, a load moves a particle that it prescribes or starts; forces are not followed.
+/// Returns the largest distance, m, that loads with prescribed motion or start velocities move a
+/// particle. Forces are not considered.
 double farthest(const Plan& plan) {
   const Model& model = *plan.model;
   const double end = plan.end_time();

@@ -27,7 +27,7 @@
 namespace hyperlattice {
 namespace {
 
-/// The body at rest: every field that the run has is zero.
+/// The body at rest. All fields of the run are zero.
 class AtRest {
  public:
   explicit AtRest(const Model& model) : model_(model), regions_(model.body, model.scene->regions) {
@@ -51,10 +51,10 @@ class AtRest {
   }
 
   std::span<const Particle> particles(RegionId region) { return regions_.particles(region); }
-  /// The regions that were asked for since the last call.
+  /// Returns the regions that were asked for since the last call.
   std::vector<RegionId> take_asked() { return std::exchange(asked_, {}); }
 
-  /// What probes are shown; writers need none of it.
+  /// Returns the snapshot for probes; writers do not need it.
   Snapshot snapshot() {
     check_room();
     positions_.reserve(3 * model_.body.particles);
@@ -93,12 +93,11 @@ class AtRest {
   std::vector<double> positions_, zeros_;
 };
 
-/// A few of a body's particles, spread over all that a writer shows, in a motion that fills every
-/// digit of its numbers.
+/// A few particles, spread over all that a writer shows, in a motion whose numbers have all digits.
 class Sample {
  public:
-  /// `regions`: those that the writer asks for; the largest of them is what it shows, and of none
-  /// the whole body.
+  /// `regions`: those that the writer asks for. It shows the largest of them, or the whole body if
+  /// there are none.
   Sample(const Model& model, AtRest& rest, const std::vector<RegionId>& regions, std::size_t most)
       : model_(model), rest_(rest) {
     std::span<const Particle> shown;
@@ -120,7 +119,7 @@ class Sample {
   Sample& operator=(const Sample&) = delete;
 
   std::size_t size() const { return particles_.size(); }
-  /// How many particles the sample stands for.
+  /// Returns how many particles the sample stands for.
   std::size_t all() const { return all_; }
 
   OutputContext context(const std::string& directory) {
@@ -151,7 +150,7 @@ class Sample {
   }
 
  private:
-  /// Places in the sample.
+  /// Returns the members of a region by their numbers in the sample.
   std::span<const Particle> particles(RegionId region) {
     const auto [entry, is_new] = places_.try_emplace(region.index);
     if (!is_new) return entry->second;
@@ -179,9 +178,9 @@ class Sample {
     return true;
   }
 
-  /// Numbers that change slowly along the body, and whose last digits are noise. Their last bits
-  /// are left out: so they pack about as well as those of a body whose parts move partly alike, and
-  /// have as many decimal digits as any.
+  /// Fills in numbers that change slowly along the body and have noise in their last digits. Their
+  /// lowest bits are zero, so that they compress about as well as those of a body whose parts move
+  /// partly alike, and have as many decimal digits as any.
   void fill(std::vector<double>& values, double size) const {
     constexpr double roughness = 1e-4,
                      middle = 0.37;  // a bit more than half of the numbers have no sign
@@ -201,13 +200,13 @@ class Sample {
   const Model& model_;
   AtRest& rest_;
   std::size_t all_ = 0;
-  std::vector<Particle> particles_;  ///< of the body
+  std::vector<Particle> particles_;  ///< their numbers in the body
   std::vector<double> positions_;
-  std::map<std::uint32_t, std::vector<Particle>> places_;  ///< of each region
+  std::map<std::uint32_t, std::vector<Particle>> places_;  ///< members of each region
   std::map<std::string, std::vector<double>, std::less<>> values_;
 };
 
-/// A folder of its own in the system's folder for such, which ends with this object.
+/// A temporary folder, removed with this object.
 class TrialFolder {
  public:
   TrialFolder()
@@ -233,11 +232,12 @@ class TrialFolder {
   std::string path_;
 };
 
-/// What a frame of the sample takes. None if it cannot be written here, for whatever reason.
+/// Returns the cost of a frame of the sample, or nothing if it cannot be written here.
 std::optional<FrameCost> try_frame(const Stage& stage, Sample& sample) try {
   using Clock = std::chrono::steady_clock;
-  constexpr double quick =
-      0.01;  // s, below which the first frame may have waited for what later ones find ready
+  // Seconds. A faster first frame is repeated, because it may include preparations that later
+  // frames do not need.
+  constexpr double quick = 0.01;
   const FileLimitGuard file_limit;
   const TrialFolder folder;
   const auto& writer = stage.functions<WriterFunctions>();
@@ -266,16 +266,16 @@ std::optional<FrameCost> try_frame(const Stage& stage, Sample& sample) try {
   return std::nullopt;
 }
 
-/// The same. The run tells of a failure if it meets it too; that memory ran out here does not
-/// count.
+/// Returns the same. If memory runs out here, this is forgotten: the run reports the failure if it
+/// meets it too.
 std::optional<FrameCost> cost_of(const Stage& stage, Sample& sample) {
   const auto cost = try_frame(stage, sample);
   if (!cost) forget_lack_of_memory();
   return cost;
 }
 
-/// A cost of all particles, which grows as a power of their number: 1 of a table, nearly 0 of a
-/// picture.
+/// Returns the cost for all particles. It grows as a power of their number: about 1 for a table,
+/// nearly 0 for a picture.
 double of_all(double all, double few, double cost_of_few, double some, double cost_of_some) {
   const bool grows = cost_of_few > 0 && cost_of_some > cost_of_few;
   const double power =
@@ -283,13 +283,14 @@ double of_all(double all, double few, double cost_of_few, double some, double co
   return cost_of_some * std::pow(all / some, power);
 }
 
-/// The cost of a frame of all particles that the writer shows, from frames of a few and of some.
-/// Few alone count, each particle alike, where some leave no file: files may be limited in size.
+/// Returns the cost of a frame of all particles that the writer shows, extrapolated from frames of
+/// a few and of some particles. If the frame of some particles cannot be written, because files may
+/// be limited in size, the cost is proportional to that of a few.
 std::optional<FrameCost> frame_cost(const Model& model, AtRest& rest, const Stage& stage,
                                     const std::vector<RegionId>& regions) {
   constexpr std::size_t few_particles = 256, some_particles = 8192;
-  constexpr double long_time =
-      0.5;  // s: much longer than so few particles take, whose number then matters little
+  // Seconds: much longer than so few particles take, so that their number matters little.
+  constexpr double long_time = 0.5;
   Sample some(model, rest, regions, some_particles);
   const auto all = static_cast<double>(some.all());
   if (all == 0) return std::nullopt;

@@ -10,15 +10,15 @@
 namespace hyperlattice {
 namespace {
 
-/// By which share the mean over a step, of sin(2 pi f t) with so many steps a period, is below its
-/// amplitude.
+/// Returns the relative loss of amplitude of sin(2 pi f t) in its mean over a step, for a number of
+/// steps per period.
 double lost_by_mean(double steps_a_period) {
   const double half_phase = std::numbers::pi / steps_a_period;
   return 1 - std::sin(half_phase) / half_phase;
 }
 
-/// Two corners of a load, less than two steps apart, between which or at which its factor changes
-/// by more than a tenth of its largest value.
+/// Two corners of a load, less than two steps apart, at or between which its factor changes by more
+/// than a tenth of its largest value.
 struct ShortPiece {
   double from = 0, to = 0;  ///< s
   bool found = false;
@@ -27,7 +27,7 @@ struct ShortPiece {
 /// The pieces of a load's factor, from one corner to the next.
 struct Pieces {
   std::vector<double> ends;  ///< s, ascending: 0 and the corners
-  double largest = 0;        ///< of the factor's magnitudes in the middles of the pieces
+  double largest = 0;        ///< largest absolute factor in the middle of a piece
 };
 
 Pieces pieces_of(const Load& load) {
@@ -60,9 +60,9 @@ ShortPiece shortest(const Load& load, const Pieces& pieces, const PlannedStage& 
   return shortest;
 }
 
-/// An instant about which a load's mean over a step is not that of the step's two halves: it
-/// changes too fast for the points at which it is looked at. Nothing if there is none among some
-/// steps of the stage.
+/// Returns a time at which a load's mean over a step differs from the mean of its two halves: the
+/// load then changes too fast for its quadrature points. Tries at most about `most_steps` steps of
+/// the stage; returns nothing if all agree.
 std::optional<double> too_fast_at(const Load& load, const PlannedStage& stage,
                                   std::uint64_t most_steps) {
   constexpr double share = 1e-3;
@@ -82,7 +82,7 @@ std::optional<double> too_fast_at(const Load& load, const PlannedStage& stage,
   return worst > share * largest ? std::optional(at) : std::nullopt;
 }
 
-/// The stage in time with the longest step; null if there is none.
+/// Returns the stage with the longest time step, or null if no stage has steps in time.
 const PlannedStage* coarsest_of(const Plan& plan) {
   const PlannedStage* coarsest = nullptr;
   for (const PlannedStage& stage : plan.stages)
@@ -95,7 +95,7 @@ const PlannedStage* coarsest_of(const Plan& plan) {
 }  // namespace
 
 void check_resolution(Plan& plan, Faults& faults) {
-  constexpr double fewest = 2, good = 20;  // steps a period
+  constexpr double fewest = 2, good = 20;  // steps per period
   const PlannedStage* coarsest = coarsest_of(plan);
   if (coarsest == nullptr) return;
   const std::uint64_t most_steps =

@@ -13,8 +13,8 @@ namespace hyperlattice {
 
 namespace {
 
-/// Bytes of the files that an earlier run's list names: a new run replaces them, a resumed one has
-/// written them already. A list that cannot be read names none; the run itself says why.
+/// Returns the bytes of the files in an earlier run's list: a new run replaces them, a resumed run
+/// has written them already. An unreadable list counts as empty; the run reports it.
 double own_bytes(const std::filesystem::path& directory) {
   namespace fs = std::filesystem;
   double bytes = 0;
@@ -33,7 +33,7 @@ double own_bytes(const std::filesystem::path& directory) {
   return bytes;
 }
 
-/// The share of an estimate that a run writes at least, as a rule: a run that may fit is not
+/// The fraction of an estimate that a run normally writes at least. A run that may fit is not
 /// refused.
 constexpr double surely = 0.7;
 

@@ -1,4 +1,4 @@
-// Whether a run has the room that its plan says it needs.
+// Checks whether a run has the memory and disk space that its plan needs.
 #pragma once
 
 #include <plan/plan.hpp>
@@ -9,13 +9,12 @@
 
 namespace hyperlattice {
 
-/// Sentences, one for each thing that this process has too little of for the run: memory that is
-/// not allocated yet, disk where the results go, or the size of a file. Each has what the run needs
-/// and what there is. Empty if all fits. The files of an earlier run in `directory`, which the run
-/// replaces, count as free disk.
+/// Returns one sentence, with need and supply, for each resource that is too small for the run:
+/// memory still to be allocated, disk space for the results, or the largest size of a file. Files
+/// of an earlier run in `directory`, which the run replaces, count as free disk space.
 std::vector<std::string> shortages(const Plan& plan, const std::filesystem::path& directory);
 
-/// OutsideError with these sentences if there are any.
+/// Throws OutsideError with these sentences if there are any.
 void refuse_shortage(const Plan& plan, const std::filesystem::path& directory);
 
 }  // namespace hyperlattice

@@ -1,4 +1,4 @@
-// What a solver may know before its stage.
+// The facts that a solver gets before its stage.
 #pragma once
 
 #include <model/model.hpp>
@@ -7,7 +7,7 @@
 
 namespace hyperlattice {
 
-/// Of a stage that begins at `start_time`, s.
+/// Returns the facts of a stage that begins at `start_time`, s.
 SolverFacts solver_facts(const Model& model, double start_time);
 
 }  // namespace hyperlattice

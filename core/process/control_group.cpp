@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The first number of a file; nothing if there is none, as in "max".
+/// Returns the first number in a file; nothing if there is none, as in "max".
 std::optional<double> number_in(const fs::path& file) {
   std::ifstream stream(file);
   double number = 0;
@@ -17,7 +17,7 @@ std::optional<double> number_in(const fs::path& file) {
   return number;
 }
 
-/// The sum of the numbers that follow these keys in a file of lines "key number".
+/// Returns the sum of the numbers of these keys in a file of lines "key number".
 double sum_of(const fs::path& file, std::initializer_list<std::string_view> keys) {
   std::ifstream stream(file);
   double sum = 0, number = 0;
@@ -27,8 +27,8 @@ double sum_of(const fs::path& file, std::initializer_list<std::string_view> keys
   return sum;
 }
 
-/// From a group's folder up to where its controller is mounted. In a container the group may stand
-/// elsewhere than it is called: its own files are then at the mount.
+/// Returns the folders from a group up to the mount of its controller. In a container the group's
+/// files may be at the mount instead of at the group's path.
 std::vector<fs::path> folders_of(const fs::path& mount, const fs::path& group) {
   std::error_code ignored;
   if (!fs::is_directory(mount, ignored)) return {};
@@ -71,9 +71,8 @@ std::optional<double> processors_of(const fs::path& folder) {
 }  // namespace
 
 ControlGroups::ControlGroups(const fs::path& root) {
-  std::ifstream stream(
-      root /
-      "proc/self/cgroup");  // lines "number:controllers:/group"; version 2 has no controllers there
+  // lines "number:controllers:/group"; version 2 has no controllers in them
+  std::ifstream stream(root / "proc/self/cgroup");
   const fs::path mounts = root / "sys/fs/cgroup";
   for (std::string line; std::getline(stream, line);) {
     const auto first = line.find(':'), second = line.find(':', first + 1);

@@ -1,5 +1,5 @@
-// What the control groups of this process allow it, of either version of them: containers and batch
-// systems set such limits.
+// Limits of memory and processors by the control groups (version 1 or 2) of this process;
+// containers and batch systems set such limits.
 #pragma once
 
 #include <filesystem>
@@ -9,21 +9,24 @@
 
 namespace hyperlattice {
 
+/// The control groups of this process.
 class ControlGroups {
  public:
-  /// The limits of this process. `root`: where the system's files are looked for. A file that
-  /// cannot be read sets no limit.
+  /// Finds the groups of this process. `root`: folder of the system's files. A file that cannot be
+  /// read sets no limit.
   explicit ControlGroups(const std::filesystem::path& root = "/");
 
   struct Memory {
-    double limit = 0, used = 0;   ///< bytes; what the kernel can take back is not counted as used
-    std::filesystem::path group;  ///< the folder whose limit it is
+    double limit = 0, used = 0;   ///< bytes; `used` excludes caches that the kernel can free
+    std::filesystem::path group;  ///< folder of the group that sets the limit
   };
-  std::optional<Memory> memory() const;      ///< of the group that has the least left
-  std::optional<double> processors() const;  ///< time that the tightest group grants, in processors
+  /// memory of the group with the least left; nothing: no limit
+  std::optional<Memory> memory() const;
+  /// processor time of the tightest group, in processors; nothing: no limit
+  std::optional<double> processors() const;
 
  private:
-  /// The folders of the process's own group and those above it, for one controller.
+  /// Folders of the process's group and of the groups above it, for each controller.
   std::vector<std::filesystem::path> memory_, processor_;
 };
 

@@ -1,12 +1,12 @@
-// A limit on the size of files.
+// The system's limit on the size of files (ulimit -f).
 #pragma once
 
 #include <csignal>
 
 namespace hyperlattice {
 
-/// While it lives, a write past the limit on the size of files is an error of the write, and not
-/// the end of the program.
+/// Ignores SIGXFSZ while it exists: a write past the limit fails with an error instead of ending
+/// the program.
 class FileLimitGuard {
  public:
   FileLimitGuard();

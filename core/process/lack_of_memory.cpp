@@ -17,7 +17,7 @@ constexpr const char* sentence = "not enough memory";
 std::atomic<bool> ran_out = false;
 std::terminate_handler other_ends = nullptr;
 
-/// The allocation that called this fails with the exception.
+/// The new-handler: makes the allocation that called it fail with std::bad_alloc.
 [[noreturn]] void note() {
   ran_out.store(true, std::memory_order_relaxed);
   throw std::bad_alloc();

@@ -1,12 +1,12 @@
-// How many processors this process may use.
+// Number of processors that this process may use.
 #pragma once
 
 #include <filesystem>
 
 namespace hyperlattice {
 
-/// Those that its affinity mask names, or fewer if its control group grants less time than they
-/// have; at least 1. `root`: where the system's files are looked for.
+/// Returns the number of processors in the affinity mask, or less if the control group grants less
+/// processor time; at least 1. `root`: folder of the system's files.
 int processors(const std::filesystem::path& root = "/");
 
 }  // namespace hyperlattice

@@ -18,7 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// The number after a key such as "VmSize:" in a file of the system, kB there; bytes.
+/// Returns the number after a key such as "VmSize:" in a file of the system, converted from kB to
+/// bytes.
 double kilobytes_in(const fs::path& file, std::string_view key, double otherwise) {
   std::ifstream stream(file);
   for (std::string line; std::getline(stream, line);)

@@ -1,4 +1,4 @@
-// What this process may still have of memory and disk, before it asks for it.
+// Memory and disk space that this process can still get, for checks before a request.
 #pragma once
 
 #include <filesystem>
@@ -6,21 +6,22 @@
 
 namespace hyperlattice {
 
-/// An amount that is left, and what bounds it.
+/// An available amount and its limit.
 struct Room {
+  /// available amount, bytes
   double bytes = 0;
-  std::string bound;  ///< "the limit on address space (ulimit -v)"
+  std::string bound;  ///< the limit, in words: "the limit on the address space (ulimit -v) is ..."
 };
 
-/// The least that limits of the process, its control groups and the machine leave. What the kernel
-/// can take back from its caches counts as left, space to swap to does not. `root`: where the
-/// system's files are looked for.
+/// Returns the smallest amount that the limits of the process, its control groups and the machine
+/// leave. Caches that the kernel can free count as available, swap space does not. `root`: folder
+/// of the system's files.
 Room memory_room(const std::filesystem::path& root = "/");
 
-/// What the file system has left where the path is, or will be.
+/// Returns the free space of the file system of a path, which need not exist yet.
 Room disk_room(const std::filesystem::path& path);
 
-/// The largest file that the process may write; infinite if there is no limit.
+/// Returns the largest size of a file that the process may write; infinite without a limit.
 Room file_room();
 
 }  // namespace hyperlattice

@@ -1,5 +1,5 @@
-// A stack for signal handlers. A function that calls itself without end uses up its thread's own
-// stack, and a handler needs another one.
+// A stack for signal handlers. Infinite recursion uses up the thread's own stack, so a handler
+// needs another one.
 #pragma once
 
 #include <csignal>
@@ -7,8 +7,8 @@
 
 namespace hyperlattice {
 
-/// A signal stack of the thread that constructs and destroys it; each thread needs its own. A
-/// thread that has a signal stack already, as under a sanitizer, keeps that one.
+/// A signal stack, 64 KiB, of the thread that constructs and destroys it; each thread needs its
+/// own. If the thread already has a signal stack, for example of a sanitizer, that one stays.
 class SignalStack {
  public:
   SignalStack() noexcept {

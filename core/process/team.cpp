@@ -28,10 +28,10 @@ void pause() noexcept {
 
 Team::Team(int threads)
     : threads_(static_cast<std::size_t>(threads)), ranges_(std::make_unique<Range[]>(threads_)) {
-  // A thread that sleeps takes some 10 us to wake, longer than equal shares of work wait for each
-  // other. A thread that looks for long takes the processor from the one that it waits for, as soon
-  // as other work shares the machine.
-  constexpr int looks = 2000;  // some 20 to 60 us
+  // A sleeping thread needs about 10 us to wake, longer than threads with equal work wait for each
+  // other. A thread that checks for too long takes processor time from the thread it waits for, as
+  // soon as other work shares the machine.
+  constexpr int looks = 2000;  // about 20 to 60 us
   looks_ = threads <= processors() ? looks : 0;
   others_.reserve(threads_ - 1);
   try {
@@ -81,7 +81,8 @@ void Team::work(std::size_t thread, std::uint32_t round) noexcept {
   for (std::size_t n = 1; n < threads_; ++n) do_range((thread + n) % threads_, round);
 }
 
-/// A thread that comes late finds another round in the range, and takes nothing.
+/// Does the items left in a range. A thread that comes late finds another round in the range and
+/// takes nothing.
 void Team::do_range(std::size_t range, std::uint32_t round) noexcept {
   std::atomic<std::uint64_t>& left = ranges_[range].now;
   for (std::uint64_t now = left.load(std::memory_order_acquire); is_of(now, round);) {
@@ -99,7 +100,7 @@ void Team::do_range(std::size_t range, std::uint32_t round) noexcept {
   }
 }
 
-/// Keeps the present exception, and leaves out the rest of the range.
+/// Keeps the present exception and skips the rest of the range.
 void Team::fail(std::size_t range, std::uint32_t round, std::size_t n) noexcept {
   {
     const std::lock_guard lock(failing_);
@@ -121,7 +122,7 @@ void Team::finish(std::uint32_t round, std::size_t count) noexcept {
 }
 
 void Team::serve(std::size_t thread) noexcept {
-  const SignalStack stack;  // for a law of a plugin that calls itself without end
+  const SignalStack stack;  // for a plugin's law with infinite recursion
   for (std::uint32_t seen = 0;;) {
     wait_for_change(round_.now, seen);
     seen = round_.now.load(std::memory_order_acquire);

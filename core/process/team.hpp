@@ -1,6 +1,7 @@
-// The threads of a run. They are started once. Work is cut into ranges of equal size, one a thread;
-// a thread that is done with its own goes on with what the others have not begun, so that none
-// waits for one that the system lets wait. Results do not depend on who did what.
+// The threads of a run, started once. Work is divided into ranges of equal size, one per thread. A
+// thread that has finished its range continues with items that other threads have not begun, so
+// none waits for a thread that the system has paused. Results do not depend on which thread did
+// which item.
 #pragma once
 
 #include <atomic>
@@ -14,17 +15,18 @@
 
 namespace hyperlattice {
 
-/// A number that several threads write, in a line of the caches of its own.
+/// A number that several threads write, padded to a cache line of 64 bytes.
 template <class Number>
 struct Apart {
   std::atomic<Number> now = 0;
   char rest_of_line[64 - sizeof now] = {};
 };
 
+/// A pool of threads; the thread that asks for work is its first member.
 class Team {
  public:
-  /// Starts all threads but the first, which is the one that asks for work. Throws OutsideError if
-  /// the system refuses one.
+  /// Starts all threads except the first, which is the caller. Throws OutsideError if the system
+  /// refuses a thread.
   explicit Team(int threads);
   ~Team();
   Team(const Team&) = delete;
@@ -32,15 +34,15 @@ class Team {
 
   int count() const { return static_cast<int>(threads_); }
 
-  /// Calls work(n) for each n below `size`, at most 2^32 - 1. An exception ends its range; the one
-  /// of the least n is thrown here when all are done. For work of one thread at a time, not from
-  /// within such work.
+  /// Calls work(n) for each n below `size`, which is at most 2^32 - 1. An exception ends its range;
+  /// after all work, the one of the lowest n is thrown. Only one thread may call this at a time,
+  /// and not from within work.
   template <class Work>
   void for_each(std::size_t size, const Work& work) {
     share(size, true, &call<Work>, &work);
   }
-  /// The same, but each thread does its own range and no other: memory that it is the first to
-  /// touch lies near it.
+  /// Calls work(n) as for_each() does, but each thread does only its own range: memory that it
+  /// touches first is then close to it (NUMA).
   template <class Work>
   void for_own(std::size_t size, const Work& work) {
     share(size, false, &call<Work>, &work);
@@ -53,8 +55,8 @@ class Team {
     (*static_cast<const Work*>(work))(n);
   }
 
-  /// What is left of a thread's range: the round in the upper half, how many in the lower. Who
-  /// counts it down by one has taken the first of these.
+  /// Remaining items of a thread's range: the round in the upper 32 bits, the number of items in
+  /// the lower 32. A thread takes the first of them when it decreases the number by one.
   using Range = Apart<std::uint64_t>;
 
   void share(std::size_t size, bool helping, Call call, const void* work);
@@ -69,21 +71,21 @@ class Team {
 
   std::size_t threads_;
   std::unique_ptr<Range[]> ranges_;
-  int looks_ = 0;  ///< how often a waiting thread looks before it sleeps
+  int looks_ = 0;  ///< number of checks of a waiting thread before it sleeps
   std::vector<std::thread> others_;
 
-  // The work that is shared out now. Who has taken a part of it may read this: the round does not
-  // end before that part is done.
+  // The present work. A thread that has taken an item may read it, since the round does not end
+  // before that item is done.
   std::size_t size_ = 0;
   Call call_ = nullptr;
   const void* work_ = nullptr;
   std::mutex failing_;
-  std::size_t failed_ = 0;      ///< the least n whose work threw
-  std::exception_ptr failure_;  ///< what it threw
+  std::size_t failed_ = 0;      ///< lowest n whose work threw
+  std::exception_ptr failure_;  ///< its exception
 
-  Apart<std::uint32_t> round_;  ///< of shared work
-  Apart<std::size_t> open_;     ///< parts of it that are not done
-  Apart<std::uint32_t> done_;   ///< the latest round of which all is done
+  Apart<std::uint32_t> round_;  ///< number of the present round of work
+  Apart<std::size_t> open_;     ///< items of the round that are not done
+  Apart<std::uint32_t> done_;   ///< latest round of which all items are done
   std::atomic<bool> helping_ = true, stopping_ = false;
 };
 

@@ -12,8 +12,8 @@ namespace hyperlattice {
 
 namespace {
 
-/// Bytes that OMP_STACKSIZE asks for: a number of KiB, or with B, K, M or G behind it; 0 if it says
-/// nothing.
+/// Returns the stack size that OMP_STACKSIZE requests, bytes: a number of KiB, or a number followed
+/// by B, K, M or G; 0 without a request.
 std::size_t openmp_stack() {
   const char* text = std::getenv("OMP_STACKSIZE");
   if (text == nullptr) text = std::getenv("GOMP_STACKSIZE");
@@ -56,7 +56,7 @@ void try_openmp_threads(int threads) {
   if (pthread_attr_init(&attributes) != 0) throw std::bad_alloc();
   if (const std::size_t stack = openmp_stack(); stack > 0)
     pthread_attr_setstacksize(&attributes,
-                              stack);  // as OpenMP does: what is too small is not taken
+                              stack);  // a size that is too small is ignored, as OpenMP does
   std::latch end(1);
   const auto asked = static_cast<std::size_t>(threads);
   std::vector<pthread_t> started;

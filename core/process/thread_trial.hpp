@@ -1,4 +1,4 @@
-// Threads that the system refuses: how that is told, and a trial of those that OpenMP will start.
+// Threads that the system refuses: the error, and a trial of the threads that OpenMP will start.
 #pragma once
 
 #include <base/errors.hpp>
@@ -7,12 +7,12 @@
 
 namespace hyperlattice {
 
-/// The error for `asked` threads of which the system starts only `started`. Both numbers include
-/// the thread that asks.
+/// Returns the error for `asked` threads of which the system starts only `started`; both numbers
+/// include the calling thread.
 OutsideError refused_threads(std::size_t started, std::size_t asked, const std::error_code& why);
 
-/// Starts as many threads as OpenMP is about to, with stacks as large, and lets them end. OpenMP
-/// itself ends the program with exit code 1 where the system refuses one; this throws OutsideError.
+/// Starts and ends as many threads as OpenMP will start, with the same stack size. Throws
+/// OutsideError if the system refuses one; OpenMP itself would end the program with exit code 1.
 void try_openmp_threads(int threads);
 
 }  // namespace hyperlattice

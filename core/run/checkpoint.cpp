@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view head_tag = "head", state_tag = "stat";
-constexpr int version = 2;  // of what a checkpoint holds
+constexpr int version = 2;  // of the checkpoint's format
 
 std::string text_of(const CheckpointHead& head) {
   nlohmann::json json{{"version", version},
@@ -53,7 +53,8 @@ CheckpointHead read_head(RecordReader& records, const fs::path& file) {
   }
 }
 
-/// A checkpoint of which every byte is as it was written. std::runtime_error if it is not.
+/// Returns a checkpoint after reading it whole. Throws std::runtime_error if any byte is not as it
+/// was written.
 Checkpoint verified(const fs::path& file) {
   RecordReader::verify(file);
   RecordReader records(file);

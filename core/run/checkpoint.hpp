@@ -1,6 +1,6 @@
-// checkpoint.bin: a run at a point from which it can go on, so that nothing tells that it was ever
-// cut off. It belongs to one scene, one version of the program and its plugins, and one number of
-// threads. The checkpoint before it stays beside it, for the case that the newest is damaged.
+// checkpoint.bin: the complete state of a run, from which it continues as if it had never stopped.
+// A checkpoint belongs to one scene, one version of the program and its plugins, and one number of
+// threads. The previous checkpoint stays beside it, in case the newest is damaged.
 #pragma once
 
 #include <plan/file_names.hpp>
@@ -12,12 +12,12 @@
 
 namespace hyperlattice {
 
-/// What stands before the state.
+/// The part of a checkpoint before the state.
 struct CheckpointHead {
   Identity identity;  ///< what the run depends on
   std::int32_t threads = 1;
-  bool at_start = false;          ///< nothing was done yet that is worth keeping
-  std::vector<TableMark> tables;  ///< what the run had written
+  bool at_start = false;          ///< the run has made no progress that is worth keeping
+  std::vector<TableMark> tables;  ///< the tables that the run had written
 };
 
 struct Checkpoint {
@@ -25,28 +25,28 @@ struct Checkpoint {
   CheckpointHead head;
 };
 
-/// The head for this plan, without tables.
+/// Returns the head for this plan, without tables.
 CheckpointHead checkpoint_head(const Plan& plan, bool at_start);
 
-/// The newest checkpoint in a folder of which every byte is as it was written. Says so if that is
-/// not the newest of all. InputError if there is none, or none of this plan.
+/// Returns the newest undamaged checkpoint in a folder. Logs a warning if a newer one is damaged or
+/// missing. Throws InputError if there is none, or none of this plan.
 Checkpoint find_checkpoint(const Plan& plan, const std::filesystem::path& directory);
 
-/// InputError if a folder has no checkpoint, or no list of the run's files.
+/// Throws InputError if a folder has no checkpoint, or no list of the run's files.
 void must_be_resumable(const std::filesystem::path& directory);
 
-/// Whether a checkpoint is there that is worth keeping; a damaged one is.
+/// Returns whether the folder has a checkpoint worth keeping; a damaged one counts.
 bool holds_progress(const std::filesystem::path& directory);
 
 using Visit = std::function<void(Archive&)>;
-/// Writes head and state. When this returns, the checkpoint is on the disk under its name, and the
-/// one before it under the other. std::runtime_error if the disk refuses: the newest of the
-/// checkpoints before is then there, under one of the two names.
+/// Writes head and state. On return the checkpoint is on the disk under its name, and the previous
+/// one under the other name. Throws std::runtime_error if the disk refuses; the newest of the
+/// earlier checkpoints then exists under one of the two names.
 void write_checkpoint(const std::filesystem::path& directory, const CheckpointHead& head,
                       const Visit& state);
-/// Restores the state. std::runtime_error if the checkpoint does not fit.
+/// Restores the state. Throws std::runtime_error if the checkpoint does not fit.
 void read_checkpoint(const Checkpoint& checkpoint, const Visit& state);
-/// Removes both. OutsideError if the system refuses.
+/// Removes both checkpoints. Throws OutsideError if the system refuses.
 void remove_checkpoints(const std::filesystem::path& directory);
 
 }  // namespace hyperlattice

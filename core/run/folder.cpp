@@ -27,13 +27,13 @@ namespace fs = std::filesystem;
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
-/// Whether something of that name is there; a link is, wherever it leads.
+/// Returns whether the path exists; a link counts, wherever it leads.
 bool is_there(const fs::path& path) {
   struct stat status {};
   return ::lstat(path.c_str(), &status) == 0;
 }
 
-/// Whether a name leads to a regular file over real folders only.
+/// Returns whether a name leads to a regular file through real folders only, no links.
 bool is_real(const fs::path& directory, const std::string& name, struct stat& status) {
   fs::path path = directory;
   for (const fs::path& part : fs::path(name)) {
@@ -48,14 +48,15 @@ bool is_later(const timespec& a, const timespec& b) {
   return a.tv_sec != b.tv_sec ? a.tv_sec > b.tv_sec : a.tv_nsec > b.tv_nsec;
 }
 
-/// Whether the run in a folder has said that it is done.
+/// Returns whether the summary in a folder says that its run is done.
 bool is_done(const fs::path& directory) {
   const auto file = read_folder_file(directory, "summary.json", largest_json);
   const auto summary = nlohmann::json::parse(file ? file->text : "", nullptr, false);
   return summary.is_object() && summary.contains("status") && summary["status"] == "done";
 }
 
-/// The name of a temporary file of AtomicFile: "<name>.<16 hexadecimal digits>.part".
+/// Returns whether this is the name of a temporary file of AtomicFile: "<name>.<16 hexadecimal
+/// digits>.part".
 bool is_part(const std::string& name) {
   constexpr std::size_t digits = 16, ending = 5;
   if (!name.ends_with(".part") || name.size() < digits + ending + 2) return false;
@@ -66,7 +67,7 @@ bool is_part(const std::string& name) {
 
 constexpr const char* ends[] = {"summary.json", failing_motion_file};
 
-/// Whether a file says how the run ended; a run that goes on begins without it.
+/// Returns whether a file says how the run ended; a resumed run removes such files.
 bool tells_the_end(const std::string& name) {
   return std::find(std::begin(ends), std::end(ends), name) != std::end(ends);
 }
@@ -109,7 +110,8 @@ RunFolder::RunFolder(fs::path directory, bool is_new) : directory_(std::move(dir
   if (::fstat(list.number(), &status) != 0) throw cannot("read", list_path(), errno);
   if (!S_ISREG(status.st_mode))
     throw OutsideError(fmt::format("{} is no regular file", list_path().string()));
-  struct stat named {};  // another run may have opened it first, and removed it since
+  // Another run may have opened the list first and removed it since.
+  struct stat named {};
   if (::lstat(list_path().c_str(), &named) != 0 || named.st_ino != status.st_ino ||
       named.st_dev != status.st_dev)
     throw OutsideError(
@@ -119,7 +121,7 @@ RunFolder::RunFolder(fs::path directory, bool is_new) : directory_(std::move(dir
                                   static_cast<std::uint64_t>(status.st_size));
 }
 
-/// Names that the run will write or remove, as far as something may be there.
+/// Returns the names of files that the run may write or remove and that may exist.
 std::set<std::string> RunFolder::met(const std::vector<OutputName>& outputs, Faults& faults) const {
   std::set<std::string> names;
   for (const std::string_view name : run_file_names)
@@ -192,7 +194,7 @@ void RunFolder::begin(bool overwrite, const std::vector<OutputName>& outputs,
   try {
     remove_leavings(earlier_, overwrite, faults);
   } catch (const InputError&) {
-    if (list_->extent().bytes == 0) ::unlink(list_path().c_str());  // it was made for nothing
+    if (list_->extent().bytes == 0) ::unlink(list_path().c_str());  // leave no empty list
     throw;
   }
   list_->cut(0);
@@ -210,9 +212,9 @@ void RunFolder::remove_leavings(const OwnFiles& files, bool overwrite, Faults& f
     if (!is_real(directory_, name, status)) continue;
     const fs::path path = path_of(name);
     folders.insert(path.parent_path());
-    // What has not changed since the list was written needs no reading, for no program can set the
-    // time of the last change. (What changes that time of the list, such as a copy of the folder,
-    // hides changes from before it.)
+    // A file that has not changed since the list was written need not be read: no program can set
+    // the time of the last change of status. (A copy of the folder gives the list a new time, and
+    // so hides earlier changes.)
     const bool is_known =
         file.hash.empty() ||
         (static_cast<std::uint64_t>(status.st_size) == file.bytes &&
@@ -229,9 +231,10 @@ void RunFolder::remove_leavings(const OwnFiles& files, bool overwrite, Faults& f
     old.push_back(directory_ / name);
   for (const fs::path& path : old)
     if (::unlink(path.c_str()) != 0 && errno != ENOENT) throw cannot("remove", path, errno);
-  for (auto folder = folders.rbegin(); folder != folders.rend(); ++folder) {  // the innermost first
+  // The innermost folder first.
+  for (auto folder = folders.rbegin(); folder != folders.rend(); ++folder) {
     remove_parts(*folder);
-    if (*folder != directory_) ::rmdir(folder->c_str());  // unless other files are there
+    if (*folder != directory_) ::rmdir(folder->c_str());  // fails if other files are in it
   }
 }
 
@@ -280,15 +283,16 @@ void RunFolder::go_on(std::vector<TableMark> marks, const std::vector<OutputName
   refuse_losses(met(outputs, faults), {}, true, faults);
   faults.throw_if_any();
   marks_ = std::move(marks);
-  for (const char* name : ends)  // how the run was when it ended before
+  // They say how the run ended before.
+  for (const char* name : ends)
     if (::unlink(path_of(name).c_str()) != 0 && errno != ENOENT)
       throw cannot("remove", path_of(name), errno);
   std::set<fs::path> folders{directory_};
   for (const auto& [name, file] : mine_) folders.insert(path_of(name).parent_path());
   for (const fs::path& folder : folders) remove_parts(folder);
   list_->cut(listed);
-  for (const auto& [name, file] : earlier_) {  // what was written after the checkpoint is the
-                                               // run's, but not yet what it will be
+  // Files written after the checkpoint are the run's, but will be written again.
+  for (const auto& [name, file] : earlier_) {
     if (mine_.count(name) > 0 || tables.count(name) > 0) continue;
     list_->lines(own_file_line(name, {}));
     mine_[name] = {true, false};
@@ -346,7 +350,7 @@ void RunFolder::note(const std::string& name, Mine& file, bool to_the_disk) {
   const Descriptor there(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   struct stat status {};
   if (!there || ::fstat(there.number(), &status) != 0 || !S_ISREG(status.st_mode))
-    return;  // claimed, but never written
+    return;  // reserved, but never written
   if (to_the_disk && ::fsync(there.number()) != 0) throw cannot("write", path, errno);
   if (to_the_disk && file.rewritten) return;
   list_->lines(

@@ -1,6 +1,5 @@
-// The folder of a run's results. It is locked while the run lives, and a list (files.csv) names the
-// files in it that are the run's own: only these are removed before a new run, and these are what a
-// resumed run counts on.
+// The folder of a run's results. It is locked while the run lives. A list (files.csv) names the
+// run's own files: a new run removes only these, and a resumed run relies on these.
 #pragma once
 
 #include <base/errors.hpp>
@@ -14,7 +13,7 @@
 
 namespace hyperlattice {
 
-/// A table of the run and how far it had come at a checkpoint.
+/// A table of the run and its extent at a checkpoint.
 struct TableMark {
   std::string name;
   Extent extent;
@@ -22,42 +21,43 @@ struct TableMark {
 
 class RunFolder {
  public:
-  /// Opens and locks a folder, which a new run makes if it is not there. InputError if it is a
-  /// study's, or if its list is no regular file. OutsideError if another run is writing there, or
-  /// if the system refuses.
+  /// Opens and locks a folder; a new run makes it if needed. Throws InputError if a new run would
+  /// use a study's folder, or if its list is no regular file. Throws OutsideError if another run is
+  /// writing there, or if the system refuses.
   RunFolder(std::filesystem::path directory, bool is_new);
 
-  /// Whether an earlier run left something here.
+  /// Returns whether an earlier run left results here.
   bool has_results() const { return !earlier_.empty(); }
-  /// Begins a new run: removes what an earlier run left, if it is still as that run left it.
-  /// InputError, with nothing touched, if an interrupted run is there or files of the run's own
-  /// names that no list names, unless `overwrite`; in any case if one of the `inputs` would be
-  /// removed or replaced, or if a folder, link, pipe or device stands where a file is to be
-  /// written. `outputs`: what its writers and probes will write.
+  /// Begins a new run: removes the files of an earlier run. Throws InputError and changes nothing
+  /// in these cases. Unless `overwrite`: the folder has an interrupted run, changed files of an
+  /// earlier run, or files with the run's own names that no list names. Always: one of the `inputs`
+  /// would be removed or replaced, or a folder, link, pipe or device has the name of a file to be
+  /// written. `outputs`: the files of its writers and probes.
   void begin(bool overwrite, const std::vector<OutputName>& outputs,
              const std::vector<std::filesystem::path>& inputs = {});
-  /// Goes on with a run whose checkpoint holds these marks. InputError, with nothing touched, if a
-  /// table or file from before is not as it was, or if a folder, link, pipe or device stands where
-  /// a file is to be written.
+  /// Continues a run whose checkpoint has these marks. Throws InputError and changes nothing if an
+  /// earlier table or file has changed, or if a folder, link, pipe or device has the name of a file
+  /// to be written.
   void go_on(std::vector<TableMark> marks, const std::vector<OutputName>& outputs = {});
 
   const std::filesystem::path& directory() const { return directory_; }
-  /// Makes a folder inside, or finds it. OutsideError if it is a link or file.
+  /// Returns a folder inside this one; makes it if needed. Throws OutsideError if a link or file
+  /// has its name.
   std::filesystem::path subfolder(const std::string& name);
-  /// Begins a table, or goes on with it from its mark. It lives as long as this object.
+  /// Begins a table, or continues it from its mark. The table lives as long as this object.
   Table& table(const std::string& name, const std::vector<std::string>& columns);
   /// Writes a whole file of the run's own.
   void write(const std::string& name, std::string_view text);
-  /// Takes a name for a file of the run, before it is written. `rewritten`: it may change after the
-  /// next checkpoint. OutsideError if a file of that name is there that is not the run's.
+  /// Lists a file as the run's before it is written. `rewritten`: it may change after the next
+  /// checkpoint. Throws OutsideError if a file of that name exists that is not the run's.
   void claim(const std::string& name, bool rewritten);
 
-  /// Waits until everything that was written is on the disk. Returns where the tables, and the
-  /// list, stand.
+  /// Waits until all written data is on the disk. Returns the extents of the tables and of the
+  /// list.
   std::vector<TableMark> sync();
-  /// OutsideError if a table, or the list, was removed, replaced or changed by somebody else.
+  /// Throws OutsideError if another program removed, replaced or changed a table or the list.
   void check_tables() const;
-  /// Notes what the run's files hold at the end.
+  /// Adds the final sizes and hashes of the run's files to the list.
   void finish();
 
  private:
@@ -79,7 +79,7 @@ class RunFolder {
   std::list<std::pair<std::string, Table>> tables_;
   std::vector<TableMark> marks_;
   std::map<std::string, Mine> mine_;
-  OwnFiles earlier_;  ///< what the list said when the folder was opened
+  OwnFiles earlier_;  ///< content of the list when the folder was opened
   bool may_replace_ = false;
 };
 

@@ -1,5 +1,5 @@
-// history.csv: the energy books, the momentum and the broken springs at every record; failures.csv:
-// every spring that broke.
+// history.csv: the energy balance, the momentum and the number of broken springs at every record.
+// failures.csv: every broken spring.
 #pragma once
 
 #include <run/folder.hpp>
@@ -7,7 +7,7 @@
 
 namespace hyperlattice {
 
-/// What one record holds.
+/// One row of history.csv.
 struct Record {
   double time = 0;  ///< s
   std::uint64_t step = 0;
@@ -24,12 +24,13 @@ class History {
   Table& table_;
 };
 
-/// Only for runs with a failure criterion.
+/// failures.csv, only for runs with a failure criterion.
 class FailureLog {
  public:
   explicit FailureLog(RunFolder& folder, Archive* resumed = nullptr);
   void save(Archive& archive);
-  void write_new(const std::vector<Breakage>& breakages);  ///< those that came since the last call
+  /// Writes the breakages since the last call.
+  void write_new(const std::vector<Breakage>& breakages);
 
  private:
   Table& table_;

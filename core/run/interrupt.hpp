@@ -3,7 +3,7 @@
 
 namespace hyperlattice {
 
-/// Whether request_stop() (run.hpp) was called and not yet forgotten.
+/// Returns whether request_stop() (run.hpp) was called since the last forget_stop().
 bool stop_requested() noexcept;
 void forget_stop() noexcept;
 

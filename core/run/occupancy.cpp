@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether somebody else holds the lock on a file or folder.
+/// Returns whether another process holds the lock on a file or folder.
 bool is_locked(const fs::path& path, int flags) {
   const Descriptor there(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | flags));
   return there && ::flock(there.number(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;

@@ -1,4 +1,4 @@
-// What a folder is in use for: results of a run, or of a study, which are not put into one folder.
+// Finds the use of a folder: results of a run or of a study. They do not share a folder.
 #pragma once
 
 #include <filesystem>
@@ -6,16 +6,16 @@
 
 namespace hyperlattice {
 
-/// Whether a study left its results in the folder: a study.json that has rows.
+/// Returns whether a study left its results in the folder: a study.json that has rows.
 bool has_study(const std::filesystem::path& folder);
 
-/// What of a study the folder holds, as a clause: "a study is running there"; empty: nothing.
+/// Returns what the folder has of a study, as a clause: "a study is running there"; "": nothing.
 std::string study_in(const std::filesystem::path& folder);
 
-/// What of a run the folder holds, as a clause; empty: nothing.
+/// Returns what the folder has of a run, as a clause; "": nothing.
 std::string run_in(const std::filesystem::path& folder);
 
-/// Whether a run writes into the folder now.
+/// Returns whether a run is writing into the folder now.
 bool is_written(const std::filesystem::path& folder);
 
 }  // namespace hyperlattice

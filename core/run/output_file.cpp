@@ -13,9 +13,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* page = "report.html";  ///< stands with results, and is none
+constexpr const char* page = "report.html";  ///< lies beside results, but is not a result
 
-/// The list of a folder; what cannot be read lists nothing.
+/// Returns the list of a folder; empty if it cannot be read.
 OwnFiles listed_in(const fs::path& folder) {
   try {
     return read_own_files(folder).value_or(OwnFiles());
@@ -37,8 +37,8 @@ bool is_among(const Names& names, const std::string& name) {
   return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
-/// What a run or study has to do with a file, as a clause; empty: nothing. `path` has no links in
-/// it.
+/// Returns how a file belongs to a run or study, as a clause; "" if it does not. `path` has no
+/// links.
 std::string claim_on(const fs::path& path) {
   constexpr std::string_view study_files[] = {"study.json", "study.csv", "study.svg"};
   const fs::path own_folder = path.parent_path();
@@ -91,7 +91,7 @@ void check_output_file(const OutputFile& output, const std::vector<fs::path>& in
   if (fs::exists(status) && !is_file) return;
   const fs::path whole = fs::absolute(file, error),
                  path = error ? whole : fs::weakly_canonical(whole, error);
-  if (error) return;  // writing it will say why
+  if (error) return;  // writing the file will report it
   if (std::any_of(inputs.begin(), inputs.end(),
                   [&](const fs::path& input) { return fs::equivalent(file, input, error); }))
     return refuse("another file than those that the command reads");

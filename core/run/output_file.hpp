@@ -1,5 +1,5 @@
-// Files that a command writes because a user named them, or under a name of its own: they take the
-// place of no result, no input, and nothing of another kind.
+// Checks files that a command writes under a user's name or a default one: they must not replace a
+// result, an input, or a file of another kind.
 #pragma once
 
 #include <base/errors.hpp>
@@ -11,17 +11,16 @@
 namespace hyperlattice {
 
 struct OutputFile {
-  std::string option;  ///< that names it: "--out"
+  std::string option;  ///< the option that names it: "--out"
   std::filesystem::path file;
-  std::vector<std::string> endings;  ///< of its kind: ".html", ".htm"
+  std::vector<std::string> endings;  ///< of its kind of file: ".html", ".htm"
   bool is_default = false;           ///< the user did not name it
 };
 
-/// A fault if there is a folder, a link to nothing or to itself, one of the `inputs`, a file that a
-/// run or study left (this goes by the lists of the file's folder and of those above), or a file
-/// that holds something and has another ending. Nothing but report.html goes into a folder in which
-/// a run is writing. Devices and pipes are free, and links to files that may be written; under a
-/// default name they are faults.
+/// Adds a fault if the name belongs to a folder, a link to nothing or to itself, one of the
+/// `inputs`, a file that a run or study left (by the lists in its folder and in those above), or a
+/// file with content and another ending. In a folder where a run is writing, only report.html is
+/// allowed. Devices, pipes and links to writable files are allowed, but not under a default name.
 void check_output_file(const OutputFile& output, const std::vector<std::filesystem::path>& inputs,
                        Faults& faults);
 

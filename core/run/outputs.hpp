@@ -1,4 +1,4 @@
-// Writers and probes of a run: made at the start, shown the body when due, ended in order.
+// The writers and probes of a run: made at the start, called when due, ended in order.
 #pragma once
 
 #include <model/region_index.hpp>
@@ -10,28 +10,32 @@
 
 namespace hyperlattice {
 
-/// Everything here throws OutsideError when a writer, a probe or the disk refuses.
+/// All members throw OutsideError when a writer, a probe or the disk refuses.
 class Outputs {
  public:
-  /// Begins every writer and probe, or goes on with them. `end_time` is the run's, for those that
-  /// do not say how often.
+  /// Begins every writer and probe, or continues them. `end_time`, s, is the run's and sets the
+  /// interval of outputs that have none.
   Outputs(const Model& model, const Simulation& simulation, RunFolder& folder, double end_time,
           Archive* resumed = nullptr);
   void save(Archive& archive);
 
-  void show(double time_step);  ///< to those that are due, at the present state
-  void show_now();              ///< to all that have not seen the present state
-  void show_last();             ///< to those that want the last state and have not seen it
-  void end();                   ///< closes the writers
+  /// Shows the present state to the outputs that are due.
+  void show(double time_step);
+  /// Shows it to all outputs that have not seen it.
+  void show_now();
+  /// Shows it to the outputs that want the last state and have not seen it.
+  void show_last();
+  /// Closes the writers.
+  void end();
 
  private:
   struct Output {
     const Stage* stage = nullptr;
     ComponentPointer component;
-    std::string name;       ///< of its folder in the run's; empty: the run's itself
-    std::string directory;  ///< of its files
+    std::string name;       ///< of its folder in the run's; empty: the run's folder itself
+    std::string directory;  ///< path of its files' folder
     Schedule schedule;
-    std::vector<FrameMark> shown;  ///< all that it was shown; of a probe, the latest
+    std::vector<FrameMark> shown;  ///< all frames so far; of a probe, the latest
     Table* table = nullptr;        ///< of a probe
     std::vector<double> row;
   };
@@ -47,8 +51,8 @@ class Outputs {
   const Simulation& simulation_;
   SnapshotSource source_;
   RunFolder& folder_;
-  const Output* writing_ = nullptr;       ///< the one that is at work
-  std::vector<std::string_view> fields_;  ///< that this run has
+  const Output* writing_ = nullptr;       ///< the output that is at work
+  std::vector<std::string_view> fields_;  ///< of this run
   std::list<Output> outputs_;
   RegionIndex regions_;
 };

@@ -1,4 +1,4 @@
-// The progress of a run on standard error: one line that renews itself on a terminal, else a line
+// The progress of a run on standard error: one line that is rewritten on a terminal, else a line
 // every few seconds, or JSON lines for programs (HYPERLATTICE_PROGRESS=json).
 #pragma once
 
@@ -11,10 +11,10 @@ namespace hyperlattice {
 class Progress {
  public:
   Progress(std::uint64_t steps, bool quiet);
-  ~Progress();  ///< leaves a terminal's line
+  ~Progress();  ///< ends the line on a terminal
 
-  /// Shows the state if the last time is long enough ago. `residual`: of a search for rest; below
-  /// 0: there is none.
+  /// Shows the state if the last update was long enough ago. `residual`: of a search for rest, or
+  /// below 0 if there is none.
   void update(std::uint64_t step, double time, double time_step, std::uint64_t broken,
               double residual = -1);
 

@@ -18,7 +18,7 @@ namespace hyperlattice {
 
 namespace {
 
-constexpr std::size_t largest = 1 << 20;  // bytes of one content
+constexpr std::size_t largest = 1 << 20;  // bytes of one record's content
 constexpr std::string_view mark = "HLRECORD", last_tag = "end.";
 
 struct Head {

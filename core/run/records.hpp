@@ -17,12 +17,12 @@
 
 namespace hyperlattice {
 
-/// Writes records; a long content becomes several records of one tag.
+/// Writes records. Content longer than a record becomes several records of one tag.
 class RecordWriter {
  public:
   explicit RecordWriter(AtomicFile& file);
-  void put(std::string_view tag, const void* data,
-           std::size_t size);  ///< std::runtime_error if the disk refuses
+  /// Throws std::runtime_error if the disk refuses.
+  void put(std::string_view tag, const void* data, std::size_t size);
   void end();
 
  private:
@@ -37,16 +37,18 @@ class RecordWriter {
 /// Reads contents in the order in which they were written.
 class RecordReader {
  public:
-  /// Throws std::runtime_error with what is wrong, if any byte of the file is not what was written.
+  /// Throws std::runtime_error with the reason if any byte of the file is not as it was written.
   static void verify(const std::filesystem::path& file);
 
   explicit RecordReader(std::filesystem::path file);
-  void take(std::string_view tag, void* data,
-            std::size_t size);                 ///< std::runtime_error if there is no such content
-  std::string take_all(std::string_view tag);  ///< all that is left of a tag's content
+  /// Throws std::runtime_error if the next content has another tag or ends before `size` bytes.
+  void take(std::string_view tag, void* data, std::size_t size);
+  /// Returns the rest of a tag's content.
+  std::string take_all(std::string_view tag);
 
  private:
-  bool next();  ///< reads the next record whole; false at the end
+  /// Reads the next whole record. Returns false at the end.
+  bool next();
   void read(void* data, std::size_t size);
   [[noreturn]] void fail(const std::string& what) const;
 

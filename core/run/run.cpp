@@ -1,5 +1,5 @@
-// The run: planned solver stages one after the other. Each step belongs to the solver; records,
-// outputs, guards and the end are here.
+// The run: planned solver stages in order. Solvers make the steps; this file has the records,
+// outputs, guards and the end of the run.
 #include <base/descriptor.hpp>
 #include <engine/guard.hpp>
 #include <engine/stage_calls.hpp>
@@ -37,21 +37,22 @@ double seconds_since(Clock::time_point start) {
 
 class Running {
  public:
-  /// `simulation`: null if it is still to be built.
+  /// `simulation`: null if it is not built yet.
   Running(Plan& plan, const RunOptions& options, RunFolder& folder,
           std::unique_ptr<Simulation> simulation)
       : plan_(plan), options_(options), folder_(folder), simulation_(std::move(simulation)) {}
 
-  /// `resumed`: where an earlier run had come to.
+  /// Starts a new run, or continues from the checkpoint `resumed`.
   void start(Outcome& outcome, const std::optional<Checkpoint>& resumed);
   void solve();
   void finish();
   std::uint64_t steps() const { return simulation_->steps(); }
-  void note(Outcome& outcome);  ///< what became of it, at any point
+  /// Writes the state of the run into the outcome, at any time.
+  void note(Outcome& outcome);
 
  private:
-  static constexpr std::uint64_t guard_every =
-      50;  ///< steps; a guard reads the velocities once, a fraction of a step's work
+  /// Steps between checks. A check reads the velocities once, a fraction of a step's work.
+  static constexpr std::uint64_t guard_every = 50;
 
   void open(Archive* resumed);
   void visit(Archive& archive);
@@ -78,19 +79,20 @@ class Running {
   std::unique_ptr<Progress> progress_;
 
   const PlannedStage* stage_ = nullptr;
-  std::uint64_t stages_done_ = 0, stage_steps_ = 0;  ///< whole stages, and steps of the present one
-  std::uint64_t observed_ = 0;                       ///< steps when the state was observed
-  bool resumed_ = false;                             ///< in the middle of a stage
+  /// Completed stages, and steps of the present stage.
+  std::uint64_t stages_done_ = 0, stage_steps_ = 0;
+  std::uint64_t observed_ = 0;  ///< number of steps at the last observation
+  bool resumed_ = false;        ///< the run continues in the middle of a stage
   Clock::time_point saved_ = Clock::now();
-  std::optional<RestReport> rest_;  ///< the latest that a solver gave
+  std::optional<RestReport> rest_;  ///< latest report of a solver
   Schedule record_schedule_;
   double time_step_ = 0;
   Record last_;
   bool recorded_ = false;
   double largest_relative_error_ = 0;
   double solve_seconds_ = 0, output_seconds_ = 0;  ///< of all parts of the run
-  Clock::time_point clocked_;                      ///< up to where solve_seconds_ reach
-  double output_then_ = 0;                         ///< output_seconds_ there
+  Clock::time_point clocked_;                      ///< end of the time in solve_seconds_
+  double output_then_ = 0;                         ///< output_seconds_ at that time
 };
 
 template <class Output>
@@ -100,7 +102,7 @@ void Running::timed(Output&& output) {
   output_seconds_ += seconds_since(start);
 }
 
-/// Adds what was solved since the last call.
+/// Adds the solver's time since the last call to solve_seconds_.
 void Running::clock() {
   const auto now = Clock::now();
   solve_seconds_ +=
@@ -123,7 +125,7 @@ void Running::start(Outcome& outcome, const std::optional<Checkpoint>& resumed) 
   outcome.setup_seconds += seconds_since(start);
 }
 
-/// The files that grow: begun, or gone on with.
+/// Begins the files that grow, or continues them.
 void Running::open(Archive* resumed) {
   history_ = std::make_unique<History>(folder_);
   if (plan_.model->choice.breakable) failures_ = std::make_unique<FailureLog>(folder_, resumed);
@@ -131,7 +133,7 @@ void Running::open(Archive* resumed) {
       std::make_unique<Outputs>(*plan_.model, *simulation_, folder_, plan_.end_time(), resumed);
 }
 
-/// All that a run is, at a point from which it can go on.
+/// Saves or restores all that the run needs to continue.
 void Running::visit(Archive& archive) {
   simulation_->archive(archive);
   archive(stages_done_);
@@ -156,11 +158,12 @@ void Running::visit(Archive& archive) {
 }
 
 void Running::save() {
-  clock();  // a run that goes on from here counts this part too
+  clock();  // a run that continues from here counts this part too
   timed([&] {
     CheckpointHead head = checkpoint_head(plan_, simulation_->steps() == 0);
     if (!head.at_start)
-      head.tables = folder_.sync();  // what the checkpoint counts on is on the disk before it
+      // The data that the checkpoint relies on must be on the disk before it.
+      head.tables = folder_.sync();
     write_checkpoint(folder_.directory(), head, [this](Archive& archive) { visit(archive); });
   });
   saved_ = Clock::now();
@@ -199,7 +202,7 @@ void Running::solve_stage(const PlannedStage& stage) {
   if (!resumed_) {
     record_schedule_ = Schedule(stage.start_time, record_interval(stage), true);
     time_step_ = stage.plan.time_step;
-    if (!stage.plan.resumes) save();  // such a stage begins anew
+    if (!stage.plan.resumes) save();  // after an interruption the whole stage is repeated
   }
   resumed_ = false;
   StageCalls::Hooks hooks;
@@ -216,8 +219,8 @@ void Running::solve_stage(const PlannedStage& stage) {
   hooks.must_stop = [] { return stop_requested(); };
   StageCalls(*plan_.model, *simulation_, stage, plan_.threads, std::move(hooks), stage_steps_)
       .run();
-  if (stop_requested() && !stage.plan.resumes)
-    return;  // it is on no way in time: the stage begins anew
+  // Such a stage has no state to save between its start and its end: it is repeated from its start.
+  if (stop_requested() && !stage.plan.resumes) return;
   if (stop_requested()) {
     if (observed_ != simulation_->steps()) observe();
     save();
@@ -225,7 +228,7 @@ void Running::solve_stage(const PlannedStage& stage) {
   record();
   if (stage.plan.at_rest) {
     look_at_cells();
-    timed([&] { outputs_->show_now(); });  // at rest all instants are one
+    timed([&] { outputs_->show_now(); });  // at rest all outputs are due
     simulation_->reset_energy_balance();
   }
 }
@@ -241,7 +244,7 @@ void Running::observe() {
   if (stage_->plan.at_rest ? simulation_->steps() % record_steps(*stage_) == 0
                            : record_schedule_.due(simulation_->time(), time_step_))
     record();
-  // A share of a stage's time is rarely a round number: an instant is also met nearly.
+  // In a static stage times are rarely round numbers: the times of outputs have a tolerance.
   const double near_enough = 1e-6 * (stage_->plan.end_time - stage_->start_time);
   timed([&] { outputs_->show(stage_->plan.at_rest ? near_enough : time_step_); });
   progress_->update(simulation_->steps(), simulation_->time(), time_step_,
@@ -295,7 +298,7 @@ void Running::note(Outcome& outcome) {
   outcome.time = simulation_->time();
   outcome.injected_by_load = simulation_->injected_by_load();
   outcome.state_hash = simulation_->hash();
-  if (outcome.exit_code == exit_run) look_at_cells();  // it may be why
+  if (outcome.exit_code == exit_run) look_at_cells();  // folded cells may be the reason
   if (std::string sentence = cells_ ? cells_->sentence() : ""; !sentence.empty())
     outcome.warnings.push_back(std::move(sentence));
   if (plan_.model->choice.precision == Precision::doubles) return;
@@ -304,8 +307,9 @@ void Running::note(Outcome& outcome) {
     outcome.warnings.push_back(std::move(warning));
 }
 
-/// Takes the memory and threads of a run before the results of an earlier one go. Null if the
-/// system refuses them where there are none: the run then meets that itself, and leaves a summary.
+/// Takes the memory and threads of a run before it removes the results of an earlier run. Throws
+/// OutsideError if the system refuses them; but returns null if there are no results to lose: the
+/// run then fails by itself and leaves a summary.
 std::unique_ptr<Simulation> build(const RunFolder& folder, const Plan& plan) {
   try {
     return std::make_unique<Simulation>(*plan.model, plan.threads);
@@ -320,7 +324,7 @@ std::unique_ptr<Simulation> build(const RunFolder& folder, const Plan& plan) {
   return nullptr;
 }
 
-/// All files that the run depends on.
+/// Returns all files that the run depends on.
 std::vector<std::filesystem::path> inputs_of(const Plan& plan) {
   std::vector<std::filesystem::path> inputs{plan.scene->file};
   for (const Dependence& one : plan.identity)
@@ -328,7 +332,8 @@ std::vector<std::filesystem::path> inputs_of(const Plan& plan) {
   return inputs;
 }
 
-/// Makes the folder ready, and says where the run goes on; nowhere if it begins.
+/// Prepares the folder. Returns the checkpoint from which the run continues, or nothing for a new
+/// run.
 std::optional<Checkpoint> prepare(RunFolder& folder, Plan& plan, const RunOptions& options,
                                   std::unique_ptr<Simulation>& simulation) {
   std::optional<Checkpoint> resumed;
@@ -346,7 +351,7 @@ std::optional<Checkpoint> prepare(RunFolder& folder, Plan& plan, const RunOption
   return resumed;
 }
 
-/// Solves the plan; what went wrong is in the outcome.
+/// Solves the plan. Errors go to the outcome.
 void carry_out(Plan& plan, const RunOptions& options, RunFolder& folder,
                const std::optional<Checkpoint>& resumed, std::unique_ptr<Simulation> simulation,
                Outcome& outcome) {
@@ -360,7 +365,7 @@ void carry_out(Plan& plan, const RunOptions& options, RunFolder& folder,
     try {
       work();
     } catch (const RunError& error) {
-      if (memory_ran_out()) end_for_memory();  // what made the law, criterion or solver fail
+      if (memory_ran_out()) end_for_memory();  // also the reason if a plugin failed
       outcome.end("failed", exit_run, error.what());
     } catch (const std::bad_alloc&) {
       end_for_memory();
@@ -373,7 +378,7 @@ void carry_out(Plan& plan, const RunOptions& options, RunFolder& folder,
     running.solve();
     running.finish();
     folder.check_tables();
-    // how many steps a search for rest takes is not known before
+    // The number of steps of a search for rest is not known in advance.
     const bool short_of = running.steps() < plan.steps() ||
                           std::any_of(plan.stages.begin(), plan.stages.end(),
                                       [](const PlannedStage& stage) { return stage.plan.at_rest; });
@@ -383,8 +388,7 @@ void carry_out(Plan& plan, const RunOptions& options, RunFolder& folder,
   attempt([&] { running.note(outcome); });
 }
 
-/// What follows the summary: it has said how the run ended, and that stays true if something here
-/// goes wrong.
+/// Finishes the folder after the summary, which stays true if an error occurs here.
 void tidy_up(RunFolder& folder, const Outcome& outcome, bool has_checkpoint) {
   try {
     folder.finish();
@@ -396,8 +400,8 @@ void tidy_up(RunFolder& folder, const Outcome& outcome, bool has_checkpoint) {
   }
 }
 
-/// Leaves the summary. A checkpoint goes when the run is done and this is on the disk; that of a
-/// run that failed is kept.
+/// Writes the summary. The checkpoint is removed when the run is done and the summary is on the
+/// disk; a failed run keeps its checkpoint.
 void conclude(const Plan& plan, RunFolder& folder, Outcome& outcome) {
   const std::filesystem::path& directory = folder.directory();
   const bool has_checkpoint = holds_progress(directory);
@@ -450,7 +454,7 @@ int run(Plan& plan, const RunOptions& options) {
         (options.directory / "report.html").string());
   carry_out(plan, options, folder, resumed, std::move(simulation), outcome);
   if (outcome.exit_code == exit_interrupted)
-    forget_stop();  // a request that came too late is for the next run of a study
+    forget_stop();  // a request after the end is for the next run of a study
   conclude(plan, folder, outcome);
   return outcome.exit_code;
 }

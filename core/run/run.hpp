@@ -1,4 +1,4 @@
-// A run: the planned stages one after the other, with history, probes, writers, progress, summary.
+// A run: the planned stages in order, with history, probes, writers, progress and summary.
 #pragma once
 
 #include <plan/plan.hpp>
@@ -10,19 +10,19 @@ namespace hyperlattice {
 
 struct RunOptions {
   std::filesystem::path directory;
-  bool quiet = false;      ///< no progress lines
-  bool resume = false;     ///< go on from the checkpoint in the folder, with as many threads as the
-                           ///< run there began with
-  bool overwrite = false;  ///< give up an interrupted run in the folder, and replace files that are
-                           ///< not the run's own
-  double checkpoint_every = 600;  ///< s between checkpoints; 0: only where the run is interrupted
+  bool quiet = false;  ///< no progress lines
+  /// Continues from the folder's checkpoint, with the number of threads of the run there.
+  bool resume = false;
+  /// Gives up an interrupted run in the folder, and replaces files that are not the run's own.
+  bool overwrite = false;
+  /// Seconds between checkpoints; 0: only where the run is interrupted.
+  double checkpoint_every = 600;
 };
 
-/// Runs a plan. Returns the exit code and leaves summary.json in any case but a failure to write
-/// it. Messages go to the log. InputError or OutsideError, with nothing touched, if the folder is
-/// not fit for it: another run is writing there, an interrupted one waits to be resumed, what is to
-/// be resumed is not there or not as it was, a file that the scene reads would be replaced, or a
-/// study is there.
+/// Runs a plan. Returns the exit code, and leaves summary.json unless writing it fails. Messages go
+/// to the log. Throws InputError or OutsideError, and changes nothing, if the folder is unfit:
+/// another run is writing there, an interrupted run could be resumed, the run to be resumed is
+/// missing or has changed, a file that the scene reads would be replaced, or a study is there.
 int run(Plan& plan, const RunOptions& options);
 
 /// Asks a running simulation to stop after the present step; safe in a signal handler.

@@ -1,4 +1,4 @@
-// When an output is due.
+// The times at which an output is due.
 #pragma once
 
 #include <cmath>
@@ -6,16 +6,16 @@
 
 namespace hyperlattice {
 
-/// Instants at a regular distance. An output belongs to the step nearest to its instant.
+/// Instants at a regular interval. An output belongs to the step nearest to its instant.
 class Schedule {
  public:
   Schedule() = default;
-  /// Due at `start`, if `first`, and then every `every` seconds; 0: never again.
+  /// Due at `start`, s, if `first`, and then every `every` seconds; 0: never again.
   Schedule(double start, double every, bool first)
       : start_(start), every_(every), count_(first ? 0 : 1) {}
 
-  /// Whether an instant has come, for a body at `time` whose steps are `time_step` long. Says so
-  /// once for each instant.
+  /// Returns whether an instant has come for a body at `time` with steps of `time_step`, s. Returns
+  /// true once for each instant.
   bool due(double time, double time_step) {
     if (count_ > 0 && !(every_ > 0)) return false;
     const double reached = time + 0.5 * time_step - start_;

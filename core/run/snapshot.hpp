@@ -1,4 +1,4 @@
-// What writers and probes see of a running simulation.
+// The view of a running simulation that writers and probes get.
 #pragma once
 
 #include <state/simulation.hpp>
@@ -11,16 +11,16 @@
 
 namespace hyperlattice {
 
-/// Makes snapshots of the present state. A field is computed when it is first asked for at an
-/// instant; others cost nothing.
+/// Makes snapshots of the present state. Computes a field only when an output asks for it, once for
+/// each state.
 class SnapshotSource {
  public:
   SnapshotSource(const Model& model, const Simulation& simulation);
   SnapshotSource(const SnapshotSource&) = delete;
   SnapshotSource& operator=(const SnapshotSource&) = delete;
 
-  /// The present state; valid until the next call, and while the simulation stands still. For a
-  /// PluginCall, which keeps what its fields throw.
+  /// Returns the present state, valid until the next call or step. Use it in a PluginCall, which
+  /// keeps the exceptions of its fields.
   const Snapshot& take();
 
  private:
@@ -39,8 +39,8 @@ class SnapshotSource {
   Snapshot snapshot_;
   std::vector<double> positions_;
   std::map<std::string, Values, std::less<>> fields_;
-  std::vector<std::uint32_t>
-      springs_of_;  ///< of each particle at the start; filled when damage is first asked for
+  /// Springs of each particle at the start; filled when damage is first asked for.
+  std::vector<std::uint32_t> springs_of_;
 };
 
 }  // namespace hyperlattice

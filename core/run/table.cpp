@@ -1,5 +1,4 @@
-// Tables: appended through the system's own calls, because they alone say how much of a line
-// reached the disk.
+// Tables are appended by system calls, because only these tell how much of a line reached the disk.
 #include <base/errors.hpp>
 #include <run/table.hpp>
 
@@ -19,7 +18,7 @@ namespace hyperlattice {
 
 namespace {
 
-/// Adds a file's first bytes to a hash. Returns 0 or the system's error; EIO if the file is
+/// Adds the first bytes of a file to a hash. Returns 0 or the system's error; EIO if the file is
 /// shorter.
 int add_bytes(ContentHash& hash, const Descriptor& file, std::uint64_t bytes) {
   constexpr std::uint64_t piece = 1 << 18;

@@ -13,28 +13,30 @@
 
 namespace hyperlattice {
 
-/// How far a file has come: its first bytes and their hash.
+/// The first bytes of a file: their number and their hash.
 struct Extent {
   std::uint64_t bytes = 0;
   std::string hash;
 };
 
-/// Each append is one write; what a full disk cuts off is taken back to the last whole line. Every
-/// member throws OutsideError.
+/// Appends by one write each. If the disk is full, the table is cut back to the last whole line.
+/// All members throw OutsideError.
 class Table {
  public:
-  /// Begins a table. The file stands under its name only when its header is in it.
+  /// Begins a table. The file appears under its name only when it has its header.
   Table(std::filesystem::path file, const std::vector<std::string>& columns);
-  /// Goes on with a table that is there, and cuts off what lies beyond `bytes`.
+  /// Continues an existing table, and cuts off all beyond `bytes`.
   static Table resumed(std::filesystem::path file, std::uint64_t bytes);
-  /// Goes on with a file that is open for appending and holds `bytes` bytes.
+  /// Continues a file that is open for appending and holds `bytes` bytes.
   Table(std::filesystem::path file, Descriptor descriptor, std::uint64_t bytes);
 
   void row(std::span<const double> values);
   void lines(std::string_view whole_lines);  ///< each ends with a newline
-  void cut(std::uint64_t bytes);             ///< takes back all but the first bytes
-  void sync();                               ///< waits until all lines are on the disk; checks
-  void check() const;  ///< that its name still leads to it, and that nobody else wrote into it
+  void cut(std::uint64_t bytes);             ///< removes all but the first bytes
+  /// Waits until all lines are on the disk, then checks.
+  void sync();
+  /// Throws if the name no longer leads to this file, or if another program wrote into it.
+  void check() const;
   Extent extent() const { return {bytes_, hash_.text()}; }
   const std::filesystem::path& file() const { return file_; }
 
@@ -49,10 +51,10 @@ class Table {
   std::string buffer_;
 };
 
-/// Whether a regular file begins with these bytes.
+/// Returns whether a regular file begins with these bytes.
 bool has_extent(const std::filesystem::path& file, const Extent& extent);
 
-/// "a,b,c\n", numbers with all their digits, whatever the locale.
+/// Appends a line "a,b,c\n" with all digits of the numbers, whatever the locale.
 void append_row(std::string& text, std::span<const double> values);
 
 }  // namespace hyperlattice

@@ -9,7 +9,7 @@ namespace {
 
 using Declaration = Schema<CommonOptions>;
 
-/// Whether a label will do as part of a file's name.
+/// Returns whether a label is valid as part of a file name.
 bool is_label(const std::string& name) {
   return !name.empty() && name.size() <= 80 && name.front() != '.' &&
          std::all_of(name.begin(), name.end(), [](char c) {

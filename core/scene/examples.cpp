@@ -11,7 +11,7 @@ namespace hyperlattice {
 
 namespace {
 
-/// A number in the option's range, with its unit where the usual one will do.
+/// Returns a number in the option's range, with its unit where the usual one fits.
 Json example_number(const Option& option) {
   const bool bounded_below = option.low != -infinity, bounded_above = option.high != infinity;
   const std::string example = dimension_of(option.unit).example;
@@ -24,8 +24,8 @@ Json example_number(const Option& option) {
   return number;
 }
 
-/// Options that a component misses in a stage, though each may be left out: "exactly one of total
-/// and each".
+/// Returns options that the cross-check of a component requires in a stage although each is
+/// optional: "exactly one of total and each".
 std::vector<std::string> missing(const ComponentInfo& info, const Json& stage) {
   Faults faults;
   Regions regions;
@@ -33,9 +33,9 @@ std::vector<std::string> missing(const ComponentInfo& info, const Json& stage) {
   const Json none = Json::object();
   RegionReader region_reader(none, regions, faults, texts);
   std::vector<Option> options(info.options.begin(), info.options.end());
+  // so that the file need not exist
   for (Option& option : options)
-    if (option.kind == OptionKind::file)
-      option.kind = OptionKind::text;  // the file need not be there
+    if (option.kind == OptionKind::file) option.kind = OptionKind::text;
   OptionSet set = option_set(info, "");
   set.options = options;
   Json resolved;

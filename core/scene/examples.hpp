@@ -1,4 +1,4 @@
-// Examples of values and stages, made from declarations; for documentation.
+// Examples of values and stages for documentation, made from declarations.
 #pragma once
 
 #include <base/option_set.hpp>
@@ -6,12 +6,12 @@
 
 namespace hyperlattice {
 
-/// A value that the option accepts: its declared example, its default, or one made up. Vectors
-/// along different axes differ.
+/// Returns a value that the option accepts: its declared example, its default, or a generated one.
+/// Generated vectors have different directions for different values of `axis`.
 Json example_value(const Option& option, std::size_t axis = 0);
 
-/// A small stage (or failure) with this component: its type, the options that are required or have
-/// an example, and what its cross-check asks for.
+/// Returns a small stage (or failure) with this component: its type, all options that are required
+/// or have an example, and options that its cross-check requires.
 Json example_stage(const ComponentInfo& info);
 
 }  // namespace hyperlattice

@@ -8,13 +8,14 @@ namespace hyperlattice {
 
 namespace {
 
-constexpr std::size_t largest = 64;  // MB of a document
-constexpr std::size_t deepest =
-    64;  // levels of nesting; far more than a scene needs, far less than the stack bears
+constexpr std::size_t largest = 64;  // size of a document, MB
+// levels of nesting; far more than a scene needs, far less than the stack allows
+constexpr std::size_t deepest = 64;
 constexpr std::size_t longest = 100;    // bytes of a value in a message
-constexpr std::size_t widest = 10'000;  // keys of an object, which are searched one by one
+constexpr std::size_t widest = 10'000;  // keys of an object, whose search is linear
 
-/// "line 3, column 7" of the byte at `offset`; columns count characters, not bytes.
+/// Returns the place of the byte at `offset`: "line 3, column 7". Columns count characters, not
+/// bytes.
 std::string place(std::string_view text, std::size_t offset) {
   std::size_t line = 1, column = 1;
   for (std::size_t n = 0; n < std::min(offset, text.size()); ++n) {
@@ -28,8 +29,8 @@ std::string place(std::string_view text, std::size_t offset) {
   return fmt::format("line {}, column {}", line, column);
 }
 
-/// Where the token whose last byte is at `last` begins: for a text its opening quote, for anything
-/// else that byte.
+/// Returns the offset at which the token with the last byte `last` begins: the opening quote of a
+/// text, otherwise `last`.
 std::size_t token_start(std::string_view text, std::size_t last) {
   if (last >= text.size() || text[last] != '"') return last;
   for (std::size_t n = last; n-- > 0 && text[n] != '\n';)
@@ -37,7 +38,7 @@ std::size_t token_start(std::string_view text, std::size_t last) {
   return last;
 }
 
-/// Builds the document and collects what is wrong with it (the interface of nlohmann's parser).
+/// Builds the document and collects faults; has the interface of nlohmann's SAX parser.
 class Builder {
  public:
   Builder(std::string_view text, Json& root, Faults& faults)
@@ -85,7 +86,7 @@ class Builder {
     std::string pointer;
   };
 
-  /// Where the next value goes.
+  /// Returns the place for the next value.
   Json& slot() {
     if (levels_.empty()) return root_;
     Json& top = *levels_.back().container;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t most_shown = 4096;  // bytes of a plugin's text
 
-/// Calls a function of the set, which must not fail. Throws OutsideError if it does.
+/// Calls a function of the set. Throws OutsideError if the function fails.
 template <class Code>
 void call(const OptionSet& set, const char* function, Code&& code) {
   PluginCall call(set.name, set.library, function);

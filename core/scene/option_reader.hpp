@@ -1,5 +1,5 @@
-// Reads the options of one object of a scene: units, kinds, ranges, defaults, cross-checks.
-// Everything wrong with it is added to the faults.
+// Reads the options of one object of a scene: units, kinds, ranges, defaults, cross-checks. All
+// errors are added to the faults.
 #pragma once
 
 #include <base/option_set.hpp>
@@ -9,23 +9,25 @@
 
 namespace hyperlattice {
 
-/// What reading needs besides the JSON.
+/// The shared data of all readers of one scene.
 struct Reading {
   Faults& faults;
   RegionReader& regions;
   std::deque<std::string>& texts;
 };
 
+/// Reads options from one JSON object.
 class OptionReader {
  public:
-  /// `object` stands at `pointer`. `keys` are known without being options ("type").
+  /// `pointer` is the JSON pointer of `object`. `keys` are keys that are allowed but are no options
+  /// ("type").
   OptionReader(const Json& object, std::string pointer, Reading reading,
                std::vector<std::string> keys = {});
 
-  /// New options of the set, filled and checked; null after faults. Appends every value, given or
-  /// default, in SI to `resolved`.
+  /// Returns new options of the set, filled and checked; null after faults. Appends every value,
+  /// given or default, in SI units to `resolved`.
   OptionsPointer fill(const OptionSet& set, Json& resolved);
-  /// Faults for keys that no set filled so far declares.
+  /// Adds a fault for each key that none of the filled sets declares.
   void reject_unknown();
 
  private:

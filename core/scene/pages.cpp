@@ -20,7 +20,7 @@ std::string fallback_text(const Option& option) {
   return option.optional ? "none" : "required";
 }
 
-/// What may stand in the option, without its unit, which has a column of its own.
+/// Returns the valid values of the option without the unit, which has its own column.
 std::string range_column(const Option& option) {
   std::string text;
   switch (option.kind) {

@@ -13,11 +13,11 @@ namespace hyperlattice {
 
 namespace {
 
-constexpr std::size_t deepest =
-    64;  // sets within sets, which are followed level by level for every particle
-constexpr std::size_t most_suggestions = 100;  // faults whose name is compared with all others
-constexpr std::size_t largest = 10'000;  // regions of one set, all names written out, which may all
-                                         // be asked about every particle
+// levels of nested sets, which are evaluated for every particle
+constexpr std::size_t deepest = 64;
+constexpr std::size_t most_suggestions = 100;  // faults for which similar names are searched
+// regions of one set after all names are replaced; each may be evaluated for every particle
+constexpr std::size_t largest = 10'000;
 
 const std::string expected_region =
     "a region: a name, or an object with one key out of box, sphere, hollow_sphere, cylinder, "
@@ -103,7 +103,7 @@ RegionId RegionReader::add(const std::shared_ptr<const Region>& region, const st
   return id;
 }
 
-/// One fault, however many regions are too deep.
+/// Adds only one fault, also if many regions are nested too deeply.
 bool RegionReader::can_nest(const std::string& pointer, std::size_t depth) {
   if (depth <= deepest) return true;
   if (!std::exchange(too_deep_, true))

@@ -12,7 +12,7 @@
 
 namespace hyperlattice {
 
-/// The keys of sets in a region expression, with what they mean.
+/// A key of a region expression that combines regions, with its meaning.
 struct SetOperation {
   const char* name;
   Region::Kind kind;
@@ -21,29 +21,30 @@ inline constexpr SetOperation set_operations[] = {{"union", Region::Kind::set_un
                                                   {"intersection", Region::Kind::intersection},
                                                   {"difference", Region::Kind::difference}};
 
+/// Reads region expressions; each error becomes a fault.
 class RegionReader {
  public:
-  /// `named` is the scene's "regions": read on demand, since they may refer to each other. Null
-  /// pointers in results stand for faults, added once. Files that regions name are relative to
-  /// `folder`; empty: to the present one.
+  /// `named` is the scene's "regions", read on demand because regions may refer to each other. A
+  /// function that returns null has added a fault, once. File names in regions are relative to
+  /// `folder`, or to the current folder if `folder` is empty.
   RegionReader(const Json& named, Regions& regions, Faults& faults, std::deque<std::string>& texts,
                std::filesystem::path folder = {});
 
   const std::filesystem::path& folder() const { return folder_; }
-  /// The files that options named so far, by the options' JSON pointers. Options are read beside
-  /// regions: they name files of the same folder.
+  /// Files that options have named so far; the key is the option's JSON pointer. Option readers
+  /// share this map, since their file names are relative to the same folder.
   std::map<std::string, std::filesystem::path>& files() { return files_; }
 
-  /// Reads every named region; `resolved` becomes the same with SI numbers.
+  /// Reads all named regions. `resolved` gets the same expressions with SI numbers.
   void read_named(Json& resolved);
 
-  /// An expression's region, and the expression with SI numbers.
+  /// Returns the region of an expression. `resolved` gets the expression with SI numbers.
   std::shared_ptr<const Region> read(const Json& expression, const std::string& pointer,
                                      Json& resolved);
-  /// A region's place in the scene, registered under its name or its expression.
+  /// Returns the id of a region, which is registered under its name or its expression.
   std::optional<RegionId> read_id(const Json& expression, const std::string& pointer,
                                   Json& resolved);
-  /// A bounded solid, for a lattice.
+  /// Returns the Shape of an expression that must be a bounded solid, for a lattice.
   const Shape* read_shape(const Json& expression, const std::string& pointer, Json& resolved);
 
  private:
@@ -51,8 +52,9 @@ class RegionReader {
   std::shared_ptr<const Region> read_primitive(const std::string& key, const Json& parameters,
                                                const std::string& pointer, Json& resolved);
   struct Extent {
-    std::size_t depth = 1, size = 1;  ///< levels of sets within sets; regions it is made of, all
-                                      ///< names written out; itself counted
+    /// depth: levels of nested sets; size: number of regions after all names are replaced by their
+    /// expressions; both count the region itself
+    std::size_t depth = 1, size = 1;
   };
   bool can_nest(const std::string& pointer, std::size_t depth);
   Extent extent_of(const std::shared_ptr<const Region>& region) const;
@@ -61,18 +63,19 @@ class RegionReader {
                                          const std::string& pointer, Json& resolved);
 
   const Json& named_;
-  std::unordered_map<std::string, const Json*> expressions_;  // of named regions
+  std::unordered_map<std::string, const Json*> expressions_;  // of named regions, as given
   Regions& regions_;
   Faults& faults_;
   std::deque<std::string>& texts_;
   std::filesystem::path folder_;
   std::map<std::string, std::filesystem::path> files_;
   std::map<std::string, std::shared_ptr<const Region>> done_;
-  std::map<std::string, std::string> resolved_;  // JSON text of the named regions that are done
+  // JSON text with SI numbers, of the named regions read so far
+  std::map<std::string, std::string> resolved_;
   std::vector<std::string> under_way_;
   std::map<std::shared_ptr<const Region>, Extent> extents_;  // of sets
   std::unordered_map<std::string, RegionId> ids_;            // of regions by name or expression
-  std::size_t level_ = 0;  // of sets within sets and names, where the reader is
+  std::size_t level_ = 0;  // nesting level (sets and names) at the current position
   bool too_deep_ = false;
 };
 

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The deepest folder that holds both.
+/// Returns the deepest folder that contains both paths.
 fs::path common_folder(const fs::path& a, const fs::path& b) {
   fs::path common;
   for (auto x = a.begin(), y = b.begin(); x != a.end() && y != b.end() && *x == *y; ++x, ++y)

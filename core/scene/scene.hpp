@@ -1,5 +1,4 @@
-// A scene: typed, in SI units, every option validated. What a run does is decided by this and
-// nothing else.
+// The validated scene: typed options in SI units. The scene alone decides what a run does.
 #pragma once
 
 #include <base/errors.hpp>
@@ -17,14 +16,15 @@
 
 namespace hyperlattice {
 
-/// The options of one component, filled and validated; owned memory of the plugin's type.
+/// The validated options of one component, in an object of the plugin's type. Owns that object.
 using OptionsPointer = std::unique_ptr<void, void (*)(void*)>;
 
-/// When a writer or probe is due; keys that the core adds to those families
+/// Output times of a writer or probe, from keys that the core adds to these families
 /// (scene/common_options.hpp).
 struct Cadence {
-  std::optional<double> every;  ///< seconds between outputs; 0: only first and last; absent: 20
-                                ///< frames or 200 samples over the run
+  /// time between outputs, s; 0: only the first and the last; absent: 20 frames or 200 samples over
+  /// the run
+  std::optional<double> every;
   bool first = true, last = true;
 };
 
@@ -32,19 +32,20 @@ struct Cadence {
 struct Stage {
   const Component* component = nullptr;
   OptionsPointer options{nullptr, [](void*) {}};
-  std::string pointer;  ///< where it stands: "/pipeline/3"
-  std::string name;  ///< label, unique in its family; default: type's last part, with a number if
-                     ///< several; fit for a file's name
-  RegionId region;   ///< materials: where the material is; default all
+  std::string pointer;  ///< JSON pointer of the stage: "/pipeline/3"
+  /// label, unique in the family, valid in a file name; default: the type's last part, with a
+  /// number if several stages share it
+  std::string name;
+  RegionId region;                 ///< materials: region of the material; default "all"
   std::unique_ptr<Stage> failure;  ///< materials: the failure criterion, if any
   Cadence cadence;                 ///< writers, probes
-  double record_every =
-      0;  ///< solvers: seconds between history records; 0: 200 records over the stage
-  double energy_tolerance =
-      0;  ///< solvers: relative balance error at which the run stops; 0: never
+  /// solvers: time between history records, s; 0: 200 records over the stage
+  double record_every = 0;
+  /// solvers: relative error of the energy balance at which the run stops; 0: no limit
+  double energy_tolerance = 0;
 
   Family family() const { return component->info.family; }
-  /// The family's table of functions: stage.functions<LoadFunctions>().
+  /// Returns the family's table of functions: stage.functions<LoadFunctions>().
   template <class Functions>
   const Functions& functions() const {
     return *static_cast<const Functions*>(component->info.functions);
@@ -53,49 +54,55 @@ struct Stage {
 
 /// A file that a scene reads.
 struct InputFile {
-  std::string pointer;  ///< of the option that names it
+  std::string pointer;  ///< JSON pointer of the option that names the file
   std::filesystem::path path;
 };
 
+/// A whole scene after validation.
 struct Scene {
   std::filesystem::path file;
   std::string title;
-  bool allow_unstable = false;  ///< lattices of which some deformation grows by itself run with a
-                                ///< warning, instead of being refused
-  Precision precision = Precision::doubles;  ///< of the state and of the steps
+  /// true: unstable lattices (a deformation grows by itself) run with a warning; false: they are
+  /// refused
+  bool allow_unstable = false;
+  /// floating-point type of the state and of the time steps
+  Precision precision = Precision::doubles;
   Regions regions;
-  std::vector<Stage> stages;     ///< in the pipeline's order
-  std::vector<InputFile> files;  ///< that its options name, each option once
-  std::string
-      resolved;  ///< scene.resolved.json: every default filled, SI; running it gives the same bits
-  std::deque<std::string> texts;  ///< backing of text options; entries stay where they are
+  std::vector<Stage> stages;     ///< in pipeline order
+  std::vector<InputFile> files;  ///< files named by options, one entry per option
+  /// text of scene.resolved.json: all defaults filled in, SI units; running it gives the same bits
+  std::string resolved;
+  /// storage of text options; the addresses of entries do not change
+  std::deque<std::string> texts;
 
+  /// Returns the stages of a family, in pipeline order.
   std::vector<const Stage*> of(Family family) const;
 
-  /// `resolved` as it is written into a folder: what stands with the scene below one folder that
-  /// holds the results, too, is named relative to them, so that this folder can be moved or copied
-  /// as a whole. Anything else is named by its whole path.
+  /// Returns `resolved` for a file in `folder`. Paths to files that share a folder (other than the
+  /// root) with the scene and with `folder` become relative to `folder`, so that the shared folder
+  /// can be moved or copied as a whole. All other paths stay absolute.
   std::string resolved_in(const std::filesystem::path& folder) const;
 };
 
-/// Reads, patches (`--set /pointer=value`) and validates a scene, loading the plugins it names.
-/// Throws InputError with every fault found; OutsideError if the file is there but cannot be read,
-/// or if the only thing wrong is that the host refuses a library.
+/// Reads, patches (`--set /pointer=value`) and validates a scene, and loads the plugins that it
+/// names. Throws InputError with all faults found, and OutsideError if an existing file cannot be
+/// read or if a library that the host refuses is the only fault.
 std::unique_ptr<Scene> read_scene(const std::filesystem::path& file,
                                   const std::vector<std::string>& settings, Host& host);
 
-/// The same of a scene's text. `file` says where it stands, which is where the plugins it names are
-/// looked for; it is not opened.
+/// Reads a scene from its text. `file` gives the folder in which plugins are looked for; the file
+/// is not opened.
 std::unique_ptr<Scene> read_scene_text(std::string_view text, const std::filesystem::path& file,
                                        Host& host);
 
-/// The same of a scene that stands in no file; what it names is looked for in the present folder.
+/// Reads a scene that has no file. Files and plugins that it names are relative to the current
+/// folder.
 std::unique_ptr<Scene> read_scene_text(std::string_view text, Host& host);
 
-/// The JSON Schema (2020-12) of a scene with the given components.
+/// Returns the JSON Schema (2020-12) of a scene with the given components.
 std::string scene_schema(const std::vector<const Component*>& components);
 
-/// A component's documentation, as Markdown for people and pages, or as JSON for machines.
+/// Returns a component's documentation, as Markdown for people and pages, or as JSON for machines.
 std::string component_page(const Component& component);
 std::string component_json(const Component& component);
 

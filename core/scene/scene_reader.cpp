@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view format = "hyperlattice/1";
 
-/// The top level's keys of plain kinds.
+/// The scene's top-level keys that are plain options.
 struct Heading {
   std::string format, title;
   std::vector<std::string> plugins;
@@ -91,8 +91,8 @@ class SceneReader {
     return given_["regions"];
   }
 
-  /// Also the entries that are well-formed when others are not: their components are needed to
-  /// check the stages.
+  /// Reads the valid entries also if others are faulty, since their components are needed to check
+  /// the stages.
   void read_plugins(Json& resolved) {
     if (!given_.contains("plugins") || !given_["plugins"].is_array()) return;
     const Json& entries = given_["plugins"];
@@ -116,7 +116,8 @@ class SceneReader {
     }
   }
 
-  /// Refused libraries are the outside's failure, unless the input is wrong as well.
+  /// Throws InputError if there are faults; refused libraries are then faults, too. Throws
+  /// OutsideError if refused libraries are the only fault.
   void finish() {
     if (!faults_.empty())
       for (const Fault& refusal : refusals_)
@@ -135,8 +136,8 @@ class SceneReader {
   Faults& faults_;
   Catalogue& catalogue_;
   RegionReader regions_;
-  std::vector<Fault>
-      refusals_;  // of libraries: pointer and value of where they are named, and the reason
+  // refused libraries: pointer and value of the place that names them, and the reason
+  std::vector<Fault> refusals_;
 };
 
 }  // namespace

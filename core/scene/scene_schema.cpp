@@ -27,7 +27,7 @@ Json bounded(const Option& option, const char* type) {
   return number;
 }
 
-/// A plain SI number, or a text with a unit.
+/// Returns the schema of a plain SI number or a text with a unit.
 Json quantity(const Option& option) {
   return {{"anyOf", {bounded(option, "number"), reference("quantity")}}};
 }
@@ -102,7 +102,8 @@ Json component_schema(const ComponentInfo& info) {
   return object;
 }
 
-/// An object whose "type" is one of the types; that type's schema then applies.
+/// Returns the schema of an object whose "type" is one of the types; the schema of that type then
+/// applies.
 Json one_of(const std::vector<std::string>& types) {
   if (types.empty()) return false;
   Json schema{{"type", "object"},
@@ -116,7 +117,8 @@ Json one_of(const std::vector<std::string>& types) {
   return schema;
 }
 
-/// An expression: a name, a primitive, or a set of expressions of the same definition.
+/// Returns the schema of a region expression: a name, a primitive, or a set of expressions of the
+/// same definition.
 Json expression(const std::string& definition, Json name) {
   Json alternatives = Json::array({std::move(name)});
   const auto add = [&](std::string_view key, Json content) {

@@ -10,7 +10,8 @@ namespace hyperlattice {
 
 namespace {
 
-/// The keys of a pointer, "~1" and "~0" put back; nothing if it is none.
+/// Returns the keys of a JSON pointer, with "~1" and "~0" decoded; nothing if the text is no
+/// pointer.
 std::optional<std::vector<std::string>> keys_of(std::string_view pointer) {
   if (pointer.empty() || pointer.front() != '/') return std::nullopt;
   std::vector<std::string> keys;
@@ -36,7 +37,7 @@ std::optional<std::size_t> index_of(std::string_view key) {
   return index;
 }
 
-/// The member to set; null, with what was expected in `expected`, if there is no place for it.
+/// Returns the member to set; null if it cannot exist, with what was expected in `expected`.
 Json* find(Json& scene, const std::vector<std::string>& keys, std::string& expected) {
   Json* at = &scene;
   std::string pointer;

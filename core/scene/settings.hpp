@@ -1,4 +1,4 @@
-// `--set /pointer=value`: changes to a scene from the command line, made before it is validated.
+// `--set /pointer=value`: changes of a scene by the command line, before validation.
 #pragma once
 
 #include <scene/json.hpp>
@@ -7,15 +7,15 @@
 
 namespace hyperlattice {
 
-/// Text as a value: JSON if it is some, else the text itself.
+/// Parses the text as JSON. If it is not JSON, returns the text itself as a JSON string.
 Json value_of(const std::string& text);
 
-/// Replaces the value at a JSON pointer, or adds a member to an object or array that is there.
-/// Returns what was expected instead; empty: it is done.
+/// Replaces the value at a JSON pointer, or adds a member to an existing object or array. Returns
+/// an empty text after success, otherwise what was expected.
 std::string set_value(Json& document, std::string_view pointer, const Json& value);
 
-/// Each setting replaces the value at its pointer, or adds a member to an object or array that is
-/// there. What stands behind the first "=" is read as JSON; if it is none, as a text.
+/// Applies settings "/pointer=value" with set_value(). The part after the first "=" is read by
+/// value_of().
 void apply_settings(Json& scene, const std::vector<std::string>& settings, Faults& faults);
 
 }  // namespace hyperlattice

@@ -1,4 +1,4 @@
-// Calls of a stage's component.
+// Calls of functions of a stage's component, with errors that name the stage.
 #pragma once
 
 #include <host/plugin_call.hpp>
@@ -8,17 +8,16 @@
 
 namespace hyperlattice {
 
-/// Why a component cannot be used, as an error of the outside: names the component, its place in
-/// the scene, its library and the function.
+/// Returns an error that names the component, its place in the scene, its library and the function.
 inline OutsideError plugin_error(const Stage& stage, const std::string& function,
                                  const std::string& sentence) {
   return plugin_failure(stage.component->info.name, stage.pointer, stage.component->path.native(),
                         function, sentence);
 }
 
-/// Calls a function that may refuse: `code` gets the Complaint and returns whether it was done.
-/// Returns the sentence of a refusal. Throws OutsideError if the component got no memory, or if
-/// what it asked of the host was a mistake.
+/// Calls a function that may refuse. `code` gets the Complaint and returns true after success.
+/// Returns the sentence of a refusal. Throws OutsideError if the component got no memory or called
+/// the host wrongly.
 template <class Code>
 std::optional<std::string> refusal_of(const Stage& stage, const char* function, Code&& code) {
   PluginCall call(stage.component->info.name, stage.component->path.c_str(), function,
@@ -31,7 +30,7 @@ std::optional<std::string> refusal_of(const Stage& stage, const char* function, 
   }
 }
 
-/// Calls a function that must not fail. Throws OutsideError if it does.
+/// Calls a function that must not fail. Throws OutsideError if it fails.
 template <class Code>
 void call(const Stage& stage, const char* function, Code&& code) {
   if (const auto sentence = refusal_of(stage, function, code))

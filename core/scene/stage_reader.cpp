@@ -25,8 +25,8 @@ void take_common(const CommonOptions& common, Stage& stage) {
   stage.energy_tolerance = common.energy_tolerance;
 }
 
-/// Whether a component declares a key that belongs to the core; its options could not be told
-/// apart.
+/// Returns the first option of a component whose name is a key of the core, since the two could not
+/// be told apart; empty if there is none.
 std::string taken_key(const ComponentInfo& info) {
   std::vector<std::string_view> keys{"type"};
   for (const Option& option : common_options(info.family).options) keys.push_back(option.name);
@@ -73,7 +73,7 @@ Json StageReader::read(const Json& scene, std::vector<Stage>& stages) {
   return resolved;
 }
 
-/// The family that a stage's type means; nothing after a fault.
+/// Returns the family of a stage's type; nothing after a fault.
 std::optional<Family> StageReader::read_family(const Json& given, const std::string& pointer) {
   if (!given.is_object()) {
     reading_.faults.add(pointer, shown(given), "an object with a type");
@@ -132,8 +132,8 @@ std::optional<Stage> StageReader::read_stage(const Json& given, const std::strin
   stage.pointer = pointer;
   resolved = {{"type", given["type"]}, {"name", ""}};
   const auto failure = family == Family::materials ? given.find("failure") : given.end();
-  Json
-      failure_resolved;  // read first, so that its faults are found even if the material is unknown
+  // read first, so that its faults are found also if the material is unknown
+  Json failure_resolved;
   if (failure != given.end())
     stage.failure = read_failure(*failure, member(pointer, "failure"), failure_resolved);
   stage.component = find(given, pointer, family);
@@ -189,7 +189,7 @@ void StageReader::check_order(const std::vector<std::optional<Family>>& families
           lattice_seen ? "no second lattice" : "the lattice as the first stage of the pipeline");
       lattice_seen = true;
     }
-  if (!all_known) return;  // what seems to be missing may be what could not be read
+  if (!all_known) return;  // a stage that could not be read may be the missing one
   if (!lattice_seen)
     reading_.faults.add("/pipeline/0", "", "a lattice as the first stage of the pipeline");
   if (count(Family::materials) == 0) reading_.faults.add("/pipeline", "", "at least one material");
@@ -198,7 +198,7 @@ void StageReader::check_order(const std::vector<std::optional<Family>>& families
 
 void StageReader::give_names(std::vector<Stage>& stages, Json& resolved) {
   std::map<Family, std::set<std::string>> taken;
-  std::map<std::string, int> last_number;  // by type
+  std::map<std::string, int> last_number;  // last number used, by type
   for (const Stage& stage : stages) {
     if (stage.name.empty()) continue;
     if (!taken[stage.family()].insert(stage.name).second)

@@ -1,5 +1,5 @@
-// Reads a scene's pipeline: each stage by its component's declaration, and the rules of their
-// order.
+// Reads a scene's pipeline: each stage by its component's declaration, and the rules for the order
+// of stages.
 #pragma once
 
 #include <scene/option_reader.hpp>
@@ -7,12 +7,14 @@
 
 namespace hyperlattice {
 
+/// Reads stages; each error becomes a fault.
 class StageReader {
  public:
-  /// Refused libraries go to `refusals`: where they are named, and the reason.
+  /// `refusals` gets an entry for each refused library: the place that names it, and the reason.
   StageReader(Reading reading, Catalogue& catalogue, std::vector<Fault>& refusals);
 
-  /// Reads the pipeline of `scene`. Returns it with SI numbers and all defaults.
+  /// Reads the pipeline of `scene` into `stages`. Returns the pipeline with SI numbers and all
+  /// defaults.
   Json read(const Json& scene, std::vector<Stage>& stages);
 
  private:

@@ -59,7 +59,8 @@ class UnitReader {
   void fail(std::string problem) {
     if (good()) unit_.problem = std::move(problem);
   }
-  /// What stands here is wrong: says what it is, unless `problem` says more.
+  /// Fails at the current position with a description of the text there, or with `problem` if that
+  /// says more.
   void fail_here(std::string problem = "") {
     if (rest_.empty()) return fail("the unit is cut short");
     const std::string_view character = rest_.substr(0, length_of_character(rest_));
@@ -88,7 +89,7 @@ class UnitReader {
     }
     return true;
   }
-  /// Bytes of the symbol's character at the start; 0: none.
+  /// Returns the number of bytes of the symbol character at the start; 0 if there is none.
   static std::size_t is_symbol(std::string_view text) {
     if (text.empty()) return 0;
     const char c = text.front();
@@ -98,7 +99,7 @@ class UnitReader {
     return 0;
   }
 
-  /// Factors as long as there are some; a single blank, or a dot, stands between two.
+  /// Reads factors, separated by blanks or a dot, as long as there are any.
   void read_product(int sign) {
     if (rest_.starts_with('(')) return read_group(sign);
     read_factor(sign);

@@ -23,8 +23,8 @@ namespace {
 struct Known {
   const char *unit, *name, *example;
 };
-// The first of a dimension names it; a unit's own entry comes before that ("J/m2" is an energy per
-// area, "N/m" a stiffness).
+// The first entry of a dimension gives its name. An entry with exactly the same unit has priority
+// ("J/m2" is an energy per area, "N/m" a stiffness).
 constexpr Known known[] = {{"", "a number", "0.5"},
                            {"m", "a length", "1 mm"},
                            {"s", "a time", "1 us"},
@@ -47,7 +47,7 @@ constexpr Known known[] = {{"", "a number", "0.5"},
                            {"kg/s", "a damping coefficient", "1 kg/s"},
                            {"rad/s", "an angular velocity", "1 rad/s"}};
 
-/// What may stand before a unit's symbol or name, once.
+/// Prefixes of a unit's symbol or name; at most one is allowed.
 constexpr std::string_view prefixes[] = {
     "yotta", "zetta", "exa",    "peta",   "tera", "giga", "mega",  "kilo", "hecto", "deca",  "deka",
     "deci",  "centi", "milli",  "micro",  "nano", "pico", "femto", "atto", "zepto", "yocto", "Y",
@@ -57,8 +57,8 @@ constexpr std::string_view prefixes[] = {
 using Unit = std::unique_ptr<ut_unit, void (*)(ut_unit*)>;
 using Converter = std::unique_ptr<cv_converter, void (*)(cv_converter*)>;
 
-/// While it lives, numbers that this thread reads have a decimal point: UDUNITS reads its database
-/// and units as the program's locale says.
+/// Makes this thread read numbers with a decimal point while it exists, since UDUNITS uses the
+/// program's locale for its database and for units.
 class PlainNumbers {
  public:
   PlainNumbers() : plain_(::newlocale(LC_ALL_MASK, "C", nullptr)), before_(::uselocale(plain_)) {}
@@ -73,8 +73,8 @@ class PlainNumbers {
   locale_t plain_, before_;
 };
 
-/// A unit by the base units, radians among them: "1e+06 kg.m-1.s-2". Empty if it is longer than any
-/// that is meant.
+/// Returns a unit in base units, radians included: "1e+06 kg.m-1.s-2". Empty if the text is longer
+/// than 255 characters, which no useful unit is.
 std::string definition(const ut_unit* unit) {
   char text[256];
   const PlainNumbers plain;
@@ -86,8 +86,8 @@ std::string definition(const ut_unit* unit) {
 
 bool is_percent(std::string_view symbol) { return symbol == "%" || symbol == "percent"; }
 
-/// The unit that differs from an unknown one in capital letters only, or is what it shortens, as
-/// the end of a sentence; empty if there is none.
+/// Returns a question for an unknown unit, as the end of a sentence: a unit that differs in capital
+/// letters only, or "degrees" for "deg". Empty if there is none.
 std::string meant_instead(std::string_view symbol) {
   constexpr std::string_view common[] = {"GPa", "MPa", "kPa", "Pa", "GHz", "MHz", "kHz", "Hz",
                                          "MN",  "kN",  "N",   "km", "mm",  "cm",  "um",  "nm",
@@ -105,7 +105,7 @@ std::string meant_instead(std::string_view symbol) {
   return found == std::end(common) ? "" : fmt::format("; did you mean \"{}\"?", *found);
 }
 
-/// The units database; UDUNITS keeps its state in globals, so every use holds the lock.
+/// The units database. UDUNITS has global state, so every use holds the lock.
 class Database {
  public:
   static Database& instance() {
@@ -113,8 +113,8 @@ class Database {
     return database;
   }
   std::mutex& lock() { return lock_; }
-  /// The unit that the grammar allows and whose symbols are known; null, with the reason in
-  /// `problem`, if it is none.
+  /// Parses a unit. Returns null, with the reason in `problem`, if the grammar does not allow it or
+  /// a symbol is unknown.
   Unit parse(std::string_view text, std::string& problem) const {
     const UnitText read = read_unit(text);
     problem = read.problem;
@@ -146,8 +146,8 @@ class Database {
 
  private:
   Database() {
-    constexpr double enough =
-        16e6;  // bytes; where UDUNITS gets none it ends the program by an assertion
+    // bytes; without memory UDUNITS ends the program by an assertion
+    constexpr double enough = 16e6;
     if (memory_room().bytes < enough) throw std::bad_alloc();
     ut_set_error_message_handler(ut_ignore);
     const PlainNumbers plain;
@@ -162,8 +162,8 @@ class Database {
     return Unit(ut_get_unit_by_symbol(system_, text.c_str()), ut_free) ||
            Unit(ut_get_unit_by_name(system_, text.c_str()), ut_free);
   }
-  /// UDUNITS takes any number of prefixes, so that "mmm" would be a micrometre; here it is at most
-  /// one.
+  /// Returns the unit of a symbol with at most one prefix. UDUNITS alone accepts any number of
+  /// prefixes, so that "mmm" would be a micrometre.
   Unit known_symbol(std::string_view symbol) const {
     const bool known =
         knows(symbol) ||
@@ -179,8 +179,9 @@ class Database {
   std::mutex lock_;
 };
 
-/// Exactly the same dimension. UDUNITS alone would convert between a unit and its reciprocal, and
-/// takes radians for plain numbers, so that 60 turns a minute would be 6.28 Hz.
+/// Returns whether two units have exactly the same dimension. UDUNITS alone would convert between a
+/// unit and its reciprocal, and takes radians for plain numbers, so that 60 turns a minute would be
+/// 6.28 Hz.
 bool same_dimension(const ut_unit* a, const ut_unit* b) {
   const Unit ratio(ut_divide(a, b), ut_free);
   if (!ratio) return false;
@@ -205,8 +206,9 @@ double parse(std::string_view number) {
   return error == std::errc() ? value : std::numeric_limits<double>::infinity();
 }
 
-/// The number (as text) in SI. Most units are powers of ten of the SI's: then only the exponent
-/// changes, and the double nearest to the result is found without a rounding on the way.
+/// Converts a number (as text) to SI. If the unit is a power of ten of the SI unit, as most are,
+/// only the exponent changes, so that the result is the nearest double without intermediate
+/// rounding.
 double convert(std::string_view number, const cv_converter* converter) {
   const double origin = cv_convert_double(converter, 0), scale = cv_convert_double(converter, 1);
   const std::string digits = fmt::format("{:.12e}", scale), power_of_ten = "1.000000000000e";

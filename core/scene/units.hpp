@@ -1,5 +1,5 @@
-// Quantities with units. UDUNITS-2 knows the units; numbers are parsed and scaled here, so that "1
-// mm" is the double nearest to 0.001.
+// Quantities with units. UDUNITS-2 provides the units; this file parses and scales the numbers, so
+// that "1 mm" is the double nearest to 0.001.
 #pragma once
 
 #include <string>
@@ -7,22 +7,25 @@
 
 namespace hyperlattice {
 
-/// What a unit measures, in words.
+/// The physical dimension of a unit, in words.
 struct Dimension {
-  std::string
-      name;  ///< "a length"; "a number" if dimensionless; "a quantity in m4" if it has no name
-  std::string example;  ///< "1 mm"; without unit if dimensionless
+  /// "a length"; "a number" if dimensionless; "a quantity in m4" if the dimension has no name
+  std::string name;
+  std::string example;  ///< example of a value: "1 mm"; without unit if dimensionless
 };
+/// Returns the dimension of an SI unit.
 Dimension dimension_of(std::string_view unit);
 
+/// The result of read_quantity().
 struct Quantity {
-  double value = 0;     ///< in SI units; finite
-  std::string problem;  ///< why there is none: "unknown unit \"MPaa\""; empty: all is well
+  double value = 0;  ///< in SI units; finite
+  /// why the text is no such quantity: "unknown unit \"MPaa\""; empty: no problem
+  std::string problem;
 };
 
-/// Reads "<number> <unit>" as a quantity of the same dimension as `unit` (an SI unit, or empty for
-/// a plain number, which takes "%"). Safe in threads. Throws OutsideError if the units database
-/// cannot be read.
+/// Reads "<number> <unit>" as a quantity of the same dimension as `unit`. `unit` is an SI unit; if
+/// it is empty, the text is a plain number or a percentage ("%"). Thread-safe. Throws OutsideError
+/// if the units database cannot be read.
 Quantity read_quantity(std::string_view text, std::string_view unit);
 
 }  // namespace hyperlattice

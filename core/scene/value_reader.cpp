@@ -12,7 +12,7 @@ namespace hyperlattice {
 
 namespace {
 
-/// A number, or a text with a unit, in SI.
+/// Reads a number, or a text with a unit, in SI units.
 bool read_number(const Option& option, const Json& given, const std::string& pointer,
                  const std::string& expected, Faults& faults, double& number) {
   const auto wrong = [&](const std::string& why) {
@@ -42,7 +42,7 @@ bool read_integer(const Json& given, std::int64_t& integer) {
     return true;
   }
   if (!given.is_number()) return false;
-  const double number = given.get<double>();  // 1e6 is a whole number too
+  const double number = given.get<double>();  // 1e6 is a whole number, too
   if (std::trunc(number) != number || std::abs(number) > 9e15) return false;
   integer = static_cast<std::int64_t>(number);
   return true;
@@ -52,7 +52,7 @@ std::vector<std::string> names_of(const Option& option) {
   return {option.choices.begin(), option.choices.end()};
 }
 
-/// The index of a text among the option's choices, or -1.
+/// Returns the index of a text among the option's choices, or -1.
 std::int64_t choice_of(const Option& option, const Json& given) {
   if (!given.is_string()) return -1;
   const auto found =

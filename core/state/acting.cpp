@@ -1,5 +1,5 @@
-// What loads do at the present instant: their factors, by the mean over the interval in which
-// forces act, their answers to the motion, and the velocities of the particles that they move.
+// Loads at the present time: the mean of their factors over the interval in which forces act, their
+// answers to the motion, and the velocities of the particles that they move.
 #include <model/blame.hpp>
 #include <state/parts.hpp>
 
@@ -14,8 +14,8 @@ namespace {
 
 bool is_finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-/// Whether a motion is one that the guard lets pass: a body that blows up overflows the answers
-/// too.
+/// Returns whether the guard would let this motion pass. In a body that blows up, answers of loads
+/// overflow too, but the loads are not to blame.
 bool is_sound(const WatchedMotion& seen, double step, double spacing) {
   constexpr double spacings = 100;  // in a step
   return std::all_of(seen.displacement.begin(), seen.displacement.end(), is_finite) &&
@@ -25,7 +25,7 @@ bool is_sound(const WatchedMotion& seen, double step, double spacing) {
 
 }  // namespace
 
-/// What loads watch is filled in by watch().
+/// Sets the factors of all loads. watch() fills in the motion that they watch.
 void Simulation::Parts::prepare_loads(const Sweep& sweep) {
   for (std::size_t l = 0; l < acting.size(); ++l) {
     Acting& now = acting[l];
@@ -47,7 +47,7 @@ void Simulation::Parts::prepare_loads(const Sweep& sweep) {
   }
 }
 
-/// Shows the loads what the block's particles do.
+/// Copies the motion of the block's watched particles to the loads.
 void Simulation::Parts::watch(const Block& block) {
   for (const Block::Watched& seen : block.watched) {
     const auto of = [&](const Numbers* field) {
@@ -58,14 +58,14 @@ void Simulation::Parts::watch(const Block& block) {
   }
 }
 
-/// Once all that loads watch has been shown to them.
+/// Lets loads prepare their answers, after watch() of all blocks.
 void Simulation::Parts::prepare_answers() {
   for (std::size_t l = 0; l < acting.size(); ++l)
     if (model.loads[l].prepares()) model.loads[l].prepare(acting[l].motion);
 }
 
-/// External forces. Along prescribed axes they move nothing, and are kept apart: there they would
-/// cancel in the books but for round-off.
+/// Sets the external forces. Their components along prescribed axes move nothing and are kept
+/// apart: in the energy balance they would cancel except for round-off.
 void Simulation::Parts::apply_forces(Block& block) const {
   block.bad_answer = no_load;
   for (std::size_t s = 0; s < block.boundary_particles.size(); ++s)
@@ -91,8 +91,9 @@ void Simulation::Parts::apply_forces(Block& block) const {
   }
 }
 
-/// m/s, along an axis that the load prescribes. A displacement is met at the end of each step, a
-/// velocity's path is exact. Where time is held both stand where they are at that time.
+/// Returns the velocity, m/s, along an axis that the load prescribes. A prescribed displacement is
+/// met at the end of each step; the path of a prescribed velocity is exact. While time is held,
+/// both have their displacement at that time as goal.
 double Simulation::Parts::prescribed_velocity(const Block& block, const Contribution& part,
                                               int axis, const Sweep& sweep) const {
   const Acting& load = acting[part.load];
@@ -114,7 +115,8 @@ void Simulation::Parts::prepare_supports(Block& block, const Sweep& sweep) const
     for (int c = 0; c < 3; ++c) {
       if (((part.displaced | part.driven) >> c & 1u) == 0) continue;
       double velocity = prescribed_velocity(block, part, c, sweep);
-      if (sweep.measured > 0) {  // the end of a kick of that length with the same acceleration
+      // The velocity after a kick of that duration with the same acceleration.
+      if (sweep.measured > 0) {
         const double now = block.velocity[c][support.index];
         velocity = now + 2 * sweep.measured / (sweep.before + sweep.after) * (velocity - now);
       }
@@ -123,7 +125,7 @@ void Simulation::Parts::prepare_supports(Block& block, const Sweep& sweep) const
   }
 }
 
-/// RunError if a factor is not a number, at the present instant or in what the sweep makes of it.
+/// Throws RunError if a load factor is not a number, at the present time or in the sweep.
 void Simulation::Parts::check_factors() const {
   for (std::size_t l = 0; l < acting.size(); ++l) {
     const Acting& load = acting[l];
@@ -140,7 +142,7 @@ void Simulation::Parts::check_factors() const {
   }
 }
 
-/// RunError if an answer to a sound motion is not finite.
+/// Throws RunError if a load's answer to a sound motion is not finite.
 void Simulation::Parts::check_answers() const {
   for (const Block& block : blocks) {
     if (block.bad_answer == no_load) continue;

@@ -1,5 +1,4 @@
-// One description of a state for both ways: what visits an archive is saved in it, or restored from
-// it.
+// Saves or restores a state: a function that passes each value to an archive serves both ways.
 #pragma once
 
 #include <algorithm>
@@ -29,8 +28,8 @@ class Archive {
   void operator()(std::vector<T>& values) {
     std::uint64_t size = values.size();
     (*this)(size);
-    constexpr std::uint64_t piece = std::max<std::size_t>(
-        1, (1 << 20) / sizeof(T));  // no more memory than the archive has values
+    // Reads in pieces, so that a wrong size takes hardly more memory than the archive has values.
+    constexpr std::uint64_t piece = std::max<std::size_t>(1, (1 << 20) / sizeof(T));
     for (std::uint64_t done = 0; done < size; done += piece) {
       const std::uint64_t count = std::min(piece, size - done);
       if (restores_) values.resize(done + count);

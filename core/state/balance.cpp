@@ -1,12 +1,12 @@
-// The energy books. The scheme's own energy, 1/2 v(n-1/2).M.v(n+1/2) plus what the springs store at
-// n, is constant up to what loads put in and what damping and failure take; each of those is
+// The energy balance. The energy of the scheme, 1/2 v(n-1/2).M.v(n+1/2) plus the stored energy at
+// n, changes only by the work of loads and by dissipation in damping and failure. All of these are
 // counted over the same half steps, so that the balance closes to round-off for small strains and
 // to the square of the step otherwise.
 //
-// A measurement at n ends the step's kick half-way, with the loads' mean over the half step before
-// n: velocity and momentum are then those of n, with the exact impulse of the loads up to n, and
-// nothing after n is asked for. The error does not depend on that choice: what another force would
-// add to the kinetic energy is its work over the same half step.
+// A measurement at n ends the step's kick half-way, with the mean of the loads over the half step
+// before n. Velocity and momentum are then those at n, with the exact impulse of the loads up to n,
+// and no load is asked for a time after n. The error does not depend on this choice: another force
+// would add to the kinetic energy its work over the same half step.
 #include <model/kernel_calls.hpp>
 #include <state/parts.hpp>
 
@@ -15,8 +15,8 @@
 
 namespace hyperlattice {
 
-/// Sums of the present state, in the rows' order whatever the blocks are. Changes nothing but the
-/// results in rows and supports.
+/// Returns the sums of the present state, in the order of the rows for any number of blocks.
+/// Changes nothing but the results in rows and boundary particles.
 RowSums Simulation::Parts::measure(const Sweep& sweep) {
   prepare_loads(sweep);
   team.for_each(blocks.size(), [&](std::size_t b) {
@@ -45,7 +45,7 @@ RowSums Simulation::Parts::measure(const Sweep& sweep) {
   return total;
 }
 
-/// What the state at the start of the books held already.
+/// Finds the energy and the potential of the state at the start of the balance.
 void Simulation::Parts::find_start() {
   if (start_known) return;
   start_known = true;
@@ -55,8 +55,8 @@ void Simulation::Parts::find_start() {
   for (const double work : work_by_load(0)) start_energy -= work;
 }
 
-/// J that each load put in, up to the state that was measured last. What holds a particle counts
-/// for the load that holds it, and takes back what other loads do along the axes that it holds.
+/// Returns the work of each load, J, up to the state that was measured last. The reaction of a
+/// constraint counts for its load, and takes back the work of other loads along the same axes.
 std::vector<double> Simulation::Parts::work_by_load(double potential) const {
   std::vector<double> work(model.loads.size(), 0);
   for (const Block& block : blocks) {
@@ -77,15 +77,16 @@ std::vector<double> Simulation::Parts::work_by_load(double potential) const {
     }
   }
   const double acceleration = norm(model.acceleration);
-  if (acceleration > 0)  // body accelerations share the potential's work by their part of the whole
+  // Body accelerations share the work of the potential in proportion to their part of the whole.
+  if (acceleration > 0)
     for (std::size_t l = 0; l < model.loads.size(); ++l)
       work[l] += potential * dot(model.loads[l].acceleration, model.acceleration) /
                  (acceleration * acceleration);
   return work;
 }
 
-/// J, the sum of the sizes of all works, of each load on each particle: they may cancel. So does
-/// what a body acceleration gives to a held particle in a step with what holds it.
+/// Returns the sum of the absolute works, J, of each load on each particle, because works may
+/// cancel. A body acceleration on a held particle and the reaction also cancel in each step.
 double Simulation::Parts::gross_work(double potential) const {
   double sum = std::abs(potential);
   const Vec3 gained = last_step * model.acceleration;

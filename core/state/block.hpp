@@ -1,5 +1,4 @@
-// One block of the state: its arrays, its supports, and the breakages of the step that is under
-// way.
+// One block of the state: its arrays, its boundary particles and the breakages of the present step.
 #pragma once
 
 #include <state/layout.hpp>
@@ -12,22 +11,23 @@ namespace hyperlattice {
 
 inline constexpr std::uint32_t not_watched = ~std::uint32_t{0}, no_load = ~std::uint32_t{0};
 
-/// A load's part in a support.
+/// The effect of one load on one boundary particle, or the answer of a load to a watched one.
 struct Contribution {
   std::uint32_t support = 0, load = 0;
   Particle particle = 0;
-  std::uint32_t watched = not_watched;  ///< which of the load's watched particles: the force is its
-                                        ///< answer, not an amplitude
-  Vec3 force, displacement, velocity;   ///< amplitudes
+  /// Number among the load's watched particles: the force is then the load's answer, not an
+  /// amplitude.
+  std::uint32_t watched = not_watched;
+  Vec3 force, displacement, velocity;  ///< amplitudes
   Axes displaced = 0, driven = 0;
-  Vec3 goal;          ///< m, the displacement along driven axes where time is held
-  double factor = 0;  ///< of the present step
+  Vec3 goal;          ///< displacement along driven axes while time is held, m
+  double factor = 0;  ///< load factor in the present step
   double work = 0;    ///< of the force since the start, J
-  double held_work =
-      0;  ///< its part along prescribed axes, which whatever holds the particle takes back, J
+  /// Part of `work`, J, along prescribed axes; the constraint of the particle takes it back.
+  double held_work = 0;
 };
 
-/// What a block of a listed body has besides; see ListedSlots.
+/// Additional arrays of a block of a listed body; see ListedSlots.
 struct ListedArrays {
   AlignedArray<std::uint32_t> first, neighbour;
   Numbers stiffness, alarm, records;
@@ -36,8 +36,8 @@ struct ListedArrays {
 
 struct Block {
   const BlockLayout* layout = nullptr;
-  std::size_t number = 0;  ///< its place among the blocks
-  std::vector<Row> rows;   ///< the layout's, with their supports
+  std::size_t number = 0;  ///< index among the blocks
+  std::vector<Row> rows;   ///< the layout's rows with their boundary particles
   Numbers displacement[4], velocity[4];
   AlignedArray<std::uint16_t> alive;
   AlignedArray<std::uint8_t> material;
@@ -45,17 +45,18 @@ struct Block {
   AlignedArray<double> memory;  ///< of laws, see KernelRequest
   AlignedArray<double> scratch;
   ListedArrays listed;
-  std::vector<double> damped_work;  ///< a row
-  std::vector<RowSums> sums;        ///< a row
-  std::vector<BoundaryParticle>
-      boundary_particles;        ///< in the rows' order; their forces leave out prescribed axes
-  std::vector<Vec3> held_force;  ///< of each support, N: the external force along prescribed axes
+  std::vector<double> damped_work;  ///< per row, J
+  std::vector<RowSums> sums;        ///< per row
+  /// In the order of the rows. Their forces have no component along prescribed axes.
+  std::vector<BoundaryParticle> boundary_particles;
+  /// External force along prescribed axes on each boundary particle, N.
+  std::vector<Vec3> held_force;
   std::vector<Contribution> contributions;
 
   /// A particle that a load watches.
   struct Watched {
-    std::uint32_t load = 0,
-                  number = 0;  ///< the load's, and the particle's among those that it watches
+    /// The load's number, and the particle's number among those that the load watches.
+    std::uint32_t load = 0, number = 0;
     std::uint64_t index = 0;
   };
   std::vector<Watched> watched;
@@ -63,12 +64,13 @@ struct Block {
   struct Broken {
     SpringEnds spring;
     double elongation;
-    std::uint32_t row, neighbour;  ///< where the kernel found it, see AlarmRow
+    std::uint32_t row, neighbour;  ///< place in the kernel's AlarmRow
     std::int32_t site;
   };
-  std::vector<Broken> broken;          ///< in this step, by row, neighbour, site
-  std::vector<std::uint8_t> answers;   ///< of the failure criterion, for one batch
-  std::uint32_t bad_answer = no_load;  ///< a load whose answer was not finite in the present sweep
+  std::vector<Broken> broken;         ///< in this step, in the order of row, neighbour, site
+  std::vector<std::uint8_t> answers;  ///< of the failure criterion to one batch
+  /// A load whose answer was not finite in the present sweep.
+  std::uint32_t bad_answer = no_load;
 };
 
 }  // namespace hyperlattice

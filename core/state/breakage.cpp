@@ -1,4 +1,4 @@
-// Broken springs: the criterion's answer, the event, and the energy that went with it.
+// Broken springs: the answer of the criterion, the breakage and the energy lost with it.
 #include <model/kernel_calls.hpp>
 #include <state/parts.hpp>
 
@@ -10,7 +10,7 @@
 namespace hyperlattice {
 namespace {
 
-/// The end of a spring: place and height, and how far it moved and rose in a step.
+/// The end of a spring: its displacement and height, and their changes in a step.
 struct End {
   Vec3 place;
   double height = 0;
@@ -18,7 +18,7 @@ struct End {
   double raised = 0;
 };
 
-/// `dt` before now, when the particle's velocity has been what it is now.
+/// Returns the end as it was `dt` before now, if its velocity was the present one since then.
 End end_of(const Block& block, std::uint64_t n, int components, double dt) {
   const auto moved = [&](int c) { return dt * block.velocity[c][n]; };
   const auto place = [&](int c) { return block.displacement[c][n] - moved(c); };
@@ -58,7 +58,8 @@ const std::uint8_t* Simulation::Parts::review(Block& block, const AlarmRow& alar
     });
     for (std::size_t n = 0; n < count; ++n) block.answers[first + n] |= answers[n];
   };
-  if (model.materials.size() == 1 && !model.body.is_listed()) {  // the same springs all
+  // All of these springs are alike.
+  if (model.materials.size() == 1 && !model.body.is_listed()) {
     const SpringEnds first = ends(0);
     ask(model.materials.front(),
         model.facts(model.spring_properties(first.a, first.b, first.neighbour), 0), 0,
@@ -68,8 +69,8 @@ const std::uint8_t* Simulation::Parts::review(Block& block, const AlarmRow& alar
       const SpringEnds spring = ends(n);
       const SpringProperties properties =
           model.spring_properties(spring.a, spring.b, spring.neighbour);
-      for (const std::uint8_t material :
-           model.materials_of(spring.a, spring.b, spring.neighbour))  // one that says so breaks it
+      // One material whose criterion says so breaks the spring.
+      for (const std::uint8_t material : model.materials_of(spring.a, spring.b, spring.neighbour))
         ask(model.materials[material], model.facts(properties, material), n, 1);
     }
   }
@@ -80,8 +81,8 @@ const std::uint8_t* Simulation::Parts::review(Block& block, const AlarmRow& alar
   return block.answers.data();
 }
 
-/// How fast a spring grows, m/s, by the velocities of half a step before: neither of its ends has
-/// moved yet.
+/// Returns the rate of growth of a spring, m/s, from the velocities half a step before. The step
+/// has not moved its ends yet.
 double Simulation::Parts::rate_of(const Block& block, const AlarmRow& alarm, std::size_t n) const {
   const Row& row = block.rows[alarm.row];
   const std::uint64_t a = row.start + static_cast<std::uint64_t>(alarm.sites[n] - row.begin);
@@ -98,8 +99,8 @@ double Simulation::Parts::rate_of(const Block& block, const AlarmRow& alarm, std
   return product / std::sqrt(squared_length);
 }
 
-/// Blocks follow each other as their particles do, and a block's list is in the order of its rows:
-/// the log does not depend on the number of threads.
+/// Collects the breakages of the step. The log does not depend on the number of threads: blocks are
+/// in the order of their particles, and each block's list is in the order of its rows.
 void Simulation::Parts::collect_breakages(double dt) {
   for (Block& block : blocks) {
     for (const Block::Broken& broken : block.broken) {
@@ -126,8 +127,8 @@ void Simulation::Parts::note_ends(const Breakage& breakage) {
   ends.push_back({block_a, block_b, place_a, place_b});
 }
 
-/// What is lost with a base spring and its cross springs. They pulled during the step that found
-/// them broken, so half a step of that work belongs to the energy that is gone: this keeps the
+/// Returns the energy lost with a base spring and its cross springs, J. They pulled during the step
+/// that found them broken, so the lost energy includes half a step of that work: this keeps the
 /// scheme's balance exact to second order.
 double Simulation::Parts::energy_of(std::size_t index, const Block& block,
                                     const Block::Broken& broken, double dt) const {
@@ -141,7 +142,7 @@ double Simulation::Parts::energy_of(std::size_t index, const Block& block,
   const Vec3 d = b.place - a.place, moved = b.moved - a.moved;
   const double in_space = dot(d, 2 * properties.rest + d),
                rate_in_space = 2 * dot(properties.rest + d, moved);
-  // growth and its rate are of the squared length, as in kernels/springs.hpp
+  // Growth and its rate are those of the squared length, as in kernels/springs.hpp.
   const auto lost = [&](bool cross, double growth, double rate) {
     const double rest_length = cross ? properties.cross_rest_length : properties.rest_length;
     const double length = std::sqrt(rest_length * rest_length + growth);

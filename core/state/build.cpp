@@ -1,5 +1,5 @@
-// How a Simulation is built: arrays, alive springs, supports. Each block is first touched by the
-// thread that will work on it.
+// Builds a Simulation: arrays, living springs, boundary particles. Each block is first touched by
+// the thread that will work on it.
 #include <state/parts.hpp>
 
 #include <algorithm>

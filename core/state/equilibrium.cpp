@@ -1,6 +1,6 @@
-// From rest to rest: what a static solver finds becomes the state, and its books continue those of
-// the steps in time. A path of states of rest is known at its ends only; the work along it is the
-// mean of the forces at both ends over the way between them.
+// From one state of rest to the next: takes over the result of a static solver and continues the
+// energy balance of the steps in time. Only the ends of the path are known; its work is the mean of
+// the forces at both ends times the displacement between them.
 #include <state/parts.hpp>
 
 #include <algorithm>
@@ -43,7 +43,8 @@ double Simulation::kinetic() const {
     Particle first;
     double twice;
   };
-  std::vector<Piece> pieces;  // the same for any number of blocks: these are cut between rows
+  // The same pieces for any number of blocks, because blocks are cut between rows.
+  std::vector<Piece> pieces;
   parts_->for_runs(
       [&](const Block& block, std::uint64_t place, Particle first, std::uint64_t count) {
         for (std::uint64_t n = 0; n < count; n += Listed::stretch)
@@ -116,7 +117,8 @@ void Simulation::apply_equilibrium(const EquilibriumUpdate& to) {
   parts_->halted_energy += to.dissipated;
   set({false, 0, 3}, to.xyz);
   if (!to.heights.empty()) set({false, 3, 1}, to.heights);
-  parts_->start_known = true;  // known since halt(), and the way from there is in the books
+  // Known since halt(); the work on the way from there is in the balance.
+  parts_->start_known = true;
   set_time(to.time);
   ++parts_->steps;
 }

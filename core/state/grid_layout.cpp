@@ -8,8 +8,8 @@
 namespace hyperlattice {
 namespace {
 
-/// The one material of all springs of a row, or -1 if there are several. In a body of cells the
-/// row's mixtures decide; else the materials of its particles and of their neighbours.
+/// Returns the one material of all springs of a row, or -1 if there are several. In a body of cells
+/// the row's mixtures decide, else the materials of its particles and of their neighbours.
 std::int32_t material_of_row(const Model& model, std::int32_t j, std::int32_t k) {
   if (model.materials.size() == 1) return 0;
   std::int32_t found = -2;
@@ -38,7 +38,7 @@ std::vector<std::uint64_t> particles_per_plane(const Body& body) {
   return counts;
 }
 
-/// Bits of the sites of row (j, k): which springs leave each site, and whether it holds a particle.
+/// Fills the bits of row (j, k): which springs start at each site, and whether it has a particle.
 /// Element t belongs to site row.begin + t.
 void fill_alive(const Body& body, std::int32_t j, std::int32_t k, const Row& row,
                 std::uint16_t* alive) {
@@ -50,7 +50,8 @@ void fill_alive(const Body& body, std::int32_t j, std::int32_t k, const Row& row
         alive[i - row.begin] = static_cast<std::uint16_t>(alive[i - row.begin] | 1u << n);
 }
 
-/// Kernels count the rows of a block, and the places of a row with its margins, in 32 bits.
+/// Throws OutsideError if the block is too large: kernels count its rows, and the places of a row
+/// with its margins, in 32 bits.
 void check_block(const Body& body, std::int32_t planes) {
   constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
   const std::int64_t rows = (std::int64_t{planes} + 2 * body.reach) * body.grid.sites[1];
@@ -77,8 +78,8 @@ GridLayout::GridLayout(const Model& model, int threads) : Layout(model) {
   const auto counts = particles_per_plane(body);
   std::uint64_t before = 0;
   std::int32_t first = 0;
-  for (std::uint64_t block = 0; block < wanted;
-       ++block) {  // equal shares of the particles, at least one plane each
+  // Blocks have about equal numbers of particles, and at least one plane each.
+  for (std::uint64_t block = 0; block < wanted; ++block) {
     const auto rest = static_cast<std::int32_t>(wanted - block - 1);
     std::int32_t next = first;
     const std::uint64_t target = body.particles * (block + 1) / wanted;
@@ -228,7 +229,7 @@ void GridLayout::fill(Block& block) const {
   }
 }
 
-/// What the law keeps of the springs of a row, of a ghost's too.
+/// Initializes the law's memory for the springs of a row, also of a ghost row.
 void GridLayout::start_row(const Block& block, std::uint32_t r, Site site) const {
   const Body& body = model_.body;
   for (std::uint32_t n = 0; n < body.neighbours.size(); ++n) {

@@ -1,5 +1,5 @@
-// A structured body in blocks of whole planes with ghost planes; rows follow each other with
-// nothing between them.
+// The layout of a structured body: blocks of whole planes with ghost planes. Rows follow each other
+// without gaps.
 #pragma once
 
 #include <state/layout.hpp>
@@ -32,14 +32,14 @@ class GridLayout final : public Layout {
   struct Planes {
     std::int32_t first = 0, count = 0;
   };
-  /// Places of a plane: they are contiguous, and as many in every block that holds the plane.
+  /// Indices of a plane in a block. They are contiguous, and as many in every block with the plane.
   struct PlaneRange {
     std::uint64_t begin = 0, end = 0;
   };
 
   BlockLayout make_block(Planes planes, std::uint64_t padding);
-  std::uint64_t whole_vectors(
-      std::int32_t sites) const;  ///< places that so many sites of a row take, with the padding
+  /// Returns how many places a row of so many sites takes, with the padding.
+  std::uint64_t whole_vectors(std::int32_t sites) const;
   std::size_t block_of_plane(std::int32_t k) const;
   PlaneRange plane(std::size_t block, std::int32_t k) const;
   std::uint32_t row_of(std::size_t block, Site site) const;

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double slab_particles = 1 << 19;
 
-/// Six times the volume of the tetrahedron between three edges; above 0 if they lie round each
-/// other as x, y and z do.
+/// Returns six times the volume of the tetrahedron between three edges: positive if they are
+/// oriented as x, y and z are.
 double turn(Vec3 a, Vec3 b, Vec3 c) { return dot(a, cross(b, c)); }
 
 Vec3 vector_at(std::span<const double> xyz, std::uint64_t n) {
@@ -23,7 +23,7 @@ Vec3 vector_at(std::span<const double> xyz, std::uint64_t n) {
 class RowCursor {
  public:
   explicit RowCursor(std::span<const Run> runs) : runs_(runs) {}
-  /// The particle at i if there is one at i + 1 too, else Body::no_particle.
+  /// Returns the particle at i if i + 1 has a particle too, else Body::no_particle.
   Particle pair_at(std::int32_t i) {
     while (run_ < runs_.size() && runs_[run_].end <= i + 1) ++run_;
     if (run_ == runs_.size() || runs_[run_].begin > i) return Body::no_particle;
@@ -45,8 +45,8 @@ class Ends {
       ++first_[spring.b];
     }
     std::size_t sum = 0;
-    for (std::size_t& first : first_)
-      first = sum += first;  // behind the particle's last, from where they are filled in backwards
+    // The place behind the particle's last end: the ends are filled in backwards.
+    for (std::size_t& first : first_) first = sum += first;
     for (std::size_t n = body.listed.springs.size(); n-- > 0;) {
       const ListedSpring& spring = body.listed.springs[n];
       ends_[--first_[spring.b]] = spring.a;
@@ -61,16 +61,16 @@ class Ends {
   }
 
  private:
-  std::vector<std::size_t>
-      first_;  ///< of each particle, its first place in ends_; one more entry at the end
+  /// The first place of each particle in ends_; one more entry at the end.
+  std::vector<std::size_t> first_;
   std::vector<std::uint32_t> ends_;
 };
 
 }  // namespace
 
 bool CellWatch::is_due(std::uint64_t step) const {
-  constexpr std::uint64_t every =
-      1000;  // steps: of a run on many threads a look takes as long as many steps
+  // In a run on many threads a look takes as long as many steps.
+  constexpr std::uint64_t every = 1000;
   return seen_.has_looked == 0 || step >= seen_.last_looked + every;
 }
 
@@ -122,10 +122,11 @@ bool CellWatch::look(const Simulation& simulation) {
   return is_first;
 }
 
-/// A slab of planes at a time, so that a large body's displacements never stand in memory twice.
+/// Works on a slab of planes at a time, so that a large body's displacements are never in memory
+/// twice.
 void CellWatch::look_at_cells(const Simulation& simulation) {
   const auto planes = static_cast<std::size_t>(std::int64_t{body_.high.k} - body_.low.k + 1);
-  std::vector<Particle> before(planes + 1);  // of each plane, the particles before it
+  std::vector<Particle> before(planes + 1);  // number of particles before each plane
   for (std::size_t plane = 0; plane < planes; ++plane) {
     before[plane + 1] = before[plane];
     for (std::int32_t j = body_.low.j; j <= body_.high.j; ++j)
@@ -179,9 +180,10 @@ void CellWatch::look_at_row(std::int32_t j, std::int32_t k) {
     }
 }
 
-/// Three springs of each particle, the first any, the others as far askew as they come.
+/// Chooses three springs of each particle: the first one, and two that are as far from collinear
+/// and coplanar as possible.
 void CellWatch::find_triples() {
-  constexpr double flattest = 0.3;  // of a cube's corner
+  constexpr double flattest = 0.3;  // least volume, relative to a cube's corner
   const Ends all_ends(body_);
   triples_.assign(body_.particles, Triple{});
   for (Particle p = 0; p < body_.particles; ++p) {

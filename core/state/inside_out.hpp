@@ -1,9 +1,10 @@
-// Where a lattice has folded through itself: central springs resist shortening, but not that a cell
-// is turned inside out.
+// Detects where a lattice has folded through itself: central springs resist shortening, but do not
+// prevent that a cell turns inside out.
 //
-// A cell of a structured lattice spans eight sites with a particle each. It is inside out if, at
-// one of its corners, the three edges no longer lie round each other as they do at rest. A list has
-// no cells: three springs of each particle, as far from one plane as may be, stand for them.
+// A cell of a structured lattice has eight sites with a particle each. It is inside out if the
+// three edges at one of its corners lose the orientation (sign of the triple product) that they
+// have at rest. A list has no cells: three springs of each particle, chosen far from coplanar,
+// replace them.
 #pragma once
 
 #include <state/simulation.hpp>
@@ -17,34 +18,34 @@ namespace hyperlattice {
 /// A plain record: part of the checkpoint.
 struct InsideOut {
   std::uint64_t all = 0;          ///< cells, or particles of a list with three such springs
-  std::uint64_t number = 0;       ///< of these, inside out when last looked
+  std::uint64_t number = 0;       ///< number of these that were inside out at the last look
   std::uint64_t most = 0;         ///< the largest number so far
-  double first_time = 0;          ///< s, when one was first seen
-  Vec3 first_place;               ///< m, at rest, of the one that was seen first
-  std::uint64_t last_looked = 0;  ///< step
-  std::uint64_t has_looked = 0;   ///< 1 once it has
+  double first_time = 0;          ///< of the look that found the first one, s
+  Vec3 first_place;               ///< place at rest of the first one, m
+  std::uint64_t last_looked = 0;  ///< step of the last look
+  std::uint64_t has_looked = 0;   ///< 1 after the first look
 };
 
 class CellWatch {
  public:
   explicit CellWatch(const Model& model) : body_(model.body) {}
 
-  /// Looks at the present state, on one thread, in about the time of a step on one thread. Cells
-  /// and particles next to a broken spring are not judged. Returns whether the first one was seen
-  /// now.
+  /// Looks at the present state on one thread, in about the time of a step on one thread. Skips
+  /// cells and particles at a broken spring. Returns whether this look found the first one inside
+  /// out.
   bool look(const Simulation& simulation);
-  /// Whether the steps since the last look make another one cheap.
+  /// Returns whether enough steps have passed since the last look to make another one cheap.
   bool is_due(std::uint64_t step) const;
 
-  /// Bytes that a look takes at most, with what stays between looks.
+  /// Returns the most bytes that a look takes, with the data kept between looks.
   static double bytes(const Model& model);
 
-  /// A sentence about what was seen; "" if nothing was.
+  /// Returns a warning about folded cells; "" if none was seen.
   std::string sentence() const;
   InsideOut& seen() { return seen_; }
 
  private:
-  using Triple = std::array<std::uint32_t, 3>;  ///< the springs' other ends; all 0: none
+  using Triple = std::array<std::uint32_t, 3>;  ///< other ends of three springs; all 0: none
 
   void look_at_cells(const Simulation& simulation);
   void look_at_row(std::int32_t j, std::int32_t k);
@@ -54,12 +55,12 @@ class CellWatch {
 
   const Body& body_;
   InsideOut seen_;
-  std::vector<double> moved_;  ///< m, x y z of the particles from first_ on
+  std::vector<double> moved_;  ///< displacements x y z of the particles from first_ on, m
   Particle first_ = 0;
   Particle found_ = 0;  ///< the first one that is inside out in this look
-  std::vector<bool>
-      is_torn_;  ///< of each particle, whether a spring of it is broken; empty: none is
-  std::vector<Triple> triples_;  ///< of each particle of a list
+  /// Whether each particle has a broken spring; empty: none has.
+  std::vector<bool> is_torn_;
+  std::vector<Triple> triples_;  ///< per particle of a list
 };
 
 }  // namespace hyperlattice

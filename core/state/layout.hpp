@@ -1,6 +1,6 @@
-// How a body is stored: blocks, one a thread, of rows of particles, padded to whole vectors.
-// Structured and listed bodies differ in how rows are cut, in what a block copies from others, and
-// in how a spring is found again; everything else treats them alike.
+// The storage of a body: one block per thread, each with rows of particles that are padded to whole
+// vectors. Structured and listed bodies differ in how rows are cut, in what a block copies from
+// others, and in how a spring is found; all other code treats them alike.
 #pragma once
 
 #include <model/model.hpp>
@@ -14,24 +14,24 @@ namespace hyperlattice {
 
 struct Block;
 
+/// The rows of one block and the size of its arrays.
 struct BlockLayout {
-  std::vector<Row> rows;  ///< supports not yet filled in
-  std::uint32_t first_own = 0,
-                last_own =
-                    0;  ///< rows first_own <= r < last_own are the block's; others are ghosts
+  std::vector<Row> rows;  ///< without their boundary particles
+  /// The block's own rows are first_own <= r < last_own; the others are ghosts.
+  std::uint32_t first_own = 0, last_own = 0;
   std::vector<std::uint32_t> weight_sets;  ///< see KernelRequest
-  std::uint64_t sites = 0;                 ///< places in each array, with the padding
+  std::uint64_t sites = 0;                 ///< elements of each array, padding included
 };
 
-/// Where a particle is stored.
+/// The place where a particle is stored.
 struct Place {
   std::size_t block = 0;
-  std::uint32_t row = 0;    ///< in the block's rows
-  std::int32_t site = 0;    ///< in the row's own count
-  std::uint64_t index = 0;  ///< in the block's arrays
+  std::uint32_t row = 0;    ///< index in the block's rows
+  std::int32_t site = 0;    ///< number in the row, see AlarmRow::sites
+  std::uint64_t index = 0;  ///< index in the block's arrays
 };
 
-/// Particles that follow each other, in memory too.
+/// A range of consecutive particles that is contiguous in memory.
 struct Stretch {
   std::size_t block = 0;
   std::uint64_t index = 0;
@@ -39,12 +39,13 @@ struct Stretch {
   std::uint64_t count = 0;
 };
 
-/// The spring that a kernel means.
+/// The spring that a kernel names by its place.
 struct SpringEnds {
-  Particle a = 0, b = 0;        ///< a stands first
+  Particle a = 0, b = 0;        ///< a precedes b
   std::uint32_t neighbour = 0;  ///< see Model::spring_properties
-  bool is_first =
-      true;  ///< the kernel came to it from a: a spring that kernels meet twice counts once
+  /// Whether the kernel named the spring from its end a. A spring that kernels meet twice counts
+  /// only then.
+  bool is_first = true;
 };
 
 class Layout {
@@ -56,50 +57,51 @@ class Layout {
   std::vector<BlockLayout> blocks;
 
   virtual Place place(Particle particle) const = 0;
-  /// All particles in their order.
+  /// Visits all particles in their order, in contiguous ranges.
   virtual void for_stretches(const std::function<void(const Stretch&)>& visit) const = 0;
-  /// Of a spring that exists: see AlarmRow.
+  /// Returns the two particles of an existing spring, given its place in a kernel's AlarmRow.
   virtual SpringEnds spring(const Block& block, std::uint32_t row, std::uint32_t neighbour,
                             std::int32_t site) const = 0;
-  /// Where the numbers that the law keeps of a spring begin, and how far they are apart; of its
-  /// cross springs if `cross`.
+  /// The memory of the law for one spring: its first number, and the distance to the next one.
   struct Memory {
     double* first = nullptr;
     std::uint64_t stride = 0;
   };
+  /// Returns the law's memory of a spring, or of its cross spring if `cross`.
   virtual Memory memory(const Block& block, std::uint32_t row, std::uint32_t neighbour,
                         std::int32_t site, bool cross) const = 0;
-  /// Where the spring's other end stands in the arrays of the same block, its own or a ghost. Not
-  /// of a listed body.
+  /// Returns the index of a spring's other end, an own particle or a ghost, in the arrays of the
+  /// same block. Throws std::logic_error for a listed body.
   virtual std::uint64_t other_end(std::size_t block, std::uint32_t row, std::uint32_t neighbour,
                                   std::int32_t site) const = 0;
-  virtual std::uint64_t alive_bits(const Block& block, std::uint64_t index)
-      const = 0;  ///< which springs of a particle exist, for hashes
+  /// Returns which springs of a particle exist, as bits for hashes.
+  virtual std::uint64_t alive_bits(const Block& block, std::uint64_t index) const = 0;
 
-  /// Fills the block's arrays of what exists: springs, materials. Displacements and velocities are
-  /// there already.
+  /// Fills the block's arrays of springs and materials. Displacements and velocities must be
+  /// allocated.
   virtual void fill(Block& block) const = 0;
-  /// Copies what the block sees of others, and of itself at the step's start.
+  /// Copies into the block what it reads of other blocks and of its own state at the step's start.
   virtual void exchange(const std::vector<Block>& all, Block& block) const = 0;
-  /// What a kernel is told of the arrangement.
+  /// Sets the members of a kernel's request that describe the arrangement.
   virtual void describe(const Block& block, KernelRequest& request) const = 0;
 
-  virtual double state_bytes() const = 0;  ///< displacement, velocity, springs, materials, weights:
-                                           ///< exactly what is allocated
-  virtual std::size_t scratch_numbers() const = 0;  ///< of one block
+  /// Returns the allocated bytes of displacements, velocities, springs, materials and weights.
+  virtual double state_bytes() const = 0;
+  /// Returns the size of one block's scratch array, in doubles.
+  virtual std::size_t scratch_numbers() const = 0;
   double scratch_bytes() const {
     return static_cast<double>(scratch_numbers() * sizeof(double) * blocks.size());
   }
 
  protected:
   explicit Layout(const Model& model) : model_(model) {}
-  /// Numbers that laws keep of a base spring and its cross spring.
+  /// Returns how many numbers laws keep for a base spring and its cross spring.
   std::size_t kept_numbers() const {
     return (model_.choice.membrane == KernelChoice::Membrane::none ? 1 : 2) *
            std::size_t{model_.kernels.memory};
   }
 
-  /// Sets what the law keeps of a new spring between a and b. `index`: see
+  /// Initializes the law's memory of a new spring between a and b. `index`: see
   /// Model::spring_properties.
   void start_memory(const Block& block, std::uint32_t row, std::uint32_t neighbour,
                     std::int32_t site, Particle a, Particle b, std::uint32_t index) const;
@@ -107,6 +109,7 @@ class Layout {
   const Model& model_;
 };
 
+/// Returns the layout of the model's body in at most `threads` blocks.
 std::unique_ptr<Layout> make_layout(const Model& model, int threads);
 
 }  // namespace hyperlattice

@@ -74,7 +74,7 @@ std::int32_t ListedLayout::material_of_row(Particle first, Particle last) const 
   return material;
 }
 
-/// Whether springs differ in stiffness, so that each needs its own.
+/// Returns whether springs differ in stiffness, so that each needs its own.
 bool ListedLayout::has_own_stiffness() const {
   const std::vector<ListedSpring>& springs = model_.body.listed.springs;
   return model_.choice.mixed ||
@@ -96,7 +96,7 @@ void ListedLayout::for_stretches(const std::function<void(const Stretch&)>& visi
     visit({n, 0, parts_[n].first, parts_[n].last - parts_[n].first});
 }
 
-/// Of a particle that a block's springs lead to: among its own, or behind them.
+/// Returns the record of a particle at the end of a block's spring: its own place, or its ghost's.
 std::uint32_t ListedLayout::record_of(const Part& part, Particle particle) const {
   if (part.holds(particle)) return static_cast<std::uint32_t>(particle - part.first);
   const auto ghost =
@@ -135,9 +135,8 @@ Layout::Memory ListedLayout::memory(const Block& block, std::uint32_t, std::uint
 
 std::uint64_t ListedLayout::other_end(std::size_t, std::uint32_t, std::uint32_t,
                                       std::int32_t) const {
-  throw std::logic_error(
-      "a listed body holds no velocities of others");  // a model with criteria that ask for them is
-                                                       // refused
+  // The model refuses criteria that ask for velocities in a listed body.
+  throw std::logic_error("a listed body holds no velocities of others");
 }
 
 std::uint64_t ListedLayout::alive_bits(const Block& block, std::uint64_t index) const {
@@ -174,8 +173,8 @@ void ListedLayout::fill_records(Block& block) const {
   block.listed.records =
       Numbers(model_.choice.precision, record_numbers * (block.layout->sites + part.ghosts.size()));
   const std::vector<Vec3>& positions = model_.body.listed.positions;
-  const Vec3 origin =
-      positions[positions.size() / 2];  // of every block: where a body stands costs floats nothing
+  // The same for all blocks; positions relative to it keep their precision in floats.
+  const Vec3 origin = positions[positions.size() / 2];
   const auto set = [&](Particle particle) {
     const Vec3 x = positions[particle] - origin;
     const std::size_t record = record_numbers * std::size_t{record_of(part, particle)};
@@ -188,7 +187,7 @@ void ListedLayout::fill_records(Block& block) const {
   for (const Particle ghost : part.ghosts) set(ghost);
 }
 
-/// The springs of a particle take its slots in the order of the others.
+/// Fills the slots of each particle with its springs, in the order of the list.
 void ListedLayout::fill_springs(Block& block) const {
   const Part& part = parts_[block.number];
   ListedArrays& listed = block.listed;
@@ -202,10 +201,10 @@ void ListedLayout::fill_springs(Block& block) const {
   for (std::size_t pack = 0; pack + 1 < part.first_slot.size(); ++pack)
     for (std::size_t n = part.first_slot[pack] * width_; n < part.first_slot[pack + 1] * width_;
          ++n)
-      listed.neighbour[n] = static_cast<std::uint32_t>(
-          pack * width_ + n % width_);  // a lane without a spring looks at itself
+      // A lane without a spring has its own particle as neighbour.
+      listed.neighbour[n] = static_cast<std::uint32_t>(pack * width_ + n % width_);
 
-  std::vector<std::uint32_t> taken(block.layout->sites, 0);  // slots of each particle
+  std::vector<std::uint32_t> taken(block.layout->sites, 0);  // slots in use per particle
   const auto add = [&](Particle here, Particle there, const SpringProperties& properties,
                        double alarm, std::uint32_t index) {
     if (!part.holds(here)) return;

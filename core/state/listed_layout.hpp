@@ -1,6 +1,6 @@
-// A listed body in blocks of whole rows. A row is a stretch of particles, of the same length
-// wherever blocks are cut; behind its own particles a block keeps copies of those that its springs
-// lead to in other blocks.
+// The layout of a listed body: blocks of whole rows. A row is a range of particles, of the same
+// length wherever blocks are cut. Behind its own particles a block keeps ghosts: copies of the
+// particles in other blocks that its springs lead to.
 #pragma once
 
 #include <state/layout.hpp>
@@ -31,11 +31,12 @@ class ListedLayout final : public Layout {
 
   const std::uint64_t width_;  ///< particles in a pack, one a lane
 
-  /// A block's particles [first, last), and where a kernel finds their springs.
+  /// A block's particles [first, last) and the slots of their springs.
   struct Part {
     Particle first = 0, last = 0;
-    std::vector<std::uint32_t> first_slot;  ///< of each pack of particles, and one more
-    std::vector<Particle> ghosts;           ///< ascending
+    std::vector<std::uint32_t>
+        first_slot;  ///< first slot of each pack of particles, and the end of the last
+    std::vector<Particle> ghosts;  ///< ascending
 
     bool holds(Particle particle) const { return particle >= first && particle < last; }
   };

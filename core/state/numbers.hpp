@@ -11,8 +11,8 @@
 
 namespace hyperlattice {
 
-/// Zeros in memory aligned to cache lines, written first by the thread that makes the array: that
-/// thread's memory holds it.
+/// Zeros in memory aligned to cache lines. The thread that makes the array writes it first, so that
+/// the memory is local to that thread.
 template <class T>
 class AlignedArray {
  public:
@@ -34,8 +34,8 @@ class AlignedArray {
   std::size_t size_ = 0;
 };
 
-/// Numbers stored as doubles or floats, read and written as doubles. What works on all of them is a
-/// kernel, which knows the precision.
+/// Numbers stored as doubles or floats, read and written as doubles. Code for whole arrays is in
+/// kernels, which are compiled for each precision.
 class Numbers {
  public:
   Numbers() = default;

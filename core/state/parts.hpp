@@ -1,5 +1,6 @@
-// The inside of a Simulation: its blocks and its books. Split by concern: build.cpp, acting.cpp,
-// step.cpp, start.cpp, equilibrium.cpp, breakage.cpp, balance.cpp, restart.cpp.
+// The implementation of Simulation: its blocks and its energy balance. Its functions are in
+// build.cpp, acting.cpp, step.cpp, start.cpp, equilibrium.cpp, breakage.cpp, balance.cpp and
+// restart.cpp.
 #pragma once
 
 #include <model/arithmetic.hpp>
@@ -18,18 +19,21 @@ inline void set_component(Vec3& v, int c, double value) {
   (c == 0 ? v.x : c == 1 ? v.y : v.z) = value;
 }
 
-/// The components of a vector along some axes, the others zero.
+/// Returns the vector with its components along all other axes set to zero.
 inline Vec3 along(Axes axes, Vec3 v) {
   return {(axes & 1u) != 0 ? v.x : 0, (axes & 2u) != 0 ? v.y : 0, (axes & 4u) != 0 ? v.z : 0};
 }
 
-/// One evaluation of all forces at the present instant, and what is done with them.
+/// One evaluation of all forces at the present time, and its purpose.
 struct Sweep {
-  double before = 0, after = 0;  ///< s: the interval around the instant over which the forces act;
-                                 ///< loads act by their mean over it
-  double step = 0;  ///< s, of the step in which prescribed particles move; 0: their motion at the
-                    ///< instant, as seen from before it
-  double measured = 0;  ///< s, half of the kick that a measurement makes of the acceleration
+  /// The time, s, before and after the present time over which the forces act. Loads act by their
+  /// mean over this interval.
+  double before = 0, after = 0;
+  /// The length, s, of the step in which prescribed particles move. 0: they have the limit of their
+  /// velocity from before the present time.
+  double step = 0;
+  /// Half the duration, s, of the kick that a measurement computes from the acceleration.
+  double measured = 0;
 };
 
 struct Simulation::Parts {
@@ -39,22 +43,22 @@ struct Simulation::Parts {
   std::vector<double> particle_masses;  ///< kg; filled when first asked for
   Team team;
 
-  /// What a load is during a sweep, and what it sees.
+  /// A load during a sweep, and the motion that it watches.
   struct Acting {
-    double mean = 0;          ///< of the factor, over the sweep's interval
-    double next = 0;          ///< factor at the step's end
-    double mean_of_step = 0;  ///< of the factor, from the present instant to the step's end
-    Load::Limit now;          ///< of the factor
-    bool moves = false;       ///< it prescribes motion
+    double mean = 0;          ///< of the load factor over the sweep's interval
+    double next = 0;          ///< load factor at the step's end
+    double mean_of_step = 0;  ///< of the load factor from the present time to the step's end
+    Load::Limit now;          ///< of the load factor at the present time
+    bool moves = false;       ///< whether the load prescribes motion
     std::vector<Vec3> displacement, velocity;
     WatchedMotion motion;
   };
-  std::vector<Acting> acting;  ///< of each load
-  bool prepares = false;       ///< some load prepares its answers
+  std::vector<Acting> acting;  ///< one per load
+  bool prepares = false;       ///< whether some load prepares its answers
   const bool exact = asked_for_exact_springs();
 
   double damping = 0, damping_rate = 0, last_step = 0;
-  double time = 0, time_rest = 0;  ///< compensated sum
+  double time = 0, time_rest = 0;  ///< s, with the rest of a compensated sum
   bool time_held = false;
   std::uint64_t steps = 0;
   std::vector<Breakage> breakages;
@@ -62,11 +66,12 @@ struct Simulation::Parts {
     const Block *block_a, *block_b;
     std::uint64_t a, b;
   };
-  std::vector<Ends> ends;     ///< where the particles of each breakage are stored
-  double failure_energy = 0;  ///< J, dissipated since the start
-  double halted_energy = 0;   ///< J, dissipated where motion was stopped
-  double gravity_unused =
-      0;  ///< J, work of body accelerations that did not act in full while the body settled
+  std::vector<Ends> ends;     ///< storage of the particles of each breakage
+  double failure_energy = 0;  ///< dissipated by failure since the start, J
+  double halted_energy = 0;   ///< dissipated where motion was stopped or an equilibrium applied, J
+  /// Work, J, that body accelerations would have done in addition, had they acted in full during
+  /// equilibrium updates.
+  double gravity_unused = 0;
   bool start_known = false;
   double start_energy = 0, start_potential = 0, largest_energy = 0;  ///< J
 
@@ -112,7 +117,6 @@ struct Simulation::Parts {
   double gross_work(double potential) const;
   EnergyBalance balance();
 
-  // Where things are.
   std::pair<const Block*, std::uint64_t> at(Particle particle) const {
     const Place place = layout->place(particle);
     return {&blocks[place.block], place.index};

@@ -1,5 +1,5 @@
-// The state and its books in an archive. Blocks are saved as they are, so that a run goes on with
-// as many as it began with.
+// Saves and restores the state and its energy balance. Blocks are saved as they are, so that a run
+// continues with the same number of blocks.
 #include <state/archive.hpp>
 #include <state/parts.hpp>
 

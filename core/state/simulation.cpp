@@ -1,4 +1,4 @@
-// What the rest of the runtime sees of the state.
+// The public functions of Simulation.
 #include <state/parts.hpp>
 
 #include <algorithm>

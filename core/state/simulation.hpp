@@ -1,5 +1,4 @@
-// The state: displacements, velocities and alive springs, in blocks of planes with ghost planes,
-// one block a thread.
+// The state of a run: displacements, velocities and living springs, in one block per thread.
 #pragma once
 
 #include <model/model.hpp>
@@ -12,39 +11,40 @@ namespace hyperlattice {
 
 class Archive;
 
-/// A base spring that broke. Its cross springs went with it.
+/// The failure of one base spring. Its cross springs fail with it.
 struct Breakage {
   std::uint64_t step = 0;
   double time = 0;        ///< s
-  Particle a = 0, b = 0;  ///< a stands first in the order z, y, x
+  Particle a = 0, b = 0;  ///< a precedes b in the order z, y, x
   std::uint32_t neighbour = 0;
-  double elongation = 0;  ///< when it broke, m
+  double elongation = 0;  ///< at the failure, m
 };
 
+/// Energies and momentum of the whole body at one time.
 struct EnergyBalance {
   double kinetic = 0, kinetic_mean = 0, stored = 0, injected = 0, dissipated_failure = 0,
          dissipated_damping = 0;  ///< J
   Vec3 momentum;                  ///< N s
   double dissipated() const { return dissipated_failure + dissipated_damping; }
-  double error = 0;  ///< J: kinetic + stored + dissipated - injected - what the start had
-  double scale =
-      0;  ///< J: the largest so far of each kind of energy, and of the works without their signs
+  double error = 0;  ///< J: kinetic + stored + dissipated - injected - energy at the start
+  /// The largest value so far, J, of each kind of energy and of the sum of the absolute works.
+  double scale = 0;
   double relative_error() const { return scale > 0 ? error / scale : 0; }
 };
 
-/// A change from one state of rest to the next that no time step made. Fields are of particles, x y
-/// z each, and heights where there are any.
+/// A change from one state of rest to another without a time step. Fields have x, y, z of each
+/// particle; heights exist only in free membranes.
 struct EquilibriumUpdate {
-  double time = 0;                   ///< afterwards, s
-  std::vector<double> xyz, heights;  ///< displacements afterwards, m
-  std::vector<double> force,
-      force_before;  ///< of the springs on the particles, afterwards and before, N
-  std::vector<double> factor, factor_before;  ///< of each load
-  double gravity = 1, gravity_before = 1;     ///< shares of the body accelerations
-  double dissipated = 0;                      ///< J, by what held the state before in place
+  double time = 0;                   ///< after the change, s
+  std::vector<double> xyz, heights;  ///< displacements after the change, m
+  /// Forces of the springs on the particles after and before the change, N.
+  std::vector<double> force, force_before;
+  std::vector<double> factor, factor_before;  ///< load factor of each load
+  double gravity = 1, gravity_before = 1;     ///< fractions of the body accelerations
+  double dissipated = 0;  ///< by the forces that held the earlier state in place, J
 };
 
-/// The moving body. The same bits come out for any number of threads.
+/// The moving body. Results have the same bits for any number of threads.
 class Simulation {
  public:
   Simulation(const Model& model, int threads);
@@ -52,60 +52,70 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// Of the steps that follow: alpha of local damping, and the rate of damping in proportion to
-  /// mass, 1/s.
+  /// Sets the damping of the steps that follow: `alpha` of local damping and the rate of damping in
+  /// proportion to mass, 1/s.
   void set_damping(double alpha, double rate = 0);
-  /// Advances time. A step of another length than the one before costs an evaluation of all springs
-  /// more. RunError if a load is not a number.
+  /// Advances the body by a time step, s. A step of another length than the one before costs one
+  /// more evaluation of all springs. Throws RunError if a load is not a number.
   void step(double time_step);
   double time() const;
   void set_time(double time);
-  /// While held, steps do not advance time and loads act as they do at that time; what they drive
-  /// goes where it would have come by then. If time is held already, as after a restart, it stays
-  /// so.
+  /// Holds the time at `time`, s: steps then do not advance it, and loads act as they do at that
+  /// time. Driven particles go to the place where they would have been by then. Does nothing if the
+  /// time is held already, as after a restart.
   void hold_time(double time);
   void release_time();
-  void halt();  ///< stops all motion; its kinetic energy counts as dissipated
-  void apply_equilibrium(const EquilibriumUpdate& settling);  ///< halts, and counts as a step
-  void reset_energy_balance();  ///< what is missing in the balance up to now is forgotten
+  /// Stops all motion. Its kinetic energy counts as dissipated.
+  void halt();
+  /// Stops all motion and takes over the update's state. Counts as one step.
+  void apply_equilibrium(const EquilibriumUpdate& settling);
+  /// Sets the present error of the balance to zero.
+  void reset_energy_balance();
   std::uint64_t steps() const;
 
-  double kinetic() const;   ///< J, of the velocities v(n-1/2) as they are; costs little
-  EnergyBalance balance();  ///< of the present state; one extra sweep that changes nothing
-  std::vector<double> injected_by_load();  ///< J, one a load; up to the present state
-  /// N, one a load: what acts on the particles that the load moves, along the axes that it
-  /// prescribes, in the present state. At rest, the force with which the body pushes the load. One
-  /// extra sweep that changes nothing.
+  /// Returns the kinetic energy, J, of the velocities v(n-1/2). Costs little.
+  double kinetic() const;
+  /// Returns the balance of the present state. Costs one extra sweep that changes nothing.
+  EnergyBalance balance();
+  /// Returns the work of each load up to the present state, J.
+  std::vector<double> injected_by_load();
+  /// Returns for each load the force, N, on the particles that it moves, along the axes that it
+  /// prescribes, in the present state. At rest it is the force with which the body pushes the load.
+  /// Costs one extra sweep that changes nothing.
   std::vector<Vec3> force_on_load();
 
   const std::vector<Breakage>& breakages() const;
-  double elongation_now(
-      std::size_t breakage) const;  ///< m, of a spring that is gone: open if above 0, closed if not
-  std::uint64_t broken_open() const;  ///< how many are open; the others are closed
+  /// Returns the present elongation, m, of a broken spring: above 0 if the failure is open.
+  double elongation_now(std::size_t breakage) const;
+  /// Returns the number of open failures; all others are closed.
+  std::uint64_t broken_open() const;
 
-  /// Copies of a quantity, particles in the order z, y, x. Height is empty without a membrane.
+  /// Copy a quantity of all particles in the order z, y, x. Heights are empty without a membrane.
   void displacements(std::vector<double>& xyz) const;
-  void displacements(std::vector<double>& xyz, Particle first,
-                     std::uint64_t count) const;    ///< of the particles from `first` on
-  void velocities(std::vector<double>& xyz) const;  ///< v(n-1/2)
+  /// Copies the displacements of `count` particles from `first` on.
+  void displacements(std::vector<double>& xyz, Particle first, std::uint64_t count) const;
+  void velocities(std::vector<double>& xyz) const;  ///< v(n-1/2), m/s
   void heights(std::vector<double>& values) const;
-  void alive(std::vector<std::uint16_t>& bits)
-      const;  ///< springs that each particle's site begins, see KernelRequest::alive
+  /// Copies the bits of the springs that start at each particle's site: see KernelRequest::alive.
+  void alive(std::vector<std::uint16_t>& bits) const;
   void height_rates(std::vector<double>& values) const;
-  /// Sets the state of every particle; for tests and for stages that start from another state.
+  /// Set the state of all particles, for tests and for stages that start from another state.
   void set_displacements(const std::vector<double>& xyz, const std::vector<double>& heights);
   void set_velocities(const std::vector<double>& xyz, const std::vector<double>& height_rates);
 
-  /// The particle that moves fastest, and whether every number is finite; for messages of a run
-  /// that went bad.
+  /// Returns the fastest particle and its speed, m/s; or, with `finite` false, the first particle
+  /// whose velocity is not finite. For the messages of failed runs.
   Particle fastest(double& speed, bool& finite) const;
-  double farthest() const;  ///< m, of a particle from where it started
-  std::uint64_t hash()
-      const;  ///< FNV-1a over displacements, velocities and alive springs, in the particles' order
-  double bytes() const;  ///< of the state, without scratch
+  /// Returns the largest distance of a particle from its start, m.
+  double farthest() const;
+  /// Returns an FNV-1a hash of displacements, velocities and living springs in the particles'
+  /// order.
+  std::uint64_t hash() const;
+  double bytes() const;  ///< of the state without scratch arrays
   double scratch_bytes() const;
-  void archive(Archive& archive);  ///< all of it; restored in a simulation of the same model and
-                                   ///< number of threads, it goes on with the same bits
+  /// Saves or restores the whole state. A simulation of the same model and number of threads
+  /// continues with the same bits.
+  void archive(Archive& archive);
 
  private:
   struct Parts;

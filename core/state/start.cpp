@@ -1,21 +1,21 @@
-// Where steps of a length begin: at a run's start, after a body was brought to rest, and wherever a
+// Changes of the step's length: at a run's start, after a body was brought to rest, and where a
 // stage's steps differ from those before.
 //
-// The kick from v(n-1/2) to v(n+1/2) is half a step of the old length and half a step of the new
-// one, so that v(n) stands at the instant of the displacements whatever the lengths are. The
-// scheme's own energy of steps 2 h long is less than 1/2 v(n).M.v(n) by 1/2 h^2 a.M.a, which the
-// step's length changes: the books are carried over that difference.
+// The kick from v(n-1/2) to v(n+1/2) lasts half a step of the old length and half a step of the new
+// one, so that v(n) belongs to the time of the displacements for any lengths. The energy of the
+// scheme with steps of 2 h is less than 1/2 v(n).M.v(n) by 1/2 h^2 a.M.a. A new length changes this
+// difference; the energy at the start takes up the change.
 #include <state/parts.hpp>
 
 #include <cmath>
 
 namespace hyperlattice {
 
-/// Particles that a load moves already move with it, from rest or from whatever they did: at the
-/// start of a run that is part of the initial state, later the work of an impulse.
+/// Gives the particles that a load moves the load's velocity. At the start of a run this is part of
+/// the initial state, later it is the work of an impulse.
 void Simulation::Parts::start_prescribed(double dt) {
   const Sweep at_once{0, 0, 0, 0};
-  prepare_loads({0, dt / 2, dt, 0});  // looks ahead
+  prepare_loads({0, dt / 2, dt, 0});  // takes limits from after the present time
   check_factors();
   for (Block& block : blocks)
     for (const Contribution& part : block.contributions) {
@@ -35,7 +35,7 @@ void Simulation::Parts::start_prescribed(double dt) {
     }
 }
 
-/// Before a step of length `dt`, if the step before was of another.
+/// Prepares a step of length `dt` after a step of another length.
 void Simulation::Parts::change_step(double dt) {
   constexpr double round_off = 1e-9;
   if (last_step > 0 && std::abs(dt - last_step) <= round_off * last_step) return;

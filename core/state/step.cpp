@@ -1,4 +1,4 @@
-// One step: ghost planes, loads, the kernel on every block, then the books of what broke.
+// One step: ghost planes, loads, the kernel on every block, then the energy of broken springs.
 #include <model/kernel_calls.hpp>
 #include <state/parts.hpp>
 

@@ -5,8 +5,8 @@
 namespace hyperlattice {
 namespace {
 
-// A vector of sites touches four rows of lanes + 1 cells, the first of them left of its first site:
-// one bit each.
+// A vector of sites touches four rows of lanes + 1 cells, which begin left of its first site. Each
+// cell has one bit.
 constexpr int cells_of_row = lanes + 1;
 
 int row_of(int dj, int dk) { return 2 * (dk + 1) + dj + 1; }
@@ -20,7 +20,7 @@ void WeightSets::add_row(const Body& body, std::int32_t j, std::int32_t k, const
     place(body, (std::uint64_t{1} << 4 * cells_of_row) - 1);  // all cells: whole_set
   std::vector<std::uint64_t> around(vectors, 0);
   for_cells_of({}, [&](int di, int dj, int dk) {
-    if (di != 0) return;  // the same row of cells
+    if (di != 0) return;  // only one row of cells for each (dj, dk)
     for (const Run& run : body.cells.row(j + dj, k + dk))
       for (std::int32_t cell = std::max(run.begin, row.begin - 1);
            cell < std::min(run.end, row.end); ++cell) {
@@ -31,7 +31,8 @@ void WeightSets::add_row(const Body& body, std::int32_t j, std::int32_t k, const
                                                         << (cells_of_row * row_of(dj, dk) + bit);
         };
         mark(t / lanes, t % lanes);
-        if (t % lanes == 0) mark(t / lanes - 1, lanes);  // between two vectors: both touch it
+        // A cell between two vectors touches both.
+        if (t % lanes == 0) mark(t / lanes - 1, lanes);
       }
   });
   for (const std::uint64_t cells : around) places.push_back(place(body, cells));
@@ -50,7 +51,8 @@ std::uint32_t WeightSets::place(const Body& body, std::uint64_t cells) {
   };
   add({});
   for (double& share : vectors_.back().values)
-    if (share == 0) share = 1;  // no particle is there, and none shall have no mass
+    // A site without a particle must not have zero mass.
+    if (share == 0) share = 1;
   for (const Neighbour& to : body.neighbours) add(to);
   return known->second;
 }

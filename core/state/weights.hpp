@@ -1,6 +1,6 @@
-// What counts of the particles and springs of a body of cells, as kernels read it: for each vector
-// of sites a set of weights. Vectors whose cells are arranged alike share one set, so that a body
-// has few and those of its inside are one.
+// The weights of particles and springs in a body of cells, as kernels read them: one set for each
+// vector of sites. Vectors with the same arrangement of cells share a set, so that a body has few
+// sets and its inside has one.
 #pragma once
 
 #include <model/body.hpp>
@@ -14,8 +14,8 @@ namespace hyperlattice {
 
 class WeightSets {
  public:
-  /// Appends, for each of `vectors` of `lanes` sites from the row's first on, the place of its set
-  /// in values(). Does nothing if the body has no cells.
+  /// Appends the index in values() of the set of each of `vectors` vectors of `lanes` sites, from
+  /// the row's first site on. Does nothing if the body has no cells.
   void add_row(const Body& body, std::int32_t j, std::int32_t k, const Row& row,
                std::uint64_t vectors, std::vector<std::uint32_t>& places);
 
@@ -28,8 +28,8 @@ class WeightSets {
   };
   std::uint32_t place(const Body& body, std::uint64_t cells);
 
-  std::vector<Vector>
-      vectors_;  ///< a set: shares of the particles, then of their springs to each neighbour
+  /// Each set: fractions of the particles, then of their springs to each neighbour.
+  std::vector<Vector> vectors_;
   std::unordered_map<std::uint64_t, std::uint32_t> places_;
 };
 

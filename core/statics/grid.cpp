@@ -1,4 +1,4 @@
-// The box of sites, and which springs and particles of it count how much.
+// The box of sites, and the weights of its springs and particles.
 #include <statics/statics.hpp>
 
 #include <algorithm>
@@ -28,11 +28,10 @@ void Statics::make_grid() {
     reach[1] = std::max(reach[1], std::abs(n.dy));
     reach[2] = std::max(reach[2], std::abs(n.dz));
   }
-  grid.row =
-      std::max(grid.sites[0] + reach[0], lanes);  // the margin after a row is the one before the
-                                                  // next; kernels reach beyond it by a vector
-  // Beyond the last row of a plane's margin too: there a kernel would meet another thread, which
-  // adds to the plane after.
+  // The margin after a row is the one before the next row; kernels read beyond it by a vector.
+  grid.row = std::max(grid.sites[0] + reach[0], lanes);
+  // The plane is longer by a vector than its last row's margin: a kernel that reads beyond it would
+  // otherwise meet another thread, which adds to the plane after.
   grid.plane = grid.row * (grid.sites[1] + reach[1]) + lanes;
   grid.origin = reach[0] + reach[1] * grid.row + reach[2] * grid.plane;
   grid.places = grid.place(grid.sites[0] - 1, grid.sites[1] - 1, grid.sites[2] - 1) + grid.origin +

@@ -1,5 +1,5 @@
-// A listed body: every spring is a row of one. Springs are answered in parallel and added to their
-// ends in the order of the list, so that sums have one order for any number of threads.
+// Springs of a listed body, each as a row of one spring. Their forces are computed in parallel and
+// added in the order of the list, so that sums have the same order for any number of threads.
 #include <base/thread_errors.hpp>
 #include <scene/stage_call.hpp>
 #include <statics/spring_rows.hpp>
@@ -33,7 +33,7 @@ void Statics::make_list() {
 }
 
 double Statics::respond_list(const double* u, double* force, const SpringTangents* tangents) const {
-  constexpr std::size_t piece = 1024;  // springs, whatever the number of threads
+  constexpr std::size_t piece = 1024;  // springs, for any number of threads
   const StaticGrid& grid = problem_.grid;
   const std::size_t springs = springs_.size(), pieces = (springs + piece - 1) / piece,
                     of_spring = 2 * static_cast<std::size_t>(grid.components);

@@ -1,6 +1,7 @@
-// From the loads of a stage's start to those of its end, along a straight line: forces and
-// prescribed displacements change in proportion to a share from 0 to 1. Whatever else the state at
-// the start needs to be at rest is a holding force, which goes away in the same proportion.
+// The path from the loads of a stage's start to those of its end, a straight line: forces and
+// prescribed displacements change in proportion to a share from 0 to 1. If the state at the start
+// needs further forces to be at rest, these act as holding forces and decrease in the same
+// proportion.
 #include <model/blame.hpp>
 #include <statics/statics.hpp>
 
@@ -20,7 +21,7 @@ double component(Vec3 v, int c) { return c == 0 ? v.x : c == 1 ? v.y : v.z; }
 }  // namespace
 
 void Statics::make_loads() {
-  const bool fresh = simulation_.steps() == 0;  // before the run nothing acted
+  const bool fresh = simulation_.steps() == 0;  // no load acted before the run
   gravity_start_ = fresh ? 0 : 1;
   const std::int64_t places = problem_.grid.places;
   std::map<std::int64_t, Held> held;
@@ -113,8 +114,8 @@ void Statics::prescribe(double share, double* u) const {
 }
 
 double Statics::force_scale(const double* internal, const double* external) {
-  constexpr double share =
-      1e-6;  // of the largest so far: loads that end at zero leave nothing but round-off of it
+  // Relative to the largest scale so far. Loads that end at zero leave only round-off of it.
+  constexpr double share = 1e-6;
   const std::int64_t places = problem_.grid.places;
   const auto size = [](double x, double y, double z) {
     return x == 0 && y == 0 && z == 0 ? 0 : std::hypot(x, y, z);

@@ -1,6 +1,6 @@
-// Forces, energy and tangents of all springs, by the material's own kernels; on a grid a row and a
-// neighbour at a time. A plane's springs pull at it and at planes after it: planes that share none
-// are summed at once, so that sums have one order for any number of threads.
+// Forces, energy and tangents of all springs, from the material's own kernels; on a grid by rows
+// and neighbours. The springs of a plane act on it and on planes after it. Planes that share none
+// of these are computed in parallel, so that sums have the same order for any number of threads.
 #include <base/thread_errors.hpp>
 #include <model/kernel_calls.hpp>
 #include <statics/spring_rows.hpp>
@@ -96,7 +96,8 @@ double Statics::respond_plane(std::int32_t k, const double* u, double* force,
   return energy;
 }
 
-/// Adds what the alpha springs, of length Delta + 2 h, pull at the heights; returns their energy.
+/// Adds the forces of the alpha springs, of length Delta + 2 h, on the heights; returns their
+/// energy, J.
 double Statics::hold_heights(const double* u, double* force) const {
   if (problem_.grid.components != 4) return 0;
   const std::int64_t heights = 3 * problem_.grid.places;

@@ -1,11 +1,11 @@
-// How near to rest the simulation's present state is: its out-of-balance forces, and what they say
-// of the displacements that are still to come.
+// Estimates how near to rest the present state is, from its out-of-balance forces and the error of
+// the displacements that they imply.
 //
-// The error e of the displacements and the forces r left are K e = r. The slowest motion of the
-// body, of frequency w, has the largest error by far, and there e = M^-1 r / w^2. Between two
-// states a motion d changes the forces by -K d; its Rayleigh quotient d.K d / d.M d is never below
-// the slowest motion's w^2 and comes near to it while all faster ones die away: the least that was
-// met so far stands for it. Other motions make the estimate larger than the error.
+// The error e of the displacements and the out-of-balance forces r satisfy K e = r. The slowest
+// motion of the body, of frequency w, has by far the largest error; for it e = M^-1 r / w^2. A
+// motion d between two states changes the forces by -K d. Its Rayleigh quotient d.K d / d.M d is
+// never below w^2 of the slowest motion and approaches it while all faster motions die away, so the
+// least quotient so far is used. Other motions make the estimate larger than the error.
 #include <statics/statics.hpp>
 
 #include <algorithm>
@@ -30,7 +30,8 @@ RestReport Statics::rest() {
         if ((free_[place] >> c & 1u) == 0) continue;
         const std::size_t at = c * free_.size() + place;
         const double rest = force_[at] + external[at];
-        if (!(std::abs(rest) <= largest)) largest = std::abs(rest);  // also what is not a number
+        // Also takes a force that is not a number.
+        if (!(std::abs(rest) <= largest)) largest = std::abs(rest);
         if (c == 3) continue;  // waves of the membranes are short
         const double d = state_[at] - before[at];
         stiffness -= d * (force_[at] - force_before[at]);
@@ -40,12 +41,11 @@ RestReport Statics::rest() {
       }
     }
   });
-  const bool first =
-      !std::exchange(compared_, true);  // loads and held particles moved since the stage began
+  // The first motion has the change of loads and constraints since the stage began.
+  const bool first = !std::exchange(compared_, true);
   if (!first && stiffness > 0 && inertia > 0) slowest_ = std::min(slowest_, stiffness / inertia);
-  if (std::isfinite(largest))
-    largest_scale_ =
-        std::max(largest_scale_, largest);  // no load may act at all, on a body that moves
+  // Needed for a body that moves while no load acts.
+  if (std::isfinite(largest)) largest_scale_ = std::max(largest_scale_, largest);
   RestReport report;
   report.residual = largest == 0 ? 0 : largest / force_scale(force_.data(), external.data());
   if (moved > 0 && (left == 0 || std::isfinite(slowest_)))

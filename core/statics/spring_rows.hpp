@@ -1,4 +1,4 @@
-// Rows of springs for the material's kernel: their numbers, and what becomes of its answers.
+// Buffers for rows of springs that the material's kernel evaluates, and the use of its results.
 #pragma once
 
 #include <hyperlattice/statics.hpp>
@@ -13,7 +13,7 @@ struct RowBuffers {
   std::vector<double> stiffness, cross_stiffness, weight, pull, axial, cross_pull, cross_axial;
   SpringRow springs;
 
-  /// For up to `most` springs.
+  /// Allocates the buffers for up to `most` springs.
   RowBuffers(const StaticGrid& grid, int most) {
     const std::size_t width = static_cast<std::size_t>(most + lanes - 1) / lanes * lanes;
     for (auto* buffer :
@@ -31,8 +31,8 @@ struct RowBuffers {
   }
 };
 
-/// Adds what a row of springs pulls at both of its ends; `force` is at the row's first place, the
-/// other ends `step` places on, the next component `places` on.
+/// Adds the forces of a row of springs to both of their ends. `force` points to the row's first
+/// place; the other ends are `step` places on, the next component is `places` on.
 inline void add_forces(const RowBuffers& row, const StaticGrid& grid, std::int64_t places,
                        std::int64_t step, double* force) {
   const SpringRow& springs = row.springs;

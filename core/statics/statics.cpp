@@ -14,10 +14,8 @@ Statics::Statics(const Model& model, Simulation& simulation, double start, doubl
     make_list();
   else
     make_grid();
-  const std::int64_t few =
-      problem_.grid.listed
-          ? 4096
-          : 65536;  // places; with fewer, threads would wait for each other longer than they work
+  // Places; with fewer, threads would wait for each other longer than they work.
+  const std::int64_t few = problem_.grid.listed ? 4096 : 65536;
   problem_.grid.threads = problem_.grid.places < few ? 1 : threads;
   if (problem_.grid.threads > 1) try_openmp_threads(problem_.grid.threads);
   if (!problem_.grid.listed) make_weights();

@@ -1,6 +1,6 @@
-// The body in search of rest: makes the StaticProblem of a model and a state, and brings what a
-// solver found back into the simulation. Split by concern: grid.cpp, list.cpp, response.cpp,
-// load_path.cpp, rest.cpp, statics.cpp.
+// Connects static solvers and the simulation: makes the StaticProblem of a model and a state, and
+// brings the result of a solver into the simulation. The functions are in grid.cpp, list.cpp,
+// response.cpp, load_path.cpp, rest.cpp and statics.cpp.
 #pragma once
 
 #include <state/simulation.hpp>
@@ -14,18 +14,19 @@ namespace hyperlattice {
 
 class Statics {
  public:
-  /// For a stage from `start` to `end`, s, that begins with the present state.
+  /// Makes the problem of a stage from `start` to `end`, s, that begins with the present state.
   Statics(const Model& model, Simulation& simulation, double start, double end, int threads);
   Statics(const Statics&) = delete;
   Statics& operator=(const Statics&) = delete;
 
   const StaticProblem& problem() const { return problem_; }
-  /// Displacements become the simulation's state, with that share of the stage's load.
+  /// Makes `displacement` the simulation's state, at the fraction `share` of the load path from the
+  /// loads of the stage's start to those of its end.
   void accept(double share, const double* displacement);
-  /// Of the simulation's present state, under the loads of the stage's end; the error is known from
-  /// the third call on.
+  /// Returns how near to rest the present state is under the loads of the stage's end. The report
+  /// has an error from the third call on.
   RestReport rest();
-  /// Of a field, `components` numbers a particle, from component `first` on.
+  /// Returns `components` numbers per particle of a field, from component `first` on.
   std::vector<double> of_particles(const double* field, int first, int components) const;
 
  private:
@@ -74,22 +75,22 @@ class Statics {
   std::vector<double> spring_stiffness_, spring_cross_stiffness_;  ///< N/m
   std::vector<std::uint8_t> free_;
   std::vector<std::uint32_t> kind_;  ///< Model::kind of each place; empty: one material
-  std::vector<float, ArrayMemory<float>>
-      weight_;  ///< of each spring, [n * places + place], or of each listed one; 0: none
-  std::vector<float> particle_weight_;  ///< of each place, shares of a whole particle
+  /// Fraction of each spring that counts, [n * places + place] or per listed spring; 0: no spring.
+  std::vector<float, ArrayMemory<float>> weight_;
+  std::vector<float> particle_weight_;  ///< fraction of a whole particle at each place
 
-  Values state_;              ///< displacements
-  double share_ = 0;          ///< of the state
-  double largest_scale_ = 0;  ///< N, that out-of-balance forces were compared with so far
-  Values force_;              ///< of the springs at the state
-  Values holding_;            ///< what else must act for the state at share 0 to be at rest
-  std::vector<double> factor_start_, factor_end_;  ///< of each load
+  Values state_;              ///< displacements, m
+  double share_ = 0;          ///< place of the state on the load path, 0 to 1
+  double largest_scale_ = 0;  ///< largest force so far that residuals were compared with, N
+  Values force_;              ///< forces of the springs at the state, N
+  Values holding_;            ///< further forces that hold the state at share 0 at rest, N
+  std::vector<double> factor_start_, factor_end_;  ///< one per load
   double gravity_start_ = 1;
-  std::vector<double> mass_;  ///< of each place, kg; empty without body acceleration
+  std::vector<double> mass_;  ///< at each place, kg; empty without body acceleration
   struct Loaded {
     std::int64_t place;
     std::size_t load;
-    Vec3 force;  ///< amplitude
+    Vec3 force;  ///< amplitude, N
   };
   struct Held {
     std::int64_t place;
@@ -98,9 +99,9 @@ class Statics {
   };
   std::vector<Loaded> loaded_;
   bool compared_ = false;
-  double slowest_ =
-      infinity;  ///< least Rayleigh quotient so far of a motion between two states, 1/s^2
-  std::vector<Held> held_;  ///< each particle once
+  /// The least Rayleigh quotient so far of a motion between two states, 1/s^2.
+  double slowest_ = infinity;
+  std::vector<Held> held_;  ///< one entry per particle
 };
 
 }  // namespace hyperlattice

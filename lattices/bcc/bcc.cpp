@@ -1,8 +1,8 @@
 // The body-centred cubic lattice with 14 neighbours: particles at
 //   x = anchor + a (1/4 + i + k/2, 1/4 + j + k/2, 1/4 + k/2),
-// so that a box of whole cubes of edge a holds two in each, joined by springs to the 8 nearest
-// (length sqrt(3)/2 a, class 0) and to the next 6 (length a, class 1). With springs of class 1 of
-// 2/3 of the stiffness, the lattice is isotropic.
+// so that each whole cube of edge a holds two particles. Springs join a particle to its 8 nearest
+// neighbours (length sqrt(3)/2 a, class 0) and to the next 6 (length a, class 1). The lattice is
+// isotropic if springs of class 1 have 2/3 of the stiffness of class 0.
 #include <hyperlattice/filling.hpp>
 
 namespace {
@@ -10,7 +10,8 @@ using namespace hyperlattice;
 
 constexpr Basis basis{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0.5, 0.5, 0.5}};
 
-// Half of the 14, those that follow in the order z, y, x, in steps of the basis.
+// The 7 neighbours that follow in the order z, y, x, in steps of the basis; the other 7 are
+// opposite to them.
 constexpr Neighbour neighbours[] = {
     {1, 0, 0, 1},  // along the row: (1, 0, 0) a
     {0, 1, 0, 1},  // to the next row: (0, 1, 0) a

@@ -1,15 +1,14 @@
-// The cubic lattice with 18 neighbours: particles at the centres of the cubic cells of side l whose
-// centres lie inside a shape,
+// The cubic lattice with 18 neighbours. A shape is filled with the cubic cells of side l whose
+// centres lie inside it. The particles are at the centres of these cells,
 //   x = anchor + (i + 1/2, j + 1/2, k + 1/2) l,
-// or with boundary cells at the corners of these cells, x = anchor + (i, j, k) l,
-// joined by orthogonal springs of length l (class 0) and face-diagonal springs of length sqrt(2) l
-// (class 1).
+// or, with boundary cells, at their corners, x = anchor + (i, j, k) l. Orthogonal springs (class 0)
+// have the length l, face-diagonal springs (class 1) the length sqrt(2) l.
 #include <hyperlattice/filling.hpp>
 
 namespace {
 using namespace hyperlattice;
 
-// Half of the 18 neighbours, those that follow in the order z, y, x: so each spring stands once.
+// The 9 neighbours that follow in the order z, y, x, so that each spring is listed once.
 constexpr Neighbour neighbours[] = {
     {1, 0, 0, 0},                                                            // along the row
     {-1, 1, 0, 1}, {0, 1, 0, 0},  {1, 1, 0, 1},                              // to the next row

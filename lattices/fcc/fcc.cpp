@@ -1,8 +1,8 @@
 // The face-centred cubic lattice with 18 neighbours: particles at
 //   x = anchor + a (1/4 + i + j/2 + k/2, 1/4 + j/2, 1/4 + k/2),
-// so that a box of whole cubes of edge a holds four in each, joined by springs to the 12 nearest
-// (length a/sqrt(2), class 0) and to the next 6 (length a, class 1). With springs of class 1 of 1/4
-// of the stiffness, the lattice is isotropic.
+// so that each whole cube of edge a holds four particles. Springs join a particle to its 12 nearest
+// neighbours (length a/sqrt(2), class 0) and to the next 6 (length a, class 1). The lattice is
+// isotropic if springs of class 1 have 1/4 of the stiffness of class 0.
 #include <hyperlattice/filling.hpp>
 
 namespace {
@@ -10,7 +10,8 @@ using namespace hyperlattice;
 
 constexpr Basis basis{Vec3{1, 0, 0}, Vec3{0.5, 0.5, 0}, Vec3{0.5, 0, 0.5}};
 
-// Half of the 18, those that follow in the order z, y, x, in steps of the basis.
+// The 9 neighbours that follow in the order z, y, x, in steps of the basis; the other 9 are
+// opposite to them.
 constexpr Neighbour neighbours[] = {
     {1, 0, 0, 1},                 // along the row: (1, 0, 0) a
     {-1, 1, 0, 0}, {0, 1, 0, 0},  // to the next row: (-1/2 or 1/2, 1/2, 0) a

@@ -1,8 +1,8 @@
-// A lattice from a file: particles where a table of points says, joined by a table of springs, or
-// to the nearest as many as a mean coordination asks for. The door for any structure: a packing, a
-// mesh's nodes, a scanned grain, a design of one's own.
-//   points:  x, y, z and, if it is there, volume
-//   springs: a, b and, if it is there, stiffness, over k; a and b count the points from 0
+// A lattice from files, for any structure: a packing, the nodes of a mesh, a scanned grain. A table
+// of points gives the particles. A table of springs joins them; without this table, the shortest
+// pairs are joined, as many as the mean coordination requires.
+//   points:  columns x, y, z and, optionally, volume
+//   springs: columns a, b and, optionally, stiffness (over k); a and b count the points from 0
 #include <hyperlattice/files.hpp>
 #include <hyperlattice/lattice.hpp>
 #include <hyperlattice/neighbourhood.hpp>
@@ -88,7 +88,7 @@ class Points {
     list.springs = springs;
     const double length = mean_length(positions, springs);
     list.spacing = list.membrane_distance = o_.spacing.value_or(length);
-    // springs far too short for their length to be a number are told by the core
+    // The core reports springs whose length is zero in double precision.
     if (length > 0 && !(list.spacing >= length / most_apart && list.spacing <= length * most_apart))
       throw std::invalid_argument(
           "spacing is " + short_number(list.spacing) + " m, while the springs are " +
@@ -101,7 +101,7 @@ class Points {
   }
 
  private:
-  static constexpr double most_apart = 20;  // the surface is made of cubes of half a spacing
+  static constexpr double most_apart = 20;  // ratio; the surface has cubes of half a spacing
   static constexpr double farthest = 1e50;  // m; products of a few lengths stay finite
 
   std::vector<Vec3> positions_of(const NumberTable& table) const {
@@ -118,7 +118,7 @@ class Points {
     return positions;
   }
 
-  /// Refuses two points at one place.
+  /// Reports an input error if two points have the same position.
   static void check_apart(const NumberTable& table, const std::vector<Vec3>& positions) {
     std::vector<std::size_t> order(positions.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -179,7 +179,7 @@ class Points {
     return springs;
   }
 
-  /// Refuses two springs between the same points.
+  /// Reports an input error if two springs join the same points.
   static void check_once(const NumberTable& table, const std::vector<ListedSpring>& springs) {
     std::vector<std::size_t> order(springs.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -200,7 +200,8 @@ class Points {
                                std::to_string(springs[first].b) + " too");
   }
 
-  /// Refuses springs that push a stretched body on, all in all.
+  /// Throws std::invalid_argument if the sum of stiffness times squared length over all springs is
+  /// not positive: such a body has a negative stiffness against uniform expansion.
   void check_stiffness(const std::vector<Vec3>& positions,
                        const std::vector<ListedSpring>& springs) const {
     double sum = 0;

@@ -1,6 +1,6 @@
-// Which points springs join: the shortest pairs, as many as a mean coordination asks for, but each
-// point to its nearest few at least. Without these a point at the surface may hang on one spring or
-// two, and swing.
+// Selects the pairs of points that springs join: the shortest pairs, as many as the mean
+// coordination requires. Each point is joined to its six nearest neighbours at least: otherwise a
+// point at the surface may have only one or two springs and move without resistance.
 #pragma once
 
 #include <hyperlattice/neighbourhood.hpp>
@@ -11,12 +11,12 @@
 
 namespace hyperlattice {
 
-/// As many springs as three coordinates need on the mean of a stiff body (Maxwell 1864): each joins
-/// two points.
+/// Mean number of springs of a point that a stiff body needs in three dimensions (Maxwell 1864):
+/// 2 x 3, because each spring joins two points.
 inline constexpr std::size_t enough_springs = 6;
 
-/// Squared distances of each point to its nearest few among pairs, ascending; infinite beyond those
-/// that it has.
+/// Squared distances, m2, of each point to its `enough_springs` nearest neighbours among the given
+/// pairs, ascending. The list of a point with fewer neighbours ends with infinity.
 class NearestOfEach {
  public:
   NearestOfEach(std::size_t points, std::span<const NearPair> pairs) : squares_(points) {
@@ -26,7 +26,7 @@ class NearestOfEach {
       take(squares_[pair.b], dot(pair.rest, pair.rest));
     }
   }
-  /// Whether one end counts the other among its nearest `few`.
+  /// Returns whether one end of the pair is among the `few` nearest neighbours of the other.
   bool joins(const NearPair& pair, std::size_t few) const {
     const double square = dot(pair.rest, pair.rest);
     return few > 0 && (square <= squares_[pair.a][few - 1] || square <= squares_[pair.b][few - 1]);
@@ -45,14 +45,15 @@ class NearestOfEach {
   std::vector<Nearest> squares_;
 };
 
-/// At least the `wanted` shortest pairs of points `spacing` apart, and those that give each point
-/// its nearest few, however far away these are.
+/// Returns candidates for springs: at least the `wanted` shortest pairs, and the pairs of each
+/// point with its `enough_springs` nearest neighbours at any distance. `spacing`: about the
+/// distance of neighbours, m. Points lie in the box from `low` to `high`, m.
 inline std::vector<NearPair> pairs_to_choose_from(std::span<const Vec3> points, Vec3 low, Vec3 high,
                                                   double spacing, std::size_t wanted) {
   const double coordination = 2 * static_cast<double>(wanted) / static_cast<double>(points.size());
   double reach = 1.2 * spacing *
                  std::cbrt(3 * (coordination + 1) /
-                           (4 * 3.141592653589793));  // of an endless body, and some more
+                           (4 * 3.141592653589793));  // of an infinite body, times 1.2
   std::vector<NearPair> pairs = near_pairs(points, low, high, reach);
   while (pairs.size() < wanted) pairs = near_pairs(points, low, high, reach *= 1.3);
   if (points.size() <= enough_springs) return pairs;
@@ -76,15 +77,16 @@ inline std::vector<NearPair> pairs_to_choose_from(std::span<const Vec3> points, 
   }
 }
 
-/// The springs of a body, and how to join another one in the same way.
+/// The springs of a body, and the rule that joins another body in the same way.
 struct Joined {
   std::vector<NearPair> springs;
-  double reach = 0;     ///< m, up to which all pairs are joined
-  std::size_t few = 0;  ///< each point has springs to its nearest few at least
+  double reach = 0;     ///< length up to which all pairs are joined, m
+  std::size_t few = 0;  ///< number of nearest neighbours to which each point is joined at least
 };
 
-/// Joins points with the `wanted` springs of these pairs, or all if there are no more. Fewer than
-/// six nearest ones are asked for where they would be too many.
+/// Joins points with `wanted` springs from the given pairs, or with all pairs if there are fewer.
+/// The number of nearest neighbours (`Joined::few`) is six, or less if six need more springs than
+/// `wanted`.
 inline Joined joined_by_number(std::size_t points, std::vector<NearPair> pairs,
                                std::size_t wanted) {
   const NearestOfEach nearest(points, pairs);
@@ -106,7 +108,7 @@ inline Joined joined_by_number(std::size_t points, std::vector<NearPair> pairs,
   return found;
 }
 
-/// Joins points as another body's are.
+/// Joins points by the rule of another body: its reach and its number of nearest neighbours.
 inline std::vector<NearPair> joined_alike(std::size_t points, std::vector<NearPair> pairs,
                                           const Joined& like) {
   const NearestOfEach nearest(points, pairs);

@@ -1,11 +1,10 @@
-// A random lattice: points thrown into the shape one after the other, each kept if it is not too
-// near to one that is there (random sequential addition), until there is one for every spacing^3;
-// springs between the nearest pairs, as many as give the mean coordination L_N asked for,
+// A random lattice by random sequential addition: random points of the shape are tried one after
+// the other, and a point is kept if it is not too near to an earlier one, until each spacing^3 has
+// one. Springs join the nearest pairs, as many as give the mean coordination L_N,
 //   springs = L_N particles / 2,
-// each particle to its nearest six at least (joined.hpp).
-// Such a lattice is isotropic but not affine: its particles move against each other under a uniform
-// strain, the more the fewer neighbours they have. Its elastic constants are therefore found from a
-// sample: a periodic cube made in the same way, with springs up to the same length.
+// and each particle to its six nearest at least (joined.hpp). The lattice is isotropic, but its
+// deformation is not affine; the deviation is larger if particles have fewer neighbours. Its
+// elastic constants are therefore computed from a sample: a periodic cube made by the same rules.
 #include "joined.hpp"
 
 #include <hyperlattice/lattice.hpp>
@@ -18,12 +17,12 @@ using namespace hyperlattice;
 
 constexpr double most_particles = 5e7;
 
-/// Numbers that are the same on every machine.
+/// Random numbers from a seed, the same on every machine.
 class Dice {
  public:
   Dice(std::int64_t seed, std::uint64_t stream)
       : engine_(static_cast<std::uint64_t>(seed) + 0x9E3779B97F4A7C15u * stream) {}
-  double number() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }  ///< from 0 to below 1
+  double number() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }  ///< in [0, 1)
   Vec3 point(Vec3 low, Vec3 high) {
     const double x = number(), y = number(), z = number();
     return {low.x + x * (high.x - low.x), low.y + y * (high.y - low.y),
@@ -34,11 +33,12 @@ class Dice {
   std::mt19937_64 engine_;
 };
 
-/// Points in a box, where `inside` holds, with a least distance.
+/// Returns `count` random points of the box, m, where `inside` holds, at least `distance`, m,
+/// apart. Throws std::invalid_argument if the box has no room for them.
 template <class Inside>
 std::vector<Vec3> throw_points(std::size_t count, Vec3 low, Vec3 high, double distance,
                                bool periodic, Dice dice, const Inside& inside) {
-  constexpr std::size_t most_misses = 2000000;  // in a row: then there is no room for another
+  constexpr std::size_t most_misses = 2000000;  // in a row; then no room for a point is left
   Neighbourhood thrown(low, high, distance, count, periodic);
   for (std::size_t misses = 0; thrown.points().size() < count;) {
     const Vec3 point = dice.point(low, high);
@@ -139,7 +139,7 @@ class Random {
   }
 
  private:
-  /// Counted on cubes a quarter of a spacing wide.
+  /// Returns the volume of the shape, m3, counted on cubes of a quarter of the spacing.
   double volume_of_shape() const {
     const Shape& shape = *o_.shape;
     const Vec3 size = shape.high - shape.low;
@@ -169,7 +169,8 @@ class Random {
            static_cast<double>(nx * ny * nz);
   }
 
-  /// Joined as the body is; null: by the coordination.
+  /// Sends the periodic sample, joined by the rule `like` of the body, or by the coordination if
+  /// `like` is null.
   void send_sample(const LatticeSink& sink, const Joined* like) const {
     const double edge = static_cast<double>(o_.sample) * o_.spacing;
     const Vec3 high{edge, edge, edge};
@@ -178,7 +179,7 @@ class Random {
         throw_points(count, {}, high, o_.min_distance * o_.spacing, true, Dice(o_.seed, 1),
                      [](Vec3) { return true; });
     const double few_reach =
-        std::min(1.7 * o_.spacing, 0.33 * edge);  // there six are found, inside of a body
+        std::min(1.7 * o_.spacing, 0.33 * edge);  // inside a body, six neighbours are nearer
     std::vector<NearPair> pairs = near_pairs(
         points, {}, high,
         like ? std::max(like->reach, few_reach) : 2 * o_.spacing * std::cbrt(o_.coordination / 8),

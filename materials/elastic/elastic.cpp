@@ -1,5 +1,5 @@
-// A linear elastic solid: springs with f = k u, calibrated by Young's modulus and the Poisson ratio
-// (hyperlattice/elastic_solid.hpp).
+// A linear elastic solid: springs with the law f = k u. The stiffness k follows from Young's
+// modulus and the Poisson ratio (hyperlattice/elastic_solid.hpp).
 #include <hyperlattice/elastic_solid.hpp>
 #include <hyperlattice/kernels/choose.hpp>
 

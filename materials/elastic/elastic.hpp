@@ -1,9 +1,9 @@
-// The law of a linear elastic spring: f = k u, with u the elongation. Geometry makes the body
-// nonlinear, the spring is not.
+// The law of a linear elastic spring: f = k u, with the elongation u and the energy k u^2 / 2. The
+// spring is linear; the geometry of large displacements makes the body nonlinear.
 #pragma once
 
 struct ElasticLaw {
-  static constexpr bool linear = true;  ///< lets kernels leave out a division
+  static constexpr bool linear = true;  ///< kernels of a linear law need one division less
 
   template <class Real>
   static Real force(Real stiffness, Real elongation) {

@@ -1,15 +1,16 @@
-// An elastic-plastic solid. Under a stress s along [100] an elastic lattice's springs carry forces
-// in a fixed proportion; each may carry, at most, what it carries at s = yield:
-//   limit = |k u|,  u = R.e.R / L of a base spring, (R.e.R + 2 h Delta) / sqrt(L^2 + Delta^2) of a
-//   cross spring,
-// with R its rest vector, e = (1, -nu, -nu) yield / E, and h the height at which a membrane that
-// can move is at rest (its cross springs push it with the sum of what they carry; 0 if clamped).
+// An elastic-plastic solid. Under a stress along [100], the forces of the springs of an elastic
+// lattice have fixed ratios. The limit of a spring is its force at the stress `yield`:
+//   limit = |k u|
+//   u = R.e.R / L                                     base spring
+//   u = (R.e.R + 2 h Delta) / sqrt(L^2 + Delta^2)     cross spring
+// with the rest vector R, the strain e = (1, -nu, -nu) yield / E, and the equilibrium height h of a
+// free membrane (0 if clamped), which the forces of the cross springs set.
 //
-// So all springs that a bar along [100] pulls yield at once, when its stress is the stated one, and
-// the bar's curve has one sharp knee. Springs across the bar have the limit of those along it and
-// must carry less: this is what some membranes do not give. Then yield is also the most that a bar
-// without hardening carries: it can flow while nothing changes across it, heights neither, and that
-// takes the work of this stress. Hardening h = ratio k / (1 - ratio) leaves each spring the tangent
+// So all springs along a bar in [100] yield at once at the stress `yield`, and the stress-strain
+// curve has one sharp knee. Springs across the bar have the limit of those along it and must carry
+// less; some membranes do not fulfil this and are refused. Then `yield` is also the largest stress
+// of a bar without hardening: the bar can flow at constant width and heights, and this flow needs
+// the work of this stress. Hardening h = ratio k / (1 - ratio) gives each spring the tangent
 // ratio k.
 #include "plastic.hpp"
 
@@ -19,8 +20,8 @@
 namespace {
 using namespace hyperlattice;
 
-/// The elongations of an endless elastic lattice that is pulled along [100]; a membrane that can
-/// move has the height at which it is at rest.
+/// The elongations of the springs of an infinite elastic lattice under tension along [100]; a free
+/// membrane is at its equilibrium height.
 class Pulled {
  public:
   Pulled(const LatticeFacts& lattice, const MaterialConstants& constants, double strain)
@@ -29,7 +30,7 @@ class Pulled {
         poisson_(lattice.elastic_constants(constants).poisson()) {
     const double delta = lattice.membrane_distance;
     double push = 0,
-           stiffness = constants.alpha_ratio;  // of a particle's springs on its height, over 2 k
+           stiffness = constants.alpha_ratio;  // of a particle's height, over 2 k
     for (const Neighbour& n : lattice.neighbours) {
       const double ratio = constants.cross_ratio[n.spring_class] / (square(n) + delta * delta);
       push += ratio * growth(n) * delta;
@@ -38,11 +39,12 @@ class Pulled {
     if (!constants.clamped && constants.has_cross_springs()) height_ = -push / stiffness;
   }
 
-  /// Of the springs of a class that lie along the bar, more or less: the largest size, m.
+  /// Returns the largest absolute elongation, m, of the springs of a class that have a component
+  /// along the bar; `cross`: 1 for cross springs, 0 for base springs.
   double limit(std::uint32_t spring_class, int cross) const {
     return largest(spring_class, cross, true);
   }
-  /// Of those that lie across it.
+  /// Returns the same for the springs normal to the bar.
   double across(std::uint32_t spring_class, int cross) const {
     return largest(spring_class, cross, false);
   }
@@ -52,7 +54,7 @@ class Pulled {
     return lattice_.spacing * combined(lattice_.basis, n.dx, n.dy, n.dz);
   }
   double square(const Neighbour& n) const { return dot(rest(n), rest(n)); }
-  /// R.strain R, half of what the squared length grows.
+  /// Returns R.e.R, m2: half the change of the squared length.
   double growth(const Neighbour& n) const {
     const Vec3 r = rest(n);
     return strain_ * (r.x * r.x - poisson_ * (r.y * r.y + r.z * r.z));

@@ -1,6 +1,7 @@
-// An elastic-plastic spring with linear isotropic hardening: its force stays within +-(limit + h
-// p), p the plastic elongation summed so far; what is more flows away,
-//   f = k (u - w),  |f| <= limit + h p,  dp = |dw|.
+// An elastic-plastic spring with linear isotropic hardening,
+//   f = k (u - w),  |f| <= limit + h p,  dp = |dw|,
+// with the elongation u, the plastic elongation w and its accumulated amount p. A force beyond the
+// limit becomes plastic elongation (return mapping).
 #pragma once
 
 #include <hyperlattice/law.hpp>
@@ -9,12 +10,12 @@
 
 struct PlasticLaw {
   struct Constants {
-    double limit;      ///< N
+    double limit;      ///< yield force of the virgin spring, N
     double hardening;  ///< h, N/m
   };
   struct Memory {
-    double flowed;  ///< w, m
-    double summed;  ///< p, m
+    double flowed;  ///< plastic elongation w, m
+    double summed;  ///< accumulated plastic elongation p, m
   };
 
   static void update(const hyperlattice::SpringState& s, const Constants& c, Memory& m) {

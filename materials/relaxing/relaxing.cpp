@@ -1,8 +1,9 @@
-// A viscoelastic solid whose stiffness relaxes: the standard linear solid (a Maxwell element beside
-// a spring) for each spring. E and nu are those at once; after a long time the modulus is (1 -
-// share) E, with the same Poisson ratio, because all springs relax alike. Under a strain that is
-// applied at once and held, the stress is E (1 - share + share exp(-t / time)) times the strain.
-// share = 1 is Maxwell's fluid.
+// A viscoelastic solid whose stiffness relaxes: each spring is a standard linear solid (a spring in
+// parallel with a Maxwell element). E and nu are the instantaneous values. After a long time the
+// modulus is (1 - share) E, with the same Poisson ratio, because all springs relax alike. The
+// stress under a strain e that is applied at once and held is
+//   E (1 - share + share exp(-t / time)) e.
+// share = 1 gives a Maxwell fluid.
 #include "relaxing.hpp"
 
 #include <hyperlattice/elastic_solid.hpp>

@@ -1,6 +1,7 @@
-// The standard linear solid: beside an elastic spring one in series with a damper, whose part of
-// the force relaxes in a time tau,
-//   f = k ((1 - g) u + g (u - w)),  dw/dt = (u - w) / tau.
+// The standard linear solid: an elastic spring in parallel with a spring and damper in series
+// (Maxwell element), whose force relaxes in the time tau,
+//   f = k ((1 - g) u + g (u - w)),  dw/dt = (u - w) / tau,
+// with the elongation u and the elongation w of the damper.
 #pragma once
 
 #include <hyperlattice/law.hpp>
@@ -9,14 +10,14 @@
 
 struct RelaxingLaw {
   struct Constants {
-    double share;  ///< g: of the stiffness at once that relaxes
-    double time;   ///< tau, s
+    double share;  ///< g: fraction of the instantaneous stiffness that relaxes
+    double time;   ///< relaxation time tau, s
   };
   struct Memory {
     double flowed;  ///< w: elongation of the damper, m
   };
 
-  /// Exact for an elongation that changes at a constant rate.
+  /// Integrates dw/dt over one time step, exactly if the elongation changes at a constant rate.
   static void update(const hyperlattice::SpringState& s, const Constants& c, Memory& m) {
     const double lag = s.elongation - m.flowed - s.rate * s.time_step, x = s.time_step / c.time;
     m.flowed += -std::expm1(-x) * lag + s.rate * (s.time_step + c.time * std::expm1(-x));

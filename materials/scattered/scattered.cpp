@@ -1,9 +1,9 @@
-// An elastic solid whose springs are not equally stiff. Each base spring, with its cross spring,
-// has k times its own number, 1 in the mean and spread by 1.2 / modulus or so. A body of them is
-// softer than one of equal springs, and by how much follows from the variance v of these numbers
-// (effective medium, first order in v): E (1 - s v), s the mean share of a spring's own stiffness
-// in how stiff its ends are held, 1/3 in a lattice of nine springs a particle; between Voigt's
-// bound E and Reuss's E (1 - v).
+// An elastic solid whose springs have random stiffnesses. Each base spring, with its cross spring,
+// has k times a random factor of mean 1 and standard deviation of about 1.2 / modulus. Such a body
+// is softer than a body of equal springs. To first order in the variance v of the factors
+// (effective medium), its modulus is E (1 - s v). Here s is the mean fraction that a spring has in
+// the total stiffness between its two ends, 1/3 in a lattice of nine springs a particle. The
+// modulus lies between the bounds of Voigt, E, and Reuss, E (1 - v).
 #include "scattered.hpp"
 
 #include <hyperlattice/elastic_solid.hpp>
@@ -60,7 +60,8 @@ class Scattered {
         ScatteredLaw::Constants{options_.modulus, static_cast<double>(options_.seed)});
     return constants;
   }
-  /// As if all springs were the stiffest that there can be.
+  /// Returns the stable time step, s, of a lattice whose springs all have the largest possible
+  /// factor.
   double stable_time_step(double elastic_step) const {
     constexpr double least_chance = 0x1p-53;
     return elastic_step /

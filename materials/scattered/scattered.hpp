@@ -1,6 +1,6 @@
-// A linear spring whose stiffness is its own: k times a number that scatters as Weibull's,
-//   f = c k u,  c = (-ln p)^(1 / m) / Gamma(1 + 1 / m),  1 in the mean,
-// p by chance from the seed and the spring's particles.
+// A linear spring with a random stiffness: k times a factor c of Weibull's distribution, mean 1,
+//   f = c k u,  c = (-ln p)^(1 / m) / Gamma(1 + 1 / m),
+// with p uniform between 0 and 1, from the seed and the two particles of the spring.
 #pragma once
 
 #include <hyperlattice/chance.hpp>
@@ -10,11 +10,11 @@
 
 struct ScatteredLaw {
   struct Constants {
-    double modulus;  ///< m
+    double modulus;  ///< Weibull modulus m
     double seed;
   };
   struct Memory {
-    double share;  ///< c
+    double share;  ///< stiffness factor c
   };
 
   static double share(double modulus, double p) {

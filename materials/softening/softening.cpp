@@ -1,10 +1,10 @@
-// A quasi-brittle solid: springs soften along a straight line, so that what a crack costs does not
-// depend on the spacing (the crack band). A spring carries its largest force at the strain e =
-// strength / E, where a bar along [100] leaves the elastic line, and nothing at r e. Both follow
-// the spring's length L, so all springs that pass through a unit of area take
-//   1/2 r e^2 sum k L^2 = G_c,
-// cross springs counted beside their base springs: r = 2 G_c / (e^2 sum k L^2). Below r = 1 a
-// spring would break before it softens: the spacing is too coarse for this G_c.
+// A quasi-brittle solid. Springs soften linearly, such that the fracture energy does not depend on
+// the spacing (crack band model). A spring has its largest force at the strain e = strength / E,
+// where a bar along [100] leaves the elastic line, and no force from the strain r e on. The energy
+// of all springs, cross springs included, that pass through a unit of area is
+//   1/2 r e^2 sum k L^2 = G_c,  so  r = 2 G_c / (e^2 sum k L^2)
+// with the length L of a spring. For r < 1 a spring would break before it softens: the spacing is
+// too coarse for this G_c.
 #include "softening.hpp"
 
 #include <hyperlattice/elastic_solid.hpp>
@@ -67,8 +67,9 @@ class Softening {
   static KernelSet kernels(const KernelChoice& choice) { return kernels_for_processor(choice); }
 
  private:
-  /// Sum of k L^2 over the springs that pass through a unit of area, N/m: of a plane normal to
-  /// [100], or in a list, where springs of all directions have the mean |n_x| of 1/2, of any plane.
+  /// Returns the sum of k L^2, N/m, over the springs that pass through a unit of area of a plane
+  /// normal to [100]. In a list the springs have all directions with the mean |n_x| = 1/2, and the
+  /// sum holds for any plane.
   static double through(const LatticeFacts& lattice, const MaterialConstants& constants) {
     const double k = constants.base_stiffness, delta = lattice.membrane_distance;
     if (lattice.neighbours.empty()) {

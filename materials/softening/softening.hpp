@@ -1,8 +1,7 @@
-// A spring that softens once it is stretched beyond its strength: damage D takes its stiffness
-// away, along a straight line to nothing,
-//   f = (1 - D) k u,  D = u2 (w - u1) / (w (u2 - u1)) for the largest elongation w so far between
-//   u1 and u2, 1 beyond.
-// Under compression a crack closes: the spring is whole.
+// A spring that softens linearly beyond its strength. The damage D reduces its stiffness,
+//   f = (1 - D) k u,  D = u2 (w - u1) / (w (u2 - u1)) for u1 < w < u2,
+// with the largest elongation w so far; D = 0 for w <= u1 and D = 1 for w >= u2. In compression a
+// crack is closed: the spring has its full stiffness.
 #pragma once
 
 #include <hyperlattice/law.hpp>
@@ -11,11 +10,11 @@
 
 struct SofteningLaw {
   struct Constants {
-    double strength;  ///< u1 over the length at rest: strain at the largest force
-    double opening;   ///< u2 likewise: strain at which nothing is left
+    double strength;  ///< u1 over the rest length: strain at the largest force
+    double opening;   ///< u2 over the rest length: strain at which the force is 0
   };
   struct Memory {
-    double largest;  ///< elongation so far, m
+    double largest;  ///< largest elongation so far, m
   };
 
   static double left(const hyperlattice::SpringState& s, const Constants& c,

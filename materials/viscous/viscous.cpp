@@ -1,9 +1,9 @@
-// A viscoelastic solid after Kelvin and Voigt: beside each spring a damper, f = k (u + tau du/dt),
-// so that both layers of springs, base and cross, have the same loss: a wave of angular frequency w
-// loses the fraction w tau / 2 of critical damping. The rate is that of the step before; for one
-// mode
+// A viscoelastic solid after Kelvin and Voigt: each spring has a damper in parallel,
+//   f = k (u + tau du/dt).
+// Base and cross springs have the same tau, so a wave of angular frequency w has the damping ratio
+// w tau / 2. The law uses the rate of the previous step. For one mode,
 //   u(n+1) - 2 u(n) + u(n-1) = -(w dt)^2 (u(n) + tau (u(n) - u(n-1)) / dt)
-// has roots within the unit circle while dt^2 + 2 tau dt < 4 / w^2 = dt_c^2, which is the stable
+// has its roots inside the unit circle if dt^2 + 2 tau dt < 4 / w^2 = dt_c^2. This sets the stable
 // step.
 #include "viscous.hpp"
 

@@ -1,11 +1,13 @@
-// Kelvin and Voigt's spring: a damper beside each elastic spring, f = k (u + tau du/dt).
+// The Kelvin-Voigt law: an elastic spring with a damper in parallel,
+//   f = k (u + tau du/dt),
+// with the elongation u. The stored energy is k u^2 / 2.
 #pragma once
 
 #include <hyperlattice/law.hpp>
 
 struct ViscousLaw {
   struct Constants {
-    double time;  ///< tau, s
+    double time;  ///< viscosity over stiffness, tau, s
   };
   struct Memory {};
 

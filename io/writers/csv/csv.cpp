@@ -1,5 +1,6 @@
-// One table of numbers a frame: x, y, z and the chosen fields of each particle, every number such
-// that it reads back exactly; and `<file>_times.csv`, which gives each table's step and time.
+// One CSV table per frame: x, y, z and the chosen fields of each particle. Numbers have as many
+// digits as needed to read them back exactly. `<file>_times.csv` gives the step and time of each
+// table.
 #include <hyperlattice/frames.hpp>
 
 namespace hyperlattice {

@@ -1,7 +1,8 @@
-// A camera looks along `forward` at a target. In view space x points right, y up, z away from the
-// eye, the target is the origin, and one unit is a pixel at the target's depth. The ray of a pixel
-// at (X, Y) is (X, Y, 0) + z (k X, k Y, 1), with k = 1 / distance of the eye for a perspective view
-// and k = 0 for an orthographic one.
+// A camera that looks along `forward` at a target. In view space x points right, y up and z away
+// from the eye; the origin is the target, and the unit is a pixel at the target's depth. The ray of
+// the pixel (X, Y) is
+//   (X, Y, 0) + z (k X, k Y, 1),
+// with k = 1 / distance of the eye for a perspective view and k = 0 for an orthographic view.
 #pragma once
 
 #include <hyperlattice/plain.hpp>
@@ -13,10 +14,10 @@ namespace hyperlattice::picture {
 
 struct Camera {
   Vec3 right, up, forward, target;
-  double scale = 1;  ///< pixels a metre
+  double scale = 1;  ///< pixels per metre
   double k = 0;      ///< 1 / pixels
   double x = 0,
-         y = 0;  ///< pixel of the image, from its top left corner, at which the target appears
+         y = 0;  ///< position of the target in the image, pixels from the top left corner
 
   Vec3 to_view(Vec3 point) const {
     const Vec3 p = scale * (point - target);
@@ -24,19 +25,18 @@ struct Camera {
   }
 };
 
-/// The box of pixels that a body may fill.
+/// The part of an image that a body may fill, pixels.
 struct Frame {
   double left = 0, top = 0, width = 0, height = 0;
 };
 
-/// A camera that sees, from the direction `view`, all cubes of the given edge (metres) about the
-/// points (x y z each) in the frame.
+/// Returns a camera that looks from the direction `view` and shows in the frame all cubes of the
+/// given edge, m, about the points, [x y z] each, m.
 inline Camera make_camera(std::span<const double> points, double edge, Vec3 view, bool perspective,
                           Frame frame) {
   Camera camera;
   camera.forward = (-1 / norm(view)) * view;
-  const Vec3 sideways =
-      cross(camera.forward, {0, 0, 1});  // z is up, unless one looks along it; then y is
+  const Vec3 sideways = cross(camera.forward, {0, 0, 1});  // z is up, or y for a view along z
   camera.right = norm(sideways) > 1e-6 ? (1 / norm(sideways)) * sideways : Vec3{1, 0, 0};
   camera.up = cross(camera.right, camera.forward);
 
@@ -54,9 +54,9 @@ inline Camera make_camera(std::span<const double> points, double edge, Vec3 view
   const Vec3 size =
       high - low + Vec3{seen_edge(camera.right), seen_edge(camera.up), seen_edge(camera.forward)};
   camera.target = centre.x * camera.right + centre.y * camera.up + centre.z * camera.forward;
-  const double distance = 2.5 * norm(size);  // of the eye, metres
+  const double distance = 2.5 * norm(size);  // from the eye to the target, m
   const double nearer =
-      perspective ? 1 / (1 - 0.5 * size.z / distance) : 1;  // how much larger the front appears
+      perspective ? 1 / (1 - 0.5 * size.z / distance) : 1;  // magnification of the front
   camera.scale = std::min(frame.width / size.x, frame.height / size.y) / nearer;
   camera.k = perspective ? 1 / (camera.scale * distance) : 0;
   camera.x = frame.left + 0.5 * frame.width;

@@ -7,7 +7,7 @@
 
 namespace hyperlattice::picture {
 
-using Colour = std::array<std::uint8_t, 3>;  ///< red, green, blue as a screen takes them
+using Colour = std::array<std::uint8_t, 3>;  ///< red, green, blue, 0 to 255, as on a screen
 
 struct Image {
   Image(int w, int h)
@@ -20,7 +20,7 @@ struct Image {
   }
 
   int width, height;
-  std::vector<Colour> pixels;  ///< rows from the top
+  std::vector<Colour> pixels;  ///< row by row from the top, [y * width + x]
 };
 
 }  // namespace hyperlattice::picture

@@ -6,9 +6,9 @@ namespace hyperlattice::picture {
 namespace {
 
 constexpr Colour ink{60, 60, 60};
-constexpr int glyph_width = 6, glyph_height = 7;  // in dots; a glyph is five wide and one apart
+constexpr int glyph_width = 6, glyph_height = 7;  // dots; the sixth column is a gap
 
-/// Dots of a glyph: seven rows of five bits.
+/// Returns the dots of a glyph: seven rows of five bits.
 const std::uint8_t* glyph(char c) {
   static constexpr std::uint8_t digits[10][7] = {
       {14, 17, 19, 21, 25, 17, 14}, {4, 12, 4, 4, 4, 4, 14},  {14, 17, 1, 2, 4, 8, 31},

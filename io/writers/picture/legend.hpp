@@ -1,4 +1,4 @@
-// Text and keys that explain a picture's colours.
+// Text and legends that explain the colours of a picture.
 #pragma once
 
 #include "image.hpp"
@@ -9,21 +9,22 @@
 
 namespace hyperlattice::picture {
 
-/// Height in pixels of the strip at an image's foot that a legend needs.
+/// Returns the height of a legend at the bottom of an image of the given width, pixels.
 int legend_height(int width);
 
-/// Writes at (x, y), the text's top left corner: small letters, digits and "-+.=/()"; others are
-/// blank. Returns where the text ends.
+/// Writes a text with its top left corner at (x, y), pixels. Small letters, digits and "-+.=/()"
+/// are drawn; other characters are blank. Returns the x of the text's end.
 int write_text(Image& image, int x, int y, std::string_view text);
 
 struct Key {
   Colour colour;
   std::string text;
 };
-/// Coloured squares with their meaning, at the foot.
+/// Draws coloured squares with their texts at the bottom of the image.
 void draw_keys(Image& image, const std::vector<Key>& keys);
 
-/// The strip of the colour map with its ends and the quantity's name, at the foot.
+/// Draws the colour map with the values at its ends and the name of the quantity at the bottom of
+/// the image.
 void draw_scale(Image& image, std::string_view low, std::string_view high,
                 std::string_view quantity);
 

@@ -1,5 +1,5 @@
-// Colours: three for the state of failure, and a map of numbers that is perceptually uniform and
-// safe for the colour-blind.
+// The colours of pictures: three for the state of failure, and the colour map viridis for numbers,
+// which is perceptually uniform and readable for the colour-blind.
 #pragma once
 
 #include "image.hpp"
@@ -12,7 +12,8 @@ namespace hyperlattice::picture {
 inline constexpr Colour intact{70, 118, 190}, open_failure{214, 48, 38},
     closed_failure{58, 168, 76};
 
-/// The map viridis at `share` in [0, 1], interpolated between eleven samples of it.
+/// Returns the colour of the map viridis at `share` in [0, 1], interpolated between eleven samples.
+/// Numbers outside [0, 1] are clamped; those that are not finite count as 0.
 inline Colour viridis(double share) {
   constexpr double samples[11][3] = {{.267, .005, .329}, {.283, .141, .458}, {.254, .265, .530},
                                      {.207, .372, .553}, {.164, .471, .558}, {.128, .567, .551},

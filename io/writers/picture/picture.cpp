@@ -1,6 +1,6 @@
-// A picture of the particles a frame, drawn without a screen: whole or cut open, coloured by
-// failure or by a field. A particle with a broken spring that is open is red, with only closed ones
-// green, with none blue.
+// One PNG picture of the particles per frame, drawn without a screen. The body is whole or cut
+// open, and coloured by a field or by failure: a particle with an open failure is red, with closed
+// failures only green, and without broken springs blue.
 #include "legend.hpp"
 #include "palette.hpp"
 #include "png.hpp"
@@ -27,7 +27,8 @@ constexpr std::string_view fits[] = {"rest", "frame"};
 enum class Fit : std::uint32_t { rest, frame };
 enum class Projector : std::uint32_t { orthographic, perspective };
 
-/// "displacement_y" is the component y of a field, "displacement" its magnitude.
+/// Returns the quantity of a colouring: "displacement_y" is the component y of the field
+/// displacement, "displacement" its magnitude.
 QuantityOptions quantity_of(std::string_view colouring) {
   for (const std::string_view field : {"displacement", "velocity"}) {
     if (colouring == field) return {std::string(field), Projection::magnitude, {}};
@@ -177,7 +178,7 @@ class Picture {
 
  private:
   struct Colouring {
-    std::vector<Colour> colours;  ///< of each particle drawn
+    std::vector<Colour> colours;  ///< one for each particle in the picture
     std::string meaning;
     std::function<void(Image&)> draw_legend;
   };

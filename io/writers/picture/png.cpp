@@ -7,8 +7,8 @@
 namespace hyperlattice::picture {
 namespace {
 
-/// libpng leaves by longjmp when it fails, so nothing here may own memory: all of it belongs to the
-/// caller.
+/// Encodes the image into `bytes`. Returns false if libpng fails. libpng then leaves by longjmp, so
+/// no local variable here may own memory.
 bool encode(png_structp png, png_infop info, const Image& image, png_textp texts, int text_count,
             std::string& bytes) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;

@@ -1,4 +1,4 @@
-// PNG files.
+// Encodes images as PNG files by libpng.
 #pragma once
 
 #include "image.hpp"
@@ -8,10 +8,10 @@
 
 namespace hyperlattice::picture {
 
-/// Keyword and text, stored in the file for whoever asks what it shows.
+/// Keywords and texts that the file stores as its description.
 using Notes = std::vector<std::pair<std::string, std::string>>;
 
-/// The bytes of a PNG file. Throws std::runtime_error if libpng refuses.
+/// Returns the bytes of a PNG file. Throws std::runtime_error if libpng fails.
 std::string encode_png(const Image& image, const Notes& notes);
 
 }  // namespace hyperlattice::picture

@@ -1,10 +1,10 @@
-// First each pixel learns which particle it sees and how deep (from the nearest particle to the
-// farthest, skipping those that others hide); then each pixel is lit once. All is done on twice as
-// many pixels each way and averaged, which smooths edges.
-//   light = colour * (ambient * openness + lamp * max(0, n.l)),   openness = 1 - s sum max(0, v.n -
-//   b) / (v.v + e)
-// where v leads from the pixel's point to a point seen nearby: what stands above the surface shades
-// it, so cracks and steps are dark.
+// A renderer in two passes. The first pass finds the particle and the depth that each pixel sees,
+// from the nearest particle to the farthest. The second pass computes the light of each pixel once.
+// The picture has twice as many pixels along each axis and is averaged, which smooths edges.
+//   light    = colour * (ambient * openness + lamp * max(0, n.l))
+//   openness = 1 - s sum max(0, v.n - b) / (v.v + e)
+// with the vectors v from the pixel's point to nearby visible points. Points above the surface make
+// it darker, so cracks and steps are dark.
 #include "render.hpp"
 
 #include <algorithm>
@@ -31,11 +31,11 @@ struct Hit {
   Vec3f normal;
 };
 
-/// A form of half width h in view space, met by the ray through (X, Y).
+/// A cube of half width h in view space; meet() intersects it with the ray of the pixel (X, Y).
 struct Cube {
   Vec3f axes[3];
   float h = 0, k = 0;
-  Vec3f reach;  ///< half extents of its bounding box
+  Vec3f reach;  ///< half extents of the bounding box
 
   Cube(const Camera& camera, float half, float slope) : h(half), k(slope) {
     const Vec3 world[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -86,7 +86,7 @@ struct Sphere {
   }
 };
 
-/// What each fine pixel sees.
+/// The depth and the particle that each fine pixel sees.
 struct Canvas {
   int width, height;
   float left, top;  ///< view coordinates of the first fine pixel's centre
@@ -108,7 +108,8 @@ struct Canvas {
   float y(int row) const { return top - static_cast<float>(row); }
 };
 
-/// Indices sorted from the nearest to the farthest, roughly: by 4096 slices of depth.
+/// Returns the indices of particles from the nearest to the farthest, sorted by 4096 slices of
+/// depth.
 std::vector<std::uint32_t> front_to_back(const std::vector<Vec3f>& centres) {
   constexpr std::size_t slices = 4096;
   const auto [nearest, farthest] = std::minmax_element(centres.begin(), centres.end(),
@@ -118,7 +119,7 @@ std::vector<std::uint32_t> front_to_back(const std::vector<Vec3f>& centres) {
   const auto slice = [&](Vec3f c) {
     const float place = (c.z - low) * scale;
     return place > 0 ? static_cast<std::size_t>(std::min(place, static_cast<float>(slices - 1)))
-                     : 0;  // no number counts as nearest
+                     : 0;  // a depth that is not a number counts as nearest
   };
   std::vector<std::uint32_t> first(slices + 1, 0), order(centres.size());
   for (const Vec3f& c : centres) ++first[slice(c) + 1];
@@ -127,7 +128,7 @@ std::vector<std::uint32_t> front_to_back(const std::vector<Vec3f>& centres) {
   return order;
 }
 
-/// Whether any pixel of the row could still see something at this depth.
+/// Returns whether any pixel of the row sees something farther than `limit`, or nothing.
 bool any_farther(const float* depth, int count, float limit) {
   int farther = 0;
   for (int n = 0; n < count; ++n) farther |= depth[n] > limit ? 1 : 0;
@@ -137,7 +138,7 @@ bool any_farther(const float* depth, int count, float limit) {
 template <class Form>
 void draw(const Form& form, Vec3f centre, std::uint32_t particle, Canvas& canvas) {
   const float nearer = 1 / (1 + form.k * centre.z), front = centre.z - form.reach.z;
-  const float grow = 1 / std::max(1 + form.k * front, 1e-3f);  // its front appears larger
+  const float grow = 1 / std::max(1 + form.k * front, 1e-3f);  // magnification of the front
   const float x = centre.x * nearer - canvas.left, y = canvas.top - centre.y * nearer;
   const float dx = form.reach.x * grow + std::abs(centre.x) * (grow - nearer) + 1,
               dy = form.reach.y * grow + std::abs(centre.y) * (grow - nearer) + 1;
@@ -161,13 +162,13 @@ void draw(const Form& form, Vec3f centre, std::uint32_t particle, Canvas& canvas
   }
 }
 
-/// How open the surrounding of a seen point is, 0 to 1.
+/// The openness of a visible point, 0 to 1: 1 if no nearby point stands above its surface.
 class Openness {
  public:
   Openness(const Canvas& canvas, float particle, float k)
       : canvas_(canvas), particle_(particle), k_(k) {
     for (int n = 0; n < turns * samples;
-         ++n) {  // spirals, each turned a little more; neighbouring pixels take different ones
+         ++n) {  // four spirals, each turned a little more, for four neighbouring pixels
       const int spiral = n / samples, step = n % samples;
       const double radius = 2.5 * particle * std::pow((step + 0.5) / samples, 0.75);
       const double angle = 2.399963 * step + 6.283185 * spiral / turns / samples * 5;
@@ -208,7 +209,7 @@ struct Light {
 };
 float linear(std::uint8_t value) {
   return static_cast<float>(value) * static_cast<float>(value) / 65025.0f;
-}  // screens take about the root of light
+}  // a screen's value is about the square root of the light
 std::uint8_t screen(float light) {
   return static_cast<std::uint8_t>(std::lround(255 * std::sqrt(std::clamp(light, 0.0f, 1.0f))));
 }
@@ -255,7 +256,7 @@ void render_as(const Particles& particles, const Camera& camera, Image& image) {
   Canvas canvas(image, camera);
   for (const std::uint32_t particle : front_to_back(centres))
     if (const Vec3f& c = centres[particle]; 1 + form.k * (c.z - form.reach.z) > 0.05f)
-      draw(form, c, particle, canvas);  // not behind the eye
+      draw(form, c, particle, canvas);  // only particles in front of the eye
   paint(form, centres, particles.colours, canvas, image);
 }
 

@@ -1,4 +1,4 @@
-// Draws particles as lit cubes or spheres.
+// Draws particles as cubes or spheres with light and shade.
 #pragma once
 
 #include "camera.hpp"
@@ -11,12 +11,13 @@ namespace hyperlattice::picture {
 enum class Form : std::uint32_t { cubes, spheres };
 
 struct Particles {
-  std::span<const double> positions;  ///< x y z of each, metres
-  std::span<const Colour> colours;    ///< one each
-  double size = 0;                    ///< edge or diameter, metres
+  std::span<const double> positions;  ///< x y z of each particle, m
+  std::span<const Colour> colours;    ///< one for each particle
+  double size = 0;                    ///< edge or diameter, m
   Form form = Form::cubes;
 };
 
+/// Draws the particles as the camera sees them; pixels without a particle become white.
 void render(const Particles& particles, const Camera& camera, Image& image);
 
 }  // namespace hyperlattice::picture

@@ -1,9 +1,9 @@
-// A series for ParaView: one VTK unstructured grid a frame, each particle a vertex, and a
-// collection file (.pvd) that gives the times. Arrays are appended as raw binary, optionally
-// compressed block by block:
-//   uncompressed: bytes, data                                          (each size an unsigned
-//   64-bit number) compressed:   blocks, bytes of a block, bytes of the last block if it is shorter
-//   (else 0), compressed bytes of each; then the blocks
+// A series of files for ParaView: one VTK unstructured grid per frame, in which each particle is a
+// vertex, and a collection file (.pvd) that gives the times. Arrays are appended as raw binary
+// data, optionally compressed block by block; sizes are unsigned 64-bit numbers:
+//   uncompressed: number of bytes; data
+//   compressed:   number of blocks, bytes of a block, bytes of the last block if it is shorter
+//                 (else 0), compressed bytes of each block; then the blocks
 #include <hyperlattice/frames.hpp>
 
 #include <zlib.h>
@@ -25,7 +25,7 @@ void append_sizes(std::string& out, std::span<const std::uint64_t> sizes) {
 
 void append_compressed(std::string& out, std::string_view data) {
   constexpr std::size_t block_size =
-      1 << 18;  // large enough for zlib's window to work, small enough to be unpacked piecewise
+      1 << 18;  // larger than zlib's window, small enough to be unpacked block by block
   const std::size_t blocks = (data.size() + block_size - 1) / block_size;
   std::vector<std::uint64_t> sizes{blocks, block_size, data.size() % block_size};
   std::vector<Bytef> packed(compressBound(block_size));
@@ -121,7 +121,7 @@ class Vtu {
     return text + " format=\"appended\" offset=\"" + std::to_string(offset) + "\"/>\n";
   }
 
-  /// Appends an array and says where it begins.
+  /// Appends an array to `out` and returns its offset, bytes.
   std::size_t append(std::string& out, std::string_view data) const {
     const std::size_t offset = out.size();
     if (options_.compress) {
@@ -134,8 +134,8 @@ class Vtu {
     return offset;
   }
 
-  /// Cell n is a vertex at point n: connectivity 0, 1, ..., offsets 1, 2, ...; the same in every
-  /// frame, so encoded once.
+  /// Returns the encoded cells: cell n is a vertex at point n, with connectivity 0, 1, ... and
+  /// offsets 1, 2, ... They are the same in every frame and are encoded once.
   const std::string& encoded_cells() {
     if (!cells_.empty()) return cells_;
     std::vector<std::int64_t> numbers(selection_.size());
@@ -143,7 +143,7 @@ class Vtu {
     append(cells_, bytes_of<std::int64_t>(numbers));
     std::iota(numbers.begin(), numbers.end(), 1);
     cell_offsets_ = append(cells_, bytes_of<std::int64_t>(numbers));
-    constexpr std::uint8_t vertex = 1;  // VTK's number for this type of cell
+    constexpr std::uint8_t vertex = 1;  // VTK_VERTEX
     const std::vector<std::uint8_t> types(selection_.size(), vertex);
     cell_types_ = append(cells_, bytes_of<std::uint8_t>(types));
     return cells_;
@@ -155,7 +155,7 @@ class Vtu {
     collection_ += "\" part=\"0\" file=\"" + file + "\"/>\n";
   }
 
-  /// Rewritten with every frame, so that a run that is cut off can be opened.
+  /// Writes the collection file, with every frame, so that an interrupted run can be opened.
   void write_collection() const {
     write_file(
         files_.path_of_series(".pvd"),

@@ -1,7 +1,7 @@
-// A base spring breaks, at once and for good, when it has become longer by more than a limit:
+// A base spring breaks, at once and for good, when its elongation passes a limit:
 //   u_n = |r| - |r0| > u_n*
-// The limit is one absolute length for orthogonal and diagonal springs. Its cross springs (beta,
-// gamma) go with it; alpha springs stay.
+// The limit is a length, the same for orthogonal and diagonal springs. The cross springs (beta,
+// gamma) of a broken base spring break with it; alpha springs stay.
 #include <hyperlattice/failure.hpp>
 
 namespace {

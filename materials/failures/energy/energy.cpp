@@ -1,12 +1,11 @@
-// A base spring breaks, in tension, when it stores more than an energy:
+// A base spring breaks in tension when its stored energy passes a limit:
 //   k (|r| - |r0|)^2 / 2 > U
-// U is given, or follows from the energy G_c that a unit of crack area takes. n base springs pass
-// through a unit of area, so
-//   U = G_c / n,   n = (sum over the springs of a unit of volume of their rest lengths) / 2, the
-//   mean over all directions of the area:
-// the same crack takes the same energy whatever the spacing. On the cubic lattice n = (3 + 6 sqrt
-// 2) / (2 l^2) = 5.74 / l^2; a crack along {100} crosses 5 / l^2. Cross springs take what they
-// store besides.
+// U is given, or follows from the energy G_c of a unit of crack area:
+//   U = G_c / n,  n = (sum of the rest lengths of the springs in a unit of volume) / 2
+// where n is the number of base springs that pass through a unit of area, in the mean over all
+// directions of the area. So a crack needs the same energy at any spacing. On the cubic lattice
+// n = (3 + 6 sqrt 2) / (2 l^2) = 5.74 / l^2; a crack along {100} crosses 5 / l^2. Cross springs
+// add the energy that they store.
 #include <hyperlattice/failure.hpp>
 
 #include <cmath>

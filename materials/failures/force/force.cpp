@@ -1,7 +1,7 @@
-// A base spring breaks when it pulls with more than a force:
+// A base spring breaks when its tensile force passes a limit:
 //   k (|r| - |r0|) > limit
-// The strength of a bond, whatever its stiffness: of two materials' springs in one body the stiffer
-// break at the smaller elongation.
+// The limit does not depend on the stiffness: in a body of two materials, the stiffer springs break
+// at the smaller elongation.
 #include <hyperlattice/failure.hpp>
 
 namespace {

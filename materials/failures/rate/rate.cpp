@@ -1,5 +1,4 @@
-// A base spring that is pulled faster holds more. It breaks when its strain e passes a limit that
-// grows with the rate of strain e':
+// A base spring breaks when its strain e passes a limit that grows with the strain rate e':
 //   e > limit [1 + (max(e', 0) / reference)^(1 / exponent)]
 #include <hyperlattice/failure.hpp>
 

@@ -1,4 +1,4 @@
-// A base spring breaks when its strain, its elongation over its rest length, passes a limit:
+// A base spring breaks when its strain (elongation over rest length) passes a limit:
 //   (|r| - |r0|) / |r0| > limit
 // Springs of all classes then break at the same strain; with failures.elongation they break at the
 // same elongation.

@@ -1,10 +1,10 @@
-// The strength of springs scatters as Weibull's weakest links. A base spring breaks when its strain
-// passes its own limit,
+// The strength of springs has a Weibull distribution. A base spring breaks when its strain passes
+// its own limit,
 //   e = scale [least + (1 - least) (-ln p)^(1 / modulus)]
-// with p a number between 0 and 1 that follows from the seed and the spring's two particles, each
-// as likely as any other: of many springs the share
-//   1 - exp(-((e / scale - least) / (1 - least))^modulus)
-// has a limit below e. The same scene has the same strengths in every run, whatever its threads.
+// with p uniform between 0 and 1, from the seed and the two particles of the spring. The fraction
+// of springs with a limit below e is
+//   1 - exp(-((e / scale - least) / (1 - least))^modulus).
+// A scene has the same strengths in every run, with any number of threads.
 #include <hyperlattice/chance.hpp>
 #include <hyperlattice/failure.hpp>
 

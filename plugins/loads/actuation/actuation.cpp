@@ -1,12 +1,11 @@
-// What makes a robot move: a muscle or an engine inside the body, or the pressure in a chamber, by
-// a function of time f(t).
-//   force:    every base spring of the region pushes its ends apart with the force f(t) F w; w is
-//   its share of a whole spring in a body of cells strain:   every base spring's rest length
-//   becomes L0 (1 + f(t) e); a linear spring of stiffness k then pushes its ends apart with k L0
-//   f(t) e
-//             besides what it does already, exactly
-//   pressure: on the open faces of the region, -f(t) p A with the area A as it turns and stretches
-// Along springs, the forces on both ends are opposite: nothing but the body itself moves it.
+// Internal forces that move a robot: a muscle or an engine inside the body, or the pressure in a
+// chamber, times a load factor f(t).
+//   force:    each base spring of the region pushes its ends apart with the force f(t) F w; in a
+//             body of cells, w is the fraction of a whole spring
+//   strain:   the rest length of each base spring becomes L0 (1 + f(t) e); a linear spring of
+//             stiffness k then has the additional force k L0 f(t) e, exactly
+//   pressure: each open face of the region has the force -f(t) p A, with its present area A
+// The forces of a spring on its two ends are opposite, so their sum on the body is zero.
 #include <hyperlattice/time_function.hpp>
 #include <hyperlattice/watching.hpp>
 

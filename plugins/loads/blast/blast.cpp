@@ -1,9 +1,8 @@
-// A triangular pressure pulse on a surface, acting along the radii from a centre:
-//   F_i = p(t) A_i e_i,  A_i = S * sum over the open faces f of particle i of  a_f (-n_f . e_i),
-//   e_i = (x_i - c) / |x_i - c| p(t) = 0 until start, rises to peak during `rise`, falls to 0
-//   during `fall`.
-// with a_f the area of the face that is the particle's. A surface of cubic cells is rougher than
-// the true one; S makes the sum of |A_i| the true area.
+// A triangular pressure pulse on a surface, directed along the radii from a centre c:
+//   F_i = p(t) A_i e_i,  e_i = (x_i - c) / |x_i - c|,  A_i = S sum over f of a_f (-n_f . e_i)
+// over the open faces f of particle i, with the area a_f and the outward normal n_f. The pressure
+// p(t) is 0 until `start`, rises to `peak` during `rise` and falls to 0 during `fall`. A surface
+// of cubic cells is rougher than the true one; S makes the sum of |A_i| equal to the true area.
 #include <hyperlattice/load.hpp>
 
 #include <stdexcept>
@@ -61,7 +60,7 @@ class Blast {
 
     const double known = o_.area.value_or(body.true_area(o_.on));
     const double scale = known > 0 ? known / sum : 1;
-    for (const OpenArea& open : surface)  // positive where the pressure pushes away from the centre
+    for (const OpenArea& open : surface)  // positive area: pressure away from the centre
       if (const double area = projected(open); area != 0)
         sink.force(open.particle,
                    scale * area * o_.peak * direction(body.position(open.particle), centre));
@@ -80,7 +79,7 @@ class Blast {
     const Vec3 r = position - centre;
     const double length = norm(r);
     return length > 0 ? (1 / length) * r
-                      : Vec3{};  // a particle at the centre has no radius and gets no force
+                      : Vec3{};  // a particle at the centre has no radius, so no force
   }
 
   Options o_;

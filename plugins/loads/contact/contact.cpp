@@ -1,11 +1,10 @@
-// Particles that come too near push each other away: fragments that meet, bodies that collide,
-// cracks that close. Two particles that are d apart, nearer than d_0, get the depth p = d_0 - d
-// and, with v_n and v_t their relative velocity along and across their line,
-//   N = max(0, c p - b v_n)                        apart, b = 2 damping sqrt(c m)
-//   T = min(mu N, h |v_t|) against v_t             h = grip sqrt(c m), m = m_1 m_2 / (m_1 + m_2)
-// d_0 is `reach` spacings, but no more than nine tenths of what they are apart in the undeformed
-// body: neighbours whose spring holds are not compressed that far, those whose spring broke meet
-// again.
+// Contact of particles by a penalty force: fragments that meet, bodies that collide, cracks that
+// close. Two particles at a distance d < d_0 have the depth p = d_0 - d and the forces
+//   N = max(0, c p - b v_n)  repulsive,       b = 2 damping sqrt(c m)
+//   T = min(mu N, h |v_t|)   against v_t,     h = grip sqrt(c m),  m = m_1 m_2 / (m_1 + m_2)
+// with the relative velocities v_n and v_t along and across their line. d_0 is `reach` spacings, at
+// most 0.9 of the distance in the undeformed body: so intact neighbours, which are compressed less,
+// are not in contact, and neighbours with a broken spring can meet again.
 #include "pairs.hpp"
 
 #include <hyperlattice/penalty_contact.hpp>
@@ -79,8 +78,8 @@ class Contact {
     for (const Particle particle : body.particles(o_.on)) {
       at_rest.push_back(body.position(particle));
       mass_.push_back(body.mass(particle));
-      // As many as twelve others can be that near, evenly around; a pair's stiffness counts twice
-      // where both move, and friction has two directions.
+      // At most twelve particles can be that near, evenly around. The stiffness of a pair counts
+      // twice if both move, and friction has two directions.
       constexpr double along = 2 * 12.0 / 3, across = 2 * along;
       const PenaltyContact pair(stiffness_, mass_.back() / 2, o_.damping, o_.grip);
       sink.watch(particle, {along * stiffness_,
@@ -97,7 +96,7 @@ class Contact {
       const Vec3 apart = pairs_.apart(other, n, motion.displacement);
       const double distance = norm(apart);
       if (!(distance < reach_) || distance == 0) continue;
-      constexpr double held = 0.9;  // of what neighbours are apart at rest
+      constexpr double held = 0.9;  // of the distance at rest
       const double depth = std::min(reach_, held * pairs_.apart_at_rest(other, n)) - distance;
       if (!(depth > 0)) continue;
       const PenaltyContact pair(stiffness_, mass_[n] * mass_[other] / (mass_[n] + mass_[other]),

@@ -8,7 +8,7 @@ namespace hyperlattice::contact {
 
 namespace {
 
-/// A cube of space as wide as the reach and margin; cubes are in the order of z, y, x.
+/// A cube of space with the edge reach + margin; cubes are ordered by z, y, x.
 struct Cell {
   std::int64_t z = 0, y = 0, x = 0;
   auto operator<=>(const Cell&) const = default;
@@ -19,8 +19,8 @@ struct Member {
   auto operator<=>(const Member&) const = default;
 };
 
-/// What is nowhere, or beyond all that can be counted, is at the origin: a run that goes so bad is
-/// stopped elsewhere.
+/// Returns the cube of edge `width`, m, that holds a position. Positions that are not finite, or
+/// further than 1e15 cubes away, go to the origin's cube; the run's guard stops such runs.
 Cell cell_of(Vec3 at, double width) {
   const auto count = [&](double value) {
     constexpr double most = 1e15;
@@ -54,7 +54,7 @@ void Pairs::find(std::span<const Vec3> displacement) {
   for (std::size_t n = 0; n < at_rest_.size(); ++n) {
     const Cell here = cell_of(at_rest_[n] + displacement[n], width);
     for (std::int64_t dz = -1; dz <= 1; ++dz)
-      for (std::int64_t dy = -1; dy <= 1; ++dy) {  // three cells along x follow each other
+      for (std::int64_t dy = -1; dy <= 1; ++dy) {  // three cells along x are consecutive
         const Cell from{here.z + dz, here.y + dy, here.x - 1},
             to{here.z + dz, here.y + dy, here.x + 1};
         for (auto m = std::lower_bound(members.begin(), members.end(), Member{from, 0});

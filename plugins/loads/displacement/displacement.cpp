@@ -1,5 +1,6 @@
-// Particles that are moved: u_a(t) = value_a min(t / rise, 1) along the given axes; the other axes
-// stay free.
+// A prescribed displacement of particles along the given axes a,
+//   u_a(t) = value_a min(t / rise, 1).
+// The other axes stay free.
 #include <hyperlattice/load.hpp>
 
 namespace {

@@ -1,8 +1,9 @@
-// Drag of a fluid at rest, or that streams, on the open faces of a surface. The face of area A and
-// outward normal n, both as they turn and stretch, moves with the velocity w through the fluid, w_n
-// = (w . n) n across itself and w_t along itself:
+// Drag of a fluid, at rest or in motion, on the open faces of a surface. A face of present area A
+// and present outward normal n moves with the velocity w relative to the fluid, w_n = (w . n) n
+// normal to the face and w_t tangential:
 //   F = - A [ (rho/2) C_n min(|w_n|, s) + m_n ] w_n  -  A [ (rho/2) C_t min(|w_t|, s) + m_t ] w_t
-// quadratic up to the speed s and linear beyond, which bounds how stiff it can become.
+// with the linear coefficients m_n and m_t. The other terms are quadratic up to the speed s and
+// linear beyond, which bounds the slope dF/dw.
 #include <hyperlattice/watching.hpp>
 
 #include <algorithm>
@@ -68,7 +69,7 @@ class Drag {
   void declare(const LoadBody& body, const LoadSink& sink) {
     const auto steepest = [&](double quadratic, double linear) {
       return o_.density * quadratic * o_.top_speed + linear;
-    };  // of a force over velocity
+    };  // slope of a force over velocity
     const double most =
         std::max(steepest(o_.across, o_.linear_across), steepest(o_.along, o_.linear_along));
     areas_.declare(body, sink, o_.on, [&](const OpenArea& open) {

@@ -1,10 +1,10 @@
-// A load whose function of time f(t) is an expression, such as "exp(-t / 1e-3) * sin(2 * pi * 500 *
-// t)": t in seconds, pi. It acts on particles as loads.force does, or inside the body as
-// loads.actuation:
-//   total, each:      F_i = f(t) total w_i / (sum of w)  or  f(t) each, w_i the share of a whole
-//   particle force, strain:    every base spring pushes its ends apart with f(t) force w, or with k
-//   L0 f(t) strain pressure:         -f(t) pressure A on faces as they turn and stretch
-// muParser reads and evaluates the expression, once a step.
+// A load whose load factor f(t) is an expression of the time t, s, and pi, for example
+// "exp(-t / 1e-3) * sin(2 * pi * 500 * t)". The load acts on particles like loads.force, or inside
+// the body like loads.actuation:
+//   total, each:    F_i = f(t) total w_i / (sum of w)  or  f(t) each; w_i: fraction of a particle
+//   force, strain:  each base spring pushes its ends apart with f(t) force w  or  k L0 f(t) strain
+//   pressure:       each face of present area A has the force -f(t) pressure A
+// muParser reads the expression and evaluates it once a step.
 #include <hyperlattice/watching.hpp>
 
 #include <muParser.h>
@@ -84,8 +84,7 @@ class Expression {
       parser_.DefineVar("t", &time_);
       parser_.DefineConst("pi", std::numbers::pi);
       parser_.SetExpr(o_.expression);
-      parser_.Eval(
-          values);  // muParser takes "1,5" for a list of two values, and would go on with the last
+      parser_.Eval(values);  // muParser reads "1,5" as a list of two values and would use the last
     } catch (const mu::Parser::exception_type& error) {
       refuse(error.GetMsg());
     }
@@ -108,7 +107,7 @@ class Expression {
     try {
       return parser_.Eval();
     } catch (const mu::Parser::exception_type&) {
-      return std::numeric_limits<double>::quiet_NaN();  // the run's guard says so
+      return std::numeric_limits<double>::quiet_NaN();  // the run's guard reports it
     }
   }
   Vec3 answer(const WatchedMotion& motion, std::size_t n) const {

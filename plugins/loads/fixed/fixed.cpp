@@ -1,5 +1,5 @@
-// Particles that do not move along the given axes: u_a = 0 for every axis a. The other axes, and
-// the fourth dimension, stay free.
+// A support: the particles do not move along the given axes a, u_a = 0. The other axes and the
+// heights stay free.
 #include <hyperlattice/load.hpp>
 
 namespace {

@@ -1,11 +1,11 @@
-// A half-space that holds the body up, with Coulomb friction. A particle whose rim is a depth d > 0
-// below the surface gets
-//   N = max(0, c d - b v_n)                        outwards, b = damping 2 sqrt(c m)
-//   T = min(mu N, h |v_t|) against v_t             h = grip sqrt(c m)
-// with v_n, v_t the velocity out of the floor and along it. Below the limit mu N friction is
-// viscous, so that a particle at rest creeps with mu N / h, a tiny speed, and time steps stay
-// stable. Along `forward` mu is friction, against it friction_back; between them it goes with the
-// cosine:
+// A floor: a half-space that supports the body, with Coulomb friction. A particle whose rim is at
+// the depth d > 0 below the surface has the penalty forces
+//   N = max(0, c d - b v_n)  outwards,        b = damping 2 sqrt(c m)
+//   T = min(mu N, h |v_t|)   against v_t,     h = grip sqrt(c m)
+// with the velocities v_n out of the floor and v_t along it. Below the limit mu N, friction is
+// viscous: time steps stay stable, and a particle at rest creeps slowly, at mu N / h or less. The
+// coefficient mu is mu_f (`friction`) along `forward` and mu_b (`friction_back`) against it; for
+// other directions
 //   mu = (mu_f + mu_b) / 2 + (mu_f - mu_b) / 2 (v_t . forward) / |v_t|
 #include <hyperlattice/files.hpp>
 #include <hyperlattice/penalty_contact.hpp>
@@ -112,7 +112,7 @@ class Floor {
 
  private:
   struct Contact {
-    double height;  ///< of the particle's rim over the floor at rest, m
+    double height;  ///< height of the particle's rim over the floor, in the undeformed body, m
     PenaltyContact law;
   };
   Options o_;

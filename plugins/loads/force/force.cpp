@@ -1,7 +1,7 @@
-// A force on a region: `total`, shared evenly by its particles, or `each`, on every one of them.
+// A force on a region: `total` for all its particles together, or `each` for every particle,
 //   F_i = f(t) total w_i / (sum of w)   or   F_i = f(t) each
-// with w_i = 1, or in a body of cells the particle's share of a whole one: on a plane face the
-// stress is then the same everywhere.
+// with w_i = 1. In a body of cells, w_i is the fraction of a whole particle, which gives a uniform
+// stress on a plane face.
 #include <hyperlattice/load.hpp>
 
 namespace {

@@ -1,5 +1,5 @@
-// Gravity, or the steady acceleration of a moving frame: F_i = m_i a for every particle, from the
-// start on.
+// Gravity, or the constant acceleration of a moving frame, on every particle from the start on:
+//   F_i = m_i a
 #include <hyperlattice/load.hpp>
 
 namespace {

@@ -1,8 +1,7 @@
 // A pressure on the open faces of a region:
-//   F_i = - p(t) A_i,  A_i the sum of the outward normals of the particle's faces, each by its
-//   area:
-// l^2, or a quarter of that for each corner of a face in a body of cells. With `facing`, only the
-// faces that look one way count.
+//   F_i = - p(t) A_i,  A_i = sum of area times outward normal over the open faces of particle i
+// A face has the area l^2; in a body of cells, each of its four corner particles has l^2 / 4. With
+// `facing`, only the faces with one direction of the normal count.
 #include <hyperlattice/load.hpp>
 
 #include <algorithm>
@@ -62,7 +61,7 @@ class Pressure {
   double factor(double time) const { return ramp(time, o_.rise); }
 
  private:
-  /// The part of a particle's open faces that looks where it should.
+  /// Returns the part of a particle's open area, m2, whose normal has the direction `facing`.
   Vec3 loaded(Vec3 area) const {
     if (o_.facing == Facing::any) return area;
     const Vec3 normal = face_normals[static_cast<std::size_t>(o_.facing) - 1];

@@ -1,5 +1,5 @@
-// The velocity with which a region begins: v_i(0) = linear + angular x (x_i - centre). Later it
-// moves freely.
+// The start velocity of a region, which moves freely afterwards:
+//   v_i(0) = linear + angular x (x_i - centre)
 #include <hyperlattice/load.hpp>
 
 namespace {

@@ -1,5 +1,6 @@
-// Particles that are driven: v_a(t) = value_a min(t / rise, 1) along the given axes; the other axes
-// stay free.
+// A prescribed velocity of particles along the given axes a,
+//   v_a(t) = value_a min(t / rise, 1).
+// The other axes stay free.
 #include <hyperlattice/load.hpp>
 
 namespace {

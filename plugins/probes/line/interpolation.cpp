@@ -10,7 +10,7 @@ namespace {
 
 Eigen::Vector3d vector(Vec3 v) { return {v.x, v.y, v.z}; }
 
-/// The inverse of a symmetric matrix of points, zero along directions in which they do not spread.
+/// Returns the inverse of the covariance matrix of points, with 0 along directions without spread.
 Eigen::Matrix3d pseudo_inverse(const Eigen::Matrix3d& spread) {
   constexpr double nothing = 1e-9;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);

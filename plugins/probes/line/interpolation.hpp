@@ -1,4 +1,4 @@
-// Values between particles, wherever these stand.
+// Interpolation between the particles of any lattice by weighted least squares.
 #pragma once
 
 #include <hyperlattice/output.hpp>
@@ -12,12 +12,12 @@ struct Share {
   double weight = 0;
 };
 
-/// What each particle counts in the value at a point: the affine function that fits those within
-/// `radius` best is asked there. Near ones count most, so that at a particle the value is its own
-/// but for a millionth of what its neighbours differ. Affine fields come out exactly, also outside
-/// of the particles and where they stand on one side; along a direction in which all of them stand
-/// in a line or plane, the function is constant. Weights add up to 1. Empty if no particle is
-/// within the radius. `spacing` is the lattice's.
+/// Returns the weight of each particle in the value at a point, m: the value of the affine function
+/// that fits the particles within `radius`, m, best. Near particles count most: at a particle the
+/// value is its own, up to a millionth of the difference to its neighbours. Affine fields are
+/// exact, also outside the particles. If all particles lie in a line or plane, the function is
+/// constant normal to it. Weights add up to 1. Empty if no particle is within the radius.
+/// `spacing`: that of the lattice, m.
 std::vector<Share> shares_at(Vec3 point, double spacing, double radius, const Snapshot& snapshot,
                              const std::vector<Particle>& among);
 

@@ -1,5 +1,5 @@
-// A quantity along a straight line over time, at n evenly spaced points: between the particles
-// around each, or that of the nearest one.
+// A quantity over time at n evenly spaced points of a straight line: interpolated between the
+// particles around each point, or that of the nearest particle.
 #include "interpolation.hpp"
 
 #include <hyperlattice/fields.hpp>
@@ -85,7 +85,7 @@ class LineProbe {
     std::vector<line::Share> shares;
   };
 
-  /// Particles that can count on the line.
+  /// Returns the particles that are near enough to have a weight at a point of the line.
   std::vector<Particle> near_line(const Snapshot& first) const {
     const Vec3 way = options_.end - options_.start;
     const double reach = 2.25 * first.spacing;

@@ -1,5 +1,5 @@
-// A quantity of one particle over time: the one nearest to a given place. The column's name says
-// where that particle truly stands.
+// A quantity over time of the particle that is nearest to a given position. The column's name gives
+// the true position of this particle.
 #include <hyperlattice/fields.hpp>
 
 namespace hyperlattice {

@@ -1,8 +1,7 @@
-// Mean, least and greatest of a quantity over a region, over time:
-//   mean = (1/n) sum of q_i over the n particles of the region, each counting the same.
-// With the component "radial" about the centre of a sphere this is the mean radial motion of a
-// shell or a surface, and a column `radius` says how far from the centre the particles are at rest,
-// in the mean.
+// Mean, minimum and maximum of a quantity over a region, over time:
+//   mean = (1/n) sum of q_i over the n particles of the region, all with the same weight.
+// The component "radial" about the centre of a sphere gives the mean radial motion of a shell or
+// surface; the column `radius` gives the mean distance of the particles from the centre at rest.
 #include <hyperlattice/fields.hpp>
 
 namespace hyperlattice {

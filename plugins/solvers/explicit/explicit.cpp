@@ -1,10 +1,11 @@
-// Explicit dynamics by central differences (velocity at half steps, displacement at whole ones):
+// Explicit dynamics by central differences, with velocities at half steps:
 //
 //   v(n+1/2) = v(n-1/2) + dt F(u(n)) / m        u(n+1) = u(n) + dt v(n+1/2)
 //
-// stable for dt < dt_c = 2 / omega_max. With Cundall's local damping F becomes F - alpha |F|
-// sign(v), and the limit dt_c / sqrt(1 + alpha). All steps of a stage are equal: steps that change
-// lose or make energy. Loads act by their mean over each step, so that none need end at a corner.
+// The method is stable for dt < dt_c = 2 / omega_max. Cundall's local damping replaces F by
+// F - alpha |F| sign(v); the limit is then dt_c / sqrt(1 + alpha). All steps of a stage are equal,
+// because a change of the step changes the energy. Loads act by their mean over each step, so that
+// no step must end at a corner of a load.
 #include <hyperlattice/files.hpp>
 #include <hyperlattice/solver.hpp>
 
@@ -73,7 +74,7 @@ class Explicit {
     plan.stable_time_step = facts.critical_time_step / std::sqrt(1 + options_.damping);
     const double longest = longest_step(facts), length = options_.end_time - facts.start_time;
     constexpr double round_off =
-        1 - 1e-12;  // so that a step which divides the length is taken as it is
+        1 - 1e-12;  // keeps a time_step that divides the length of the stage
     const double parts = std::ceil(length / longest * round_off);
     if (!(parts < 1e15))
       throw std::runtime_error(

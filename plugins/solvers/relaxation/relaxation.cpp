@@ -1,14 +1,14 @@
-// To a state of rest by motion that is damped:
+// Dynamic relaxation: a damped motion that ends in a state of rest.
 //
-//   local damping (the paper's way):  v(n+1/2) = v(n-1/2) + dt (F - alpha |F| sign v) / m,  dt <
-//   dt_c / sqrt(1 + alpha) accelerated:                      v(n+1/2) = a v(n-1/2) + (1 + a) / 2 dt
-//   F / m,  a = j / (j + 3),  j steps since the last restart,
-//                                     as under a drag of 6 m v / ((2 j + 3) dt); restart when the
-//                                     kinetic energy falls
+//   local damping (the paper's method):
+//     v(n+1/2) = v(n-1/2) + dt (F - alpha |F| sign v) / m,   dt < dt_c / sqrt(1 + alpha)
+//   accelerated, j steps after the last restart; a restart follows when the kinetic energy falls:
+//     v(n+1/2) = a v(n-1/2) + (1 + a) / 2 dt F / m,   a = j / (j + 3)
+//     (the same as a drag of 6 m v / ((2 j + 3) dt))
 //
-// until the residual, the largest out-of-balance force over the mean force on held or loaded
-// particles, is small, and the estimated error of the displacements if the scene asks for that.
-// Loads act as they do at the end.
+// The motion ends when the residual (the largest out-of-balance force over the mean force on held
+// or loaded particles) is small, and the estimated error of the displacements too if the scene sets
+// displacement_error. Loads have their values at end_time.
 #include <hyperlattice/rest.hpp>
 
 #include <algorithm>
@@ -22,16 +22,16 @@ namespace hyperlattice {
 enum class Damping : std::uint32_t { local_damping, accelerated };
 inline constexpr std::string_view damping_names[] = {"local_damping", "accelerated"};
 
-/// The drag of the accelerated method: that which takes all momentum at a restart, then less with
-/// each step.
+/// The drag of the accelerated method. It removes all momentum at a restart, then less with each
+/// step.
 class Acceleration {
  public:
   explicit Acceleration(double time_step) : time_step_(time_step) {}
 
-  /// Before a step. False: the run must stop.
+  /// Sets the drag of the next step. Returns false if the run must stop.
   bool set_drag(const SolverHost& host) {
-    constexpr int every = 4;        // steps; the energy need not be looked at more often
-    constexpr double fallen = 0.8;  // of the largest since the restart: short waves make it tremble
+    constexpr int every = 4;        // steps between two measurements of the kinetic energy
+    constexpr double fallen = 0.8;  // of the maximum since the restart; short waves disturb it
     double kinetic = 0;
     if (since_ > 0 && since_ % every == 0) {
       if (!host.measure(nullptr, &kinetic)) return false;
@@ -45,7 +45,7 @@ class Acceleration {
 
  private:
   double time_step_, largest_ = 0;
-  int since_ = 0;  ///< steps
+  int since_ = 0;  ///< steps since the last restart
 };
 
 class Relaxation {
@@ -112,7 +112,7 @@ class Relaxation {
 
   SolverPlan plan(const SolverFacts& facts) const {
     SolverPlan plan = plan_of_rest(facts, o_.end_time);
-    plan.bytes_per_site = 250;  // of the measurement of the residual
+    plan.bytes_per_site = 250;  // for the measurement of the residual
     plan.damping = alpha();
     plan.stable_time_step = facts.critical_time_step / std::sqrt(1 + plan.damping);
     plan.time_step = o_.time_step.value_or(o_.safety * plan.stable_time_step);
@@ -120,14 +120,14 @@ class Relaxation {
       throw std::runtime_error("time_step of at most " + short_number(plan.stable_time_step) +
                                " s, the stable limit");
     const double digits = std::max(1.0, -std::log10(o_.tolerance)),
-                 per_site = o_.method == Damping::accelerated ? 1.5 : 7.5;  // as cubes take
+                 per_site = o_.method == Damping::accelerated ? 1.5 : 7.5;  // measured on cubes
     plan.steps = static_cast<std::uint64_t>(
         std::min(o_.most_steps, per_site * digits * facts.sites_across + 20));
     return plan;
   }
 
   void run(const SolverFacts& facts, SolverHost& host) const {
-    constexpr std::uint64_t every = 20;  // steps; a measurement of the residual costs about two
+    constexpr std::uint64_t every = 20;  // steps; one measurement costs about two steps
     const double time_step = plan(facts).time_step;
     RestReport report;
     Acceleration acceleration(time_step);

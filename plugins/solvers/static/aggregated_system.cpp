@@ -14,8 +14,8 @@ double AggregatedSystem::linearise(const Field& displacement, Field& force) {
   return ListedSystem::linearise(displacement, force);
 }
 
-/// Whether no spring has been strained or turned much on the way from made_at_, and heights are
-/// held as there.
+/// Returns whether the levels still serve: since made_at_, no spring was strained or turned by more
+/// than 0.02, and the stiffness of the heights has not changed much.
 bool AggregatedSystem::is_near(const Field& displacement) const {
   if (holds_heights_otherwise(largest_pull() + pull_made_at_, softest_height())) return false;
   constexpr double little = 0.02;
@@ -60,9 +60,10 @@ numerics::BlockJacobi AggregatedSystem::own_blocks() const {
           }};
 }
 
-/// What cannot move, or has no stiffness, has a row of its own; so each particle has as many rows.
+/// Returns the tangent by particle and component. Components that are held or have no stiffness
+/// have the row 1 on the diagonal, so that all particles have the same number of rows.
 numerics::SparseRows AggregatedSystem::rows() const {
-  constexpr double shift = 1e-6;  // added to the diagonal, over itself, where nothing holds a body
+  constexpr double shift = 1e-6;  // relative addition to the diagonal, for bodies without supports
   const auto places = static_cast<std::size_t>(grid().places),
              components = static_cast<std::size_t>(grid().components);
   std::vector<bool> unknown(numbers());

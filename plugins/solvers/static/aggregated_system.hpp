@@ -1,5 +1,5 @@
-// A listed lattice with multigrid by aggregation. The finest level is smoothed on the tangent
-// itself.
+// The system of a listed lattice with aggregation multigrid as preconditioner. The finest level is
+// smoothed on the tangent itself; aggregation makes the coarser levels.
 #pragma once
 
 #include "listed_system.hpp"
@@ -24,13 +24,13 @@ class AggregatedSystem : public ListedSystem {
   numerics::SparseRows rows() const;
   bool is_near(const Field& displacement) const;
 
-  Field present_, made_at_;  ///< displacements: of the tangent, and of the one that the levels were
-                             ///< made for; empty: none
-  double pull_made_at_ = 0;  ///< largest_pull() there
+  Field present_, made_at_;  ///< displacements of the present tangent, and of the tangent for which
+                             ///< the levels were made (empty: none)
+  double pull_made_at_ = 0;  ///< largest_pull() at made_at_
   std::optional<numerics::ChebyshevSmoother> smoother_;
   std::optional<numerics::AggregationMultigrid> below_;
   Field rest_;
-  Eigen::VectorXd right_, left_;  ///< by particle and component, as the levels count
+  Eigen::VectorXd right_, left_;  ///< by particle and component, the order of the levels
 };
 
 }  // namespace hyperlattice::statics

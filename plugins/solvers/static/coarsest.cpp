@@ -5,7 +5,7 @@
 namespace hyperlattice::statics {
 
 struct Coarsest::Factor {
-  std::vector<std::size_t> numbers;  ///< of a field, that have stiffness
+  std::vector<std::size_t> numbers;  ///< the components of a field that have stiffness
   numerics::SparseCholesky of;
 };
 
@@ -35,7 +35,7 @@ Coarsest::Coarsest(const StencilLevel& level) : factor_(std::make_unique<Factor>
   const auto size = static_cast<Eigen::Index>(factor_->numbers.size());
   Eigen::SparseMatrix<double> matrix(size, size);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  constexpr double shift = 1e-6;  // interpolation has more freedom than the body
+  constexpr double shift = 1e-6;  // K may be singular: interpolation has more freedom than the body
   factor_->of.compute(matrix, shift);
 }
 

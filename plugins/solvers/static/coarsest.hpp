@@ -1,4 +1,4 @@
-// The coarsest level, solved at once by a sparse factorisation.
+// The direct solver of multigrid's coarsest level: a sparse Cholesky factorisation of its K.
 #pragma once
 
 #include "stencil_level.hpp"
@@ -9,11 +9,13 @@ namespace hyperlattice::statics {
 
 class Coarsest {
  public:
+  /// Factorises the stiffness of a level. Throws std::runtime_error if that fails.
   explicit Coarsest(const StencilLevel& level);
   ~Coarsest();
   Coarsest(const Coarsest&) = delete;
   Coarsest& operator=(const Coarsest&) = delete;
 
+  /// Solves K x = b in the layout of the level; only components with stiffness are written.
   void solve(const double* b, double* x) const;
 
  private:

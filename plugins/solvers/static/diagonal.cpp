@@ -1,5 +1,5 @@
-// The diagonal blocks of the springs' stiffness, and their inverses. Compiled once for each
-// instruction set; see rows.hpp.
+// The diagonal blocks of the stiffness of springs, and their inverses. This file is compiled once
+// for each instruction set; see rows.hpp.
 #include "rows.hpp"
 
 namespace hyperlattice::statics::HYPERLATTICE_INSTRUCTIONS {
@@ -11,10 +11,10 @@ void divide(const Division& division, int components);
 namespace {
 
 constexpr std::int64_t chunk =
-    64;  // springs whose blocks are found before they are added: both ends may lie in one row
+    64;  // springs computed before blocks are added, because both ends may lie in one row
 
-/// One number of the blocks of both ends: that of base springs, and that of cross springs with its
-/// sign at the near end.
+/// Adds one number of the tangents of base and cross springs to the blocks of both ends; `sign` is
+/// that of cross springs at the near end.
 template <int size>
 void add(const float (&base)[size], const float (&cross)[size], float sign, std::int64_t count,
          std::int64_t step, float* own) {
@@ -23,9 +23,9 @@ void add(const float (&base)[size], const float (&cross)[size], float sign, std:
   for (std::int64_t t = 0; t < count; ++t) other[t] += base[t] + cross[t];
 }
 
-/// A spring sees one end move: the difference of its ends turns its sign, or not, twice. In a cross
-/// spring heights add up and space does not, so that its mixed numbers have one sign at one end and
-/// the other at the other.
+/// Adds the diagonal blocks of springs. A base spring adds the same block at both ends. In a cross
+/// spring heights add up while displacements are subtracted, so the numbers that mix a displacement
+/// and a height have opposite signs at the two ends.
 template <bool Heights, bool Deformed>
 void diagonal_of(const RowOfSprings& s, const Triangles& blocks) {
   constexpr int components = Heights ? 4 : 3;
@@ -62,16 +62,15 @@ void diagonal_of(const RowOfSprings& s, const Triangles& blocks) {
   }
 }
 
-/// 1 / pivot; 0 for one that vanishes beside the block's largest number of its kind, which belongs
-/// to nothing that has stiffness.
+/// Returns 1 / pivot, or 0 if the pivot is at most `least`: then the component has no stiffness.
 [[gnu::always_inline]] inline double inverse_of(double pivot, double least) {
   return pivot > least ? 1 / pivot : 0.0;
 }
 
 [[gnu::always_inline]] inline double larger(double a, double b) { return a > b ? a : b; }
 
-/// By K = L D L^T and K^-1 = M^T D^-1 M, M = L^-1. A pivot that is left out leaves zeros in its row
-/// and column, and the rest is inverted without it.
+/// Inverts blocks by K = L D L^T and K^-1 = M^T D^-1 M with M = L^-1. A component without stiffness
+/// gets zeros in its row and column; the rest is inverted without it.
 template <int components>
 void invert_each(std::int64_t count, const std::uint8_t* free, const Triangles& blocks) {
   constexpr bool heights = components == 4;
@@ -92,8 +91,7 @@ void invert_each(std::int64_t count, const std::uint8_t* free, const Triangles& 
       zh = fz * fh * double(n[at_zh][t]);
       hh = fh * double(n[at_hh][t]);
     }
-    // Heights may be a billion times as stiff as space, or as soft: each kind is measured by
-    // itself.
+    // Heights may be 1e9 times stiffer or softer than displacements, so both have their own limit.
     const double least = 1e-7 * larger(larger(xx, yy), zz), least_height = 1e-7 * hh;
     const double dx = inverse_of(xx, least), lyx = xy * dx, lzx = xz * dx, lhx = xh * dx;
     const double dy = inverse_of(yy - lyx * xy, least), byz = yz - lyx * xz, byh = yh - lyx * xh,

@@ -44,13 +44,13 @@ void FactorisedSystem::prepare() {
   for (Eigen::Index column = 0; column < size; ++column) {
     lower.startVec(column);
     for_row(unknowns_[static_cast<std::size_t>(column)],
-            [&](std::size_t number, double value) {  // the row is the column: K is symmetric
+            [&](std::size_t number, double value) {  // K is symmetric: a row serves as column
               const int row = row_of[number];
               if (row >= column) lower.insertBack(row, column) = value;
             });
   }
   lower.finalize();
-  constexpr double shift = 1e-9;  // where nothing holds the body
+  constexpr double shift = 1e-9;  // for bodies without supports, whose K is singular
   if (factors_->whole) return factors_->ldlt.compute(lower, shift);
   if (!factors_->incomplete.compute(lower))
     throw std::runtime_error(

@@ -1,5 +1,5 @@
-// A listed lattice whose tangent is factorised: whole if the body is small, else without the
-// entries that the tangent does not have.
+// The system of a listed lattice with a factorisation of the tangent as preconditioner: complete
+// for small bodies, else incomplete (without fill-in).
 #pragma once
 
 #include "listed_system.hpp"
@@ -10,6 +10,7 @@ namespace hyperlattice::statics {
 
 class FactorisedSystem : public ListedSystem {
  public:
+  /// `whole`: complete factorisation, else incomplete.
   FactorisedSystem(const StaticProblem& problem, bool whole);
   ~FactorisedSystem() override;
 
@@ -18,7 +19,7 @@ class FactorisedSystem : public ListedSystem {
 
  private:
   struct Factors;
-  std::vector<std::size_t> unknowns_;  ///< numbers of a field, by particle and component
+  std::vector<std::size_t> unknowns_;  ///< indices in a field, by particle and component
   std::unique_ptr<Factors> factors_;
 };
 

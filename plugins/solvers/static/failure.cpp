@@ -5,7 +5,7 @@ namespace hyperlattice::statics {
 
 namespace {
 
-/// Where a motion is largest, along what, and how much of the body takes part in it.
+/// Describes a motion: its largest displacement, place and direction, and how many particles move.
 class MotionText {
  public:
   MotionText(const StaticProblem& problem, const Field& motion)

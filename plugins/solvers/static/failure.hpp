@@ -1,11 +1,12 @@
-// Why there is no state of rest, in a sentence.
+// Explains in a sentence why the solver found no state of rest.
 #pragma once
 
 #include "newton.hpp"
 
 namespace hyperlattice::statics {
 
-/// `share` of the load, at `time`, s, was the last with a state of rest.
+/// Returns the error message. The last state of rest was at the fraction `share` of the load, at
+/// `time`, s; `found` is the outcome of the search that failed.
 std::string failure_text(const StaticProblem& problem, double share, double time,
                          const Outcome& found);
 

@@ -14,8 +14,8 @@ using SixBySix = Eigen::Matrix<double, 6, 6>;
 
 double component(Vec3 v, int c) { return c == 0 ? v.x : c == 1 ? v.y : v.z; }
 
-/// How a particle at r from the centre, in sizes of the piece, moves along c: by one number of a
-/// motion each.
+/// Returns the displacement along the axis c of a particle at r (from the centre, over the piece's
+/// size) for a unit of each of the six numbers of a motion.
 Six row(int c, Vec3 r) {
   Six row = Six::Zero();
   row[c] = 1;
@@ -29,7 +29,7 @@ Six row(int c, Vec3 r) {
 FreeMotions::FreeMotions(const System& system, const Field& displacement)
     : problem_(system.problem()), displacement_(displacement) {
   const StaticGrid& grid = problem_.grid;
-  numerics::DisjointSets pieces(grid.places);  // of places that springs join
+  numerics::DisjointSets pieces(grid.places);  // sets of places that springs join
   std::vector<bool> there(static_cast<std::size_t>(grid.places));
   for (std::int64_t p = 0; p < grid.places; ++p)
     there[static_cast<std::size_t>(p)] = grid.free[p] != 0;
@@ -60,7 +60,8 @@ Vec3 FreeMotions::position(std::int64_t place) const {
   return problem_.position(place) + Vec3{u(0), u(1), u(2)};
 }
 
-/// Rows of what is held times a free motion are zero.
+/// Finds the motions of a piece that leave all held components in place: the null space of
+/// sum of h h^T over the rows h of held components, made orthonormal over the particles.
 void FreeMotions::find_motions(Piece& piece) const {
   const auto number = static_cast<double>(piece.places.size());
   for (const std::int64_t place : piece.places)
@@ -78,7 +79,7 @@ void FreeMotions::find_motions(Piece& piece) const {
     }
   constexpr double nothing = 1e-9;
   const Eigen::SelfAdjointEigenSolver<SixBySix> modes(held);
-  if (modes.info() != Eigen::Success) return;  // positions are not finite: Newton's method says so
+  if (modes.info() != Eigen::Success) return;  // positions not finite: Newton's method reports it
   for (int n = 0;
        n < 6 && modes.eigenvalues()[n] <= nothing * std::max(1.0, modes.eigenvalues()[5]); ++n) {
     Six motion = modes.eigenvectors().col(n);
@@ -87,7 +88,7 @@ void FreeMotions::find_motions(Piece& piece) const {
       motion -= number * other.dot(together * motion) * other;
     }
     const double length = motion.dot(together * motion);
-    if (length <= nothing) continue;  // a row of particles that turns about itself
+    if (length <= nothing) continue;  // the rotation of a straight row about its own axis
     Motion& kept = piece.motions.emplace_back();
     Eigen::Map<Six>(kept.data()) = motion / std::sqrt(number * length);
   }

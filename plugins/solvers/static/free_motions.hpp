@@ -1,5 +1,5 @@
-// Rigid motions that nothing resists: those of each piece of the body, a set of particles that
-// springs join, that leave in place all that is held.
+// Rigid motions without resistance. The body consists of pieces: sets of particles that springs
+// join. A piece has the free rigid motions under which its held components do not move.
 #pragma once
 
 #include "system.hpp"
@@ -11,17 +11,17 @@ namespace hyperlattice::statics {
 
 class FreeMotions : public numerics::Deflation {
  public:
-  /// Of the body at a displacement, which must outlive this, with the springs that have stiffness
-  /// in the present tangents.
+  /// Finds the free motions of the body at a displacement, with the springs that have stiffness in
+  /// the present tangents. The displacement must outlive this object.
   FreeMotions(const System& system, const Field& displacement);
 
-  /// Takes the part of these motions out of a field.
+  /// Projects a field onto the complement of these motions.
   void remove_from(Field& field) const override;
   struct Driven {
     std::string sentence;
     Field motion;
   };
-  /// The free motion that forces drive most; "" and empty if they drive none.
+  /// Returns the free motion that the forces drive most; empty if they drive none.
   Driven driven_by(const Field& force) const;
 
  private:
@@ -42,7 +42,7 @@ class FreeMotions : public numerics::Deflation {
   const StaticProblem& problem_;
   const Field& displacement_;
   std::uint64_t particles_ = 0;
-  std::vector<Piece> pieces_;  ///< that can move
+  std::vector<Piece> pieces_;  ///< pieces with free motions
 };
 
 }  // namespace hyperlattice::statics

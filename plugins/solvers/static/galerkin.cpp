@@ -9,7 +9,7 @@ struct Parent {
   double weight;
 };
 
-/// Coarse sites from which a site is interpolated.
+/// The coarse sites from which a site is interpolated, with weights.
 struct Family {
   int count = 0;
   Parent of[8];
@@ -24,9 +24,9 @@ struct Family {
   }
 };
 
-/// Runs add(plane) for every fine plane: those whose coarse planes may be shared follow each other,
-/// the others run at once. A plane's springs end at most `reach` planes on, so that it adds to no
-/// more than 1 + reach coarse planes from its own coarse one on.
+/// Calls add(plane) for every fine plane, in parallel for planes that add to different coarse
+/// planes. Springs end at most `reach` planes further on, so a plane adds to at most 1 + reach
+/// coarse planes, beginning at its own.
 template <class Add>
 void plane_by_plane(std::int64_t fine_planes, std::int64_t coarse_planes, bool halved, int reach,
                     int threads, const Add& add) {
@@ -39,7 +39,7 @@ void plane_by_plane(std::int64_t fine_planes, std::int64_t coarse_planes, bool h
   }
 }
 
-/// The fine sites that blocks in the making are made of.
+/// The set of fine sites that contribute to the blocks that the coarse level stores.
 class Needed {
  public:
   Needed(const StencilLevel& coarse, const TrilinearTransfer& transfer, int reach)
@@ -78,11 +78,11 @@ int reach_between(const TrilinearTransfer& transfer, int reach) {
   return found;
 }
 
-/// A coarse site that both ends of a spring, or one, are interpolated from.
+/// A coarse site from which one or both ends of a spring are interpolated.
 struct End {
   std::int64_t i, j, k;
   double difference[4],
-      sum[4];  ///< by component: weight at the far end less that at the near one, and both together
+      sum[4];  ///< by component: weight at the far end minus and plus the weight at the near end
 };
 
 int collect_ends(const Family& near, std::uint8_t free_near, const Family& far,
@@ -104,8 +104,8 @@ int collect_ends(const Family& near, std::uint8_t free_near, const Family& far,
   return count;
 }
 
-/// What a spring with these ends adds to the blocks between them; counted from the coarse site
-/// `from`. Returns how many blocks.
+/// Computes the contributions of a spring with these ends to the coarse blocks, with places
+/// relative to the coarse site `from`. Returns the number of contributions.
 int parts_of(const StencilLevel& coarse, const Parent& from, const End* ends, int count,
              CoarsePart* parts) {
   const GridLayout& layout = coarse.layout();
@@ -121,7 +121,7 @@ int parts_of(const StencilLevel& coarse, const Parent& from, const End* ends, in
       part.place = places;
       part.neighbour = n;
       for (int c = 0; c < 4; ++c)
-        for (int d = 0; d < 4; ++d) {  // of a cross spring, heights add up
+        for (int d = 0; d < 4; ++d) {  // in a cross spring the heights of both ends add up
           part.base[4 * c + d] = a.difference[c] * b.difference[d];
           part.cross[4 * c + d] =
               (c < 3 ? a.difference[c] : a.sum[c]) * (d < 3 ? b.difference[d] : b.sum[d]);
@@ -130,8 +130,8 @@ int parts_of(const StencilLevel& coarse, const Parent& from, const End* ends, in
   return found;
 }
 
-/// The same for all springs to one neighbour from sites that are alike: even or odd along each
-/// axis, and free at both ends.
+/// The contributions of all springs without held ends: they are equal for the same neighbour and
+/// the same parity (even or odd) of the site along each axis.
 class Parts {
  public:
   Parts(const StencilLevel& coarse, const TrilinearTransfer& transfer, const StaticGrid& grid) {
@@ -265,7 +265,7 @@ std::unique_ptr<StencilLevel> coarsen(const StencilLevel& fine, const TrilinearT
                       };
                       if (to >= 0) add(P, to, block);
                       if (to <= 0 && n != 0)
-                        add(Q, -to, turned);  // the same block from the other end
+                        add(Q, -to, turned);  // the transposed block, from the other end
                     }
                 }
           }

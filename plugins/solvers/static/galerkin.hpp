@@ -1,6 +1,6 @@
-// The stiffness of a coarser level: P^T K P, with P the interpolation from it, 0 in what is held.
-// So a coarse level knows every hole, broken spring, border of materials and support of the level
-// below.
+// The stiffness of a coarser level by Galerkin projection, P^T K P. P is the interpolation from the
+// coarser level, 0 for held components. So a coarse level includes every hole, broken spring,
+// material boundary and support of the finer level.
 #pragma once
 
 #include "spring_level.hpp"
@@ -10,6 +10,7 @@
 
 namespace hyperlattice::statics {
 
+/// Returns the level that is coarser than `fine` by one step.
 std::unique_ptr<StencilLevel> coarsen(const SpringLevel& fine, const TrilinearTransfer& transfer);
 std::unique_ptr<StencilLevel> coarsen(const StencilLevel& fine, const TrilinearTransfer& transfer);
 

@@ -1,4 +1,5 @@
-// A structured lattice: its springs, never assembled, and multigrid.
+// The system of a structured lattice: the tangent is not assembled but applied spring by spring,
+// with geometric multigrid as preconditioner.
 #pragma once
 
 #include "spring_multigrid.hpp"

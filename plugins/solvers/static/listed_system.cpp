@@ -82,7 +82,7 @@ void ListedSystem::assemble(const Field& u) {
         const double across = e == f ? 1 : -1;
         for (std::size_t a = 0; a < components_; ++a)
           for (std::size_t b = 0; b < components_; ++b) {
-            // of a cross spring, heights add up
+            // in a cross spring the heights of both ends add up
             const double sign = (a < 3 && e == 0 ? -1.0 : 1.0) * (b < 3 && f == 0 ? -1.0 : 1.0);
             to[a * components_ + b] +=
                 across * tangent.base[4 * a + b] + sign * tangent.cross[4 * a + b];

@@ -1,5 +1,5 @@
-// A listed lattice: the tangent assembled, in blocks of a particle and a neighbour each. What
-// solves with it roughly is a class above this one.
+// The system of a listed lattice: the tangent is assembled, with one block for each pair of a
+// particle and a neighbour. Derived classes add the preconditioner.
 #pragma once
 
 #include "spring_tangent.hpp"
@@ -19,17 +19,15 @@ class ListedSystem : public System {
   void for_springs(const Join& join) const override;
 
   const StaticGrid& grid() const { return grid_; }
-  std::size_t blocks() const {
-    return column_.size();
-  }  ///< of the tangent, a particle's own among them
-  double largest_pull() const {
-    return components_ == 4 ? largest_magnitude(pull_) : 0;
-  }  ///< N/m, of base springs where heights can move
+  /// Returns the number of blocks of the tangent, diagonal blocks included.
+  std::size_t blocks() const { return column_.size(); }
+  /// Returns the largest |f / L| of a base spring, N/m, or 0 without a free membrane.
+  double largest_pull() const { return components_ == 4 ? largest_magnitude(pull_) : 0; }
   double softest_height() const override;
-  /// Whether a number of a field can move and has stiffness.
+  /// Returns whether a component (index in a field) is free and has stiffness.
   bool is_unknown(std::size_t number) const;
-  /// Calls visit(column, value) for the entries of a row of the tangent, N/m; row and columns are
-  /// numbers of a field. Columns of one component ascend, also those of what cannot move.
+  /// Calls visit(column, value) for the entries of a row of the tangent, N/m, held columns
+  /// included. Row and columns are indices in a field; the columns of one component ascend.
   template <class Visit>
   void for_row(std::size_t row, const Visit& visit) const {
     const auto places = static_cast<std::size_t>(grid_.places);
@@ -50,10 +48,10 @@ class ListedSystem : public System {
   const StaticGrid& grid_;
   std::size_t components_, block_size_;
   std::vector<std::size_t>
-      first_;  ///< of each particle, where its blocks begin; one more entry at the end
+      first_;  ///< first block of each particle, and the number of all blocks at the end
   std::vector<std::int64_t>
-      column_;    ///< of each block, ascending in a row; a particle's own among them
-  Field blocks_;  ///< row by row, N/m
+      column_;    ///< particle of each block's column, ascending in a row, diagonal included
+  Field blocks_;  ///< [block][a][b], N/m
   Floats axial_, pull_, cross_axial_, cross_pull_, alpha_;
 };
 

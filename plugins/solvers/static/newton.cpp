@@ -31,7 +31,7 @@ Outcome Newton::solve_load_step(double share, Field& displacement) {
 Outcome Newton::iterate(double share, Field& displacement) {
   Field u = displacement;
   problem_.load(share, external_.data());
-  Field change = u;  // of what the loads move
+  Field change = u;  // change of the prescribed displacements
   problem_.prescribe(share, change.data());
   for (std::size_t n = 0; n < change.size(); ++n) change[n] -= u[n];
 
@@ -39,7 +39,7 @@ Outcome Newton::iterate(double share, Field& displacement) {
     switch (step(change, u)) {
       case StepResult::converged: {
         const bool linear = n == 0 && largest(displacement) == 0 &&
-                            !may_wrinkle(u);  // the undeformed body's tangents were true to the end
+                            !may_wrinkle(u);  // the tangent of the undeformed body is still valid
         Outcome found = limits_.stable && !linear ? check_stability(u) : Outcome{.at_rest = true};
         if (found.at_rest) displacement = u;
         return found;
@@ -54,8 +54,7 @@ Outcome Newton::iterate(double share, Field& displacement) {
       case StepResult::indefinite_tangent:
         return no_stiffness(u, n == 0, "it has no stiffness against a motion",
                             gradients_.direction());
-      case StepResult::no_progress:  // what they found by then is for the most part the motion that
-                                     // they cannot resist
+      case StepResult::no_progress:  // x is then mostly the motion without resistance
         return no_stiffness(u, n == 0,
                             "it has next to no stiffness against a motion that the loads drive",
                             gradients_.x());
@@ -67,8 +66,8 @@ Outcome Newton::iterate(double share, Field& displacement) {
   return careful_ ? explain_failure(displacement, u) : Outcome{};
 }
 
-/// Why a careful search from the state of rest `last` failed: a motion that u, which it came to,
-/// does not resist, or else the motion to u.
+/// Returns why a search with line search failed. It started at the state of rest `last` and ended
+/// at u. The direction is a motion that u does not resist or, if none is found, the motion to u.
 Outcome Newton::explain_failure(const Field& last, const Field& u) {
   system_.linearise(u, force_);
   system_.prepare();
@@ -82,7 +81,7 @@ Outcome Newton::explain_failure(const Field& last, const Field& u) {
           .direction = std::move(away)};
 }
 
-/// Why conjugate gradients found no direction.
+/// Returns why conjugate gradients failed.
 std::string Newton::linear_solver_failure() const {
   const double stiffest = system_.stiffest();
   if (!std::isfinite(stiffest))
@@ -107,9 +106,9 @@ Outcome Newton::no_stiffness(const Field& u, bool hopeless, const char* why,
   return {.hopeless = hopeless, .why = why, .direction = direction};
 }
 
-/// Whether the springs strained by u may hold the heights otherwise than those of the undeformed
-/// body, whose tangents are the present ones. That changes no force while the heights are smooth,
-/// so it is not seen in the residual.
+/// Returns whether the strains of u may change the stiffness of the heights, against the undeformed
+/// body, whose tangents are the present ones. The residual does not show this: smooth heights have
+/// the same forces.
 bool Newton::may_wrinkle(const Field& u) const {
   const StaticGrid& grid = problem_.grid;
   if (grid.components < 4) return false;
@@ -123,7 +122,7 @@ bool Newton::may_wrinkle(const Field& u) const {
                                  system_.softest_height());
 }
 
-/// Whether the state of rest u is stable.
+/// Checks whether the state of rest u is stable, and prepares the system at u.
 Outcome Newton::check_stability(const Field& u) {
   system_.linearise(u, force_);
   system_.prepare();
@@ -135,8 +134,8 @@ Outcome Newton::check_stability(const Field& u) {
           .direction = std::move(motion)};
 }
 
-/// The out-of-balance forces at a part of the way from u to u + moved, and what they are compared
-/// with. False: they are not finite.
+/// Evaluates the out-of-balance forces and the residual at trial_ = u + part * moved. Returns false
+/// if they are not finite.
 bool Newton::evaluate_residual(const Field& u, const Field& moved, double part) {
   for (std::size_t n = 0; n < u.size(); ++n) trial_[n] = u[n] + part * moved[n];
   problem_.respond(trial_.data(), rest_.data(), nullptr);
@@ -148,10 +147,10 @@ bool Newton::evaluate_residual(const Field& u, const Field& moved, double part) 
   return std::isfinite(left);
 }
 
-/// The end of a step that was just looked at becomes u; in a careful search, where the
-/// out-of-balance forces there do not work against the step by more than half of what they do for
-/// it at its start. Else the potential rises again: a shorter step ends about where it is least.
-/// False: forces are not finite.
+/// Moves u to the end of the step that was evaluated last. A careful search first shortens the step
+/// while the work of the out-of-balance forces along the step at its end is below -1/2 of the work
+/// at its start: the potential rises again there, and a shorter step ends near its minimum. Returns
+/// false if forces are not finite.
 bool Newton::step_along(const Field& moved, Field& u) {
   constexpr double too_far = 0.5, least = 0.1, most = 0.5;
   constexpr int tries = 8;
@@ -169,9 +168,9 @@ bool Newton::step_along(const Field& moved, Field& u) {
   return std::isfinite(report_.residual);
 }
 
-/// One step of Newton's method, in which held components change by `change`. Conjugate gradients go
-/// on while the forces at the present end of the step agree with what the tangent says of them;
-/// from there on a new tangent serves better.
+/// Makes one step of Newton's method, in which held components change by `change`. Conjugate
+/// gradients stop when the forces at the present end of the step differ from the prediction of the
+/// tangent: then a new tangent is more useful.
 Newton::StepResult Newton::step(const Field& change, Field& u) {
   constexpr double first_look = 1e-2, agreement = 0.5, done = 0.7;
   const bool prepared = std::exchange(prepared_, false);
@@ -214,13 +213,13 @@ Newton::StepResult Newton::step(const Field& change, Field& u) {
       report_.displacement_error = size > 0 ? largest(error) / size : 0;
       return host_.report(report_) ? StepResult::converged : StepResult::cancelled;
     }
-    double bent = 0;  // what the tangent does not know
+    double bent = 0;  // largest force that the tangent does not predict
     for (std::size_t m = 0; m < rest_.size(); ++m)
       bent = std::max(bent, std::abs(rest_[m] - unit * gradients_.residual()[m]));
     if (bent > agreement * left) {
       if (!moves)
         return step_along(moved, u) ? StepResult::reduced_residual : StepResult::not_finite;
-      u = trial_;  // what is held has to go there
+      u = trial_;  // held components must reach their prescribed displacements
       return StepResult::reduced_residual;
     }
     next_look = std::max(std::min(bent, 0.5 * left), done * limits_.tolerance * scale_);

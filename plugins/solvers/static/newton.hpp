@@ -1,5 +1,6 @@
-// A state of rest at given loads, by Newton's method with the exact tangent; each step of it by
-// conjugate gradients, only as far as the tangent is true.
+// Newton's method for a state of rest at given loads, with the exact tangent:
+//   K(u) du = F(u),  u := u + du.
+// Conjugate gradients solve each step, only as far as the tangent predicts the forces well.
 #pragma once
 
 #include "system.hpp"
@@ -13,31 +14,32 @@
 namespace hyperlattice::statics {
 
 struct Limits {
-  double tolerance = 1e-6;  ///< residual
-  int newton = 30;          ///< steps, before the load step is given up
-  bool stable = true;       ///< states of rest must be stable ones
+  double tolerance = 1e-6;  ///< residual of a state of rest
+  int newton = 30;          ///< most Newton steps of a load step
+  bool stable = true;       ///< whether states of rest must be stable
 };
 
-/// What became of a search.
+/// The outcome of the search for a state of rest.
 struct Outcome {
   bool at_rest = false;
-  bool hopeless = false;  ///< if not, whether a smaller step of the load could not do better: the
-                          ///< state before has no stiffness
-  std::string why{};      ///< if not, a sentence
-  bool buckles = false;   ///< if not, whether there is a state of rest, but no stable one
-  bool rigid = false;  ///< if not, whether it moves as a rigid body or piece, which `why` tells of
-  Field direction{};   ///< if not, how the body moves where it has no stiffness; may be empty
+  // The members below have a meaning only if at_rest is false.
+  bool hopeless = false;  ///< a smaller load step cannot help: the state before has no stiffness
+  std::string why{};      ///< reason, a sentence
+  bool buckles = false;   ///< the search came to states whose stiffness is negative
+  bool rigid = false;     ///< the body or a piece moves as a rigid body, described in `why`
+  Field direction{};  ///< motion without stiffness, or from the last state of rest; may be empty
 };
 
 class Newton {
  public:
   Newton(System& system, const SolverHost& host, const Limits& limits);
 
-  /// From the displacements of a state of rest to those at a share of the load; by whole steps
-  /// first, and with a line search if they fail.
+  /// Changes the displacements from those of a state of rest to those at the fraction `share` of
+  /// the load. The first search takes full Newton steps; a second one, with a line search, follows
+  /// if the first fails.
   Outcome solve_load_step(double share, Field& displacement);
   const RestReport& report() const { return report_; }
-  bool stopped() const { return stopped_; }  ///< the host asked to
+  bool stopped() const { return stopped_; }  ///< whether the host stopped the search
 
  private:
   enum class StepResult {
@@ -65,9 +67,9 @@ class Newton {
   const SolverHost& host_;
   Limits limits_;
   numerics::ConjugateGradients gradients_;
-  bool careful_ = false;   ///< steps that go too far are shortened
-  bool prepared_ = false;  ///< tangents and preconditioner are those of the state that the next
-                           ///< search starts from
+  bool careful_ = false;   ///< whether a line search shortens steps that go too far
+  bool prepared_ = false;  ///< whether tangents and preconditioner belong to the state at which the
+                           ///< next search starts
   Field external_, force_, trial_, rest_, right_, held_part_;
   double scale_ = 0;
   bool stopped_ = false;

@@ -1,4 +1,4 @@
-// What this solver takes from the library of numerics, and calls as if it were its own.
+// The names of the numerics library that this solver uses without a prefix.
 #pragma once
 
 #include <numerics/trilinear_transfer.hpp>

@@ -16,8 +16,8 @@ using simd::store;
 
 void add(double* to, const Pack& pack) { store(to, load(to) + pack); }
 
-/// Eight places at a time, all springs of these: what they do to their own place stays in registers
-/// until the last.
+/// Adds K times a field for eight places at a time and all their springs. The sums of these places
+/// stay in registers until the last spring.
 template <bool Heights, bool Deformed>
 void springs_of(const SpringProduct& s) {
   constexpr std::size_t components = Heights ? 4 : 3;
@@ -43,11 +43,11 @@ void springs_of(const SpringProduct& s) {
       if constexpr (Deformed)
         for (std::size_t c = 0; c < 3; ++c) r[c] += moved(c);
       const Pack along = r[0] * apart[0] + r[1] * apart[1] + r[2] * apart[2], axial = next();
-      Pack sum, straight;  // forces along the spring, and against any motion
+      Pack sum, straight;  // force along the spring; stiffness (pull) against any motion
       if constexpr (Heights) {
         const Pack cross_axial = next(), together = load(s.in[3] + at) + here[3];
         Pack total = s.membrane_distance,
-             both;  // of both ends: cross springs press both heights the same way
+             both;  // force of the cross spring on the heights, equal at both ends
         if constexpr (Deformed) {
           const Pack pull = next(), cross_pull = next(), rise = moved(3);
           total += load_as<double>(s.moved[3] + at) + load_as<double>(s.moved[3] + t);
@@ -78,7 +78,7 @@ void springs_of(const SpringProduct& s) {
       }
     }
     for (std::size_t c = 0; c < components; ++c)
-      add(s.out[c] + t, own[c]);  // others in the row may have added to it meanwhile
+      add(s.out[c] + t, own[c]);  // other places of the row may have added to out meanwhile
   }
 }
 

@@ -2,7 +2,7 @@
 
 namespace hyperlattice::statics {
 
-/// One axis after the other: each number becomes that of all in the window around it.
+// The axes follow each other: a signature becomes the hash of all signatures in its window.
 Signatures coarse_signatures(Signatures sites, const TrilinearTransfer& transfer, int reach) {
   std::array<std::int64_t, 3> box = transfer.fine_sites();
   for (int axis = 0; axis < 3; ++axis) {

@@ -1,6 +1,6 @@
-// Which sites of a coarse level have the same blocks: those that are made of the same springs. Each
-// has a number that stands for all of them, and blocks are made and kept once a number: of a box of
-// one material there are about a hundred, whatever its size.
+// Signatures tell which sites of a coarse level have the same blocks, because they are made of the
+// same springs. A signature is a hash of these springs. Blocks are computed and stored once per
+// signature: a box of one material has about a hundred, at any size.
 #pragma once
 
 #include "numerics.hpp"
@@ -11,15 +11,16 @@
 
 namespace hyperlattice::statics {
 
-using Signatures = std::vector<std::uint64_t>;  ///< of the sites of a box, [(k * ny + j) * nx + i]
+using Signatures = std::vector<std::uint64_t>;  ///< one for each site, [(k * ny + j) * nx + i]
 
+/// Returns the signature extended by some bits.
 constexpr std::uint64_t signed_by(std::uint64_t signature, std::uint64_t bits) {
   return mixed_bits(signature ^ bits);
 }
 
-/// Of the coarse sites, from those of the fine ones, which are joined to others up to `reach` sites
-/// away. That two sites which differ have one number is next to impossible, and would spoil a
-/// preconditioner, no solution.
+/// Returns the signatures of the coarse sites from those of the fine sites, whose springs reach up
+/// to `reach` sites. Two different sites with the same signature are almost impossible; they would
+/// make the preconditioner worse but not the solution wrong.
 Signatures coarse_signatures(Signatures fine, const TrilinearTransfer& transfer, int reach);
 
 }  // namespace hyperlattice::statics

@@ -59,7 +59,7 @@ double SpringLevel::linearise(const Field& displacement, Field& force) {
     moved_[n] = static_cast<float>(displacement[n] / grid_.spacing);
   invert_diagonal();
   constexpr float little = 0.02F;
-  constexpr double bound = 2.02, slack = 1 + little;  // 2 holds for any sum of springs that are not
+  constexpr double bound = 2.02, slack = 1 + little;  // 2 is a bound for springs that are not
                                                       // compressed, see StiffnessBound
   largest_pull_ = grid_.components == 4 && deformed_ ? largest_magnitude(pull_) : 0;
   new_ = moved_when_prepared_.empty() || largest_change() > little ||
@@ -77,7 +77,8 @@ void SpringLevel::prepared() {
   new_ = false;
 }
 
-/// By how much a spring was strained or turned since the last preparation, at most.
+/// Returns the largest change since the last preparation of a component of the vector between the
+/// ends of a spring, in lattice constants.
 float SpringLevel::largest_change() const {
   float largest = 0;
   for (int c = 0; c < grid_.components; ++c) {
@@ -95,8 +96,8 @@ float SpringLevel::largest_change() const {
   return largest;
 }
 
-/// Calls visit(number of the row, its first place, count) for the rows that are not empty; planes
-/// at once where their springs share no place.
+/// Calls visit(row, first place, count) for the rows that are not empty, in parallel for planes
+/// whose springs share no place.
 template <class Visit>
 void SpringLevel::for_rows(const Visit& visit) const {
   int reach = 1;
@@ -178,8 +179,8 @@ bool SpringLevel::tangent(std::size_t neighbour, std::int64_t place, SpringBlock
   return true;
 }
 
-/// Of all that a site's springs are and what of it can move. In a deformed body every site is its
-/// own.
+/// Returns a signature of each site from the stiffness of its springs and its free components. In a
+/// deformed body each site has its own signature.
 Signatures SpringLevel::signatures() const {
   Signatures all(static_cast<std::size_t>(grid_.sites[0]) *
                  static_cast<std::size_t>(grid_.sites[1]) *

@@ -1,4 +1,4 @@
-// The finest level: the tangents of the lattice's own springs, never assembled.
+// The finest level of multigrid: the tangents of the lattice's springs, applied without assembly.
 #pragma once
 
 #include "numerics.hpp"
@@ -15,8 +15,8 @@ class SpringLevel : public GridLevel {
  public:
   explicit SpringLevel(const StaticProblem& problem);
 
-  /// Takes the tangents at a displacement; returns the energy stored there, J, and the forces of
-  /// the springs.
+  /// Computes the tangents at a displacement. Returns the stored energy, J, and in `force` the
+  /// forces of the springs, N.
   double linearise(const Field& displacement, Field& force);
 
   void multiply(const double* x, double* y) const override;
@@ -24,20 +24,19 @@ class SpringLevel : public GridLevel {
   void mask(double* x) const override;
   double largest_eigenvalue() const override { return largest_eigenvalue_; }
 
-  /// Whether the tangents differ so much from those at the last call of prepared() that what was
-  /// prepared must be made anew: a spring has been strained or turned by more than a little since
-  /// then, or heights are held otherwise. If false, what was prepared then still serves.
+  /// Returns whether the preconditioner must be made again: since the last call of prepared(), a
+  /// spring was strained or turned by more than 0.02, or the stiffness of heights changed much.
   bool is_new() const { return new_; }
-  /// Says that all has been prepared for the present tangents.
+  /// Marks the preconditioner as made for the present tangents.
   void prepared();
 
-  /// False if there is no spring.
+  /// Computes the tangent of the spring from a place to a neighbour. Returns false if there is no
+  /// spring.
   bool tangent(std::size_t neighbour, std::int64_t place, SpringBlocks& blocks) const;
   bool has_spring(std::size_t neighbour, std::int64_t place) const;
   double stiffest() const;  ///< largest tangent of a spring, N/m
-  double softest_height() const {
-    return softest_height_;
-  }  ///< least stiffness of a height, N/m; infinite where none can move
+  /// Returns the least stiffness of a height, N/m; infinite if no height can move.
+  double softest_height() const { return softest_height_; }
   float alpha(std::int64_t place) const {
     return alpha_.empty() ? 0 : alpha_[static_cast<std::size_t>(place)];
   }
@@ -53,20 +52,19 @@ class SpringLevel : public GridLevel {
   const RowKernels* row_kernels_ = &row_kernels();
   const StaticProblem& problem_;
   const StaticGrid& grid_;
-  std::vector<Direction> directions_;  ///< to each neighbour
+  std::vector<Direction> directions_;  ///< one for each neighbour
   TangentRows rows_;
   Floats axial_, pull_, cross_axial_, cross_pull_, alpha_;
   Floats moved_,
-      moved_when_prepared_;  ///< displacements in lattice constants, by component and place
+      moved_when_prepared_;  ///< displacements in lattice constants, [component][place]
   double largest_pull_ = 0,
-         pull_when_prepared_ = 0;     ///< N/m, of base springs where heights can move
+         pull_when_prepared_ = 0;     ///< largest |f / L| of base springs, N/m; 0 without heights
   double softest_height_ = infinity;  ///< N/m, least stiffness of a height
   bool new_ = true;
   bool deformed_ = false;
   double largest_eigenvalue_ = 2;
-  Floats diagonal_;  ///< inverse of the diagonal blocks: 10 (6) numbers of each place, by number
-                     ///< and place
-  std::vector<std::int64_t> held_;  ///< numbers of a field that belong to particles and cannot move
+  Floats diagonal_;  ///< inverse diagonal blocks, [number][place]: 10 numbers with heights, else 6
+  std::vector<std::int64_t> held_;  ///< indices in a field of held components
 };
 
 }  // namespace hyperlattice::statics

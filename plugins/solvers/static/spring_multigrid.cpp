@@ -4,7 +4,7 @@ namespace hyperlattice::statics {
 
 namespace {
 
-constexpr std::int64_t few_sites = 300;  // for the factorisation
+constexpr std::int64_t few_sites = 300;  // largest level that is factorised
 
 }  // namespace
 

@@ -1,5 +1,5 @@
-// The preconditioner of a structured lattice: geometric multigrid, whose coarse levels are made of
-// the springs (galerkin.hpp).
+// The preconditioner of a structured lattice: geometric multigrid, whose coarse levels are made
+// from the tangents of the springs (galerkin.hpp).
 #pragma once
 
 #include "coarsest.hpp"
@@ -15,10 +15,10 @@ class SpringMultigrid {
  public:
   explicit SpringMultigrid(const SpringLevel& finest) : finest_(finest) {}
 
-  /// The coarse levels, from the finest's present tangents. Throws std::runtime_error if the
-  /// coarsest cannot be factorised.
+  /// Makes the coarse levels from the present tangents of the finest level. Throws
+  /// std::runtime_error if the coarsest level cannot be factorised.
   void build();
-  /// z, about K^-1 r. After build().
+  /// Computes z, an approximation of K^-1 r. Needs build() before.
   void apply(const Field& r, Field& z) { cycle_->apply(r, z); }
   std::size_t levels() const { return 1 + coarse_.size(); }
 

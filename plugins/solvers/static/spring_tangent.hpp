@@ -1,19 +1,22 @@
-// The tangent of one spring, and of the cross spring beside it, as blocks.
+// The tangent of one base spring and of its cross spring as 4 x 4 blocks,
+//   K = axial r r^T + pull I,
+// with the vector r between the ends in lattice constants (kernels/tangent.hpp).
 #pragma once
 
 namespace hyperlattice::statics {
 
-/// What a spring is, in N/m, see SpringTangents; 0 where there is none.
+/// The tangent of a spring, N/m, see SpringTangents; 0 if there is no spring.
 struct SpringNumbers {
   float axial = 0, pull = 0, cross_axial = 0, cross_pull = 0;
 };
 
-/// K_base on differences of ends, K_cross where heights add up, both row by row in 4 x 4.
+/// The 4 x 4 blocks, row by row: K_base acts on the difference of the ends; K_cross acts on the
+/// difference of displacements and the sum of heights.
 struct SpringBlocks {
   double base[16], cross[16];
 
-  /// r: from end to end, with the difference of heights; total: Delta and the heights' sum; all in
-  /// lattice constants. heights: whether membranes can move.
+  /// r: vector from end to end, with the difference of heights; total: Delta plus both heights; all
+  /// in lattice constants. heights: whether the membrane is free.
   SpringBlocks(const SpringNumbers& numbers, const float (&r)[4], float total, bool heights) {
     const float q[4] = {r[0], r[1], r[2], total};
     for (int a = 0; a < 4; ++a)

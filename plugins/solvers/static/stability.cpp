@@ -8,7 +8,7 @@ namespace hyperlattice::statics {
 
 namespace {
 
-/// Random numbers, the same in every run, for all that can move.
+/// Returns random numbers for all free components, the same in every run.
 Field rough_field(const System& system) {
   const StaticGrid& grid = system.problem().grid;
   Field rough(grid.numbers(), 0);
@@ -41,8 +41,8 @@ Field softening_motion(System& system, numerics::ConjugateGradients& gradients,
   }
   if (!goes_on && softens(gradients.direction(), gradients.curvature()))
     return gradients.direction();
-  // The preconditioner leaves alone what has no stiffness by itself, such as heights that
-  // compression has robbed of theirs: that is left.
+  // The preconditioner does not act on components without stiffness, such as heights that have lost
+  // theirs by compression: these remain in the residual.
   Field resisting(left.size());
   system.multiply(left.data(), resisting.data());
   return softens(left, product(left.data(), resisting.data(), left.size(), system.threads()))

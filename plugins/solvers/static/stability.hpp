@@ -1,4 +1,4 @@
-// Whether a state of rest is a stable one.
+// The stability of a state of rest: it is unstable if the tangent K has a negative eigenvalue.
 #pragma once
 
 #include "system.hpp"
@@ -7,9 +7,10 @@
 
 namespace hyperlattice::statics {
 
-/// A motion along which the present tangents, prepared, are negative: the body buckles along it.
-/// Empty if none is found. Conjugate gradients from a rough field meet it, if there is one, as the
-/// preconditioner makes the softest motions the largest. Free rigid motions do not count.
+/// Returns a motion x with x . K x < 0, along which the body buckles; empty if none is found. The
+/// system must be prepared. The search is conjugate gradients for a random right side: the
+/// preconditioner makes the softest motions the largest, so that they meet such a motion if it
+/// exists. Free rigid motions do not count.
 Field softening_motion(System& system, numerics::ConjugateGradients& gradients,
                        const Field& displacement);
 

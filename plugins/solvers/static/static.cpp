@@ -1,5 +1,6 @@
-// A state of rest, found as such: Newton's method on the balance of forces, with steps of the load
-// that become shorter where it does not converge.
+// Static equilibrium by Newton's method,
+//   F_springs(u) + F_loads = 0,
+// in load steps that are halved (cutback) if the method does not converge.
 #include "aggregated_system.hpp"
 #include "factorised_system.hpp"
 #include "failure.hpp"
@@ -127,7 +128,7 @@ class Static {
  private:
   std::unique_ptr<statics::System> system_of(const StaticProblem& problem) const {
     constexpr std::int64_t few =
-        4000;  // numbers, of which a whole factorisation takes no longer than iterations
+        4000;  // unknowns up to which a complete factorisation is as fast as multigrid
     const bool small = static_cast<std::int64_t>(problem.grid.numbers()) <= few;
     if (problem.grid.listed && (o_.preconditioner == Preconditioner::multigrid ||
                                 (o_.preconditioner == Preconditioner::automatic && !small)))

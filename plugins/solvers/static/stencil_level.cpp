@@ -18,12 +18,11 @@ GridLayout layout_of(const std::array<std::int64_t, 3>& sites, std::int64_t reac
   return layout;
 }
 
-/// The inverse of a symmetric block. Rows without stiffness get zeros.
+/// Inverts a symmetric positive block by Gauss-Jordan elimination. Rows without stiffness become 0.
 void invert_block(const double* block, double* inverse) {
   constexpr int size = 4;
-  // Gauss-Jordan of a symmetric positive block; a pivot that vanishes beside the largest of its
-  // kind belongs to nothing that has stiffness. Heights may be a billion times as stiff as space,
-  // or as soft: each kind is measured by itself.
+  // A component has no stiffness if its pivot is below 1e-7 of the largest diagonal entry. Heights
+  // may be 1e9 times stiffer or softer than displacements, so both have their own limit.
   double a[4][8] = {};
   const double in_space = std::max({block[0], block[5], block[10]}), of_heights = block[15];
   for (int i = 0; i < size; ++i) {
@@ -54,7 +53,7 @@ StencilLevel::StencilLevel(const std::array<std::int64_t, 3>& sites, int reach,
                            const Signatures& signatures, int threads)
     : GridLevel(layout_of(sites, reach), threads), reach_(reach) {
   constexpr std::int64_t few =
-      16384;  // places; with fewer, threads would wait for each other longer than they work
+      16384;  // places; for fewer, waiting of threads takes longer than their work
   if (layout_.places < few) threads_ = 1;
   // Forward neighbours in the order of neighbour(): every one with a number above 0.
   for (std::int64_t dk = 0; dk <= reach; ++dk)

@@ -8,7 +8,7 @@ namespace hyperlattice::statics {
 
 namespace {
 
-std::uint64_t hash(const float* numbers, std::size_t size) {  // size: a multiple of eight
+std::uint64_t hash(const float* numbers, std::size_t size) {  // size is a multiple of eight
   std::uint64_t all[4] = {1, 2, 3, 4};
   for (std::size_t n = 0; n < size; n += 8) {
     std::uint64_t bits[4];

@@ -1,4 +1,4 @@
-// Vectors in sentences.
+// Vectors as text for messages.
 #pragma once
 
 #include <hyperlattice/files.hpp>
@@ -11,7 +11,7 @@ inline std::string short_vector(Vec3 v, int digits = 4) {
          short_number(v.z, digits) + ")";
 }
 
-/// Of length one, to two places.
+/// Returns the direction of a vector as a unit vector with two decimal places.
 inline std::string direction_text(Vec3 v) {
   const auto rounded = [length = norm(v)](double value) {
     return std::round(100 * value / length) / 100 + 0.0;

@@ -1,6 +1,6 @@
-// The block diagonal D of a matrix and its inverse: what block Jacobi and smoothers above it divide
-// by. Nodes on few springs are soft in directions that lie askew to the axes; smoothers that take
-// one number after the other hardly see these.
+// The block diagonal D of a matrix and its inverse, for block Jacobi and smoothers built on it.
+// Nodes with few springs are soft in directions oblique to the axes; smoothers that treat one
+// number after the other hardly reduce errors in these directions.
 #pragma once
 
 #include <numerics/fields.hpp>
@@ -12,27 +12,28 @@
 
 namespace hyperlattice::numerics {
 
-/// What a smoother knows of a matrix whose rows belong to nodes, `components` in turn each.
+/// The data of a smoother for a matrix with `components` rows for each node.
 struct NodeBlocks {
   std::size_t components = 3;
-  std::vector<double> inverse;  ///< of each node's block, row by row; 0 where there is no stiffness
-  double largest = 2;           ///< eigenvalue of the inverse blocks times the matrix, or more
+  /// Inverse of each node's block, row by row; 0 where there is no stiffness.
+  std::vector<double> inverse;
+  double largest = 2;  ///< upper bound of the eigenvalues of the inverse blocks times the matrix
 };
 
-/// Of fields by component and node, [c * nodes + n], with up to four components. Inverses are those
-/// of BlockInverse.
+/// Block Jacobi for fields by component and node, [c * nodes + n], with up to four components.
+/// Inverses are those of BlockInverse.
 class BlockJacobi {
  public:
   struct Block {
-    Eigen::Matrix4d matrix =
-        Eigen::Matrix4d::Zero();  ///< 0 in rows and columns that are no unknowns
+    /// 0 in rows and columns that are not unknowns.
+    Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
     std::array<bool, 4> unknown{};
   };
   using BlockOf = std::function<Block(std::size_t node)>;
-  /// block_of is called by several threads and does not throw. No errors: see BlockInverse.
+  /// Several threads call block_of, which must not throw. Never throws: see BlockInverse.
   BlockJacobi(std::size_t nodes, std::size_t components, int threads, const BlockOf& block_of);
 
-  /// Calls use(number, value) for D^-1 r, nodes at once.
+  /// Calls use(number, value) for each number of D^-1 r, several threads at once.
   template <class Use>
   void for_inverse_times(const Field& r, const Use& use) const {
     in_pieces(nodes_, threads_, [&](std::size_t first, std::size_t last) {
@@ -45,23 +46,22 @@ class BlockJacobi {
         }
     });
   }
-  /// What is added, in the matrix's unit, to an entry between two numbers of one node, so that the
-  /// node's block is nowhere softer than a share of its largest stiffness: conjugate gradients
-  /// shall not be led into motions of single particles that hang on two springs.
+  /// Returns the value, in the matrix's unit, to add to an entry between two numbers of one node,
+  /// so that no direction of the node's block is softer than a fraction of its largest stiffness:
+  /// conjugate gradients must not follow motions of single particles with only two springs.
   double added(std::size_t row, std::size_t column) const {
     return added_[(row % nodes_ * components_ + row / nodes_) * components_ + column / nodes_];
   }
 
   std::size_t components() const { return components_; }
-  const Field& inverse() const {
-    return inverse_;
-  }  ///< of each node's block, row by row; 0 where there is no unknown
+  /// Returns the inverse of each node's block, row by row; 0 where there is no unknown.
+  const Field& inverse() const { return inverse_; }
 
  private:
   std::size_t nodes_, components_;
   int threads_;
   Field inverse_;
-  Field added_;  ///< the same for added()
+  Field added_;  ///< added parts of each node's block, row by row
 };
 
 }  // namespace hyperlattice::numerics

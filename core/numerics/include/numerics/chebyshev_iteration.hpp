@@ -1,21 +1,22 @@
-// The steps of a Chebyshev iteration on A x = b, which damps eigenvalues of D^-1 A from the largest
-// down to a share of it, all alike (Saad 2003, algorithm 12.1): d <- keep d + take D^-1 (b - A x),
-// x <- x + d.
+// The steps of a Chebyshev iteration on A x = b. It damps equally all eigenvalues of D^-1 A from
+// the largest down to a fixed fraction of it (Saad 2003, algorithm 12.1):
+//   d <- keep d + take D^-1 (b - A x),   x <- x + d.
 #pragma once
 
 namespace hyperlattice::numerics {
 
 class ChebyshevIteration {
  public:
-  /// largest: eigenvalue of D^-1 A, or more; above 0. No errors.
+  /// `largest`: upper bound of the eigenvalues of D^-1 A; above 0. Never throws.
   explicit ChebyshevIteration(double largest)
       : middle_(largest * (1 + 1 / share) / 2),
         half_(largest * (1 - 1 / share) / 2),
         rho_(half_ / middle_) {}
 
-  static constexpr int degree = 2;  ///< steps of a smoother
+  static constexpr int degree = 2;  ///< number of steps of a smoother
 
-  /// A step: keep times the last one, and take times the rest that the inverse blocks see.
+  /// The weights of a step: of the previous step d, and of the preconditioned residual D^-1 (b - A
+  /// x).
   struct Step {
     double keep = 0, take = 0;
   };

@@ -1,5 +1,5 @@
-// A smoother of A x = b: Chebyshev polynomials of D^-1 A, D the block diagonal of A (Adams et al.
-// 2003), and the bound of the largest eigenvalue that they need.
+// A smoother of A x = b: Chebyshev polynomials of D^-1 A, with D the block diagonal of A (Adams et
+// al. 2003), and the bound of the largest eigenvalue that they need.
 #pragma once
 
 #include <numerics/block_jacobi.hpp>
@@ -9,14 +9,14 @@ namespace hyperlattice::numerics {
 
 class ChebyshevSmoother {
  public:
-  /// A must outlive this and stay as it is.
+  /// A must outlive this object and must not change.
   ChebyshevSmoother(const LinearOperator& A, BlockJacobi diagonal);
 
-  /// x comes nearer to the solution of A x = b; from_zero: x is 0, whatever it holds.
+  /// Reduces the error of x in A x = b. from_zero: takes x = 0, whatever it holds.
   void smooth(const Field& b, Field& x, bool from_zero);
 
   const BlockJacobi& diagonal() const { return diagonal_; }
-  /// For the levels below.
+  /// Returns the blocks for the coarser levels.
   NodeBlocks blocks() const {
     return {
         diagonal_.components(), {diagonal_.inverse().begin(), diagonal_.inverse().end()}, largest_};
@@ -27,7 +27,8 @@ class ChebyshevSmoother {
 
   const LinearOperator& A_;
   BlockJacobi diagonal_;
-  double largest_ = 2;  ///< eigenvalue of D^-1 A, or more: by the power method, and not below 2
+  /// Upper bound of the eigenvalues of D^-1 A: by the power method, at least 2.
+  double largest_ = 2;
   Field step_, rest_;
 };
 

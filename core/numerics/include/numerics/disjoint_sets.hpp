@@ -1,4 +1,4 @@
-// Connected components of a graph: union by the least number, with path halving (Tarjan and van
+// Connected components of a graph: union by the smallest number, with path halving (Tarjan and van
 // Leeuwen 1984).
 #pragma once
 
@@ -9,13 +9,13 @@
 
 namespace hyperlattice::numerics {
 
-/// Sets of the numbers 0 <= n < size, each a set of its own at first.
+/// Sets of the numbers 0 <= n < size; at first each number is its own set.
 class DisjointSets {
  public:
   explicit DisjointSets(std::int64_t size) : root_(static_cast<std::size_t>(size)) {
     std::iota(root_.begin(), root_.end(), 0);
   }
-  /// The least number of a set.
+  /// Returns the smallest number of the set that contains `number`.
   std::int64_t root(std::int64_t number) {
     while (at(number) != number) number = at(number) = at(at(number));
     return number;

@@ -1,5 +1,5 @@
-// Arithmetic on fields, in parallel. Sums are of fixed pieces in a fixed order: results do not
-// depend on the number of threads.
+// Parallel arithmetic on fields. Sums use fixed pieces in a fixed order, so results do not depend
+// on the number of threads.
 #pragma once
 
 #include <hyperlattice/array_memory.hpp>
@@ -15,7 +15,7 @@ namespace hyperlattice::numerics {
 using Field = std::vector<double, ArrayMemory<double>>;
 using Floats = std::vector<float, ArrayMemory<float>>;
 
-/// Calls work(first, last) for pieces of [0, size).
+/// Calls work(first, last) for pieces of [0, size), in several threads.
 template <std::size_t piece = 8192, class Work>
 void in_pieces(std::size_t size, int threads, const Work& work) {
   const auto pieces = static_cast<std::int64_t>((size + piece - 1) / piece);
@@ -26,7 +26,7 @@ void in_pieces(std::size_t size, int threads, const Work& work) {
   }
 }
 
-/// The sum of part(first, last) over the pieces.
+/// Returns the sum of part(first, last) over the pieces.
 template <class Part>
 double sum_of_pieces(std::size_t size, int threads, const Part& part) {
   constexpr std::size_t piece = 8192;
@@ -51,7 +51,7 @@ double product(const Real* a, const Real* b, std::size_t size, int threads) {
   });
 }
 
-/// Infinite if one is not a number.
+/// Returns the largest magnitude; infinity if a number is NaN.
 inline double largest(const Field& a) {
   double found = 0;
   for (const double value : a) {
@@ -67,7 +67,7 @@ inline double largest_magnitude(const Floats& a) {
   return static_cast<double>(found);
 }
 
-/// The largest one up to a size; 1 of what is zero or not finite.
+/// Returns the largest power of two up to `size`; 1 if it is zero or not finite.
 inline double power_of_two(double size) {
   return size > 0 && std::isfinite(size) ? std::exp2(std::ilogb(size)) : 1;
 }

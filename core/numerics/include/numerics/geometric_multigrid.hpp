@@ -1,6 +1,6 @@
 // A preconditioner on boxes of sites: one V-cycle of geometric multigrid (Briggs, Henson and
 // McCormick 2000). Chebyshev polynomials of the block diagonal smooth every level, before and after
-// the coarser one, so that the whole is symmetric.
+// the coarser one, so that the preconditioner is symmetric.
 #pragma once
 
 #include <numerics/trilinear_transfer.hpp>
@@ -12,12 +12,12 @@ namespace hyperlattice::numerics {
 class GeometricMultigrid {
  public:
   using Solve = std::function<void(const double* b, double* x)>;
-  /// Levels from the finest on, which must outlive this, and the way from each to the next;
-  /// coarsest: x = K^-1 b of the last level, which may throw.
+  /// `levels`: from the finest on; they must outlive this object. `transfers`: from each level to
+  /// the next. `coarsest`: computes x = K^-1 b on the last level; may throw.
   GeometricMultigrid(std::vector<const GridLevel*> levels, std::vector<TrilinearTransfer> transfers,
                      Solve coarsest);
 
-  /// z, about K^-1 r, as the finest level's layout has them.
+  /// Computes z, about K^-1 r, in the layout of the finest level.
   void apply(const Field& r, Field& z);
 
  private:

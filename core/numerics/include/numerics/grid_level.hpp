@@ -1,5 +1,5 @@
-// One level of a geometric multigrid: a matrix K on a box of sites with up to four numbers each,
-// and how these are stored.
+// One level of a geometric multigrid: a matrix K on a box of sites with up to four numbers for each
+// site, and the layout of these numbers.
 #pragma once
 
 #include <numerics/fields.hpp>
@@ -8,8 +8,9 @@
 
 namespace hyperlattice::numerics {
 
-/// Where the numbers of a box of sites are: component c of site (i, j, k) at place(i, j, k) *
-/// of_place + c * of_component. Around the box is a margin of zeros.
+/// The layout of the numbers of a box of sites. Component c of site (i, j, k) is at
+///   place(i, j, k) * of_place + c * of_component.
+/// A margin of zeros surrounds the box.
 struct GridLayout {
   std::array<std::int64_t, 3> sites{};
   std::int64_t row = 0, plane = 0, origin = 0, places = 0;
@@ -26,7 +27,7 @@ struct GridLayout {
       for (std::int64_t j = 0; j < sites[1]; ++j)
         for (std::int64_t i = 0; i < sites[0]; ++i) visit(i, j, k);
   }
-  /// Calls visit(begin, end) for the stretches of a field that belong to places [first, last).
+  /// Calls visit(begin, end) for the ranges of a field that belong to places [first, last).
   template <class Visit>
   void for_numbers(std::size_t first, std::size_t last, const Visit& visit) const {
     const auto of = static_cast<std::size_t>(of_place),
@@ -48,20 +49,22 @@ class GridLevel {
   GridLevel(const GridLevel&) = delete;
   GridLevel& operator=(const GridLevel&) = delete;
 
-  /// y = K x
+  /// Computes y = K x.
   virtual void multiply(const double* x, double* y) const = 0;
-  /// z = D^-1 r at places [first, last), D the diagonal blocks of K; 0 where nothing can move.
+  /// Computes z = D^-1 r at places [first, last), D the diagonal blocks of K; 0 for components that
+  /// cannot move.
   virtual void divide(std::size_t first, std::size_t last, const double* r, double* z) const = 0;
-  /// Sets to zero what cannot move.
+  /// Sets components that cannot move to zero.
   virtual void mask(double* x) const = 0;
-  virtual double largest_eigenvalue() const = 0;  ///< of D^-1 K, a bound or a good estimate
+  /// Bound or good estimate of the largest eigenvalue of D^-1 K.
+  virtual double largest_eigenvalue() const = 0;
 
   const GridLayout& layout() const { return layout_; }
   int threads() const { return threads_; }
 
  protected:
-  /// The largest eigenvalue of D^-1 K by the power method, |D^-1 K x| / |x|, times a safety of 1.2;
-  /// of a K that is zero, the safety alone. No errors.
+  /// Returns the largest eigenvalue of D^-1 K by the power method, |D^-1 K x| / |x|, times a safety
+  /// factor of 1.2; for K = 0 the factor alone. Never throws.
   double power_iteration() const;
 
   GridLayout layout_;

@@ -1,12 +1,12 @@
-// What iterative solvers know of the linear equations A x = b.
+// Interfaces of iterative solvers for the linear equations A x = b.
 #pragma once
 
 #include <numerics/fields.hpp>
 
 namespace hyperlattice::numerics {
 
-/// A symmetric matrix A, of which only products are known. Some numbers of a field may be no
-/// unknowns; A has zeros in their rows.
+/// A symmetric matrix A, given only by its products. Some numbers of a field may not be unknowns;
+/// their rows of A are zero.
 class LinearOperator {
  public:
   LinearOperator() = default;
@@ -14,11 +14,11 @@ class LinearOperator {
   LinearOperator(const LinearOperator&) = delete;
   LinearOperator& operator=(const LinearOperator&) = delete;
 
-  virtual std::size_t numbers() const = 0;  ///< of a field: rows of A
-  virtual int threads() const = 0;          ///< for arithmetic on fields
-  /// y = A x, 0 where there is no unknown.
+  virtual std::size_t numbers() const = 0;  ///< numbers of a field: rows of A
+  virtual int threads() const = 0;          ///< threads for arithmetic on fields
+  /// Computes y = A x, with 0 for numbers that are not unknowns.
   virtual void multiply(const double* x, double* y) const = 0;
-  /// Sets to zero what is no unknown.
+  /// Sets numbers that are not unknowns to zero.
   virtual void mask(double* x) const = 0;
 };
 
@@ -29,10 +29,10 @@ class Preconditioner {
   Preconditioner(const Preconditioner&) = delete;
   Preconditioner& operator=(const Preconditioner&) = delete;
 
-  virtual void apply(const Field& r, Field& z) = 0;  ///< z, about A^-1 r
+  virtual void apply(const Field& r, Field& z) = 0;  ///< computes z, about A^-1 r
 };
 
-/// A subspace, as a rule A's null space, in which a solution shall have no part.
+/// A subspace that solutions must be orthogonal to, usually the null space of A.
 class Deflation {
  public:
   Deflation() = default;
@@ -40,7 +40,7 @@ class Deflation {
   Deflation(const Deflation&) = delete;
   Deflation& operator=(const Deflation&) = delete;
 
-  virtual void remove_from(Field& field) const = 0;  ///< orthogonal projection onto what is left
+  virtual void remove_from(Field& field) const = 0;  ///< projects onto the orthogonal complement
 };
 
 }  // namespace hyperlattice::numerics

@@ -8,8 +8,8 @@ struct PowerIteration {
   int rounds = 12;
   double safety = 1.1;  ///< the estimates approach the largest from below
 
-  /// safety |A x| / |x| after all rounds, in A's unit; 0 if x comes to zero, not a number if x has
-  /// one. length(): |x|; divide(by): x /= by; apply(): x = A x. No errors.
+  /// Returns safety |A x| / |x| after all rounds, in A's unit; 0 if x becomes zero, NaN if x has
+  /// one. length(): |x|; divide(by): x /= by; apply(): x = A x. Never throws.
   template <class Length, class Divide, class Apply>
   double largest_eigenvalue(const Length& length, const Divide& divide, const Apply& apply) const {
     for (int n = 0; n < rounds; ++n) {

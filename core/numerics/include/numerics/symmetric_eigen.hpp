@@ -1,5 +1,5 @@
 // Eigenvalues and eigenvectors of a small dense symmetric matrix, A = Q Lambda Q^T, by tridiagonal
-// QR (Golub and Van Loan 2013, section 8.3, as Eigen has it). It does not fail silently.
+// QR (Golub and Van Loan 2013, section 8.3, as in Eigen). Throws if the iteration fails.
 #pragma once
 
 #include <Eigen/Eigenvalues>
@@ -12,9 +12,9 @@ namespace hyperlattice::numerics {
 template <class Matrix>
 class SymmetricEigen {
  public:
-  /// Of a matrix of which the lower triangle is read; options: Eigen::EigenvaluesOnly, or vectors
-  /// too. Throws std::runtime_error if the iteration does not converge, as that of a matrix with
-  /// NaN; of one with infinite numbers the eigenvalues may be NaN.
+  /// Solves for a matrix, of which it reads the lower triangle. options: Eigen::EigenvaluesOnly, or
+  /// vectors too. Throws std::runtime_error if the iteration does not converge, as for a matrix
+  /// with NaN; with infinite numbers the eigenvalues may be NaN.
   explicit SymmetricEigen(const Matrix& A, int options = Eigen::ComputeEigenvectors)
       : solver_(A, options) {
     if (solver_.info() != Eigen::Success)

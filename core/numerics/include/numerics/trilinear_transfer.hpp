@@ -1,19 +1,20 @@
-// Between a level and the next coarser one: trilinear interpolation in the sites' indices, and its
-// transpose. Along an axis that is too short to be halved, both levels have the same sites.
+// Transfer between a level and the next coarser one: trilinear interpolation P in the sites'
+// indices, and its transpose. Along an axis that is too short to be halved, both levels have the
+// same sites.
 #pragma once
 
 #include <numerics/grid_level.hpp>
 
 namespace hyperlattice::numerics {
 
-/// Sites of the coarser level from which a site is interpolated along one axis.
+/// Coarse sites, with weights, from which a fine site is interpolated along one axis.
 struct Parents {
   int count = 1;
   std::int64_t at[2] = {};
   double weight[2] = {1, 0};
 };
 
-/// A stretch of fine sites along an axis; it may reach beyond the box.
+/// A range of fine sites along an axis, last included; it may extend beyond the box.
 struct Window {
   std::int64_t first, last;
 };
@@ -32,17 +33,18 @@ class TrilinearTransfer {
                       : Parents{2, {i / 2, i / 2 + 1}, {0.5, 0.5}};
   }
 
-  /// Fine sites that a coarse one, or a stiffness between it and another, is made of, if they are
-  /// joined up to `reach` sites apart.
+  /// Returns the fine sites that contribute to a coarse site, or to a stiffness between it and
+  /// another, if fine sites up to `reach` apart are connected.
   Window window(int axis, std::int64_t coarse, int reach) const {
     return halved(axis) ? Window{2 * coarse - 1 - reach, 2 * coarse + 1 + reach}
                         : Window{coarse - reach, coarse + reach};
   }
 
-  /// to = P^T from; both as the levels' layouts have them, four numbers a coarse site.
+  /// Computes to = P^T from, both in the layouts of their levels, with four numbers for each coarse
+  /// site.
   void restrict_to(const GridLevel& coarse, double* to, const GridLevel& fine,
                    const double* from) const;
-  /// to += P from, 0 in what cannot move.
+  /// Computes to += P from; sets components that cannot move to 0.
   void prolong_from(const GridLevel& coarse, const double* from, const GridLevel& fine,
                     double* to) const;
 

@@ -1,6 +1,6 @@
-// Memory of large arrays: aligned to cache lines, and in pages of 2 MiB where the system gives
-// them. One of these stands for 512 small pages, which the system would have to clear one by one,
-// and the processor to look up, in sweeps that have tens of rows in hand at once.
+// Memory for large arrays: aligned to cache lines, in pages of 2 MiB where the system provides
+// them. A large page replaces 512 small ones, which the system would clear one by one, and whose
+// addresses the processor would look up in sweeps over tens of rows at once.
 #pragma once
 
 #include <cstddef>
@@ -14,23 +14,23 @@ namespace hyperlattice {
 
 constexpr std::size_t cache_line = 64, large_page = std::size_t{2} << 20;
 
-/// Uninitialised memory, in bytes. Its last part, less than a large page, is in small ones: nothing
-/// is claimed that is not asked for. Throws std::bad_alloc.
+/// Allocates uninitialised memory, in bytes. The last part, less than a large page, uses small
+/// pages, so that no more is taken than requested. Throws std::bad_alloc.
 inline void* allocate_array(std::size_t bytes) {
   const std::size_t whole = bytes / large_page * large_page;
   void* memory = ::operator new[](bytes, std::align_val_t{whole > 0 ? large_page : cache_line});
 #ifdef MADV_HUGEPAGE
-  if (whole > 0) madvise(memory, whole, MADV_HUGEPAGE);  // a wish: small pages serve too
+  if (whole > 0) madvise(memory, whole, MADV_HUGEPAGE);  // only a hint: small pages work too
 #endif
   return memory;
 }
 
-/// Of that many bytes, from allocate_array.
+/// Frees memory of that many bytes from allocate_array.
 inline void free_array(void* memory, std::size_t bytes) noexcept {
   ::operator delete[](memory, std::align_val_t{bytes >= large_page ? large_page : cache_line});
 }
 
-/// The same for standard containers.
+/// Allocator for standard containers.
 template <class T>
 struct ArrayMemory {
   using value_type = T;

@@ -1,9 +1,15 @@
-// The boundary: everything that crosses between the program and a plugin, in one list. From it
-// comes the gate that a plugin must pass before any of its code runs, and what .ci/abi compares
-// with the last release. Included by the header of each family.
+// The boundary: one list of all structs that cross between the program and a plugin. The gate that
+// a plugin must pass before any of its code runs comes from it, and .ci/abi compares it with the
+// last release. The header of each family includes this one.
 //
-//   class Blast { public: struct Options {...}; static Schema<Options> schema(); explicit
-//   Blast(const Options&); ... }; HYPERLATTICE_PLUGIN("1.0") { plugin.add<Blast>(); }
+//   class Blast {
+//    public:
+//     struct Options {...};
+//     static Schema<Options> schema();
+//     explicit Blast(const Options&);
+//     ...
+//   };
+//   HYPERLATTICE_PLUGIN("1.0") { plugin.add<Blast>(); }
 #pragma once
 
 #include <hyperlattice/failure.hpp>
@@ -17,14 +23,15 @@
 
 #include <iterator>
 
-/// Raised whenever the meaning of anything in these headers changes; a change of layout is found by
-/// itself.
+/// Raise this number if the meaning of anything in these headers changes; changes of layout are
+/// detected without it.
 #ifndef HYPERLATTICE_INTERFACE_VERSION
 #define HYPERLATTICE_INTERFACE_VERSION 2
 #endif
 
 // clang-format off
-/// Each struct with all of its members. A member that is not named here does not compile.
+/// Each struct with all of its members. A struct with a member that is missing here does not
+/// compile.
 #define HYPERLATTICE_BOUNDARY(CROSSES)                                                                                                                \
   CROSSES(Vec3, x, y, z)                                                                                                                              \
   CROSSES(RegionId, index)                                                                                                                            \
@@ -117,10 +124,10 @@ constexpr std::uint32_t boundary_hash() {
   return hash.folded();
 }
 
-// What else decides whether two libraries can share objects. Eigen aligns by the widest vector unit
-// it was compiled for.
+// Further numbers that decide whether two libraries can share objects. Eigen aligns by the widest
+// vector unit of its compilation.
 inline constexpr unsigned compiler_abi =
-    __GXX_ABI_VERSION / 1000;  // the C++ ABI in force, not its minor revision
+    __GXX_ABI_VERSION / 1000;  // the C++ ABI, without its minor revision
 #if defined(_GLIBCXX_USE_CXX11_ABI)
 inline constexpr unsigned library_abi = _GLIBCXX_USE_CXX11_ABI;
 #else
@@ -151,7 +158,7 @@ using ThisGate = Gate<HYPERLATTICE_INTERFACE_VERSION, detail::compiler_abi, deta
 
 }  // namespace hyperlattice
 
-/// Begins the one registration function of a plugin; its body names the components.
+/// Begins the registration function of a plugin, one per plugin; its body names the components.
 #define HYPERLATTICE_PLUGIN(version_text)                                                         \
   static void hyperlattice_register_body(::hyperlattice::Registrar& plugin);                      \
   extern "C" HYPERLATTICE_EXPORT const char* hyperlattice_gate() {                                \

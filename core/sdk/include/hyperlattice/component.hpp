@@ -1,8 +1,14 @@
-// A component as a plugin registers it. The gate that a plugin must pass before any of its code
-// runs is in boundary.hpp.
+// A component as a plugin registers it. boundary.hpp has the gate that a plugin must pass before
+// any of its code runs.
 //
-//   class Blast { public: struct Options {...}; static Schema<Options> schema(); explicit
-//   Blast(const Options&); ... }; HYPERLATTICE_PLUGIN("1.0") { plugin.add<Blast>(); }
+//   class Blast {
+//    public:
+//     struct Options {...};
+//     static Schema<Options> schema();
+//     explicit Blast(const Options&);
+//     ...
+//   };
+//   HYPERLATTICE_PLUGIN("1.0") { plugin.add<Blast>(); }
 #pragma once
 
 #include <hyperlattice/options.hpp>
@@ -29,20 +35,21 @@ struct ComponentInfo {
   std::string_view name;  ///< "<family>.<name>", the value of "type" in a scene
   std::string_view summary, equation, source, restrictions;
   std::span<const Option> options;
-  void* (*create_options)(const Complaint& why) noexcept =
-      nullptr;  ///< null result: failed, with a sentence
+  /// Null result: failed; `why` has the reason.
+  void* (*create_options)(const Complaint& why) noexcept = nullptr;
   void (*destroy_options)(void* options) noexcept = nullptr;
   bool (*check_options)(const void* options, const FaultSink& faults,
                         const Complaint& why) noexcept = nullptr;  ///< null: nothing to check
-  void* (*create)(const void* options,
-                  const Complaint& why) noexcept = nullptr;  ///< null result: refused, likewise
+  /// Null result: refused; `why` has the reason.
+  void* (*create)(const void* options, const Complaint& why) noexcept = nullptr;
   void (*destroy)(void* component) noexcept = nullptr;
-  const void* functions =
-      nullptr;  ///< the family's table: LatticeFunctions, MaterialFunctions, ...
+  /// The family's table of functions: LatticeFunctions, MaterialFunctions, ... (functions_size
+  /// bytes).
+  const void* functions = nullptr;
   std::uint64_t functions_size = 0;
 };
 
-/// Given to a plugin's registration. What it adds counts only when the whole registration returns.
+/// Receives the components of a plugin. They count only if the whole registration returns.
 class Registrar {
  public:
   Registrar(void* self, void (*receive)(void* self, const ComponentInfo& info) noexcept)
@@ -58,7 +65,7 @@ class Registrar {
   void (*receive_)(void* self, const ComponentInfo& info) noexcept;
 };
 
-/// What a plugin's library exports under the name `hyperlattice_plugin`.
+/// The data that a plugin's library exports under the name `hyperlattice_plugin`.
 struct PluginInfo {
   std::string_view version;
   bool (*register_components)(Registrar& plugin, const Complaint& why) noexcept;

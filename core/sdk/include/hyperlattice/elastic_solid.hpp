@@ -1,11 +1,11 @@
-// The elastic part of a solid, shared by all laws: from Young's modulus E and the Poisson ratio nu
-// to the stiffness k of the base springs and lambda, the stiffness of the springs in the fourth
-// dimension relative to k. For the cubic lattice by closed forms of the infinite lattice
+// The elastic part of a solid, shared by all laws: finds the stiffness k of the base springs and
+// lambda, the stiffness of the springs into the fourth dimension over k, from Young's modulus E and
+// the Poisson ratio nu. For the cubic lattice it uses closed forms of the infinite lattice
 // (calibration.hpp):
-//   I-m: lambda = 7 (1 - 4 nu) / (1 + 5 nu),  k = 0.4 E l / eta,  eta = (18/5) (1 + nu) (1 - 2 nu)
-//   / (1 + 5 nu)
-// for any other by asking the lattice for its elastic constants (membranes.hpp). E is the modulus
-// of one layer, and every particle has the mass density * V, V the volume of its site.
+//   I-m: lambda = 7 (1 - 4 nu) / (1 + 5 nu),  k = 0.4 E l / eta,
+//        eta = (18/5) (1 + nu) (1 - 2 nu) / (1 + 5 nu)
+// For other lattices it uses their computed elastic constants (membranes.hpp). E is the modulus of
+// one layer; every particle has the mass density * V, with V the volume of its site.
 #pragma once
 
 #include <hyperlattice/membranes.hpp>
@@ -22,8 +22,8 @@ constexpr std::string_view parameter_names[] = {"closed_form", "paper"};
 enum class Stiffness : std::uint32_t { bulk, eq15 };
 constexpr std::string_view stiffness_names[] = {"bulk", "eq15"};
 
-/// The lattice of calibration.hpp: 6 orthogonal springs of class 0, 12 diagonal ones of class 1,
-/// all as stiff.
+/// Returns whether the lattice is that of calibration.hpp: 6 orthogonal springs of class 0 and 12
+/// diagonal ones of class 1, all of equal stiffness.
 inline bool is_cubic_of_18(const LatticeFacts& lattice) {
   const auto fits = [](const Neighbour& n) {
     return static_cast<std::uint32_t>(n.dx * n.dx + n.dy * n.dy + n.dz * n.dz) ==
@@ -35,23 +35,24 @@ inline bool is_cubic_of_18(const LatticeFacts& lattice) {
          lattice.membrane_distance == lattice.spacing;
 }
 
-/// Springs of k = 1 N/m in the fourth dimension, and what the endless lattice has with them.
+/// Ratios of the springs into the fourth dimension, and properties of the infinite lattice with
+/// them for k = 1 N/m.
 struct Choice {
   calibration::Ratios ratios;
   double poisson = 0, modulus_ratio = 0;
 };
-/// Options of a material that is elastic at first, and what they make of a lattice. A material's
-/// own Options derive from them.
+/// Options of a material that is elastic at small strain, and the constants that they give on a
+/// lattice. A material's own Options derive from them.
 struct Options {
   double young = 0, density = 0;
   std::optional<double> poisson, lambda;
   Membrane membrane = Membrane::none;
-  std::optional<double> k_alpha;  // absent: infinite
+  std::optional<double> k_alpha;  // absent: infinitely stiff
   double k_beta = 0, k_gamma = 0;
   Parameters parameters = Parameters::closed_form;
   Stiffness stiffness = Stiffness::bulk;
 
-  /// Adds these options, and their checks, to a schema.
+  /// Adds these options and their checks to a schema.
   template <class Of>
   static Schema<Of>& declare(Schema<Of>& schema) {
     return schema.template add<&Options::young>("young", "Pa", "Young's modulus of the body")
@@ -99,8 +100,8 @@ struct Options {
         .check([](const Of& options, const FaultSink& faults) { options.check(faults); });
   }
 
-  /// Throws std::invalid_argument, with a sentence whose first word is an option's name, if the
-  /// lattice does not reach what is asked.
+  /// Returns the material's constants. Throws std::invalid_argument, with a sentence whose first
+  /// word is an option's name, if the lattice cannot reach the requested values.
   MaterialConstants constants(const LatticeFacts& lattice) const {
     const bool cubic = is_cubic_of_18(lattice);
     if (parameters == Parameters::paper && !cubic)
@@ -118,7 +119,7 @@ struct Options {
     return constants;
   }
 
-  /// Of options that must fit each other.
+  /// Checks the options against each other.
   void check(const FaultSink& faults) const {
     const bool has_ratios = k_beta != 0 || k_gamma != 0 || k_alpha != 0.0;
     if (membrane != Membrane::free && has_ratios)
@@ -144,7 +145,7 @@ struct Options {
     return {k_alpha.value_or(0), k_beta, k_gamma, !k_alpha.has_value()};
   }
 
-  /// Of the cubic lattice.
+  /// Returns the choice for the cubic lattice.
   Choice choose_in_closed_form(const LatticeFacts& lattice) const {
     if (!has_lambda(membrane)) return of_cubic(free_ratios());
     const bool paper = parameters == Parameters::paper;
@@ -162,7 +163,7 @@ struct Options {
     return {ratios, elasticity.poisson(), elasticity.modulus_ratio()};
   }
 
-  /// Of any lattice.
+  /// Returns the choice for any lattice.
   Choice choose(const LatticeFacts& lattice) const {
     Choice choice{free_ratios(), 0, 0};
     if (has_lambda(membrane)) {
@@ -181,8 +182,8 @@ struct Options {
     return choice;
   }
 
-  /// Of a membrane that has a lambda. Without a stable lattice there is none, unless the scene
-  /// takes an unstable one.
+  /// Checks the Poisson ratio for a membrane with a lambda: it must give a stable lattice, unless
+  /// the scene accepts unstable ones.
   void check_reach(const LatticeFacts& lattice, double ratio) const {
     if (std::isfinite(ratio) &&
         (lattice.allow_unstable || membranes::is_stable(lattice, membrane, ratio)))
@@ -192,7 +193,7 @@ struct Options {
                : "poisson " + membranes::reach_sentence(lattice, membrane, *poisson));
   }
 
-  /// Membranes without a lambda have the Poisson ratio that they have.
+  /// Checks that the Poisson ratio equals that of a membrane without a lambda, which is fixed.
   void check_poisson(const LatticeFacts& lattice, double own) const {
     constexpr double tolerance = 1e-4;
     if (!poisson || has_lambda(membrane) || std::abs(*poisson - own) <= tolerance) return;
@@ -219,8 +220,8 @@ struct Options {
     }
     if (cubic) return calibration::stiffness_bulk(young, lattice.spacing, choice.modulus_ratio);
     return young /
-           (choice.modulus_ratio * lattice.elastic_constants(membranes::constants(lattice, {}))
-                                       .young());  // k = 1 N/m there
+           (choice.modulus_ratio *
+            lattice.elastic_constants(membranes::constants(lattice, {})).young());  // for k = 1 N/m
   }
 };
 

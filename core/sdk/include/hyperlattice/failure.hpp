@@ -1,47 +1,50 @@
-// A failure criterion: when a base spring breaks. It states an alarm, the elongation below which
-// nothing can happen; fast kernels only compare with it. Springs above their alarm are reviewed in
-// batches, where the criterion decides.
+// A failure criterion: the rule that says whether a base spring breaks. It states an alarm, the
+// elongation below which the spring cannot break; fast kernels only compare with it. The criterion
+// decides about springs above their alarm, which it gets in batches.
 #pragma once
 
 #include <hyperlattice/component.hpp>
 
 namespace hyperlattice {
 
-/// What a criterion knows of a class of base springs.
+/// Facts about a class of base springs.
 struct SpringFacts {
   double rest_length = 0;  ///< metres
   double stiffness = 0;    ///< N/m
   double spacing = 0;      ///< lattice constant, metres
   std::uint32_t spring_class = 0;
-  double crossings = 0;  ///< base springs that pass through a unit of area inside the body, the
-                         ///< mean of all its directions, 1/m2
+  /// Base springs that cross a unit area inside the body, 1/m2, mean over all directions of the
+  /// area.
+  double crossings = 0;
 };
 
-/// One base spring, for criteria that ask which it is.
+/// One base spring, for criteria that need its identity or rate.
 struct AlarmedSpring {
   double time = 0;        ///< seconds
   double elongation = 0;  ///< metres
-  Particle a = 0,
-           b = 0;  ///< its ends, a < b: the same in every run of a scene, whatever its threads
-  double rate =
-      0;  ///< of elongation, half a step before, m/s; 0 if the criterion does not ask for it
+  /// Ends, a < b; the same in every run of a scene, for any number of threads.
+  Particle a = 0, b = 0;
+  /// Rate of elongation, half a step before `time`, m/s; 0 if the criterion does not ask for it.
+  double rate = 0;
 };
 
 /// Base springs above their alarm, at one time.
 struct SpringBatch {
   double time = 0;                     ///< seconds
-  SpringFacts spring;                  ///< the same for all of the batch
+  SpringFacts spring;                  ///< facts that hold for all springs of the batch
   std::span<const double> elongation;  ///< metres
-  std::span<const Particle> a, b;      ///< their ends; empty if the criterion does not ask for them
-  std::span<const double> rate;        ///< of elongation, m/s; likewise
+  /// Ends of the springs; empty if the criterion does not ask for them.
+  std::span<const Particle> a, b;
+  std::span<const double> rate;  ///< rate of elongation, m/s; empty likewise
 };
 
+/// Functions of a failure criterion across the boundary.
 struct FailureFunctions {
   bool (*alarm)(const void* failure, const SpringFacts& spring, double& elongation,
                 const Complaint& why) noexcept;
   bool (*review)(const void* failure, const SpringBatch& batch, std::uint8_t* broken,
                  const Complaint& why) noexcept;
-  bool asks_ends, asks_rate;  ///< review wants SpringBatch::a and b, rate
+  bool asks_ends, asks_rate;  ///< review needs SpringBatch::a and b; SpringBatch::rate
 };
 
 template <class T>
@@ -54,11 +57,11 @@ concept AsksState = requires(const T& failure, const SpringFacts& spring,
   { failure.breaks(spring, state) } -> std::convertible_to<bool>;
 };
 
-/// A failure class has: double alarm(const SpringFacts&) const, in metres; and
-/// bool breaks(const SpringFacts&, double elongation) const, or with an AlarmedSpring in place of
-/// the elongation if it must know which spring it is; asked for springs above the alarm only. What
-/// either throws ends the run. A criterion that needs the state's rate says static constexpr bool
-/// asks_rate = true; it is for structured lattices.
+/// A failure class has: double alarm(const SpringFacts&) const, in m; and bool breaks(const
+/// SpringFacts&, double elongation) const, or with an AlarmedSpring instead of the elongation if it
+/// needs the identity of the spring. breaks is called only for springs above the alarm. An
+/// exception from either ends the run. A criterion that needs the rate has static constexpr bool
+/// asks_rate = true; only structured lattices provide the rate.
 template <class T>
 concept FailureComponent = requires(const T& failure, const SpringFacts& spring) {
   { failure.alarm(spring) } -> std::convertible_to<double>;
@@ -106,4 +109,4 @@ struct FunctionsOf<T> {
 }  // namespace detail
 }  // namespace hyperlattice
 
-#include <hyperlattice/boundary.hpp>  // the gate, once all that a family hands over is known
+#include <hyperlattice/boundary.hpp>  // the gate needs all structs of the boundary

@@ -1,8 +1,9 @@
-// Fields as writers and probes name them, and single numbers taken out of them.
+// Fields by name, and single numbers taken from them, for writers and probes.
 //
 //   struct Options : QuantityOptions { ... };
-//   static Schema<Options> schema() { ... add_quantity_options(schema);
-//   schema.check(check_quantity_options<Options>); ... }
+//   static Schema<Options> schema() {
+//     ... add_quantity_options(schema); schema.check(check_quantity_options<Options>); ...
+//   }
 #pragma once
 
 #include <hyperlattice/files.hpp>
@@ -12,7 +13,7 @@
 
 namespace hyperlattice {
 
-/// The names, as in "displacement, velocity, height".
+/// Joins names with commas: "displacement, velocity, height".
 inline std::string joined(std::span<const std::string_view> names) {
   std::string text;
   for (const std::string_view name : names) text.append(text.empty() ? "" : ", ").append(name);
@@ -29,14 +30,14 @@ inline bool is_one_of(std::span<const std::string_view> names, std::string_view 
                            joined(present));
 }
 
-/// Throws std::runtime_error, with the names that the run does have, if this is none of them. For
-/// begin(), before anything is computed.
+/// Throws std::runtime_error, with the names of the existing fields, if this run has no field
+/// `name`. For begin(), before anything is computed.
 inline void require_field(const OutputContext& context, std::string_view name) {
   if (!context.fields.empty() && !is_one_of(context.fields, name))
     refuse_field(name, context.fields);
 }
 
-/// The field at this time; throws as above.
+/// Returns the field at this time. Throws like the function above.
 inline Field require_field(const Snapshot& snapshot, std::string_view name) {
   Field field;
   if (snapshot.field(name, field)) return field;
@@ -55,7 +56,7 @@ inline bool is_vector_field(std::string_view name) {
   return name == "displacement" || name == "velocity";
 }
 
-/// Which number of a vector; radial: along the line from a centre, outwards.
+/// A number taken from a vector; radial: the component along the line from a centre, outwards.
 enum class Projection : std::uint32_t { x, y, z, magnitude, radial };
 inline constexpr std::string_view projection_names[] = {"x", "y", "z", "magnitude", "radial"};
 
@@ -79,7 +80,7 @@ void add_quantity_options(Schema<Options>& schema) {
       .fallback("[0, 0, 0]");
 }
 
-/// The cross-field check of the options above.
+/// Checks the options above against each other.
 template <class Options>
 void check_quantity_options(const Options& options, const FaultSink& faults) {
   if (options.component && !is_vector_field(options.field))
@@ -100,18 +101,18 @@ class Quantity {
       names_ = {options_.field + "_x", options_.field + "_y", options_.field + "_z"};
   }
 
-  /// "displacement_x", ...: one for each number.
+  /// Returns one name for each number: "displacement_x", ...
   const std::vector<std::string>& names() const { return names_; }
   const std::string& field() const { return options_.field; }
 
-  /// Writes the particle's numbers to `out`. `field` is the quantity's field at the snapshot's
-  /// time.
+  /// Writes the particle's numbers, names().size() of them, to `out`. `field`: the quantity's field
+  /// at the snapshot's time.
   void evaluate(const Snapshot& snapshot, const Field& field, Particle particle,
                 double* out) const {
     project(&field.values[particle * field.components], position_of(snapshot, particle), out);
   }
 
-  /// The same from the field's numbers at a place, in the body at rest.
+  /// Does the same for the field's numbers `value` at a place of the body at rest.
   void project(const double* value, Vec3 place, double* out) const {
     if (!options_.component || !is_vector_field(options_.field)) {
       for (std::size_t n = 0; n < names_.size(); ++n) out[n] = value[n];
@@ -141,7 +142,8 @@ class Quantity {
   std::vector<std::string> names_;
 };
 
-/// The particle whose place at rest is nearest to the point; the first of several.
+/// Returns the particle whose position at rest is nearest to the point; the first if there are
+/// several.
 inline Particle nearest_particle(const Snapshot& snapshot, Vec3 point) {
   Particle best = 0;
   double least = infinity;
@@ -156,8 +158,8 @@ inline Particle nearest_particle(const Snapshot& snapshot, Vec3 point) {
   return best;
 }
 
-/// "(0.01 0 0)": a place in the name of a column; no commas, so that any reader of tables can split
-/// the header.
+/// Returns a place as text for a column name: "(0.01 0 0)". No commas, so that any reader of tables
+/// can split the header.
 inline std::string place_text(Vec3 place) {
   return "(" + short_number(place.x) + " " + short_number(place.y) + " " + short_number(place.z) +
          ")";

@@ -1,4 +1,4 @@
-// Files that are whole or not there, and numbers as text that no locale changes.
+// Files that are either complete or absent, and numbers as text independent of the locale.
 #pragma once
 
 #include <fcntl.h>
@@ -17,10 +17,10 @@
 
 namespace hyperlattice {
 
-/// A file written under a temporary name, which nobody can guess, and renamed when it is complete,
-/// so that no half-written file ever stands under its final name. No link is followed, and only a
-/// regular file is replaced. Every member throws std::runtime_error with the system's reason; an
-/// uncommitted file vanishes with the object.
+/// A file written under a random temporary name and renamed when it is complete, so that no
+/// half-written file ever has its final name. It follows no link and replaces only regular files.
+/// Every member throws std::runtime_error with the system's reason; the destructor deletes a file
+/// that was not committed.
 class AtomicFile {
  public:
   explicit AtomicFile(std::string path) : path_(std::move(path)) {
@@ -51,6 +51,7 @@ class AtomicFile {
     std::remove(part_.c_str());
   }
 
+  /// Appends bytes to the file.
   void write(std::string_view bytes) {
     if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail("write");
   }
@@ -60,10 +61,10 @@ class AtomicFile {
     if (std::fflush(file_) != 0 || ::fsync(::fileno(file_)) != 0) fail("write");
   }
 
-  /// Gives the file its name; an older file of that name is replaced in one go.
+  /// Gives the file its final name; replaces an older file of that name atomically.
   void commit() {
     if (std::fclose(std::exchange(file_, nullptr)) != 0)
-      fail("write");  // the last bytes leave the buffer here
+      fail("write");  // fclose writes the last bytes of the buffer
     if (std::rename(part_.c_str(), path_.c_str()) != 0) fail("rename");
     committed_ = true;
   }
@@ -99,7 +100,7 @@ inline void append_number(std::string& text, double value) {
   text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
 }
 
-/// A number for people: at most `digits` significant digits.
+/// Returns a number as text for messages, with at most `digits` significant digits.
 inline std::string short_number(double value, int digits = 6) {
   char buffer[48];
   return {

@@ -1,4 +1,4 @@
-// Fills a solid with the sites of a structured lattice: what its plugins share.
+// Fills a solid with the sites of a structured lattice; shared by the lattice plugins.
 #pragma once
 
 #include <hyperlattice/lattice.hpp>
@@ -8,18 +8,18 @@
 
 namespace hyperlattice {
 
-/// Sends the lattice whose sites are x = anchor + spacing (offset + i a1 + j a2 + k a3): those
-/// inside the shape, each with a particle; with boundary cells, the cells whose centres these are.
-/// The basis must be such that a1 runs along x, and a2 stays in the plane z = 0.
+/// Sends the lattice with sites x = anchor + spacing (offset + i a1 + j a2 + k a3). Each site
+/// inside the shape gets a particle; with boundary cells, each cell whose centre is such a site.
+/// The basis must have a1 along x and a2 in the plane z = 0.
 class Filling {
  public:
-  /// `grid`: all but its origin and sites. The shape must outlive this.
+  /// `grid`: complete but for its origin and sites. The shape must outlive this object.
   Filling(const Grid& grid, const Shape& shape, Vec3 anchor, Vec3 offset)
       : grid_(grid), shape_(shape), anchor_(anchor), offset_(offset) {
     grid_.shape = &shape;
   }
 
-  /// Throws std::invalid_argument if no site is inside, or too many would be.
+  /// Sends grid and runs. Throws std::invalid_argument if no site is inside, or too many would be.
   void send(const LatticeSink& sink) {
     find_box();
     sink.grid(grid_);
@@ -49,7 +49,7 @@ class Filling {
   };
   static std::int32_t whole(double number) { return static_cast<std::int32_t>(number); }
 
-  /// Whether the row has any.
+  /// Sends the runs of one row. Returns whether the row has any.
   bool send_row(const LatticeSink& sink, double j, double k) const {
     const auto inside = [&](double i) { return shape_.contains(place(i, j, k)); };
     const Span row = along_x(j, k);
@@ -70,7 +70,7 @@ class Filling {
     return anchor_ + grid_.spacing * (offset_ + combined(grid_.basis, i, j, k));
   }
 
-  /// The steps that may lie between low and high if `start` is where step 0 is; the shape itself
+  /// Returns the steps that may lie between low and high if step 0 is at `start`; the shape itself
   /// decides.
   Span between(double low, double high, double start, double step) const {
     if (!std::isfinite(low) || !std::isfinite(high))
@@ -94,8 +94,8 @@ class Filling {
                    offset_.y + k * grid_.basis[2].y, grid_.basis[1].y);
   }
 
-  /// The box of steps that holds the shape. Where rows begin may differ from row to row and from
-  /// plane to plane.
+  /// Finds the box of steps that contains the shape. The first step may differ from row to row and
+  /// from plane to plane.
   void find_box() {
     const Vec3 size = 1 / grid_.spacing * (shape_.high - shape_.low);
     k_ = between(shape_.low.z - anchor_.z, shape_.high.z - anchor_.z, offset_.z, grid_.basis[2].z);
@@ -108,14 +108,14 @@ class Filling {
       throw std::invalid_argument(
           "spacing is too small for this shape: its box would hold more than 4e9 sites");
     if (i_.count() * j_.count() * k_.count() == 0) throw std::invalid_argument(nothing_inside);
-    const bool cells = grid_.boundary == Boundary::cells;  // sites are their corners
+    const bool cells = grid_.boundary == Boundary::cells;  // sites are the corners of cells
     const double corner = cells ? 0.5 : 0;
     grid_.origin = place(i_.first - corner, j_.first - corner, k_.first - corner);
     const std::int32_t more = cells ? 1 : 0;
     grid_.sites = {whole(i_.count()) + more, whole(j_.count()) + more, whole(k_.count()) + more};
   }
 
-  /// By the rows of a plane.
+  /// Widens the box by the rows of a plane.
   void widen(double k) {
     const Span rows = along_y(k);
     j_.widen(rows);

@@ -1,8 +1,10 @@
-// What writers of one file a frame share: which particles and fields, how the files are called.
+// Common parts of writers with one file per frame: options for particles and fields, and file
+// names.
 //
 //   struct Options : FrameOptions { bool compress; };
-//   static Schema<Options> schema() { ... add_frame_options(schema);
-//   schema.check(check_frame_options<Options>); ... }
+//   static Schema<Options> schema() {
+//     ... add_frame_options(schema); schema.check(check_frame_options<Options>); ...
+//   }
 #pragma once
 
 #include <hyperlattice/fields.hpp>
@@ -34,7 +36,8 @@ void add_frame_options(Schema<Options>& schema) {
       .fallback("false");
 }
 
-/// A base name becomes part of file names and of XML, so it is kept plain.
+/// Checks a base name. It becomes part of file names and of XML, so only plain characters are
+/// allowed.
 inline void check_file_name(const std::string& file, const FaultSink& faults) {
   const auto plain = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
@@ -48,7 +51,7 @@ inline void check_file_name(const std::string& file, const FaultSink& faults) {
         "a name of letters, digits, '_', '-' and '.', without folders, of at most 80 characters");
 }
 
-/// The cross-field check of the options above.
+/// Checks the options above against each other.
 template <class Options>
 void check_frame_options(const Options& options, const FaultSink& faults) {
   check_file_name(options.file, faults);
@@ -57,8 +60,8 @@ void check_frame_options(const Options& options, const FaultSink& faults) {
       faults.fault("fields", "each field once; \"" + *name + "\" is there twice");
 }
 
-/// The numbered files of one writer: `<directory>/<file>_000000<extension>` and so on. Who asks for
-/// a path is about to write the file, so the run is told that the file is its own.
+/// The numbered files of one writer: `<directory>/<file>_000000<extension>` and so on. A caller
+/// that asks for a path is about to write the file, so the path is announced to the run.
 class FrameFiles {
  public:
   FrameFiles() = default;
@@ -70,7 +73,7 @@ class FrameFiles {
         run_(context.self),
         announce_(context.announce_file) {}
 
-  /// Name of the present frame, without its folder.
+  /// Returns the file name of the present frame, without its folder.
   std::string name() const { return name(frame_); }
   std::string name(std::uint64_t frame) const {
     std::string number = std::to_string(frame);
@@ -78,11 +81,12 @@ class FrameFiles {
     return file_ + "_" + number + extension_;
   }
   std::string path() const { return announced(name(), false); }
-  /// Path of a file that belongs to the whole series and is rewritten with it:
+  /// Returns the path of a file of the whole series, which is rewritten with each frame:
   /// `<directory>/<file><suffix>`.
   std::string path_of_series(std::string_view suffix) const {
     return announced(file_ + std::string(suffix), true);
   }
+  /// Goes on to the next frame.
   void next() { ++frame_; }
 
  private:
@@ -98,8 +102,8 @@ class FrameFiles {
   bool (*announce_)(void* run, std::string_view name, bool rewritten) noexcept = nullptr;
 };
 
-/// The particles of a region, and their part of any field. A region that is the whole body costs
-/// nothing.
+/// The particles of a region, and their values of any field. A region of consecutive particles,
+/// such as the whole body, needs no copies.
 class Selection {
  public:
   Selection() = default;
@@ -115,7 +119,8 @@ class Selection {
     return scattered_.empty() ? first_ + n : scattered_[n];
   }
 
-  /// The selected particles' values; in `buffer` if they do not stand together.
+  /// Returns the values of the selected particles; copied into `buffer` if they are not
+  /// consecutive.
   std::span<const double> of(std::span<const double> values, std::size_t components,
                              std::vector<double>& buffer) const {
     if (scattered_.empty()) return values.subspan(first_ * components, size_ * components);
@@ -125,7 +130,8 @@ class Selection {
     return buffer;
   }
 
-  /// Their positions at rest plus `magnification` times their displacement, in `buffer`; metres.
+  /// Returns positions at rest plus `magnification` times displacements, m; in `buffer` if they had
+  /// to be computed or copied.
   std::span<const double> positions(const Snapshot& snapshot, double magnification,
                                     std::vector<double>& buffer) const {
     if (magnification == 0) return of(snapshot.positions, 3, buffer);

@@ -1,31 +1,37 @@
-// A law: what one spring does. Two kinds, both plain scalar physics; the kernels that run it over a
-// lattice come from kernels/.
+// A law: the force (N) and the energy (J) of one spring from its elongation. There are two kinds,
+// both scalar; the kernels that apply a law to a lattice come from kernels/.
 //
-// 1. Without memory. Two templates, so that they work on a number as on a vector of them:
+// 1. Without memory. Two templates, which take numbers as well as vectors of numbers:
 //
 //      struct Linear {
-//        static constexpr bool linear = true;  // only if the force is proportional to the
-//        elongation template <class Real> static Real force(Real stiffness, Real elongation) {
-//        return stiffness * elongation; } template <class Real> static Real energy(Real stiffness,
-//        Real elongation) { return stiffness * elongation * elongation / 2; }
+//        static constexpr bool linear = true;  // only if force is proportional to elongation
+//        template <class Real> static Real force(Real stiffness, Real elongation) {
+//          return stiffness * elongation;
+//        }
+//        template <class Real> static Real energy(Real stiffness, Real elongation) {
+//          return stiffness * elongation * elongation / 2;
+//        }
 //      };
 //
-// 2. With constants of its own and, if it has any, a memory: numbers that each spring keeps from
-// step to step. Ordinary code, if and else included:
+// 2. With its own constants and, if needed, a memory: numbers that each spring keeps from step to
+// step. Ordinary code, if and else included:
 //
 //      struct Slider {
-//        struct Constants { double limit; };         // doubles only; what MaterialConstants::law
-//        holds struct Memory { double slipped = 0; };      // doubles only; all zero at first, if
-//        there is no start() static Memory start(const Constants& c, const SpringIdentity& spring);
-//        // for springs that differ from the beginning static void update(const SpringState& s,
-//        const Constants& c, Memory& m);         // once a step, before the force is asked for
-//        static double force(const SpringState& s, const Constants& c, const Memory& m);  // N,
-//        positive if the spring pulls static double energy(const SpringState& s, const Constants&
-//        c, const Memory& m); // J that it would give back
+//        // Doubles only; the material sets them in MaterialConstants::law.
+//        struct Constants { double limit; };
+//        // Doubles only; all zero at the start of the run if there is no start().
+//        struct Memory { double slipped = 0; };
+//        // Only for springs whose memory does not start at zero.
+//        static Memory start(const Constants& c, const SpringIdentity& spring);
+//        // Called once a step, before force().
+//        static void update(const SpringState& s, const Constants& c, Memory& m);
+//        // N, positive if the spring pulls.
+//        static double force(const SpringState& s, const Constants& c, const Memory& m);
+//        // Recoverable energy, J.
+//        static double energy(const SpringState& s, const Constants& c, const Memory& m);
 //      };
 //
-//    What the spring dissipates need not be said: it is the work of its force less the change of
-//    its energy.
+//    The core computes the dissipated energy: the work of the force less the change of the energy.
 #pragma once
 
 #include <cstddef>
@@ -40,19 +46,19 @@ struct SpringState {
   double stiffness = 0;    ///< N/m
   double rest_length = 0;  ///< m
   double elongation = 0;   ///< m
-  double rate = 0;         ///< of the elongation over the step before now, m/s; 0 at the start
-  double time_step = 0;    ///< the step before now, s; 0 at the start
+  double rate = 0;         ///< rate of the elongation over the last step, m/s; 0 at the start
+  double time_step = 0;    ///< length of the last step, s; 0 at the start
 };
 
-/// Which spring it is, or a cross spring beside it: the particles at its ends, a < b, in the order
-/// in which the lattice names them.
+/// The particles at the ends of a base spring, a < b, numbered as the lattice names them. A cross
+/// spring has the identity of its base spring.
 struct SpringIdentity {
   std::uint64_t a = 0, b = 0;
 };
 
 inline constexpr std::size_t max_law_constants = 8, max_law_memory = 6;
 
-/// Whether a law is of the second kind.
+/// A law of the second kind.
 template <class Law>
 concept LawWithConstants = requires {
   typename Law::Constants;
@@ -67,7 +73,7 @@ concept LawWithStart = LawWithMemory<Law> &&
   Law::start(constants, spring);
 };
 
-/// Numbers in a struct of doubles.
+/// Returns how many doubles a struct of doubles holds.
 template <class Struct>
 constexpr std::size_t numbers_in() {
   if constexpr (std::is_empty_v<Struct>) return 0;
@@ -75,8 +81,8 @@ constexpr std::size_t numbers_in() {
   return sizeof(Struct) / sizeof(double);
 }
 
-/// Numbers that each spring keeps: the law's own, and its last elongation and force, of which rate
-/// and work follow. A law that needs no number of its own but the rate has an empty Memory.
+/// Returns how many numbers each spring keeps: the law's own, then the last elongation and force,
+/// from which rate and work follow. A law that needs only the rate has an empty Memory.
 template <class Law>
 constexpr std::size_t memory_of() {
   if constexpr (LawWithMemory<Law>) {
@@ -87,31 +93,31 @@ constexpr std::size_t memory_of() {
   }
 }
 
-/// One spring of a law of the second kind from the step before to now.
+/// Result of one step of a spring with a law of the second kind.
 template <LawWithConstants Law>
 struct SpringStep {
   static constexpr std::size_t own = memory_of<Law>() > 0 ? memory_of<Law>() - 2 : 0;
 
   double force = 0;       ///< N
   double energy = 0;      ///< J
-  double dissipated = 0;  ///< J since the step before
+  double dissipated = 0;  ///< J, during the last step
 
-  /// J that the spring has stored, with the memory as it is.
+  /// Returns the stored energy, J, for the present memory.
   static double energy_of(const SpringState& state, const double* constants,
                           const double* memory) requires LawWithMemory<Law> {
     return Law::energy(state, read<typename Law::Constants>(constants),
                        read<typename Law::Memory>(memory));
   }
 
-  /// What a new spring keeps.
+  /// Sets the memory of a new spring.
   static void start(const double* constants, const SpringIdentity& spring,
                     double* memory) requires LawWithStart<Law> {
     const typename Law::Memory begun = Law::start(read<typename Law::Constants>(constants), spring);
     std::memcpy(memory, &begun, own * sizeof(double));
   }
 
-  /// `constants`: those of the law; `memory`: memory_of<Law>() numbers, as they were and then as
-  /// they are.
+  /// Advances a spring by one step. `constants`: the law's; `memory`: memory_of<Law>() numbers, in:
+  /// values at the previous step, out: values at the current step.
   static SpringStep take(SpringState state, const double* constants, double* memory) {
     const auto own_constants = read<typename Law::Constants>(constants);
     SpringStep step;

@@ -1,5 +1,5 @@
-// The layout of a struct as a number, found by the compiler: size, alignment, and the place, name
-// and type of each member.
+// The layout of a struct as a hash that the compiler computes: size, alignment, and the offset,
+// name and type of each member.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace hyperlattice::detail {
 
-/// FNV-1a over numbers and names.
+/// FNV-1a hash over numbers and names.
 class LayoutHash {
  public:
   constexpr void add(std::uint64_t number) {
@@ -47,7 +47,8 @@ struct Signature<Result (*)(Arguments...) noexcept(Noexcept)> {
   }
 };
 
-/// Types of other libraries (std::span, std::string_view, std::array) count by their size.
+/// Adds a type to the hash. Types of other libraries (std::span, std::string_view, std::array)
+/// count by size and alignment.
 template <class Type>
 constexpr void add_type(LayoutHash& hash) {
   if constexpr (std::is_const_v<Type>) hash.add("const");
@@ -75,7 +76,7 @@ constexpr void add_type(LayoutHash& hash) {
 
 }  // namespace hyperlattice::detail
 
-// A macro for each name of a list, up to 64 of them.
+// Applies a macro to each name of a list, up to 64 names.
 #define HYPERLATTICE_EACH(MACRO, ...) HYPERLATTICE_AGAIN3(HYPERLATTICE_ONE(MACRO, __VA_ARGS__))
 #define HYPERLATTICE_ONE(MACRO, NAME, ...) \
   MACRO(NAME) __VA_OPT__(HYPERLATTICE_NEXT HYPERLATTICE_PARENTHESES(MACRO, __VA_ARGS__))
@@ -94,7 +95,7 @@ constexpr void add_type(LayoutHash& hash) {
   hash.add(std::uint64_t{offsetof(Self, member)}); \
   add_type<decltype(Self::member)>(hash);
 
-/// The binding compiles only if these are all of the struct's members.
+/// The structured binding compiles only if the list names all members of the struct.
 #define HYPERLATTICE_LAYOUT(Struct, ...)                          \
   template <>                                                     \
   struct Layout<Struct> {                                         \

@@ -1,7 +1,8 @@
-// A load: forces, prescribed motion or a body acceleration, all following one function of time. It
-// is declared once, before the run; the core applies its mean over each time step, and accounts for
-// its work. A load whose forces depend on the motion also answers: it names the particles that it
-// watches, and once a step is asked for the force on each.
+// A load: forces, prescribed motion or a body acceleration, all multiplied by one function of time,
+// the load factor. The load declares them once, before the run. The core applies the mean of the
+// factor over each time step and counts the load's work. A load whose forces depend on the motion
+// also answers: it names the particles that it watches, and returns the force on each in every
+// step.
 #pragma once
 
 #include <hyperlattice/component.hpp>
@@ -10,32 +11,32 @@
 
 namespace hyperlattice {
 
-/// Outward normals of a cell's faces.
+/// Outward unit normals of a cell's faces.
 inline constexpr Vec3 face_normals[6] = {{-1, 0, 0}, {1, 0, 0},  {0, -1, 0},
                                          {0, 1, 0},  {0, 0, -1}, {0, 0, 1}};
 
-/// A particle at a surface.
+/// A particle at a surface and its part of the surface.
 struct OpenArea {
   Particle particle = 0;
-  Vec3 area;  ///< sum of the outward normals of the faces that it stands for, each as long as the
-              ///< particle's part of the face is large, m2
+  Vec3 area;  ///< sum of the outward normals of the particle's faces, each with the length of the
+              ///< particle's part of the face, m2
 };
 
-/// A base spring.
+/// A base spring at rest.
 struct RestSpring {
   Particle a = 0, b = 0;
-  double stiffness = 0;    ///< N/m; at the surface of a body of cells its share of the whole
-  double share = 1;        ///< of a whole spring
+  double stiffness = 0;    ///< N/m, already multiplied by `share`
+  double share = 1;        ///< fraction of a whole spring; below 1 only at a surface of cells
   double rest_length = 0;  ///< metres
-  bool breakable = false;  ///< a criterion may remove it
+  bool breakable = false;  ///< whether a failure criterion may remove the spring
 };
 
 /// The body as a load sees it.
 struct LoadBody {
   void* self = nullptr;
   double spacing = 0;  ///< lattice constant, metres
-  double rim = 0;  ///< how far the body reaches beyond its outermost particles, metres: nothing if
-                   ///< particles are the corners of cells
+  /// Distance from the outermost particles to the body's surface, m; 0 with boundary cells.
+  double rim = 0;
   std::span<const Particle> (*region_particles)(void* self, RegionId region) noexcept = nullptr;
   Vec3 (*particle_position)(void* self, Particle particle) noexcept = nullptr;
   double (*particle_mass)(void* self, Particle particle) noexcept = nullptr;
@@ -45,65 +46,62 @@ struct LoadBody {
   Vec3 (*region_centre)(void* self, RegionId region) noexcept = nullptr;
   std::span<const RestSpring> (*region_springs)(void* self, RegionId region) noexcept = nullptr;
 
-  /// In ascending order. Empty is a fault that the core reports itself; the load then need not do
-  /// anything.
+  /// Returns the particles of the region in ascending order. The core itself reports an empty
+  /// region as an error; the load may then return without declaring anything.
   std::span<const Particle> particles(RegionId region) const {
     return region_particles(self, region);
   }
-  Vec3 position(Particle particle) const {
-    return particle_position(self, particle);
-  }  ///< metres, at rest
+  /// Returns the position at rest, m.
+  Vec3 position(Particle particle) const { return particle_position(self, particle); }
   double mass(Particle particle) const { return particle_mass(self, particle); }  ///< kg
-  double share(Particle particle) const {
-    return particle_share(self, particle);
-  }  ///< of a whole particle: below 1 where a body of cells ends
-  /// The open faces of the region: to the cavity for "inner_surface", to the outside for
-  /// "outer_surface", of one side for "x_min" and its like, any for others. Each particle once,
-  /// ascending; none if no face is open. The sum is the area of the faces exactly.
+  /// Returns the fraction of a whole particle, 0 to 1; below 1 at the surface of a body of cells.
+  double share(Particle particle) const { return particle_share(self, particle); }
+  /// Returns the open faces of the region, each particle once, in ascending order; empty if no face
+  /// is open. The region decides which faces count: those to the cavity for "inner_surface", to the
+  /// outside for "outer_surface", of one side for "x_min" and its like, all open faces for other
+  /// regions. The sum over the particles is exactly the area of the faces.
   std::span<const OpenArea> open_areas(RegionId region) const {
     return region_open_areas(self, region);
   }
-  /// Area in m2 of the surface that the scene's shape describes, if the shape knows it (spheres and
+  /// Returns the area, m2, of the surface of the scene's shape, if the shape knows it (spheres and
   /// hollow spheres do); else 0.
   double true_area(RegionId region) const { return region_true_area(self, region); }
-  Vec3 centre(RegionId region) const {
-    return region_centre(self, region);
-  }  ///< of the shape behind the region; else of its particles
-  /// The base springs with one end or both in the region, each once, in the order of a, then b.
+  /// Returns the centre, m, of the region's shape, or of its particles if it has no shape.
+  Vec3 centre(RegionId region) const { return region_centre(self, region); }
+  /// Returns the base springs with one or both ends in the region, each once, sorted by a, then b.
   std::span<const RestSpring> springs(RegionId region) const {
     return region_springs(self, region);
   }
 };
 
-/// Which components of the displacement a prescription fixes: bits 0 x, 1 y, 2 z.
+/// Set of the displacement components that a constraint prescribes: bits 0 x, 1 y, 2 z.
 using Axes = std::uint32_t;
 
-/// The same as an option: .choices(axis_set_names).
+/// Axes as an option: .choices(axis_set_names).
 enum class AxisSet : std::uint32_t { x, y, xy, z, xz, yz, xyz };
 inline constexpr std::string_view axis_set_names[] = {"x", "y", "xy", "z", "xz", "yz", "xyz"};
 constexpr Axes axes_of(AxisSet set) { return static_cast<Axes>(set) + 1; }
 
-/// From 0 to 1 in a straight line during `rise` seconds, then constant; 1 from the start if rise is
-/// 0.
+/// Returns a linear ramp from 0 to 1 over `rise` seconds, then 1; always 1 if rise is 0.
 constexpr double ramp(double time, double rise) { return time >= rise ? 1 : time / rise; }
 
-/// What a load that answers sees at a step's start: the particles that it watches, in the order in
-/// which it named them.
+/// The motion that a load that answers gets at the start of a step. Arrays hold the watched
+/// particles in the order in which the load named them.
 struct WatchedMotion {
   double time = 0;                     ///< seconds
-  double factor = 1;                   ///< the load's, its mean over the step around that time
+  double factor = 1;                   ///< load factor, its mean over the step around `time`
   std::span<const Vec3> displacement;  ///< metres
-  std::span<const Vec3> velocity;  ///< m/s, half a step before: forces that depend on it are true
-                                   ///< to the first power of the step
+  std::span<const Vec3> velocity;  ///< m/s, half a step before `time`; forces that depend on it are
+                                   ///< first-order accurate in the time step
 };
 
-/// How strongly an answer may react: bounds of its change with the particle's displacement, N/m,
-/// and velocity, N s/m. The stable step is found with them.
+/// Bounds of the derivative of an answered force with the particle's displacement, N/m, and
+/// velocity, N s/m. The core needs them to find the stable time step.
 struct LoadStiffnessBound {
   double stiffness = 0, viscosity = 0;
 };
 
-/// Receives what a load does. Each amplitude is multiplied by the load's factor(t).
+/// Receives the declarations of a load. The load factor multiplies each amplitude.
 struct LoadSink {
   void* self = nullptr;
   void (*receive_force)(void* self, Particle particle, Vec3 amplitude) noexcept = nullptr;
@@ -119,52 +117,55 @@ struct LoadSink {
   void (*receive_warning)(void* self, std::string_view sentence) noexcept = nullptr;
   void (*receive_frequency)(void* self, double hertz) noexcept = nullptr;
 
-  void force(Particle particle, Vec3 amplitude) const {
-    receive_force(self, particle, amplitude);
-  }  ///< newton
+  /// Adds a force, N.
+  void force(Particle particle, Vec3 amplitude) const { receive_force(self, particle, amplitude); }
+  /// Prescribes displacement components, m.
   void displacement(Particle particle, Axes axes, Vec3 amplitude) const {
     receive_displacement(self, particle, axes, amplitude);
-  }  ///< metres
+  }
+  /// Prescribes velocity components, m/s.
   void velocity(Particle particle, Axes axes, Vec3 amplitude) const {
     receive_velocity(self, particle, axes, amplitude);
-  }  ///< m/s
-  /// The same for all particles, constant in time (gravity): m/s2; factor(t) does not apply.
+  }
+  /// Adds an acceleration, m/s2, of all particles, constant in time (gravity). The load factor does
+  /// not apply.
   void acceleration(Vec3 value) const { receive_acceleration(self, value); }
-  /// Velocity at time 0, before the first step: m/s; factor(t) does not apply.
+  /// Sets the velocity, m/s, at time 0, before the first step. The load factor does not apply.
   void start_velocity(Particle particle, Vec3 value) const {
     receive_start_velocity(self, particle, value);
   }
-  void corner(double time) const {
-    receive_corner(self, time);
-  }  ///< a time where factor(t) has a kink or jump: means over steps are then exact
-  /// factor(t) oscillates, at most that often in a second: steps that are too long for it are
-  /// refused or warned of.
+  /// Names a time, s, at which the load factor has a kink or a jump; means over steps are then
+  /// exact.
+  void corner(double time) const { receive_corner(self, time); }
+  /// Tells the highest frequency, Hz, of the load factor; the core refuses time steps that are too
+  /// long for it, or warns of them.
   void frequency(double hertz) const { receive_frequency(self, hertz); }
-  /// The load will answer for the particle; those that are watched count from 0, each is named
-  /// once.
+  /// Watches a particle and answers with a force on it. Watched particles are numbered from 0; each
+  /// may be named once.
   void watch(Particle particle, const LoadStiffnessBound& reaction = {}) const {
     receive_watched(self, particle, true, reaction);
   }
-  /// The particle is only looked at; it counts among the watched.
+  /// Watches a particle without a force on it. It takes a number among the watched particles.
   void look_at(Particle particle) const { receive_watched(self, particle, false, {}); }
-  void warn(std::string_view sentence) const {
-    receive_warning(self, sentence);
-  }  ///< what is allowed, but hardly meant
+  /// Warns of input that is allowed, but probably a mistake.
+  void warn(std::string_view sentence) const { receive_warning(self, sentence); }
 };
 
+/// Functions of a load across the boundary.
 struct LoadFunctions {
   bool (*declare)(void* load, const LoadBody& body, const LoadSink& sink,
                   const Complaint& why) noexcept;
   bool (*factor)(const void* load, double time, double& factor, const Complaint& why) noexcept;
-  /// Null: the load does not answer.
+  /// Null if the load does not answer.
   bool (*answer)(const void* load, const WatchedMotion& motion, std::size_t n, Vec3& force,
                  const Complaint& why) noexcept;
   bool (*prepare)(void* load, const WatchedMotion& motion,
-                  const Complaint& why) noexcept;  ///< before answers; null: nothing to prepare
+                  const Complaint& why) noexcept;  ///< called before the answers to a motion; null:
+                                                   ///< nothing to prepare
 };
 
-/// A load class has: void declare(const LoadBody&, const LoadSink&), which throws when its region
-/// is unsuitable, and is called once; and double factor(double time) const. What factor throws ends
+/// A load class has: void declare(const LoadBody&, const LoadSink&), called once, which throws if
+/// its region is unsuitable; and double factor(double time) const. An exception from factor ends
 /// the run.
 template <class T>
 concept LoadComponent = requires(T& load, const LoadBody& body, const LoadSink& sink) {
@@ -172,11 +173,11 @@ concept LoadComponent = requires(T& load, const LoadBody& body, const LoadSink& 
   { std::as_const(load).factor(0.0) } -> std::convertible_to<double>;
 };
 
-/// One that answers also has: Vec3 answer(const WatchedMotion&, std::size_t n) const, the force on
-/// the n-th watched particle in newton. It may be called by several threads at once, and depends on
-/// nothing but its arguments. factor(t) does not apply by itself. It may have void prepare(const
-/// WatchedMotion&), called once by one thread before it answers for a motion; what answers are must
-/// not depend on earlier ones.
+/// A load that answers also has: Vec3 answer(const WatchedMotion&, std::size_t n) const, which
+/// returns the force, N, on the n-th watched particle. Several threads may call it at once; it must
+/// depend on nothing but its arguments. The core does not multiply the answer by the load factor.
+/// The load may have void prepare(const WatchedMotion&), which one thread calls once before the
+/// answers to a motion. Answers must not depend on earlier answers.
 template <class T>
 concept AnsweringLoad = LoadComponent<T> && requires(const T& load, const WatchedMotion& motion) {
   { load.answer(motion, std::size_t{}) } -> std::convertible_to<Vec3>;
@@ -219,4 +220,4 @@ struct FunctionsOf<T> {
 }  // namespace detail
 }  // namespace hyperlattice
 
-#include <hyperlattice/boundary.hpp>  // the gate, once all that a family hands over is known
+#include <hyperlattice/boundary.hpp>  // the gate needs all structs of the boundary

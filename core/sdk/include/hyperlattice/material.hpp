@@ -1,6 +1,6 @@
-// A material: the constants of its springs, and the law that gives a spring's force from its
-// elongation. The law is scalar physics; the kernels that run it over a lattice are instantiated
-// from kernels/ inside the material's own library (CMake: hyperlattice_add_material).
+// A material: the stiffnesses of its springs, and the law that gives a spring's force from its
+// elongation. The kernels that apply the law to a lattice are instantiated from kernels/ inside the
+// material's own library (CMake: hyperlattice_add_material).
 #pragma once
 
 #include <hyperlattice/component.hpp>
@@ -12,29 +12,29 @@
 
 namespace hyperlattice {
 
-struct KernelRequest;  // kernels/request.hpp
+struct KernelRequest;  // kernel_request.hpp
 struct SpringRow;
 
-/// What a material makes of a lattice. Cross springs (beta, gamma) share their base spring's
-/// neighbour.
+/// The springs that a material gives to a lattice. A cross spring (beta, gamma) belongs to the same
+/// neighbour as its base spring.
 struct MaterialConstants {
-  double density = 0;         ///< kg/m3
-  double base_stiffness = 0;  ///< k, N/m; base springs have it times their class's own factor
-  double cross_ratio[max_spring_classes] =
-      {};                  ///< k_beta / k, k_gamma / k: one for each spring class
-  double alpha_ratio = 0;  ///< k_alpha / k; meaningless if clamped
-  bool clamped = false;    ///< k_alpha infinite: no motion in the fourth dimension (III, IV)
-  double law[max_spring_classes][2][max_law_constants] =
-      {};  ///< Law::Constants of each class's base and cross springs, if the law has some
+  double density = 0;  ///< kg/m3
+  /// k, N/m; base springs of a class have k times LatticeFacts::class_stiffness.
+  double base_stiffness = 0;
+  double cross_ratio[max_spring_classes] = {};  ///< k_beta / k, k_gamma / k, for each spring class
+  double alpha_ratio = 0;                       ///< k_alpha / k; not used if clamped
+  bool clamped = false;  ///< k_alpha infinite: no motion in the fourth dimension (III, IV)
+  /// Law::Constants of each class's base and cross springs; unused if the law has none.
+  double law[max_spring_classes][2][max_law_constants] = {};
 
-  /// Sets those of one class's base springs (cross 0) or cross springs (1).
+  /// Sets the law's constants of one class's base springs (cross 0) or cross springs (1).
   template <class Constants>
   void set_law(std::uint32_t spring_class, int cross, const Constants& constants) {
     static_assert(sizeof constants <= sizeof law[0][0]);
     std::memcpy(law[spring_class][cross], &constants, sizeof constants);
   }
 
-  /// Sets those of all springs.
+  /// Sets the law's constants of all springs.
   template <class Constants>
   void set_law(const Constants& constants) {
     for (std::uint32_t c = 0; c < max_spring_classes; ++c)
@@ -48,56 +48,59 @@ struct MaterialConstants {
   }
 };
 
-/// Elastic constants of one layer, Pa; of a lattice that is not cubic, means over the axes.
+/// Elastic constants of one layer, Pa; means over the axes if the lattice is not cubic.
 struct ElasticConstants {
   double C11 = 0, C12 = 0, C44 = 0;
 
-  double young() const { return (C11 - C12) * (C11 + 2 * C12) / (C11 + C12); }  ///< along [100]
-  double poisson() const { return C12 / (C11 + C12); }  ///< nu', pull along [100]
+  /// Young's modulus along [100], Pa.
+  double young() const { return (C11 - C12) * (C11 + 2 * C12) / (C11 + C12); }
+  double poisson() const { return C12 / (C11 + C12); }  ///< nu', for a pull along [100]
 };
 
-/// The lattice as a material sees it when it chooses its springs' stiffness.
+/// The lattice data from which a material chooses the stiffness of its springs.
 struct LatticeFacts {
   double spacing = 0;            ///< l, metres
-  Basis basis = cubic_basis;     ///< in units of the spacing
-  double site_volume = 0;        ///< m3 of one particle
+  Basis basis = cubic_basis;     ///< steps between sites, in units of the spacing
+  double site_volume = 0;        ///< volume of one whole particle, m3
   double membrane_distance = 0;  ///< Delta, metres
   std::span<const Neighbour> neighbours;
   std::uint32_t spring_classes = 1;
-  std::array<double, max_spring_classes> class_stiffness{1, 1, 1, 1};  ///< of base springs, over k
-  std::uint64_t particles =
-      0;  ///< of the body, in whole ones: with boundary cells the sum of their shares
-  double squared_lengths = 0;  ///< sum over the body's base springs, in whole ones, of stiffness /
-                               ///< k times squared length, m2
-  double lengths = 0,
-         cubed_lengths = 0;  ///< of a list: likewise with length, m, and its third power, m3
-  bool allow_unstable =
-      false;  ///< the scene wants unstable lattices to run: nothing is refused for that
+  /// Stiffness of each class's base springs over k, for each spring class.
+  std::array<double, max_spring_classes> class_stiffness{1, 1, 1, 1};
+  /// Particles of the body; with boundary cells the sum of their fractions.
+  std::uint64_t particles = 0;
+  /// Sum over the body's base springs of fraction * stiffness / k * length^2, m2.
+  double squared_lengths = 0;
+  /// For a list: the same sums with length, m, and length^3, m3.
+  double lengths = 0, cubed_lengths = 0;
+  /// The scene accepts unstable lattices: a material must not refuse them.
+  bool allow_unstable = false;
 
   void* self = nullptr;
   ElasticConstants (*get_elastic_constants)(void* self,
                                             const MaterialConstants& constants) noexcept = nullptr;
-  bool (*get_stable)(void* self,
-                     const MaterialConstants& constants) noexcept = nullptr;  ///< null: not known
+  /// Null: not known.
+  bool (*get_stable)(void* self, const MaterialConstants& constants) noexcept = nullptr;
 
-  /// Of the endless lattice with these springs.
+  /// Returns the elastic constants of the infinite lattice with these springs.
   ElasticConstants elastic_constants(const MaterialConstants& constants) const {
     return get_elastic_constants(self, constants);
   }
-  /// Whether the endless mirrored layer is stable with these springs.
+  /// Returns whether the infinite mirrored layer is stable with these springs; true if it is not
+  /// known.
   bool is_stable(const MaterialConstants& constants) const {
     return get_stable == nullptr || get_stable(self, constants);
   }
 };
 
-/// How displacements and velocities are stored, and steps computed. Measurements are computed in
+/// Precision of stored displacements and velocities and of the steps. Measurements always use
 /// doubles.
 enum class Precision : std::uint32_t { doubles, floats };
 constexpr std::size_t bytes_of(Precision precision) {
   return precision == Precision::floats ? sizeof(float) : sizeof(double);
 }
 
-/// What is special in a kernel; everything not asked for costs no instruction.
+/// Features of a kernel. A feature that is off costs no instruction.
 struct KernelChoice {
   enum class Membrane : std::uint32_t { none, clamped, free };
   Membrane membrane = Membrane::none;  ///< none, clamped: 3 degrees of freedom; free: 4
@@ -107,53 +110,54 @@ struct KernelChoice {
   Precision precision = Precision::doubles;
 };
 
-/// One spring, outside a kernel.
+/// One spring, for a question to its law outside a kernel.
 struct OneSpring {
-  double stiffness = 0, rest_length = 0, elongation = 0;  ///< N/m, m, m
-  const double* law = nullptr;                            ///< its constants, if the law has some
-  const double* memory = nullptr;                         ///< KernelSet::memory numbers
+  double stiffness = 0, rest_length = 0, elongation = 0;  ///< stiffness, N/m; lengths, m
+  const double* law = nullptr;                            ///< the law's constants, if it has any
+  const double* memory = nullptr;  ///< memory of the spring: KernelSet::memory numbers
 };
 struct SpringAnswer {
   double force = 0, energy = 0;  ///< N, J
 };
 
-/// Moves a block of particles by one step, or measures it. Null members: this library has no such
-/// kernel.
+/// Functions that move a block of particles by one step, or measure it. Null members: this library
+/// has no such kernel.
 struct KernelSet {
   bool (*step)(const KernelRequest& request, const Complaint& why) noexcept = nullptr;
   bool (*step_damped)(const KernelRequest& request, const Complaint& why) noexcept = nullptr;
   bool (*measure)(const KernelRequest& request, const Complaint& why) noexcept = nullptr;
-  /// Forces and tangents of a row of springs, and their energy, J.
+  /// Computes forces and tangents of a row of springs, and their energy, J.
   bool (*linearise)(const SpringRow& row, double& energy, const Complaint& why) noexcept = nullptr;
   bool (*ask)(const OneSpring& spring, SpringAnswer& answer,
               const Complaint& why) noexcept = nullptr;
-  /// Takes one spring a step of that many seconds further, to the elongation given; `kept`: its
-  /// memory, which becomes that of now.
+  /// Advances one spring by a step of `time_step` seconds, to the given elongation. `kept`: its
+  /// memory, in: at the previous step, out: at the current step.
   bool (*take)(const OneSpring& spring, double time_step, double* kept, SpringAnswer& answer,
                const Complaint& why) noexcept = nullptr;
-  /// Sets what a spring keeps at first, where all is zero; null: that is right.
+  /// Sets the initial memory of a spring, whose numbers are all zero. Null: zeros are right.
   bool (*start)(const double* law, const SpringIdentity& spring, double* kept,
                 const Complaint& why) noexcept = nullptr;
-  std::uint32_t memory = 0;       ///< numbers that each spring keeps, base or cross
-  const char* instructions = "";  ///< "avx512", "avx2", "baseline": what this processor was given
+  std::uint32_t memory = 0;       ///< numbers in the memory of each spring, base or cross
+  const char* instructions = "";  ///< instruction set: "avx512", "avx2" or "baseline"
 };
 
+/// Functions of a material across the boundary.
 struct MaterialFunctions {
   bool (*constants)(const void* material, const LatticeFacts& lattice, MaterialConstants& constants,
                     const Complaint& why) noexcept;
   bool (*kernels)(const KernelChoice& choice, KernelSet& kernels, const Complaint& why) noexcept;
-  std::string_view law;  ///< materials with the same law share kernels and may stand in one body
-  /// Null: that of the elastic springs.
+  std::string_view law;  ///< name; materials with one law share kernels and may be in one body
+  /// Null: the stable step of the elastic springs holds.
   bool (*stable_step)(const void* material, double elastic_step, double& step,
                       const Complaint& why) noexcept;
 };
 
-/// A material class has: MaterialConstants constants(const LatticeFacts&) const, which throws when
-/// E, nu and membrane do not fit (a sentence whose first word is an option's name is an objection
-/// to that option); static KernelSet kernels(const KernelChoice&); static constexpr
-/// std::string_view law. It may have double stable_time_step(double elastic_step) const: the
-/// largest stable step in seconds, where the law does more than the elastic springs whose stable
-/// step it is given (viscosity).
+/// A material class has: MaterialConstants constants(const LatticeFacts&) const, which throws if E,
+/// nu and membrane do not fit (a sentence whose first word is an option's name blames that option);
+/// static KernelSet kernels(const KernelChoice&); static constexpr std::string_view law. It may
+/// have double stable_time_step(double elastic_step) const: the largest stable step, s, of a law
+/// that adds to the elastic forces (viscosity); elastic_step is the stable step of the elastic
+/// springs.
 template <class T>
 concept MaterialComponent = requires(const T& material, const LatticeFacts& lattice,
                                      const KernelChoice& choice) {
@@ -192,4 +196,4 @@ struct FunctionsOf<T> {
 }  // namespace detail
 }  // namespace hyperlattice
 
-#include <hyperlattice/boundary.hpp>  // the gate, once all that a family hands over is known
+#include <hyperlattice/boundary.hpp>  // the gate needs all structs of the boundary

@@ -1,7 +1,6 @@
-// The paper's membranes on any lattice: k_beta goes with spring class 0, k_gamma with class 1.
-// Which lambda has a Poisson ratio, and which Poisson ratios a stable lattice reaches, found by
-// asking the lattice for its elastic constants. Of the cubic lattice calibration.hpp has closed
-// forms.
+// The paper's membranes on any lattice: k_beta belongs to spring class 0, k_gamma to class 1. Finds
+// the lambda of a Poisson ratio, and the Poisson ratios of stable lattices, from the elastic
+// constants of the lattice. For the cubic lattice calibration.hpp has closed forms.
 #pragma once
 
 #include <hyperlattice/calibration.hpp>
@@ -22,7 +21,7 @@ using calibration::Reach;
 inline constexpr Membrane with_lambda[] = {Membrane::I_m, Membrane::I, Membrane::II, Membrane::III,
                                            Membrane::IV};
 
-/// Whether lambda means something to it: to all but none and free.
+/// Returns whether the membrane has a lambda: all have one but none and free.
 inline bool has_lambda(Membrane membrane) {
   return std::find(std::begin(with_lambda), std::end(with_lambda), membrane) !=
          std::end(with_lambda);
@@ -32,7 +31,7 @@ inline std::string_view name(Membrane membrane) {
   return calibration::membrane_names[static_cast<std::size_t>(membrane)];
 }
 
-/// Springs of stiffness k = 1 N/m with these in the fourth dimension.
+/// Returns springs of stiffness k = 1 N/m with these ratios in the fourth dimension.
 inline MaterialConstants constants(const LatticeFacts& lattice, const Ratios& ratios) {
   MaterialConstants constants;
   constants.density = constants.base_stiffness = 1;
@@ -43,8 +42,9 @@ inline MaterialConstants constants(const LatticeFacts& lattice, const Ratios& ra
   return constants;
 }
 
-/// k_gamma / k_beta that leaves C11 - C12 - 2 C44 as it is without a membrane: an isotropic lattice
-/// stays isotropic. 3/4 for the cubic lattice; 0 if it has one class of springs.
+/// Returns the k_gamma / k_beta that leaves C11 - C12 - 2 C44 as it is without a membrane: an
+/// isotropic lattice stays isotropic. 3/4 for the cubic lattice; 0 for a lattice with one class of
+/// springs.
 inline double isotropic_ratio(const LatticeFacts& lattice) {
   if (lattice.spring_classes < 2) return 0;
   const auto anisotropy = [&](double beta, double gamma) {
@@ -56,7 +56,7 @@ inline double isotropic_ratio(const LatticeFacts& lattice) {
   return -(anisotropy(1, 0) - without) / (anisotropy(0, 1) - without);
 }
 
-/// Equations (1) to (5), with the lattice's own ratio in I-m.
+/// Returns the ratios of equations (1) to (5); I-m uses the isotropic ratio of this lattice.
 inline Ratios ratios(const LatticeFacts& lattice, Membrane membrane, double lambda) {
   Ratios ratios = calibration::ratios(membrane, lambda);
   if (membrane == Membrane::I_m) ratios.gamma = isotropic_ratio(lattice) * ratios.beta;
@@ -68,13 +68,13 @@ inline ElasticConstants elastic_constants(const LatticeFacts& lattice, Membrane 
   return lattice.elastic_constants(constants(lattice, ratios(lattice, membrane, lambda)));
 }
 
-/// The lambda that has this Poisson ratio along [100], stable or not, of a membrane that has a
-/// lambda; infinite if none has. By secants: exact at once for structured lattices, whose elastic
-/// constants are linear in lambda.
+/// Returns the lambda with this Poisson ratio along [100], stable or not, for a membrane that has a
+/// lambda; infinity if there is none. Secant method: exact after one step for structured lattices,
+/// whose elastic constants are linear in lambda.
 inline double lambda(const LatticeFacts& lattice, Membrane membrane, double poisson) {
   const auto miss = [poisson](const ElasticConstants& c) {
     return c.C12 - poisson * (c.C11 + c.C12);
-  };  // linear in lambda as they are
+  };  // linear in lambda if the elastic constants are
   constexpr double rounding = 1e-13, exact = 1e-10, largest = 1e9;
   constexpr int most = 50;
   if (const ElasticConstants none = elastic_constants(lattice, membrane, 0);
@@ -92,7 +92,7 @@ inline double lambda(const LatticeFacts& lattice, Membrane membrane, double pois
   return infinity;
 }
 
-/// The Poisson ratio that the lattice approaches as lambda grows without end.
+/// Returns the Poisson ratio that the lattice approaches for lambda to infinity.
 inline double limit(const LatticeFacts& lattice, Membrane membrane) {
   const ElasticConstants one = elastic_constants(lattice, membrane, 1e3),
                          two = elastic_constants(lattice, membrane, 2e3);
@@ -100,7 +100,8 @@ inline double limit(const LatticeFacts& lattice, Membrane membrane) {
   return C12 / (C11 + C12);
 }
 
-/// Where stability begins, going up; nothing if small positive lambda are unstable already.
+/// Returns the lambda above which the lattice is stable; nothing if small positive lambda are
+/// unstable.
 inline std::optional<double> least_stable(const LatticeFacts& lattice, Membrane membrane) {
   constexpr double small = 1e-6;
   const auto grows = [&](double at) {
@@ -115,7 +116,7 @@ inline std::optional<double> least_stable(const LatticeFacts& lattice, Membrane 
   return std::abs(stable) < 2 * small ? 0 : stable;
 }
 
-/// Whether the mirrored lattice is stable, the edge excluded.
+/// Returns whether the mirrored lattice is stable; false at the edge of stability.
 inline bool is_stable(const LatticeFacts& lattice, Membrane membrane, double lambda) {
   if (!lattice.is_stable(constants(lattice, ratios(lattice, membrane, lambda)))) return false;
   if (lambda >= 0) return true;
@@ -124,19 +125,20 @@ inline bool is_stable(const LatticeFacts& lattice, Membrane membrane, double lam
   return least && *least < 0 && lambda > *least + edge;
 }
 
-/// Poisson ratios for which the mirrored lattice is stable, of a membrane that has a lambda.
+/// Returns the Poisson ratios for which the mirrored lattice is stable, for a membrane with a
+/// lambda.
 inline Reach reach(const LatticeFacts& lattice, Membrane membrane) {
   const std::optional<double> least = least_stable(lattice, membrane);
   if (!least) return {};
   const auto tidy = [](double nu) {
     return std::abs(nu) < 1e-5 ? 0 : nu;
-  };  // the edge of stability is known no better
+  };  // the accuracy of the edge of stability
   const double start = tidy(elastic_constants(lattice, membrane, *least).poisson()),
                end = tidy(limit(lattice, membrane));
   return {std::min(start, end), std::max(start, end), *least < 0 || end > start};
 }
 
-/// Of all membranes with a lambda but one, those for which something holds, as a list of names.
+/// Lists the names of the membranes with a lambda, other than `but`, for which `holds` is true.
 template <class Holds>
 std::string others(Membrane but, const Holds& holds) {
   std::string names;
@@ -155,13 +157,13 @@ std::string text(const Parts&... parts) {
   return out.str();
 }
 
-/// Membranes, other than one, that give the lattice this Poisson ratio and are stable; for a
-/// message.
+/// Returns, for a message, the membranes other than `but` that give the lattice this Poisson ratio
+/// and are stable.
 inline std::string reached_by(const LatticeFacts& lattice, Membrane but, double poisson) {
   const bool is_listed = lattice.lengths > 0;
   if (is_listed)
-    return "other membranes have other ratios";  // which, costs tens of solutions for all its
-                                                 // springs
+    return "other membranes have other ratios";  // finding them costs tens of solutions for all
+                                                 // springs of the list
   std::string names;
   for (const Membrane other : with_lambda) {
     const double found = other == but ? infinity : lambda(lattice, other, poisson);
@@ -174,11 +176,12 @@ inline std::string reached_by(const LatticeFacts& lattice, Membrane but, double 
                        : text(poisson, " is within the reach of ", names);
 }
 
-/// That of a solid is below this, and no option takes more. A lattice that hardly resists at all
-/// may seem to have more.
+/// Upper bound of the Poisson ratio of a solid and of the option. A very soft lattice may seem to
+/// exceed it.
 inline constexpr double largest_poisson = 0.5;
 
-/// For a message about a Poisson ratio out of a membrane's reach: that reach, and who reaches it.
+/// Returns, for a message about a Poisson ratio that a membrane cannot reach, its reach and the
+/// membranes that do.
 inline std::string reach_sentence(const LatticeFacts& lattice, Membrane membrane, double poisson) {
   Reach own = reach(lattice, membrane);
   if (!(own.low < own.high) || own.low >= largest_poisson)
@@ -194,8 +197,8 @@ inline std::string reach_sentence(const LatticeFacts& lattice, Membrane membrane
               name(membrane), "; ", reached_by(lattice, membrane, poisson));
 }
 
-/// For a message about a lambda whose lattice is unstable: those that are stable, and membranes
-/// that are stable with this one.
+/// Returns, for a message about a lambda with an unstable lattice, the stable lambda and the
+/// membranes that are stable with this one.
 inline std::string stable_sentence(const LatticeFacts& lattice, Membrane membrane, double lambda) {
   const std::optional<double> least = least_stable(lattice, membrane);
   const std::string stable =

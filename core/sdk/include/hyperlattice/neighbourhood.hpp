@@ -1,5 +1,5 @@
-// Points in cells of a coarse grid, to find those within a distance: for lattices that join
-// particles by how near they are.
+// Finds points within a distance, with points sorted into the cells of a coarse grid. For lattices
+// that join particles by their distance.
 #pragma once
 
 #include <hyperlattice/plain.hpp>
@@ -13,9 +13,9 @@ namespace hyperlattice {
 
 class Neighbourhood {
  public:
-  /// For about `points` points between `low` and `high` and distances up to `reach`, metres.
-  /// Periodic: the box repeats in all directions, and is at least three times as wide as `reach`,
-  /// or std::invalid_argument is thrown.
+  /// Prepares for about `points` points between `low` and `high` and distances up to `reach`, m.
+  /// `periodic`: the box repeats in all directions. Throws std::invalid_argument if a periodic box
+  /// is narrower than three times `reach`.
   Neighbourhood(Vec3 low, Vec3 high, double reach, std::size_t points, bool periodic = false)
       : low_(low), size_(high - low), reach_(reach), periodic_(periodic) {
     const double extents[3] = {size_.x, size_.y, size_.z}, most_along = 1e6,
@@ -37,11 +37,11 @@ class Neighbourhood {
     head_.assign(static_cast<std::size_t>(count[0] * count[1] * count[2]), none);
   }
 
-  /// The fourth argument was `periodic` once. A call that still passes a bool there must not
-  /// compile: true would be taken as a number of points.
+  /// The fourth argument was `periodic` in older versions. A call that still passes a bool must not
+  /// compile: true would be read as a number of points.
   Neighbourhood(Vec3, Vec3, double, std::same_as<bool> auto) = delete;
 
-  /// Points are numbered in the order in which they are added.
+  /// Adds a point. Points are numbered in the order of the calls.
   void add(Vec3 point) {
     std::uint32_t& head = head_[cell(step(point, 0), step(point, 1), step(point, 2))];
     next_.push_back(head);
@@ -50,8 +50,8 @@ class Neighbourhood {
   }
   const std::vector<Vec3>& points() const { return points_; }
 
-  /// Calls visit(number, from here to there) for every point added that is no farther than `reach`
-  /// from this one.
+  /// Calls visit(number, vector to the point, m) for every added point that is no farther than
+  /// `reach` from `point`.
   template <class Visit>
   void for_near(Vec3 point, const Visit& visit) const {
     const std::int64_t i = step(point, 0), j = step(point, 1), k = step(point, 2);
@@ -99,14 +99,14 @@ class Neighbourhood {
   std::vector<std::uint32_t> head_, next_;
 };
 
-/// A pair of points that are near to each other.
+/// A pair of neighbouring points.
 struct NearPair {
   std::uint32_t a = 0, b = 0;
   Vec3 rest;  ///< from a to b, metres
 };
 
-/// All pairs of points up to a distance `reach`, metres, each once. `low`, `high`, `reach` and
-/// `periodic` are as in Neighbourhood's constructor.
+/// Returns all pairs of points no farther apart than `reach`, m, each once. `low`, `high`, `reach`
+/// and `periodic` are as in Neighbourhood's constructor.
 inline std::vector<NearPair> near_pairs(std::span<const Vec3> points, Vec3 low, Vec3 high,
                                         double reach, bool periodic = false) {
   Neighbourhood near(low, high, reach, points.size(), periodic);
@@ -120,7 +120,7 @@ inline std::vector<NearPair> near_pairs(std::span<const Vec3> points, Vec3 low, 
   return pairs;
 }
 
-/// The shortest `count` of the pairs, in no order; all of them if there are no more.
+/// Returns the `count` shortest pairs, in no order; all pairs if there are no more.
 inline std::vector<NearPair> shortest(std::vector<NearPair> pairs, std::size_t count) {
   if (count >= pairs.size()) return pairs;
   const auto shorter = [](const NearPair& p, const NearPair& q) {
@@ -132,8 +132,8 @@ inline std::vector<NearPair> shortest(std::vector<NearPair> pairs, std::size_t c
   return pairs;
 }
 
-/// The shortest pairs of points that give them a mean number of neighbours. Throws
-/// std::invalid_argument if that many are not to be had.
+/// Returns the shortest pairs of points, as many as give the mean number of neighbours
+/// `coordination`. Throws std::invalid_argument if there are not enough pairs.
 inline std::vector<NearPair> pairs_with_coordination(std::span<const Vec3> points, Vec3 low,
                                                      Vec3 high, double spacing,
                                                      double coordination) {
@@ -143,7 +143,7 @@ inline std::vector<NearPair> pairs_with_coordination(std::span<const Vec3> point
     throw std::invalid_argument("coordination is more than the number of particles can have");
   double reach = 1.2 * spacing *
                  std::cbrt(3 * (coordination + 1) /
-                           (4 * 3.141592653589793));  // of an endless body, and some more
+                           (4 * 3.141592653589793));  // of an infinite body, and a margin
   for (;; reach *= 1.3) {
     std::vector<NearPair> pairs = near_pairs(points, low, high, reach);
     if (pairs.size() >= wanted) return shortest(std::move(pairs), wanted);

@@ -5,9 +5,9 @@
 //   static Schema<Options> schema() {
 //     return Schema<Options>("loads.my_pulse", "Triangular pressure pulse on a surface")
 //         .add<&Options::peak>("peak", "Pa", "largest pressure").at_least(0)
-//         .add<&Options::area>("area", "m2", "true area of the surface").positive()      //
-//         optional: absent if not given .add<&Options::law>("law", "", "how it
-//         falls").choices(kLaws).fallback("\"linear\"");
+//         // std::optional: the option may be left out
+//         .add<&Options::area>("area", "m2", "true area of the surface").positive()
+//         .add<&Options::law>("law", "", "how it falls").choices(kLaws).fallback("\"linear\"");
 //   }
 #pragma once
 
@@ -35,7 +35,7 @@ enum class OptionKind : std::uint32_t {
   file
 };
 
-/// A validated value in SI units, handed by the core to an option's setter. Texts and shapes
+/// A validated value in SI units, which the core passes to an option's setter. Texts and shapes
 /// outlive the component.
 struct OptionValue {
   bool absent = false;  ///< not given, or given as the option's `word` ("auto")
@@ -49,7 +49,8 @@ struct OptionValue {
   RegionId region;
 };
 
-/// One declared option. Every pointer stays valid while the plugin is loaded, which is for ever.
+/// One declared option. Every pointer stays valid as long as the plugin is loaded, which is until
+/// the program ends.
 struct Option {
   std::string_view name;
   std::string_view unit;  ///< SI unit that fixes the dimension: "m", "Pa", "kg/m3"; empty:
@@ -57,17 +58,17 @@ struct Option {
   std::string_view help;
   std::string_view fallback;  ///< default as JSON text; empty: required, or absent if `optional`
   std::string_view word;      ///< a word accepted in place of the value: "auto"
-  std::string_view example;   ///< a value for examples and contract tests, as JSON text; empty: one
-                              ///< is made up from the range
+  /// Value for examples and contract tests, as JSON text; empty: made from the range.
+  std::string_view example;
   std::span<const std::string_view> choices;
   double low = -infinity, high = infinity;
-  bool low_open = false, high_open = false;  ///< whether the bound itself is outside the range
+  bool low_open = false, high_open = false;  ///< the bound itself is not allowed
   bool optional = false;
   OptionKind kind = OptionKind::number;
   bool (*set)(void* options, const OptionValue& value, const Complaint& why) noexcept = nullptr;
 };
 
-/// A fault that a cross-field check found: which option, and what was expected of it.
+/// Receives the errors of a cross-field check: the option, and the expected value.
 struct FaultSink {
   void* self = nullptr;
   void (*receive)(void* self, std::string_view option,
@@ -117,8 +118,8 @@ constexpr OptionKind kind_of() {
   }
 }
 
-/// Bounds of an option that holds whole numbers: those of its type, so that no value wraps. Values
-/// arrive as std::int64_t, whose own end is no bound.
+/// Sets the bounds of an integer option to those of its type, so that no value wraps. Values arrive
+/// as std::int64_t; a type as wide as that gets no upper bound, and a signed one no lower bound.
 template <class T>
 constexpr void bound_by_type(Option& option) {
   if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
@@ -172,20 +173,22 @@ bool assign(void* options, const OptionValue& value, const Complaint& why) noexc
 
 }  // namespace detail
 
-/// The declaration of a component: what it is, its options, and checks across options.
+/// The declaration of a component: its name, its options, and checks across options.
 template <class Options>
 class Schema {
  public:
   Schema(std::string_view name, std::string_view summary) : name_(name), summary_(summary) {}
 
+  /// Sets the equation shown on the component's page.
   Schema& equation(std::string_view text) {
     equation_ = text;
     return *this;
-  }  ///< shown in its page
+  }
+  /// Sets the source: an equation of a paper, or a reference.
   Schema& source(std::string_view text) {
     source_ = text;
     return *this;
-  }  ///< paper equation or reference
+  }
   Schema& restrictions(std::string_view text) {
     restrictions_ = text;
     return *this;
@@ -207,7 +210,7 @@ class Schema {
     options_.push_back(option);
     return *this;
   }
-  // Each of these says more about the option added last. Bounds only narrow those of an integer's
+  // The functions below refine the option added last. Bounds can only narrow those of an integer's
   // type.
   Schema& fallback(std::string_view json) {
     last().fallback = json;
@@ -217,8 +220,8 @@ class Schema {
     last().word = text;
     return *this;
   }
-  /// A value with which the component does what it is for, to solids of 1 mm and 10 GPa: it stands
-  /// in the page's example, and `hyperlattice plugins --test` runs with it.
+  /// Sets a value that makes the component act on solids of 1 mm and 10 GPa. The page's example and
+  /// `hyperlattice plugins --test` use it.
   Schema& example(std::string_view json) {
     last().example = json;
     return *this;
@@ -248,21 +251,21 @@ class Schema {
     last().high_open = true;
     return *this;
   }
-  /// Names allowed for a text, for each of a list of texts, or for an enum member in the order of
-  /// the enum's values. The array must be static.
+  /// Sets the names allowed for a text, for each text of a list, or for an enum member in the order
+  /// of its values. The array must be static.
   template <std::size_t N>
   Schema& choices(const std::string_view (&names)[N]) {
     if (last().kind == OptionKind::text) last().kind = OptionKind::choice;
     last().choices = names;
     return *this;
   }
-  /// The text names a file: relative to the scene's folder, it must exist. The component gets its
-  /// whole path.
+  /// Makes the text the name of a file, relative to the scene's folder. The file must exist; the
+  /// component gets its full path.
   Schema& file() {
     last().kind = OptionKind::file;
     return *this;
   }
-  /// A check across options, run when each option alone is valid.
+  /// Sets a check across options, which runs if each single option is valid.
   Schema& check(void (*test)(const Options&, const FaultSink&)) {
     check_ = test;
     return *this;

@@ -1,10 +1,10 @@
-// Contact by penalty, of bodies with floors and with each other: what is a depth p inside is pushed
-// out, and rubs.
+// Penalty contact of bodies with floors and with each other: a force pushes out a particle at a
+// depth p inside, with friction.
 //
 //   N = max(0, c p - b v_n)                        outwards, b = 2 damping sqrt(c m)
 //   T = min(mu N, h |v_t|) against v_t             h = grip sqrt(c m)
 //
-// Below the limit mu N friction is viscous, so that what rests creeps with mu N / h, a tiny speed,
+// Below the limit mu N friction is viscous: a particle at rest creeps with the tiny speed mu N / h,
 // and time steps stay stable.
 #pragma once
 
@@ -18,8 +18,9 @@
 
 namespace hyperlattice {
 
-/// c of a whole particle, N/m: as asked, or that of the stiffest base spring of the region.
-/// std::invalid_argument if there is none. Warns of a contact that is far softer than the body.
+/// Returns c of a whole particle, N/m: `asked`, or the stiffness of the region's stiffest base
+/// spring. Throws std::invalid_argument if there is none. Warns if the contact is far softer than
+/// the body.
 inline double contact_stiffness(const LoadBody& body, RegionId region, std::optional<double> asked,
                                 const LoadSink& sink) {
   double stiffest = 0;
@@ -42,15 +43,15 @@ struct PenaltyContact {
   double damping = 0;    ///< b, N s/m
   double grip = 0;       ///< h, N s/m
 
-  /// Of a mass, kg; damping and grip as shares of 2 sqrt(c m) and sqrt(c m).
+  /// `mass`, kg; damping and grip as fractions of 2 sqrt(c m) and sqrt(c m).
   PenaltyContact(double c, double mass, double damping_share, double grip_share) : stiffness(c) {
     const double measure = std::sqrt(c * mass);
     damping = 2 * damping_share * measure;
     grip = grip_share * measure;
   }
 
-  /// The force, N, at a depth above 0, m; `away`: of length 1, outwards; v: velocity against what
-  /// is touched, m/s. friction(v_t): the coefficient mu.
+  /// Returns the force, N, at a depth above 0, m. `away`: outward unit vector; `v`: velocity
+  /// relative to the other body, m/s; friction(v_t): the coefficient mu.
   template <class Friction>
   Vec3 force(double depth, Vec3 away, Vec3 v, const Friction& friction) const {
     const double outwards = dot(v, away), N = std::max(0.0, stiffness * depth - damping * outwards);

@@ -29,16 +29,17 @@ constexpr Vec3 cross(Vec3 a, Vec3 b) {
 }
 inline double norm(Vec3 a) { return std::sqrt(dot(a, a)); }
 
-/// Index of a particle: its place in the order z, then y, then x of the lattice.
+/// Index of a particle: its position in the lattice's order, by z, then y, then x.
 using Particle = std::uint64_t;
 
-/// A region of the scene, resolved by the core; what a region option of a component holds.
+/// A region of the scene, resolved by the core; the value of a component's region option.
 struct RegionId {
   std::uint32_t index = 0;
 };
 
-/// A solid described by the scene. `anchor` is where a lattice puts a corner of its cells: the
-/// centre of round shapes, the low corner of boxes, so that a box of whole cells is filled exactly.
+/// A solid described by the scene. `anchor`, m, is the point where a lattice puts a corner of its
+/// cells: the centre of round shapes, the low corner of boxes, so that whole cells fill a box
+/// exactly.
 struct Shape {
   const void* self = nullptr;
   bool (*contains_point)(const void* self, Vec3 point) noexcept = nullptr;
@@ -48,7 +49,7 @@ struct Shape {
   bool contains(Vec3 point) const { return contains_point(self, point); }
 };
 
-/// Where a function called across the boundary leaves the sentence that says why it failed.
+/// Receives the error message of a function that was called across the boundary and failed.
 struct Complaint {
   void* self = nullptr;
   void (*receive)(void* self, std::string_view sentence) noexcept = nullptr;
@@ -56,17 +57,17 @@ struct Complaint {
   void say(std::string_view sentence) const { receive(self, sentence); }
 };
 
-/// The sentence of a function that got no memory. The host tells it from any other.
+/// The message of a function that got no memory. The host recognises it.
 inline constexpr std::string_view out_of_memory = "std::bad_alloc";
 
-// Errors, in both directions. Every function of a plugin that the host calls returns whether it did
-// its work and takes a Complaint; an exception becomes the complaint's sentence. Functions of the
-// host that a plugin calls throw nothing: the host keeps its error until the plugin's function has
-// returned. They are called on the thread on which the plugin's function was called.
+// Errors across the boundary. Every function of a plugin that the host calls takes a Complaint and
+// returns whether it succeeded; an exception becomes the Complaint's message. Functions of the host
+// that a plugin calls throw nothing: the host keeps its error until the plugin's function has
+// returned. They are called on the thread of the plugin's function.
 
 namespace detail {
 
-/// Runs code of a plugin; an exception becomes a sentence, so that none crosses the boundary.
+/// Runs code of a plugin. Turns an exception into a message, so that none crosses the boundary.
 template <class Code>
 bool guarded(const Complaint& why, Code&& code) noexcept {
   try {

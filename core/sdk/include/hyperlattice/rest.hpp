@@ -1,5 +1,4 @@
-// What solvers that look for a state of rest have in common: what they cannot do, and when they
-// end.
+// Common parts of solvers that search a state of rest: unsupported bodies, and the end time.
 #pragma once
 
 #include <hyperlattice/files.hpp>
@@ -11,9 +10,9 @@
 
 namespace hyperlattice {
 
-/// A plan at rest up to `end_time`, s; by default to when the last load has stopped changing.
-/// Throws std::runtime_error for a body of which the core has no statics, and for an end before the
-/// start.
+/// Returns a plan for a state of rest at `end_time`, s; by default when the last load stops
+/// changing. Throws std::runtime_error if the core has no statics for the body, and for an end
+/// before the start.
 inline SolverPlan plan_of_rest(const SolverFacts& facts, std::optional<double> end_time) {
   if (!facts.tangents)
     throw std::runtime_error(

@@ -1,5 +1,5 @@
-// A solver: the order of steps in time, or a way to a state of rest. What a step does to every
-// particle is a kernel's work (kernels/); when outputs are due is the core's.
+// A solver: a sequence of time steps, or a method that finds a state of rest. A kernel computes
+// what a step does to each particle (kernels/); the core decides when outputs are due.
 #pragma once
 
 #include <hyperlattice/component.hpp>
@@ -7,52 +7,51 @@
 
 namespace hyperlattice {
 
-/// What a solver may know before the run.
+/// Facts that a solver gets before the run.
 struct SolverFacts {
-  double start_time = 0;            ///< seconds; where the stage before ended
+  double start_time = 0;            ///< s; end of the previous stage
   double critical_time_step = 0;    ///< seconds, undamped: 2 / omega_max
-  std::span<const double> corners;  ///< times where a load has a kink, ascending
-  std::int32_t sites_across = 1;    ///< of the longest side of the box that the body fills
-  bool listed = false;              ///< a list of particles and springs
-  bool tangents = true;  ///< the law says how its force changes with the elongation; if not, there
-                         ///< are no statics()
-  bool answering = false;  ///< a load answers to the motion; statics() does not know such loads
+  std::span<const double> corners;  ///< times, s, where a load has a kink or jump, ascending
+  std::int32_t sites_across = 1;    ///< sites along the longest side of the body's box
+  bool listed = false;              ///< the lattice is listed
+  bool tangents = true;  ///< the law has a tangent; if not, SolverHost::statics() is not available
+  bool answering = false;  ///< a load answers to the motion; statics() does not include such loads
 };
 
-/// What the solver will do, for `plan`, `summary.json` and the progress line.
+/// What the solver will do, for the plan, `summary.json` and the progress line.
 struct SolverPlan {
   double end_time = 0;
-  double time_step = 0;         ///< the largest step that will be taken, seconds
-  double stable_time_step = 0;  ///< the limit that holds for this scheme, seconds
+  double time_step = 0;         ///< largest time step, s
+  double stable_time_step = 0;  ///< stability limit of this scheme, s
   double damping = 0;           ///< local damping, alpha; 0: none
   std::uint64_t steps = 0;
-  /// The stage looks for a state of rest: its steps are not steps in time, time_step may be 0.
-  /// Loads act as they do at end_time.
+  /// The stage searches a state of rest: its steps are not steps in time, and time_step may be 0.
+  /// Loads have their values at end_time.
   bool at_rest = false;
-  bool resumes =
-      false;  ///< run() can go on in the middle of a stage, after SolverHost::steps_done steps
-  double bytes_per_site =
-      0;  ///< that the solver needs besides the state, for each site of the box around the body
-  double sweeps_per_step = 1;  ///< evaluations of all springs that a step takes, about
+  /// Whether run() can continue in the middle of a stage, after SolverHost::steps_done steps.
+  bool resumes = false;
+  /// Memory that the solver needs besides the state, for each site of the body's box, bytes.
+  double bytes_per_site = 0;
+  double sweeps_per_step = 1;  ///< approximate number of evaluations of all springs in a step
 };
 
 /// The running simulation as a solver sees it.
 struct SolverHost {
   void* self = nullptr;
   double time = 0;  ///< seconds; advanced by step()
-  std::uint64_t steps_done =
-      0;  ///< of this stage, by the run that this one goes on with; that state was observed
+  /// Steps of this stage done by the run that is resumed; that run has observed the present state.
+  std::uint64_t steps_done = 0;
   bool (*take_step)(void* self, double time_step) noexcept = nullptr;
   bool (*show)(void* self) noexcept = nullptr;
 
-  /// One step of central differences: v(n+1/2) = v(n-1/2) + dt a(n); u(n+1) = u(n) + dt v(n+1/2).
-  /// False: the run must stop.
+  /// Makes one step of central differences: v(n+1/2) = v(n-1/2) + dt a(n); u(n+1) = u(n) + dt
+  /// v(n+1/2). Returns false if the run must stop.
   bool step(double time_step) const { return take_step(self, time_step); }
-  /// Lets history, probes and writers see the present state if they are due. Called once before the
-  /// first step, then after each. False: stop.
+  /// Shows the present state to history, probes and writers that are due. Call it once before the
+  /// first step, then after each step. Returns false if the run must stop.
   bool observe() const { return show(self); }
 
-  // For stages that look for a state of rest.
+  // For stages that search a state of rest.
   const StaticProblem* (*open)(void* self) noexcept = nullptr;
   bool (*take)(void* self, double share, const double* displacement) noexcept = nullptr;
   bool (*measure_rest)(void* self, RestReport* report, double* kinetic) noexcept = nullptr;
@@ -61,32 +60,33 @@ struct SolverHost {
   bool (*show_rest)(void* self, const RestReport& report) noexcept = nullptr;
   bool (*keep_motion)(void* self, const double* motion) noexcept = nullptr;
 
-  /// The body for a static solver, built when first asked for; valid during the stage. Null: the
-  /// run must stop.
+  /// Returns the body for a static solver, built at the first call; valid during the stage. Null:
+  /// the run must stop.
   const StaticProblem* statics() const { return open(self); }
-  /// Makes displacements the state, at rest, with that share of the stage's load. False: the run
-  /// must stop.
+  /// Sets the state to these displacements, at rest, under the fraction `share` of the stage's
+  /// change of load. Returns false if the run must stop.
   bool accept(double share, const double* displacement) const {
     return take(self, share, displacement);
   }
-  /// Residual and estimated error of the present state, one evaluation of all springs, and its
-  /// kinetic energy, J, which costs little. Either may be null. The error compares states: it is
-  /// known from the third call on. False: the run must stop.
+  /// Computes the residual and the estimated error of the present state, with one evaluation of all
+  /// springs, and its kinetic energy, J, at little cost. Either pointer may be null. The error
+  /// compares successive states: it is known from the third call on. Returns false if the run must
+  /// stop.
   bool measure(RestReport* report, double* kinetic) const {
     return measure_rest(self, report, kinetic);
   }
-  bool halt() const { return stop_motion(self); }  ///< all velocities to zero
-  /// Of the steps of this stage that follow: each particle feels a drag of rate (1/s) times its
-  /// mass and velocity, the mean of those before and after.
+  bool halt() const { return stop_motion(self); }  ///< sets all velocities to zero
+  /// Sets the damping of the following steps of this stage: the force rate (1/s) times mass and
+  /// velocity, the mean of the velocities before and after the step.
   void damp(double rate) const { set_damping_rate(self, rate); }
-  bool report(const RestReport& report) const {
-    return show_rest(self, report);
-  }  ///< for the progress line and the summary
-  /// Keeps for the user how the body moves where there is no state of rest: a field like a
-  /// displacement, of any size.
+  /// Reports to the progress line and the summary.
+  bool report(const RestReport& report) const { return show_rest(self, report); }
+  /// Stores for the user the motion of a body that has no state of rest: a field like a
+  /// displacement, of any amplitude.
   bool show_motion(const double* motion) const { return keep_motion(self, motion); }
 };
 
+/// Functions of a solver across the boundary.
 struct SolverFunctions {
   bool (*plan)(const void* solver, const SolverFacts& facts, SolverPlan& plan,
                const Complaint& why) noexcept;
@@ -94,8 +94,8 @@ struct SolverFunctions {
               const Complaint& why) noexcept;
 };
 
-/// A solver class has: SolverPlan plan(const SolverFacts&) const, which throws when what the scene
-/// asks for would be unstable; and void run(const SolverFacts&, SolverHost&) const.
+/// A solver class has: SolverPlan plan(const SolverFacts&) const, which throws if the scene asks
+/// for unstable steps; and void run(const SolverFacts&, SolverHost&) const.
 template <class T>
 concept SolverComponent = requires(const T& solver, const SolverFacts& facts, SolverHost& host) {
   { solver.plan(facts) } -> std::convertible_to<SolverPlan>;
@@ -119,4 +119,4 @@ struct FunctionsOf<T> {
 }  // namespace detail
 }  // namespace hyperlattice
 
-#include <hyperlattice/boundary.hpp>  // the gate, once all that a family hands over is known
+#include <hyperlattice/boundary.hpp>  // the gate needs all structs of the boundary

@@ -1,6 +1,6 @@
-// Tables in files: lines of cells, the first line names the columns. As spreadsheets and programs
-// write them: a byte order mark, cells in quotation marks, commas, semicolons, tabs or blanks
-// between cells, blank lines, comments, "+" before numbers, "#" before the names.
+// Tables in text files: lines of cells; the first line names the columns. Accepts what spreadsheets
+// and programs write: a byte order mark, cells in quotation marks, commas, semicolons, tabs or
+// blanks between cells, blank lines, comments, "+" before numbers, "#" before the names.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +17,8 @@
 
 namespace hyperlattice {
 
-/// The number of a cell; nothing if it holds none, or one that is not finite. Numbers have a
-/// decimal point.
+/// Returns the number in a cell, with a decimal point; nothing if the cell has no number or one
+/// that is not finite.
 inline std::optional<double> table_number(std::string_view cell) {
   if (cell.size() > 1 && cell.front() == '+' && cell[1] != '-') cell.remove_prefix(1);
   double number = 0;
@@ -28,7 +28,8 @@ inline std::optional<double> table_number(std::string_view cell) {
   return number;
 }
 
-/// The place of a column of that name, or else of one that differs in capital letters only.
+/// Returns the index of the column with that name, or else of one that differs only in capital
+/// letters.
 inline std::optional<std::size_t> find_column(std::span<const std::string> columns,
                                               std::string_view name) {
   const auto lower = [](char c) {
@@ -44,8 +45,8 @@ inline std::optional<std::size_t> find_column(std::span<const std::string> colum
   return std::nullopt;
 }
 
-/// Whether a column looked up by this name is one of several: two are called so, or none is and two
-/// differ in capital letters only.
+/// Returns whether a name fits several columns: two have this name, or none has it and two differ
+/// from it only in capital letters.
 inline bool is_ambiguous_column(std::span<const std::string> columns, std::string_view name) {
   const auto found = find_column(columns, name);
   if (!found) return false;
@@ -54,8 +55,8 @@ inline bool is_ambiguous_column(std::span<const std::string> columns, std::strin
                                  : find_column(others, name).has_value();
 }
 
-/// Whether a column is likely to be meant by the other name: letters are wrong or swapped (one, of
-/// a long name two), its end is cut off, or a unit follows it.
+/// Returns whether `column` is probably a misspelled `meant`: letters are wrong or swapped (one, in
+/// a long name two), its end is missing, or a unit follows it.
 inline bool is_nearly_column(std::string_view column, std::string_view meant) {
   column = column.substr(0, std::min(column.find_first_of(" ([", 1), column.size()));
   const auto letter = [](std::string_view text, std::size_t n) {
@@ -64,7 +65,7 @@ inline bool is_nearly_column(std::string_view column, std::string_view meant) {
   const std::size_t most = meant.size() < 8 ? 1 : 2, fewest_letters = 3;
   if (column.size() < fewest_letters || column.size() > meant.size() + most) return false;
   std::vector<std::size_t> before, above(meant.size() + 1),
-      row(meant.size() + 1);  // edits from the beginnings of one to those of the other
+      row(meant.size() + 1);  // edit distances between the beginnings of both names
   for (std::size_t j = 0; j <= meant.size(); ++j) row[j] = j;
   for (std::size_t i = 1; i <= column.size(); ++i) {
     before = std::move(above);
@@ -81,7 +82,7 @@ inline bool is_nearly_column(std::string_view column, std::string_view meant) {
   return row[meant.size()] <= most || row[std::min(column.size(), meant.size())] == 0;
 }
 
-/// A cell as a message shows it: its beginning, with control characters as "U+0000".
+/// Returns the beginning of a cell for a message, with control characters as "U+0000".
 inline std::string shown_cell(std::string_view cell, std::size_t most = 40) {
   constexpr char digits[] = "0123456789ABCDEF";
   std::string shown;
@@ -95,8 +96,8 @@ inline std::string shown_cell(std::string_view cell, std::size_t most = 40) {
   return shown;
 }
 
-/// Why no table can be read from a file that begins with these bytes; empty: nothing speaks against
-/// it.
+/// Returns why a file that begins with these bytes cannot be read as a table; empty if it may be
+/// one.
 inline std::string table_encoding_fault(std::string_view bytes) {
   return bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")
              ? "it is a text in UTF-16: save it in ASCII or UTF-8"
@@ -126,8 +127,8 @@ class TableLines {
   std::size_t at_ = 1;
 };
 
-/// The columns of a table, and how its lines are cut into cells: the separator is the first of tab,
-/// semicolon, comma and blank that its first line has.
+/// The columns of a table, and the separator of its cells: the first of tab, semicolon, comma and
+/// blank that the first line contains.
 class TableColumns {
  public:
   explicit TableColumns(std::string_view first_line) {
@@ -145,15 +146,15 @@ class TableColumns {
 
   std::optional<std::size_t> find(std::string_view name) const { return find_column(names_, name); }
 
-  /// How many columns there are, without those at the end that have no name.
+  /// Returns the number of columns, without columns at the end that have no name.
   std::size_t count() const {
     std::size_t count = names_.size();
     while (count > 0 && names_[count - 1].empty()) --count;
     return count;
   }
 
-  /// Why a row of these cells has more than there are columns; empty: it has not. Empty cells at
-  /// its end do not count.
+  /// Returns an error text if a row has more cells than there are columns; else empty. Empty cells
+  /// at the end do not count.
   std::string excess(std::span<const std::string> cells) const {
     const std::size_t most = count();
     std::size_t given = cells.size();
@@ -169,13 +170,12 @@ class TableColumns {
                        [&](std::string_view name) { return find(name).has_value(); });
   }
 
-  /// The cells of a line, without blanks around them and without their quotation marks.
+  /// Returns the cells of a line, without surrounding blanks and quotation marks.
   std::vector<std::string> cells(std::string_view line) const {
     std::vector<std::string> found;
     if (separator_ == '\t')
-      line =
-          line.substr(0, std::min(line.find('\r'),
-                                  line.size()));  // a tab at either end stands beside an empty cell
+      line = line.substr(0, std::min(line.find('\r'),
+                                     line.size()));  // a tab borders an empty cell
     else
       line = trimmed(line);
     for (bool more = true; more;) {
@@ -187,14 +187,15 @@ class TableColumns {
   }
 
   static bool is_blank(std::string_view line) { return trimmed(without_mark(line)).empty(); }
-  /// Whether a line begins with "#". Such a line above all others may still name the columns.
+  /// Returns whether a line begins with "#". Such a line may still name the columns if no row is
+  /// above it.
   static bool is_comment(std::string_view line) {
     return trimmed(without_mark(line)).starts_with('#');
   }
-  /// Whether a line below the names holds no cells.
+  /// Returns whether a line below the names has no cells.
   static bool is_empty(std::string_view line) { return is_blank(line) || is_comment(line); }
 
-  /// The columns for a message: "x", "y", "z"; cut if they are many.
+  /// Returns the column names for a message: "x", "y", "z"; shortened if there are many.
   std::string text() const {
     constexpr std::size_t most = 200;
     std::string all;
@@ -207,7 +208,7 @@ class TableColumns {
 
  private:
   static constexpr std::string_view blank_ = " \t\r\v\f";
-  /// The line without the byte order mark that a file may begin with.
+  /// Returns the line without a byte order mark at its beginning.
   static std::string_view without_mark(std::string_view line) {
     constexpr std::string_view mark = "\xEF\xBB\xBF";
     return line.starts_with(mark) ? line.substr(mark.size()) : line;
@@ -218,7 +219,7 @@ class TableColumns {
                ? std::string_view()
                : text.substr(first, text.find_last_not_of(blank_) - first + 1);
   }
-  /// Cuts the first cell off the line; whether there is another.
+  /// Moves the first cell of the line to `cell`. Returns whether there is another cell.
   bool take_cell(std::string_view& line, std::string& cell) const {
     const auto after_blanks = [&] {
       line.remove_prefix(
@@ -230,7 +231,7 @@ class TableColumns {
       for (; !line.empty(); line.remove_prefix(1)) {
         if (line.front() != '"') {
           cell += line.front();
-        } else if (line.substr(1).starts_with('"')) {  // two stand for one
+        } else if (line.substr(1).starts_with('"')) {  // two marks stand for one
           cell += '"';
           line.remove_prefix(1);
         } else {
@@ -250,12 +251,12 @@ class TableColumns {
   std::vector<std::string> names_;
 };
 
-/// The columns asked for, one vector each in their order; a missing one that may be missing is
-/// empty. The first line that is neither blank nor a comment names the columns; if it does not name
-/// all required columns, but a comment above it does, that comment names them. Throws
-/// std::invalid_argument with the file, the lines (the first few that are wrong) and what was
-/// expected there, also where a column is nearly called as one that may be missing, or if the file
-/// cannot be read to its end.
+/// Columns of numbers, read from a table file: one vector for each requested column, in the
+/// requested order; an optional column that is missing is empty. The first line that is neither
+/// blank nor a comment names the columns; if it does not name all required columns, but a comment
+/// above it does, that comment names them. Throws std::invalid_argument, with the file, the first
+/// wrong lines and the expected values, if rows cannot be read, if a column's name nearly equals
+/// that of an optional one, or if the file cannot be read to its end.
 class NumberTable {
  public:
   NumberTable(const std::string& file, std::span<const std::string_view> required,
@@ -304,23 +305,23 @@ class NumberTable {
     if (bad_rows_ > 0) throw std::invalid_argument("file " + file_ + complaints_);
   }
 
-  /// Of a column that was asked for.
+  /// Returns a requested column.
   const std::vector<double>& operator[](std::string_view name) const {
     for (const Column& column : columns_)
       if (column.name == name) return column.numbers;
     throw std::invalid_argument("no column \"" + std::string(name) + "\" was asked for");
   }
 
-  /// The line of the file in which a row stands, from 1.
+  /// Returns the line of the file, from 1, that holds a row.
   std::size_t line(std::size_t row) const { return lines_[row]; }
 
-  /// Throws std::invalid_argument with the file, the row's line and what was expected there.
+  /// Throws std::invalid_argument with the file, the row's line and the expected value.
   [[noreturn]] void refuse(std::size_t row, const std::string& expected) const {
     complain(lines_[row], expected);
   }
 
  private:
-  static constexpr std::size_t most_shown = 5;  // rows that a message names
+  static constexpr std::size_t most_shown = 5;  // wrong lines that a message shows
 
   struct Column {
     std::string_view name;
@@ -375,7 +376,7 @@ class NumberTable {
       complaints_ += (complaints_.empty() ? ", " : "; ") + complaint(number, fault);
     lines_.push_back(number);
   }
-  /// What was expected of a row that cannot be read; empty: it was read.
+  /// Reads a row. Returns the expected value if the row cannot be read; empty if it was read.
   std::string read_cells(const TableColumns& header, const std::vector<std::string>& cells) {
     if (std::string excess = header.excess(cells); !excess.empty()) return excess;
     for (Column& column : columns_) {
@@ -394,7 +395,7 @@ class NumberTable {
   std::string file_, complaints_;
   std::size_t bad_rows_ = 0;
   std::vector<Column> columns_;
-  std::vector<std::size_t> lines_;  // of each row
+  std::vector<std::size_t> lines_;  // line of each row in the file
 };
 
 }  // namespace hyperlattice

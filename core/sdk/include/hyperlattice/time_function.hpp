@@ -1,11 +1,11 @@
-// Functions of time as loads name them: shapes of height 1, which a load multiplies by its own
-// amplitude.
+// Functions of time for loads: shapes of height 1, which a load multiplies by its own amplitude.
 //
 //   struct Options : TimeOptions { ... };
-//   static Schema<Options> schema() { ... add_time_options(schema);
-//   schema.check(check_time_options<Options>); ... } void declare(const LoadBody&, const LoadSink&
-//   sink) const { ... time_.corners(sink); } double factor(double time) const { return time_(time);
+//   static Schema<Options> schema() {
+//     ... add_time_options(schema); schema.check(check_time_options<Options>); ...
 //   }
+//   void declare(const LoadBody&, const LoadSink& sink) const { ... time_.corners(sink); }
+//   double factor(double time) const { return time_(time); }
 #pragma once
 
 #include <hyperlattice/load.hpp>
@@ -65,7 +65,7 @@ void add_time_options(Schema<Options>& schema) {
       .fallback("1");
 }
 
-/// Length of one pulse, s; infinite if it has no end.
+/// Returns the length of one pulse, s; infinity if it has no end.
 inline double pulse_length(const TimeOptions& o) {
   switch (o.form) {
     case TimeForm::triangle:
@@ -77,7 +77,7 @@ inline double pulse_length(const TimeOptions& o) {
   }
 }
 
-/// The cross-field check of the options above.
+/// Checks the options above against each other.
 template <class Options>
 void check_time_options(const Options& options, const FaultSink& faults) {
   const TimeOptions& o = options;
@@ -111,6 +111,7 @@ void check_time_options(const Options& options, const FaultSink& faults) {
     faults.fault("period", "at least as long as one pulse");
 }
 
+/// A function of time, without unit, from TimeOptions.
 class TimeFunction {
  public:
   TimeFunction() = default;
@@ -123,7 +124,7 @@ class TimeFunction {
     return t > length_ ? 0 : shape(t);
   }
 
-  /// The largest size that it ever has.
+  /// Returns the largest magnitude of the function.
   double largest() const {
     double size = 1;
     if (o_.form == TimeForm::table) {
@@ -133,7 +134,7 @@ class TimeFunction {
     return size;
   }
 
-  /// Declares its kinks and jumps, and how fast it oscillates.
+  /// Declares the times of kinks and jumps, and the frequency.
   void corners(const LoadSink& sink) const {
     if (o_.frequency) sink.frequency(*o_.frequency);
     for (int pulse = 0; pulse < o_.pulses; ++pulse) {

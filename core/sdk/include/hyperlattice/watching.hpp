@@ -1,8 +1,11 @@
-// For loads that answer: forces along springs, and areas that follow a surface.
+// Parts of loads that answer: forces along springs, and areas that follow a surface.
 //
-//   void declare(const LoadBody& body, const LoadSink& sink) { pull_.declare(body, sink, region,
-//   ...); } Vec3 answer(const WatchedMotion& motion, std::size_t n) const { return
-//   pull_.force(motion, n); }
+//   void declare(const LoadBody& body, const LoadSink& sink) {
+//     push_.declare(body, sink, region, ...);
+//   }
+//   Vec3 answer(const WatchedMotion& motion, std::size_t n) const {
+//     return push_.force(motion, n);
+//   }
 #pragma once
 
 #include <hyperlattice/load.hpp>
@@ -15,13 +18,14 @@
 
 namespace hyperlattice {
 
-/// Equal and opposite forces on the ends of each base spring of a region, along the line between
-/// them in space wherever they are: momentum and angular momentum stay what they are, to round-off.
-/// A spring is the region's if both of its ends are.
+/// Equal and opposite forces on the ends of each base spring of a region, along the present line
+/// between them in space. They conserve momentum and angular momentum to round-off. A spring
+/// belongs to the region if both of its ends do.
 class SpringPush {
  public:
-  /// Watches the ends. `strength`: of a RestSpring, the force with which it pushes its ends apart
-  /// at factor 1, N.
+  /// Watches the ends of the springs. `strength(spring)` returns the force, N, that pushes the ends
+  /// apart at load factor 1. Throws std::invalid_argument if the region has breakable springs or no
+  /// springs.
   template <class Strength>
   void declare(const LoadBody& body, const LoadSink& sink, RegionId region,
                const Strength& strength) {
@@ -70,17 +74,17 @@ class SpringPush {
 
  private:
   struct Link {
-    std::size_t other = 0;  ///< among the watched
-    Vec3 rest;              ///< to the other end, metres
+    std::size_t other = 0;  ///< number of the watched particle
+    Vec3 rest;              ///< vector at rest to the other end, m
     double push = 0;        ///< N
   };
   std::vector<Link> links_;
-  std::vector<std::size_t> first_;  ///< link of each watched particle; one more at the end
+  std::vector<std::size_t> first_;  ///< first link of each watched particle; one more at the end
 };
 
-/// The open areas of a region, turned and stretched as the body about each particle is: cof(F) A
-/// with the deformation gradient F that fits the particle's springs best. The first count() watched
-/// particles are those that have an area.
+/// The open areas of a region, which turn and stretch with the body around each particle: cof(F) A,
+/// where the deformation gradient F is the least-squares fit to the particle's springs. The first
+/// count() watched particles are those that have an area.
 class MovingAreas {
  public:
   void declare(const LoadBody& body, const LoadSink& sink, RegionId region, const auto& reaction) {
@@ -115,9 +119,9 @@ class MovingAreas {
   }
 
   std::size_t count() const { return areas_.size(); }
-  /// Outwards, m2; n < count().
+  /// Returns the outward area vector, m2, of watched particle n < count().
   Vec3 area(const WatchedMotion& motion, std::size_t n) const {
-    std::array<Vec3, 3> F = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};  // columns
+    std::array<Vec3, 3> F = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};  // columns of F
     for (std::size_t a = first_[n]; a < first_[n + 1]; ++a) {
       const Vec3 moved = motion.displacement[arms_[a].other] - motion.displacement[n],
                  w = arms_[a].weight;
@@ -131,8 +135,8 @@ class MovingAreas {
 
  private:
   struct Arm {
-    std::size_t other = 0;  ///< among the watched
-    Vec3 weight;            ///< first the arm itself, m; then (sum of arm arm^T)^-1 arm, 1/m
+    std::size_t other = 0;  ///< number of the watched particle
+    Vec3 weight;  ///< in declare() first the arm itself, m; then (sum of arm arm^T)^-1 arm, 1/m
   };
 
   static void weigh(std::vector<Arm>& arms) {
@@ -151,7 +155,7 @@ class MovingAreas {
           "a surface of a body at least two particles thick: the springs of one of its particles "
           "lie in a plane");
     const Vec3 u = cross(y, z), v = cross(z, x),
-               w = cross(x, y);  // of the symmetric sum, rows of the inverse times the determinant
+               w = cross(x, y);  // columns of the adjugate of the symmetric sum
     for (Arm& arm : arms)
       arm.weight =
           (1 / determinant) * Vec3{dot(u, arm.weight), dot(v, arm.weight), dot(w, arm.weight)};
@@ -159,16 +163,18 @@ class MovingAreas {
 
   std::vector<OpenArea> areas_;
   std::vector<Arm> arms_;
-  std::vector<std::size_t> first_;  ///< arm of each area; one more at the end
+  std::vector<std::size_t> first_;  ///< first arm of each area; one more at the end
 };
 
-/// What acts inside a body: forces along its springs, rest lengths that change, or the pressure of
-/// a chamber; one of them, each at factor 1.
+/// An actuator inside a body: forces along its springs, changed rest lengths, or the pressure of a
+/// chamber. Exactly one of the three is set; values hold at load factor 1.
 struct Actuator {
-  std::optional<double> force;   ///< of each whole base spring, N; positive pushes its ends apart
-  std::optional<double> strain;  ///< change of rest length over rest length: a linear spring pushes
-                                 ///< with k L0 strain besides what it does already
-  std::optional<double> pressure;  ///< Pa, on faces as they turn and stretch
+  /// Force of each whole base spring, N; positive pushes its ends apart.
+  std::optional<double> force;
+  /// Change of rest length over rest length; pushes the ends apart with k L0 strain, exact for a
+  /// linear spring.
+  std::optional<double> strain;
+  std::optional<double> pressure;  ///< pressure, Pa, on the turned and stretched faces
 
   void declare(const LoadBody& body, const LoadSink& sink, RegionId region) {
     if (pressure)

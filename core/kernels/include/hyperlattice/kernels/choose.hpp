@@ -1,5 +1,5 @@
-// Which of a material's compiled kernels this processor gets. Included by the material's own
-// source.
+// Chooses the instruction set of a material's kernels for this processor. Included by the
+// material's own source.
 #pragma once
 
 #include <hyperlattice/kernels/processor.hpp>
@@ -11,8 +11,8 @@ hyperlattice::KernelSet hyperlattice_kernels_avx512(const hyperlattice::KernelCh
 
 namespace hyperlattice {
 
-/// The fastest kernels that the processor can run; HYPERLATTICE_INSTRUCTIONS=baseline or avx2 in
-/// the environment asks for less.
+/// Returns the kernels with the widest instructions that the processor can run, or with narrower
+/// ones if the environment has HYPERLATTICE_INSTRUCTIONS=baseline or avx2.
 inline KernelSet kernels_for_processor(const KernelChoice& choice) {
 #if defined(HYPERLATTICE_X86_KERNELS)
   switch (processor_instructions()) {

@@ -1,5 +1,5 @@
-// The cubic lattice's forward neighbours, edges and face diagonals of a cube, known when a kernel
-// is compiled.
+// The forward neighbours of the cubic lattice, known at compile time: edges and face diagonals of a
+// cube.
 #pragma once
 
 #include <hyperlattice/kernel_request.hpp>
@@ -9,7 +9,7 @@
 
 namespace hyperlattice {
 
-/// Bits and places are those of the neighbours in the list.
+/// Bit n and index n stand for neighbour n of the list.
 struct CubicList {
   static constexpr std::array<Neighbour, 9> neighbours{{{1, 0, 0, 0},
                                                         {-1, 1, 0, 1},
@@ -24,11 +24,12 @@ struct CubicList {
     int dy, dz;
   };
   static constexpr std::array<Line, 5> lines{
-      {{0, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}};  ///< the rows that they stand in
+      {{0, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}};  ///< rows that contain the neighbours
 
-  /// Springs that are worked on side by side, so that the processor need not wait for any.
+  /// Sets of springs whose instructions are interleaved, so that the processor need not wait for
+  /// results.
   template <bool heights>
-  static constexpr auto batches() {  // as many as there are registers for
+  static constexpr auto batches() {  // as many springs in a set as the registers can hold
     if constexpr (heights)
       return std::array<std::uint16_t, 5>{0b000010001, 0b000000110, 0b000001000, 0b001100000,
                                           0b110000000};
@@ -59,7 +60,7 @@ struct CubicList {
   }
 
   static double spacing(std::span<const NeighbourGeometry> list) { return list[0].rest.x; }
-  /// Whether a lattice's list is this one, at some spacing.
+  /// Returns whether a lattice's list is this one, at any spacing.
   static bool is(std::span<const NeighbourGeometry> list) {
     if (list.size() != neighbours.size()) return false;
     for (std::size_t n = 0; n < list.size(); ++n) {

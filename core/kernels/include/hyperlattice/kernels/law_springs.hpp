@@ -1,5 +1,5 @@
-// Springs of a law with constants, and perhaps a memory, of its own: the law is ordinary code, so
-// it is asked lane by lane; lengths and forces stay vectors.
+// Springs of a law with its own constants, and perhaps a memory. Such a law is ordinary code, so it
+// is called lane by lane; lengths and forces stay vectors.
 #pragma once
 
 #include <hyperlattice/kernels/response.hpp>
@@ -7,22 +7,23 @@
 
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
-/// What springs give back, and what they have dissipated since the step before.
+/// Response of springs, and the energy dissipated in the last step, J.
 struct LawResponse {
   Pack force_over_length = 0, energy = 0, dissipated = 0;
 };
 
-/// Springs of a vector of particles, base or cross. Always in doubles: a law that is asked lane by
-/// lane has nothing to gain from floats.
+/// Springs of a vector of particles, base or cross. Always in doubles: calls lane by lane are no
+/// faster in floats.
 struct LawSprings {
   Pack rest_length = 0;
-  double time_step = 0;             ///< the step before now, s
-  const double* constants[lanes];   ///< of each lane's law
+  double time_step = 0;             ///< length of the last step, s
+  const double* constants[lanes];   ///< constants of each lane's law
   std::uint32_t there = 0;          ///< bit n: lane n has a spring
-  double* memory = nullptr;         ///< [number][lane]
-  std::uint64_t memory_stride = 0;  ///< between numbers
+  double* memory = nullptr;         ///< memory of the springs, [number][lane]
+  std::uint64_t memory_stride = 0;  ///< distance between numbers
 
-  /// Keep: the memory becomes that of now; otherwise it stays that of the step before.
+  /// Calls the law. Keep: the memory becomes that of the current step; otherwise it stays that of
+  /// the previous step.
   template <LawWithConstants Law, bool Keep>
   LawResponse ask(const Pack& stiffness, const Pack& q) const {
     const Pack length = root(rest_length * rest_length + q);

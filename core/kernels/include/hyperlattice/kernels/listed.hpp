@@ -1,8 +1,7 @@
 // One pass over a block of a listed lattice: each particle sums the forces of all its springs, then
-// moves. A pack holds particles that follow each other; its springs stand in slots, one of each
-// particle in each. Neighbours are read from their records, which hold the displacements at the
-// step's start, so that the particles may move as the pass reaches them, and no sum depends on
-// where the body is cut into blocks.
+// moves. A pack holds consecutive particles; its springs are in slots, each with one spring of each
+// particle. Neighbours are read from records with the displacements at the start of the step. So
+// particles may move when the pass reaches them, and sums do not depend on the cuts between blocks.
 #pragma once
 
 #include <hyperlattice/kernels/records.hpp>
@@ -12,7 +11,7 @@
 
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
-/// The forces on particles, from the records that stand since the step's start.
+/// Computes the forces on particles from the records of the start of the step.
 template <class Law, KernelConfig config>
 class ListedForces {
   using Stored = NumberOf<config.stored>;
@@ -35,9 +34,9 @@ class ListedForces {
     }
   }
 
-  /// Adds the forces of a row's springs to those on its particles, one array a component, and half
-  /// of each spring's energies: the other half is its other end's. `index`: the row's. Not inlined:
-  /// every sweep has the same.
+  /// Adds the forces of a row's springs to those on its particles, one array for each component,
+  /// and half of each spring's energies; the other end adds the other half. `index`: index of the
+  /// row. Not inlined: all sweeps share it.
   [[gnu::noinline]] void add(const Row& row, std::uint32_t index, Real* const (&forces)[components],
                              Energies<Pack>& energies) const {
     if (slots_.stiffness != nullptr)
@@ -53,27 +52,28 @@ class ListedForces {
     return static_cast<Stored*>(slots_.records) + record_numbers * place;
   }
 
-  /// Several: each spring has a stiffness of its own.
+  /// Several: springs have different stiffnesses.
   template <bool Several>
   void all_packs(const Row& row, std::uint32_t index, Real* const (&forces)[components],
                  Energies<Pack>& energies) const {
     for (int t = 0; t < row.end; t += width) one_pack<Several>(row, index, t, forces, energies);
   }
 
-  /// A pack of springs from here to there.
+  /// A pack of springs, from `here` to `there`.
   struct Reach {
-    Pack rest[3], square;       ///< rest vector, and its square: 0 where there is no spring
-    Pack d[3];                  ///< difference of displacements
-    Pack growth, cross_growth;  ///< of the squared lengths
+    Pack rest[3], square;       ///< rest vector, m, and its square; 0 if there is no spring
+    Pack d[3];                  ///< difference of displacements, m
+    Pack growth, cross_growth;  ///< growth of the squared lengths, m2
     Pack height_difference, height_sum;
   };
   struct Pulls {
-    Pack base, cross;  ///< force over length
+    Pack base, cross;  ///< force over length, N/m
   };
-  /// Some lanes of a slot. Of a state in floats doubles take half of them at a time.
+  /// Lanes of a slot. If the state is in floats, a computation in doubles takes half of them at a
+  /// time.
   struct Slot {
     std::uint32_t row, number;
-    int site;  ///< of the first lane, in the row
+    int site;  ///< place of the first lane in the row
     std::size_t first_lane;
   };
 
@@ -130,7 +130,7 @@ class ListedForces {
     return load_records_as<Real>(all);
   }
 
-  /// The processor cannot foresee which records a list leads to.
+  /// Prefetches records: the processor cannot predict the addresses that a list leads to.
   HYPERLATTICE_INLINE void fetch(const std::uint32_t* places) const {
     each<width>([&]<std::size_t lane>()
                     __attribute__((always_inline)) { __builtin_prefetch(record(places[lane])); });
@@ -159,7 +159,7 @@ class ListedForces {
   HYPERLATTICE_INLINE Pulls pulls_of(const Reach& reach, const Pack& stiffness,
                                      const Pack& cross_stiffness, const Slot& slot,
                                      Pack& stored) const {
-    constexpr Real smallest = std::numeric_limits<Real>::min();  // m2: where there is no spring
+    constexpr Real smallest = std::numeric_limits<Real>::min();  // m2, for lanes without a spring
     Pulls pulls;
     if constexpr (!measuring && is_linear<Law>) {
       constexpr Real range = static_cast<Real>(Terms<Real>::few.range);
@@ -208,7 +208,7 @@ class ListedForces {
     return pulls;
   }
 
-  /// The same of a law with constants, and perhaps a memory, of its own.
+  /// Computes the same for a law with its own constants, and perhaps a memory.
   [[gnu::noinline]] Pulls pulls_by_law(const Reach& reach, const Pack& stiffness,
                                        const Pack& cross_stiffness, const Slot& slot,
                                        Energies<Pack>& energies) const {
@@ -235,7 +235,7 @@ class ListedForces {
       energies.dissipated += response.dissipated;
       if constexpr (measuring) energies.stored += response.energy;
       return where(not_zero(reach.square),
-                   response.force_over_length);  // not a number where there is no spring
+                   response.force_over_length);  // missing springs give NaN
     };
     Pulls pulls;
     pulls.base = pull(0, reach.square, reach.growth, stiffness);
@@ -255,9 +255,9 @@ class ListedForces {
     return static_cast<std::uint32_t>(record(place)[record_material]);
   }
 
-  /// Asks the failure criterion about the slot's springs above their alarm, and removes those that
-  /// broke. Each end of a spring asks and finds the same, because it sees the same numbers but for
-  /// their signs.
+  /// Asks the failure criterion about the slot's springs above their alarm, and removes broken
+  /// ones. Both ends of a spring ask and get the same answer, because their numbers differ only in
+  /// sign.
   void review(const Reach& reach, const Slot& slot) const {
     const Stored* alarm = alarms(slot);
     std::uint32_t* neighbour = slots_.neighbour + slot.first_lane;

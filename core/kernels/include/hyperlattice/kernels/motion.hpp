@@ -1,5 +1,5 @@
-// How a row of particles moves once the forces on it are summed: damping, integration, prescribed
-// motion; or what a measurement takes of it. The same for every lattice.
+// The motion of a row of particles for given forces: damping, integration, prescribed motion; or
+// the measurement of the row. The same for every lattice.
 #pragma once
 
 #include <hyperlattice/kernel_request.hpp>
@@ -11,7 +11,7 @@
 
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
-/// Stores a pack as numbers of the state's precision.
+/// Stores a pack in the state's precision.
 template <class Real, class Stored>
 HYPERLATTICE_INLINE void store_as(Stored* to, const PackOf<Real>& pack) {
   if constexpr (std::is_same_v<Real, Stored>) {
@@ -23,8 +23,8 @@ HYPERLATTICE_INLINE void store_as(Stored* to, const PackOf<Real>& pack) {
   }
 }
 
-/// A pack of weights: `places` of the sets of the vectors of `lanes` sites that it covers; `offset`
-/// into the sets.
+/// Loads a pack of weights. `places`: places of the sets of the vectors of `lanes` sites that the
+/// pack covers; `offset`: offset into the sets.
 template <class Real>
 inline PackOf<Real> load_weights(const double* weights, const std::uint32_t* places, int offset) {
   if constexpr (lanes_of<Real> == lanes) {
@@ -34,7 +34,7 @@ inline PackOf<Real> load_weights(const double* weights, const std::uint32_t* pla
   }
 }
 
-/// Numbers of a row's particles that follow from their materials and their shares of a whole
+/// Values of a row's particles that depend on their materials and their fractions of a whole
 /// particle.
 template <bool Mixed, class Real>
 class RowValues {
@@ -52,7 +52,8 @@ class RowValues {
         weight_sets_(row.weights == no_weights ? nullptr : request.weight_sets + row.weights),
         weights_(request.weights) {}
 
-  /// `values`: of a whole particle of each material, then of each mixture.
+  /// Returns the values of the vector at t. `values`: value of a whole particle of each material,
+  /// then of each mixture.
   Pack at(const double* values, int t) const {
     Pack pack = values[uniform_];
     if (material_ != nullptr) pack = of_lanes(values, material_ + t);
@@ -61,7 +62,7 @@ class RowValues {
                ? pack
                : pack * load_weights<Real>(weights_, weight_sets_ + t / lanes, 0);
   }
-  /// Whether the values are the same along the row.
+  /// Returns whether all particles of the row have the same value.
   bool constant() const {
     return material_ == nullptr && mixture_ == nullptr && weight_sets_ == nullptr;
   }
@@ -86,7 +87,7 @@ class RowValues {
 template <int Components, class Real>
 using Forces = std::array<PackOf<Real>, static_cast<std::size_t>(Components)>;
 
-/// Of a row's springs. What they dissipate is only of laws that have a memory.
+/// Energies of a row's springs, J. Only laws with a memory dissipate.
 template <class Pack>
 struct Energies {
   Pack stored = 0, dissipated = 0;
@@ -96,8 +97,8 @@ inline double with_sign(double magnitude, double sign) {
   return sign == 0 ? 0 : __builtin_copysign(magnitude, sign);
 }
 
-/// A kick of a damped particle along one component, v+ = v- + kick (F - drag) / m; drag = damping
-/// |F| sign(v-) + damping_rate m (v- + v+) / 2.
+/// The kick of a damped particle along one component:
+///   v+ = v- + kick (F - drag) / m,   drag = damping |F| sign(v-) + damping_rate m (v- + v+) / 2
 template <class Number>
 struct Kick {
   Number after, drag;
@@ -113,8 +114,8 @@ struct Kick {
   }
 };
 
-/// Moves or measures a row: vectors() with the forces on its particles, or a vector() at a time,
-/// then finish().
+/// Moves or measures a row. Call vectors() with the forces on all its particles, or vector() for
+/// each vector of particles; then finish().
 template <KernelConfig config>
 class Motion {
   using Stored = NumberOf<config.stored>;
@@ -133,12 +134,12 @@ class Motion {
         mass_(values_.at(request.mass, 0)),
         inverse_mass_(1.0 / mass_) {}
 
-  /// Whether the whole body is accelerated.
+  /// Returns whether the body has an acceleration.
   bool accelerated() const {
     return request_.acceleration.x != 0 || request_.acceleration.y != 0 ||
            request_.acceleration.z != 0;
   }
-  /// The body acceleration's force on a vector of particles.
+  /// Returns the force of the body acceleration on a vector of particles.
   Pack body_force(int c, int t) const {
     const double acceleration[4] = {request_.acceleration.x, request_.acceleration.y,
                                     request_.acceleration.z, 0};
@@ -146,7 +147,8 @@ class Motion {
                  acceleration[c] * values_.at(request_.mass, t));
   }
 
-  /// Sets the forces on the row's `count` sites to the body acceleration's, or adds these.
+  /// Sets the forces on the row's `count` sites to those of the body acceleration. add_body_force()
+  /// adds them.
   [[gnu::noinline]] void set_body_force(Real* const (&force)[components], int count) const {
     const bool accelerated = this->accelerated();
     for (int c = 0; c < components; ++c)
@@ -159,8 +161,8 @@ class Motion {
         store(force[c] + t, load(force[c] + t) + body_force(c, t));
   }
 
-  /// `force`: one array a component, whole vectors. Visits the row's supports too. Not inlined:
-  /// every sweep has the same.
+  /// Moves or measures the row, boundary particles included. `force`: one array for each component,
+  /// padded to whole vectors. Not inlined: all sweeps share it.
   [[gnu::noinline]] void vectors(Real* const (&force)[components]) {
     supports_before(force);
     for (int t = 0; t < row_.end - row_.begin; t += width) {
@@ -171,7 +173,8 @@ class Motion {
     if constexpr (!measuring) supports_after();
   }
 
-  /// A vector of particles with the whole force on them; element t of the row is the first.
+  /// Moves or measures one vector of particles, given the total force on them. The first is element
+  /// t of the row.
   HYPERLATTICE_INLINE void vector(int t, Forces<components, Real>& forces) {
     const double kick = request_.back + request_.forward, drift = 2 * request_.forward;
     if (!values_.constant()) {
@@ -213,7 +216,8 @@ class Motion {
     }
   }
 
-  /// `springs`: what the row's have; `index`: the row's.
+  /// Writes the sums of the row. `springs`: energies of the row's springs; `index`: index of the
+  /// row.
   template <bool Dissipating = false>
   [[gnu::noinline]] void finish(std::uint32_t index, const Energies<Pack>& springs) {
     damped_ += springs.dissipated;
@@ -238,8 +242,8 @@ class Motion {
   }
   Stored* velocity(std::size_t c) const { return static_cast<Stored*>(request_.velocity[c]); }
 
-  // The few particles with external forces or prescribed motion. Their state before the row is
-  // moved waits in the support itself.
+  // The few particles with external forces or prescribed motion. Each keeps its own state from
+  // before the row is moved.
   void supports_before(Real* const (&forces)[components]) {
     for (std::uint32_t n = row_.first_boundary_particle; n < row_.last_boundary_particle; ++n) {
       BoundaryParticle& support = request_.boundary_particles[n];
@@ -264,7 +268,7 @@ class Motion {
         Stored& v = velocity(c)[support.index];
         const bool held = (support.axes >> c & 1u) != 0;
         if (held) {
-          if constexpr (task == Task::step_damped) {  // what drives it does not feel the drag
+          if constexpr (task == Task::step_damped) {  // a prescribed component has no drag
             const Kick<double> free(request_, kick, support.sum[c], support.speed_before[c],
                                     support.mass, 1 / support.mass);
             not_damped_ += free.drag * (request_.back * support.speed_before[c] +
@@ -284,7 +288,7 @@ class Motion {
   }
 
   /// A prescribed component ends the half step before now with the prescribed velocity, not with
-  /// what its forces would give it.
+  /// the velocity that its forces would give.
   void supports_measured(RowSums& measured) {
     for (std::uint32_t n = row_.first_boundary_particle; n < row_.last_boundary_particle; ++n) {
       BoundaryParticle& support = request_.boundary_particles[n];
@@ -319,7 +323,7 @@ class Motion {
   Pack mass_, inverse_mass_;
   Pack stored_ = 0, damped_ = 0, kinetic_ = 0, kinetic_mean_ = 0, momentum_[4] = {0, 0, 0, 0},
        potential_ = 0;
-  double not_damped_ = 0;  ///< of damped_, what was counted for components that are held
+  double not_damped_ = 0;  ///< part of damped_ that was counted for prescribed components
 };
 
 }  // namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS

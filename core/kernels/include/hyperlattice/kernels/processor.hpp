@@ -1,4 +1,4 @@
-// Which instruction sets this processor has, for libraries that carry code for several.
+// The instruction sets of this processor, for libraries that contain code for several.
 #pragma once
 
 #include <cstdlib>
@@ -8,8 +8,8 @@ namespace hyperlattice {
 
 enum class Instructions { baseline, avx2, avx512 };
 
-/// The widest that the processor can run; HYPERLATTICE_INSTRUCTIONS=baseline or avx2 in the
-/// environment asks for less.
+/// Returns the widest instruction set that the processor can run, or a narrower one if the
+/// environment has HYPERLATTICE_INSTRUCTIONS=baseline or avx2.
 inline Instructions processor_instructions() {
 #if defined(__x86_64__)
   const char* wish = std::getenv("HYPERLATTICE_INSTRUCTIONS");

@@ -1,17 +1,17 @@
-// The particles of a list, a record each: where they are at rest and their displacements at the
-// step's start, side by side in memory because whoever needs one needs the other. The records of a
-// pack of particles are loaded in pieces of 16 bytes, which are transposed in registers.
+// Records of the particles of a list: position at rest and displacement at the start of the step,
+// side by side in memory because springs need both. The records of a pack of particles are loaded
+// in pieces of 16 bytes, which are transposed in registers.
 #pragma once
 
 #include <hyperlattice/kernels/simd.hpp>
 
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
-/// Number n of the records of a pack of particles, a particle a lane.
+/// Element n: number n of each record of a pack of particles, one particle per lane.
 template <class Real>
 using Records = std::array<PackOf<Real>, record_numbers>;
 
-/// Elements index(0), index(1), ... of a, then b: as many as `size`.
+/// Returns elements index(0), index(1), ... of a followed by b, `size` of them.
 template <std::size_t size, class Vector, class Index>
 HYPERLATTICE_INLINE auto picked(const Vector& a, const Vector& b, Index) {
   return [&]<std::size_t... n>(std::index_sequence<n...>) __attribute__((always_inline)) {
@@ -20,7 +20,8 @@ HYPERLATTICE_INLINE auto picked(const Vector& a, const Vector& b, Index) {
   (std::make_index_sequence<size>());
 }
 
-/// A vector of pieces, `apart` records from each other.
+/// Returns a vector of pieces of 16 bytes from records that are `apart` records away from each
+/// other.
 template <class Real>
 HYPERLATTICE_INLINE typename VectorsOf<Real>::Vector pieces(const Real* const* records,
                                                             std::size_t offset,
@@ -43,8 +44,8 @@ HYPERLATTICE_INLINE typename VectorsOf<Real>::Vector pieces(const Real* const* r
 #endif
 }
 
-/// a0 b0 of each 16 bytes of two vectors, or what stands `half` of them further; a number is `as`
-/// elements.
+/// Returns a0 b0 of each 16 bytes of two vectors, or, with half = 1, the numbers of the second
+/// half; a number has `as` elements.
 template <std::size_t as, std::size_t half, class Vector>
 HYPERLATTICE_INLINE auto interleaved(const Vector& a, const Vector& b) {
   constexpr std::size_t size = sizeof(Vector) / sizeof a[0];
@@ -83,7 +84,7 @@ HYPERLATTICE_INLINE Records<Real> load_records(const Real* const (&records)[lane
   return numbers;
 }
 
-/// The same of records in another precision.
+/// Loads records that are stored in another precision.
 template <class Real, class Stored, std::size_t lanes>
 HYPERLATTICE_INLINE Records<Real> load_records_as(const Stored* const (&records)[lanes]) {
   if constexpr (std::is_same_v<Real, Stored>) {

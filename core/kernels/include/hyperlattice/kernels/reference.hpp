@@ -1,14 +1,15 @@
 // The reference kernel: the forces of one spring in plain numbers, as the theory states them. Every
-// other kernel computes the same, faster, and is tested against this one
+// other kernel computes the same forces faster, and is tested against this one
 // (tests/truth/reference_kernel_test.cpp).
 //
-//   r = R + u_b - u_a                      between the ends in space; R at rest
-//   base spring:  g = h_b - h_a,           L = sqrt(|r|^2 + g^2),   force f(L - L0) on a along (r,
-//   g) / L, on b the opposite cross spring: s = Delta + h_a + h_b,   L = sqrt(|r|^2 + s^2),   force
-//   f(L - Lc) on a along (r, -s) / L, on b along (-r, -s) / L
+//   r = R + u_b - u_a                      vector between the ends in space; R at rest
+//   base spring:  g = h_b - h_a,           L = sqrt(|r|^2 + g^2),
+//                 force f(L - L0) on a along (r, g) / L, on b the opposite
+//   cross spring: s = Delta + h_a + h_b,   L = sqrt(|r|^2 + s^2),
+//                 force f(L - Lc) on a along (r, -s) / L, on b along (-r, -s) / L
 //
-// with the displacements u, the heights h over the mirror plane's rest, and Delta the distance to
-// the mirror copy. See docs/theory/mirror.md.
+// with the displacements u, the heights h, and the distance Delta to the mirror copy. See
+// docs/theory/mirror.md.
 #pragma once
 
 #include <hyperlattice/plain.hpp>
@@ -21,9 +22,9 @@ namespace hyperlattice {
 /// Displacement and height of a particle, m, or the force on it, N.
 using FourVector = std::array<double, 4>;
 
-/// Adds the forces of a base spring, and of its cross spring if `has_cross`, to those on its ends.
-/// `respond(cross, rest_length, elongation)` returns the law's force, N. Without a membrane heights
-/// are 0.
+/// Adds the forces, N, of a base spring, and of its cross spring if `has_cross`, to the forces on
+/// its ends. `respond(cross, rest_length, elongation)` returns the law's force, N. Without a
+/// membrane heights are 0.
 template <class Respond>
 void add_reference_forces(Vec3 rest, double membrane_distance, bool has_cross, const FourVector& a,
                           const FourVector& b, const Respond& respond, FourVector& on_a,
@@ -45,8 +46,8 @@ void add_reference_forces(Vec3 rest, double membrane_distance, bool has_cross, c
   }
 }
 
-/// Adds the force of the spring between a particle and its own mirror copy, whose length is Delta +
-/// 2 h.
+/// Adds the force, N, of the alpha spring between a particle and its own mirror copy, of length
+/// Delta + 2 h.
 inline void add_reference_alpha(double alpha, const FourVector& particle, FourVector& force) {
   force[3] -= 2 * alpha * particle[3];
 }

@@ -1,10 +1,9 @@
-// How a spring answers: the force along it over its length, from the growth q of its squared
-// length.
+// The response of a spring: force over length, from the growth q of its squared length.
 //
-// A law that is linear in the elongation gives with p = q / L0^2
-//   k (L - L0) / L = k (1 - 1 / sqrt(1 + p)) = k p (1/2 - 3/8 p + 5/16 p^2 - ...),
-// and for |p| up to a few hundredths the series is as exact as root and division, and much faster.
-// Springs that grow more, and other laws, take the root.
+// For a law that is linear in the elongation, with p = q / L0^2,
+//   k (L - L0) / L = k (1 - 1 / sqrt(1 + p)) = k p (1/2 - 3/8 p + 5/16 p^2 - ...).
+// For |p| up to a few hundredths the series is as exact as root and division, and much faster.
+// Springs that grow more, and other laws, use the root.
 #pragma once
 
 #include <hyperlattice/kernel_request.hpp>
@@ -15,22 +14,23 @@
 
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
-/// A law may say `static constexpr bool linear = true`: its force is proportional to the
+/// Whether a law has `static constexpr bool linear = true`: its force is proportional to the
 /// elongation, which saves arithmetic.
 template <class Law>
 constexpr bool is_linear = requires {
   requires Law::linear;
 };
 
-/// A spring after its law was asked: force along it divided by its length, and what it stores.
+/// Response of a spring: force divided by length, N/m, and stored energy, J.
 template <class Pack>
 struct ResponseOf {
   Pack force_over_length, energy;
 };
 using Response = ResponseOf<Pack>;
 
-/// Force and, if asked, energy of springs whose squared length grew by q from rest_length^2.
-template <class Law, bool Energy, class Pack, class Length>  // one length for all, or one a lane
+/// Returns force over length and, if Energy, energy of springs whose squared length grew by q from
+/// rest_length^2. Length: one number for all lanes, or a pack.
+template <class Law, bool Energy, class Pack, class Length>
 inline ResponseOf<Pack> respond(Pack stiffness, Length rest_length, Pack q) {
   const Pack length = root(rest_length * rest_length + q);
   const Pack inverse = 1.0 / (length * (length + rest_length));
@@ -47,15 +47,16 @@ inline ResponseOf<Pack> respond(Pack stiffness, Length rest_length, Pack q) {
   return response;
 }
 
-/// (1 - 1 / sqrt(1 + p)) / p in powers of p, exact to rounding for |p| <= range.
+/// Coefficients of (1 - 1 / sqrt(1 + p)) / p in powers of p, exact to rounding for |p| <= range.
 template <std::size_t terms>
 struct Series {
   double range;
   std::array<double, terms> coefficients{};
 
-  /// Taylor's series whose last terms are spread over the first by Chebyshev's polynomials,
+  /// Starts from Taylor's series and spreads its last terms over the first ones with Chebyshev
+  /// polynomials,
   ///   2 (range/2)^n T_n(p/range) = p^n - n (range/2)^2 p^(n-2) + ...,
-  /// which are small all over the range.
+  /// which are small in the whole range.
   explicit constexpr Series(double r) : range(r) {
     std::array<double, 20> taylor{0.5};
     for (std::size_t n = 1; n < taylor.size(); ++n)
@@ -73,8 +74,8 @@ struct Series {
   }
 };
 
-/// What is summed: the few terms that small strains need, and for the others as many as still cost
-/// less than a root.
+/// The terms of the sums: `few` for small strains; `many` for larger ones, as many as cost less
+/// than a root.
 template <class Real>
 struct Terms;
 template <>
@@ -88,8 +89,8 @@ struct Terms<float> {
   static constexpr Series<8> many{1.0 / 4};
 };
 
-/// The force over length of springs of a stiffness k and relative growth p = q / L0^2, all within
-/// the short series.
+/// Returns the force over length of springs with stiffness k and relative growth p = q / L0^2, all
+/// in the range of the short series.
 template <class Law, class Real>
 HYPERLATTICE_INLINE PackOf<Real> pull_near_rest(const PackOf<Real>& stiffness,
                                                 const PackOf<Real>& p) {
@@ -101,10 +102,10 @@ HYPERLATTICE_INLINE PackOf<Real> pull_near_rest(const PackOf<Real>& stiffness,
   return Law::force(stiffness, sum * p);
 }
 
-/// Springs of one class between two materials, base or cross: constants made ready for the loop.
+/// Springs of one class between two materials, base or cross, with constants prepared for the loop.
 ///
-/// The short series is one in q, whose coefficients hold the rest length: the force over length is
-/// q times its sum. The long one is in p.
+/// The short series is in powers of q; its coefficients include the rest length, and the force over
+/// length is q times its sum. The long series is in powers of p.
 template <class Law, class Real>
 class SpringKind {
   using Pack = PackOf<Real>;
@@ -115,7 +116,7 @@ class SpringKind {
 
  public:
   SpringKind() = default;
-  /// `alarm`: elongation; infinity if nothing asks.
+  /// `alarm`: elongation, m; infinity if there is no alarm.
   [[gnu::noinline]] SpringKind(double stiffness, double rest_length, double alarm)
       : stiffness_(stiffness), rest_length_(rest_length) {
     if (alarm < infinity) alarm_ = static_cast<Real>(squared_growth<Real>(rest_length, alarm));
@@ -129,8 +130,8 @@ class SpringKind {
     if (alarm_ < highest_) highest_ = alarm_;
   }
 
-  /// Force over length of several springs at a time. Returns a bit for each that has one above its
-  /// alarm.
+  /// Computes force over length of several springs at a time. Returns a bit for each pack with a
+  /// spring above its alarm.
   template <std::size_t number>
   HYPERLATTICE_INLINE static std::uint32_t pull(const SpringKind* const (&kinds)[number],
                                                 const Pack (&q)[number], Pack (&pull)[number]) {
@@ -149,7 +150,7 @@ class SpringKind {
     each<number>([&]<std::size_t s>()
                      __attribute__((always_inline)) { pull[s] = kinds[s]->few_[few_terms - 1]; });
     each<few_terms - 1>([&]<std::size_t n>() __attribute__((
-        always_inline)) {  // side by side, so that no sum waits for itself
+        always_inline)) {  // interleaved, so that no sum waits for itself
       each<number>([&]<std::size_t s>() __attribute__((always_inline)) {
         pull[s] = pull[s] * q[s] + Pack(kinds[s]->few_[few_terms - 2 - n]);
       });
@@ -159,8 +160,8 @@ class SpringKind {
   }
 
  private:
-  /// Coefficients of the n-th power, over square^(n + 1), as the law answers to them. False if they
-  /// are not numbers of this precision.
+  /// Sets the coefficient of each power n to the law's force for series[n] / square^(n + 1).
+  /// Returns false if this precision cannot hold them.
   template <std::size_t terms>
   static bool set(Real (&to)[terms], const std::array<double, terms>& series, double stiffness,
                   double square) {
@@ -177,7 +178,7 @@ class SpringKind {
     return fits;
   }
 
-  /// Springs that are not all near their rest length.
+  /// Returns force over length of springs that are not all near their rest length.
   [[gnu::noinline]] Pack far(Pack q) const {
     if constexpr (is_linear<Law>) {
       const double square = rest_length_ * rest_length_;
@@ -197,9 +198,10 @@ class SpringKind {
   }
 
   Real few_[few_terms] = {}, many_[many_terms] = {};
-  Real lowest_ = 1,
-       highest_ = -1;  ///< growth within which the short series holds and nothing rings
-  Real alarm_ = std::numeric_limits<Real>::infinity();  ///< growth
+  /// Range of q in which the short series holds and no alarm is reached.
+  Real lowest_ = 1, highest_ = -1;
+  /// Alarm as growth of the squared length, m2.
+  Real alarm_ = std::numeric_limits<Real>::infinity();
   double stiffness_ = 0, rest_length_ = 0;
 };
 

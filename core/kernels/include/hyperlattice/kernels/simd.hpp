@@ -1,8 +1,8 @@
-// Several numbers at a time: one notation for both precisions and every instruction set. A pack is
-// 64 bytes, eight doubles or sixteen floats, made of as many vectors as the processor needs for
-// them, in the vector extension that gcc and clang share. (A single vector wider than the
-// processor's is taken apart by gcc, but through memory.) Included only by kernels, which are
-// compiled once for each instruction set; the namespace keeps their functions apart.
+// Vectors of numbers: one notation for both precisions and every instruction set. A pack has 64
+// bytes, eight doubles or sixteen floats, in as many vectors as the processor needs, written in the
+// vector extension that gcc and clang share. (gcc splits one vector wider than the processor's
+// through memory.) Only kernels include this file; they are compiled once for each instruction set,
+// and the namespace keeps their functions apart.
 #pragma once
 
 #include <hyperlattice/kernel_request.hpp>
@@ -24,8 +24,8 @@
 
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
-/// Calls body<0>(), ..., body<number - 1>(): a loop that is unrolled from the start, so that small
-/// arrays stay in registers.
+/// Calls body<0>(), ..., body<number - 1>(): a loop that is always unrolled, so that small arrays
+/// stay in registers.
 template <std::size_t number, class Body>
 HYPERLATTICE_INLINE void each(const Body& body) {
   [&]<std::size_t... n>(std::index_sequence<n...>) __attribute__((always_inline)) {
@@ -41,10 +41,10 @@ inline constexpr int vector_bytes = 32;
 #else
 inline constexpr int vector_bytes = 16;
 #endif
-inline constexpr std::size_t vectors = 64 / vector_bytes;  ///< of a pack
+inline constexpr std::size_t vectors = 64 / vector_bytes;  ///< vectors in a pack
 
-/// The vectors of a precision. An integer is as wide as a number; all its bits set in a lane of a
-/// Choice: chosen. Bits are of the sites in a pack.
+/// The vector types of a precision. An integer is as wide as a number. A Choice selects the lanes
+/// whose bits are all set. Bits holds the alive bits of the sites of a pack.
 template <class Real>
 struct VectorsOf;
 template <>
@@ -83,7 +83,7 @@ struct PackOf {
   Vector part[vectors];
 
   PackOf() = default;
-  HYPERLATTICE_INLINE PackOf(double value) {  // in each lane
+  HYPERLATTICE_INLINE PackOf(double value) {  // the same value in each lane
     each<vectors>([&]<std::size_t p>() __attribute__((always_inline)) {
       part[p] = Vector{} + static_cast<Real>(value);
     });
@@ -134,7 +134,7 @@ HYPERLATTICE_INLINE PackOf<Real> load(const Real* from) {
     return reinterpret_cast<const Anywhere*>(from)[p];
   });
 }
-/// The same of numbers that are stored in another precision.
+/// Loads numbers that are stored in another precision.
 template <class Real, class Stored>
 HYPERLATTICE_INLINE PackOf<Real> load_as(const Stored* from) {
   using Vectors = VectorsOf<Real>;
@@ -152,7 +152,7 @@ HYPERLATTICE_INLINE PackOf<Real> load_as(const Stored* from) {
     return load(values);
   }
 }
-/// Sixteen floats from eight doubles in one place and eight in another.
+/// Loads sixteen floats from eight doubles at `low` and eight at `high`.
 HYPERLATTICE_INLINE PackOf<float> load_halves(const double* low, const double* high) {
   typedef double Doubles __attribute__((vector_size(vector_bytes), aligned(8)));
   typedef float Half __attribute__((vector_size(vector_bytes / 2)));
@@ -175,7 +175,7 @@ HYPERLATTICE_INLINE void store(Real* to, const PackOf<Real>& pack) {
     reinterpret_cast<typename VectorsOf<Real>::VectorAnywhere*>(to)[p] = pack.part[p];
   });
 }
-/// Sum of the lanes, always in the same order.
+/// Returns the sum of the lanes, always in the same order.
 template <class Real>
 inline double sum(const PackOf<Real>& pack) {
   constexpr int number = lanes_of<Real>;
@@ -188,7 +188,7 @@ inline double sum(const PackOf<Real>& pack) {
   return partial[0];
 }
 
-// Sites' bits.
+// Alive bits of sites.
 template <class Real = double>
 inline BitsOf<Real> load_bits(const std::uint16_t* from) {
   BitsOf<Real> bits;
@@ -200,13 +200,13 @@ inline bool same(Bits a, Bits b) {
   return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-/// Some of the lanes.
+/// A subset of the lanes.
 #if defined(__AVX512F__)
 template <class Real>
 using LanesOf = std::conditional_t<std::is_same_v<Real, double>, __mmask8, __mmask16>;
 template <class Real = double>
 HYPERLATTICE_INLINE LanesOf<Real> lanes_with(BitsOf<Real> bits,
-                                             std::uint16_t bit) {  // whose bits have `bit` set
+                                             std::uint16_t bit) {  // lanes whose bits include `bit`
   if constexpr (std::is_same_v<Real, double>)
     return _mm_test_epi16_mask(reinterpret_cast<__m128i>(bits),
                                _mm_set1_epi16(static_cast<short>(bit)));
@@ -216,14 +216,14 @@ HYPERLATTICE_INLINE LanesOf<Real> lanes_with(BitsOf<Real> bits,
 }
 HYPERLATTICE_INLINE LanesOf<double> lanes_of_byte(std::uint8_t byte) {
   return byte;
-}  // whose bit is set
+}  // lanes whose bit is set
 HYPERLATTICE_INLINE LanesOf<double> not_zero(const Pack& pack) {
   return _mm512_cmp_pd_mask(pack.part[0], _mm512_setzero_pd(), _CMP_NEQ_UQ);
 }
 HYPERLATTICE_INLINE LanesOf<float> not_zero(const PackOf<float>& pack) {
   return _mm512_cmp_ps_mask(pack.part[0], _mm512_setzero_ps(), _CMP_NEQ_UQ);
 }
-HYPERLATTICE_INLINE Pack where(LanesOf<double> lanes, Pack pack) {  // 0 elsewhere
+HYPERLATTICE_INLINE Pack where(LanesOf<double> lanes, Pack pack) {  // 0 in other lanes
   pack.part[0] = _mm512_maskz_mov_pd(lanes, pack.part[0]);
   return pack;
 }
@@ -279,7 +279,7 @@ HYPERLATTICE_INLINE LanesOf<Real> not_zero(const PackOf<Real>& pack) {
 }
 template <class Real>
 HYPERLATTICE_INLINE PackOf<Real> where(const MaskOf<Real>& mask,
-                                       const PackOf<Real>& pack) {  // 0 elsewhere
+                                       const PackOf<Real>& pack) {  // 0 in other lanes
   using Vectors = VectorsOf<Real>;
   return PackOf<Real>::of([&](std::size_t p) __attribute__((always_inline)) {
     return reinterpret_cast<typename Vectors::Vector>(
@@ -296,7 +296,7 @@ inline bool any(const MaskOf<Real>& mask) {
   return joined != 0;
 }
 
-/// Gathers whether a lane of any pack is not between its bounds, or not a number; asked once for
+/// Records whether a lane of any pack is outside its bounds or not a number; tested once for
 /// several packs.
 template <class Real>
 class Outside {
@@ -347,7 +347,7 @@ class Outside {
 #endif
 };
 
-/// The lanes one further: the last of `before`, then all but the last of `now`.
+/// Returns the lanes shifted up by one: the last of `before`, then all but the last of `now`.
 template <class Real>
 HYPERLATTICE_INLINE PackOf<Real> one_further(const PackOf<Real>& before, const PackOf<Real>& now) {
   using Vector = typename PackOf<Real>::Vector;
@@ -359,7 +359,7 @@ HYPERLATTICE_INLINE PackOf<Real> one_further(const PackOf<Real>& before, const P
     (std::make_index_sequence<vector_bytes / sizeof(Real)>());
   });
 }
-/// The lanes one back: all but the first of `now`, then the first of `next`.
+/// Returns the lanes shifted down by one: all but the first of `now`, then the first of `next`.
 template <class Real>
 HYPERLATTICE_INLINE PackOf<Real> one_back(const PackOf<Real>& now, const PackOf<Real>& next) {
   using Vector = typename PackOf<Real>::Vector;
@@ -372,15 +372,15 @@ HYPERLATTICE_INLINE PackOf<Real> one_back(const PackOf<Real>& now, const PackOf<
   });
 }
 
-/// a b, rounded: where it is added to two sums, a product and two additions share the processor's
-/// units better than two fused ones.
+/// Returns the rounded product a b. If it is added to two sums, a product and two additions use the
+/// processor's units better than two fused multiply-adds.
 template <class Real>
 HYPERLATTICE_INLINE PackOf<Real> product(const PackOf<Real>& a, const PackOf<Real>& b) {
 #if defined(__GNUC__) && !defined(__clang__)
   return PackOf<Real>::of([&](std::size_t p) __attribute__((always_inline)) {
 #if defined(__AVX512F__)
     if constexpr (std::is_same_v<Real,
-                                 float>) {  // gcc 12 takes sixteen floats apart for its own barrier
+                                 float>) {  // gcc 12 splits sixteen floats for its own barrier
       typename PackOf<Real>::Vector rounded = a.part[p] * b.part[p];
       __asm__("" : "+v"(rounded));
       return rounded;
@@ -418,7 +418,7 @@ HYPERLATTICE_INLINE PackOf<Real> root(const PackOf<Real>& x) {
 #endif
   });
 }
-/// |magnitude| with the sign of `sign`; 0 where `sign` is 0.
+/// Returns |magnitude| with the sign of `sign`; 0 where `sign` is 0.
 template <class Real>
 HYPERLATTICE_INLINE PackOf<Real> with_sign(const PackOf<Real>& magnitude,
                                            const PackOf<Real>& sign) {

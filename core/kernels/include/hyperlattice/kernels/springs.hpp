@@ -1,13 +1,14 @@
 // The springs of one row of particles to one neighbour: elongation, law, forces on both ends. This
-// is the inner loop of everything.
+// is the innermost loop of a step.
 //
 // Base spring i-j and cross spring i-j' share the vector r between their ends in space. With the
-// rest vector R, the difference d of displacements, heights h over the mirror plane's rest and
-// Delta the distance to the mirror copy:
-//   base:  |r|^2 + (h_j - h_i)^2           = L0^2 + q_b,   q_b = d.(2 R + d) + (h_j - h_i)^2
-//   cross: |r|^2 + (Delta + h_i + h_j)^2   = Lc^2 + q_c,   q_c = d.(2 R + d) + (h_i + h_j)(2 Delta
-//   + h_i + h_j)
-// so that the elongation L - L0 = q / (L + L0) comes without cancellation, however small it is. See
+// rest vector R, the difference d of displacements, the heights h and the distance Delta to the
+// mirror copy:
+//   base:  |r|^2 + (h_j - h_i)^2           = L0^2 + q_b
+//          q_b = d.(2 R + d) + (h_j - h_i)^2
+//   cross: |r|^2 + (Delta + h_i + h_j)^2   = Lc^2 + q_c
+//          q_c = d.(2 R + d) + (h_i + h_j)(2 Delta + h_i + h_j)
+// The elongation L - L0 = q / (L + L0) then has no cancellation, however small it is. See
 // docs/theory/mirror.md.
 #pragma once
 
@@ -17,8 +18,8 @@
 
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
-/// Where the particles of a row, and their neighbours, stand in the arrays. Element t belongs to
-/// site begin + t.
+/// Places of a row's particles, and of their neighbours, in the arrays. Element t belongs to site
+/// begin + t.
 template <KernelConfig config>
 struct RowPair {
   using Stored = NumberOf<config.stored>;
@@ -30,11 +31,11 @@ struct RowPair {
   Real* received[components];  ///< forces on the neighbours' row
   const std::uint16_t* alive;
   const std::uint8_t *material_here, *material_there;
-  const std::uint32_t*
-      mixture;  ///< of the row itself; null: springs are between the materials of their ends
-  const std::uint32_t* weight_sets;  ///< of a row that has weights, for each vector
-  const double* weights;             ///< what these places count from: the neighbour's in the sets
-  double* memory;  ///< of the row's springs to the neighbour, [base, cross][number][site]
+  /// Mixtures of the row itself; null: springs depend on the materials of their ends.
+  const std::uint32_t* mixture;
+  const std::uint32_t* weight_sets;  ///< of a row with weights: place of each vector's set
+  const double* weights;  ///< weights of the neighbour in the first set, the base of these places
+  double* memory;  ///< memory of the row's springs to the neighbour, [base, cross][number][site]
 };
 
 template <class Law, KernelConfig config>
@@ -47,8 +48,8 @@ class Springs {
   static constexpr bool energy = config.measures();
 
  public:
-  /// Adds the forces of `count` springs (padded to whole vectors). Returns whether any is above its
-  /// alarm; adds to the energies.
+  /// Adds the forces of `count` springs (padded to whole vectors) and their energies. Returns
+  /// whether any spring is above its alarm.
   [[gnu::noinline]] static bool add(const KernelRequest& request, const Pair& pair,
                                     const NeighbourGeometry& neighbour, std::uint16_t bit,
                                     const SpringConstants& constants, int count,
@@ -68,7 +69,8 @@ class Springs {
           whole *= load_weights<Real>(pair.weights, pair.weight_sets + t / lanes, 0);
         return where(alive, whole);
       };
-      /// Force over length, counted; cross: 0 the base springs, 1 their cross springs.
+      /// Returns force over length times weight, 0 for missing springs. cross: 0 base springs, 1
+      /// cross springs.
       const auto pull_of = [&](int cross, const Pack& stiffness, double rest_length,
                                const Pack& growth) {
         if constexpr (LawWithConstants<Law>) {
@@ -89,7 +91,7 @@ class Springs {
       const Pack dx = difference_of(0, t), dy = difference_of(1, t), dz = difference_of(2, t);
       const Pack q = dx * (2 * rest.x + dx) + dy * (2 * rest.y + dy) + dz * (2 * rest.z + dz);
 
-      Pack difference = 0, total = 0;  // of the heights
+      Pack difference = 0, total = 0;  // difference and sum of the heights
       Pack base_q = q;
       if constexpr (membrane == Membrane::free) {
         const Pack here = load_as<Real>(pair.here[3] + t), there = load_as<Real>(pair.there[3] + t);
@@ -105,8 +107,8 @@ class Springs {
         const Pack cross_pull = pull_of(1, cross_stiffness, neighbour.cross_rest_length,
                                         q + total * (twice_delta + total));
         pull += cross_pull;
-        if constexpr (membrane == Membrane::free) {  // the cross spring pushes both heights the
-                                                     // same way: no action and reaction
+        if constexpr (membrane == Membrane::free) {  // the cross spring pushes both heights in the
+                                                     // same direction: not action and reaction
           const Pack along = base_pull * difference,
                      both = cross_pull * (request.membrane_distance + total);
           add_to(pair.own[3] + t, along - both);
@@ -124,8 +126,7 @@ class Springs {
     return rung;
   }
 
-  /// Asks the failure criterion about the row's springs above their alarm, and removes those that
-  /// broke.
+  /// Asks the failure criterion about the row's springs above their alarm, and removes broken ones.
   [[gnu::noinline]] static void review(const KernelRequest& request, const Pair& pair,
                                        const Row& row, std::uint32_t row_index,
                                        std::uint32_t neighbour_index,

@@ -1,10 +1,10 @@
-// The springs from a row of particles to all its forward neighbours in one pass, a vector of sites
-// at a time, for a list of neighbours that is known when the kernel is compiled: what a spring does
-// stays in registers until all springs of these sites are summed.
+// The springs from a row of particles to all its forward neighbours in one pass, one vector of
+// sites at a time, for a list of neighbours that is known at compile time. Results of springs stay
+// in registers until all springs of these sites are summed.
 //
-// A spring that leans forward (dx = 1) pulls at sites one further than its own; one that leans
-// backward (dx = -1) is taken from its far end, so that its own sites are one further. What falls
-// one further waits for the next vector: nothing goes back.
+// A spring that leans forward (dx = 1) pulls at sites one further than its own. A spring that leans
+// backward (dx = -1) is computed from its far end, so that its own sites are one further. Forces on
+// sites one further are carried to the next vector, so the pass never goes back.
 #pragma once
 
 #include <hyperlattice/kernels/cubic_list.hpp>
@@ -16,7 +16,7 @@
 
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
-/// One row's pass. `List`: see CubicList.
+/// The pass over one row. `List`: see CubicList.
 template <class Law, KernelConfig config, class List>
 class Stencil {
   using Real = NumberOf<config.computed>;
@@ -34,23 +34,26 @@ class Stencil {
   struct Kinds {
     Kind base, cross;
   };
-  /// Where a row and those of its neighbours are stored. Element t belongs to site begin + t.
+  /// Places in the arrays of a row and of its neighbours' rows; element t belongs to site begin +
+  /// t.
   struct Rows {
     std::ptrdiff_t displacement[lines];  ///< places of the row's sites in each line; the first line
                                          ///< is the row itself
-    Real* received[lines];  ///< forces on them, x; the next component is `scratch_width` further
+    /// Forces on these sites, x; the next component is `scratch_width` further.
+    Real* received[lines];
     const std::uint16_t* alive;
-    const std::uint32_t* weight_sets;  ///< null: all count in full
-    const Kinds* kinds;                ///< of each class
-    std::uint32_t neighbours;          ///< bits: what the row has of the list
-    int count;                         ///< sites, padded to whole vectors
+    const std::uint32_t* weight_sets;  ///< null: all weights are 1
+    const Kinds* kinds;                ///< kinds of springs of each class
+    std::uint32_t neighbours;          ///< bits of the row's neighbours in the list
+    int count;                         ///< number of sites, padded to whole vectors
   };
 
   Stencil(const KernelRequest& request, const Rows& rows)
       : request_(request), rows_(rows), spacing_(List::spacing(request.neighbours)) {}
 
-  /// Adds to what later rows receive; gives the whole force on each vector of sites to take(t,
-  /// forces), and clears what they received. Returns the bits of neighbours with an alarm.
+  /// Adds to the forces that later rows receive, calls take(t, forces) with the total force on each
+  /// vector of sites, and clears the forces that these received. Returns the bits of neighbours
+  /// with an alarm.
   template <class Take>
   HYPERLATTICE_INLINE std::uint32_t run(const Take& take) {
     Carried carried;
@@ -69,8 +72,8 @@ class Stencil {
     last(carried);
     return rung_;
   }
-  /// The same, with the forces kept in one array a component. Not inlined: every sweep that moves
-  /// its particles later has the same.
+  /// Does the same, with the forces stored in one array for each component. Not inlined: all sweeps
+  /// that move their particles later share it.
   [[gnu::noinline]] std::uint32_t run(Real* const (&forces)[components]) {
     return run([&](int t, const Packs& sums) __attribute__((always_inline)) {
       for (std::size_t c = 0; c < components; ++c) store(forces[c] + t, sums[c]);
@@ -87,8 +90,8 @@ class Stencil {
     return number;
   }
 
-  /// What falls one site further than a vector, on the row itself and on the lines that springs
-  /// lean to: its last lane belongs to the next vector.
+  /// Forces on sites one further than a vector's, on the row itself and on the lines that springs
+  /// lean to: the last lane belongs to the next vector.
   struct Carried {
     static constexpr std::size_t rows = 1 + leaning_before(lines);
     Packs row[rows];  // the row itself first
@@ -97,8 +100,8 @@ class Stencil {
     }
     HYPERLATTICE_INLINE Carried(const Carried& other) { *this = other; }
     HYPERLATTICE_INLINE Carried& operator=(
-        const Carried&
-            other) {  // by vectors: what a compiler makes of an array of this size is slow to begin
+        const Carried& other) {  // vector by vector: the compiler's own copy of an array of this
+                                 // size is slow to start
       every([&](std::size_t r, std::size_t c)
                 __attribute__((always_inline)) { row[r][c] = other.row[r][c]; });
       return *this;
@@ -135,7 +138,7 @@ class Stencil {
     return rows_.received[line] + static_cast<std::ptrdiff_t>(c) * request_.scratch_width;
   }
 
-  /// Of the springs of a vector that begins at t, each taken from its own lanes.
+  /// Returns the bits of the existing springs of a vector that begins at t, each in its own lane.
   Bits alive(int t) const {
     Bits there = t < 0 ? Bits{} : load_bits<Real>(rows_.alive + t),
          ahead = load_bits<Real>(rows_.alive + t + 1);
@@ -154,13 +157,13 @@ class Stencil {
                 Bits{} + List::all()) &&
            (rows_.weight_sets == nullptr || whole(rows_.weight_sets + t / lanes));
   }
-  static bool whole(const std::uint32_t* sets) {  // of the vector and the site after it
+  static bool whole(const std::uint32_t* sets) {  // all weights are 1, the next site included
     std::uint32_t others = 0;
     for (int n = 0; n <= width / lanes; ++n) others |= sets[n] ^ whole_set;
     return others == 0;
   }
 
-  /// What acts on the sites of a vector, or on those one further.
+  /// Forces on the sites of a vector, and on those one further.
   struct Sums {
     Packs own, own_further, line[lines], line_further[lines];
     HYPERLATTICE_INLINE Sums() {
@@ -172,7 +175,7 @@ class Stencil {
     }
   };
 
-  // Kept out of the loop of whole vectors.
+  // Not inlined, to keep them out of the loop over whole vectors.
   [[gnu::noinline]] void first(Carried& carried) {
     Packs none;
     add<false, List::leaning(-1)>(-width, carried, none);
@@ -181,8 +184,8 @@ class Stencil {
     add<false, List::all()>(t, carried, forces);
   }
 
-  /// All springs of a vector of sites, or those of `only`. AllThere: none is missing and all count
-  /// in full.
+  /// Adds the springs of a vector of sites to the neighbours in `only`. AllThere: none is missing
+  /// and all count in full.
   template <bool AllThere, std::uint16_t only>
   HYPERLATTICE_INLINE void add(int t, Carried& carried, Packs& forces) {
     const Bits bits = AllThere ? Bits{} : alive(t);
@@ -211,7 +214,7 @@ class Stencil {
     carried.row[0] = sums.own_further;
   }
 
-  /// Gives what the springs pull at in another row to that row.
+  /// Adds the forces of the springs on another row to that row.
   template <bool AllThere, std::size_t line>
   HYPERLATTICE_INLINE void end_line(int t, Sums& sums, Carried& carried) const {
     if (!AllThere && (rows_.neighbours & List::in_line(List::lines[line])) == 0) return;
@@ -225,15 +228,15 @@ class Stencil {
     if constexpr (leans_forward(line)) carried.template to_line<line>() = sums.line_further[line];
   }
 
-  /// A vector of springs to one neighbour, from there to here.
+  /// A vector of springs to one neighbour; r points from there to here.
   struct Alike {
-    Pack r[3];                           ///< between the ends in space
-    Pack base_q, cross_q;                ///< growth of the squared lengths
-    Pack height_difference, height_sum;  ///< there less here; both together
+    Pack r[3];                           ///< vector between the ends in space, m
+    Pack base_q, cross_q;                ///< growth of the squared lengths, m2
+    Pack height_difference, height_sum;  ///< there minus here; there plus here
     LanesOf<Real> alive;
   };
 
-  /// The springs of one batch: where they stand, how they answer, what they push.
+  /// Computes the springs of one batch: geometry, response, forces on both ends.
   template <bool AllThere, std::uint16_t batch>
   HYPERLATTICE_INLINE void add_batch(int t, Bits bits, const Packs& here, const Packs& further,
                                      Sums& sums) {
@@ -316,8 +319,8 @@ class Stencil {
     }
     Pack pull = base;
     if constexpr (has_cross) pull += cross;
-    if constexpr (membrane == Membrane::free) {  // the cross spring pushes both heights the same
-                                                 // way: no action and reaction
+    if constexpr (membrane == Membrane::free) {  // the cross spring pushes both heights in the same
+                                                 // direction: not action and reaction
       const Pack along = base * springs.height_difference,
                  both = cross * (request_.membrane_distance + springs.height_sum);
       own[3] += along - both;
@@ -340,7 +343,7 @@ class Stencil {
     return one_back(of(t < 0 ? 0 : t), of(t + width < rows_.count ? t + width : t));
   }
 
-  /// What the last sites pull at beyond the row's end.
+  /// Adds the forces of the last sites on sites beyond the row's end.
   void last(const Carried& carried) {
     each<lines>([&]<std::size_t line>() __attribute__((always_inline)) {
       if constexpr (leans_forward(line)) {

@@ -1,12 +1,12 @@
 // One pass over a block of a structured lattice: forces, failure, damping and integration together,
-// rows along x, each pair of particles visited once. A row's springs go only forward (to later rows
-// or later sites), so when a row is reached everything it receives from earlier rows is there, and
-// its velocities and displacements are updated in place. Received forces wait in a ring of reach +
-// 1 planes.
+// in rows along x, with each pair of particles visited once. A row has only springs to later rows
+// or later sites. When the pass reaches a row, the row has received all forces from earlier rows,
+// so its velocities and displacements are updated in place. Received forces wait in a ring of reach
+// + 1 planes.
 //
-// The ghost planes before the block repeat the neighbour block's springs into this one, in the same
-// order as the whole body would have them: sums do not depend on where the body is cut, hence not
-// on the number of threads.
+// The springs from the ghost planes before the block into the block are computed again, in the
+// order of the whole body. So sums do not depend on the cuts between blocks, nor on the number of
+// threads.
 #pragma once
 
 #include <hyperlattice/kernels/listed.hpp>
@@ -49,7 +49,7 @@ class Sweep {
         if (row.begin < row.end) one_row(row, index, j, k);
       }
     for (int k = request_.planes; k < request_.planes + request_.reach;
-         ++k) {  // forces on the next block's planes: it finds them itself
+         ++k) {  // the next block computes the forces on its own planes
       Real* plane = received_plane(k);
       const std::size_t size = static_cast<std::size_t>(request_.rows_per_plane) * row_size();
       for (std::size_t n = 0; n < size; ++n) plane[n] = 0;
@@ -61,8 +61,8 @@ class Sweep {
     const int count = (row.end - row.begin + width - 1) / width * width;
     Motion<config.of_motion()> motion(request_, row);
     const bool accelerated = motion.accelerated();
-    // Particles can move as soon as the forces on them are known if no criterion and no support
-    // must see them first.
+    // Particles can move as soon as the forces on them are known, unless a criterion or a boundary
+    // particle must see the forces first.
     constexpr bool may_move_at_once = !Breakable && !Mixed && !measuring;
     const bool at_once = may_move_at_once && fused && owned &&
                          row.first_boundary_particle == row.last_boundary_particle;
@@ -99,7 +99,7 @@ class Sweep {
     for (std::size_t line = 0; line < CubicList::lines.size(); ++line) {
       const auto [dy, dz] = CubicList::lines[line];
       const bool there = (row.neighbours & CubicList::in_line({dy, dz})) !=
-                         0;  // if not, the row itself stands in, without springs
+                         0;  // if not, the row itself takes its place, without springs
       const int to_j = there ? j + dy : j, to_k = there ? k + dz : k;
       const Row& other = request_.rows[row_index(to_j, to_k)];
       rows.displacement[line] =
@@ -157,7 +157,7 @@ class Sweep {
     join_received(row, j, k, count);
   }
 
-  /// What the row received from earlier rows goes to its own forces.
+  /// Adds the forces that the row received from earlier rows to its own.
   void join_received(const Row& row, int j, int k, int count) {
     for (int c = 0; c < components; ++c) {
       Real* received = received_row(c, j, k) + row.begin;
@@ -190,15 +190,15 @@ class Sweep {
     }
   }
 
-  // Where things are.
+  // Places of rows in the arrays.
   std::uint32_t row_index(int j, int k) const {
     return static_cast<std::uint32_t>((k + request_.reach) * request_.rows_per_plane + j);
   }
   std::size_t row_size() const {
     return static_cast<std::size_t>(components) * static_cast<std::size_t>(request_.scratch_width);
   }
-  Real* received_plane(int k)
-      const {  // at the same address in every precision: steps and measurements find zeros there
+  Real* received_plane(int k) const {  // the same address for both precisions, so that steps and
+                                       // measurements find zeros there
     const auto slot = static_cast<std::size_t>((k + request_.reach) % (request_.reach + 1));
     void* first = static_cast<double*>(request_.scratch) + row_size();
     return static_cast<Real*>(first) +
@@ -241,7 +241,7 @@ class Sweep {
   Real* own_[components];
 };
 
-/// The kernels of a law for a choice, all compiled for one instruction set.
+/// The kernels of a law for a KernelChoice, all compiled for one instruction set.
 template <class Law>
 class Kernels {
  public:
@@ -287,7 +287,7 @@ class Kernels {
     }
   }
 
-  /// The try block stands outside of the kernel, so that the loops do not know of it.
+  /// The try block is outside of the kernel, so that it does not affect the loops.
   template <class Kernel>
   static bool run(const KernelRequest& request, const Complaint& why) noexcept {
     return detail::guarded(why, [&] { Kernel::run(request); });
@@ -313,7 +313,7 @@ class Kernels {
   static KernelSet of_mixture(const KernelChoice& choice) {
     if constexpr (LawWithConstants<Law>)
       return of_precision<membrane, breakable, true>(
-          choice);  // asks lane by lane: nothing to gain from less
+          choice);  // such laws run lane by lane, so fewer materials save nothing
     return choice.mixed ? of_precision<membrane, breakable, true>(choice)
                         : of_precision<membrane, breakable, false>(choice);
   }
@@ -357,7 +357,7 @@ class Kernels {
 #define HYPERLATTICE_JOIN_OF(a, b) a##b
 #define HYPERLATTICE_JOIN(a, b) HYPERLATTICE_JOIN_OF(a, b)
 
-/// Written once in each generated file: hyperlattice_kernels_avx2(choice), and so on.
+/// Defines hyperlattice_kernels_avx2(choice), or its like; used once in each generated file.
 #define HYPERLATTICE_KERNELS(Law)                                                              \
   hyperlattice::KernelSet HYPERLATTICE_JOIN(hyperlattice_kernels_, HYPERLATTICE_INSTRUCTIONS)( \
       const hyperlattice::KernelChoice& choice) {                                              \

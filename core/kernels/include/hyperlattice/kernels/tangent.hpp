@@ -1,19 +1,18 @@
-// What the springs of one row answer to a displacement: the force along each over its length, and
-// how it changes; what a static solver needs.
+// The springs of one row for a static solver: force over length of each spring, and its tangent.
 //
-// A spring with the vector r between its ends, length L, force f(L - L0) and stiffness f' has, on
-// the difference of its ends, the tangent
+// For a spring with the vector r between its ends, length L, force f(L - L0) and derivative f', the
+// tangent with respect to the difference of its ends is
 //   K = axial r r^T / l^2 + pull I,   pull = f / L,   axial = (f' - f / L) l^2 / L^2,
-// with l the lattice constant, so that both are in N/m. `pull` alone is its force, pull r. The same
-// holds for cross springs, with the fourth component Delta + h_i + h_j. See docs/theory/statics.md.
+// with the lattice constant l, so that both are in N/m. The force is pull r. The same holds for
+// cross springs, with the fourth component Delta + h_i + h_j. See docs/theory/statics.md.
 #pragma once
 
 #include <hyperlattice/kernels/springs.hpp>
 
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 
-/// A law may give its tangent, the derivative of its force; a linear law need not, and of others it
-/// is found by a small difference.
+/// Returns the derivative of the law's force, N/m: the law's own tangent(); the stiffness of a
+/// linear law; else a central difference.
 template <class Law>
 inline Pack tangent_of(Pack stiffness, Pack elongation, double rest_length) {
   if constexpr (requires { Law::tangent(stiffness, elongation); }) {
@@ -29,12 +28,12 @@ inline Pack tangent_of(Pack stiffness, Pack elongation, double rest_length) {
 
 template <class Law, Membrane membrane>
 struct Tangent {
-  /// Returns the energy that the springs store, J.
+  /// Writes pull and axial of the springs. Returns their stored energy, J.
   static double run(const SpringRow& row) {
     Pack stored{};
     for (int t = 0; t < row.count; t += lanes) {
       const Pack weight = load(row.weight + t);
-      Pack difference{}, total{};  // of the heights
+      Pack difference{}, total{};  // difference and sum of the heights
       Pack q{};
       const double rest[3] = {row.rest.x, row.rest.y, row.rest.z};
       for (int c = 0; c < 3; ++c) {
@@ -66,7 +65,7 @@ struct Tangent {
     const Pack along = (tangent_of<Law>(stiffness, elongation, rest_length) - force_over_length) *
                        (row.spacing * row.spacing) / square;
     const LanesOf<double> there_is =
-        not_zero(weight);  // where there is no spring, what stands in its place need not be finite
+        not_zero(weight);  // missing springs have values that may not be finite
     store(pull, where(there_is, weight * force_over_length));
     store(axial, where(there_is, weight * along));
     return where(there_is, weight * Law::energy(stiffness, elongation));
