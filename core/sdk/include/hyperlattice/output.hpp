@@ -50,7 +50,8 @@ struct OutputContext {
   std::string_view title;
   std::span<const std::string_view>
       fields;  ///< fields of field_names that this run has; empty: known only to the snapshot
-  /// Of a resumed run: the existing frames of this writer, in order; its next frame follows them.
+  /// The frames of this writer that a resumed run already has, in order. The next frame follows
+  /// them.
   std::span<const FrameMark> earlier;
   void* self = nullptr;
   std::span<const Particle> (*region_particles)(void* self, RegionId region) noexcept = nullptr;
