@@ -1,4 +1,5 @@
-// Bodies for tests: a shape made of a function, filled by the cubic lattice as the host loads it.
+// Bodies for tests. A function of position gives the shape; lattices.cubic, loaded by the host,
+// fills it.
 #pragma once
 
 #include <host/host.hpp>
@@ -11,8 +12,8 @@
 
 namespace hyperlattice::test {
 
-/// A solid region with its anchor and centre at the middle of a symmetric box, at the low corner of
-/// any other.
+/// A solid region. The anchor and the centre are at the middle of a symmetric box, and at the low
+/// corner of any other box.
 inline Region solid(Vec3 low, Vec3 high, std::function<bool(Vec3)> inside) {
   Region region;
   region.kind = Region::Kind::solid;
@@ -53,7 +54,8 @@ inline Body cubic_body(const Region& region, double spacing,
   for (const Option& option : cubic->info.options) {
     OptionValue value;
     value.number = spacing;
-    value.integer = static_cast<std::int64_t>(boundary);  // the only choice
+    // `boundary` is the lattice's only choice option
+    value.integer = static_cast<std::int64_t>(boundary);
     value.shape = &shape;
     value.absent = option.optional;
     option.set(options.get(), value, silent);
@@ -62,7 +64,7 @@ inline Body cubic_body(const Region& region, double spacing,
                                                        cubic->info.destroy);
   Body body =
       build_body(*static_cast<const LatticeFunctions*>(cubic->info.functions), lattice.get());
-  body.grid.shape = nullptr;  // it ends here
+  body.grid.shape = nullptr;  // `shape` is local to this function
   return body;
 }
 

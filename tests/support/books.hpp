@@ -1,4 +1,4 @@
-// How well a simulation keeps its books of energy.
+// The energy balance of a simulation, checked at every step.
 #pragma once
 
 #include <state/simulation.hpp>
@@ -11,11 +11,11 @@
 namespace hyperlattice::test {
 
 struct Books {
-  double largest_error = 0;  ///< of the balance, relative, at any step
+  double largest_error = 0;  ///< largest relative error of the balance at any step
   EnergyBalance last;
 };
 
-/// Of four microseconds in equal steps of about that fraction of the critical one.
+/// Runs 4 us in equal steps, each about `fraction` of the critical time step.
 inline Books keep_books(const Model& model, double fraction, double damping = 0) {
   Simulation simulation(model, 2);
   simulation.set_damping(damping);

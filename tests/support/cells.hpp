@@ -1,5 +1,5 @@
-// Bodies of cells for tests: shapes by the cells they hold, scenes of them, and the forces that the
-// kernels find.
+// Bodies of cells for tests: shapes given by their cells, scenes of these shapes, and the forces
+// that the kernels compute.
 #pragma once
 
 #include <support/scenes.hpp>
@@ -12,13 +12,13 @@ namespace hyperlattice::test {
 
 using CellIndex = std::array<int, 3>;
 
-/// A shape as a scene names it, in cells of 1 mm, and the same by the centres of its cells.
+/// A shape in cells of 1 mm: as a scene describes it, and as a test of the cells' centres.
 struct CellShape {
   const char* name;
   std::string shape;
-  std::function<bool(double x, double y, double z)> holds;  ///< mm
+  std::function<bool(double x, double y, double z)> holds;  ///< is the point (mm) inside?
 
-  /// Every cell, counted from the origin.
+  /// Lists all cells of the shape by their index from the origin.
   std::vector<CellIndex> cells() const {
     std::vector<CellIndex> found;
     for (int k = -10; k < 10; ++k)
@@ -37,7 +37,7 @@ inline std::string box_text(const CellIndex& low, const CellIndex& high) {
   return R"({ "box": { "low": )" + corner(low) + R"(, "high": )" + corner(high) + " } }";
 }
 
-/// Whether a point (mm) is in the box.
+/// Returns a function that says whether a point (mm) is in the box.
 inline auto in_box(CellIndex low, CellIndex high) {
   return [low, high](double x, double y, double z) {
     return low[0] < x && x < high[0] && low[1] < y && y < high[1] && low[2] < z && z < high[2];
@@ -79,7 +79,7 @@ inline const std::vector<CellShape>& cell_shapes() {
   return all;
 }
 
-/// A scene of that shape made of cells of 1 mm.
+/// A scene of this shape, filled with cells of 1 mm.
 inline std::string scene_of_cells(const std::string& shape, const std::string& material,
                                   const std::string& stages = "") {
   return R"({ "format": "hyperlattice/1", "pipeline": [
@@ -90,25 +90,25 @@ inline std::string scene_of_cells(const std::string& shape, const std::string& m
     { "type": "solvers.explicit", "end_time": 1e-6 } ] })";
 }
 
-/// The corner of cells nearest to a particle.
+/// Returns the cell corner nearest to a particle.
 inline CellIndex corner_of(const Model& model, Particle particle) {
   const Vec3 x = model.body.position(particle);
   return {static_cast<int>(std::lround(1e3 * x.x)), static_cast<int>(std::lround(1e3 * x.y)),
           static_cast<int>(std::lround(1e3 * x.z))};
 }
 
-/// Particles by their corner.
+/// Maps each cell corner to the particle on it.
 inline std::map<CellIndex, Particle> particles_by_corner(const Model& model) {
   std::map<CellIndex, Particle> found;
   for (Particle p = 0; p < model.body.particles; ++p) found[corner_of(model, p)] = p;
   return found;
 }
 
-/// x, y, z, height.
+/// Components x, y, z and height.
 using Force = std::array<double, 4>;
 
-/// The forces on particles that stand still with these displacements: what one step from rest gives
-/// them.
+/// The forces on particles at rest with these displacements and heights. One step from rest gives
+/// each particle a momentum; the force follows from it.
 inline std::vector<Force> forces(const Model& model, const std::vector<double>& u,
                                  const std::vector<double>& heights, int threads = 1) {
   Simulation simulation(model, threads);

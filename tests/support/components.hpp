@@ -1,4 +1,4 @@
-// The components that the tools' scenes are made of in tests.
+// Components that the scenes of `analyze` and `contract` are made of in tests.
 #pragma once
 
 #include <analyze/virtual_test.hpp>
@@ -6,7 +6,7 @@
 
 namespace hyperlattice::test {
 
-/// Around a component under test.
+/// The components that surround a component under test.
 inline const contract::Surroundings around{.grid = "lattices.cubic",
                                            .list = "lattices.random",
                                            .material = "materials.elastic",
@@ -14,7 +14,7 @@ inline const contract::Surroundings around{.grid = "lattices.cubic",
                                            .displacement = "loads.displacement",
                                            .steps = "solvers.explicit"};
 
-/// A virtual test of that lattice.
+/// A virtual test with the elastic material and the static solver.
 inline VirtualTest virtual_test(Host& host, VirtualTest::Options options) {
   return {host,
           {.material = "materials.elastic",

@@ -1,4 +1,4 @@
-// The endless cubic lattice, written out independently of its plugin.
+// The infinite cubic lattice, written independently of its plugin.
 #pragma once
 
 #include <model/waves.hpp>

@@ -1,5 +1,5 @@
-// A catalogue of components that are declared but do nothing, with options of every kind; for tests
-// of reading and documenting scenes.
+// A catalogue of components that declare options of every kind and do nothing else. Tests of the
+// reading and the documentation of scenes use it.
 #pragma once
 
 #include <base/option_set.hpp>
@@ -179,7 +179,7 @@ class Catalogue final : public hyperlattice::Catalogue {
     return found;
   }
   bool scene_plugins = true;
-  std::string refused_type;  ///< pretends that a library of this name is there and bad
+  std::string refused_type;  ///< type whose library the catalogue reports as present but refused
 
   const Component* find(const std::string& type) override {
     return components_.count(type) == 0 ? nullptr : &components_.at(type);

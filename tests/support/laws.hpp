@@ -1,5 +1,5 @@
-// Laws with constants and memory of their own, for tests: scenes of bodies that do what each law is
-// for.
+// Laws with constants and memory for tests, and bodies whose strains bring out the effect of each
+// law.
 #pragma once
 
 #include <support/scenes.hpp>
@@ -8,11 +8,11 @@ namespace hyperlattice::test {
 
 struct LawCase {
   const char* name;
-  const char* material;  ///< type and keys; strains of 1e-3 make the law do what it is for
+  const char* material;  ///< type and keys; at strains of 1e-3 the effect of the law shows
 };
 
-/// A lattice stage, a material's type and keys after its constants, more stages that begin with a
-/// comma.
+/// A scene of a lattice stage, the keys of a material after young and density, and more stages,
+/// which begin with a comma.
 inline std::string law_scene(const std::string& lattice, const std::string& material,
                              const std::string& stages = "") {
   return R"({ "format": "hyperlattice/1", "pipeline": [ )" + lattice +
@@ -28,7 +28,8 @@ struct Ended {
   std::uint64_t hash = 0;
   std::size_t broken = 0;
 };
-/// A body that begins with velocities at random, so many critical steps later.
+/// Starts a body with random velocities (at most `speed`, m/s) and takes `steps` steps of `share`
+/// times the critical time step.
 inline Ended shaken(const Plan& plan, double share, int steps, int threads, double speed = 4) {
   Simulation simulation(*plan.model, threads);
   simulation.set_velocities(noise(3 * plan.model->body.particles, speed, 3),
@@ -39,8 +40,8 @@ inline Ended shaken(const Plan& plan, double share, int steps, int threads, doub
   return {simulation.balance(), simulation.hash(), simulation.breakages().size()};
 }
 
-/// The forces on all particles, x y z each, of a body led along a path of displacements from one
-/// step of 1e-8 s to the next.
+/// Moves a body along a path of displacements, one step of 1e-8 s for each, and returns the forces
+/// on all particles, x y z each.
 class LedBody {
  public:
   explicit LedBody(const Model& model, int threads = 1)

@@ -1,15 +1,16 @@
-// Listed lattices for tests: the cubic block written out as a table of points and one of springs,
-// and random blocks.
+// Listed lattices for tests: the cubic block as a table of points and a table of springs, and
+// random blocks.
 #pragma once
 
 #include <support/scenes.hpp>
 
 namespace hyperlattice::test {
 
-/// Files of one test, removed with the object.
+/// The files of one test; the destructor removes them.
 class ListFiles {
  public:
-  /// The block of block(), in the order x, y, z, which is not the program's.
+  /// Lists the block of block() in the order x, y, z; the grid numbers its particles in another
+  /// order.
   ListFiles(int nx, int ny, int nz) : ListFiles() {
     std::ofstream table(points), joints(springs);
     table.precision(17);
@@ -35,7 +36,7 @@ class ListFiles {
           }
         }
   }
-  /// These points, and springs between them.
+  /// Lists the given points and the springs between them.
   ListFiles(const std::vector<Vec3>& places, const std::vector<std::pair<int, int>>& pairs)
       : ListFiles() {
     std::ofstream table(points), joints(springs);
@@ -52,7 +53,7 @@ class ListFiles {
   ListFiles(const ListFiles&) = delete;
   ListFiles& operator=(const ListFiles&) = delete;
 
-  /// The stage of its lattice; `more` keys.
+  /// The lattice stage that reads these files, with `more` keys.
   std::string lattice(const std::string& more = "") const {
     return R"({ "type": "lattices.points", "points": ")" + points.string() + R"(", "springs": ")" +
            springs.string() + R"(", "scale": "1 mm", "spacing": "1 mm")" +
@@ -71,7 +72,7 @@ class ListFiles {
   }
 };
 
-/// Of each particle of the list of a cubic block, the same one of the block as a grid.
+/// Maps each particle of a listed cubic block to the same particle of the block as a grid.
 class InGrid {
  public:
   InGrid() = default;
@@ -79,12 +80,12 @@ class InGrid {
     const auto x = static_cast<Particle>(nx), y = static_cast<Particle>(ny),
                z = static_cast<Particle>(nz);
     for (const Particle n : list.body.listed.source)
-      particle_.push_back(((n % z) * y + n / z % y) * x + n / z / y);  // as ListFiles counts
+      particle_.push_back(((n % z) * y + n / z % y) * x + n / z / y);  // in the order of ListFiles
   }
   std::size_t size() const { return particle_.size(); }
   const Particle& operator[](Particle of_list) const { return particle_[of_list]; }
 
-  /// A field of the grid as the list has it.
+  /// Reorders a field of the grid into the order of the list.
   std::vector<double> for_list(const std::vector<double>& of_grid) const {
     const std::size_t components = of_grid.size() / size();
     std::vector<double> of_list;
@@ -97,7 +98,7 @@ class InGrid {
   std::vector<Particle> particle_;
 };
 
-/// A scene of a lattice stage, a material's keys and more stages.
+/// A scene of a lattice stage, the keys of a material, and more stages.
 inline std::string listed_scene(const std::string& lattice, const std::string& material,
                                 const std::string& stages = "", double young = 1e10) {
   return R"({ "format": "hyperlattice/1", "pipeline": [)" + lattice +
@@ -106,12 +107,12 @@ inline std::string listed_scene(const std::string& lattice, const std::string& m
          R"(, { "type": "solvers.explicit", "end_time": 1e-6 } ] })";
 }
 
-/// The same, kept in floats.
+/// The same scene with a state in single precision.
 inline std::string in_floats(std::string scene) {
   return scene.insert(scene.find('{') + 1, R"( "precision": "float",)");
 }
 
-/// A random block of nx * ny * nz mm, spacing 1 mm.
+/// A random lattice that fills a box of nx * ny * nz mm, spacing 1 mm.
 inline std::string random_lattice(int nx, int ny, int nz, const std::string& more = "") {
   return R"({ "type": "lattices.random", "spacing": "1 mm", "shape": { "box": { "low": [0, 0, 0], "high": [)" +
          std::to_string(nx) + "e-3, " + std::to_string(ny) + "e-3, " + std::to_string(nz) +

@@ -12,7 +12,7 @@
 
 namespace hyperlattice::test {
 
-/// A scene with its model. The scene ends last.
+/// A scene with its model. The scene is declared first, so that the model is destroyed before it.
 struct BuiltScene {
   std::unique_ptr<Scene> scene;
   std::unique_ptr<Model> model;
@@ -20,7 +20,7 @@ struct BuiltScene {
   const Model* operator->() const { return model.get(); }
 };
 
-/// Reads and builds a pipeline given as the text between its brackets, without a solver.
+/// Reads and builds a pipeline without a solver. `pipeline` is the text between its brackets.
 inline BuiltScene build(const std::string& pipeline) {
   static int count = 0;
   const std::filesystem::path file =
@@ -41,7 +41,7 @@ inline BuiltScene build(const std::string& pipeline) {
   return built;
 }
 
-/// The faults of a pipeline that cannot be built, as the user reads them; "" if it can.
+/// The faults of a pipeline, as the user reads them; "" if the pipeline can be built.
 inline std::string faults_of(const std::string& pipeline) {
   try {
     build(pipeline);
@@ -51,13 +51,13 @@ inline std::string faults_of(const std::string& pipeline) {
   return "";
 }
 
-/// A lattice stage: a box of nx * ny * nz particles, 1 m apart, corner at the origin.
+/// A lattice stage: a box of nx * ny * nz particles, 1 m apart, with its corner at the origin.
 inline std::string box_lattice(int nx, int ny, int nz) {
   return R"({ "type": "lattices.cubic", "spacing": 1, "shape": { "box": { "low": [0, 0, 0], "high": [)" +
          std::to_string(nx) + ", " + std::to_string(ny) + ", " + std::to_string(nz) + "] } } }";
 }
 
-/// A material stage: young 1e9, density 1000, and more keys.
+/// A material stage with young 1e9, density 1000, and `more` keys.
 inline std::string elastic(const std::string& more = R"("poisson": 0.25)") {
   return R"({ "type": "materials.elastic", "young": 1e9, "density": 1000, )" + more + " }";
 }

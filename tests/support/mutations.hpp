@@ -1,4 +1,4 @@
-// Inputs damaged at random, the same on every machine.
+// Inputs damaged at random. The damage is the same on every machine.
 #pragma once
 
 #include <cstdlib>
@@ -8,7 +8,7 @@
 
 namespace hyperlattice::test {
 
-/// How many damaged inputs a test tries: HYPERLATTICE_MUTATIONS, or else `usual`.
+/// Number of damaged inputs that a test tries: HYPERLATTICE_MUTATIONS if set, else `usual`.
 inline int mutations(int usual) {
   const char* given = std::getenv("HYPERLATTICE_MUTATIONS");
   return given == nullptr ? usual : std::atoi(given);
@@ -22,8 +22,8 @@ class Damage {
     return std::uniform_int_distribution<std::size_t>(0, n - 1)(random_);
   }
 
-  /// The text with up to three bytes or stretches erased, doubled, inserted from `alphabet` or
-  /// replaced by it.
+  /// Changes the text one to three times. Each change erases or repeats a part, inserts a byte of
+  /// `alphabet`, replaces a byte by one of them, or cuts the text off.
   std::string operator()(std::string text, std::string_view alphabet) {
     for (std::size_t changes = 1 + below(3); changes > 0 && !text.empty(); --changes) {
       const std::size_t at = below(text.size()), length = 1 + below(below(4) == 0 ? 80 : 5);

@@ -1,5 +1,5 @@
-// Writers and probes in a test: a plugin loaded from the build as the host would load it, and a
-// small body that moves by a known rule.
+// Writers and probes in a test: a plugin loaded as the host loads it, and a small body whose motion
+// is known.
 #pragma once
 
 #include <hyperlattice/output.hpp>
@@ -27,8 +27,8 @@ inline Complaint complaint_into(std::string& sentence) {
           }};
 }
 
-/// A component of a plugin of the build, with options from JSON: its fallbacks, then those given.
-/// Throws what the plugin complains about.
+/// A component from a plugin of the build. Each option takes its value from `settings`, or else its
+/// fallback. Throws the complaint of the plugin.
 class Plugin {
  public:
   explicit Plugin(const std::string& type,
@@ -65,7 +65,7 @@ class Plugin {
 
   const std::vector<std::string>& faults() const {
     return faults_;
-  }  ///< of the cross-field check; with any, there is no component
+  }  ///< faults of the cross-field check; if any exist, no component was made
 
   void begin(const OutputContext& context) {
     call([&](const Complaint& why) {
@@ -145,8 +145,8 @@ class Plugin {
   std::vector<std::string> faults_;
 };
 
-/// A block of nx * ny * nz particles that moves by u(x, t) = t (x - c) + t^2 (y, z, x), in a body
-/// without a fourth degree of freedom. Region 0 is all of it; any other is every third particle.
+/// A block of nx * ny * nz particles that moves by u(x, t) = t (x - c) + t^2 (y, z, x), without
+/// heights. Region 0 holds all particles, any other region every third one.
 class FakeBody {
  public:
   explicit FakeBody(std::array<int, 3> counts, double spacing = 1e-3) : spacing_(spacing) {
@@ -160,7 +160,7 @@ class FakeBody {
     }
   }
 
-  /// Valid as long as the directory's text.
+  /// The context is valid as long as the text of `directory`.
   OutputContext context(std::string_view directory) {
     OutputContext context;
     context.directory = directory;
@@ -174,7 +174,7 @@ class FakeBody {
     return context;
   }
 
-  /// Valid until the next call.
+  /// The snapshot is valid until the next call.
   Snapshot at(double time) {
     displacements.resize(positions_.size());
     velocities.resize(positions_.size());
@@ -225,7 +225,7 @@ class FakeBody {
   std::vector<Particle> all_, some_;
 };
 
-/// A folder that vanishes with the test.
+/// A temporary folder; the destructor removes it.
 class Folder {
  public:
   explicit Folder(const std::string& name)

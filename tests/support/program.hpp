@@ -1,4 +1,5 @@
-// The real program in a test: its exit code and what it printed; a small blasted sphere to run.
+// Runs the real program in a test and returns its exit code and its output; also a small scene to
+// run.
 #pragma once
 
 #include "output.hpp"
@@ -15,16 +16,16 @@
 namespace hyperlattice::test {
 
 struct Result {
-  int exit_code = -1;  ///< 1000 + signal, if one killed it
+  int exit_code = -1;  ///< 1000 + signal if a signal ended the program
   std::string out, err;
 };
 
 struct Launch {
-  std::uint64_t file_limit = 0;          ///< bytes that any file may have; 0: no limit
-  std::uint64_t memory_limit = 0;        ///< bytes of address space; 0: no limit
-  std::function<void(pid_t)> meanwhile;  ///< called while the program runs
+  std::uint64_t file_limit = 0;          ///< largest size of a file, bytes; 0: no limit
+  std::uint64_t memory_limit = 0;        ///< address space, bytes; 0: no limit
+  std::function<void(pid_t)> meanwhile;  ///< is called while the program runs
   std::vector<std::string> environment;  ///< "NAME=value"
-  std::string directory;                 ///< where it runs; empty: here
+  std::string directory;                 ///< working directory; empty: the present one
 };
 
 /// Runs `hyperlattice` of this build with the arguments.
@@ -41,7 +42,7 @@ inline Result run_program(const std::vector<std::string>& arguments, const Launc
     for (const auto& [file, stream] : {std::pair{&out, 1}, std::pair{&err, 2}})
       dup2(open(file->c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), stream);
     setenv("OMP_WAIT_POLICY", "passive",
-           1);  // tests share the processor: threads that wait must not spin
+           1);  // tests share the processor, so that waiting threads must not spin
     for (const std::string& setting : launch.environment)
       putenv(const_cast<char*>(setting.c_str()));
     if (launch.file_limit > 0) {
@@ -63,7 +64,7 @@ inline Result run_program(const std::vector<std::string>& arguments, const Launc
           contents(err)};
 }
 
-/// Waits until a condition holds, a minute at most.
+/// Waits until a condition holds, at most one minute.
 inline bool wait_until(const std::function<bool()>& condition) {
   for (int n = 0; n < 6000; ++n) {
     if (condition()) return true;
@@ -72,7 +73,7 @@ inline bool wait_until(const std::function<bool()>& condition) {
   return false;
 }
 
-/// A hollow sphere of 8 mm with a cavity of 4 mm under a blast: 1,888 particles.
+/// A hollow sphere under a blast, radius 8 mm, cavity 4 mm, 1,888 particles.
 inline nlohmann::json small_sphere() {
   return nlohmann::json::parse(R"({
     "format": "hyperlattice/1", "title": "small sphere",

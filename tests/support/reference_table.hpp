@@ -1,5 +1,5 @@
-// tests/data/nu_eta_table.csv: elastic constants of the five membranes, computed independently of
-// this program.
+// Reads tests/data/nu_eta_table.csv: elastic constants for the five membranes, computed
+// independently of this program.
 #pragma once
 
 #include <hyperlattice/calibration.hpp>
@@ -15,8 +15,8 @@ namespace hyperlattice::test {
 
 struct Row {
   calibration::Membrane membrane = calibration::Membrane::none;
-  std::map<std::string, std::string> values;  ///< by column
-  std::string text;                           ///< the line
+  std::map<std::string, std::string> values;  ///< text of a cell by the name of its column
+  std::string text;                           ///< the whole row
 
   double number(const std::string& column) const { return std::stod(values.at(column)); }
 };

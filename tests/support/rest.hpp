@@ -1,4 +1,4 @@
-// Bodies at rest: scenes of them, and what their first solver makes of these.
+// Bodies in a state of rest: a scene, its first solver, and the result.
 #pragma once
 
 #include "scenes.hpp"
@@ -9,7 +9,7 @@
 
 namespace hyperlattice::test {
 
-/// A scene brought to rest by its first solver.
+/// A scene that its first solver brings to rest.
 struct AtRest {
   std::unique_ptr<Plan> plan;
   std::unique_ptr<Simulation> simulation;

@@ -1,5 +1,5 @@
-// Small scenes for tests, planned through the ordinary runtime: nothing is built by hand that a
-// user would not build by JSON.
+// Small scenes for tests. The ordinary runtime plans them, so that tests build nothing that a user
+// cannot describe in JSON.
 #pragma once
 
 #include <plan/plan.hpp>
@@ -31,8 +31,8 @@ inline std::unique_ptr<Plan> plan_of(const std::string& scene, int threads = 1) 
   return make_plan(std::move(read), threads);
 }
 
-/// A free block of nx * ny * nz cells of 1 mm, each one particle in the cubic lattice, corner at
-/// the origin, with `material` (the keys of a material after its constants) and more stages.
+/// A scene of a free block of nx * ny * nz cells of 1 mm with its corner at the origin; in the
+/// cubic lattice each cell holds one particle. `material` holds the keys after young and density.
 inline std::string block(int nx, int ny, int nz, const std::string& material = R"("poisson": 0.25)",
                          const std::string& stages = "",
                          const std::string& lattice = "lattices.cubic") {
@@ -47,7 +47,8 @@ inline std::string block(int nx, int ny, int nz, const std::string& material = R
     { "type": "solvers.explicit", "end_time": 1e-6 } ] })";
 }
 
-/// The material's keys for each membrane that the paper names, with a Poisson ratio in its reach.
+/// The material's keys for each membrane that the paper names, with a Poisson ratio that it
+/// reaches.
 struct MembraneCase {
   const char* name;
   const char* material;
@@ -65,7 +66,7 @@ inline const MembraneCase membranes[] = {
     {"free", R"("membrane": "free", "k_alpha": 0.5, "k_beta": 1.5, "k_gamma": 0.4)"},
 };
 
-/// The same of the other structured lattices.
+/// The same for the other structured lattices.
 inline const MembraneCase centred_lattices[] = {
     {"bcc", R"("poisson": 0.25)", "lattices.bcc"},
     {"bcc_I_m", R"("membrane": "I-m", "poisson": 0.1)", "lattices.bcc"},
@@ -75,13 +76,13 @@ inline const MembraneCase centred_lattices[] = {
     {"fcc_III", R"("membrane": "III", "lambda": 2)", "lattices.fcc"},
 };
 
-/// A block of a case's lattice and membrane, with more keys of the material.
+/// A block of the lattice and membrane of a case, with more keys of the material.
 inline std::string block(int nx, int ny, int nz, const MembraneCase& of,
                          const std::string& more = "", const std::string& stages = "") {
   return block(nx, ny, nz, of.material + more, stages, of.lattice);
 }
 
-/// Displacements drawn evenly from [-amplitude, amplitude], the same in every run.
+/// Values drawn evenly from [-amplitude, amplitude], the same in every run.
 inline std::vector<double> noise(std::size_t count, double amplitude, unsigned seed = 1) {
   std::mt19937_64 random(seed);
   std::vector<double> values(count);
@@ -96,7 +97,7 @@ inline std::vector<double> displacements(const Simulation& simulation) {
   return values;
 }
 
-/// Largest size of the values; infinite if one is not a number.
+/// Largest absolute value; infinite if a value is not finite.
 inline double largest(const std::vector<double>& values) {
   double found = 0;
   for (const double value : values)
