@@ -1,4 +1,4 @@
-// Multigrid by aggregation, of listed lattices, against factorisations.
+// Multigrid by aggregation on listed lattices, compared with factorisations.
 #include <engine/stage_calls.hpp>
 
 #include <support/lists.hpp>
@@ -21,7 +21,7 @@ std::string solver(const std::string& preconditioner, const std::string& more) {
          " }";
 }
 
-/// A random block of n^3 mm, pulled.
+/// A random block of n^3 mm that a displacement of `way` (m) pulls along z.
 std::string pulled(int n, const std::string& solver,
                    const std::string& material = R"("membrane": "I", "poisson": 0.2)",
                    const char* way = "1e-6") {
@@ -60,8 +60,8 @@ TEST_P(Aggregation, AgreesWithTheWholeFactorisation) {
   EXPECT_LE(levels.report.residual, 1e-9);
 }
 
-// The cost of an iteration is in proportion to the body's size, so what counts is how their number
-// grows.
+// The cost of an iteration is in proportion to the size of the body. The number of iterations must
+// therefore grow slowly with the size.
 TEST(AggregationOf, IterationsGrowLessThanThoseOfAnIncompleteFactorisation) {
   const auto iterations = [](int n, const std::string& solver) {
     return static_cast<double>(at_rest(pulled(n, solver)).report.iterations);
@@ -81,7 +81,7 @@ TEST_P(Aggregation, HasTheSameBitsForAnyNumberOfThreads) {
   EXPECT_EQ(at_rest(scene, 1).u, at_rest(scene, 3).u);
 }
 
-// A bar bent by a third of its length, against the factorisation.
+// A bar whose end moves by a third of its length, compared with the factorisation.
 TEST(AggregationOf, LargeRotations) {
   const auto bent = [](const std::string& solver) {
     return listed_scene(random_lattice(3, 3, 16, R"("coordination": 13)"),

@@ -1,5 +1,5 @@
-// Loads that answer to the motion: what they do to momentum and energy, against closed forms, and
-// how they bound the step.
+// Loads that answer to the motion: their momentum and energy against closed forms, and their effect
+// on the critical time step.
 #include <support/books.hpp>
 #include <support/cells.hpp>
 #include <support/models.hpp>
@@ -30,7 +30,7 @@ std::string scene(int nx, int ny, int nz, const std::string& stages, double youn
 const char* const membrane = R"("membrane": "I-m", "poisson": 0.1)";
 
 struct Sums {
-  Vec3 momentum, spin;  ///< about the origin
+  Vec3 momentum, spin;  ///< angular momentum about the origin
   double size = 0;      ///< sum of m |v|
 };
 Sums sums(const Model& model, const Simulation& simulation) {
@@ -48,7 +48,7 @@ Sums sums(const Model& model, const Simulation& simulation) {
   return all;
 }
 
-/// The body under x -> F x, columns of F.
+/// Displacements of the affine motion x -> F x; F is given by its columns.
 std::vector<double> deformed(const Model& model, const Vec3 (&F)[3]) {
   std::vector<double> u;
   for (Particle p = 0; p < model.body.particles; ++p) {
@@ -151,7 +151,7 @@ TEST(Actuation, AStrainOfAllSpringsMakesTheBodyThatMuchLonger) {
   }
 }
 
-TEST(Actuation, ADirectionFollowsTheTurningBody) {  // turned as a whole, the forces turn with it
+TEST(Actuation, ADirectionFollowsTheTurningBody) {  // the forces turn with the body
   const auto plan =
       plan_of(scene(4, 3, 6, R"({ "type": "loads.actuation", "on": "half", "force": 1 })"));
   const Model& model = *plan->model;
@@ -227,7 +227,7 @@ TEST(Expression, IsTheFormThatItWrites) {
             1e-12 * largest(displacements(one)));
 }
 
-// A soft block under strong gravity, to see it slide in few steps.
+// The block is soft and gravity is strong, so that the block slides far in few steps.
 constexpr double heavy = 500;  // m/s2
 std::string sliding(const std::string& floor, Vec3 gravity, Vec3 start) {
   const auto text = [](Vec3 v) {
@@ -240,7 +240,7 @@ std::string sliding(const std::string& floor, Vec3 gravity, Vec3 start) {
                    R"( }, { "type": "loads.start_velocity", "linear": )" + text(start) + " }",
                1e7);
 }
-/// The mean motion of the body up to that time: where it is and how fast.
+/// The mean position and velocity of the body at that time.
 std::pair<Vec3, Vec3> mean_motion(const Plan& plan, double time) {
   const Model& model = *plan.model;
   Simulation simulation(model, 2);
@@ -259,11 +259,11 @@ std::pair<Vec3, Vec3> mean_motion(const Plan& plan, double time) {
 
 TEST(Floor, CarriesTheWeightAndStopsASlidingBlock) {
   const auto plan = plan_of(sliding(R"("friction": 0.4)", {0, 0, -heavy}, {2, 0, 0}));
-  const auto [place, speed] = mean_motion(*plan, 20e-3);  // it stops after 10 ms
+  const auto [place, speed] = mean_motion(*plan, 20e-3);  // the block stops after 10 ms
   EXPECT_NEAR(place.x, 4 / (2 * 0.4 * heavy), 0.03 * place.x);
   EXPECT_LT(std::abs(speed.x), 0.01);
-  EXPECT_NEAR(place.z, 0,
-              0.3e-3);  // the floor gives way by m g / c a particle, the body by its own weight
+  // The floor yields by m g / c under each particle, and the body by its own weight.
+  EXPECT_NEAR(place.z, 0, 0.3e-3);
 }
 
 TEST(Floor, HasAnotherFrictionBackwards) {
@@ -277,7 +277,7 @@ TEST(Floor, HasAnotherFrictionBackwards) {
 }
 
 TEST(Floor, AnInclineHoldsABlockUpToItsFriction) {
-  for (const double slope : {0.2, 0.4}) {  // tangent, against a friction of 0.3
+  for (const double slope : {0.2, 0.4}) {  // tangent of the slope; the friction is 0.3
     const double down = heavy / std::hypot(1, slope);
     const auto [place, speed] =
         mean_motion(*plan_of(sliding(R"("friction": 0.3)", {slope * down, 0, -down}, {})), 10e-3);
@@ -289,7 +289,8 @@ TEST(Floor, AnInclineHoldsABlockUpToItsFriction) {
 }
 
 TEST(Drag, LinearSlowsExponentiallyAndQuadraticHyperbolically) {
-  // A cube of edge h, moving along x: its front and back drag across, two of its sides along.
+  // A cube of edge h moves along x. Its front and back have the drag across, two of its sides the
+  // drag along.
   const double h = 4e-3, mass = 2500 * h * h * h;
   const auto drag = [](const std::string& across, const std::string& along, const char* speed) {
     std::string loads =
@@ -308,7 +309,7 @@ TEST(Drag, LinearSlowsExponentiallyAndQuadraticHyperbolically) {
   EXPECT_NEAR(mean_motion(*second, 1e-3).second.x, 10 / (1 + 10 * quadratic * 1e-3), 0.05);
 }
 
-/// Whether the body stays bounded for some thousand steps of that part of the critical step.
+/// Does the body stay bounded over 3000 steps of this fraction of the critical time step?
 bool is_bounded(const Model& model, double fraction) {
   Simulation simulation(model, 1);
   simulation.set_velocities(noise(3 * model.body.particles, 1e-6, 7), {});
@@ -320,8 +321,8 @@ TEST(CriticalStep, KnowsHowStiffAContactIsAndHowViscous) {
   const auto free =
       plan_of(scene(4, 4, 4, R"({ "type": "loads.gravity", "acceleration": [0, 0, 0] })"));
   const double mass = 2500e-9, alone = free->model->critical_time_step;
-  // Stiffer than the body by far: the particle on its contact alone. The floor stands half a cell
-  // high, so that all of z_min touches it always.
+  // The contact is far stiffer than the body, so that a particle oscillates on its contact alone.
+  // The floor stands above the lowest particles, so that all of z_min always touches it.
   const auto stiff = plan_of(scene(
       4, 4, 4,
       R"({ "type": "loads.floor", "on": "z_min", "stiffness": 1e9, "damping": 0, "point": [0, 0, 1e-5] })"));
@@ -330,7 +331,7 @@ TEST(CriticalStep, KnowsHowStiffAContactIsAndHowViscous) {
   EXPECT_NE(stiff->model->critical_because.find("loads.floor (/pipeline/2)"), std::string::npos);
   const auto viscous = plan_of(
       scene(4, 4, 4, R"({ "type": "loads.drag", "linear_across": 1e9, "linear_along": 1e9 })"));
-  const double rate = 1e9 * std::sqrt(3.0) * 1e-6 / mass;  // of a corner
+  const double rate = 1e9 * std::sqrt(3.0) * 1e-6 / mass;  // rate of a corner particle
   EXPECT_NEAR(viscous->model->critical_time_step,
               2 / (rate / 2 + std::sqrt(rate * rate / 4 + 4 / (alone * alone))), 1e-9 * alone);
   EXPECT_TRUE(is_bounded(*viscous->model, 0.99));
@@ -389,8 +390,8 @@ TEST(AnsweringLoads, StaticSolversRefuseSuchLoads) {
   }
 }
 
-// Base springs want to be longer by e, springs of the membrane do not: K0 / K of it is left, K0 of
-// the base springs, K of the lattice.
+// The actuation strains the base springs by e, and the springs of the membrane not at all. A free
+// body then grows by e K0 / K, with the bulk moduli K0 of the base springs and K of the lattice.
 TEST(Actuation, AStrainOfAllSpringsGrowsAFreeBodyByTheRatioOfBulkModuli) {
   constexpr double e = 1e-8, l = 1e-3;
   for (const auto& [material, expected] : {std::pair{R"("poisson": 0.25)", 1.0},

@@ -1,5 +1,5 @@
-// The energy balance closes for every way in which energy comes and goes: to round-off where the
-// motion is linear, and otherwise with an error that falls by the square of the step.
+// The energy balance closes for every way in which energy enters and leaves: to round-off in linear
+// motions, otherwise with an error in proportion to the square of the step.
 #include <support/books.hpp>
 #include <support/scenes.hpp>
 
@@ -16,7 +16,7 @@ struct Flow {
   const char* name;
   const char* loads;
   double damping;
-  double tolerance;  ///< of the largest relative error at any step, at 0.4 of the critical step
+  double tolerance;  ///< bound of the largest relative error at any step; 0.4 critical steps
 };
 const Flow flows[] = {
     {"falling_freely", R"({ "type": "loads.gravity", "acceleration": [0, 0, -9.81] })", 0, 1e-12},

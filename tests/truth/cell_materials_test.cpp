@@ -1,5 +1,5 @@
-// A body of cells of several materials is the sum of its cells: borders between materials stand
-// where the scene puts them, whatever the spacing.
+// A body of cells of several materials is the sum of its cells. Borders between materials are where
+// the scene puts them, at every spacing.
 #include <model/build.hpp>
 
 #include <support/books.hpp>
@@ -14,7 +14,7 @@ using namespace hyperlattice::test;
 
 constexpr double poisson = 0.25, soft = 2e8, contrast = 1e5;
 
-/// Stress over strain of a bar whose sides are held.
+/// Stress over strain of a bar with held sides.
 double confined(double young) {
   return young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson));
 }
@@ -48,8 +48,8 @@ TEST(CellMaterials, ABarOfTwoHalvesInARowIsExact) {
   }
 }
 
-// A border particle has one height, the two sides want two: in a free membrane a part of a cell
-// acts as if it were stiffer.
+// A particle on a border has one height, while the two materials need two different heights. In a
+// free membrane, the border therefore acts as if a part of a cell were stiffer.
 TEST(CellMaterials, AFreeMembraneErrsAtABorderByATenthOfACell) {
   constexpr double nu = 0.1, modulus = soft * (1 - nu) / ((1 + nu) * (1 - 2 * nu)), border = 0.048,
                    width = 0.008, pull = 1e-3;
@@ -85,7 +85,7 @@ TEST(CellMaterials, ABarOfTwoHalvesSideBySideHasTheMeanModulus) {
   EXPECT_NEAR(force / (mean * 24e-6 * stretch / 8e-3), 1, 1e-6);
 }
 
-/// Two materials with an oblique border, of unlike density.
+/// Two materials of different density with an oblique border.
 std::string two(const std::string& first = "", const std::string& second = "",
                 const std::string& stages = "") {
   return scene_of_cells(
@@ -148,7 +148,8 @@ TEST(CellMaterials, StaticsAndStepsHaveTheSameSprings) {
         {std::abs(left[p][0]), std::abs(left[p][1]), std::abs(left[p][2]), std::abs(left[p][3])});
     if (at.i > 0 && at.i < 6) least = std::max(least, force);
   }
-  most = std::abs(body.simulation->force_on_load().at(1).x) / 30;  // a particle of the face
+  // The mean force on a particle of the pulled face sets the scale.
+  most = std::abs(body.simulation->force_on_load().at(1).x) / 30;
   EXPECT_LT(least, 1e-5 * most);
 }
 

@@ -1,5 +1,5 @@
-// Loads on bodies of cells: exact resultants, and the exact balance of what pressure and springs do
-// in a body under the same pressure everywhere.
+// Loads on bodies of cells: exact resultants, and exact equilibrium of the springs with a pressure
+// that is the same everywhere.
 #include <support/cells.hpp>
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Moving bodies of cells keep what they must: momentum, energy whatever happens to them, and bits
-// that do not depend on the number of threads.
+// Bodies of cells in motion keep momentum and energy, also while springs break, and their bits do
+// not depend on the number of threads.
 #include <support/books.hpp>
 #include <support/cells.hpp>
 
@@ -78,7 +78,7 @@ TEST(Cells, BalanceTheirEnergy) {
     }
 }
 
-/// Two materials that break, pulled apart.
+/// Two materials with breakable springs, pulled apart.
 std::unique_ptr<Plan> breaking(int threads = 1) {
   const std::string failure = R"(, "failure": { "type": "failures.elongation", "limit": 1e-6 })";
   return plan_of(

@@ -1,6 +1,6 @@
-// A body of cells is exactly the union of its cells: every homogeneous strain needs the tractions
-// of the continuum on every surface, and nothing inside; large motions have the forces of the
-// cells' own springs, written out one cell after the other.
+// A body of cells is exactly the union of its cells. Under a homogeneous strain, each surface needs
+// the tractions of the continuum, and no force acts inside. In large motions the forces are those
+// of the springs of each cell, summed cell by cell.
 #include <engine/stage_calls.hpp>
 
 #include <support/cells.hpp>
@@ -16,8 +16,8 @@ using namespace hyperlattice::test;
 
 constexpr double l = 1e-3;
 
-/// Elastic constants of the endless lattice, in closed form (Zhao 2017, equations (27) to (30)),
-/// and how the height follows a strain.
+/// Elastic constants of the infinite lattice in closed form (Zhao 2017, equations (27) to (30)),
+/// and the change of the height with the strain.
 struct Elasticity {
   double c11, c12, c44, relaxation = 0;
 
@@ -43,11 +43,11 @@ struct Elasticity {
   }
 };
 
-/// What uniform stress asks of each corner: a quarter of the traction on each uncovered face. The
-/// heights of a free membrane ask for something else: sheared by e in the plane of its faces'
-/// diagonals, a cell pushes its corners up and down in turn, by k_gamma e l / 3. Around a corner
-/// inside the body or on its faces that is nothing in sum; on edges something is left, which only
-/// an edge's own heights can balance.
+/// The outer force on each corner under uniform stress: a quarter of the traction on each free
+/// face. In a free membrane the heights need a force as well: a cell sheared by e in the plane of a
+/// face's diagonals pushes its corners up and down in turn, by k_gamma e l / 3. These forces cancel
+/// around a corner inside the body or on its faces. At edges a part remains, and only a change of
+/// the heights there can balance this part.
 std::map<CellIndex, Force> tractions(const CellShape& shape, const Elasticity::Tensor& stress,
                                      const Elasticity::Tensor& push) {
   std::map<CellIndex, Force> all;
@@ -91,9 +91,9 @@ TEST_P(CellsOfMembrane, PatchTestIsExact) {
     ASSERT_EQ(model.body.cells.count(), shape.cells().size()) << shape.name;
     for (std::size_t a = 0; a < 3; ++a)
       for (std::size_t b = a; b < 3; ++b) {
+        // The strain is so small that the springs are linear to the last bit.
         Elasticity::Tensor strain{};
-        strain[a][b] = strain[b][a] =
-            1e-20;  // so small that the springs are linear to the last bit
+        strain[a][b] = strain[b][a] = 1e-20;
         std::vector<double> u(3 * model.body.particles);
         for (Particle p = 0; p < model.body.particles; ++p) {
           const CellIndex x = corner_of(model, p);
@@ -125,8 +125,8 @@ TEST_P(CellsOfMembrane, PatchTestIsExact) {
   std::printf("largest force without a traction: %.1e k eps l\n", worst_of_all);
 }
 
-/// One cell after the other, each with the springs of its own material, in positions, with no care
-/// for speed.
+/// Sums the forces cell by cell. Each cell has the springs of its own material, computed from
+/// positions.
 template <class MaterialOf>
 std::vector<Force> forces_by_cells(const CellShape& shape, const Model& model,
                                    const std::vector<double>& u, const std::vector<double>& heights,
@@ -230,7 +230,7 @@ struct Uniaxial {
     simulation.set_displacements(u, {});
     bring_to_rest(*plan, simulation);
     u = displacements(simulation);
-    double spread = 0;  // mean over the lateral faces of what they moved inwards
+    double spread = 0;  // mean inward displacement of the lateral faces
     std::size_t faces = 0;
     for (Particle p = 0; p < model.body.particles; ++p) {
       const Site at = model.body.site(p);
@@ -243,7 +243,8 @@ struct Uniaxial {
         }
     }
     poisson = 2 * spread / static_cast<double>(faces) / strain;
-    const double span = boundary == "cells" ? n : n - 1;  // what the particles span
+    // distance between the outermost particles
+    const double span = boundary == "cells" ? n : n - 1;
     const double force = -simulation.force_on_load().at(1).z;
     modulus = force / (n * n) / (strain / span) / model.materials[0].constants.base_stiffness;
   }
@@ -252,8 +253,8 @@ struct Uniaxial {
 struct UniaxialCase {
   const char* name;
   const char* membrane;
-  double poisson, modulus;                              ///< of the endless lattice
-  double poisson_4, modulus_4, poisson_10, modulus_10;  ///< of whole particles, 4^3 and 10^3
+  double poisson, modulus;                              ///< of the infinite lattice
+  double poisson_4, modulus_4, poisson_10, modulus_10;  ///< of boundary particles, 4^3 and 10^3
 };
 const UniaxialCase uniaxial_cases[] = {
     {"L_0", R"("membrane": "none")", .25, 2.5, .230965, 2.127954, .243257, 2.352596},

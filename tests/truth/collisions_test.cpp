@@ -1,6 +1,6 @@
-// Bodies that meet. Two equal bars of which one stands: after the waves of the impact have gone to
-// the ends and back, that one moves, and the other stands (Saint-Venant 1867). Momentum and energy
-// are kept, and results do not depend on threads.
+// Bodies that collide. A moving bar hits an equal bar at rest. After the waves of the impact have
+// run to the ends and back, the second bar moves and the first is at rest (Saint-Venant 1867).
+// Momentum and energy are kept, and results do not depend on the number of threads.
 #include <state/simulation.hpp>
 
 #include <support/scenes.hpp>
@@ -11,7 +11,7 @@ namespace {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
-/// Two bars of 30 x 3 x 3 cells, 2 mm between their last particles; the left one comes with 10 m/s.
+/// Two bars of 30 x 3 x 3 cells, 2 mm between their last particles; the left bar moves at 10 m/s.
 std::unique_ptr<Plan> bars(const std::string& contact, int threads = 1) {
   return plan_of(
       R"({ "format": "hyperlattice/1", "regions": { "left": { "box": { "low": [-1, -1, -1], "high": [0.0305, 1, 1] } } }, "pipeline": [
@@ -25,7 +25,7 @@ std::unique_ptr<Plan> bars(const std::string& contact, int threads = 1) {
 
 struct Met {
   double left = 0, right = 0;  ///< mean velocities along x, m/s
-  double largest_error = 0;    ///< of the energy balance, relative
+  double largest_error = 0;    ///< relative error of the energy balance
   EnergyBalance start, end;
   std::uint64_t hash = 0;
 };
@@ -54,12 +54,12 @@ TEST(Collisions, EqualBarsExchangeTheirVelocities) {
   const Met met = meet(*bars(R"({ "type": "loads.contact" },)"));
   std::printf("after the impact: %.4f and %.4f m/s of 10; balance error %.1e\n", met.left,
               met.right, met.largest_error);
-  EXPECT_NEAR(met.left, 0, 0.2);  // a little stays behind as waves across the bars
+  EXPECT_NEAR(met.left, 0, 0.2);  // waves across the bars keep a small part
   EXPECT_NEAR(met.right, 10, 0.2);
   EXPECT_NEAR(met.end.momentum.x / met.start.momentum.x, 1, 1e-12);
   EXPECT_LT(met.largest_error, 1e-3);
   EXPECT_NEAR((met.end.kinetic + met.end.stored) / met.start.kinetic, 1,
-              1e-3);  // nothing is left in the contacts
+              1e-3);  // no energy is left in contacts
 }
 
 TEST(Collisions, WithoutItBodiesGoThroughEachOther) {
@@ -75,11 +75,11 @@ TEST(Collisions, DampingTakesEnergyAndNoMomentum) {
   EXPECT_GT(met.right, met.left);
 }
 
-// The critical step counts contacts however stiff they are, and whatever they damp.
+// The critical time step accounts for contacts of any stiffness and any damping.
 TEST(Collisions, StiffContactsStayStable) {
   for (const char* more : {"", R"(, "damping": 1, "friction": 1, "grip": 2)"}) {
     const Met met = meet(*bars(R"({ "type": "loads.contact", "stiffness": 1e8)" +
-                               std::string(more) + " },"));  // thirty times a spring
+                               std::string(more) + " },"));  // 30 times the stiffness of a spring
     std::printf("after the impact: %.4f and %.4f m/s of 10; balance error %.1e\n", met.left,
                 met.right, met.largest_error);
     EXPECT_NEAR(met.end.momentum.x / met.start.momentum.x, 1, 1e-11);
@@ -89,7 +89,7 @@ TEST(Collisions, StiffContactsStayStable) {
   }
 }
 
-// The stiffest springs of both bars are 1e4 times as stiff as this contact is made, and more.
+// The stiffest springs of the bars are more than 1e4 times as stiff as these contacts.
 TEST(Collisions, TooSoftContactsAreWarnedOf) {
   const auto warned = [](const std::string& contact) {
     const auto plan = bars(contact);

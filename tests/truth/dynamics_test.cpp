@@ -1,6 +1,6 @@
 // Motion against independent truth: natural frequencies of a cantilever (quadratic finite elements,
 // two meshes that differ by less than 0.5 %) and of a free cube (exact), the speed of a wave in a
-// bar, and a free block that spins (its stretch by finite elements).
+// bar, and a spinning free block (its strain by finite elements).
 #include <support/scenes.hpp>
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ using namespace hyperlattice;
 using namespace hyperlattice::test;
 
 struct Solid {
-  Vec3 size;  ///< corner at the origin, m
+  Vec3 size;  ///< size, m; one corner is at the origin
   double spacing, young, poisson, density;
   const char* boundary = "cells";
   const char* stiffness = "bulk";
@@ -37,8 +37,8 @@ std::string scene(const Solid& of, const std::string& loads = "") {
          R"(, { "type": "solvers.explicit", "end_time": 1 } ] })";
 }
 
-/// Frequency in Hz with which the body swings after a push of the shape of a mode, by the zeros of
-/// its motion's part of that shape.
+/// Frequency, Hz, of the oscillation after an initial velocity in the shape of a mode. The zeros of
+/// the motion's projection on this shape give the period.
 template <class Shape>
 double frequency(const Model& model, double about, const Shape& shape) {
   Simulation simulation(model, 2);
@@ -51,8 +51,8 @@ double frequency(const Model& model, double about, const Shape& shape) {
   for (double& speed : speeds) speed *= 1e-3;
   simulation.set_velocities(speeds, {});
   const double step = 0.8 * model.critical_time_step;
-  const int apart = std::max(
-      1, static_cast<int>(1 / (about * step * 100)));  // steps between two looks, a hundred a swing
+  // The number of steps between two samples; about a hundred samples make a period.
+  const int apart = std::max(1, static_cast<int>(1 / (about * step * 100)));
   double before = 0, first = -1, last = -1;
   int zeros = 0;
   while (simulation.time() < 3.3 / about) {
@@ -92,8 +92,8 @@ TEST(Frequencies, OfACantilever) {
   EXPECT_LT(error[1], 0.02);
 }
 
-TEST(Frequencies,
-     OfACubesShearMode) {  // Lame's: no surface is strained, so that it is exact for a free cube
+// Lame's mode is exact for a free cube, because no surface is under stress.
+TEST(Frequencies, OfACubesShearMode) {
   constexpr double edge = 0.1, q = std::numbers::pi / edge, exact = 9534.63;
   const auto shape = [&](Vec3 x) {
     return Vec3{std::cos(q * x.x) * std::sin(q * x.y), -std::sin(q * x.x) * std::cos(q * x.y), 0};
@@ -117,8 +117,9 @@ TEST(Frequencies,
   }
 }
 
-TEST(WaveSpeed, OfABar) {  // ten times as long as it is wide: a pressure step at one end arrives at
-                           // the other with the speed sqrt(E / rho)
+// The bar is ten times as long as wide. A pressure step at one end travels to the other end with
+// the speed sqrt(E / rho).
+TEST(WaveSpeed, OfABar) {
   constexpr double length = 0.4, speed = 2000, stress = 1e4, expected = stress / (2500 * speed);
   const auto plan =
       plan_of(scene({{length, 0.04, 0.04}, 0.004, 10e9, 0.2, 2500},
@@ -139,7 +140,7 @@ TEST(WaveSpeed, OfABar) {  // ten times as long as it is wide: a pressure step a
         share += model.body.share(p);
       }
     mean /= share;
-    const double now = simulation.time() - step / 2;  // where the velocity stands
+    const double now = simulation.time() - step / 2;  // time of the velocity, half a step back
     if (arrival == 0 && mean > expected) arrival = now - step * (mean - expected) / (mean - before);
     if (now > 1.15 * length / speed) {
       settled += mean;
@@ -156,8 +157,8 @@ TEST(WaveSpeed, OfABar) {  // ten times as long as it is wide: a pressure step a
               0.03 * 2 * expected);  // a free end doubles the velocity
 }
 
-/// Angular momentum about the centre of mass, of a body that begins at rest in its shape, with the
-/// velocities of the steps' middles.
+/// Angular momentum about the centre of mass, with the velocities at the middle of the step. The
+/// body starts at rest in its own shape.
 Vec3 spin(const Model& model, const Simulation& simulation, double step) {
   std::vector<double> u, v;
   simulation.displacements(u);
@@ -195,8 +196,8 @@ std::string spinning(Vec3 omega, const char* boundary, const char* stiffness,
 TEST(Spinning, StretchesABlockAsTheCentrifugalForceDoes) {
   struct Way {
     const char *boundary, *stiffness;
-    double truth,
-        tolerance;  ///< mean strain between the outermost layers of particles by finite elements
+    /// Truth: mean strain between the outermost layers of particles, by finite elements.
+    double truth, tolerance;
   };
   for (const Way& way : {Way{"particles", "bulk", 5.4014e-4, 0.12},
                          {"particles", "eq15", 5.4014e-4, 0.12},
@@ -204,7 +205,7 @@ TEST(Spinning, StretchesABlockAsTheCentrifugalForceDoes) {
     const auto plan = plan_of(spinning({0, 0, 800}, way.boundary, way.stiffness));
     const Model& model = *plan->model;
     Simulation simulation(model, 2);
-    const double step = 0.5 * model.critical_time_step, end = 2e-3;  // ten swings along x
+    const double step = 0.5 * model.critical_time_step, end = 2e-3;  // ten periods along x
     const EnergyBalance start = simulation.balance();
     simulation.step(step);
     const Vec3 first = spin(model, simulation, step);
@@ -268,7 +269,7 @@ TEST(Spinning, AboutAnyAxisAndFalling) {
     (n % 3 == 1 ? fallen : turned) =
         std::max(n % 3 == 1 ? fallen : turned, std::abs(w[n] - u[n] - expected));
   }
-  EXPECT_LT(std::max(fallen, turned), 1e-11);  // m: every particle, not the centre alone
+  EXPECT_LT(std::max(fallen, turned), 1e-11);  // m, largest of all particles
 }
 
 }  // namespace

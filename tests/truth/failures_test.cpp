@@ -1,5 +1,5 @@
-// Failure criteria against counts by hand: a body is strained evenly, so that every spring's
-// elongation is known, and one step is taken.
+// Failure criteria against counts by hand. A body is strained evenly, so that the elongation of
+// every spring is known, and takes one step.
 #include <support/lists.hpp>
 #include <support/models.hpp>
 
@@ -18,7 +18,7 @@ std::string breakable(const std::string& failure) {
   return R"("poisson": 0.25, "failure": { "type": "failures.)" + failure + " }";
 }
 
-/// Displacements x -> x + strain x + shear y along x.
+/// Displacements (strain x + shear y, 0, 0).
 std::vector<double> strained(const Model& model, double strain, double shear) {
   std::vector<double> u;
   for (Particle p = 0; p < model.body.particles; ++p) {
@@ -29,8 +29,8 @@ std::vector<double> strained(const Model& model, double strain, double shear) {
 }
 
 using Spring = std::pair<Particle, Particle>;
-/// The springs that break in a step after that deformation, and those that pass the test by hand:
-/// rest length, elongation, ends.
+/// Compares the springs that break in one step after this deformation with the springs that pass
+/// the test `by_hand` (rest length, elongation, ends).
 void compare(const Plan& plan, double strain, double shear,
              const std::function<bool(double, double, Spring)>& by_hand, std::size_t at_least) {
   const Model& model = *plan.model;
@@ -58,7 +58,7 @@ void compare(const Plan& plan, double strain, double shear,
   EXPECT_LT(expected.size(), model.body.base_springs() + model.body.listed.springs.size());
 }
 
-constexpr double l = 1e-3, k = 0.4 * 1e10 * l;  // of block() at nu = 1/4
+constexpr double l = 1e-3, k = 0.4 * 1e10 * l;  // of block() with nu = 1/4
 
 TEST(Failures, StrainCountsSpringsByTheirLength) {
   const auto plan = plan_of(block(5, 4, 6, breakable(R"(strain", "limit": 0.008)")));
@@ -75,14 +75,16 @@ TEST(Failures, StrainCountsSpringsByTheirLength) {
 }
 
 TEST(Failures, ForceCountsByTheStiffness) {
-  const auto plan = plan_of(block(5, 4, 6, breakable(R"(force", "limit": 35)")));  // 8.75 um
+  // limit at 8.75 um
+  const auto plan = plan_of(block(5, 4, 6, breakable(R"(force", "limit": 35)")));
   compare(
       *plan, 0.01, 0.004, [](double, double elongation, Spring) { return k * elongation > 35; },
       50);
 }
 
 TEST(Failures, EnergyCountsInTensionOnly) {
-  const auto plan = plan_of(block(5, 4, 6, breakable(R"(energy", "limit": 1e-4)")));  // 7.07 um
+  // limit at 7.07 um
+  const auto plan = plan_of(block(5, 4, 6, breakable(R"(energy", "limit": 1e-4)")));
   compare(
       *plan, 0.01, 0.02,
       [](double, double elongation, Spring) {
@@ -101,7 +103,7 @@ TEST(Failures, FractureEnergyIsThatOfTheSpringsThroughAnArea) {
         return elongation > 0 && 0.5 * k * elongation * elongation > 500 / crossings;
       },
       50);
-  // Counted: springs of a block through planes in many directions, a unit of area each.
+  // The independent count: springs of a block that cross a unit area of planes in many directions.
   const auto body = build(box_lattice(24, 24, 24) + "," + elastic());
   double mean = 0;
   int planes = 0;
@@ -110,8 +112,8 @@ TEST(Failures, FractureEnergyIsThatOfTheSpringsThroughAnArea) {
     const Vec3 normal{std::sqrt(1 - z * z) * std::cos(angle),
                       std::sqrt(1 - z * z) * std::sin(angle), z};
     double crossing = 0;
-    for (const NeighbourGeometry& to : body->neighbours)
-      crossing += std::abs(dot(to.rest, normal));  // a unit of volume begins one spring of each
+    // In a unit of volume, one spring of each kind begins.
+    for (const NeighbourGeometry& to : body->neighbours) crossing += std::abs(dot(to.rest, normal));
     mean += crossing;
     ++planes;
   }
@@ -155,22 +157,20 @@ TEST(Failures, WeibullScattersAsItSays) {
              other = plan_of(block(20, 20, 20, breakable(law + "2")));
   const Model& model = *plan->model;
   std::vector<double> u;
-  const auto broken =
-      [&](const Plan& of,
-          double strain) {  // evenly in all directions: all springs have that strain
-        u.clear();
-        for (Particle p = 0; p < model.body.particles; ++p) {
-          const Vec3 x = model.body.position(p);
-          u.insert(u.end(), {strain * x.x, strain * x.y, strain * x.z});
-        }
-        Simulation simulation(*of.model, 2);
-        simulation.set_displacements(u, {});
-        simulation.step(1e-3 * model.critical_time_step);
-        std::set<Spring> found;
-        for (const Breakage& breakage : simulation.breakages())
-          found.insert({breakage.a, breakage.b});
-        return found;
-      };
+  // The strain is the same in all directions, hence in all springs.
+  const auto broken = [&](const Plan& of, double strain) {
+    u.clear();
+    for (Particle p = 0; p < model.body.particles; ++p) {
+      const Vec3 x = model.body.position(p);
+      u.insert(u.end(), {strain * x.x, strain * x.y, strain * x.z});
+    }
+    Simulation simulation(*of.model, 2);
+    simulation.set_displacements(u, {});
+    simulation.step(1e-3 * model.critical_time_step);
+    std::set<Spring> found;
+    for (const Breakage& breakage : simulation.breakages()) found.insert({breakage.a, breakage.b});
+    return found;
+  };
   const auto springs = static_cast<double>(model.body.base_springs());
   std::set<Spring> before;
   for (const double strain : {0.003, 0.006, 0.009, 0.012, 0.016}) {
@@ -184,16 +184,17 @@ TEST(Failures, WeibullScattersAsItSays) {
   }
   EXPECT_TRUE(broken(*plan, 0.00199).empty());
   EXPECT_NE(broken(*plan, 0.009), broken(*other, 0.009));
-  // A spring's share with its neighbour in the numbering has nothing to do with its own.
+  // The strength of a spring is independent of the strength of the next spring in the numbering.
   const std::set<Spring> some =
-      broken(*plan, 0.002 + 0.008 * std::cbrt(std::log(2.0)));  // one half
+      broken(*plan, 0.002 + 0.008 * std::cbrt(std::log(2.0)));  // half of the springs
   double pairs = 0, all = 0;
   for (const Spring& spring : some)
     if (spring.second == spring.first + 1) {
       all += 1;
       pairs += some.count({spring.first + 1, spring.second + 1}) > 0 ? 1 : 0;
     }
-  EXPECT_NEAR(pairs / all, 0.5 * 18 / 19, 0.03);  // of 19 springs along x in a row, 18 have a next
+  // 18 of 19 springs in a row along x have a next one
+  EXPECT_NEAR(pairs / all, 0.5 * 18 / 19, 0.03);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Figure 2 of Zhao 2017: the fits (11) and (13) come out of the virtual test of 20^3 particles, and
-// only of that one.
+// Figure 2 of Zhao 2017. The virtual test with 20^3 particles gives the fits (11) and (13); other
+// sizes do not.
 #include <gtest/gtest.h>
 #include <analyze/calibration_curve.hpp>
 #include <analyze/load_lattice.hpp>
@@ -31,7 +31,7 @@ TEST(FigureTwo, TheCoefficientsOfThePaper) {
   const Curve curve = figure(20, 1e-3);
   EXPECT_LT(worst(curve.lambda_of_poisson.coefficients, calibration::paper_cubic), 2e-3);
   EXPECT_LT(worst(curve.modulus_ratio_of_lambda.coefficients, calibration::paper_quadratic), 2e-4);
-  double apart = 0;  // of the two cubics, where the points are
+  double apart = 0;  // distance of the two cubics at the points
   for (const CurvePoint& point : curve.points) {
     const double nu = point.measured->poisson;
     apart =
@@ -53,7 +53,7 @@ TEST(FigureTwo, TheSameComputedIndependently) {
   EXPECT_LT(worst(linear.modulus_ratio_of_lambda.coefficients, linear_quadratic), 1e-5);
 }
 
-TEST(FigureTwo, AnotherCubeHasOtherCoefficients) {  // so the agreement means something
+TEST(FigureTwo, AnotherCubeHasOtherCoefficients) {  // hence the agreement is significant
   EXPECT_GT(worst(figure(10, 1e-3).lambda_of_poisson.coefficients, calibration::paper_cubic), 0.05);
 }
 

@@ -1,5 +1,6 @@
-// Loads act by the mean of their factor over each step: impulses are exact for any function of time
-// and any step, the books close as with smooth loads, and stages of unlike steps lose nothing.
+// A time step uses the mean of a load factor over the step. Impulses are therefore exact for any
+// function of time and any step, the energy balance closes as with smooth loads, and stages with
+// different steps lose nothing.
 #include <base/errors.hpp>
 #include <engine/stage_calls.hpp>
 #include <support/scenes.hpp>
@@ -14,7 +15,7 @@ namespace {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
-/// What a scene's stages leave, one after the other as a run has them.
+/// The state after all stages of a scene, which run one after the other.
 struct Result {
   EnergyBalance last;
   double largest_error = 0, time = 0;
@@ -62,7 +63,7 @@ std::string explicit_to(double end, double step) {
 struct Pulse {
   const char* name;
   const char* time_function;  ///< keys of loads.actuation
-  double integral;            ///< s, up to 10 us
+  double integral;            ///< integral from 0 to 10 us, s
 };
 const Pulse pulses[] = {
     {"a_jump_down", R"("form": "constant", "duration": 5e-6)", 5e-6},
@@ -104,7 +105,7 @@ TEST_P(Impulse, IsTheIntegralOfTheFactorForAnyStep) {
   }
 }
 
-TEST(Impulse, IsExactAtEveryStep) {  // also in the midst of a jump
+TEST(Impulse, IsExactAtEveryStep) {  // also in the middle of a jump
   const auto plan = plan_of(scene(
       R"({ "type": "loads.expression", "on": "all", "total": [3, 0, 0], "expression": "t > 1.03e-6 ? 2 - abs(t - 2e-6) * 1e5 : 0",
                                       "corners": [1.03e-6, 2e-6] })",
@@ -148,8 +149,8 @@ TEST(Mean, OfAFactorOverAnyLength) {
   EXPECT_NEAR(falling.slope, -1 / 3e-7, 1);
 }
 
-// A bar of springs that push in pulses, undamped: with steps that changed at corners its energy
-// grew without end.
+// Springs of an undamped bar push in pulses. If steps changed at the corners of the load, the
+// energy of the bar would grow without bound.
 const std::string train(const std::string& keys) {
   return R"({ "type": "loads.fixed", "on": "z_max" }, { "type": "loads.actuation", "on": "all", "strain": 1e-4, "form": "triangle", )" +
          keys + " }";
@@ -185,8 +186,8 @@ TEST(Trains, StepsThatDivideTheStageAreTakenAsTheyAre) {
   EXPECT_EQ(result.time, 1e-3);
 }
 
-/// Where a shaken block of small motion is after 6 us, in three stages whose steps are these shares
-/// of a unit.
+/// Displacements, after 6 us, of a shaken block in small motion. Its three stages have steps of
+/// different fractions of `unit`.
 std::vector<double> after_stages(double unit, double* largest_error = nullptr) {
   const auto plan = plan_of(scene(
       R"({ "type": "loads.fixed", "on": "z_min" }, { "type": "loads.force", "on": "z_max", "total": [0, 1, 2], "rise": 5e-6 })",
@@ -222,8 +223,8 @@ TEST(Stages, OfUnlikeStepsAreOfSecondOrderAndLoseNothing) {
   EXPECT_LT(error, 1e-7);
 }
 
-/// Work and impulse of a driven end after 3 us; `stage_before`: a state of rest from which the
-/// motion begins.
+/// Injected work and momentum after 3 us of driven motion. With `stage_before` the motion starts
+/// from a state of rest.
 std::pair<double, double> driven(double step, const std::string& load, bool stage_before) {
   const std::string rest = stage_before ? R"({ "type": "solvers.static", "end_time": 0 }, )" : "";
   const auto plan = plan_of(scene(load, rest + explicit_to(3e-6, step)));
@@ -250,8 +251,8 @@ TEST(DrivenMotion, BeginsToSecondOrder) {
     }
 }
 
-TEST(Balance,
-     IsNotMeasuredAgainstRoundOff) {  // a force on particles that are held, before anything moves
+// A force acts on held particles before any particle moves.
+TEST(Balance, IsNotMeasuredAgainstRoundOff) {
   const std::string loads =
       R"({ "type": "loads.fixed", "on": "z_max" }, { "type": "loads.force", "on": "z_max", "total": [0, 0, -500] },
     { "type": "loads.expression", "on": "z_min", "expression": "t > 10e-6 ? 1 : 0", "corners": [10e-6], "total": [0, 0, -100] })";
@@ -348,7 +349,7 @@ TEST(Resolution, OfLoadsIsToldByThePlan) {
   EXPECT_TRUE(
       warnings(R"("form": "triangle", "rise": 1e-6, "fall": 1e-6, "period": 2e-6, "pulses": 4)")
           .empty());
-  std::string times, values;  // samples that are closer than steps, of a shape that is not
+  std::string times, values;  // the samples are closer than steps, and their shape varies slowly
   for (int n = 0; n <= 100; ++n) {
     times += (n == 0 ? "" : ", ") + text(n * 5e-8);
     values += (n == 0 ? "" : ", ") + text(std::sin(std::numbers::pi * n / 100));

@@ -1,5 +1,5 @@
-// What a free undamped lattice must keep whatever its springs are: momentum, energy, indifference
-// to rotation, and bits that do not depend on the number of threads.
+// A free undamped lattice keeps momentum and energy with any springs, behaves the same after a
+// rotation, and gives bits that do not depend on the number of threads.
 #include <support/scenes.hpp>
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ INSTANTIATE_TEST_SUITE_P(Membranes, EveryMembrane, testing::ValuesIn(membranes),
 INSTANTIATE_TEST_SUITE_P(CentredLattices, EveryMembrane, testing::ValuesIn(centred_lattices),
                          name_of);
 
-/// A block in random motion: displacements and heights of the given size, velocities that go with
+/// Sets random displacements and heights of the given amplitude, and random velocities that fit
 /// them.
 void shake(Simulation& simulation, const Model& model, double amplitude) {
   const std::size_t particles = model.body.particles;
@@ -45,7 +45,7 @@ TEST_P(EveryMembrane, ADragInProportionToMassTakesMomentumAtItsRate) {
   const Model& model = *plan->model;
   Simulation simulation(model, 1);
   shake(simulation, model, 1e-11);  // strains near 1e-8
-  constexpr double x = 0.05;        // half of what the drag takes in a step
+  constexpr double x = 0.05;        // half of the share that the drag takes in one step
   const double step = 0.5 * model.critical_time_step;
   simulation.set_damping(0, 2 * x / step);
   simulation.step(step);
@@ -78,7 +78,7 @@ TEST_P(EveryMembrane, TheSchemesEnergyIsConstantForSmallStrains) {
   EXPECT_LT(worst, 1e-6);
 }
 
-/// Largest relative departure of the plain energy from its first value, at strains near 1e-3.
+/// Largest relative change of the energy with the mean kinetic energy, at strains near 1e-3.
 double plain_energy_departure(const Model& model, double fraction, int steps) {
   Simulation simulation(model, 1);
   shake(simulation, model, 1e-6);
@@ -96,7 +96,7 @@ TEST_P(EveryMembrane, ThePlainEnergyOscillatesWithTheSquareOfTheStep) {
   const auto plan = plan_of(block(5, 5, 5, GetParam()));
   const double coarse = plain_energy_departure(*plan->model, 0.4, 400),
                fine = plain_energy_departure(*plan->model, 0.2, 800);
-  EXPECT_GT(coarse, 1e-4);  // there is something to see
+  EXPECT_GT(coarse, 1e-4);  // the oscillation is not round-off
   EXPECT_GT(coarse / fine, 3.2);
   EXPECT_LT(coarse / fine, 5.0);
 }
@@ -127,7 +127,7 @@ Vec3 rotated(Vec3 v, Vec3 axis, double angle) {
          ((1 - std::cos(angle)) * dot(n, v)) * n;
 }
 
-/// Displacements of a body that is turned as a whole; or, for velocities, their directions turned.
+/// Turns a body as a whole: `values` are displacements if `places`, otherwise velocities.
 std::vector<double> turned(const Model& model, const std::vector<double>& values, Vec3 axis,
                            double angle, bool places) {
   std::vector<double> result(values.size());
@@ -161,7 +161,7 @@ TEST_P(EveryMembrane, RotatingTheWholeBodyChangesNothing) {
   }
   const auto expected = turned(model, displacements(straight), axis, 2.1, true);
   EXPECT_LT(distance(expected, displacements(rotating)),
-            1e-13);  // metres: the body is 6 mm long and deforms by 1e-6
+            1e-13);  // m: the body is 6 mm long and deforms by 1e-6 m
   EXPECT_NEAR(straight.balance().stored, rotating.balance().stored,
               1e-8 * straight.balance().stored);
 }
@@ -184,7 +184,8 @@ TEST_P(EveryMembrane, TheSameBitsForAnyNumberOfThreads) {
   std::vector<std::uint64_t> hashes;
   std::vector<double> energies;
   std::vector<std::size_t> broken;
-  for (const int threads : {1, 2, 3, 11, 22}) {  // 22: as many as planes, if every cell has two
+  // Lattices with two planes in each cell have 22 planes here.
+  for (const int threads : {1, 2, 3, 11, 22}) {
     Simulation simulation(*plan->model, threads);
     simulation.set_damping(0.1, 1e4);
     shake(simulation, *plan->model, 1e-6);

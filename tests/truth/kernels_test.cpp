@@ -1,6 +1,6 @@
-// The fast kernel against the plain one (HYPERLATTICE_SPRINGS=exact: one neighbour at a time, root
-// and division), and against itself on other numbers of threads, and floats against doubles: for
-// strains of every size, bodies with holes and with rows of every length, cells, several materials,
+// The fast kernel against the exact kernel (HYPERLATTICE_SPRINGS=exact: one neighbour at a time,
+// with root and division), against itself on other numbers of threads, and floats against doubles.
+// Strains have every size; bodies have holes, rows of every length, cells, several materials, and
 // breaking springs.
 #include <support/scenes.hpp>
 
@@ -13,7 +13,7 @@ namespace {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
-/// The kernel that a simulation uses while this lives.
+/// Simulations use the exact kernel while this object lives.
 struct ExactKernel {
   ExactKernel() { setenv("HYPERLATTICE_SPRINGS", "exact", 1); }
   ~ExactKernel() { unsetenv("HYPERLATTICE_SPRINGS"); }
@@ -21,7 +21,7 @@ struct ExactKernel {
 
 struct ShapeCase {
   const char* name;
-  const char* shape;  ///< mm are metres here
+  const char* shape;  ///< lengths in spacings, here 1 m
 };
 const ShapeCase shapes[] = {
     {"box", R"({ "box": { "low": [0, 0, 0], "high": [35, 5, 6] } })"},
@@ -36,7 +36,7 @@ const ShapeCase shapes[] = {
 struct Variant {
   const char* name;
   const char* material;
-  const char* more;  ///< stages
+  const char* more;  ///< more stages
 };
 const Variant variants[] = {
     {"three", R"("membrane": "none", "poisson": 0.25)", ""},
@@ -54,7 +54,7 @@ const Variant variants[] = {
 
 class Kernels : public testing::TestWithParam<std::tuple<ShapeCase, Variant, const char*>> {
  protected:
-  /// Spacing 1 m.
+  /// A plan of the case, spacing 1 m.
   std::unique_ptr<Plan> plan(const char* precision = "double") const {
     const auto& [shape, variant, boundary] = GetParam();
     return plan_of(R"({ "format": "hyperlattice/1", "precision": ")" + std::string(precision) +
@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(All, Kernels,
                                   std::get<1>(info.param).name + "_" + std::get<2>(info.param);
                          });
 
-/// Displacements at random, one height a particle where there are heights.
+/// Sets random displacements, and random heights if the membrane is free.
 void disturb(Simulation& simulation, const Model& model, double size) {
   const std::size_t particles = model.body.particles;
   simulation.set_displacements(noise(3 * particles, size, 1), model.degrees_of_freedom == 4

@@ -1,5 +1,5 @@
-// Laws with constants and memory of their own: bodies against closed forms, and the books of bodies
-// in motion. What every law must do along the path of one spring is in contract/contract_test.cpp.
+// Laws with constants and memory: bodies against closed forms, and the energy balance of bodies in
+// motion. contract/contract_test.cpp tests what every law must do along the path of one spring.
 #include <support/laws.hpp>
 #include <support/lists.hpp>
 
@@ -30,10 +30,10 @@ const std::string block_of_particles =
 const std::string pair_of_particles =
     R"({ "box": { "low": [0, 0, 0], "high": [1e-3, 1e-3, 2e-3] } })";
 
-/// k of the base springs of a lattice without a membrane, E = 10 GPa, spacing 1 mm.
+/// k of the base springs in a lattice without a membrane, E = 10 GPa, spacing 1 mm.
 constexpr double stiffness = 0.4 * 1e10 * 1e-3;
 
-// Two particles, one spring.
+// Two particles and one spring.
 
 TEST(Laws, ViscousPairOscillatesAsTheDampedOscillator) {
   const auto plan = plan_of(scene_of(
@@ -55,8 +55,8 @@ TEST(Laws, ViscousPairOscillatesAsTheDampedOscillator) {
   EXPECT_LT(worst, 0.012 * 2 / omega);
   const EnergyBalance balance = simulation.balance();
   EXPECT_LT(std::abs(balance.relative_error()), 1e-4);
-  const double lost =
-      mass * (1 - std::exp(-2 * ratio * 3000 * 0.01));  // of the 2 * 1/2 m v^2 at the start
+  // The energy at the start is 2 * 1/2 m v^2.
+  const double lost = mass * (1 - std::exp(-2 * ratio * 3000 * 0.01));
   EXPECT_NEAR(balance.dissipated(), lost, 0.02 * lost);
 }
 
@@ -71,8 +71,8 @@ TEST(Laws, RelaxingPairLosesItsForce) {
     simulation.step(step);
     if (n % 50 != 0) continue;
     const double held = (n - 0.5) * step,
-                 expected = stiffness * 1e-7 *
-                            (0.4 + 0.6 * std::exp(-held / 1e-6));  // the first step moved it
+                 // The first step has moved the particles.
+        expected = stiffness * 1e-7 * (0.4 + 0.6 * std::exp(-held / 1e-6));
     EXPECT_NEAR(std::abs(simulation.force_on_load()[1].z), expected, 2e-3 * expected) << n;
   }
 }
@@ -85,8 +85,8 @@ TEST(Laws, SofteningLayersTakeTheFractureEnergyApart) {
   Simulation simulation(*plan->model, 1);
   for (int n = 0; n < 2000; ++n) simulation.step(5e-8);
   const EnergyBalance balance = simulation.balance();
-  const double expected = 2 * 1e-6 * (100 + 2 * 360) /
-                          9;  // nine k l^2 pass through a site's part of the plane in a large body
+  // In a large body, k l^2 of all springs through one site's part of the plane has the sum 9 k l^2.
+  const double expected = 2 * 1e-6 * (100 + 2 * 360) / 9;
   EXPECT_NEAR(balance.dissipated(), expected, 1e-3 * expected);
   EXPECT_LT(std::abs(balance.stored), 1e-6 * expected);
   EXPECT_LT(std::abs(balance.relative_error()), 1e-3);
@@ -94,7 +94,7 @@ TEST(Laws, SofteningLayersTakeTheFractureEnergyApart) {
 
 // A bar.
 
-// One knee: elastic up to the stress stated, and no more after it. Heights are at rest in both, or
+// The bar is elastic up to the stated stress, and the stress stays there. Heights are at rest, or
 // the membrane has none.
 TEST(Laws, PlasticBarYieldsAtTheStatedStress) {
   for (const char* membrane :
@@ -162,8 +162,8 @@ TEST_P(MovingLaw, KeepsTheBooksWhileSpringsBreak) {
   }
 }
 
-// Laws are asked in doubles whatever the state is kept in: the same displacements give the same
-// forces, but for what velocities are rounded by.
+// Laws compute in doubles at either precision of the state. The same displacements give the same
+// forces, up to the rounding of the velocities.
 TEST_P(MovingLaw, GivesInFloatsTheForcesOfDoubles) {
   for (const char* boundary : {"particles", "cells"}) {
     const std::string scene = scene_of(block_of_particles, GetParam().material, "", boundary);

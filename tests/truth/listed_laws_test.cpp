@@ -1,6 +1,6 @@
-// Laws with constants and memory of their own on lists. Each end of a spring keeps its own memory
-// there, so these tests ask first whether both ends stay together; then for closed forms, the
-// grid's answer, and the books.
+// Laws with constants and memory on lists. Each end of a spring keeps its own copy of the memory
+// there. The tests therefore first check that both ends agree, then closed forms, agreement with
+// the grid, and the energy balance.
 #include <support/laws.hpp>
 #include <support/lists.hpp>
 
@@ -31,8 +31,8 @@ INSTANTIATE_TEST_SUITE_P(All, ListedLaw, testing::ValuesIn(laws),
 
 // Both ends of a spring.
 
-/// Many particles in pairs that know nothing of each other, of all lengths and directions; partners
-/// are far apart in the list.
+/// Many separate pairs of particles with springs of all lengths and directions. The two particles
+/// of a pair are far apart in the list.
 struct Pairs {
   static constexpr int number = 300;
   std::vector<Vec3> places;
@@ -80,7 +80,8 @@ TEST_P(ListedLaw, BothEndsOfASpringKeepTheSameBits) {
     }
 }
 
-// However a list is sorted, a spring's number follows the places of its points in the file.
+// A spring's random number follows from the places of its points in the file, however the program
+// sorts the list.
 TEST(ListedLaws, StiffnessScattersByTheNamesOfPoints) {
   const Pairs pairs;
   const ListFiles files(pairs.places, pairs.springs);
@@ -140,8 +141,8 @@ TEST(ListedLaws, AViscousPairOscillatesAsTheDampedOscillator) {
   EXPECT_NEAR(balance.dissipated(), lost, 0.02 * lost);
 }
 
-// Held in any shape, every spring relaxes alike, so that every particle's force falls as one
-// spring's does.
+// In a held body all springs relax at the same rate. The force on each particle therefore falls as
+// the force of one spring does.
 TEST(ListedLaws, AStrainedRandomBlockLosesItsForces) {
   for (const char* membrane : {R"("membrane": "none")", R"("membrane": "III", "lambda": 2)"}) {
     const auto plan = plan_of(law_scene(
@@ -157,7 +158,7 @@ TEST(ListedLaws, AStrainedRandomBlockLosesItsForces) {
   }
 }
 
-// Two halves drawn apart until no spring joins them.
+// Two halves are drawn apart until no spring joins them.
 TEST(ListedLaws, ASofteningRandomBlockTakesTheFractureEnergyApart) {
   const char* halves =
       R"(, { "type": "loads.fixed", "on": { "box": { "low": [0, 0, 0], "high": [5e-3, 1, 1] } } },
@@ -173,8 +174,8 @@ TEST(ListedLaws, ASofteningRandomBlockTakesTheFractureEnergyApart) {
     const double expected = 5 * 16e-3 * 16e-3;
     const EnergyBalance balance = simulation.balance();
     std::printf("%s: %.3f of the fracture energy\n", membrane, balance.dissipated() / expected);
-    EXPECT_NEAR(balance.dissipated(), expected,
-                0.1 * expected);  // some 500 springs, of all lengths, and fewer at the surface
+    // The cut has about 500 springs of all lengths, and fewer near the surface.
+    EXPECT_NEAR(balance.dissipated(), expected, 0.1 * expected);
     EXPECT_LT(std::abs(balance.stored), 0.01 * expected);
     EXPECT_LT(std::abs(balance.relative_error()), 1e-3);
   }
@@ -182,14 +183,14 @@ TEST(ListedLaws, ASofteningRandomBlockTakesTheFractureEnergyApart) {
 
 // The grid.
 
-/// Of a number, all digits.
+/// A number with all digits.
 std::string text(double number) {
   char digits[32];
   std::snprintf(digits, sizeof digits, "%.17g", number);
   return digits;
 }
 
-/// A block of the cubic lattice, and its list.
+/// A block of the cubic lattice as a grid and as a list.
 struct LawTwins {
   std::unique_ptr<Plan> grid, list;
   InGrid in_grid;
@@ -264,7 +265,7 @@ TEST_P(ListedLaw, KeepsMomentumAndTheBooks) {
   const double scale = std::sqrt(2 * start.balance.scale * plan->model->mass(0) *
                                  static_cast<double>(plan->model->body.particles));
   EXPECT_LT(norm(coarse.balance.momentum - start.balance.momentum), 1e-12 * scale);
-  if (std::string(GetParam().name) != "scattered_4D") {  // which is elastic
+  if (std::string(GetParam().name) != "scattered_4D") {  // this law is elastic
     EXPECT_GT(fine.balance.dissipated(), 0.02 * fine.balance.scale);
   }
   EXPECT_LT(std::abs(fine.balance.relative_error()), 2e-4);

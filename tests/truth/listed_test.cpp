@@ -1,5 +1,5 @@
-// Listed lattices: the cubic lattice written out as a list does what the structured one does, and
-// what a body must keep is kept.
+// Listed lattices. The cubic lattice as a list behaves as the grid does, and free bodies keep
+// momentum and energy.
 #include <engine/stage_calls.hpp>
 
 #include <support/lists.hpp>
@@ -19,14 +19,14 @@ const MembraneCase with_one_ratio[] = {
 INSTANTIATE_TEST_SUITE_P(Membranes, ListedMembrane, testing::ValuesIn(with_one_ratio),
                          [](const auto& info) { return std::string(info.param.name); });
 
-/// Without k_gamma, which a list has none of.
+/// The keys without k_gamma, which lists do not have.
 std::string keys_for_list(const std::string& material) {
   const auto gamma = material.find(R"(, "k_gamma")"), poisson = material.find(R"("poisson": 0.25)");
   if (poisson != std::string::npos) return R"("membrane": "none")";
   return material.substr(0, gamma);
 }
 
-/// The cubic block and the list of it, of the same stiffness.
+/// The cubic block as a grid and as a list, with equal stiffness.
 struct Twins {
   std::unique_ptr<Plan> grid, list;
   InGrid in_grid;
@@ -78,8 +78,9 @@ TEST_P(ListedMembrane, TheCubicLatticeAsAListMovesAsTheGrid) {
   const std::size_t particles = model.body.particles;
   const bool heights = model.degrees_of_freedom == 4;
   for (Simulation* simulation : {&grid, &list}) {
-    simulation->set_damping(
-        0.1);  // not for long: it is not continuous where velocities change their sign
+    // Local damping jumps where a velocity changes its sign, so that the runs agree only for a
+    // short time.
+    simulation->set_damping(0.1);
     const auto as_it_counts = [&](const std::vector<double>& field) {
       return simulation == &list ? twins.in_grid.for_list(field) : field;
     };
@@ -180,7 +181,8 @@ TEST_P(RandomBlock, HasTheSameBitsForAnyNumberOfThreads) {
 TEST_P(RandomBlock, FloatsGiveTheForcesAndTheEnergyOfDoubles) {
   const std::string box = R"("low": [0, 0, 0], "high": [6e-3)",
                     far_box = R"("low": [10, 0, 0], "high": [10.006)";
-  std::string lattice = random_lattice(6, 5, 4);  // far from the origin, which must not matter
+  // The body is far from the origin, which must not matter.
+  std::string lattice = random_lattice(6, 5, 4);
   lattice.replace(lattice.find(box), box.size(), far_box);
   const std::string scene = listed_scene(lattice, GetParam().material);
   const auto after_a_step = [](const Plan& plan, double size) {
@@ -194,12 +196,12 @@ TEST_P(RandomBlock, FloatsGiveTheForcesAndTheEnergyOfDoubles) {
     return std::pair(found, stored);
   };
   const auto doubles = plan_of(scene), floats = plan_of(in_floats(scene));
-  for (const double size : {1e-12, 1e-8, 1e-6, 1e-5, 1e-4,
-                            3e-4}) {  // of spacings of 1e-3: series, long series and root
+  // Sizes in m at a spacing of 1e-3 m: they cover the series, the long series and the root.
+  for (const double size : {1e-12, 1e-8, 1e-6, 1e-5, 1e-4, 3e-4}) {
     const auto [exact, energy] = after_a_step(*doubles, size);
     const auto [rounded, its_energy] = after_a_step(*floats, size);
     EXPECT_LT(distance(rounded, exact), 3e-6 * largest(exact)) << size;
-    EXPECT_NEAR(its_energy / energy, 1, 1e-6) << size;  // places at rest are rounded too
+    EXPECT_NEAR(its_energy / energy, 1, 1e-6) << size;  // rest positions are rounded too
   }
 }
 
@@ -216,7 +218,7 @@ TEST_P(RandomBlock, TheSeriesGivesTheForcesOfTheRoot) {
     simulation.velocities(found);
     return std::pair(found, simulation.breakages().size());
   };
-  for (const double size : {1e-12, 1e-8, 1e-6, 1e-5, 1e-4, 3e-4}) {  // of spacings of 1e-3
+  for (const double size : {1e-12, 1e-8, 1e-6, 1e-5, 1e-4, 3e-4}) {  // m, spacing 1e-3 m
     const auto [fast, broken] = velocities(size);
     setenv("HYPERLATTICE_SPRINGS", "exact", 1);
     const auto [exact, broken_too] = velocities(size);
@@ -233,8 +235,8 @@ TEST_P(RandomBlock, IsStableUpToItsCriticalStep) {
   for (int n = 0; n < 3000; ++n) simulation.step(0.99 * plan->model->critical_time_step);
   EXPECT_LT(largest(displacements(simulation)), 1e-8);
   for (int n = 0; n < 3000; ++n)
-    simulation.step(1.6 *
-                    plan->model->critical_time_step);  // the bound is a safe one, not a lax one
+    // The bound is safe, and still close.
+    simulation.step(1.6 * plan->model->critical_time_step);
   EXPECT_GT(largest(displacements(simulation)), 1e-3);
 }
 
@@ -252,7 +254,7 @@ TEST_P(RandomBlock, EnergyBalancesWhenSpringsBreak) {
   EXPECT_LT(std::abs(balance.relative_error()), 2e-4);
 }
 
-/// The displacements of a plan's body, brought to rest by its first solver.
+/// The displacements of a plan's body after its first solver has brought it to rest.
 std::vector<double> at_rest(const Plan& plan, int threads = 1, RestReport* report = nullptr) {
   Simulation simulation(*plan.model, threads);
   const RestReport found = bring_to_rest(plan, simulation);
@@ -276,8 +278,8 @@ TEST_P(ListedMembrane, TheCubicLatticeAsAListRestsAsTheGrid) {
   }
 }
 
-// Layers of equal springs share a pull evenly, so that the displacement is linear: the patch test
-// of a list.
+// Layers of equal springs share a pull evenly, so that the displacement is linear. This is the
+// patch test of a list.
 TEST(ListedStatics, UniaxialStrainIsUniform) {
   const ListFiles files(4, 4, 9);
   const auto plan = plan_of(listed_scene(files.lattice(), R"("membrane": "none")",
@@ -296,7 +298,7 @@ std::string pulled_random_block(int n, const std::string& solver) {
                           solver);
 }
 
-// Also with particles on two springs or one, which nothing drives.
+// The body also has particles on one or two springs, which no force drives.
 TEST(ListedStatics, RelaxationAgrees) {
   RestReport quick, slow;
   const auto found = at_rest(

@@ -1,6 +1,6 @@
-// Bodies that find no rest: columns buckle at Euler's load and in his mode, mechanisms and loose
-// pieces are told with how they move; and what a search finds that is asked to look less, or more
-// carefully.
+// Bodies without a state of rest: columns buckle at Euler's load and in Euler's mode, and messages
+// describe the motion of mechanisms and loose pieces. Also the options for stability, cutbacks and
+// line search.
 #include <support/rest.hpp>
 
 #include <gtest/gtest.h>
@@ -10,9 +10,9 @@ using namespace hyperlattice;
 using namespace hyperlattice::test;
 
 struct Failure {
-  std::string text;  ///< why a scene's first solver finds no rest; "" if it does
+  std::string text;  ///< why the first solver finds no state of rest; "" if it finds one
   std::unique_ptr<Plan> plan;
-  std::vector<double> motion, heights;  ///< that it keeps
+  std::vector<double> motion, heights;  ///< the failing motion
 };
 Failure failing(const std::string& scene) {
   Failure failure;
@@ -39,7 +39,7 @@ bool says(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// The number before a word.
+/// Reads the number before a word.
 double number_before(const std::string& text, const std::string& word) {
   std::size_t from = text.find(word);
   if (from == std::string::npos) return NAN;
@@ -47,10 +47,11 @@ double number_before(const std::string& text, const std::string& word) {
   return std::stod(text.substr(from));
 }
 
-// Clamped below, free above: Euler's load pi^2 E I / (4 L^2), less for shear (Timoshenko, Gere:
-// Theory of elastic stability, 2.17). Springs count the height's square by the trapezoidal rule,
-// which is what is left of second order in the cells. Its mode, 1 - cos(pi z / 2 L), is half of its
-// largest at two thirds of the length.
+// The column is clamped below and free above. Its load is Euler's pi^2 E I / (4 L^2), reduced for
+// shear (Timoshenko, Gere: Theory of elastic stability, 2.17). The springs integrate the square of
+// the distance from the axis by the trapezoidal rule, and this leaves an error of second order in
+// the cell size. The mode 1 - cos(pi z / 2 L) reaches half of its largest value at two thirds of
+// the length.
 TEST(NoRest, AColumnBucklesAtEulersLoad) {
   constexpr double young = 1e9, shear = young / 2.5, slenderness = 10, stress = 4e6;
   for (const int n : {4, 8}) {
@@ -69,9 +70,9 @@ TEST(NoRest, AColumnBucklesAtEulersLoad) {
     EXPECT_NEAR(found / expected, 1, 1.5 / (n * n));
     EXPECT_TRUE(says(text, "buckles")) << text;
     EXPECT_TRUE(says(text, ", " + std::to_string(10 * n) + ") m"))
-        << text;  // largest at the free end
+        << text;  // the motion is largest at the free end
     EXPECT_NEAR(number_before(text, "% of the particles"), 33, 4);
-    double alike = 0, kept = 0, mode = 0;  // along the way of the free end
+    double alike = 0, kept = 0, mode = 0;  // along the motion of the free end
     const Body& body = failure.plan->model->body;
     ASSERT_EQ(failure.motion.size(), 3 * body.particles);
     const double* end = failure.motion.data() + 3 * (body.particles - 1);
@@ -87,7 +88,7 @@ TEST(NoRest, AColumnBucklesAtEulersLoad) {
   }
 }
 
-// Whether a state is looked at for buckling is an option.
+// The option `stability` turns the check for buckling off.
 TEST(NoRest, AStraightColumnMayBeAskedToStayStraight) {
   const AtRest column(
       scene(R"("spacing": 1, "boundary": "cells", "shape": )" + box({}, {4, 4, 40}),
@@ -98,8 +99,8 @@ TEST(NoRest, AStraightColumnMayBeAskedToStayStraight) {
   EXPECT_NEAR(column.mean(0, [](Site s) { return s.k == 40; }), 0, 1e-6);
 }
 
-// In one step to a load that bends the beam by more than a right angle whole steps of Newton's
-// method fail; shortened ones do not.
+// One load step bends the beam by more than a right angle. Full Newton steps fail there; steps
+// shortened by the line search succeed.
 TEST(NoRest, ShorterStepsFindWhatWholeOnesMiss) {
   const auto bent = [](const std::string& solver) {
     return AtRest(scene(R"("spacing": 1, "boundary": "cells", "shape": )" + box({}, {2, 2, 40}),
@@ -134,8 +135,8 @@ TEST(NoRest, ABodyThatNothingHoldsIsToldHowItMoves) {
   EXPECT_TRUE(says(turns.text, "it turns about the axis (0, 0, 1) through (2, 2, 2) m"));
   const Body& body = turns.plan->model->body;
   ASSERT_EQ(turns.motion.size(), 3 * body.particles);
-  const double rate =
-      turns.motion[3 * body.particles - 2] / 1.5;  // of the last, at (3.5, 3.5, 3.5)
+  // The rate of the last particle, at (3.5, 3.5, 3.5) m.
+  const double rate = turns.motion[3 * body.particles - 2] / 1.5;
   EXPECT_GT(rate, 0);
   for (Particle p = 0; p < body.particles; ++p) {
     const Vec3 from = body.position(p) - Vec3{2, 2, 2};
@@ -157,16 +158,16 @@ TEST(NoRest, ALoosePieceIsNamed) {
   EXPECT_TRUE(says(text, "a loose piece of 64 of the 128 particles, around (0.01, 0.002, 0.002) m"))
       << text;
   EXPECT_TRUE(says(text, "turns about the axis (0, -1, 0)"))
-      << text;  // the force is not at its centre
+      << text;  // the force does not pass through the centre of the piece
 }
 
-TEST(NoRest,
-     AMechanismIsAnErrorThatSaysWhereItMoves) {  // joined by the four springs between two edges
+// Only the four springs between two edges join the blocks.
+TEST(NoRest, AMechanismIsAnErrorThatSaysWhereItMoves) {
   const std::string text = failure_of(two_blocks({4e-3, 4e-3, 0}, {8e-3, 8e-3, 4e-3}));
   EXPECT_TRUE(says(text, "no state of rest under its loads")) << text;
   EXPECT_TRUE(says(text, "motion is largest at")) << text;
-  EXPECT_LE(number_before(text, "% of the particles"),
-            58);  // 64 of the 112 that are free are in the block that turns
+  // The turning block holds 64 of the 112 free particles.
+  EXPECT_LE(number_before(text, "% of the particles"), 58);
 }
 
 }  // namespace

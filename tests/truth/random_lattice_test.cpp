@@ -1,6 +1,6 @@
-// Random lattices: what they are made of, the elastic constants of their samples against an
-// independent computation (tests/data/random_lattice.json), and that a scene's E and nu are those
-// of the body it gets.
+// Random lattices: their particles and springs, the elastic constants of their samples against an
+// independent computation (tests/data/random_lattice.json), and whether the body has the E and nu
+// that the scene asks for.
 #include <analyze/calibrate.hpp>
 #include <analyze/load_lattice.hpp>
 #include <model/homogenise.hpp>
@@ -25,7 +25,7 @@ nlohmann::json reference() {
   return nlohmann::json::parse(file);
 }
 
-/// E over what equation (14) gives for springs of stiffness k = 1 N/m.
+/// E over the value of equation (14) for springs of stiffness k = 1 N/m.
 double young_over_eq14(const LatticeGeometry& geometry, double young) {
   double squares = 0;
   for (const SampleSpring& spring : geometry.listed->sample)
@@ -57,7 +57,7 @@ TEST(RandomLattice, HasTheElasticConstantsThatOthersFound) {
   EXPECT_EQ(compared, 6);
 }
 
-TEST(RandomLattice, FewNeighboursGiveMoreThanAQuarter) {  // the paper's observation, section 2.4
+TEST(RandomLattice, FewNeighboursGiveMoreThanAQuarter) {  // paper, section 2.4
   const ElasticPair few = elastic_pair(sample("8.4"), {}), many = elastic_pair(sample("13.2"), {});
   EXPECT_GT(few.poisson, 0.29);
   EXPECT_LT(few.poisson, 0.32);
@@ -86,7 +86,7 @@ TEST(RandomLattice, WithTooFewSpringsToBeStiffIsWarnedOf) {
                        R"("membrane": "none")"))
         ->model->warnings;
   };
-  for (const char* none : {"5", "5.9"}) {  // 216 particles
+  for (const char* none : {"5", "5.9"}) {  // the body has 216 particles
     const auto found = warnings(none);
     ASSERT_EQ(found.size(), 1u) << none;
     EXPECT_NE(found[0].find("the body's springs do not hold it"), std::string::npos) << found[0];
@@ -105,8 +105,8 @@ TEST(RandomLattice, WithTooFewSpringsToBeStiffIsWarnedOf) {
   for (const char* stiff : {"7", "8.4"}) EXPECT_TRUE(warnings(stiff).empty()) << stiff;
 }
 
-/// A lattice with the Poisson ratio 2 / 3 at an endless lambda, and C12 over C11 at lambda 0; a
-/// list.
+/// A listed lattice whose Poisson ratio tends to 2 / 3 for large lambda, and whose C12 / C11 at
+/// lambda 0 is given.
 LatticeFacts lattice_of(double* C12_over_C11) {
   LatticeFacts lattice;
   lattice.lengths = 1;
@@ -201,8 +201,8 @@ TEST(RandomLattice, PressureOnAFlatFaceHasTheRightTotal) {
 }
 
 TEST(RandomLattice, WavesTravelAsFastAsItsModuliSay) {
-  // A long bar of laterally free faces pushed at one end: the front runs with sqrt(E / rho), a
-  // little less for the soft surface.
+  // One end of a long bar with free sides is pushed. The front travels with sqrt(E / rho), a little
+  // slower because the surface is softer.
   const auto plan = plan_of(
       listed_scene(random_lattice(14, 14, 60), R"("membrane": "I", "poisson": 0.2)",
                    R"({ "type": "loads.velocity", "on": "z_min", "value": [0, 0, 1e-3] })"));
@@ -219,8 +219,8 @@ TEST(RandomLattice, WavesTravelAsFastAsItsModuliSay) {
       }
     return sum / count;
   };
-  const double all = 1e-3 * time;                       // what the pushed end has gone
-  EXPECT_NEAR(mean_at(9e-3, 11e-3) / all, 0.75, 0.08);  // behind the front: (1 - z / 40 mm)
+  const double all = 1e-3 * time;                       // displacement of the pushed end
+  EXPECT_NEAR(mean_at(9e-3, 11e-3) / all, 0.75, 0.08);  // behind the front: 1 - z / 40 mm
   EXPECT_NEAR(mean_at(19e-3, 21e-3) / all, 0.5, 0.08);
   EXPECT_LT(mean_at(50e-3, 60e-3) / all, 0.01);
 }

@@ -1,5 +1,5 @@
 // Every kernel against the reference kernel: all laws, membranes, lattices, boundaries and
-// precisions, for bodies that are moved at random.
+// precisions, for bodies with random displacements.
 #include <support/scenes.hpp>
 
 #include <model/kernel_calls.hpp>
@@ -44,8 +44,8 @@ const LatticeCase lattices[] = {{"cubic", R"("type": "lattices.cubic")"},
                                 {"fcc", R"("type": "lattices.fcc")"},
                                 {"random", R"("type": "lattices.random")"}};
 
-/// The forces on all particles by the reference kernel: springs that have not moved before, at the
-/// displacements and heights given.
+/// The forces on all particles by the reference kernel, at the given displacements and heights. The
+/// springs have no earlier motion in their memory.
 std::vector<FourVector> reference_forces(const Model& model, const std::vector<FourVector>& moved) {
   std::vector<FourVector> forces(moved.size());
   const bool has_cross = model.choice.membrane != KernelChoice::Membrane::none;
@@ -83,7 +83,8 @@ std::vector<FourVector> reference_forces(const Model& model, const std::vector<F
   return forces;
 }
 
-/// The same by the kernel that the plan chose: m v over the half step that the first step kicks.
+/// The same forces by the plan's kernel: the momentum after the first step over half a step, which
+/// is how long the forces act in it.
 std::vector<FourVector> kernel_forces(const Model& model, const std::vector<FourVector>& moved) {
   const std::size_t particles = moved.size();
   std::vector<double> xyz, heights;
@@ -135,18 +136,18 @@ TEST_P(ReferenceKernel, GivesTheForcesOfEveryKernel) {
         law.keys + ", " + membrane.keys + second_class +
         R"( }, { "type": "solvers.explicit", "end_time": "1 us" } ] })");
     const Model& model = *plan->model;
-    for (const double size : {1e-3, 0.05}) {  // of displacements over the spacing
+    for (const double size : {1e-3, 0.05}) {  // displacements over the spacing
       const std::vector<double> u = noise(4 * model.body.particles, size * 1e-3, 7);
       std::vector<FourVector> moved(model.body.particles);
       for (Particle p = 0; p < moved.size(); ++p)
         for (std::size_t c = 0; c < static_cast<std::size_t>(model.degrees_of_freedom); ++c)
-          moved[p][c] =
-              static_cast<double>(static_cast<float>(u[4 * p + c]));  // the same in every precision
+          // Rounding to float gives the same displacements in both precisions.
+          moved[p][c] = static_cast<double>(static_cast<float>(u[4 * p + c]));
       const auto expected = reference_forces(model, moved), found = kernel_forces(model, moved);
       double largest = 0, apart = 0;
+      // Clamped heights do not move.
       for (Particle p = 0; p < moved.size(); ++p)
-        for (std::size_t c = 0; c < static_cast<std::size_t>(model.degrees_of_freedom);
-             ++c) {  // what is clamped does not move
+        for (std::size_t c = 0; c < static_cast<std::size_t>(model.degrees_of_freedom); ++c) {
           largest = std::max(largest, std::abs(expected[p][c]));
           apart = std::max(apart, std::abs(found[p][c] - expected[p][c]));
         }

@@ -1,6 +1,6 @@
-// States of rest where numbers are far apart: heights a billion times as stiff as space, or next to
-// free; loads of 1e-300 N, that cancel, or that end at zero. Truth is the closed form of a cube
-// between frictionless planes.
+// States of rest with numbers of very different size: heights a billion times as stiff as the
+// springs in space, or almost free; loads of 1e-300 N, loads that cancel, and loads that end at
+// zero. The truth is the closed form of a cube between frictionless planes.
 #include <support/lists.hpp>
 #include <support/rest.hpp>
 
@@ -69,7 +69,7 @@ std::string failure_of(const std::string& scene) {
   }
 }
 
-// lambda is 7 (1 - 4 nu) / (1 + 5 nu): down to 1.2e-4, so that strains of 1e-3 change what holds
+// lambda = 7 (1 - 4 nu) / (1 + 5 nu) falls to 1.2e-4. Strains of 1e-3 then change the stiffness of
 // the heights many times over.
 TEST(RestExtremes, PoissonRatiosJustBelowAQuarter) {
   for (const double nu : {0.0, 0.2, 0.24, 0.249, 0.2499, 0.24999})
@@ -96,7 +96,8 @@ TEST(RestExtremes, ABodyThatWrinklesIsToldSo) {
   }
 }
 
-// A pressure finds no wrinkled state of rest, and the search for one leaves by the heights.
+// Under this pressure the solver finds no state of rest: the heights run away, and the message says
+// that the body wrinkles.
 TEST(RestExtremes, ABodyThatAPressureWrinklesIsToldSo) {
   for (const auto& [nu, pressure] :
        {std::pair{0.2499, "1e6"}, {0.2499, "3e6"}, {0.24999, "1e6"}, {0.24999, "3e6"}}) {
@@ -140,7 +141,8 @@ TEST(RestExtremes, LoadsThatCancelMoveNothing) {
   EXPECT_LT(largest(body.u), 1e-12 * size);
 }
 
-// The second stage ends without any load or force: nothing but round-off is left to compare with.
+// At the end of the second stage no force is left, so that the residual has only round-off as its
+// scale.
 TEST(RestExtremes, ALoadThatGoesAwayLeavesNothing) {
   for (const char* solver : {R"("type": "solvers.static")",
                              R"("type": "solvers.relaxation", "method": "accelerated")"}) {

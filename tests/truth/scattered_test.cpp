@@ -1,5 +1,5 @@
-// Stiffness that scatters from spring to spring: its numbers are Weibull's, and bodies of such
-// springs are as stiff as theory says.
+// Springs with scattered stiffness: the stiffnesses follow Weibull's distribution, and the
+// stiffness of bodies agrees with theory.
 #include <model/kernel_calls.hpp>
 #include <support/laws.hpp>
 
@@ -24,7 +24,7 @@ std::string cube(int n, const char* boundary) {
          edge + "] } } }";
 }
 
-/// What each base spring has of the mean stiffness, from the force that it alone holds.
+/// Stiffness of each base spring over the mean stiffness, from the force of this spring alone.
 std::vector<double> shares(const Model& model) {
   std::vector<double> found;
   model.body.for_springs([&](Particle a, Particle b, std::uint32_t n) {
@@ -56,12 +56,11 @@ TEST(Scattered, SharesAreWeibulls) {
   }
   EXPECT_NEAR(sum / number, 1, 4 * std::sqrt(variance / number));
   EXPECT_NEAR(squares / number, variance, 0.03 * variance);
-  EXPECT_LT(
-      farthest,
-      1.95 / std::sqrt(number));  // Kolmogorov and Smirnov: one sample in a thousand is farther
+  // Bound of Kolmogorov and Smirnov, which one sample in a thousand exceeds.
+  EXPECT_LT(farthest, 1.95 / std::sqrt(number));
 }
 
-/// A bar's modulus over that of equal springs.
+/// The modulus of a bar over that of a bar with equal springs.
 double stiffness_of_bar(int seed, std::unique_ptr<Plan>& plan) {
   constexpr double strain = 1e-6;
   plan = plan_of(law_scene(
@@ -74,8 +73,8 @@ double stiffness_of_bar(int seed, std::unique_ptr<Plan>& plan) {
   return std::abs(simulation.force_on_load()[1].x) / 64e-6 / strain / 1e10;
 }
 
-// First order in the variance: the effective medium is softer by a third of it, and bodies vary
-// with the squares of what their springs hold of the energy.
+// Theory to first order in the variance v: the mean modulus is lower by v / 3. The variance of the
+// modulus is v times the sum of the squares of the springs' parts of the energy.
 TEST(Scattered, BarsAreAsStiffAsTheoryHasIt) {
   constexpr int number = 60;
   double sum = 0, squares = 0;
@@ -85,7 +84,7 @@ TEST(Scattered, BarsAreAsStiffAsTheoryHasIt) {
     sum += found;
     squares += found * found;
   }
-  double held = 0, held_squares = 0;  // energy of each spring in a bar of equal ones, in any unit
+  double held = 0, held_squares = 0;  // energy of each spring in a bar of equal springs, any unit
   const Model& model = *plan->model;
   model.body.for_springs([&](Particle a, Particle b, std::uint32_t n) {
     const SpringProperties properties = model.spring_properties(a, b, n);
@@ -108,8 +107,8 @@ TEST(Scattered, BarsAreAsStiffAsTheoryHasIt) {
   EXPECT_NEAR(scatter / expected_scatter, 1, 0.5);
 }
 
-// What a grid keeps follows the particles, wherever blocks are cut; what a list keeps follows the
-// order in which its points were named.
+// On a grid, the random numbers follow the particles, wherever blocks are cut. On a list, they
+// follow the order of the points in the file.
 TEST(Scattered, AnotherSeedIsAnotherBodyAndTheSameOneTheSame) {
   const auto hash = [](int seed, int threads) {
     return shaken(*plan_of(law_scene(cube(7, "particles"),

@@ -1,6 +1,6 @@
-// The hollow sphere of the paper's section 3.2 without failure: its radial motion under a blast
-// against an independent one-dimensional solution (tests/data/README.md). Stiffness by equation
-// (15), which the tolerance assumes; the error of the bulk stiffness is printed beside.
+// The hollow sphere of section 3.2 of the paper, without failure. Its radial motion under a blast
+// is compared with an independent one-dimensional solution (tests/data/README.md). The tolerance
+// holds for stiffness by equation (15); the test also prints the error with bulk stiffness.
 #include <support/scenes.hpp>
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
-/// Columns of a CSV by name.
+/// Columns of a CSV file by name.
 struct Table {
   std::vector<std::string> names;
   std::vector<std::vector<double>> rows;
@@ -32,7 +32,7 @@ struct Table {
   }
 };
 
-/// The true radial displacement, between the table's radii and times.
+/// The true radial displacement, interpolated between the radii and times of the table.
 class Truth {
  public:
   explicit Truth(const std::string& poisson)
@@ -75,7 +75,7 @@ struct Shell {
 struct Case {
   const char* poisson;
   int spacing_mm;
-  double tolerance, peak_tolerance;  ///< relative: L2 norm over the record; first peak, up to 40 us
+  double tolerance, peak_tolerance;  ///< relative: L2 norm over all times; first peak, up to 40 us
 };
 
 class Sphere : public testing::TestWithParam<Case> {
@@ -156,11 +156,11 @@ TEST_P(Sphere, FollowsTheRadialSolution) {
   }
   for (const Shell& shell : run("bulk"))
     EXPECT_LT(shell.error(), 2 * c.tolerance)
-        << shell.name;  // phase drifts with the softer surface
+        << shell.name;  // the softer surface delays the motion
 }
 
-// A body of cells needs no correction of its stiffness, and its error falls by more than half where
-// the spacing is halved.
+// A body of cells needs no correction of its stiffness. Its error falls by more than half if the
+// spacing is halved.
 TEST_P(Sphere, FollowsItCloserWithCells) {
   for (const Shell& shell : run("bulk", "cells")) {
     EXPECT_LT(shell.error(), GetParam().spacing_mm == 2 ? 0.07 : 0.03) << shell.name;

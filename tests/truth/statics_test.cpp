@@ -1,6 +1,6 @@
 // States of rest against closed forms: contrasts of stiffness, stretches to three times the length,
-// loads so small that round-off would swallow them, bodies far from the origin; and that
-// relaxation, steps in time and the static solver agree on what rest is.
+// loads near round-off, and bodies far from the origin. Relaxation, time steps and the static
+// solver must find the same state of rest.
 #include <support/rest.hpp>
 
 #include <gtest/gtest.h>
@@ -9,9 +9,9 @@ namespace {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
-// In uniaxial strain every layer of a bar has the same stress: u = sigma (L1 / M1 + L2 / M2), M the
-// confined modulus. A spring between two materials is half of each, so that the border stands half
-// a spacing from the last soft layer.
+// In uniaxial strain every layer of a bar has the same stress: u = sigma (L1 / M1 + L2 / M2) with
+// the confined moduli M1 and M2. A spring between two materials is half of each, so that the border
+// lies half a spacing from the last soft layer.
 TEST(Statics, ABarOfTwoMaterialsIsASeriesOfSprings) {
   constexpr double l = 0.005, sigma = 1e4, young = 1e9, nu = 0.2,
                    confined = (1 - nu) / ((1 + nu) * (1 - 2 * nu));
@@ -47,11 +47,9 @@ TEST(Statics, AnInclusionUpToAMillionTimesAsStiff) {
             elastic(1e9 * contrast,
                     R"("poisson": 0.2, "membrane": "I-m", "stiffness": "eq15", "region": )" +
                         box({0.03, 0.03, 0.03}, {0.07, 0.07, 0.07})) +
+            // No support holds the cube; the solver removes the rigid motions.
             R"({ "type": "loads.pressure", "on": "x_min", "pressure": -1e6 }, { "type": "loads.pressure", "on": "x_max",
-                                   "pressure": -1e6, "name": "other" },)" +  // nothing is held:
-                                                                             // rigid motions cost
-                                                                             // nothing and are not
-                                                                             // asked for
+                                   "pressure": -1e6, "name": "other" },)" +
             to_rest));
     const double grown = (cube.mean(0, [](Site s) { return s.i == 19; }) -
                           cube.mean(0, [](Site s) { return s.i == 0; })) /
@@ -80,8 +78,8 @@ std::vector<std::vector<double>> table(const std::string& name) {
   return rows;
 }
 
-// A body of cells stretched between frictionless platens is homogeneous: it has the response of the
-// endless lattice, geometry exact (closed form).
+// A body of cells between frictionless platens stretches homogeneously. Its response is that of the
+// infinite lattice with exact geometry (closed form).
 TEST(Statics, StretchedLikeTheEndlessLattice) {
   struct Case {
     const char *file, *material;
@@ -116,8 +114,8 @@ TEST(Statics, StretchedLikeTheEndlessLattice) {
   }
 }
 
-// Two by two particles, far from the ends: 2 b - 1 = sqrt(2) b / s, F = k l [4 (a - 1) + 8 (1 -
-// sqrt(2) / s) a], s^2 = a^2 + b^2.
+// Far from the ends, the bar of two by two particles obeys 2 b - 1 = sqrt(2) b / s, F = k l [4 (a -
+// 1) + 8 (1 - sqrt(2) / s) a], s^2 = a^2 + b^2.
 TEST(Statics, ABarOfTwoByTwoParticlesAtThreeTimesItsLength) {
   const AtRest bar(
       scene(R"("spacing": 1, "shape": )" + box({}, {2, 2, 60}),
@@ -136,8 +134,8 @@ TEST(Statics, ABarOfTwoByTwoParticlesAtThreeTimesItsLength) {
   EXPECT_GT(a, 2.9);
 }
 
-/// A small L of 1 mm particles, held at one end and pulled at the other by a force (N); its
-/// displacements over force / young.
+/// Displacements times young / force of a small L of 1 mm particles, which is held at one end and
+/// pulled at the other by a force (N).
 std::vector<double> response(double force, double young, double from = 0) {
   const double l = 1e-3;
   const auto at = [&](double x, double y, double z) { return Vec3{from + x * l, y * l, z * l}; };
@@ -175,8 +173,8 @@ std::string pulled_block(const std::string& solver, int n = 8) {
                    solver);
 }
 
-// The coarse levels keep blocks once for all sites that see the same springs. In a body deformed by
-// next to nothing every site is its own: the same levels must come out, and with them the same
+// The coarse levels of multigrid store one block for all sites with equal springs. In a slightly
+// deformed body every site has its own block. Both must give the same levels, hence the same
 // iterations and displacements.
 TEST(Statics, SitesThatAreAlikeAreKeptOnce) {
   const std::string region = R"("region": )" + box({0, 0, 0.009}, {1, 1, 0.014});
@@ -203,7 +201,7 @@ TEST(Statics, SitesThatAreAlikeAreKeptOnce) {
     u.push_back(displacements(simulation));
   }
   EXPECT_NEAR(static_cast<double>(iterations[0]), static_cast<double>(iterations[1]),
-              1);  // the bound of the eigenvalues is another
+              1);  // the eigenvalue bound differs
   for (double& value : u[0]) value *= 2;
   EXPECT_LT(distance(u[0], u[1]), 1e-6 * largest(u[1]));
   std::printf("%llu and %llu iterations\n", static_cast<unsigned long long>(iterations[0]),
@@ -230,8 +228,8 @@ std::string small_block(const std::string& stages) {
                    R"({ "type": "loads.fixed", "on": "x_min" },)" + stages);
 }
 
-// What is driven stands where it would have come by then, however many steps rest takes: 1 mm/s for
-// 1 ms, or with a rise of that time half as far.
+// A driven particle ends where its motion leads at the end time, however many steps the solver
+// takes. At 1 mm/s for 1 ms this is 1 um, and half of it if the rise takes the whole time.
 TEST(Statics, WhatIsDrivenComesWhereItWouldHaveComeByThen) {
   const auto driven = [](const std::string& load, const std::string& solver) {
     return AtRest(
@@ -250,7 +248,7 @@ TEST(Statics, WhatIsDrivenComesWhereItWouldHaveComeByThen) {
   }
 }
 
-// At an instant at which a load jumps it has jumped.
+// If a load jumps at the instant of the state of rest, the value after the jump counts.
 TEST(Statics, ALoadThatJumpsAtTheInstantOfRestHasJumped) {
   for (const char* solver : {"static", "relaxation"}) {
     const auto pulled = [&](const std::string& expression) {
@@ -279,8 +277,8 @@ TEST(Statics, ALoadThatIsNoNumberIsNamed) {
   }
 }
 
-// Also where the residual says little of it: of the slender beam, 1e-4 of the mean force is 3% of
-// the displacements.
+// The reported error must be right also where the residual is a poor measure: in the slender beam,
+// 1e-4 of the mean force is 3 % of the displacements.
 TEST(Statics, RelaxationKnowsItsError) {
   const auto bent_beam = [](const std::string& solver) {
     return block(
@@ -327,8 +325,8 @@ TEST(Statics, StepsInTimeFindTheBodyAtRest) {
 TEST(Statics, WorkOfTheLoadsIsWhatIsStored) {
   AtRest body(pulled_block(R"({ "type": "solvers.static", "tolerance": 1e-8, "load_steps": 8 })"));
   const EnergyBalance balance = body.simulation->balance();
-  EXPECT_NEAR(balance.injected / balance.stored, 1,
-              1e-4);  // 4e-3 in one step, and the trapezoidal rule is of second order
+  // The trapezoidal rule is of second order; a single step has an error of 4e-3.
+  EXPECT_NEAR(balance.injected / balance.stored, 1, 1e-4);
   EXPECT_EQ(body.simulation->steps(), 8u);
 }
 

@@ -1,6 +1,6 @@
-// What a limit of the springs' strain is as a strength of the body: a block between smooth walls,
-// pressed sideways, breaks at the stress at which some direction is stretched to the limit. See
-// docs/theory/strength.md.
+// The strength of a body whose springs break at a strain limit. A block between smooth walls, under
+// pressure from the sides, breaks at the stress at which the strain in some direction reaches the
+// limit. See docs/theory/strength.md.
 #include <support/scenes.hpp>
 
 #include <gtest/gtest.h>
@@ -13,8 +13,8 @@ using namespace hyperlattice::test;
 
 constexpr double young = 10e9, poisson = 0.2, limit = 1e-3;
 
-/// The stress along z, Pa, at which the first spring breaks when it grows to `full` slowly; both
-/// are pressures.
+/// The stress along z, Pa, at which the first spring breaks while the stress grows slowly to
+/// `full`. Both arguments are pressures, Pa.
 double strength(double sideways, double full) {
   constexpr double end = 5e-4;
   const auto number = [](double value) { return std::to_string(value); };
@@ -43,7 +43,7 @@ TEST(Strength, UnderPressureGrowsWithThatFromTheSide) {
   for (const double sideways : {0.0, 5e6, 20e6}) {
     const double expected = (young * limit + (1 - poisson) * sideways) / poisson;
     EXPECT_NEAR(strength(sideways, 160e6) / expected, 1, 0.02)
-        << sideways;  // strains of 1 % are not quite small
+        << sideways;  // a strain of 1 % is not quite small
   }
 }
 

@@ -1,6 +1,6 @@
-// The paper's model has two layers, the body and its parallel copy in the fourth dimension. The
-// mirrored single layer must be the same thing: here both layers are written out, in positions,
-// with no care for speed, and compared over a violent undamped motion.
+// The model of the paper has two layers: the body, and its parallel copy in the fourth dimension.
+// The mirrored single layer must be equivalent. The test computes both layers from positions, and
+// compares them with the single layer over a violent undamped motion.
 #include <support/scenes.hpp>
 
 #include <gtest/gtest.h>

@@ -10,8 +10,8 @@ namespace {
 using namespace hyperlattice;
 using test::virtual_test;
 
-constexpr double infinitesimal = 1e-6;  // strain: the table is linear
-constexpr double last_digit = 2e-6;     // of the table, and what the strain leaves
+constexpr double infinitesimal = 1e-6;  // strain; the table holds the linear limit
+constexpr double last_digit = 2e-6;     // digit of the table, and the error due to the strain
 
 VirtualTest::Options cube(int particles, double strain, int threads = 1) {
   VirtualTest::Options options;
@@ -44,15 +44,15 @@ TEST(VirtualTest, TableOfCubesOf10) { expect_table(10); }
 TEST(VirtualTest, TableOfCubesOf20) { expect_table(20); }
 TEST(LongVirtualTest, TableOfCubesOf40) { expect_table(40); }
 
-TEST(VirtualTest,
-     ModulusWithoutMembrane) {  // E l / k over the area of N^2 cells, computed with the table
+// E l / k over the area of N^2 cells, computed with the same program as the table.
+TEST(VirtualTest, ModulusWithoutMembrane) {
   Host host;
   EXPECT_NEAR(virtual_test(host, cube(10, infinitesimal)).measure({}).young, 2.3526, 1e-4);
   EXPECT_NEAR(virtual_test(host, cube(20, infinitesimal)).measure({}).young, 2.4277, 1e-4);
 }
 
-// Pulled by as much as it was pressed, a body of small strain answers the same; the difference is
-// of the order of the strain.
+// At small strains a body responds to tension as to compression. The difference is of the order of
+// the strain.
 TEST(VirtualTest, PullingIsPressingReversed) {
   Host host;
   const calibration::Ratios ratios = calibration::ratios(calibration::Membrane::I_m, 2.8);
