@@ -243,7 +243,7 @@ struct Uniaxial {
         }
     }
     poisson = 2 * spread / static_cast<double>(faces) / strain;
-    // distance between the outermost particles
+    // This is the distance between the outermost particles.
     const double span = boundary == "cells" ? n : n - 1;
     const double force = -simulation.force_on_load().at(1).z;
     modulus = force / (n * n) / (strain / span) / model.materials[0].constants.base_stiffness;

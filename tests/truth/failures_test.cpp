@@ -75,7 +75,7 @@ TEST(Failures, StrainCountsSpringsByTheirLength) {
 }
 
 TEST(Failures, ForceCountsByTheStiffness) {
-  // limit at 8.75 um
+  // The limit is reached at 8.75 um.
   const auto plan = plan_of(block(5, 4, 6, breakable(R"(force", "limit": 35)")));
   compare(
       *plan, 0.01, 0.004, [](double, double elongation, Spring) { return k * elongation > 35; },
@@ -83,7 +83,7 @@ TEST(Failures, ForceCountsByTheStiffness) {
 }
 
 TEST(Failures, EnergyCountsInTensionOnly) {
-  // limit at 7.07 um
+  // The limit is reached at 7.07 um.
   const auto plan = plan_of(block(5, 4, 6, breakable(R"(energy", "limit": 1e-4)")));
   compare(
       *plan, 0.01, 0.02,

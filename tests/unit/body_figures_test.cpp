@@ -1,4 +1,4 @@
-// How large bodies come out, and how many there are.
+// The size of bodies against the size that their shape asks for, and the number of separate parts.
 #include <model/body_figures.hpp>
 
 #include <support/models.hpp>
@@ -61,7 +61,8 @@ TEST(BodyFigures, WhatFitsIsNotWarnedOf) {
     EXPECT_EQ(body.parts, 1u);
   }
   const BodyFigures ball = figures(
-      lattice("1e-3", R"({ "sphere": { "radius": 12e-3 } })", "cells"));  // its surface is steps
+      // The surface of cells has steps.
+      lattice("1e-3", R"({ "sphere": { "radius": 12e-3 } })", "cells"));
   EXPECT_TRUE(size_warnings(ball, 1e-3).empty());
   EXPECT_NEAR(*ball.asked_volume, 4 * std::numbers::pi / 3 * std::pow(12e-3, 3), 1e-12);
   EXPECT_NEAR(ball.volume / *ball.asked_volume, 1, 0.02);
@@ -136,8 +137,8 @@ TEST(BodyFigures, WhatIsCutOffOverAWholeSideIsNotAskedFor) {
 }
 
 TEST(BodyFigures, AnExtentThatIsOnlyABoundIsToldAsOne) {
-  // A slanting half-space cuts the whole side at x = 4 mm off: the box of the parts is larger than
-  // what is left.
+  // The slanting half-space removes the whole side at x = 4 mm. The box around the two solids is
+  // then larger than their difference.
   const std::string slanting = set(
       "difference", box("[4e-3, 4e-3, 4e-3]") +
                         R"(, { "half_space": { "point": [2e-3, 0, 0], "normal": [-1, 0.1, 0] } })");
@@ -160,9 +161,8 @@ TEST(BodyFigures, LatticesOfMoreThanOneParticleACubeAreComparedToo) {
     EXPECT_EQ(body_lines(odd)[0].second,
               "0.0075 x 0.0075 x 0.0165 m; its shape asks for 0.008 x 0.008 x 0.016 m");
   }
-  const BodyFigures full =
-      figures(lattice("1e-3", box("[2.5e-3, 2.5e-3, 2.5e-3]"), "",
-                      "lattices.bcc"));  // as wide as asked, but 35 particles for 31.25
+  const BodyFigures full = figures(lattice("1e-3", box("[2.5e-3, 2.5e-3, 2.5e-3]"), "",
+                                           "lattices.bcc"));  // right size; 35 particles, not 31.25
   EXPECT_EQ(
       size_warnings(full, 1e-3),
       std::vector<std::string>{

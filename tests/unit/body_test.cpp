@@ -1,5 +1,5 @@
-// The body: particles in their order, the paper's counts of particles and springs, and what a
-// lattice component may not do.
+// The body: the order of its particles, the counts of particles and springs that the paper gives,
+// and faults of lattice components.
 #include <model/body.hpp>
 
 #include <support/body.hpp>
@@ -14,7 +14,7 @@ using namespace hyperlattice::test;
 
 namespace {
 
-/// A lattice made of the given runs, to see what build_body refuses.
+/// A lattice of the given runs, for tests of the faults that build_body finds.
 struct Runs {
   std::vector<Run> runs;
   static constexpr Neighbour neighbours[] = {{1, 0, 0, 0}, {0, 1, 0, 0}};

@@ -1,5 +1,5 @@
-// Calibration of the endless lattice: against the closed forms and an independent table, there and
-// back, by the paper's polynomials; the fits.
+// Calibration of the infinite lattice against the closed forms and an independent table, in both
+// directions and with the polynomials of the paper; and the fits.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <analyze/calibrate.hpp>
@@ -34,7 +34,7 @@ TEST(Calibrate, TheTableOfTheInfiniteLattice) {
   int compared = 0;
   for (const test::Row& row : test::nu_eta_table()) {
     if (row.values.at("nu_N10").empty() || row.number("lambda") == -2)
-      continue;  // unstable, or at the edge
+      continue;  // unstable or near a limit
     const Calibration found = calibrate(of(row.membrane, {}, row.number("lambda")), cubic());
     EXPECT_NEAR(found.pair.poisson, row.number("nu_inf"), 1e-6) << row.text;
     EXPECT_NEAR(found.pair.modulus_ratio, row.number("eta_inf"), 1e-6) << row.text;
@@ -44,8 +44,8 @@ TEST(Calibrate, TheTableOfTheInfiniteLattice) {
   EXPECT_EQ(compared, 87);
 }
 
-TEST(Calibrate,
-     StiffnessFollowsFromEAndSpacing) {  // I-m: k = E l (1 + 5 nu) / (9 (1 + nu) (1 - 2 nu))
+// I-m: k = E l (1 + 5 nu) / (9 (1 + nu) (1 - 2 nu)).
+TEST(Calibrate, StiffnessFollowsFromEAndSpacing) {
   CalibrationChoice choice = of(Membrane::I_m, 0.05);
   choice.young = 10e9;
   choice.spacing = 2e-3;
@@ -56,7 +56,7 @@ TEST(Calibrate,
   EXPECT_FALSE(calibrate(of(Membrane::I_m, 0.05), cubic()).stiffness_per_spacing);
 }
 
-// Any Poisson ratio in the reach of any membrane, any E: to lambda and k, and from these back.
+// Converts any E, and any Poisson ratio that a membrane reaches, to lambda and k, and back.
 TEST(Calibrate, ThereAndBack) {
   ASSERT_TRUE(rc::check([] {
     const auto membrane =
@@ -109,7 +109,7 @@ TEST(Calibrate, ThePapersPolynomials) {
     EXPECT_DOUBLE_EQ(there.pair.modulus_ratio,
                      (-0.0078506 * lambda + 0.41613615) * lambda + 1.00369223);
     EXPECT_EQ(there.pair.poisson, poisson);
-    EXPECT_NEAR(there.infinite.poisson, poisson, 4e-3);  // a cube of 20 is no endless lattice
+    EXPECT_NEAR(there.infinite.poisson, poisson, 4e-3);  // a cube of 20^3 particles has a surface
     EXPECT_NE(there.infinite.poisson, poisson);
     EXPECT_NEAR(*there.stiffness_per_spacing, 0.4e9 / there.pair.modulus_ratio, 1);
     CalibrationChoice back = of(Membrane::I_m, {}, lambda);
@@ -124,7 +124,7 @@ TEST(Calibrate, FitsOfPointsOnTheCurve) {
   EXPECT_DOUBLE_EQ(curve.points[3].lambda, 1.5);
   EXPECT_NEAR(curve.points[3].infinite.poisson, 0.185714, 1e-6);
   EXPECT_FALSE(curve.has_paper_fit);
-  // Least squares: the rest is orthogonal to each power.
+  // In least squares, the residual is orthogonal to each power.
   double sums[4] = {};
   for (const CurvePoint& point : curve.points) {
     const double nu = point.infinite.poisson,

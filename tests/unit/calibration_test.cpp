@@ -1,5 +1,5 @@
-// From E and nu to springs and back: against an independently computed table, the closed forms as
-// printed, and published numbers.
+// Conversion between E, nu and springs, against an independently computed table, the printed closed
+// forms, and published numbers.
 #include <hyperlattice/calibration.hpp>
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ TEST(Calibration, AgreesWithTheTableOfTheInfiniteLattice) {
     EXPECT_NEAR(e.poisson(), row.number("nu_inf"), 1e-6) << row.text;
     EXPECT_NEAR(e.modulus_ratio(), row.number("eta_inf"), 1e-6) << row.text;
     EXPECT_NEAR(e.zener(), row.number("A_inf"), 1e-6) << row.text;
-    if (e.poisson() < 0.2666) {  // III's lambda has a pole at 4/15
+    if (e.poisson() < 0.2666) {  // lambda of III has a pole at 4/15
       EXPECT_NEAR(lambda(row.membrane, e.poisson()), lambda_given,
                   1e-9 * (1 + std::abs(lambda_given)))
           << row.text;
@@ -31,7 +31,7 @@ TEST(Calibration, AgreesWithTheTableOfTheInfiniteLattice) {
   EXPECT_EQ(rows, 98);
 }
 
-// The closed forms as they are written down for each membrane, independent of C1 ... C4.
+// The closed forms in the notation of each membrane, without the sums C1 to C4.
 TEST(Calibration, ClosedFormsOfEachMembrane) {
   for (const double L : {0.1, 1.0, 2.8, 7.0}) {
     const auto nu = [L](Membrane m) { return elasticity(ratios(m, L)).poisson(); };
@@ -87,21 +87,21 @@ TEST(Calibration, ReachEndsWhereTheMembraneDoes) {
   }
 }
 
-TEST(Calibration, PapersPolynomials) {  // values printed with the paper's fits
+TEST(Calibration, PapersPolynomials) {  // printed beside the paper's fits
   EXPECT_NEAR(paper_lambda(0.0), 6.92902211, 1e-12);
   EXPECT_NEAR(paper_lambda(0.24646), 0, 5e-4);
   EXPECT_NEAR(paper_lambda(0.25), -0.0482, 5e-4);
   EXPECT_NEAR(paper_modulus_ratio(0), 1.00369223, 1e-12);
-  for (const double nu : {0.05, 0.1, 0.15, 0.2, 0.23}) {  // close to the infinite lattice
+  // The fits are close to the infinite lattice.
+  for (const double nu : {0.05, 0.1, 0.15, 0.2, 0.23}) {
     const Elasticity e = elasticity(ratios(Membrane::I_m, paper_lambda(nu)));
     EXPECT_NEAR(e.poisson(), nu, 2.6e-3);
     EXPECT_NEAR(e.modulus_ratio() / paper_modulus_ratio(paper_lambda(nu)), 1, 5e-3);
   }
 }
 
-TEST(Calibration,
-     EquationFifteenIsTheBulkValueWithoutSurfaces) {  // each particle with 3 orthogonal and 6
-                                                      // diagonal springs
+// Each particle has 3 orthogonal and 6 diagonal springs.
+TEST(Calibration, EquationFifteenIsTheBulkValueWithoutSurfaces) {
   EXPECT_NEAR(stiffness_eq15(1e9, 1000 * 1e-9, 1000 * 15 * 1e-6, 1.5),
               stiffness_bulk(1e9, 1e-3, 1.5), 1e-6);
 }

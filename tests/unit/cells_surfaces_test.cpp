@@ -1,5 +1,5 @@
-// Bodies of cells: particles, springs and shares, and what regions and surfaces mean for the
-// corners of cells.
+// Bodies of cells: particles, springs and shares, and the corners of cells that belong to regions
+// and surfaces.
 #include <model/surfaces.hpp>
 
 #include <support/body.hpp>
@@ -74,13 +74,13 @@ TEST(CellBody, SharesGoByTheCellsThatAreThere) {
 
 TEST(CellBody, AGapOfOneCellHasNoSprings) {
   const CellBody b(solid({}, {5, 1, 1}, [](Vec3 p) { return !(2 < p.x && p.x < 3); }));
-  EXPECT_EQ(b.body.particles, 24u);  // the same corners as without the gap
+  EXPECT_EQ(b.body.particles, 24u);  // the gap removes no corners
   EXPECT_EQ(b.body.share({2, 0, 0}, {1, 0, 0, 0}), 0.0);
   for (const Neighbour& n : b.body.neighbours)
     for (const Range& range : b.body.springs_of(0, 0, n))
       EXPECT_FALSE(n.dx == 1 && range.begin <= 2 && 2 < range.end);
   EXPECT_EQ(b.area(box_between({2, 0, 0}, {2, 1, 1})),
-            (Vec3{1, 0, 0}));  // the gap's faces look at each other
+            (Vec3{1, 0, 0}));  // the faces of the gap are opposite to each other
   EXPECT_EQ(b.area(box_between({3, 0, 0}, {3, 1, 1})), (Vec3{-1, 0, 0}));
 }
 
@@ -100,14 +100,16 @@ TEST(CellRegions, FacesAreTheBodysOwn) {
 
 TEST(CellRegions, SolidsHoldWhatTheyTouch) {
   const CellBody b(box({0.3, 0.4, 0.5}), 0.1);
-  EXPECT_EQ(b.count(box_between({0, 0, 0}, {0.3, 0.2, 0.1})), 4u * 3 * 2);  // 3 * 0.1 is not 0.3
+  // In floating point, 3 * 0.1 is not 0.3.
+  EXPECT_EQ(b.count(box_between({0, 0, 0}, {0.3, 0.2, 0.1})), 4u * 3 * 2);
   EXPECT_EQ(b.count(box_between({0.1, 0.1, 0.1}, {0.1 + 0.2, 0.3, 0.4})), 3u * 3 * 4);
   EXPECT_EQ(b.count(box_between({0.101, 0, 0}, {0.299, 0.4, 0.5})), 1u * 5 * 6);
   EXPECT_EQ(b.count(std::make_shared<Region>(ball(0, 0.1))),
-            4u);  // the origin's corner, and those that the sphere reaches
+            4u);  // the corner at the origin, and the three at distance 0.1
 }
 
-// A face counts whole or not at all, so that parts of a surface add up to it.
+// A region contains a face fully or not at all. The areas of parts therefore add up to the whole
+// surface.
 TEST(CellRegions, PartsOfASurfaceAddUpToIt) {
   const CellBody b(box({3, 4, 5}));
   const Part half = box_between({0, 0, 0}, {3, 4, 2});

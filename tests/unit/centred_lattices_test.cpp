@@ -1,5 +1,5 @@
-// The body-centred and the face-centred cubic lattice: sites and springs against pairs of points
-// counted one by one, elasticity against sums over neighbours written out from their definition.
+// The body-centred and the face-centred cubic lattice. Sites and springs are compared with pairs of
+// points counted one by one, and elasticity with sums over the neighbours.
 #include <analyze/elasticity.hpp>
 #include <analyze/load_lattice.hpp>
 #include <analyze/membranes.hpp>
@@ -21,13 +21,13 @@ using namespace hyperlattice::test;
 using calibration::Membrane;
 using calibration::Ratios;
 
-/// A lattice as a textbook describes it, edge of the cubic cell 1.
+/// A lattice as in a textbook; the edge of the cubic cell is 1.
 struct Crystal {
   const char* name;
-  std::vector<Vec3> cell;         ///< its particles
+  std::vector<Vec3> cell;         ///< particles of the cell
   std::array<double, 2> squares;  ///< squared lengths of springs to first and second neighbours
-  std::array<double, 2> base_stiffness;  ///< over k
-  double isotropic;                      ///< k_gamma / k_beta
+  std::array<double, 2> base_stiffness;  ///< stiffness over k
+  double isotropic;                      ///< k_gamma / k_beta of an isotropic lattice
 };
 const Crystal crystals[] = {
     {"lattices.bcc", {{0, 0, 0}, {0.5, 0.5, 0.5}}, {0.75, 1}, {1, 2.0 / 3}, 4.0 / 7},
@@ -129,7 +129,8 @@ TEST_P(Centred, PressureOnAFaceHasTheRightTotal) {
   for (const LoadedParticle& loaded : built->loads[0].particles) total = total + loaded.force;
   EXPECT_NEAR(total.x, -2 * 4 * 5, 1e-9);
   EXPECT_NEAR(norm(total), 2 * 4 * 5, 1e-9);
-  for (const LoadedParticle& loaded : built->loads[1].particles) {  // within a spacing of some face
+  // The loaded particles are at most one spacing from a face.
+  for (const LoadedParticle& loaded : built->loads[1].particles) {
     const Vec3 x = built->body.position(loaded.particle);
     EXPECT_LT(std::min({x.x, x.y, x.z, 3 - x.x, 4 - x.y, 5 - x.z}), 1);
   }
@@ -146,8 +147,8 @@ TEST_P(Centred, SaysWhatItCannotDo) {
   expect(faults_of(box(GetParam(), {0.1, 3, 3}) + material), "/pipeline/0", "is inside the shape");
 }
 
-/// C11, C12, C44 and the height's share of one layer, k = 1, summed over all pairs of the crystal
-/// around one of its particles.
+/// C11, C12, C44 and the part of the height for one layer, k = 1. The sums run over all springs of
+/// a crystal at one of its particles.
 struct Sums {
   double xxxx = 0, xxyy = 0, xxww = 0, wwww = 0;
 
@@ -160,7 +161,7 @@ struct Sums {
         for (std::size_t c = 0; c < 2; ++c) {
           if (std::abs(dot(to, to) - crystal.squares[c]) > 1e-9) continue;
           const double base = crystal.base_stiffness[c] / crystal.squares[c] / 2,
-                       k = cross[c] / (crystal.squares[c] + 1) / 2;  // a half for each end
+                       k = cross[c] / (crystal.squares[c] + 1) / 2;  // each end counts half
           xxxx += (base + k) * std::pow(to.x, 4);
           xxyy += (base + k) * to.x * to.x * to.y * to.y;
           xxww += k * to.x * to.x;
@@ -220,8 +221,8 @@ TEST_P(Centred, MaterialsGetTheModulusAndThePoissonRatioThatTheyAskFor) {
   }
 }
 
-// In the bulk equation (15) is exact for an isotropic lattice of central springs; a body has fewer
-// springs, and gets a larger k.
+// In an infinite isotropic lattice of central springs, equation (15) is exact. A finite body has
+// fewer springs, so that the equation gives a larger k.
 TEST_P(Centred, EquationFifteenUsesTheSpringsThatExist) {
   const auto stiffness = [&](const char* how) {
     return build(box(GetParam(), {6, 6, 6}) + "," + elastic(how))
@@ -234,8 +235,9 @@ TEST_P(Centred, EquationFifteenUsesTheSpringsThatExist) {
     squares += GetParam().base_stiffness[c] * GetParam().squares[c] *
                static_cast<double>(built->body.springs[c]);
   EXPECT_NEAR(stiffness(R"("stiffness": "eq15")"), 6 * 216 * 1e9 / squares, 1);
+  // `whole` is the sum of l^2 over the springs per particle in a large body.
   const double bulk = stiffness(R"("stiffness": "bulk")"),
-               whole = GetParam().cell.size() == 2 ? 3 + 2 : 3 + 0.75;  // sum of squares a particle
+               whole = GetParam().cell.size() == 2 ? 3 + 2 : 3 + 0.75;
   EXPECT_NEAR(bulk, 6 * 1e9 / whole / static_cast<double>(GetParam().cell.size()), 1);
 }
 
@@ -256,8 +258,8 @@ TEST_P(Centred, SaysWhichPoissonRatiosAMembraneReaches) {
             std::string::npos);
 }
 
-/// The frequencies, squared and times m, along [100] without a membrane: one longitudinal wave and
-/// two transverse ones, summed by hand.
+/// Squared frequencies times m along [100] without a membrane, summed by hand: one longitudinal
+/// wave and two transverse waves.
 TEST_P(Centred, WavesAlongAnAxis) {
   const LatticeGeometry geometry = geometry_of(GetParam());
   const SpringLattice lattice = with_ratios(geometry, {});
@@ -276,7 +278,7 @@ TEST_P(Centred, WavesAlongAnAxis) {
   }
 }
 
-// The search over the zone misses nothing that random wave vectors find.
+// The search over the zone must find a wave at least as stiff as all random wave vectors do.
 TEST_P(Centred, TheStiffestWaveIsTheStiffestOfAll) {
   const LatticeGeometry geometry = geometry_of(GetParam());
   std::mt19937 random(7);
@@ -297,7 +299,7 @@ TEST_P(Centred, TheStiffestWaveIsTheStiffestOfAll) {
   }
 }
 
-// A measured cube approaches the endless lattice as its surface loses weight.
+// The measured elasticity of a cube approaches that of the infinite lattice as the cube grows.
 TEST_P(Centred, AMeasuredCubeApproachesTheEndlessLattice) {
   Host host;
   const LatticeGeometry geometry = geometry_of(GetParam());
@@ -308,8 +310,8 @@ TEST_P(Centred, AMeasuredCubeApproachesTheEndlessLattice) {
     VirtualTest::Options options;
     options.lattice = GetParam().name;
     options.particles = cells;
-    options.strain = -1e-6;  // pulled: at the edges of fcc some particles have nothing that would
-                             // keep them from buckling
+    // The cube is pulled, because some particles at the edges of fcc would buckle under pressure.
+    options.strain = -1e-6;
     const Measured measured = test::virtual_test(host, options).measure(r);
     poisson.push_back(measured.poisson - 0.1);
     modulus.push_back(measured.young / young - 1);

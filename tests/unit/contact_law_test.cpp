@@ -1,5 +1,5 @@
-// What two particles that come too near do to each other, by hand; and that no pair is missed while
-// particles move.
+// Contact forces between two close particles, by hand; and the search for pairs while particles
+// move.
 #include "../../plugins/loads/contact/contact.cpp"
 #include "../../plugins/loads/contact/pairs.cpp"
 
@@ -11,7 +11,7 @@ namespace {
 
 constexpr double spacing = 1e-3, mass = 2e-6, stiffness = 1e6;
 
-/// Particles at these places, of the mass and stiffness above.
+/// Particles at these places, with the mass and the stiffness above.
 struct Bodies {
   std::vector<Vec3> places;
   std::vector<Particle> all;
@@ -35,7 +35,7 @@ struct Bodies {
   }
 };
 
-/// Forces on all.
+/// Forces on all particles.
 std::vector<Vec3> forces(const std::vector<Vec3>& places, const std::vector<Vec3>& moved,
                          const std::vector<Vec3>& velocities, double friction = 0,
                          double damping = 0) {
@@ -59,7 +59,7 @@ void expect_near(Vec3 found, Vec3 expected, double tolerance) {
   EXPECT_LT(norm(found - expected), tolerance) << found.x << " " << found.y << " " << found.z;
 }
 
-// Two particles, 2 mm apart at rest, that have come to 0.8 mm: a depth of 0.1 mm.
+// Two particles, 2 mm apart at rest, are now 0.8 mm apart: the depth of contact is 0.1 mm.
 const std::vector<Vec3> two{{0, 0, 0}, {2e-3, 0, 0}}, near{{}, {-1.2e-3, 0, 0}}, still{{}, {}};
 constexpr double depth = 1e-4, N = stiffness * depth;
 
@@ -84,7 +84,8 @@ TEST(Contact, FrictionIsCoulombsAboveAndViscousBelow) {
               1e-9 * N);
 }
 
-// The spring between them may hold; they push each other only when it is compressed by a tenth.
+// A spring joins these neighbours. Contact acts only if the spring is compressed by more than a
+// tenth.
 TEST(Contact, NeighboursAreLeftAlone) {
   const std::vector<Vec3> neighbours{{0, 0, 0}, {0.8e-3, 0, 0}};
   EXPECT_EQ(norm(forces(neighbours, {{}, {-0.079e-3, 0, 0}}, still)[0]), 0);

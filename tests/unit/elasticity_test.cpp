@@ -1,5 +1,5 @@
-// Elasticity from a lattice's neighbours: against the closed forms of the cubic lattice, a table
-// computed elsewhere, and other lattices.
+// Elasticity from the neighbours of a lattice, against the closed forms of the cubic lattice, an
+// independent table, and other lattices.
 #include <analyze/crystals.hpp>
 #include <analyze/dispersion.hpp>
 #include <analyze/elasticity.hpp>
@@ -21,7 +21,7 @@ using calibration::Ratios;
 constexpr Membrane with_lambda[] = {Membrane::I, Membrane::II, Membrane::III, Membrane::IV,
                                     Membrane::I_m};
 
-/// A lattice of these forward neighbours; the longer ones are of class 1.
+/// A lattice with these forward neighbours. The longer springs are of class 1.
 LatticeGeometry lattice_of(const std::vector<std::array<int, 3>>& forward, double spacing,
                            double site_volume, double membrane_distance) {
   std::vector<Neighbour> neighbours;
@@ -102,8 +102,8 @@ TEST(Elasticity, AgreesWithTheTableOfTheFiveMembranes) {
   EXPECT_EQ(rows, 98);
 }
 
-// C1 and C4 of a membrane that is not as thick as the lattice constant: physics of equation (27)
-// with Delta left in.
+// C1 and C4 for a membrane distance Delta that differs from the spacing: equation (27) with Delta
+// as a variable.
 TEST(Elasticity, KnowsTheThicknessOfTheMembrane) {
   const double l = 2, D = 0.7, kb = 1.3, kg = 0.4, ka = 0.9;
   LatticeGeometry geometry = cubic(l);
@@ -119,13 +119,13 @@ TEST(Elasticity, KnowsTheThicknessOfTheMembrane) {
               1e-12);
 }
 
-// Nearest-neighbour central springs on the face-centred lattice: C11 = 2 C12 = 2 C44 = 2 k / a,
-// textbook; a = 2 spacings.
+// Central springs to the nearest neighbours of the face-centred lattice: C11 = 2 C12 = 2 C44 = 2 k
+// / a (textbook), with a = 2 spacings.
 TEST(Elasticity, OfTheFaceCentredLattice) {
   const LatticeGeometry fcc = lattice_of(
       {{1, 1, 0}, {-1, 1, 0}, {1, 0, 1}, {-1, 0, 1}, {0, 1, 1}, {0, -1, 1}}, 0.5, 0.25, 0.5);
   const LatticeElasticity e = elasticity(with_ratios(fcc, {}));
-  const double a_over_spacing = 2;  // constants are over k / spacing
+  const double a_over_spacing = 2;  // elastic constants are in units of k / spacing
   EXPECT_NEAR(e.C11 * a_over_spacing, 2, 1e-12);
   EXPECT_NEAR(e.C12 * a_over_spacing, 1, 1e-12);
   EXPECT_NEAR(e.C44 * a_over_spacing, 1, 1e-12);
@@ -134,8 +134,8 @@ TEST(Elasticity, OfTheFaceCentredLattice) {
   EXPECT_FALSE(find_instability(with_ratios(fcc, {}).endless(), Sector::mirrored));
 }
 
-// Body-centred: with nearest neighbours alone C11 = C12, so that [110] shear is soft; second
-// neighbours of stiffness 1 make it stable.
+// In the body-centred lattice with nearest neighbours alone, C11 = C12 and [110] shear has no
+// stiffness. Second neighbours of stiffness 1 make the lattice stable.
 TEST(Elasticity, OfTheBodyCentredLattice) {
   const std::vector<std::array<int, 3>> nearest{{1, 1, 1}, {-1, 1, 1}, {1, -1, 1}, {-1, -1, 1}};
   const LatticeElasticity e = elasticity(with_ratios(lattice_of(nearest, 0.5, 0.5, 0.5), {}));
@@ -182,8 +182,8 @@ TEST(Membranes, ReachIsFoundFromTheSpringsAlone) {
   }
 }
 
-TEST(Dispersion, IsExactAlongTheAxesWithoutAMembrane) {  // omega^2 = 12 sin^2(q/2) lengthwise, 4
-                                                         // sin^2(q/2) across
+// Longitudinal waves: omega^2 = 12 sin^2(q/2); transverse waves: omega^2 = 4 sin^2(q/2).
+TEST(Dispersion, IsExactAlongTheAxesWithoutAMembrane) {
   std::istringstream lines(dispersion_csv(with_ratios(cubic(), {}).endless(), 1));
   std::string line;
   std::getline(lines, line);
@@ -211,8 +211,8 @@ TEST(Dispersion, IsExactAlongTheAxesWithoutAMembrane) {  // omega^2 = 12 sin^2(q
   EXPECT_EQ(along_x, 101);
 }
 
-// The slope of the lengthwise branch at long waves is the speed of sound, sqrt(C11 / density), in
-// the effective constants: the height follows.
+// In long waves the height follows the strain. The slope of the longitudinal branch is then the
+// speed of sound, sqrt(C11 / density), with the effective C11.
 TEST(Dispersion, BeginsWithTheSpeedsOfSound) {
   for (const Membrane membrane : with_lambda) {
     const SpringLattice lattice = with_ratios(cubic(), calibration::ratios(membrane, 1.5));
@@ -224,7 +224,7 @@ TEST(Dispersion, BeginsWithTheSpeedsOfSound) {
   }
 }
 
-// A stable lattice has the crystal's constants, and the zone agrees that it is stable.
+// Each stable lattice has the elastic constants of its crystal, and no wave in the zone grows.
 TEST(Crystals, FitsHaveTheConstantsAndAreStable) {
   const auto crystals =
       read_crystals(std::string(HYPERLATTICE_SOURCE) + "/docs/theory/data/crystals.csv");
@@ -258,7 +258,7 @@ TEST(Crystals, FitsHaveTheConstantsAndAreStable) {
   EXPECT_GT(two_layer, 0);
 }
 
-// The same, crystal by crystal, as an independent computation found it.
+// The fits are compared, crystal by crystal, with an independent computation.
 TEST(Crystals, AreThoseThatWereFoundIndependently) {
   const std::string path = std::string(HYPERLATTICE_SOURCE) + "/docs/theory/data/crystals.csv";
   const auto crystals = read_crystals(path);

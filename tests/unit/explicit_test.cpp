@@ -1,5 +1,5 @@
-// The explicit solver takes equal steps to the end, none longer than asked, whatever the corners of
-// loads, and refuses an unstable one.
+// The explicit solver takes equal steps to the end of a stage, none longer than asked, at any
+// corners of the loads. It refuses an unstable step.
 #include "../../plugins/solvers/explicit/explicit.cpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@ using namespace hyperlattice;
 
 namespace {
 
-/// Notes every step that the solver takes.
+/// Records every step that the solver takes.
 struct Notebook {
   std::vector<double> times, steps;
   std::size_t observed = 0, stop_after = ~std::size_t{0};
@@ -70,7 +70,7 @@ TEST(Explicit, goes_on_in_the_middle_of_a_stage) {
   notebook.host.steps_done = 3;
   Explicit(options).run({0, 0.2, {}}, notebook.host);
   EXPECT_EQ(notebook.steps.size(), 7u);
-  EXPECT_EQ(notebook.observed, 7u);  // the state that it goes on from was observed
+  EXPECT_EQ(notebook.observed, 7u);  // the run before has observed the first state
 }
 
 TEST(Explicit, a_step_that_divides_the_length_is_taken_as_it_is) {

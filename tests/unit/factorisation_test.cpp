@@ -1,4 +1,4 @@
-// What numerics take from Eigen fails with a sentence, or finds another way.
+// Factorisations and eigenvalues from Eigen fail with a message, or find another way.
 #include <numerics/block_inverse.hpp>
 #include <numerics/incomplete_cholesky.hpp>
 #include <numerics/sparse_cholesky.hpp>
@@ -31,8 +31,8 @@ TEST(SparseCholesky, SolvesWhatIsSound) {
 TEST(SparseCholesky, AddsMoreWhereAPivotVanishes) {
   constexpr double shift = 1e-9;
   SparseCholesky factors;
-  factors.compute(two_by_two(1 / (1 + shift), 1, 1 / (1 + shift)),
-                  shift);  // singular once the first shift is added
+  // The first shift makes the matrix singular.
+  factors.compute(two_by_two(1 / (1 + shift), 1, 1 / (1 + shift)), shift);
   EXPECT_TRUE(factors.solve(Eigen::Vector2d{1, 0}).allFinite());
 }
 
@@ -58,7 +58,8 @@ TEST(SparseCholesky, DoesNotSolveWithoutFactors) {
 
 TEST(IncompleteCholesky, SaysWhetherThereIsOne) {
   IncompleteCholesky factor;
-  ASSERT_TRUE(factor.compute(two_by_two(2, 1, 3)));  // no entry is left out, so it is the whole one
+  // No entry is left out, so that the factorisation is complete.
+  ASSERT_TRUE(factor.compute(two_by_two(2, 1, 3)));
   const Eigen::VectorXd x = factor.solve(Eigen::Vector2d{4, 7});
   EXPECT_NEAR(x[0], 1, 1e-2);
   EXPECT_NEAR(x[1], 2, 1e-2);
@@ -74,8 +75,8 @@ TEST(SymmetricEigen, SaysWhyItFails) {
   EXPECT_THROW(SymmetricEigen<Eigen::Matrix3d>{matrix}, std::runtime_error);
 }
 
-// Heights a billion times as stiff as space, or as soft, leave the rest of the block's inverse as
-// it is.
+// The inverse of a block is accurate for heights a billion times as stiff as the other directions,
+// or as soft.
 TEST(BlockInverse, KnowsHeightsOfAnyStiffness) {
   for (const double height : {1e-12, 1e-6, 1.0, 1e6, 1e12}) {
     Eigen::Matrix4d block = Eigen::Matrix4d::Identity();
@@ -90,7 +91,7 @@ TEST(BlockInverse, KnowsHeightsOfAnyStiffness) {
 TEST(BlockInverse, IsFiniteWhateverTheBlock) {
   Eigen::Matrix4d block = Eigen::Matrix4d::Zero();
   EXPECT_EQ(BlockInverse(block).inverse.norm(), 0);
-  block(0, 0) = 1;  // one spring: nothing across it
+  block(0, 0) = 1;  // one spring has no stiffness across its direction
   EXPECT_NEAR(BlockInverse(block).inverse(1, 1), 1e3, 1e-9);
   block(2, 2) = NAN;
   EXPECT_TRUE(BlockInverse(block).inverse.allFinite());

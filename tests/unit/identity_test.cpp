@@ -1,4 +1,4 @@
-// What results depend on: hashes of contents, and sentences that name what changed.
+// Results depend on the contents of files: hashes of contents, and messages that name the change.
 #include <base/content_hash.hpp>
 #include <base/errors.hpp>
 #include <base/folder_file.hpp>

@@ -101,7 +101,7 @@ TEST_F(InputTables, AColumnIsNamedOnce) {
   EXPECT_EQ(refusal("x,y,Volume,VOLUME\n1,2,3,4\n"),
             "line 1: expected one column \"volume\", not several; it names \"x\", \"y\", "
             "\"Volume\", \"VOLUME\"");
-  EXPECT_EQ(refusal("x,y,id,id\n1,2,3,4\n"), "");  // nobody asks for it
+  EXPECT_EQ(refusal("x,y,id,id\n1,2,3,4\n"), "");  // no component reads this column
 }
 
 TEST_F(InputTables, AColumnThatIsNearlyCalledAsOneThatMayBeMissingIsRefused) {
@@ -133,7 +133,8 @@ TEST_F(InputTables, RowsKnowTheirLines) {
     EXPECT_EQ(std::string(error.what()),
               "file " + folder_.file("table.csv") + ", line 7: expected less");
   }
-  EXPECT_EQ(read("# x,y\n1,2\n").line(0), 2u);  // below a comment that names the columns
+  // The line above is a comment with the names of the columns.
+  EXPECT_EQ(read("# x,y\n1,2\n").line(0), 2u);
 }
 
 TEST_F(InputTables, LinesEndWithLineFeedOrCarriageReturn) {
@@ -165,7 +166,7 @@ TEST_F(InputTables, BytesThatAreNoTextAreShown) {
 TEST_F(InputTables, WhatCannotBeReadToItsEndIsRefused) {
   static constexpr std::string_view names[] = {"x"};
   try {
-    const NumberTable table(folder_.path(), names);  // a folder opens, and every read of it fails
+    const NumberTable table(folder_.path(), names);  // a folder can be opened but not read
     FAIL() << "read a folder";
   } catch (const std::invalid_argument& error) {
     EXPECT_EQ(std::string(error.what()), "file " + folder_.path() + " cannot be read to its end");
@@ -205,7 +206,7 @@ TEST(CsvTables, AreReadTheSameWay) {
 TEST(CsvTables, TellRowsOfOtherLengthsAndNamesOfSeveral) {
   const CsvTable table = parse_csv("# by hand\r\nt,u,\r\n0,1\r\n\r\n0,5,1\r\n7\r\n0,1,,\r\n");
   EXPECT_EQ(table.lines, (std::vector<std::size_t>{3, 5, 6, 7}));
-  ASSERT_EQ(table.faults.size(), 2u);  // the last column has no name, and is none
+  ASSERT_EQ(table.faults.size(), 2u);  // a column without a name does not count
   EXPECT_EQ(table.faults[0].line, 5u);
   EXPECT_NE(table.faults[0].expected.find("at most 2 cells, one a column, not of 3"),
             std::string::npos);

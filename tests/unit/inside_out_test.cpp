@@ -1,5 +1,4 @@
-// Cells that are turned inside out are counted and placed; sound ones, however turned or strained,
-// are not.
+// Cells that are inside out are counted and located. Turned or strained cells are not.
 #include <state/inside_out.hpp>
 #include <support/lists.hpp>
 
@@ -14,7 +13,7 @@ using namespace hyperlattice::test;
 struct Watched {
   explicit Watched(const std::string& scene)
       : plan(plan_of(scene, 1)), simulation(*plan->model, 1), watch(std::in_place, *plan->model) {}
-  /// Each particle goes to the place that `to` says.
+  /// Moves each particle to the place that `to` returns.
   template <class To>
   const InsideOut& look(const To& to) {
     std::vector<double> u;
@@ -68,8 +67,8 @@ TEST(InsideOut, OneParticleThatGoesThroughItsNeighboursTurnsItsCells) {
     return body.look([&](Vec3 x) { return norm(x - inner) < 1e-6 ? x + Vec3{by, 0, 0} : x; });
   };
   EXPECT_EQ(pushed(0.9e-3).number, 0u);
-  const InsideOut seen =
-      pushed(1.1e-3);  // beyond the particle before it: the four cells between them
+  // The particle passes its neighbour, so that the four cells between them turn inside out.
+  const InsideOut seen = pushed(1.1e-3);
   EXPECT_EQ(seen.number, 4u);
   EXPECT_EQ(seen.all, 120u);
   EXPECT_NEAR(norm(seen.first_place - Vec3{2e-3, 2e-3, 1e-3}), 0, 1e-9);

@@ -1,4 +1,4 @@
-// A scene's text: comments, duplicate keys, the place of a wrong syntax; and changes from the
+// The text of a scene: comments, duplicate keys, places of syntax errors; and changes from the
 // command line.
 #include <scene/json.hpp>
 #include <scene/settings.hpp>
@@ -29,7 +29,7 @@ Json parse(std::string_view text) {
   return json;
 }
 
-/// A document after settings, or the first fault's message.
+/// A document after the settings, or the message of the first fault.
 std::string set(std::string_view text, const std::vector<std::string>& settings) {
   Json json = parse(text);
   Faults faults;

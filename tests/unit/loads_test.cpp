@@ -1,5 +1,5 @@
-// What each load does to the particles, and how loads meet: resultants, areas, symmetry, conflicts,
-// empty regions.
+// The forces of each load on the particles, and loads that act together: resultants, areas,
+// symmetry, conflicts, empty regions.
 #include <support/models.hpp>
 
 #include <gtest/gtest.h>
@@ -48,8 +48,8 @@ TEST(Loads, BlastIsRadialAndHasTheTrueArea) {
     for (const LoadedParticle& loaded : load.particles) {
       const Vec3 at = built->body.position(loaded.particle);
       EXPECT_LT(norm(cross(at, loaded.force)), 1e-12 * norm(at) * norm(loaded.force));
-      EXPECT_GT(sign * dot(at, loaded.force),
-                0);  // the cavity's pressure pushes outwards, the one around the body inwards
+      // Pressure in the cavity acts outwards; pressure on the outer surface acts inwards.
+      EXPECT_GT(sign * dot(at, loaded.force), 0);
       radial += norm(loaded.force);
     }
     EXPECT_NEAR(radial, 2e6 * area, 1e-9 * 2e6 * area);
@@ -63,7 +63,8 @@ TEST(Loads, BlastWithoutAKnownAreaTakesThatOfTheCells) {
   double radial = 0;
   for (const LoadedParticle& loaded : built->loads[0].particles) radial += norm(loaded.force);
   EXPECT_NEAR(radial, 4 * std::numbers::pi * 64e-6,
-              0.06 * 4 * std::numbers::pi * 64e-6);  // the projected staircase is close
+              // The area of the projected steps is close to that of the sphere.
+              0.06 * 4 * std::numbers::pi * 64e-6);
   EXPECT_GT(std::abs(radial / (4 * std::numbers::pi * 64e-6) - 1), 1e-6);
   const BuiltScene given = sphere_with(
       R"({ "type": "loads.blast", "on": "inner_surface", "area": "3 mm2", "peak": 1, "rise": 1, "fall": 1 })");
@@ -94,7 +95,7 @@ TEST(Loads, PressureOnAFaceHasTheExactResultant) {
       R"({ "type": "loads.pressure", "on": "x_max", "pressure": 7, "rise": 2 }, { "type": "loads.pressure", "on": "surface", "pressure": 7 })");
   EXPECT_EQ(built->loads[0].particles.size(), 20u);
   expect_near(resultant(built->loads[0]), {-7.0 * 4 * 5, 0, 0}, 1e-12);
-  expect_near(resultant(built->loads[1]), {}, 1e-12);  // from all sides
+  expect_near(resultant(built->loads[1]), {}, 1e-12);  // the pressure acts from all sides
   EXPECT_EQ(built->loads[0].factor(1), 0.5);
   EXPECT_EQ(built->loads[0].factor(3), 1);
   EXPECT_EQ(built->loads[1].factor(0), 1);

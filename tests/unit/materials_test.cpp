@@ -1,5 +1,5 @@
-// Materials in a body: by region, of one law, with springs between them; and the elastic material's
-// answers to what it cannot do.
+// Several materials in a body: by region, with one law, and with springs between them. Also
+// messages of the elastic material about values that it cannot reach.
 #include <support/models.hpp>
 
 #include <hyperlattice/calibration.hpp>
@@ -45,7 +45,7 @@ TEST(Materials, MembraneDecidesTheDegreesOfFreedom) {
 TEST(Materials, StiffnessMassAndStepOfLatticeIm) {
   const BuiltScene built =
       build(box_lattice(4, 4, 4) + "," + elastic(R"("membrane": "I-m", "poisson": 0.1)"));
-  const double k = 0.18939393939393939 * 1e9;  // physics of figure 5
+  const double k = 0.18939393939393939 * 1e9;  // values of figure 5
   EXPECT_NEAR(built->spring(0, 0, 0).stiffness, k, 1e-6 * k);
   EXPECT_NEAR(built->spring(0, 0, 0).cross_stiffness, 2.8 * k, 1e-6 * k);
   EXPECT_NEAR(built->spring(0, 0, 1).cross_stiffness, 2.1 * k, 1e-6 * k);
@@ -54,8 +54,9 @@ TEST(Materials, StiffnessMassAndStepOfLatticeIm) {
   EXPECT_EQ(built->degrees_of_freedom, 4);
 }
 
-TEST(Materials, EquationFifteenUsesTheSpringsThatExist) {  // 6 V E / sum l^2 over the 4^3 cube: 3
-                                                           // N^2 (N-1) + 12 N (N-1)^2
+// The sum of l^2 over the cube of N = 4 is 3 N^2 (N-1) + 12 N (N-1)^2; equation (15) is 6 V E over
+// this sum.
+TEST(Materials, EquationFifteenUsesTheSpringsThatExist) {
   const BuiltScene built =
       build(box_lattice(4, 4, 4) + "," + elastic(R"("poisson": 0.25, "stiffness": "eq15")"));
   EXPECT_NEAR(built->spring(0, 0, 0).stiffness, 6 * 64 * 1e9 / (3 * 16 * 3 + 12 * 4 * 9), 1);
@@ -96,16 +97,16 @@ TEST(Materials, SpringsBetweenMaterialsAreInSeries) {
     EXPECT_EQ(ab.alarm, 0.01);
   }
   EXPECT_TRUE(built->choice.breakable);
-  // The bound is safe, and not idle: between the smaller critical step of the two and a tenth
-  // below.
+  // The bound is safe and close: at most the smaller critical step of the two materials, and at
+  // least 0.9 of it.
   const double smaller =
       std::min(built->materials[0].critical_time_step, built->materials[1].critical_time_step);
   EXPECT_LE(built->critical_time_step, smaller * (1 + 1e-12));
   EXPECT_GE(built->critical_time_step, 0.9 * smaller);
 }
 
-/// Largest omega^2 of a body by power iteration on its springs, heights as the fourth component: an
-/// estimate from below.
+/// Largest omega^2 of a body by power iteration over its springs, with the height as the fourth
+/// component. The iteration gives a lower bound.
 double omega_square(const Model& model) {
   const std::size_t n = model.body.particles;
   std::vector<std::array<double, 4>> u(n);
@@ -180,7 +181,7 @@ TEST(Materials, WithoutAMembraneBesideOneThatMovesHeightsAreHeld) {
   EXPECT_EQ(built->spring(0, 1, 0).cross_stiffness, 0);
   EXPECT_NEAR(built->materials[1].constants.alpha_ratio, 6, 1e-12);
   EXPECT_NEAR(built->materials[1].critical_time_step, 2 / std::sqrt(12 * 0.4e9 / 1000),
-              1e-9);  // as without
+              1e-9);  // as without a membrane
 }
 
 TEST(Materials, FaultsOfABodyOfSeveral) {

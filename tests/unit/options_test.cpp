@@ -1,4 +1,4 @@
-// Single options: what each kind accepts, what becomes of it, and how it is described.
+// Single options: accepted values, the resulting value, and the description.
 #include "support/fake_components.hpp"
 
 #include <geometry/primitives.hpp>
@@ -16,7 +16,8 @@ using namespace hyperlattice;
 
 namespace {
 
-/// Reads one value by one option; the SI value as JSON text, or the fault's expectation.
+/// Reads one value by one option. Returns the SI value as JSON text, or the expectation of the
+/// fault.
 std::string read(const Option& option, const std::string& given) {
   Faults faults;
   std::deque<std::string> texts;
@@ -62,7 +63,8 @@ TEST(Options, IntegersStayWithinTheirType) {
   EXPECT_EQ(read(of(0), "-2147483648"), "-2147483648");
   EXPECT_EQ(read(of(0), "2147483648"), "/option: an integer from -2147483648 to 2147483647");
   EXPECT_EQ(read(of(0), "4294967297"),
-            "/option: an integer from -2147483648 to 2147483647");  // which would wrap to 1
+            // A cast to 32 bits would give 1.
+            "/option: an integer from -2147483648 to 2147483647");
   EXPECT_EQ(read(of(1), "4294967295"), "4294967295");
   EXPECT_EQ(read(of(1), "-1"), "/option: an integer from 0 to 4294967295");
   EXPECT_EQ(read(of(2), "0"), "/option: an integer from 1 to 127");
@@ -152,7 +154,8 @@ TEST(Options, EveryFaultOfAnObjectIsFound) {
   Json resolved;
   EXPECT_EQ(reader.fill(option_set<fakes::Spring>(), resolved), nullptr);
   reader.reject_unknown();
-  EXPECT_EQ(faults.size(), 5u);  // young, poisson and density missing, law, poison
+  // Wrong: young, law; missing: poisson, density; unknown: poison.
+  EXPECT_EQ(faults.size(), 5u);
 }
 
 TEST(Options, RangesInWords) {
@@ -176,7 +179,7 @@ TEST(Options, ExamplesAreAcceptedByTheirOwnOptions) {
           << component->type() << ' ' << option.name;
   for (const Primitive& primitive : primitives())
     for (const Option& option : primitive.options.options) {
-      if (option.kind == OptionKind::file) continue;  // there is no file that an example could name
+      if (option.kind == OptionKind::file) continue;  // no example can name an existing file
       EXPECT_NE(read(option, example_value(option).dump())[0], '/') << primitive.name;
     }
 }

@@ -1,5 +1,5 @@
-// Pictures: what stands where, in which colour, in front of what; compared with the geometry of
-// small bodies.
+// Pictures of small bodies against their geometry: the place and colour of each particle, and which
+// particles hide others.
 #include <support/output.hpp>
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ Pixels read_png(const std::string& path) {
   return pixels;
 }
 
-/// Where a colour is seen, outside the legend at the foot and the time at the top.
+/// The area of a colour, without the legend at the foot and the time at the top.
 struct Patch {
   int count = 0, left = 1 << 30, right = -1, top = 1 << 30, bottom = -1;
   int width() const { return right - left + 1; }
@@ -52,7 +52,7 @@ Patch find(const Pixels& pixels, Hue hue) {
   return patch;
 }
 
-/// Every third particle of a block is "some"; the test says what is broken.
+/// Every third particle of a block is in the region "some". The test sets the broken springs.
 struct Scene {
   FakeBody body;
   Folder folder{"picture"};
@@ -80,7 +80,7 @@ TEST(Picture, ShowsACubeAsASquareInTheMiddle) {
   ASSERT_EQ(pixels.height, 300);
   const Patch patch = find(pixels, blue);
   EXPECT_NEAR(patch.width(), patch.height(), 1);
-  EXPECT_GT(patch.width(), 200);  // it fills the frame
+  EXPECT_GT(patch.width(), 200);  // the cube fills the frame
   EXPECT_NEAR(patch.left + patch.right, 399, 2);
   EXPECT_EQ(patch.count, patch.width() * patch.height());
   EXPECT_EQ(find(pixels, red).count + find(pixels, green).count, 0);
@@ -93,17 +93,17 @@ TEST(Picture, ShowsASphereAsADisc) {
   const Pixels pixels =
       scene.draw({{"particles", "spheres"}, {"width", 400}, {"height", 400}}, [](FakeBody&) {});
   const Patch patch = find(pixels, blue);
-  EXPECT_NEAR(patch.width(), patch.height(), 3);  // the shaded rim is too dark to count
+  EXPECT_NEAR(patch.width(), patch.height(), 3);  // the rim of the disc is too dark to count
   const double radius = 0.5 * patch.width();
   EXPECT_NEAR(patch.count, 3.14159265 * radius * radius, 0.02 * patch.count);
 }
 
 TEST(Picture, ColoursByFailure) {
-  Scene scene({3, 1, 1});  // seen from -y: x points right
+  Scene scene({3, 1, 1});  // the view is from -y, so that x points right
   const Pixels pixels =
       scene.draw({{"view", {0, -1, 0}}, {"width", 300}, {"height", 300}}, [](FakeBody& body) {
         body.open = {2, 0, 0};
-        body.closed = {1, 3, 0};  // one open spring outweighs any closed ones
+        body.closed = {1, 3, 0};  // one open failure outweighs any number of closed ones
       });
   const Patch r = find(pixels, red), g = find(pixels, green), b = find(pixels, blue);
   EXPECT_GT(r.count, 0);
@@ -140,8 +140,9 @@ TEST(Picture, ACutShowsTheInside) {
   const nlohmann::json whole{{"width", 200}, {"height", 200}, {"view", {0, -1, 0}}};
   EXPECT_EQ(find(scene.draw(whole, break_the_middle), red).count, 0);
   nlohmann::json cut = whole;
-  cut["cut"] = "some";  // particles 1, 4, 7 ...: a plane across the middle, x = 1.5 mm; the middle
-                        // particle (13) goes with it
+  // The cut removes particles 1, 4, 7 ...: a plane across the middle, x = 1.5 mm, and with it the
+  // middle particle 13.
+  cut["cut"] = "some";
   const Pixels open = scene.draw(cut, [](FakeBody& body) { body.open[12] = body.open[14] = 1; });
   const Patch walls = find(open, red);
   EXPECT_EQ(walls.count, 0);  // the walls of the slit are seen edge on
@@ -171,7 +172,7 @@ TEST(Picture, MagnifiesDisplacements) {
                       [](FakeBody&) {}),
            blue);
   const double spacing = all.width() / 3.0;            // pixels
-  const double displacement = 0.1 * 0.5 + 0.01 * 0.5;  // of the middle particle, spacings
+  const double displacement = 0.1 * 0.5 + 0.01 * 0.5;  // middle particle, spacings
   EXPECT_NEAR(centre_of_red(0), 0.5 * (all.left + all.right), 1);
   EXPECT_NEAR(centre_of_red(5), 0.5 * (all.left + all.right) + 5 * displacement * spacing, 2);
 }
@@ -229,7 +230,7 @@ TEST(Picture, FollowsABodyThatMovesIfAsked) {
     const Pixels pixels = scene.draw(
         {{"view", {0, -1, 0}}, {"fit", fit}, {"width", 300}, {"height", 300}}, [](FakeBody& body) {
           for (std::size_t n = 0; n < body.displacements.size(); n += 3)
-            body.displacements[n] = 1;  // many times its own length
+            body.displacements[n] = 1;  // many times the length of the body
         });
     EXPECT_EQ(find(pixels, blue).count > 500, std::string(fit) == "frame") << fit;
   }

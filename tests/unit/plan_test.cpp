@@ -1,5 +1,5 @@
-// The plan against what is then really built: bytes to the last one, steps, and what the kernel
-// carries for each choice in a scene.
+// The plan against the actual run: bytes of memory exactly, steps, and the kernel for each choice
+// in a scene.
 #include "support/program.hpp"
 
 #include <base/own_files.hpp>
@@ -108,7 +108,7 @@ TEST(Plan, cells_cost_little_and_whole_particles_nothing) {
     EXPECT_DOUBLE_EQ(cells->bytes_per_particle * particles, Simulation(model, threads).bytes());
 
     double sites = 0, vectors = 0;
-    std::set<std::uint32_t> sets{whole_set};  // is there even if no vector is whole
+    std::set<std::uint32_t> sets{whole_set};  // always present, even if no vector is whole
     const auto layout = make_layout(model, threads);
     for (const BlockLayout& block : layout->blocks) {
       sites += static_cast<double>(block.sites);
@@ -116,13 +116,13 @@ TEST(Plan, cells_cost_little_and_whole_particles_nothing) {
       sets.insert(block.weight_sets.begin(), block.weight_sets.end());
     }
     constexpr double
+        // Bytes per site; then bytes for the shares of particles and nine springs in a vector.
         state = 2 * 4 * 8 + 2,
-        set =
-            10 * 8 * 8;  // bytes of a site; of the shares of particles and nine springs in a vector
+        set = 10 * 8 * 8;
     EXPECT_DOUBLE_EQ(cells->bytes_per_particle * particles,
                      state * sites + 4 * vectors + set * static_cast<double>(sets.size()));
-    EXPECT_LT(static_cast<double>(sets.size()),
-              vectors);  // vectors share them, even in a ball that is nearly all surface
+    // Vectors share their sets, even in a ball with many surface particles.
+    EXPECT_LT(static_cast<double>(sets.size()), vectors);
   }
 }
 
@@ -152,8 +152,9 @@ TEST(Plan, counts_the_files_of_an_earlier_run_as_free_disk_and_no_others) {
   const auto plan = plan_of(small_sphere());
   const test::Folder folder("shortage");
   std::ofstream(folder.file("history.csv")).close();
-  std::filesystem::resize_file(folder.file("history.csv"), 1'000'000'000'000);  // takes no disk
-  plan->output_bytes = 1.5 * (disk_room(folder.path()).bytes + 5e11);  // a third of it may not come
+  std::filesystem::resize_file(folder.file("history.csv"), 1'000'000'000'000);  // sparse file
+  // The run would write more than the disk has room for, unless the old file counts as free.
+  plan->output_bytes = 1.5 * (disk_room(folder.path()).bytes + 5e11);
   const auto found = shortages(*plan, folder.path());
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NE(found[0].find("too little disk"), std::string::npos) << found[0];
@@ -162,8 +163,8 @@ TEST(Plan, counts_the_files_of_an_earlier_run_as_free_disk_and_no_others) {
   EXPECT_TRUE(shortages(*plan, folder.path()).empty());
 }
 
-/// A body of a few thousand particles whose particles all move, shown at its start and end, and at
-/// rest between them if it finds that.
+/// A body of a few thousand particles, all in motion. Its writers show the start, the end, and the
+/// state of rest if the first stage finds one.
 nlohmann::json moved_box(const nlohmann::json& lattice, bool first_to_rest) {
   nlohmann::json scene;
   scene["format"] = "hyperlattice/1";
@@ -184,7 +185,7 @@ nlohmann::json box(const char* lattice, const char* width, const char* height) {
           {"shape", {{"box", {{"low", {0, 0, 0}}, {"high", {width, width, height}}}}}}};
 }
 
-/// Runs the scene with one writer more, and compares what it leaves with what its plan said.
+/// Adds a writer to the scene, runs the scene, and compares the files with the plan.
 void compare_output(nlohmann::json scene, const char* writer, const char* every,
                     std::size_t frames) {
   scene["pipeline"].push_back({{"type", writer}, {"every", every}});
@@ -214,8 +215,9 @@ void compare_output(nlohmann::json scene, const char* writer, const char* every,
 }
 
 TEST(Plan, says_about_how_many_bytes_a_run_writes) {
+  // `large` has more particles than the trial frame of the plan, `list` has fewer.
   const auto large = box("lattices.cubic", "20 mm", "25 mm"),
-             list = box("lattices.random", "8 mm", "12 mm");  // more than a trial shows, and fewer
+             list = box("lattices.random", "8 mm", "12 mm");
   for (const char* writer : {"writers.csv", "writers.vtu"}) {
     SCOPED_TRACE(writer);
     compare_output(small_sphere(), writer, "0.5 us", 21);
@@ -236,7 +238,7 @@ TEST(Plan, says_how_many_bytes_a_frame_of_a_region_has) {
               0.04, 0.004);
 }
 
-// On a machine as it is at the time, so that no figure can be expected.
+// The speed depends on the machine and its load, so that the test cannot expect a value.
 TEST(Plan, measures_its_run_time) {
   const auto plan = plan_of(small_sphere());
   plan->expected_seconds = -1;
@@ -287,7 +289,8 @@ TEST(Plan, steps_are_safe_and_land_on_the_end) {
   EXPECT_EQ(plan->end_time(), 10e-6);
 }
 
-// A displacement u is known to floats as u / 2^24: of spacing l, strains to u / (2^24 l).
+// A float resolves a displacement u to u / 2^24. At spacing l it therefore resolves strains to u /
+// (2^24 l).
 TEST(Plan, refuses_floats_where_they_would_not_know_the_strain) {
   const auto faults = [](double way_in_spacings, double limit_strain) {
     auto scene = small_sphere();
@@ -315,7 +318,8 @@ TEST(Plan, refuses_floats_where_they_would_not_know_the_strain) {
   EXPECT_EQ(faults(4, 99 * 4 * known).size(), 1u);
 }
 
-TEST(Plan, floats_bear_a_small_body_that_spins) {  // it goes round in circles, no wider than it is
+// Each particle moves on a circle no wider than the body.
+TEST(Plan, floats_bear_a_small_body_that_spins) {
   const auto accepted = [](double turns, double drift_in_spacings) {
     auto scene = small_sphere();
     const double spacing = plan_of(scene)->model->body.grid.spacing, end = 10e-6;

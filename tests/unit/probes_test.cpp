@@ -1,5 +1,5 @@
-// Probes: which particles they take, what the columns say, and that the numbers are those of the
-// known motion.
+// Probes: the particles that they choose, the names of their columns, and their values in a known
+// motion.
 #include <support/output.hpp>
 
 #include <gtest/gtest.h>
@@ -69,7 +69,8 @@ TEST(PointProbe, RefusesWhatItCannotGive) {
 
 TEST(LineProbe, GivesEachParticleOnceAndNoneInTheOpen) {
   FakeBody body({6, 2, 2});
-  // From inside to 4 mm beyond the end; many more points than particles.
+  // The line starts inside and ends 4 mm beyond the body. It has many more points than the body has
+  // particles.
   Plugin probe("probes.line", {{"start", {0.5e-3, 0.6e-3, 0.6e-3}},
                                {"end", {10.5e-3, 0.6e-3, 0.6e-3}},
                                {"points", 101},
@@ -85,7 +86,8 @@ TEST(LineProbe, GivesEachParticleOnceAndNoneInTheOpen) {
     EXPECT_DOUBLE_EQ(row[n], t * ((static_cast<double>(n) + 0.5) * l - l) + t * t * 0.5 * l);
 }
 
-/// Offsets all particles of a body, each by its own vector of up to a quarter of the spacing.
+/// Moves each particle by its own random vector, at most a quarter of the spacing in each
+/// direction.
 void shake(FakeBody& body, double spacing) {
   std::uint32_t random = 7;
   for (double& x : body.positions()) {
@@ -94,8 +96,8 @@ void shake(FakeBody& body, double spacing) {
   }
 }
 
-// The body's motion is affine: whatever the line, inside or up to a spacing beyond the surface, on
-// a lattice or not, the values are exact.
+// The motion of the body is affine. Interpolated values are then exact inside and up to a spacing
+// outside, on a lattice or not.
 TEST(LineProbe, InterpolatesAffineFieldsExactly) {
   constexpr double l = 1e-3, t = 0.25;
   for (const bool shaken : {false, true})
@@ -117,7 +119,7 @@ TEST(LineProbe, InterpolatesAffineFieldsExactly) {
     }
 }
 
-// A single row has no slope across itself: beside it the value is the row's.
+// A single row has no slope across itself. Beside the row, the probe gives the value on the row.
 TEST(LineProbe, BesideARowItIsTheRowsOwn) {
   constexpr double l = 1e-3, t = 0.5;
   FakeBody body({8, 1, 1}, l);
@@ -131,7 +133,7 @@ TEST(LineProbe, BesideARowItIsTheRowsOwn) {
     EXPECT_NEAR(row[n], t * (0.5 * static_cast<double>(n)) * l + t * t * 0.5 * l, 1e-12 * l);
 }
 
-// Curved fields: of second order in the spacing, and at a particle its own value.
+// In curved fields the error of interpolation is of second order in the spacing.
 TEST(LineProbe, InterpolatesCurvedFieldsToSecondOrder) {
   const auto error = [](int across) {
     const double l = 6e-3 / across;
@@ -177,13 +179,14 @@ TEST(RegionProbe, GivesMeanAndExtremes) {
   Plugin probe("probes.region", {{"region", "some"}, {"field", "broken_open"}});
   EXPECT_EQ(probe.begin_probe(body.context("."), body.at(0)),
             (std::vector<std::string>{"broken_open_mean", "broken_open_min", "broken_open_max"}));
-  // particles 1, 4, 7, 10, 13, 16, 19, 22; only 10 is broken: 1 + 10 % 3 = 2 springs
+  // The region holds particles 1, 4, 7, 10, 13, 16, 19, 22. Only particle 10 has broken springs: 1
+  // + 10 % 3 = 2.
   EXPECT_EQ(probe.sample(body.at(1), 3), (std::vector<double>{0.25, 0, 2}));
 }
 
 TEST(RegionProbe, KnowsUniformExpansion) {
-  // u = t (x - c) + t^2 (y, z, x) is radial about c to first order in t; by its corners the block
-  // is symmetric.
+  // u = t (x - c) + t^2 (y, z, x) is radial about c to first order in t, and the block is symmetric
+  // about c.
   FakeBody body({2, 2, 2});
   Plugin probe("probes.region", {{"component", "radial"}, {"centre", {1e-3, 1e-3, 1e-3}}});
   EXPECT_EQ(probe.begin_probe(body.context("."), body.at(0)),

@@ -1,4 +1,4 @@
-// What a process may have: threads, processors, memory; and what it does where it may not have it.
+// Limits of a process: threads, processors and memory; and the fallback where a limit is reached.
 #include "support/output.hpp"
 
 #include <base/errors.hpp>
@@ -46,14 +46,14 @@ TEST_F(FakeRoot, AGroupOfVersion2LimitsMemoryLessWhatTheKernelCanTakeBack) {
   EXPECT_NE(room.bound.find("jobs/one is 600 MB, 100 MB of it in use"), std::string::npos)
       << room.bound;
 
-  write("sys/fs/cgroup/jobs/memory.max", "1000000000\n");  // the group above has less left
+  write("sys/fs/cgroup/jobs/memory.max", "1000000000\n");  // the parent group has less memory left
   EXPECT_EQ(memory_room(root()).bytes, 100e6);
 }
 
 TEST_F(FakeRoot, AGroupOfVersion1LimitsMemoryAlsoFromWithinAContainer) {
   write("proc/self/cgroup", "5:cpu,cpuacct:/docker/1\n4:memory:/docker/1\n0::/\n");
   write("sys/fs/cgroup/memory/memory.limit_in_bytes",
-        "300000000\n");  // the group's files are at the mount
+        "300000000\n");  // in a container, the group's files are at the mount point
   write("sys/fs/cgroup/memory/memory.usage_in_bytes", "120000000\n");
   write("sys/fs/cgroup/memory/memory.stat",
         "cache 5\ntotal_inactive_file 20000000\ntotal_active_file 0\n");
@@ -117,8 +117,9 @@ TEST(Team, WaitsForNoThreadThatHasBegunNothing) {
   std::atomic<bool> all = false;
   std::atomic<int> count = 0;
   team.for_each(4, [&](std::size_t n) {
-    if (n == 2)  // the second thread's range begins here: one thread is held until the other has
-                 // done the rest
+    // Here the range of the second thread begins. One thread waits until the other has done the
+    // rest.
+    if (n == 2)
       for (int look = 0; !all && look < 10'000; ++look)
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     if (++count == 3) all = true;

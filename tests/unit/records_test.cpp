@@ -1,4 +1,4 @@
-// A file of records is taken as it was written or not at all.
+// A file of records is read exactly as written, or refused.
 #include <run/records.hpp>
 #include <state/archive.hpp>
 
@@ -50,7 +50,7 @@ class Records : public testing::Test {
               path = folder + "/records";
 };
 
-/// Where each record begins, and the end.
+/// The offset of each record, then the end.
 std::vector<std::size_t> starts_of(const std::string& bytes) {
   std::vector<std::size_t> starts;
   for (std::size_t place = 16; place < bytes.size();) {
@@ -81,7 +81,7 @@ TEST_F(Records, ReadBackAsTheyWereWritten) {
 TEST_F(Records, AnyChangeIsFound) {
   const std::string bytes = written(5), other = written(5);
   const auto starts = starts_of(bytes);
-  ASSERT_EQ(starts.size(), 6u);  // the head, three megabytes, the end
+  ASSERT_EQ(starts.size(), 6u);  // head, three megabytes, end record, end of file
   ASSERT_EQ(starts_of(other), starts);
   std::mt19937 random(1);
   const auto below = [&](std::size_t n) { return random() % n; };

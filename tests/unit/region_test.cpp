@@ -1,4 +1,4 @@
-// Solids and their sets: what they contain, their boxes, anchors and areas.
+// Solids and sets of solids: the points inside, boxes, anchors and areas.
 #include <geometry/primitives.hpp>
 #include <geometry/region.hpp>
 
@@ -13,7 +13,8 @@ namespace {
 
 using Values = std::initializer_list<std::pair<std::string_view, std::vector<double>>>;
 
-/// Hands a primitive and its options, filled with one list of SI numbers each, to `use`.
+/// Fills the options of a primitive from one list of SI numbers for each option, and calls `use`
+/// with them.
 template <class Use>
 auto with_options(std::string_view name, Values values, Use use) {
   for (const Primitive& primitive : primitives()) {
@@ -42,7 +43,7 @@ std::shared_ptr<const Region> make(std::string_view name, Values values) {
       });
 }
 
-/// The options that the cross-check finds fault with.
+/// The options that the cross-field check refuses.
 std::vector<std::string> faults_of(std::string_view name, Values values) {
   return with_options(name, values, [](const Primitive& primitive, const void* options) {
     std::vector<std::string> found;
@@ -61,7 +62,7 @@ std::shared_ptr<const Region> box(Vec3 low, Vec3 high) {
   return make("box", {{"low", {low.x, low.y, low.z}}, {"high", {high.x, high.y, high.z}}});
 }
 
-/// Share of a box that a solid fills, by points of a regular grid.
+/// Volume of a solid in a box, estimated with the points of a regular grid.
 double volume(const Region& region, Vec3 low, Vec3 high, int n) {
   const Vec3 cell = (1.0 / n) * (high - low);
   std::uint64_t count = 0;
@@ -131,7 +132,7 @@ TEST(Region, NothingOfASolidLiesOutsideItsBox) {
 TEST(Region, CylindersBoxTouchesItsRims) {
   const auto cylinder =
       make("cylinder", {{"start", {0, 0, 0}}, {"end", {3, 4, 0}}, {"radius", {0.5}}});
-  EXPECT_NEAR(cylinder->low.x, -0.5 * 0.8, 1e-12);  // rims stand across the axis (0.6, 0.8, 0)
+  EXPECT_NEAR(cylinder->low.x, -0.5 * 0.8, 1e-12);  // the rims are normal to the axis (0.6, 0.8, 0)
   EXPECT_NEAR(cylinder->high.y, 4 + 0.5 * 0.6, 1e-12);
   EXPECT_NEAR(cylinder->high.z, 0.5, 1e-12);
 }
@@ -228,7 +229,7 @@ TEST(Regions, KeepNamesIndicesAndShapes) {
   EXPECT_EQ(regions.find("ball")->index, id.index);
   EXPECT_FALSE(regions.find("bal"));
   const Shape* shape = regions.shape(ball);
-  for (int n = 0; n < 100; ++n) regions.shape(ball);  // earlier shapes stay where they are
+  for (int n = 0; n < 100; ++n) regions.shape(ball);  // earlier shapes keep their address
   EXPECT_TRUE(shape->contains({0, 0, 1}));
   EXPECT_FALSE(shape->contains({0, 0, 1.001}));
   EXPECT_EQ(shape->low, (Vec3{-1, -1, -1}));

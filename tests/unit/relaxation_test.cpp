@@ -1,5 +1,5 @@
-// The relaxation solver keeps to the stable step, ends at the loads' last corner, stops when the
-// residual is small, and says so when it never is.
+// The relaxation solver never exceeds the stable step, continues at least to the last corner of the
+// loads, stops at a small residual, and fails if the residual stays large.
 #include "../../plugins/solvers/relaxation/relaxation.cpp"
 
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@ using namespace hyperlattice;
 
 namespace {
 
-/// A host whose residual falls by a tenth with each measurement, and whose kinetic energy has a
-/// peak every twelfth step.
+/// A host whose residual falls to a tenth at each measurement, and whose kinetic energy has a peak
+/// every twelfth step.
 struct Host {
   std::uint64_t steps = 0, halts = 0, measurements = 0;
   std::vector<double> rates;
@@ -56,7 +56,7 @@ TEST(Relaxation, StopsWhenTheResidualIsSmall) {
   EXPECT_EQ(host.measurements, 4u);
   EXPECT_EQ(host.last.iterations, host.steps);
   EXPECT_LE(host.last.residual, o.tolerance);
-  EXPECT_EQ(host.halts, 1u);  // at the end
+  EXPECT_EQ(host.halts, 1u);  // once, at the end
 }
 
 TEST(Relaxation, StopsWhenTheErrorOfDisplacementsIsSmall) {
@@ -65,7 +65,7 @@ TEST(Relaxation, StopsWhenTheErrorOfDisplacementsIsSmall) {
   o.tolerance = 1;
   o.displacement_error = 2e-3;
   Relaxation(o).run({0, 1, {}, 10}, host.host);
-  EXPECT_EQ(host.measurements, 6u);  // errors of 1, 0.1, 0.01 and 0.001 from the third on
+  EXPECT_EQ(host.measurements, 6u);  // from the third on, the errors are 1, 0.1, 0.01 and 0.001
 
   host = Host();
   host.host.self = &host;

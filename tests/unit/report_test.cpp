@@ -1,5 +1,5 @@
-// What a report is made of: ticks, thinned curves, texts of numbers, tables cut off, pictures'
-// texts, differences of scenes.
+// The parts of a report: ticks, thinned curves, number formats, shortened tables, alternative texts
+// of pictures, differences of scenes.
 #include <base/errors.hpp>
 #include <base/figures.hpp>
 #include <base/gnuplot.hpp>

@@ -1,4 +1,4 @@
-// Whole scenes: defaults, labels, the resolved scene, order rules; with components that only
+// Whole scenes: defaults, labels, the resolved scene, and rules of order. The components only
 // declare options.
 #include "support/fake_components.hpp"
 #include "support/output.hpp"
@@ -34,7 +34,7 @@ const char* const good = R"({
     { "type": "probes.spot", "point": [0, 0, "5 mm"] } ] })";
 
 std::unique_ptr<Scene> read(std::string_view text, const std::vector<std::string>& settings = {}) {
-  static fakes::Catalogue catalogue;  // the scene points to its components
+  static fakes::Catalogue catalogue;  // the scene keeps pointers to its components
   return read_scene_text(text, "/scenes/scene.json", settings, catalogue);
 }
 
@@ -208,7 +208,8 @@ TEST(Scene, ARefusedLibraryIsTheOutsidesFailure) {
   } catch (const OutsideError& error) {
     EXPECT_STREQ(error.what(), "/pipeline/2/type: wrong interface version");
   }
-  // with wrong input as well, the input comes first, and nothing is kept back
+  // If the input is wrong as well, the error lists the faults of the input first, and the refused
+  // plugin too.
   EXPECT_THROW(
       {
         try {
@@ -246,7 +247,7 @@ TEST(Scene, PathsAreInUtf8) {
     }
     return std::string();
   };
-  EXPECT_EQ(fault_of("/title=plain"), "");  // where the scene itself stands does not matter
+  EXPECT_EQ(fault_of("/title=plain"), "");  // the path of the scene need not be in UTF-8
   for (const char* const setting :
        {"/plugins=[\".\"]", "/regions/tip={\"stl\": {\"file\": \"body.stl\"}}"})
     EXPECT_NE(fault_of(setting).find("a path in UTF-8, and not " + folder), std::string::npos)
@@ -256,5 +257,5 @@ TEST(Scene, PathsAreInUtf8) {
 TEST(Scene, AMissingFileIsTheInputsFault) {
   Host host;
   EXPECT_THROW(read_scene("/no/such/scene.json", {}, host), InputError);
-  EXPECT_THROW(read_scene(HYPERLATTICE_SOURCE, {}, host), InputError);  // a folder
+  EXPECT_THROW(read_scene(HYPERLATTICE_SOURCE, {}, host), InputError);  // a folder is no scene
 }

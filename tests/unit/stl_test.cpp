@@ -1,5 +1,5 @@
-// STL solids: what is read, what is refused and how, and which points are inside, against closed
-// forms and at edges and corners that a ray may meet.
+// STL solids: files that are read or refused, messages, and the points inside, against closed
+// forms, also where a ray meets edges and corners.
 #include <geometry/triangle_mesh.hpp>
 #include <support/output.hpp>
 #include <support/scenes.hpp>
@@ -14,7 +14,7 @@ namespace {
 using namespace hyperlattice;
 using Facets = std::vector<std::array<Vec3, 3>>;
 
-std::string text_stl(const Facets& facets) {  // at y + 10, with a sign
+std::string text_stl(const Facets& facets) {  // shifted to y + 10, numbers with a sign
   std::string text = "solid a name\n";
   for (const auto& facet : facets) {
     text += "  facet normal 0 0 0\n    outer loop\n";
@@ -49,7 +49,8 @@ void append_quad(Facets& facets, Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   facets.push_back({a, c, d});
 }
 
-/// A prism over a polygon of the plane z = 0, anticlockwise, whose triangles are given.
+/// A prism over an anticlockwise polygon in the plane z = 0. The triangulation of the polygon is
+/// given.
 Facets prism(const std::vector<Vec3>& polygon, const std::vector<std::array<int, 3>>& triangles,
              double height) {
   const Vec3 up{0, 0, height};
@@ -75,8 +76,8 @@ bool in_l_bracket(Vec3 p) {
   return p.x > 0 && p.y > 0 && p.z > 0 && p.z < 1 && p.x < 2 && p.y < 2 && (p.x < 1 || p.y < 1);
 }
 
-/// Rotates a closed profile (radius, height) about z: with its points on the axis closed as a ball,
-/// otherwise as a ring.
+/// Rotates a profile of points (radius, height) about z. Profiles that end on the axis give a ball,
+/// closed profiles a ring.
 Facets turned(const std::function<Vec3(int, int)>& point, int across, int around) {
   Facets facets;
   for (int i = 0; i < across; ++i)
@@ -100,7 +101,7 @@ Facets ball(double radius, int n) {
   return turned(
       [=](int i, int j) {
         if (i == 0 || i == n)
-          return Vec3{0, 0, i == 0 ? -radius : radius};  // exactly, so that the facets meet
+          return Vec3{0, 0, i == 0 ? -radius : radius};  // exact, so that the facets meet
         const double a = std::numbers::pi * (static_cast<double>(i) / n - 0.5),
                      b = std::numbers::pi * j / n;
         return Vec3{radius * std::cos(a) * std::cos(b), radius * std::cos(a) * std::sin(b),
@@ -138,7 +139,7 @@ TEST(Stl, TextAndBinarySayTheSame) {
   for (std::size_t n = 0; n < 12; ++n)
     EXPECT_NEAR(norm(1e-3 * (binary.points[n] + Vec3{0, 10, 0}) - text.points[n]), 0, 1e-15);
   std::string named = binary_stl(l_bracket());
-  named.replace(0, 5, "solid");  // as some programs begin their binary files
+  named.replace(0, 5, "solid");  // some programs begin binary files with this word
   EXPECT_EQ(read_stl(named, 1).facets, binary.facets);
 }
 
@@ -203,7 +204,7 @@ TEST(Stl, SectionsAreSolidsOrPatches) {
   EXPECT_EQ(solid_fault(read_stl(text_stl(first) + text_stl(second), 1)), "");
 
   for (auto& facet : far)
-    for (Vec3& p : facet) p.x -= 3;  // it touches the other's face
+    for (Vec3& p : facet) p.x -= 3;  // the two faces now touch
   const TriangleMesh touching = read_stl(text_stl(l_bracket()) + text_stl(far), 1);
   EXPECT_NE(solid_fault(touching), "");
   EXPECT_TRUE(sections_are_solids(touching));
@@ -276,7 +277,7 @@ TEST(Stl, PartsThatFaceTheWrongWayAreTold) {
             "the closed surface that facet 1602 belongs to lies within another and faces outwards: "
             "around a cavity facets point into it");
   EXPECT_EQ(fault(joined(joined(ball(5, 20), inverted(ball(3, 20))), ball(1, 20))),
-            "");  // a ball within the cavity
+            "");  // the inner ball lies within the cavity
   Facets far = inverted(ball(1, 20));
   for (auto& facet : far)
     for (Vec3& p : facet) p.x += 10;
@@ -285,13 +286,13 @@ TEST(Stl, PartsThatFaceTheWrongWayAreTold) {
   Facets near = ball(2, 20);
   for (auto& facet : near)
     for (Vec3& p : facet) p.x += 4.5;
-  EXPECT_EQ(fault(joined(ball(5, 20), near)), "");  // they overlap: a union
+  EXPECT_EQ(fault(joined(ball(5, 20), near)), "");  // the balls overlap and form a union
 }
 
 TEST(Stl, KnowsInsideAtEdgesAndCornersToo) {
   const InsideTest inside(mesh_of(l_bracket()));
-  // Points whose rays run along faces, edges and through corners: halves and wholes of the
-  // bracket's own coordinates.
+  // The coordinates are quarters of the bracket's, so that some rays run along faces and edges, and
+  // through corners.
   for (int i = -2; i <= 10; ++i)
     for (int j = -2; j <= 10; ++j)
       for (int k = -2; k <= 6; ++k) {
@@ -300,11 +301,11 @@ TEST(Stl, KnowsInsideAtEdgesAndCornersToo) {
         if (near_surface(p.x) || near_surface(p.y) || near_surface(p.z)) continue;
         EXPECT_EQ(inside(p), in_l_bracket(p)) << p.x << ' ' << p.y << ' ' << p.z;
       }
-  // Level with corners and edges, but away from the surface along x.
+  // Rays from these points meet corners and edges, but the points are far from the surface.
   for (const double y : {0.0, 1.0, 2.0})
     for (const double z : {0.0, 1.0})
       for (const double x : {-0.5, 2.5}) EXPECT_FALSE(inside({x, y, z}));
-  EXPECT_TRUE(inside({0.5, 1, 0.5}));  // level with the edge in the corner of the L
+  EXPECT_TRUE(inside({0.5, 1, 0.5}));  // a ray along x meets the inner edge of the L
   EXPECT_FALSE(inside({1.5, 1.5, 0.5}));
 }
 
@@ -314,9 +315,8 @@ TEST(Stl, AgreesWithBallAndTorus) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> place(-5.5, 5.5);
   for (int n = 0; n < 20000; ++n) {
-    const Vec3 p{
-        place(random), place(random),
-        n % 4 == 0 ? 0 : place(random)};  // a quarter in the plane of the equators' corners
+    // A quarter of the points lie in the plane z = 0 of the equators' corners.
+    const Vec3 p{place(random), place(random), n % 4 == 0 ? 0 : place(random)};
     const double r = norm(p), tube = std::hypot(std::hypot(p.x, p.y) - 3, p.z);
     if (std::abs(r - 5) > 0.02 && std::abs(r - 2) > 0.02) {
       EXPECT_EQ(in_ball(p), r > 2 && r < 5) << r;
@@ -330,7 +330,7 @@ TEST(Stl, AgreesWithBallAndTorus) {
   EXPECT_TRUE(in_ball({3, 0, 0}));
 }
 
-/// A lattice filled from an STL of a box is the lattice of the box.
+/// A lattice that fills an STL file of a box equals the lattice of the box.
 TEST(Stl, FillsALattice) {
   const test::Folder folder("stl");
   const Facets box =

@@ -1,5 +1,5 @@
-// The numbers of a study by hand: interpolation, norms, orders, the Pareto front, extrapolation,
-// and what is taken out of tables.
+// Numbers of a study by hand: interpolation, norms, orders, the Pareto front, extrapolation, and
+// columns of tables.
 #include <study/evaluate.hpp>
 #include <study/expected.hpp>
 #include <study/observe.hpp>
@@ -21,7 +21,8 @@ TEST(StudyCurve, RunsStraightBetweenItsPointsAndNowhereElse) {
   EXPECT_DOUBLE_EQ(value_at(curve, 1.25), 12.5);
   EXPECT_DOUBLE_EQ(value_at(curve, 3), 10);
   EXPECT_DOUBLE_EQ(value_at(curve, 4), 0);
-  EXPECT_DOUBLE_EQ(value_at(curve, 4 * (1 + 1e-15)), 0);  // an end is met up to rounding
+  // The end of a curve is met up to rounding.
+  EXPECT_DOUBLE_EQ(value_at(curve, 4 * (1 + 1e-15)), 0);
   EXPECT_TRUE(std::isnan(value_at(curve, 0.99)));
   EXPECT_TRUE(std::isnan(value_at(curve, 4.01)));
   EXPECT_TRUE(std::isnan(value_at({}, 0)));
@@ -40,7 +41,7 @@ TEST(StudyCurve, IsReducedToOneNumber) {
   EXPECT_EQ(reduced(curve, Reduction::largest).values, Numbers{6});
   EXPECT_EQ(reduced(curve, Reduction::least).values, Numbers{-2});
   EXPECT_DOUBLE_EQ(reduced(curve, Reduction::mean).values[0],
-                   (4.0 + 6.0) / 4);  // of the range: trapezoids of 4 and 6
+                   (4.0 + 6.0) / 4);  // trapezoids of 4 and 6, over a length of 4
 }
 
 double error_of(const Curve& observed, const Curve& truth, Norm norm) {
@@ -48,14 +49,15 @@ double error_of(const Curve& observed, const Curve& truth, Norm norm) {
 }
 
 TEST(StudyNorm, CountsWhatItSays) {
-  const Curve truth{{0, 1, 2}, {3, 4, 5}}, observed{{0, 2}, {3, 6}};  // 3, 4.5, 6
+  const Curve truth{{0, 1, 2}, {3, 4, 5}}, observed{{0, 2}, {3, 6}};  // interpolated: 3, 4.5, 6
   EXPECT_DOUBLE_EQ(error_of(observed, truth, Norm::relative_l2), std::sqrt(1.25 / 50));
   EXPECT_DOUBLE_EQ(error_of(observed, truth, Norm::relative_max), 1.0 / 5);
   EXPECT_DOUBLE_EQ(error_of(observed, truth, Norm::relative_end), 1.0 / 5);
-  const Curve shorter{{0, 1}, {3, 4.5}};  // the truth's points that it reaches
+  const Curve shorter{{0, 1}, {3, 4.5}};  // only the points of the truth in this range count
   EXPECT_DOUBLE_EQ(error_of(shorter, truth, Norm::relative_l2), std::sqrt(0.25 / 25));
   EXPECT_DOUBLE_EQ(error_of(shorter, truth, Norm::relative_end), 0.5 / 4);
-  const Distance part = distance(observed, truth, Norm::together_l2);  // can be added to others
+  // Distances in this norm can be added up over several curves.
+  const Distance part = distance(observed, truth, Norm::together_l2);
   EXPECT_DOUBLE_EQ(part.difference, 1.25);
   EXPECT_DOUBLE_EQ(part.size, 50);
 }
@@ -91,7 +93,7 @@ TEST(StudyOrder, IsTheSlopeOfTheLogarithms) {
   const auto mixed = observed_order(
       {{4, 1},
        {2, 0.5},
-       {1, 0.125}});  // 1, then 2: the slope of three evenly spaced points is the mean
+       {1, 0.125}});  // slopes 1 and 2; a fit of three equally spaced points gives their mean
   EXPECT_NEAR(mixed->pairs[0], 1, 1e-12);
   EXPECT_NEAR(mixed->pairs[1], 2, 1e-12);
   EXPECT_NEAR(mixed->order, 1.5, 1e-12);
@@ -131,7 +133,7 @@ TEST(StudyFront, HoldsWhatNoOtherBeats) {
   EXPECT_FALSE(most_accurate({}));
 }
 
-/// 1 + x + c h^p over x, at the lattice's own places.
+/// 1 + x + c h^p at the points x of a lattice of spacing h.
 SizedCurve converging(double h, double p) {
   SizedCurve curve{h, {}};
   for (double x = 0; x <= 1; x += h) {
@@ -212,7 +214,7 @@ TEST(StudyCases, AreAnsweredForTheHardest) {
       << sentence;
   study.target_error = 0.05;
   EXPECT_EQ(find(study, rows).cheapest, 3u);
-  rows.pop_back();  // a setting that was not asked the hardest is no answer
+  rows.pop_back();  // the hardest case was not run at this setting
   EXPECT_FALSE(find(study, rows).cheapest);
 }
 
@@ -303,8 +305,8 @@ TEST(StudyTruth, RowsWithoutNumbersAreRefusedWithTheirLines) {
   EXPECT_EQ(refusal("t,u,v\n0,1,none\n"), "");
 }
 
-TEST(StudyTruth, ALoadCanStandForTheTime) {  // a curve over the load, in a run whose time is the
-                                             // share of the full load
+// The truth is a curve over the load. In the run, the time is the fraction of the full load.
+TEST(StudyTruth, ALoadCanStandForTheTime) {
   Truth truth = table_truth(
       "load_N,method,uy\n40,linear,-1\n80,linear,-2\n40,nonlinear,-0.9\n80,nonlinear,-1.5\n");
   Comparison comparison;

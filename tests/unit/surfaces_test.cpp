@@ -1,4 +1,4 @@
-// Which particles and faces the surfaces, faces and sets of regions mean.
+// The particles and faces that belong to named surfaces, single faces and sets of regions.
 #include <model/surfaces.hpp>
 
 #include <support/body.hpp>
@@ -33,7 +33,7 @@ TEST(Surfaces, PapersCavityHas4344Particles) {
   EXPECT_EQ(count(body, surfaces, *named("all")), body.particles);
 }
 
-// A closed surface has as much area one way as the other.
+// The area vectors of a closed surface have the sum zero.
 TEST(Surfaces, OpenAreasCloseTheSurface) {
   for (const Boundary boundary : {Boundary::particles, Boundary::cells}) {
     const Body body = cubic_body(ball(4, 9), 1, boundary);

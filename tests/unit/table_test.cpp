@@ -1,5 +1,5 @@
-// Tables grow by whole lines with every digit, and outputs come due at the steps nearest to their
-// instants.
+// Tables grow by whole lines, and numbers keep all digits. Outputs are due at the steps nearest to
+// their times.
 #include <base/errors.hpp>
 #include <process/file_limit.hpp>
 #include <run/history.hpp>
@@ -33,8 +33,8 @@ std::string text_of(const std::filesystem::path& file) {
 }
 
 TEST(Table, numbers_keep_every_digit_in_any_locale) {
-  std::setlocale(LC_ALL,
-                 "de_DE.UTF-8");  // where a comma would stand for the point, if the machine has it
+  // In this locale, if the machine has it, the decimal point is a comma.
+  std::setlocale(LC_ALL, "de_DE.UTF-8");
   const auto file = fresh_folder("digits") / "t.csv";
   const double values[] = {0.1, 1.0 / 3, -1e-300, std::numeric_limits<double>::max()};
   Table table(file, {"a", "b", "c", "d"});

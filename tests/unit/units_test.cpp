@@ -1,5 +1,4 @@
-// Quantities with units: values against the definitions of the units, and refusals with their
-// reason.
+// Quantities with units: values against the definitions of the units, and refusals with a reason.
 #include <scene/units.hpp>
 
 #include <gtest/gtest.h>
@@ -53,8 +52,8 @@ TEST(Units, OtherUnitsByTheirDefinitions) {
   EXPECT_EQ(si("20 %", ""), 0.2);
 }
 
-TEST(Units,
-     PowersOfTenAreExact) {  // the text's value is the double nearest to it, as if written in SI
+// The value is the double nearest to the text, as if the text were in SI.
+TEST(Units, PowersOfTenAreExact) {
   EXPECT_TRUE(rc::check([] {
     const auto mantissa = *rc::gen::inRange<std::int64_t>(-1'000'000'000'000, 1'000'000'000'000);
     const int exponent = *rc::gen::inRange(-40, 40);
@@ -180,7 +179,7 @@ TEST(Units, DimensionsHaveNames) {
   for (const char* unit : {"m",     "s", "kg", "K", "rad", "m2",  "m3",   "1/s",  "m/s",  "m/s2",
                            "kg/m3", "N", "Pa", "J", "W",   "N/m", "J/m2", "Pa s", "kg/s", "rad/s"})
     EXPECT_EQ(problem(dimension_of(unit).example, unit), "")
-        << unit;  // the examples are right themselves
+        << unit;  // each example is a valid value
 }
 
 TEST(Units, TheLocaleDoesNotMatter) {

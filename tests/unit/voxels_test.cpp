@@ -1,5 +1,5 @@
-// Voxel images: a ball and a body of two phases from generated images, against closed forms and
-// against the same bodies made of shapes.
+// Voxel images of a ball and of a body with two phases, against closed forms and against the same
+// bodies made of primitives.
 #include <geometry/voxel_image.hpp>
 #include <support/models.hpp>
 #include <support/output.hpp>
@@ -13,9 +13,9 @@ using namespace hyperlattice;
 using namespace hyperlattice::test;
 
 constexpr int across = 24;
-constexpr double radius = 9;  // voxels, about the middle
+constexpr double radius = 9;  // voxels
 
-/// 1 outside of the ball, 7 in it; x runs fastest.
+/// Voxels are 7 inside the ball and 1 outside; x runs fastest.
 std::string ball_image(unsigned char outside = 1) {
   std::string bytes;
   for (int k = 0; k < across; ++k)
@@ -29,14 +29,14 @@ std::string ball_image(unsigned char outside = 1) {
   return bytes;
 }
 
-/// An image in a file of its own.
+/// An image in its own file.
 class Image {
  public:
   explicit Image(const std::string& bytes) : folder_("voxels") {
     std::ofstream(file(), std::ios::binary) << bytes;
   }
   std::string file() const { return folder_.file("image.raw"); }
-  /// A region of it; `more` keys.
+  /// A region of the image, with `more` keys.
   std::string region(const std::string& more = R"("values": [7])", int n = across) const {
     const std::string count = std::to_string(n);
     return R"({ "voxels": { "file": ")" + file() + R"(", "counts": [)" + count + ", " + count +
@@ -120,14 +120,14 @@ TEST(Voxels, ValuesLeftOutAreAllButZero) {
 
 TEST(Voxels, XRunsFastestAndTwoBytesAreLittleEndian) {
   const std::string bytes("\x00\x00\x01\x02\x00\x00\x00\x00\x00\x00\x00\x00",
-                          12);  // 3 x 2 x 1 voxels: the second is 513
+                          12);  // 3 x 2 x 1 voxels; the second is 513
   const VoxelSet set(bytes, {3, 2, 1}, VoxelType::uint16, {513}, {10, 20, 30}, 2);
   EXPECT_EQ(set.low(), (Vec3{12, 20, 30}));
   EXPECT_EQ(set.high(), (Vec3{14, 22, 32}));
   EXPECT_TRUE(set.contains({13, 21, 31}));
-  EXPECT_TRUE(set.contains({12, 20, 30}));  // its lower corner is its own
+  EXPECT_TRUE(set.contains({12, 20, 30}));  // a voxel contains its lower corner
   EXPECT_FALSE(set.contains({12, 22, 30}));
-  EXPECT_TRUE(set.contains({12, 20, 32}));  // the image ends there
+  EXPECT_TRUE(set.contains({12, 20, 32}));  // the upper end of the image counts as inside
   EXPECT_FALSE(set.contains({11, 21, 31}));
   EXPECT_FALSE(set.contains({13, 23, 31}));
   EXPECT_FALSE(set.contains({infinity, 0, 0}));

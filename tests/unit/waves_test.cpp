@@ -1,5 +1,5 @@
-// Stability and the critical time step of the infinite lattice, against closed forms that were
-// found independently.
+// Stability and the critical time step of the infinite lattice, against closed forms found
+// independently.
 #include <model/critical_step.hpp>
 #include <model/stability.hpp>
 #include <support/cubic_lattice.hpp>
@@ -57,7 +57,7 @@ TEST(Waves, ClosedFormForPositiveStiffness) {
     EXPECT_NEAR(stiffest_wave(cubic.lattice).stiffness, expected, 1e-7 * expected)
         << r.alpha << ' ' << r.beta << ' ' << r.gamma;
     EXPECT_NEAR(bound(cubic), expected,
-                1e-12 * expected);  // the bound for several materials is sharp for one
+                1e-12 * expected);  // for one material, the bound for several is exact
     EXPECT_TRUE(stable(cubic.lattice));
   }
 }
@@ -96,7 +96,8 @@ TEST(WaveStability, SaysWhatGrows) {
   EXPECT_NE(describe(*found).find("height"), std::string::npos) << describe(*found);
 }
 
-// The opposed waves of a clamped membrane with negative springs: the layers shear past each other.
+// With negative cross springs, the two layers of a clamped membrane shear past each other in
+// opposed waves.
 TEST(WaveStability, ClampedMembranesOfTwoLayersNeedPositiveCrossSprings) {
   using calibration::Membrane;
   for (const Membrane membrane : {Membrane::III, Membrane::IV}) {
@@ -110,7 +111,7 @@ TEST(WaveStability, ClampedMembranesOfTwoLayersNeedPositiveCrossSprings) {
   }
 }
 
-// The dynamical matrix of both layers as it follows from the springs one by one, against the two
+// The dynamical matrix of both layers, summed spring by spring, for a comparison with the two
 // sectors.
 Eigen::VectorXd two_layers(const Cubic& cubic, Vec3 q) {
   using Vector8 = Eigen::Matrix<std::complex<double>, 8, 1>;

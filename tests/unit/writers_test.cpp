@@ -1,5 +1,5 @@
-// Writers: names of files, tables that read back exactly, refusals with the valid names, no
-// influence of the locale.
+// Writers: names of files, tables that read back exactly, refusals that list the valid names, and
+// no influence of the locale.
 #include <support/output.hpp>
 
 #include <gtest/gtest.h>
@@ -110,7 +110,8 @@ TEST_P(EveryWriter, RefusesAFieldThatTheRunLacks) {
   const std::string expected =
       "this run has no field \"height\"; it has displacement, velocity, broken_open, broken_closed";
   OutputContext context = body.context(folder.path());
-  writer.begin(context);  // a context that does not know the fields leaves it to the first frame
+  // This context does not know the fields, so that the first frame must report the fault.
+  writer.begin(context);
   EXPECT_EQ(refusal(writer, body.at(0)), expected);
   EXPECT_TRUE(folder.names().empty());
   const std::string_view present[] = {"displacement", "velocity", "broken_open", "broken_closed"};
@@ -143,9 +144,8 @@ TEST_P(EveryWriter, IgnoresTheLocale) {
   const std::string plain = write();
   const std::locale before =
       std::locale::global(std::locale(std::locale::classic(), new CommaPoint));
-  const char* c_locale = std::setlocale(
-      LC_ALL,
-      "de_DE.UTF-8");  // where the system has it; the facet above serves streams in any case
+  // The system may lack this locale; the facet above changes streams in any case.
+  const char* c_locale = std::setlocale(LC_ALL, "de_DE.UTF-8");
   const std::string foreign = write();
   std::locale::global(before);
   if (c_locale != nullptr) std::setlocale(LC_ALL, "C");
