@@ -1,5 +1,5 @@
-// Speed of the explicit step: nanoseconds per particle-step, springs per second, and the share of
-// the processor's arithmetic that they make, for each kind of kernel, precision, size and shape.
+// Speed of the explicit step for each kind of kernel, precision, size and shape: nanoseconds per
+// particle-step, springs per second, and the fraction of the processor's peak arithmetic.
 // Arguments: those of Google Benchmark, for instance --benchmark_filter=free/float/50.
 #include <plan/plan.hpp>
 #include <state/simulation.hpp>
@@ -20,8 +20,8 @@ struct Variant {
   const char* name;
   const char* membrane;
   bool breakable, damped, cells;
-  int flops_of_spring, flops_of_particle;  ///< as kernels/stencil.hpp and kernels/motion.hpp write
-                                           ///< them; a root counts with its series
+  /// Operations in kernels/stencil.hpp and kernels/motion.hpp; a root counts with its series.
+  int flops_of_spring, flops_of_particle;
 };
 const Variant variants[] = {
     {"three", "none", false, false, false, 33, 18},
@@ -36,8 +36,8 @@ const Variant variants[] = {
     {"free_cells", "I-m", false, false, true, 61, 27},
 };
 
-/// A cube of so many particles along an edge, or the hollow sphere of 490,432 (size 0), in slow
-/// torsion.
+/// A cube of `size` particles along an edge, or the hollow sphere of 490,432 particles (size 0), in
+/// slow torsion.
 Json scene_of(const Variant& variant, int size, const char* precision) {
   Json material = {{"type", "materials.elastic"},
                    {"young", 1e10},
@@ -45,7 +45,7 @@ Json scene_of(const Variant& variant, int size, const char* precision) {
                    {"membrane", variant.membrane}};
   if (std::string(variant.membrane) != "none") material["lambda"] = 0.5;
   if (variant.breakable)
-    material["failure"] = {{"type", "failures.elongation"}, {"limit", 1e-4}};  // is never reached
+    material["failure"] = {{"type", "failures.elongation"}, {"limit", 1e-4}};  // never reached
   const double edge = (variant.cells ? size - 1 : size) * 1e-3, far = 1;
   const Json ball = {{"sphere", {{"radius", 0.05}}}}, cavity = {{"sphere", {{"radius", 0.02}}}};
   const Json shape = size > 0 ? Json{{"box", {{"low", {0, 0, 0}}, {"high", {edge, edge, edge}}}}}
@@ -70,7 +70,7 @@ Json scene_of(const Variant& variant, int size, const char* precision) {
             {{"type", "solvers.explicit"}, {"end_time", "1 ms"}}}}};
 }
 
-/// Flops a second of multiply-adds in registers on one thread, measured now.
+/// Multiply-adds in registers of one thread, flops per second, measured at the start.
 template <class Real>
 [[gnu::always_inline]] inline double peak_of_multiply_adds() {
   constexpr int chains = 12 * 64 / sizeof(Real), rounds = 200000;
@@ -104,7 +104,7 @@ void explicit_step(benchmark::State& state, const Variant& variant, int size, co
   Simulation simulation(*plan->model, threads);
   if (variant.damped) simulation.set_damping(0.8);
   const double time_step = 0.5 * plan->stages.front().plan.time_step;
-  simulation.step(time_step);  // the first one finds the books' start
+  simulation.step(time_step);  // the first step also starts the energy balance
   for (auto _ : state) simulation.step(time_step);
   const auto particles = static_cast<double>(plan->model->body.particles),
              springs = static_cast<double>(plan->model->body.base_springs());
@@ -128,8 +128,8 @@ void add(const Variant& variant, int size, const char* precision, int threads) {
         explicit_step(state, variant, size, precision, threads);
       });
   added->Unit(benchmark::kMillisecond);
-  if (threads > 1)
-    added->UseRealTime();  // else the thread's own: others may be at work on the machine
+  // One thread is measured by its own time, because other programs may be at work.
+  if (threads > 1) added->UseRealTime();
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
-// Speed of the step of a random lattice, beside the plainest program for it: one scalar pass over a
-// list of springs sorted as the particles are, each spring once. Both run in turns, because
-// machines change speed by the second; `of_scalar_list` is the median ratio of their times, above 1
-// where the scalar list is slower. Arguments: those of Google Benchmark.
+// Speed of a step of a random lattice, compared with the simplest program for it: one scalar pass
+// over a list of springs in the order of the particles, each spring once. The two alternate,
+// because the speed of machines changes from second to second. `of_scalar_list` is the median ratio
+// of their times, above 1 if the scalar list is slower. Arguments: those of Google Benchmark.
 #include <support/lists.hpp>
 
 #include <benchmark/benchmark.h>
@@ -18,15 +18,14 @@ struct Variant {
 };
 const Variant variants[] = {
     {"three", R"("membrane": "none")"},
+    // The limit is never reached.
     {"three_breakable",
-     R"("membrane": "none", "failure": { "type": "failures.elongation", "limit": 1e-4 })"},  // is
-                                                                                             // never
-                                                                                             // reached
+     R"("membrane": "none", "failure": { "type": "failures.elongation", "limit": 1e-4 })"},
     {"clamped", R"("membrane": "III", "lambda": 0.5)"},
     {"free", R"("membrane": "I", "lambda": 0.5)"},
 };
 
-/// The same body with springs of a linear law in three dimensions: one record a particle, one a
+/// The same body with linear springs in three dimensions: one record per particle and one per
 /// spring.
 class ScalarList {
  public:
@@ -81,7 +80,7 @@ class ScalarList {
   double inverse_mass_;
 };
 
-/// Largest difference of the places after both went from the same start.
+/// Largest difference of the positions after both have moved from the same start.
 double difference(const Model& model, const Simulation& ours, const ScalarList& scalar) {
   const std::vector<double> moved = test::displacements(ours);
   double largest = 0;
@@ -91,7 +90,7 @@ double difference(const Model& model, const Simulation& ours, const ScalarList& 
   return largest;
 }
 
-/// Seconds of this thread: others may be at work on the machine.
+/// Seconds of this thread's own time, because other programs may be at work.
 template <class Work>
 double seconds(const Work& work) {
   const auto now = [] {
@@ -123,7 +122,7 @@ void compare(benchmark::State& state, const Variant& variant, const std::string&
   ScalarList scalar(model, start);
   ours.set_displacements(start, {});
   ours.step(step);
-  scalar.step(step / 2, step);  // velocities belong to half a step before
+  scalar.step(step / 2, step);  // velocities are half a step behind
   ours.step(step);
   scalar.step(step, step);
   const double exact = floats ? 1e-5 : 1e-9;

@@ -1,5 +1,5 @@
-// `hyperlattice analyze` as a user types it: what machines read, what is refused and how, the files
-// it writes.
+// `hyperlattice analyze` from the command line: output for programs, refusals and their messages,
+// and the files that the command writes.
 #include <gtest/gtest.h>
 #include <support/program.hpp>
 
@@ -25,7 +25,7 @@ json read(Words words) {
   return json::parse(result.out);
 }
 
-/// Exit code 2, with every part of a message in it.
+/// Expects exit code 2 and a message with all of the parts.
 void expect_refused(const Words& words, const Words& parts) {
   const test::Result result = analyze(words);
   EXPECT_EQ(result.exit_code, 2) << testing::PrintToString(words);
@@ -59,7 +59,8 @@ TEST(Analyze, SaysAllOfMembraneIm) {  // nu = 0.1: lambda = 2.8
   }
 }
 
-// nu = 0.1 with every membrane: lambda, E l / k, A; whether the two-layer lattice is stable too.
+// For nu = 0.1, each membrane has these values: lambda, E l / k, A, and whether the lattice of two
+// layers is stable too.
 TEST(Analyze, FigureFive) {
   struct Row {
     const char* membrane;
@@ -103,7 +104,7 @@ TEST(Analyze, FreeRatiosAndNone) {
   const json none = read({"--membrane", "none"});
   EXPECT_NEAR(none.at("poisson_bulk"), 0.25, 1e-12);
   EXPECT_NEAR(none.at("critical_time_step"), 2 / std::sqrt(12.0), 1e-9);
-  // the stable way past 1/4: kb = 0, kg = 3, clamped
+  // A stable choice beyond nu = 1/4: k_beta = 0, k_gamma = 3, clamped.
   const json free =
       read({"--membrane", "free", "--k_alpha", "infinite", "--k_beta", "0", "--k_gamma", "3"});
   EXPECT_EQ(free.at("k_alpha"), "infinite");
@@ -146,7 +147,8 @@ TEST(Analyze, RefusesPoissonRatiosOutOfReach) {
   EXPECT_EQ(analyze({"--membrane", "I-m", "--poisson", "0.25"}).exit_code, 0);
 }
 
-// E l / k of the centred lattices: 5/3 and 5/2 without a membrane, times eta.
+// E l / k of the centred lattices is 5/3 and 5/2 without a membrane; a membrane multiplies it by
+// eta.
 TEST(Analyze, CentredLattices) {
   for (const auto& [lattice, young] : {std::pair{"lattices.bcc", 5.0 / 3}, {"lattices.fcc", 2.5}}) {
     EXPECT_NEAR(read({"--lattice", lattice, "--membrane", "none"}).at("young_over_k_per_l"), young,
@@ -163,7 +165,8 @@ TEST(Analyze, CentredLattices) {
                  {"within (-0.35, 0.25], the reach of membrane I-m"});
 }
 
-// Curves run to where they turn back: half of the shortest reciprocal vector along the direction.
+// Each curve ends at half of the shortest reciprocal vector along its direction, where it turns
+// back.
 TEST(Analyze, DispersionOfCentredLatticesRunsToTheirOwnZone) {
   const test::Folder folder("dispersion");
   const std::string file = folder.file("curves.csv");

@@ -1,5 +1,5 @@
-// Every bad plugin in bad_plugins/ is refused, each in its own sentence; what a scene needs and
-// cannot have ends with the right exit code.
+// The host refuses every plugin in bad_plugins/ with its own message. A scene that needs such a
+// plugin ends the program with the right exit code.
 #include <host/gate.hpp>
 #include <host/host.hpp>
 
@@ -17,14 +17,14 @@ namespace fs = std::filesystem;
 
 const fs::path folder = HYPERLATTICE_BUILD "/tests/bad_plugins";
 
-/// What the program does when its plugin path holds the bad plugins.
+/// Runs the program with the bad plugins on its plugin path.
 test::Result program(const std::vector<std::string>& arguments) {
   test::Launch launch;
   launch.environment = {"HYPERLATTICE_PLUGIN_PATH=" + folder.string()};
   return test::run_program(arguments, launch);
 }
 
-/// A scene that is sound but for the component it names.
+/// A scene whose only fault is the component that it names.
 fs::path scene_with(const std::string& type, const std::string& plugins = "") {
   const std::string component = R"({"type": ")" + type + R"(", "limit": 1})";
   const bool failure = type.starts_with("failures.");
@@ -41,7 +41,7 @@ fs::path scene_with(const std::string& type, const std::string& plugins = "") {
 
 struct BadPlugin {
   const char* type;
-  const char* sentence;  ///< a part of the refusal
+  const char* sentence;  ///< a part of the message
 };
 
 const BadPlugin bad_plugins[] = {
@@ -119,7 +119,7 @@ TEST(BadPlugins, NoCodeRunsBeforeTheGate) {
     host.find(type);
   EXPECT_EQ(std::getenv("HYPERLATTICE_CONSTRUCTED"), nullptr);
   ASSERT_NE(host.find("failures.sound"), nullptr)
-      << host.why_not("failures.sound");  // the same source, and it leaves its trace
+      << host.why_not("failures.sound");  // the same source leaves its trace
   EXPECT_STREQ(std::getenv("HYPERLATTICE_CONSTRUCTED"), "failures.sound");
 }
 
@@ -275,7 +275,7 @@ TEST(Gate, NamesEachNumberThatDiffers) {
             std::string::npos);
 }
 
-/// Refusal of the sound plugin when one byte of its file is changed.
+/// The message for a copy of the sound plugin with one changed byte.
 std::string refusal_with_byte(std::streamoff offset, char value) {
   const fs::path copy =
       fs::temp_directory_path() / ("hyperlattice_patched_" + std::to_string(getpid()) + ".so");
@@ -294,13 +294,13 @@ std::string refusal_with_byte(std::streamoff offset, char value) {
 }
 
 TEST(Gate, SurvivesAnyDamageToTheHeader) {
-  EXPECT_EQ(refusal_with_byte(5000, 0), "");  // a byte of code is none of its business
+  EXPECT_EQ(refusal_with_byte(5000, 0), "");  // the gate reads no code
   EXPECT_NE(refusal_with_byte(4, 1).find("another processor"), std::string::npos);  // 32 bits
   EXPECT_NE(refusal_with_byte(18, 8).find("another processor"),
-            std::string::npos);  // a machine of another kind
+            std::string::npos);                                                 // another machine
   EXPECT_NE(refusal_with_byte(16, 2).find("another kind"), std::string::npos);  // an executable
   EXPECT_NE(refusal_with_byte(46, 127).find("damaged"),
-            std::string::npos);  // sections far behind the end
+            std::string::npos);  // sections beyond the end
   for (std::streamoff offset = 0; offset < 64; ++offset)
     for (const int value : {0, 1, 127, 255}) refusal_with_byte(offset, static_cast<char>(value));
 }

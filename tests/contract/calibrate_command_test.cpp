@@ -1,5 +1,5 @@
-// `hyperlattice calibrate` as a user types it: what machines read, what is refused and how, the
-// picture.
+// `hyperlattice calibrate` from the command line: output for programs, refusals and their messages,
+// and the picture.
 #include <gtest/gtest.h>
 #include <support/program.hpp>
 
@@ -20,7 +20,7 @@ json read(Words words) {
   return json::parse(result.out);
 }
 
-/// Exit code 2, with every part of a message in it, and no more faults than that.
+/// Expects exit code 2, a message with all of the parts, and exactly `faults` faults.
 void expect_refused(const Words& words, const Words& parts, std::ptrdiff_t faults = 1) {
   const test::Result result = calibrate(words);
   EXPECT_EQ(result.exit_code, 2) << testing::PrintToString(words);
@@ -70,7 +70,7 @@ TEST(CalibrateCommand, NoneAndFree) {
   EXPECT_NEAR(free.at("measured").at("poisson"), 0.3, 0.01);
 }
 
-TEST(CalibrateCommand, Measures) {  // the value of the independent table, cube of 10
+TEST(CalibrateCommand, Measures) {  // value of the independent table, 10^3
   const json found =
       read({"--membrane", "I-m", "--lambda", "2", "--measure", "10", "--strain", "1e-6"});
   EXPECT_NEAR(found.at("measured").at("poisson"), 0.129713, 2e-6);
@@ -100,7 +100,8 @@ TEST(CalibrateCommand, CentredLattices) {
                             std::to_string(found.at("lambda").get<double>())});
     EXPECT_NEAR(back.at("poisson"), 0.1, 1e-6);
     EXPECT_NEAR(found.at("zener"), 1, 1e-12);
-    EXPECT_NEAR(found.at("measured").at("poisson"), 0.1, 0.05);  // a small cube is mostly surface
+    // The surface dominates a small cube.
+    EXPECT_NEAR(found.at("measured").at("poisson"), 0.1, 0.05);
     const std::string page =
         calibrate({"--lattice", lattice, "--membrane", "I-m", "--poisson", "0.1", "--measure", "4"})
             .out;
@@ -174,7 +175,7 @@ TEST(CalibrateCommand, RefusesWhatDoesNotFitTogether) {
   expect_refused({"--membrane", "I-m", "--poisson", "0.1", "--spacing", "1"},
                  {"--spacing", "--young with it"});
   expect_refused({"--membrane", "I-m", "--poisson", "0.3", "--young", "nan"},
-                 {"--young", "not a finite number"});  // and where help is
+                 {"--young", "not a finite number"});  // the message also leads to the help
   expect_refused({"--membrane", "I-m", "--lambda", "1", "--measure", "2"},
                  {"--measure", "3 to 500"});
   expect_refused({"--membrane", "I-m", "--lambda", "1", "--strain", "1e-3"},

@@ -1,4 +1,4 @@
-// The commands as a user types them: exit codes, where results go, what machines read.
+// The commands from the command line: exit codes, places of results, output for programs.
 #include <gtest/gtest.h>
 #include <support/program.hpp>
 
@@ -7,8 +7,7 @@ namespace {
 
 using nlohmann::json;
 
-/// A folder of its own, with one small scene in it, that is also the current directory of the
-/// program.
+/// A temporary folder with a small scene. The program runs in this folder.
 class CommandLine : public testing::Test {
  protected:
   CommandLine() {

@@ -1,5 +1,5 @@
-// Every component of the project keeps its family's contract; plugins that break theirs are told
-// so, in a line that says what is wrong.
+// Every component of the project keeps the contract of its family. The contract finds plugins that
+// break it and says what is wrong.
 #include <contract/contract.hpp>
 #include <contract/lone_spring.hpp>
 #include <contract/scenes.hpp>
@@ -37,7 +37,7 @@ TEST_P(Contract, IsKept) {
     EXPECT_NE(check.verdict, Verdict::failed) << check.name << ": " << check.detail;
     passed += check.verdict == Verdict::passed ? 1 : 0;
   }
-  if (GetParam() != "lattices.points") {  // whose example needs a file
+  if (GetParam() != "lattices.points") {  // its example needs a file
     EXPECT_GE(passed, 2u);
   }
 }
@@ -69,8 +69,7 @@ TEST_P(WrongPlugin, IsToldWhatIsWrong) {
   EXPECT_EQ(result.out.find(", 0 failed, "), std::string::npos);
 }
 
-// A law, load or criterion that gives no number must not pass because comparisons with it are
-// false.
+// Comparisons with NaN are false. A law, load or criterion that returns NaN must still fail.
 TEST(Numbers, WhatIsNoNumberIsLargerThanAll) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   double worst = 0;
@@ -103,9 +102,9 @@ TEST(ContractCommand, DrawsLaws) {
   EXPECT_EQ(folder.names(), std::vector<std::string>{"materials.plastic.svg"});
 }
 
-// The picture: places of known points.
+// The picture must have known points in the right places.
 TEST(Picture, PutsPointsWhereTheyBelong) {
-  std::vector<contract::PathPoint> path(11);  // every fifth is drawn
+  std::vector<contract::PathPoint> path(11);  // the picture shows every fifth point
   path[5].elongation = 2e-6;
   path[5].force = 10;
   path[10].elongation = -2e-6;

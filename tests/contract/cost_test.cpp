@@ -1,6 +1,5 @@
-// Nothing for nothing: what a scene maps into memory, allocates and writes is what it names, and
-// each feature adds its own share and no more. Allocations are counted where they are made;
-// libraries are read off the process.
+// A scene costs only what it names: each feature adds its own share of mapped libraries, memory and
+// files. The test counts allocations in the allocator, and reads the libraries from the process.
 #include <support/program.hpp>
 
 #include <plan/plan.hpp>
@@ -15,8 +14,9 @@
 #include <set>
 
 namespace {
-std::atomic<std::size_t> allocated{0};  // by aligned arrays: a simulation's state and scratch
-}
+// Bytes in aligned arrays: the state of a simulation and its temporary arrays.
+std::atomic<std::size_t> allocated{0};
+}  // namespace
 
 void* operator new[](std::size_t size, std::align_val_t alignment) {
   allocated += size;
@@ -38,13 +38,13 @@ json minimal_scene() {
 }
 void make_listed(json& scene) { scene["pipeline"][0]["type"] = "lattices.random"; }
 
-/// What a scene may have besides, and its cost in a grid and in a list.
+/// A feature that a scene may add, and its cost in a grid and in a list.
 struct Feature {
   const char* name;
-  const char* left_out;  ///< what the plan lists of a scene without it
-  const char* library;   ///< of its own; empty: none
+  const char* left_out;  ///< the entry in the plan's list of unused features
+  const char* library;   ///< library of the feature; empty: none
   void (*add)(json& scene);
-  double bytes_per_place = 0, bytes_per_listed_spring = 0;  ///< of each end
+  double bytes_per_place = 0, bytes_per_listed_spring = 0;  ///< per end of a spring
 };
 const Feature features[] = {
     {"failure", "failure", "failures.elongation",
@@ -101,9 +101,10 @@ double bytes(const Plan& plan) {
 }
 
 struct Size {
-  double places = 0;  ///< of particles, with the padding
-  double ends = 0;  ///< of a list's springs, with the padding: for each eight particles (in floats
-                    ///< sixteen) as many as the one that has most
+  double places = 0;  ///< particles, with the padding
+  /// Ends of a list's springs, with the padding: eight particles (sixteen in floats) each take as
+  /// much as the one with the most springs.
+  double ends = 0;
 };
 Size size_of(const Model& model) {
   Size size;
@@ -137,8 +138,8 @@ TEST(Cost, PlainBodiesHoldTheirMotionTheirSpringsAndNothingElse) {
                               neighbour * (size.ends + read_ahead) + 4 * (size.places / 8 + 1));
 }
 
-// A law's memory: its own numbers and two more, in doubles, of each base and cross spring; in a
-// list of each of their ends.
+// The memory of a law has its own numbers and two more, in doubles, for each base and cross spring;
+// in a list, for each end.
 TEST(Cost, AMemoryIsItsNumbers) {
   for (const char* lattice : {"lattices.cubic", "lattices.random"})
     for (const char* precision : {"double", "float"})
@@ -186,15 +187,14 @@ TEST(Cost, AHundredMillionParticlesArePlannedToTheByteWithoutTheirMemory) {
   scene["pipeline"][0]["shape"]["box"]["high"] = {0.5, 0.5, 0.4};
   const test::Folder folder("cost");
   test::Launch launch;
-  launch.memory_limit = 400'000'000;  // of address space: four bytes a particle
+  launch.memory_limit = 400'000'000;  // address space, bytes: four per particle
   const test::Result planned = test::run_program(
       {"plan", test::write_scene(folder, scene), "--threads", "1", "--json"}, launch);
   ASSERT_EQ(planned.exit_code, 0) << planned.err;
   const json plan = json::parse(planned.out);
   EXPECT_EQ(plan["particles"], 100'000'000);
-  constexpr double row = 504, rows = 500 * 400,
-                   margin = 536;  // whole vectors; before and after all rows, a row and what a
-                                  // neighbour may reach beyond it
+  // Rows are whole vectors. The margin at each end holds a row and the reach of a neighbour.
+  constexpr double row = 504, rows = 500 * 400, margin = 536;
   EXPECT_EQ(plan["bytes_per_particle"], 50 * (rows * row + 2 * margin) / 100e6);
   EXPECT_LT(plan["memory_bytes"], 5.1e9);
 }
@@ -237,14 +237,14 @@ TEST_P(FeatureCost, IsLeftOutOfAScenesPlanThatDoesNotNameIt) {
   EXPECT_FALSE(left_out(scene).contains(GetParam().left_out));
 }
 
-/// Files of this build that the program has mapped while it runs the scene, without their folders;
-/// and what it leaves.
+/// The files of this build that the running program has mapped (`mapped`), the plugins that the
+/// summary names (`named`), both without folders, and the files that the run leaves (`left`).
 struct Traces {
   std::set<std::string> mapped, named, left;
 };
 Traces traces_of(json scene) {
-  scene["pipeline"][2].update(
-      {{"end_time", 10}, {"record_every", 1e-6}});  // longer than the test: it is interrupted
+  // The run is longer than the test, which interrupts it.
+  scene["pipeline"][2].update({{"end_time", 10}, {"record_every", 1e-6}});
   const test::Folder folder("cost");
   const std::string file = test::write_scene(folder, scene), out = folder.file("out");
   Traces traces;
@@ -275,9 +275,9 @@ TEST(Cost, AMinimalSceneMapsAndWritesOnlyWhatItNames) {
   EXPECT_EQ(traces.named, expected);
   expected.insert({"hyperlattice", "libhyperlattice.so.0.1"});
   EXPECT_EQ(traces.mapped, expected);
-  EXPECT_EQ(traces.left,
-            (std::set<std::string>{"summary.json", "scene.resolved.json", "history.csv",
-                                   "files.csv", "checkpoint.bin"}));  // it was interrupted
+  // An interrupted run leaves a checkpoint.
+  EXPECT_EQ(traces.left, (std::set<std::string>{"summary.json", "scene.resolved.json",
+                                                "history.csv", "files.csv", "checkpoint.bin"}));
 }
 
 TEST_P(FeatureCost, IsItsOwnLibrary) {

@@ -1,5 +1,5 @@
-// Plugins that pass the gate and then throw, crash, end the program, hang or hand over what cannot
-// be used: the last line names them, the exit code is 4, and what the run had written stays.
+// Plugins that pass the gate, and then throw, crash, end the program, hang or return unusable data.
+// The last line names the plugin, the exit code is 4, and earlier results stay.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <support/program.hpp>
@@ -21,8 +21,7 @@ Launch launch_with(const std::string& fault) {
   Launch launch;
   launch.environment = {"HYPERLATTICE_TEST_FAULT=" + fault};
   if (fault == "hang at load")
-    launch.environment.push_back(
-        "HYPERLATTICE_LOAD_SECONDS=5");  // enough for the plugins that do load
+    launch.environment.push_back("HYPERLATTICE_LOAD_SECONDS=5");  // enough time for sound plugins
   return launch;
 }
 
@@ -60,8 +59,8 @@ std::string last_line(const std::string& text) {
 }
 
 struct Fault {
-  const char *fault, *says;  ///< a part of the last line
-  bool signal = false;       ///< a sanitizer has the last word
+  const char *fault, *says;  ///< part of the last line
+  bool signal = false;       ///< the sanitizer reports last
 };
 void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.fault; }
 std::string name_of(const testing::TestParamInfo<Fault>& info) {
@@ -120,7 +119,7 @@ TEST_P(MisbehavingFailure, IsNamedInTheLastLine) {
   expect_named(scene_with_failure(), GetParam(), "failures.misbehaving");
 }
 
-/// What a load hands over is refused as the scene's fault, before anything is written.
+/// Unusable data of a load is refused as a fault of the scene, before the run writes any file.
 class WrongHandedOver : public testing::TestWithParam<Fault> {};
 INSTANTIATE_TEST_SUITE_P(
     All, WrongHandedOver,
@@ -143,7 +142,7 @@ TEST_P(WrongHandedOver, IsRefused) {
 
 TEST(MisbehavingPlugins, WhatTheRunHadWrittenStays) {
   nlohmann::json watched = scene_with_failure();
-  watched["pipeline"][1]["failure"]["limit"] = 1e-4;  // strain: reached while the load rises
+  watched["pipeline"][1]["failure"]["limit"] = 1e-4;  // strain; reached while the load rises
   watched["pipeline"][3]["rise"] = "4 us";
   watched["pipeline"].back()["record_every"] = "0.2 us";
   watched["pipeline"].push_back(

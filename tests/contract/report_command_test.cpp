@@ -1,5 +1,5 @@
-// `hyperlattice report` as a user types it: what the page holds, what machines read, what is
-// refused and how. Another program judges the page itself: report_page.py.
+// `hyperlattice report` from the command line: the contents of the page, output for programs,
+// refusals and their messages. report_page.py checks the HTML itself.
 #include <gtest/gtest.h>
 #include <support/program.hpp>
 
@@ -40,7 +40,7 @@ class ReportCommand : public testing::Test {
     std::ofstream(file, std::ios::binary) << text;
   }
 
-  /// Exit code 2, no page, every part of a message in it, and no more faults than that.
+  /// Expects exit code 2, no page, and a message with all of the parts and no further faults.
   void expect_refused(Words words, const Words& parts) {
     const std::string file = out("refused.html");
     words.insert(words.end(), {"--out", file});
@@ -173,7 +173,7 @@ TEST_F(ReportCommand, ShowsARunThatIsCutOff) {
   write(out("cut") + "/checkpoint.bin", "");
   std::string history = contents(out("cut") + "/history.csv");
   const auto rows = table_rows(out("cut") + "/history.csv");
-  history.resize(history.size() - rows.back().size() / 2);  // within the last line
+  history.resize(history.size() - rows.back().size() / 2);  // cuts the last line
   write(out("cut") + "/history.csv", history);
   const Result result = report({out("cut"), "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -228,7 +228,8 @@ TEST_F(ReportCommand, RefusesWhatItCannotUnderstandAllAtOnce) {
                   out("listed") + "/summary.json: []: expected an object"});
 }
 
-/// Whatever stands in a file: a page, or exit code 2 with a message and no page.
+/// With any content of its files, the command gives a page, or exit code 2 with a message and no
+/// page.
 TEST_F(ReportCommand, BearsFilesOfAnyContent) {
   run("run");
   const std::string summary = out("run") + "/summary.json",
@@ -244,7 +245,7 @@ TEST_F(ReportCommand, BearsFilesOfAnyContent) {
     }
     return result.exit_code;
   };
-  for (const std::string& file : {summary, scene}) {  // every value of another type
+  for (const std::string& file : {summary, scene}) {  // each value gets another type
     const json good = read_json(file);
     for (const auto& [key, value] : good.items())
       for (const json& other :
@@ -278,8 +279,8 @@ TEST_F(ReportCommand, ShowsOnlyWhatThisRunWrote) {
     fs::copy(out("again") + file, out(fs::path(file).filename().string()));
   run("again",
       {{"/pipeline/5", picture}, {"/pipeline/4/name", "top"}, {"/pipeline/3/end_time", "4 us"}});
-  for (const char* file : {"/picture_000004.png", "/picture_000005.png",
-                           "/probes/outer.csv"})  // as if the earlier run had left them
+  // The files look as if the earlier run had left them.
+  for (const char* file : {"/picture_000004.png", "/picture_000005.png", "/probes/outer.csv"})
     fs::copy(out(fs::path(file).filename().string()), out("again") + file,
              fs::copy_options::overwrite_existing);
   fs::copy(out("again") + "/picture_000004.png", out("again") + "/picture_000003.png",
@@ -481,8 +482,8 @@ TEST_F(ReportCommand, ShowsTheGoodPicturesBesideBadOnes) {
   EXPECT_NE(none.out.find("more files of the pictures picture are not shown."), std::string::npos)
       << none.out;
 
-  json scene = read_json(out("run") +
-                         "/scene.resolved.json");  // a folder that is a link: nothing in it counts
+  // The folder is a link, so that the files in it do not count.
+  json scene = read_json(out("run") + "/scene.resolved.json");
   scene["pipeline"][5]["file"] = "linked/picture";
   write(out("run") + "/scene.resolved.json", scene.dump());
   fs::create_directory_symlink(".", out("run") + "/linked");

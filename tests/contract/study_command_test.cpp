@@ -1,5 +1,5 @@
-// `hyperlattice study` as a user types it: what machines read, what is run again and what is not,
-// what is refused and how.
+// `hyperlattice study` from the command line: output for programs, runs that are reused or
+// repeated, refusals and their messages.
 #include <gtest/gtest.h>
 #include <support/program.hpp>
 
@@ -9,8 +9,8 @@ using nlohmann::json;
 using Words = std::vector<std::string>;
 namespace fs = std::filesystem;
 
-/// A particle on a spring: the lower one of two is held, the upper one is started with 1 mm/s and
-/// swings. Central differences, so that the error falls with the square of the step.
+/// Two particles joined by a spring. The lower one is held, the upper one starts with 1 mm/s and
+/// oscillates. The error of central differences falls with the square of the step.
 json swinging_pair() {
   return json::parse(R"({
     "format": "hyperlattice-study/1", "title": "Swinging pair",
@@ -53,7 +53,7 @@ class StudyCommand : public testing::Test {
   }
   std::string out() const { return folder_.file("out"); }
 
-  /// Exit code 2, nothing written, every part of a message in it, and no more faults than that.
+  /// Expects exit code 2, no files, a message with all of the parts, and no further faults.
   void expect_refused(const json& file, const Words& parts, const Words& words = {}) {
     const Result result = study(file, words);
     EXPECT_EQ(result.exit_code, 2) << result.err;
@@ -130,9 +130,8 @@ TEST_F(StudyCommand, RefusesACaseThatIsNoAxis) {
 TEST_F(StudyCommand, CountsQuantitiesTogether) {
   json file = swinging_pair();
   file["scene"]["pipeline"][5].erase("component");
-  file["truth"] = {{"values",
-                    {{"along", 1.5 * swing(10e9)},
-                     {"across", 0}}}};  // a zero, which alone has no relative error
+  // Zero alone has no relative error.
+  file["truth"] = {{"values", {{"along", 1.5 * swing(10e9)}, {"across", 0}}}};
   file["compare"] = {
       {"along", {{"probe", "upper"}, {"column", "displacement_z"}, {"truth", "along"}}},
       {"across", {{"probe", "upper"}, {"column", "displacement_x"}, {"truth", "across"}}}};
@@ -149,15 +148,15 @@ TEST_F(StudyCommand, CountsQuantitiesTogether) {
   EXPECT_EQ(row["errors"]["across"], 0);
 }
 
-/// Steps that seem to show an order above two leave runs that are done, and no error.
+/// If the steps seem to give an order above two, the runs are done and get no error.
 TEST_F(StudyCommand, QuotesNoErrorFromAnOrderThatTheMethodCannotHave) {
   json file = swinging_pair();
   file["vary"].erase("stiffness");
   file["truth"] = "finest";
   file["vary"]["step"]["/start"] = {{0, 0, "1.9 mm/s"}, {0, 0, "1 mm/s"}, {0, 0, "0.999 mm/s"}};
   std::string text = file.dump(1);
-  text.replace(text.find("/start"), 6,
-               "/pipeline/3/linear");  // behind the size, which stands first
+  // The size comes first in the file, then the key of the start velocity.
+  text.replace(text.find("/start"), 6, "/pipeline/3/linear");
   std::ofstream(folder_.file("study.json")) << text;
   const Result result =
       run_program({"study", folder_.file("study.json"), "--out", out(), "--json"});
@@ -176,16 +175,15 @@ TEST_F(StudyCommand, QuotesNoErrorFromAnOrderThatTheMethodCannotHave) {
 TEST_F(StudyCommand, ComparesTheLimitsOfSettingsThatAnswerTheSame) {
   json file = swinging_pair();
   file["truth"] = "finest";
-  const json found =
-      json::parse(study(file, {"--json"})
-                      .out);  // stiff and soft are taken for settings, and lead to other limits
+  // Stiff and soft count as settings, and they have different limits.
+  const json found = json::parse(study(file, {"--json"}).out);
   ASSERT_EQ(found["limits"].size(), 1u);
   EXPECT_EQ(found["limits"][0]["of"]["stiffness"], "soft");
   EXPECT_EQ(found["limits"][0]["against"]["stiffness"], "stiff");
   EXPECT_NEAR(found["limits"][0]["apart"], std::abs(swing(5e9) / swing(10e9) - 1), 1e-3);
   EXPECT_NE(study(file, {"--target-error", "5%"}).out.find("says nothing of the truth"),
             std::string::npos);
-  file["cases"] = {"stiffness"};  // now they ask something else
+  file["cases"] = {"stiffness"};  // the stiffness is now a case
   EXPECT_TRUE(json::parse(study(file, {"--json"}).out)["limits"].empty());
 }
 
@@ -202,8 +200,7 @@ TEST_F(StudyCommand, ReadsOnlyRegularFiles) {
   expect_refused(file, {"/truth/csv: "});
 }
 
-/// Titles, labels and names are data, whatever they hold, and nothing of the user's gnuplot has a
-/// part.
+/// Titles, labels and names are data with any content, and the user's gnuplot files have no effect.
 TEST_F(StudyCommand, DrawsTextsAsTheyStand) {
   const std::string ran = folder_.file("ran"), wild = "a `touch " + ran + "` $(touch " + ran +
                                                       ") 'b' ''i'' \"c\" @d {e}_f^g \\n <h> & #";
@@ -259,7 +256,7 @@ TEST_F(StudyCommand, RunsAgainOnlyWhatIsMissing) {
   EXPECT_EQ(count(again.err, "there already"), 11u) << again.err;
   EXPECT_EQ(count(again.err, gone + ": there already"), 1u);
 
-  file["scene"]["pipeline"][1]["density"] = 2600;  // another scene: nothing of it is there
+  file["scene"]["pipeline"][1]["density"] = 2600;  // no run of this scene exists
   EXPECT_EQ(count(study(file).err, "there already"), 0u);
   EXPECT_EQ(count(study(file, {"--fresh"}).err, "there already"), 0u);
 }
@@ -296,7 +293,7 @@ TEST_F(StudyCommand, RunsAgainWhatIsNotAsItWasLeft) {
 
 TEST_F(StudyCommand, LocksItsFolder) {
   json file = true_swinging_pair();
-  file["scene"]["pipeline"][4]["end_time"] = "1 s";  // longer than anyone waits
+  file["scene"]["pipeline"][4]["end_time"] = "1 s";  // much longer than the test
   std::ofstream(folder_.file("study.json")) << file.dump();
   Launch launch;
   launch.meanwhile = [&](pid_t child) {
@@ -333,7 +330,7 @@ TEST_F(StudyCommand, SharesItsFolderWithNoRun) {
   EXPECT_NE(study(file).err.find("there already"), std::string::npos);
   fs::remove_all(out());
   json longer = file;
-  longer["scene"]["pipeline"][4]["end_time"] = "1 s";  // longer than anyone waits
+  longer["scene"]["pipeline"][4]["end_time"] = "1 s";  // much longer than the test
   std::ofstream(folder_.file("study.json")) << longer.dump();
   Launch launch;
   launch.meanwhile = [&](pid_t child) {
@@ -402,7 +399,7 @@ TEST_F(StudyCommand, RefusesTablesThatSayNotWhatIsMeant) {
 
 TEST_F(StudyCommand, GoesOnAfterAnInterruption) {
   json file = true_swinging_pair();
-  file["scene"]["pipeline"][4]["end_time"] = "5 ms";  // 25,000 steps and more
+  file["scene"]["pipeline"][4]["end_time"] = "5 ms";  // at least 25,000 steps
   Launch launch;
   launch.meanwhile = [&](pid_t child) {
     EXPECT_TRUE(wait_until(
@@ -436,8 +433,8 @@ TEST_F(StudyCommand, TakesThreadsAndTheFinestRun) {
   EXPECT_EQ(read_json(out() + "/" + found["rows"][1]["run"].get<std::string>() +
                       "/summary.json")["threads"],
             2);
-  // Extrapolated from the runs alone, the limit is the closed form's, to an order more than the
-  // runs have.
+  // The limit extrapolated from the runs agrees with the closed form, one order better than the
+  // runs do.
   const double finest = std::abs(found["rows"][4]["error"].get<double>());
   file["truth"] = {{"value", swing(10e9)}};
   const json against_truth = json::parse(study(file, {"--json"}).out);
@@ -544,13 +541,14 @@ TEST_F(StudyCommand, RefusesATruthAtTimesThatNoRunReaches) {
       "5e-06";
   expect_refused(file, {"/truth/csv: " + why});
   json placed = file;
-  placed["compare"]["upper"]["at"] = "time";  // a place is a column of the probe, and this is one
+  // The key `at` takes a column of the probe; "time" is such a column.
+  placed["compare"]["upper"]["at"] = "time";
   expect_refused(placed, {"/truth/csv: " + why});
   json longer = file;
   longer["vary"]["end"] = {{"/pipeline/4/end_time", {"2 us", "6 us"}}};
   expect_refused(longer, {" and 5 more): " + why});
   json reduced = file;
-  reduced["compare"]["upper"]["reduce"] = "last";  // the times count no more
+  reduced["compare"]["upper"]["reduce"] = "last";  // times do not matter now
   EXPECT_EQ(study(reduced).exit_code, 0);
   EXPECT_EQ(study(file).exit_code, 2) << "also where the runs are there already";
   file["truth"]["over_scale"] = 0.1;

@@ -1,6 +1,6 @@
-// A scene stays the same to the letter while something that it uses changes: `--resume` refuses and
-// keeps the checkpoint, a study runs again; both say what changed. A folder that is moved as a
-// whole still runs.
+// A scene stays the same, and a file that it uses changes. `--resume` then refuses and keeps the
+// checkpoint, and a study repeats the run; both name the change. A folder that is moved as a whole
+// still works.
 #include <hyperlattice/kernels/processor.hpp>
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ class ChangedInputs : public testing::Test {
   static constexpr const char* voxel_shape =
       R"({ "voxels": { "file": "body.raw", "counts": [10, 10, 10], "voxel": "1 mm", "values": [1] } })";
 
-  /// A run cut off at its first checkpoint.
+  /// Kills a run at its first checkpoint.
   void cut_off(const json& scene) {
     file = write_scene(folder, scene);
     Launch launch;
@@ -95,12 +95,12 @@ TEST_F(ChangedInputs, ResumeNamesATableOfPoints) {
   scene["pipeline"][1].erase("membrane");
   scene["pipeline"][1]["poisson"] = 0.25;
   cut_off(scene);
-  write("points.csv", table + " \n");  // any byte counts
+  write("points.csv", table + " \n");  // every byte counts
   expect_refused("points.csv (/pipeline/0/points) has changed");
 }
 
 TEST_F(ChangedInputs, ResumeNamesARebuiltPlugin) {
-  const fs::path name = "failures.misbehaving.so";  // it behaves, unless it is told otherwise
+  const fs::path name = "failures.misbehaving.so";  // sound unless the environment names a fault
   fs::create_directory(folder.file("mine"));
   fs::copy(fs::path(HYPERLATTICE_BUILD) / "tests/bad_plugins/misbehaving" / name,
            fs::path(folder.file("mine")) / name);
@@ -162,7 +162,8 @@ TEST_F(ChangedInputs, AMovedFolderRunsAndKeepsItsIdentity) {
   EXPECT_EQ(before["state_hash"], now["state_hash"]);
   for (std::size_t n = 0; n < before["identity"].size(); ++n)
     EXPECT_EQ(before["identity"][n]["content"], now["identity"][n]["content"]) << n;
-  // the results stand outside of the folder that scene and file share
+  // The results are outside of the folder that holds the scene and the file, so that the path is
+  // absolute.
   EXPECT_EQ(read_json(out + "/scene.resolved.json")["pipeline"][0]["shape"]["voxels"]["file"],
             folder.file("moved/body.raw"));
 }

@@ -1,4 +1,4 @@
-// Expressions of time that a scene gives, whole and damaged at random: each is one finite number at
+// Expressions of time in a scene, sound and damaged at random. Each gives one finite number at
 // every time, or is refused with its pointer.
 #include "support/mutations.hpp"
 #include "support/scenes.hpp"
@@ -27,7 +27,7 @@ std::string scene_with(const std::string& expression) {
     { "type": "solvers.explicit", "time_step": 1e-4, "end_time": 3e-4 } ] })";
 }
 
-/// Whether the expression was taken, and gave a number in each of three steps.
+/// Is the expression accepted, and does it give a number in each of three steps?
 bool runs(const std::string& expression) {
   try {
     const auto plan = test::plan_of(scene_with(expression));
@@ -54,7 +54,7 @@ TEST(Expressions, AreOneValueOfTime) {
     EXPECT_FALSE(runs(bad)) << bad;
 }
 
-/// What the component's page says that an expression may hold, each with its value at 2 s.
+/// A part of an expression that the component's page lists, with its value at 2 s.
 struct Part {
   const char *name, *expression;
   double value;
@@ -95,7 +95,7 @@ const Part constants[] = {{"pi", "pi", std::numbers::pi},
                           {"_pi", "_pi", std::numbers::pi},
                           {"_e", "_e", std::numbers::e}};
 
-/// Evaluates each part, and returns their names with this between them.
+/// Evaluates each part, and returns the names of the parts, separated by `between`.
 template <std::size_t Count>
 std::string names_of(const Part (&parts)[Count], const std::string& between) {
   std::string names;

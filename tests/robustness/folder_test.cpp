@@ -1,6 +1,6 @@
-// A folder of results belongs to one run: a second one is refused while the first goes on, an
-// interrupted one is not lost by mistake, a new one removes what the earlier one left and nothing
-// else.
+// A folder of results belongs to one run. A second run is refused while the first goes on, an
+// interrupted run is not lost by mistake, and a new run removes the files of the earlier one and no
+// others.
 #include <base/own_files.hpp>
 #include <support/program.hpp>
 
@@ -52,7 +52,7 @@ class FolderOfARun : public testing::Test {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run_program(arguments, launch);
   }
-  /// Runs until the history grows, and calls what is to be done then.
+  /// Starts a run, waits until its history grows, and calls `then`.
   Result run_meanwhile(const std::function<void(pid_t)>& then, std::vector<std::string> more = {}) {
     return run_meanwhile(endless(), then, std::move(more));
   }
@@ -80,7 +80,7 @@ TEST_F(FolderOfARun, IsLockedWhileItRuns) {
     for (const char* way : {"--overwrite", "--resume"}) {
       second = run_program({"run", folder.file("scene.json"), "--out", out, "--quiet", way});
       EXPECT_EQ(second.exit_code, std::string(way) == "--resume" ? 2 : 4)
-          << second.err;  // there is no checkpoint yet
+          << second.err;  // no checkpoint exists yet
     }
     second = run_program({"run", folder.file("scene.json"), "--out", out, "--quiet"});
     kill(child, SIGTERM);
@@ -162,8 +162,7 @@ TEST_F(FolderOfARun, TouchesNoFileThatIsNotARuns) {
   EXPECT_NE(refused.err.find("history.csv"), std::string::npos) << refused.err;
   EXPECT_TRUE(files_in(out) == before);
   EXPECT_EQ(run(small_sphere(), {"--overwrite"}).exit_code, 0);
-  std::ofstream(out + "/history.csv", std::ios::app)
-      << "0\n";  // it is no longer as the run left it
+  std::ofstream(out + "/history.csv", std::ios::app) << "0\n";  // the user has changed the file
   EXPECT_EQ(run(small_sphere()).exit_code, 2);
 
   fs::remove_all(out);
@@ -365,7 +364,7 @@ TEST_F(FolderOfARun, AFailureKeepsTheCheckpoint) {
   json scene = small_sphere();
   scene["pipeline"][solver]["energy_tolerance"] = 1e-14;
   scene["pipeline"][solver]["record_every"] =
-      "8 us";  // the loss is found after the first checkpoint
+      "8 us";  // the loss appears after the first checkpoint
   const Result result = run(scene, {"--checkpoint-every", "1e-9"});
   EXPECT_EQ(result.exit_code, 3) << result.err;
   EXPECT_NE(result.err.find("--resume"), std::string::npos) << result.err;

@@ -1,5 +1,5 @@
-// A disk that is full in the middle of a run: a clear refusal, no half-written file under a final
-// name, and earlier frames untouched.
+// The disk becomes full in the middle of a run: the message is clear, no incomplete file has a
+// final name, and earlier frames stay.
 #include <contract/small_disk.hpp>
 #include <support/output.hpp>
 
@@ -50,9 +50,8 @@ TEST(AtomicFile, SaysWhyTheSystemRefuses) {
 TEST(AtomicFile, FollowsNoLinkAndReplacesOnlyRegularFiles) {
   Folder folder("atomic_link");
   write_file(folder.file("victim"), "precious");
-  std::filesystem::create_symlink(
-      folder.file("victim"),
-      folder.file("a.part"));  // the temporary name that could once be guessed
+  // A predictable temporary name would follow this link.
+  std::filesystem::create_symlink(folder.file("victim"), folder.file("a.part"));
   std::filesystem::create_symlink(folder.file("victim"), folder.file("link"));
   std::filesystem::create_directory(folder.file("folder"));
   ASSERT_EQ(mkfifo(folder.file("pipe").c_str(), 0600), 0);
@@ -92,7 +91,7 @@ TEST_P(FullDisk, LeavesEarlierFramesIntact) {
   EXPECT_EQ(folder.names(), names);
   for (std::size_t n = 0; n < names.size(); ++n)
     EXPECT_TRUE(contents(folder.file(names[n])) == before[n]) << names[n];
-  writer.frame(body.at(2));  // there is room again: the series goes on where it stopped
+  writer.frame(body.at(2));  // the disk has room again: the series goes on
   EXPECT_EQ(folder.names().size(), names.size() + 1);
 }
 

@@ -1,5 +1,5 @@
-// Inputs that would take the machine's time or memory are read at once, or refused with the limit
-// that they pass.
+// Inputs that could use up time or memory are read quickly, or refused with the limit that they
+// exceed.
 #include "support/fake_components.hpp"
 #include "support/output.hpp"
 
@@ -25,7 +25,7 @@ std::unique_ptr<Scene> read(const std::string& text) {
   return read_scene_text(text, "scene.json", {}, catalogue);
 }
 
-/// The message, or "" if it was read.
+/// The message of the refusal; "" if the input was accepted.
 template <class Read>
 std::string refusal(const Read& read) {
   try {
@@ -46,9 +46,10 @@ TEST(Limits, ChainsOfRegions) {
   for (const bool forwards : {true, false})
     for (const int count : {60, 9'000}) {
       Json given = scene();
+      // The regions are in the order of the file. Each uses the region before it, or the region
+      // after it.
       const auto name = [&](int n) { return "r" + std::to_string(forwards ? n : count - 1 - n); };
-      for (int n = 0; n < count;
-           ++n) {  // in the file's order; each is made of the one before, or of the one behind
+      for (int n = 0; n < count; ++n) {
         const int place = forwards ? n : count - 1 - n;
         given["regions"][name(place)] = place == 0
                                             ? Json{{"sphere", {{"radius", 1}}}}
@@ -140,7 +141,7 @@ TEST(Limits, OnlyRegularFilesOfABoundedSizeAreRead) {
   ASSERT_EQ(::mkfifo(folder.file("pipe").c_str(), 0600), 0);
   std::ofstream(folder.file("large")) << "x";
   std::filesystem::resize_file(folder.file("large"),
-                               largest_input + 1);  // it has holes, and takes no room
+                               largest_input + 1);  // sparse file
   std::ofstream(folder.file("small")) << "text";
   EXPECT_EQ(reading("/dev/zero"),
             "/file: \"/dev/zero\": expected a file; it is a device or a pipe, and only regular "
@@ -150,8 +151,8 @@ TEST(Limits, OnlyRegularFilesOfABoundedSizeAreRead) {
   EXPECT_TRUE(has(reading(folder.file("")), "it is a folder"));
   EXPECT_TRUE(has(reading(folder.file("none")), "there is no such file"));
   EXPECT_EQ(read_input_file(folder.file("small"), "", ""), "text");
-  EXPECT_FALSE(read_input_file("/proc/self/status", "", "")
-                   .empty());  // a regular file that does not know its size
+  // Files in /proc are regular files without a size.
+  EXPECT_FALSE(read_input_file("/proc/self/status", "", "").empty());
 
   Json given = scene();
   for (const char* file : {"/dev/zero", "pipe", "large"}) {

@@ -1,5 +1,5 @@
-// Malformed scenes: each is refused with its own message, by the reader and by the program, which
-// ends with exit code 2 and writes nothing.
+// The reader and the program refuse each malformed scene with its own message. The program ends
+// with exit code 2 and writes no file.
 #include <scene/scene.hpp>
 
 #include <nlohmann/json.hpp>
@@ -37,7 +37,7 @@ std::string from_hex(const std::string& digits) {
   return bytes;
 }
 
-/// An empty folder of this process's own, gone in the end.
+/// An empty folder of this process; the destructor removes it.
 class Folder {
  public:
   explicit Folder(const std::string& name)
@@ -50,7 +50,7 @@ class Folder {
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
 
-  /// Writes the text of a scene; its path.
+  /// Writes the text of a scene and returns its path.
   fs::path scene(const std::string& text) const {
     std::ofstream(path_ / "scene.json", std::ios::binary) << text;
     return path_ / "scene.json";
@@ -61,7 +61,7 @@ class Folder {
   fs::path path_;
 };
 
-/// The scene's text of a case.
+/// The text of the scene of a case.
 std::string scene_of(const Json& one) {
   if (one.contains("text")) return one["text"];
   if (one.contains("text_hex")) return from_hex(one["text_hex"]);
@@ -88,7 +88,7 @@ std::vector<std::string> settings_of(const Json& one) {
   return one.value("settings", std::vector<std::string>());
 }
 
-/// Whether one of the faults stands where the case says and expects what it says.
+/// Does one of the faults have the place and the expectation of the case?
 bool told(const std::string& message, const Json& one) {
   const std::string at = one["at"], says = one["says"];
   for (std::size_t begin = 0; begin <= message.size();) {
@@ -181,7 +181,7 @@ TEST(MalformedScenesTable, ExamplesOfAllPagesAreGood) {
   for (const Component* component : host.load_all()) {
     const auto names_a_file = [](const Option& option) { return option.kind == OptionKind::file; };
     if (std::any_of(component->info.options.begin(), component->info.options.end(), names_a_file))
-      continue;  // there is none
+      continue;  // such a page has no example
     Json scene = table()["base"], example = Json::parse(component_json(*component))["example"];
     if (component->info.family == Family::failures)
       scene["pipeline"][1]["failure"] = example;

@@ -1,5 +1,5 @@
-// Files and texts damaged at random: surfaces, tables, images, units. Each is read or refused with
-// a sentence; nothing else ever happens.
+// Files and texts damaged at random: surfaces, tables, images, units. Each is read, or refused with
+// a message; no other outcome is allowed.
 #include <base/csv.hpp>
 #include <base/errors.hpp>
 #include <geometry/triangle_mesh.hpp>
@@ -16,11 +16,11 @@
 
 namespace {
 using namespace hyperlattice;
-using namespace std::string_view_literals;  // texts that hold NUL
+using namespace std::string_view_literals;  // texts with NUL bytes
 
 constexpr int quick = 1'000, thorough = 20'000;
 
-/// A tetrahedron's facets, anticlockwise seen from outside.
+/// The facets of a tetrahedron, anticlockwise seen from outside.
 constexpr double corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 constexpr int facets[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
 
@@ -55,8 +55,8 @@ std::string binary_surface() {
   return bytes;
 }
 
-/// Runs `read` on damaged copies, some of which it must accept and some refuse. Any exception but
-/// std::runtime_error and its kinds, or std::invalid_argument, fails the test.
+/// Runs `read` on damaged copies. Some must be accepted, some refused. An exception other than
+/// std::runtime_error (or derived) and std::invalid_argument fails the test.
 template <class Read>
 void read_damaged(const std::string& good, std::string_view alphabet, int usual, unsigned seed,
                   const Read& read) {
@@ -73,8 +73,8 @@ void read_damaged(const std::string& good, std::string_view alphabet, int usual,
       EXPECT_STRNE(refusal.what(), "");
     }
   }
-  constexpr int enough = 200;  // HYPERLATTICE_MUTATIONS may ask for fewer, which may all be
-                               // accepted or refused by chance
+  // HYPERLATTICE_MUTATIONS may ask for fewer copies; all of these may be accepted, or all refused.
+  constexpr int enough = 200;
   if (tries < enough) return;
   EXPECT_GT(taken, 0) << good;
   EXPECT_LT(taken, tries) << good;

@@ -1,5 +1,5 @@
-// Scenes damaged at random: the reader accepts them or says what is wrong; nothing else ever
-// happens.
+// Scenes damaged at random. The reader accepts them or says what is wrong; no other outcome is
+// allowed.
 #include "support/fake_components.hpp"
 #include "support/mutations.hpp"
 
@@ -22,8 +22,8 @@ const std::string good = R"({ "format": "hyperlattice/1", "title": "t",
     { "type": "solvers.march", "end_time": "40 us", "time_step": "auto" },
     { "type": "writers.table", "every": "2 us", "fields": ["velocity", "damage"] } ] })";
 
-/// Whether the text was accepted; what is accepted must read back from its resolved form. Throws if
-/// anything but an InputError came out.
+/// Returns true if the text was accepted; the resolved form must then read back. Throws if the
+/// reader throws anything but an InputError.
 bool accepted(const std::string& text) {
   fakes::Catalogue catalogue;
   try {
@@ -37,7 +37,7 @@ bool accepted(const std::string& text) {
   }
 }
 
-/// Every place in a document where a value stands.
+/// Collects the pointers to all values of a document.
 void collect(const Json& value, const Json::json_pointer& at,
              std::vector<Json::json_pointer>& places) {
   places.push_back(at);

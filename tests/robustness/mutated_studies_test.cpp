@@ -1,5 +1,5 @@
-// Studies with one value replaced by something else: each is read, or refused with a pointer to
-// what is wrong; nothing else ever happens.
+// Studies with one replaced value. Each is read, or refused with a pointer to the fault; no other
+// outcome is allowed.
 #include <study/grid.hpp>
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ const char* const good = R"({
   "compare": { "one": { "probe": "p", "column": "c", "truth": "u", "at": "1 mm", "reduce": "max", "scale": 2 } },
   "error": "relative_max", "repeats": 2, "target_error": "1 %", "peers": ["peers.csv"] })";
 
-/// Every pointer into a document.
+/// Collects all pointers into a document.
 void collect(const Json& json, const Json::json_pointer& here,
              std::vector<Json::json_pointer>& all) {
   all.push_back(here);
@@ -39,7 +39,7 @@ class MutatedStudies : public testing::Test {
     std::ofstream(folder_.file("peers.csv")) << "label,error,seconds\nother,0.1,1\n";
   }
 
-  /// Whether it was accepted; a refusal must say where and what was expected.
+  /// Returns true if the study was accepted. A refusal must name the place and the expectation.
   bool accepted(const Json& study) {
     std::ofstream(folder_.file("study.json")) << study.dump();
     try {
@@ -58,7 +58,7 @@ class MutatedStudies : public testing::Test {
   test::Folder folder_{"mutated_studies"};
 };
 
-/// Tables of any bytes are read, or refused with where they are named.
+/// Tables with any bytes are read, or refused with the place that names them.
 TEST_F(MutatedStudies, TablesOfAnyBytesAreReadOrRefused) {
   const Json study = Json::parse(good);
   const std::string truth = test::contents(folder_.file("truth.csv")),

@@ -1,5 +1,5 @@
-// A run that is cut off, again and again, at any step, and goes on: what it leaves is, byte for
-// byte, what a run leaves that never was.
+// Runs that are cut off repeatedly, at any step, and resumed. They leave the same files, byte for
+// byte, as a run that was never cut off.
 #include <base/own_files.hpp>
 #include <support/program.hpp>
 
@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-/// A stage's place in the scenes below.
+/// Indices of stages in the scenes below.
 constexpr std::size_t lattice = 0, material = 1;
 
 json pulled_block() {
@@ -47,14 +47,14 @@ const Case cases[] = {
      }},
     {"listed",
      [](json& scene) {
-       scene["pipeline"].erase(4);  // the drag wants more springs at the surface
+       scene["pipeline"].erase(4);  // the drag needs a surface with more springs
        scene["pipeline"][lattice]["type"] = "lattices.random";
        scene["pipeline"][material]["membrane"] = "I";
      }},
     {"after_rest",
      [](json& scene) {
        json& pipeline = scene["pipeline"];
-       pipeline.erase(4);  // no static solver knows the drag
+       pipeline.erase(4);  // static solvers do not support the drag
        pipeline[3] = {
            {"type", "loads.force"}, {"on", "z_max"}, {"total", {5, 0, 200}}, {"rise", "10 us"}};
        pipeline.insert(pipeline.begin() + 4, json{{"type", "solvers.static"}});
@@ -62,7 +62,7 @@ const Case cases[] = {
      }},
 };
 
-/// Every file of a run but the times that it took.
+/// All files of a run, without its times.
 std::map<std::string, std::string> left_behind(const std::string& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
@@ -73,7 +73,7 @@ std::map<std::string, std::string> left_behind(const std::string& folder) {
   for (const char* key : {"wall_seconds", "nanoseconds_per_particle_step", "peak_memory_bytes"})
     summary.erase(key);
   files["summary.json"] = summary.dump(1);
-  std::string& list = files["files.csv"];  // of which the last word on each file counts
+  std::string& list = files["files.csv"];  // only the last entry of each file counts
   const OwnFiles own = parse_own_files(list);
   list.clear();
   for (const auto& [name, file] : own)
@@ -90,9 +90,10 @@ class Resume : public testing::TestWithParam<Case> {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run_program(arguments, launch);
   }
-  /// Runs to the end, cut off by the signal at every third or so of what is left.
+  /// Runs to the end. The signal cuts the run off repeatedly, after about 40 more rows of the
+  /// history.
   void cut_off_and_go_on(int signal, const std::string& out, const std::vector<std::string>& more) {
-    constexpr std::size_t rows = 40;  // of the history, from one cut to the next
+    constexpr std::size_t rows = 40;  // rows of the history between two cuts
     std::size_t cuts = 0, next = rows;
     std::vector<std::string> arguments = more;
     for (;;) {
@@ -149,7 +150,7 @@ TEST_P(Resume, LeavesNoTrace) {
   }
 }
 
-/// Times count all the parts of a run, as its steps do.
+/// Times add up over all parts of a run, as the steps do.
 TEST(ResumedTimes, AreOfAllSteps) {
   const Folder folder("resume_times");
   json scene = pulled_block();
@@ -182,8 +183,8 @@ TEST(ResumedTimes, AreOfAllSteps) {
               1e-9 * 1e9 * both / work);
 }
 
-/// Gives a killed run a checkpoint.bin. If the kill fell between the two renames of a checkpoint
-/// (core/run/checkpoint.cpp), only the one before it is there: it is copied.
+/// Makes sure that a killed run has a checkpoint.bin. A kill between the two renames of a
+/// checkpoint (core/run/checkpoint.cpp) leaves only the previous checkpoint, which is then copied.
 void restore_checkpoint(const std::string& out) {
   const std::string newest = out + "/checkpoint.bin", earlier = out + "/checkpoint.previous.bin";
   if (!std::filesystem::exists(newest) && std::filesystem::exists(earlier))
@@ -232,7 +233,7 @@ TEST_F(ResumeFaults, AnotherScene) {
   EXPECT_EQ(contents(out + "/checkpoint.bin"), before);
 }
 
-/// Every file of a folder, with its bytes.
+/// All files of a folder with their bytes.
 std::map<std::string, std::string> all_of(const std::string& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
@@ -257,8 +258,8 @@ TEST_F(ResumeFaults, DamagedOrCutOff) {
   }
 }
 
-/// A file or table from before the checkpoint that is no longer as it was is named, and nothing is
-/// touched.
+/// If a file or table from before the checkpoint has changed, the message names it, and all files
+/// stay as they are.
 TEST_F(ResumeFaults, ChangedResults) {
   const auto refuses = [&](const std::string& name,
                            const std::function<void(const std::string& path)>& change) {
@@ -288,7 +289,7 @@ TEST_F(ResumeFaults, ChangedResults) {
   refuses("files.csv", shorten);
 }
 
-/// A run as in ResumeFaults that ends soon.
+/// A run as in ResumeFaults with an early end.
 class Earlier : public ResumeFaults {};
 
 TEST_F(Earlier, CheckpointIsUsedWithAWord) {

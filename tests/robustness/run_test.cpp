@@ -1,5 +1,4 @@
-// A run from the outside: what it leaves behind when it ends well, is interrupted, fails, or meets
-// a full disk.
+// Runs seen from outside: the files after a normal end, an interruption, a failure, or a full disk.
 #include "support/program.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +20,7 @@ json breakable_sphere() {
   return scene;
 }
 
-/// One that does not end by itself.
+/// A scene whose run does not end by itself.
 json endless_sphere() {
   json scene = small_sphere();
   scene["pipeline"][solver]["end_time"] = 10;
@@ -77,7 +76,7 @@ TEST_F(Run, leaves_what_is_promised) {
   EXPECT_GT(broken, 0u);
   EXPECT_EQ(table_rows(out + "/failures.csv").size(), broken);
   EXPECT_EQ(history().size(),
-            s["steps"].get<std::size_t>() / 10 + 2);  // the first, one in ten steps, the last
+            s["steps"].get<std::size_t>() / 10 + 2);  // first step, every tenth, last step
   EXPECT_EQ(table_rows(out + "/probes/tip.csv").size(),
             std::min<std::size_t>(201, s["steps"].get<std::size_t>() + 1));
   std::size_t frames = 0;
@@ -155,7 +154,8 @@ TEST_F(Run, interrupted_ends_in_order) {
     EXPECT_LT(s["steps"].get<std::uint64_t>(), s["planned_steps"].get<std::uint64_t>());
     EXPECT_EQ(contents(out + "/history.csv").back(), '\n');
     const std::string last = history().back();
-    EXPECT_EQ(std::stod(last), s["end_time"].get<double>());  // the state at the end was recorded
+    // The last row holds the state at the end.
+    EXPECT_EQ(std::stod(last), s["end_time"].get<double>());
     EXPECT_TRUE(std::filesystem::exists(out + "/frames_000001.csv"));
   }
 }
@@ -170,7 +170,7 @@ TEST_F(Run, a_body_without_rest_leaves_how_it_moves) {
   EXPECT_NE(result.err.find("failing_motion.csv"), std::string::npos) << result.err;
   const std::vector<std::string> rows = table_rows(out + "/failing_motion.csv");
   EXPECT_EQ(rows.size(), summary()["particles"]);
-  for (const std::string& row : rows) {  // it slides along z
+  for (const std::string& row : rows) {  // the body slides along z
     double x, y, z, along[3];
     ASSERT_EQ(std::sscanf(row.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf", &x, &y, &z, &along[0], &along[1],
                           &along[2]),
@@ -212,7 +212,7 @@ TEST_F(Run, too_little_memory_says_how_much_is_needed) {
   scene["pipeline"][0]["shape"]["hollow_sphere"] = {{"inner_radius", "20 mm"},
                                                     {"outer_radius", "50 mm"}};
   Launch launch;
-  launch.memory_limit = 50'000'000;  // the lattice fits, the state does not
+  launch.memory_limit = 50'000'000;  // the memory holds the lattice but not the state
   const Result result = run(scene, {"--threads", "1"}, launch);
   EXPECT_EQ(result.exit_code, 4) << result.err;
   EXPECT_NE(result.err.find("too little memory: the run needs "), std::string::npos) << result.err;

@@ -1,5 +1,5 @@
-// What surrounds the process: streams that are closed or full, results that cannot go where they
-// are sent, limits on memory, threads and files, environments that say odd things.
+// The surroundings of the process: closed or full streams, places where results cannot go, limits
+// on memory, threads and files, and strange values in the environment.
 #include "support/program.hpp"
 
 #include <process/processors.hpp>
@@ -27,7 +27,7 @@ class Surroundings : public testing::Test {
     std::ofstream(folder_.file("scene.json")) << scene.dump();
   }
 
-  /// Runs a command of the shell in the folder; "$hl" in it is the program.
+  /// Runs a shell command in the folder. "$hl" in the command stands for the program.
   Result shell(const std::string& command) const {
     const std::string program = std::string(HYPERLATTICE_BUILD) + "/bin/hyperlattice";
     const std::string line =
@@ -100,7 +100,7 @@ TEST_F(Surroundings, ThreadsAreThoseThatItMayUse) {
   const std::vector<std::string> large = {"--set",
                                           "/pipeline/0/shape/hollow_sphere/outer_radius=0.016",
                                           "--overwrite"};  // 16,904 particles
-  ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);    // inherited by the program
+  ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);    // the program inherits this
   const Result result = run(large);
   sched_setaffinity(0, sizeof before, &before);
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -160,7 +160,7 @@ TEST_F(Surroundings, AFrameThatIsLargerThanFilesMayBeIsRefusedBeforeTheRun) {
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)  // they need all of the address space
+    !defined(__SANITIZE_THREAD__)  // these need all of the address space
 
 TEST_F(Surroundings, ThreadsThatTheSystemRefusesAreExit4WithASummary) {
   if (shell("ulimit -s 1000000").exit_code != 0)
@@ -172,7 +172,8 @@ TEST_F(Surroundings, ThreadsThatTheSystemRefusesAreExit4WithASummary) {
   EXPECT_EQ(summary()["status"], "failed");
   EXPECT_EQ(summary()["exit_code"], 4);
 
-  json scene = small_sphere();  // at rest, with more sites than one thread solves alone
+  // A static scene with more sites than a single thread would solve.
+  json scene = small_sphere();
   scene["pipeline"][0]["shape"] = {{"box", {{"low", {0, 0, 0}}, {"high", {0.041, 0.041, 0.041}}}}};
   scene["pipeline"][2] = {{"type", "loads.fixed"}, {"on", "z_min"}};
   scene["pipeline"][3] = {{"type", "solvers.static"}};
@@ -193,8 +194,8 @@ TEST_F(Surroundings, ThreadsThatTheSystemRefusesAreExit4WithASummary) {
   EXPECT_EQ(summary()["status"], "done") << "the earlier run's";
 }
 
-/// From a limit under which nothing starts upwards, until runs are done. The picture takes some
-/// megabytes that the plan does not count, so that lack of memory is met during the run too.
+/// Raises the memory limit from a value at which no program starts until runs succeed. The picture
+/// takes some megabytes that the plan does not count, so that memory also runs out during the run.
 TEST_F(Surroundings, LackOfMemoryIsExit4WhereverItIsMet) {
   json scene = small_sphere();
   scene["pipeline"][3]["end_time"] = "1 us";
@@ -205,11 +206,11 @@ TEST_F(Surroundings, LackOfMemoryIsExit4WhereverItIsMet) {
   constexpr int enough = 3, most_kilobytes = 300'000;
   int done = 0, refused_before = 0, failed_inside = 0;
   for (int kilobytes = 15'000; done < enough && kilobytes < most_kilobytes;
-       kilobytes += 211) {  // with less the program is not loaded
+       kilobytes += 211) {  // below, the program is not loaded
     std::filesystem::remove_all(folder_.file("out"));
     const Result result = shell("ulimit -v " + std::to_string(kilobytes) +
                                 "; \\$hl run scene.json --out out --threads 2");
-    // the system could not load the program itself, or libgomp ended it before main
+    // The system could not load the program, or libgomp ended it before main.
     if (result.exit_code == 127 || result.err.starts_with("\nlibgomp: Out of memory")) continue;
     EXPECT_TRUE(result.exit_code == 0 || result.exit_code == 4)
         << kilobytes << ": " << result.exit_code << ", " << result.err;

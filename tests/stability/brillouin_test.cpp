@@ -1,5 +1,5 @@
 // The numerical search of the Brillouin zone against the closed rules of stability, on random
-// mixtures of the springs of the fourth dimension.
+// ratios of the springs into the fourth dimension.
 #include <analyze/cubic_stability.hpp>
 #include <analyze/elasticity.hpp>
 #include <analyze/load_lattice.hpp>
@@ -28,7 +28,7 @@ Counted compare(int samples, bool clamped) {
     const Ratios r{ratio(random), ratio(random), ratio(random), clamped};
     const double mirrored = mirrored_margin(r), full = std::min(mirrored, opposed_margin(r));
     if (std::abs(mirrored) < 1e-3 || (mirrored > 0 && std::abs(full) < 1e-3))
-      continue;  // too close to say
+      continue;  // too close to the limit
     ++counted.samples;
     const test::Cubic cubic(r);
     const bool stable = !find_instability(cubic.lattice, Sector::mirrored);
@@ -43,7 +43,7 @@ Counted compare(int samples, bool clamped) {
   return counted;
 }
 
-// The shares are those of the rules themselves over a million samples.
+// The fractions of stable samples come from the rules alone, over a million samples.
 TEST(Brillouin, FreeMembranesFollowTheClosedRules) {
   const Counted counted = compare(3000, false);
   EXPECT_NEAR(counted.mirrored / 3000.0, 0.396, 0.03);
@@ -54,9 +54,9 @@ TEST(Brillouin, ClampedMembranesFollowTheClosedRules) {
   EXPECT_GT(compare(300, true).two_layer, 50);
 }
 
-// The centred lattices have no closed rules for all of their waves, but uniform strains give
-// necessary ones: C44, C11 - C12 and C11 + 2 C12 of the relaxed layer, and the stiffness C3 of its
-// thickness, must all be positive.
+// The centred lattices have no closed rules for all waves. Uniform strains give necessary
+// conditions: C44, C11 - C12 and C11 + 2 C12 of the relaxed layer, and the stiffness C3 of its
+// thickness, must be positive.
 double elastic_margin(const LatticeElasticity& e, bool clamped) {
   const double least = std::min({e.C44, e.C11 - e.C12, e.C11 + 2 * e.C12});
   return clamped ? least : std::min(least, e.C3);
@@ -76,7 +76,7 @@ TEST_P(CentredBrillouin, StabilityNeedsElasticStabilityAndHoldsForAnyWave) {
     const Ratios r{ratio(random), ratio(random), ratio(random), n % 3 == 0};
     const SpringLattice lattice = with_ratios(geometry, r);
     const double margin = elastic_margin(elasticity(lattice), r.clamped);
-    if (std::abs(margin) < 1e-3) continue;  // too close to say
+    if (std::abs(margin) < 1e-3) continue;  // too close to the limit
     const auto found = find_instability(lattice.endless(), Sector::mirrored);
     if (margin < 0) {
       EXPECT_TRUE(found) << r.alpha << ' ' << r.beta << ' ' << r.gamma << " margin " << margin;
@@ -100,9 +100,9 @@ TEST_P(CentredBrillouin, StabilityNeedsElasticStabilityAndHoldsForAnyWave) {
   EXPECT_GT(by_waves, 5);
 }
 
-// Clamped, the body-centred lattice is one of springs in space, k + 3 k_beta / 7 to the first
-// neighbours and 2 k / 3 + k_gamma / 2 to the second. Both must be positive, which is also enough:
-// then every spring takes up energy, and together they leave no motion free.
+// The clamped body-centred lattice acts as a lattice of springs in space: k + 3 k_beta / 7 to the
+// first neighbours and 2 k / 3 + k_gamma / 2 to the second. Both must be positive. This is also
+// sufficient: every spring then takes up energy, and no motion leaves all springs at their length.
 TEST(Brillouin, ClampedBodyCentredLatticesNeedBothSpringsPositive) {
   Host host;
   const LatticeGeometry geometry = load_lattice(host, "lattices.bcc");

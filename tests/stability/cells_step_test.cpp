@@ -1,5 +1,5 @@
-// The critical step of a body of cells holds for its edges, corners and single cells too, and for a
-// body of one cell it is exact.
+// The critical time step of a body of cells also holds for edges, corners and single cells. For a
+// body of one cell the step is exact.
 #include <support/cells.hpp>
 
 #include <gtest/gtest.h>
@@ -12,8 +12,8 @@ class CellsStep : public testing::TestWithParam<MembraneCase> {};
 INSTANTIATE_TEST_SUITE_P(Membranes, CellsStep, testing::ValuesIn(membranes),
                          [](const auto& info) { return std::string(info.param.name); });
 
-/// How much the largest displacement grows over a while, from noise so small that the springs stay
-/// linear.
+/// Growth of the largest displacement over many steps. The initial noise is so small that the
+/// springs stay linear.
 double growth(const Model& model, double fraction) {
   Simulation simulation(model, 1);
   const double size = 1e-16;
@@ -41,7 +41,7 @@ TEST_P(CellsStep, HoldsForSeveralMaterials) {
                               "normal": [-1, 0.2, 0] } }, )" +
       std::string(GetParam().material) + " }";
   for (const CellShape& shape : cell_shapes()) {
-    if (shape.cells().size() < 30) continue;  // too small for both
+    if (shape.cells().size() < 30) continue;  // too small for two materials
     EXPECT_LT(
         growth(*plan_of(scene_of_cells(shape.shape, GetParam().material, other))->model, 0.99), 100)
         << shape.name;

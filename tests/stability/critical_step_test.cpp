@@ -1,5 +1,5 @@
-// The critical time step is neither lax nor idle: every membrane is stable at 0.99 of it and
-// unstable at 1.02.
+// The critical time step is safe and close: every membrane is stable at 0.99 of it and unstable at
+// 1.02.
 #include <support/scenes.hpp>
 
 #include <gtest/gtest.h>
@@ -18,8 +18,8 @@ INSTANTIATE_TEST_SUITE_P(Membranes, CriticalStep, testing::ValuesIn(membranes), 
 INSTANTIATE_TEST_SUITE_P(CentredLattices, CriticalStep, testing::ValuesIn(centred_lattices),
                          name_of);
 
-/// How much the largest displacement grows over a while, from noise so small that the springs stay
-/// linear.
+/// Growth of the largest displacement over many steps. The initial noise is so small that the
+/// springs stay linear.
 double growth(const Model& model, double fraction, double damping) {
   Simulation simulation(model, 2);
   simulation.set_damping(damping);
@@ -53,8 +53,8 @@ TEST(CriticalStepOfSeveralMaterials, HoldsForCentredLattices) {
     const auto plan = plan_of(block(8, 6, 6, of, "", other));
     ASSERT_TRUE(plan->model->choice.mixed);
     EXPECT_LT(growth(*plan->model, 0.99, 0), 100) << of.name;
-    const bool negative =
-        std::string(of.name).ends_with("negative");  // their signs are not counted on
+    // The bound for several materials takes no advantage of negative springs.
+    const bool negative = std::string(of.name).ends_with("negative");
     EXPECT_GT(growth(*plan->model, negative ? 2 : 1.25, 0), 1e6) << of.name;
   }
 }

@@ -1,6 +1,6 @@
-// Stiff and extreme cases: contrasts of stiffness and density, loads and bodies many orders of
-// magnitude small or large, bodies far from the origin, bodies that fall apart at once. Wanted: the
-// right answer, or for a body without springs at least a quiet one.
+// Extreme cases: large contrasts of stiffness and density, loads and bodies many orders of
+// magnitude small or large, bodies far from the origin, bodies that fall apart at once. The result
+// must be right; for a body without springs, it must at least be finite.
 #include <support/scenes.hpp>
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ using namespace hyperlattice::test;
 /// A bar of 4 x 4 x 10 particles, held at one end and pulled at the other.
 struct Bar {
   double spacing = 1e-3, young = 1e10, density = 2500, force = 20,
-         from = 0;  ///< `from`: where its corner stands on every axis
+         from = 0;  ///< `from`: each coordinate of the corner
   const char* membrane = R"("membrane": "I-m", "poisson": 0.1)";
 };
 
@@ -42,8 +42,8 @@ std::string scene_of(const Bar& bar) {
          number(1000 * bar.spacing * std::sqrt(bar.density / bar.young)) + " } ] }";
 }
 
-/// Displacements after 300 steps of half the critical one, over force / (young spacing): the same
-/// number for all bars of small strain.
+/// Displacements after 300 steps of half the critical time step, over force / (young spacing). All
+/// bars of small strain have the same values.
 std::vector<double> response(const Bar& bar) {
   const auto plan = plan_of(scene_of(bar));
   Simulation simulation(*plan->model, 1);
@@ -55,7 +55,7 @@ std::vector<double> response(const Bar& bar) {
 }
 
 TEST(Extreme, ResponsesScaleWithLoadStiffnessDensityAndSize) {
-  const auto nominal = response({.force = 1e-6});  // strains so small that geometry is linear
+  const auto nominal = response({.force = 1e-6});  // small strains: linear geometry
   EXPECT_GT(largest(nominal), 1);
   const double size = largest(nominal);
   EXPECT_LT(distance(nominal, response({.force = 1e-12})), 1e-6 * size);
@@ -67,8 +67,8 @@ TEST(Extreme, ResponsesScaleWithLoadStiffnessDensityAndSize) {
 }
 
 TEST(Extreme, ABodyFarFromTheOriginMovesTheSame) {
-  const auto near = response({}),
-             far = response({.from = 1024});  // exact in binary, so that the same sites are filled
+  // The offset is exact in binary, so that the same sites are filled.
+  const auto near = response({}), far = response({.from = 1024});
   EXPECT_LT(distance(near, far), 1e-9 * largest(near));
 }
 
@@ -79,7 +79,7 @@ TEST(Extreme, NoLoadIsNoMotion) {
   EXPECT_EQ(largest(displacements(simulation)), 0);
 }
 
-/// A block of 6 x 6 x 12 particles whose upper half is another material.
+/// A block of 6 x 6 x 12 particles whose upper half is of another material.
 std::string two_materials(double young, double density) {
   return block(
       6, 6, 12, R"("membrane": "I-m", "poisson": 0.1)",

@@ -1,5 +1,5 @@
-// Lattices that are not stable: refused with the mode that would grow, or run with a warning if the
-// scene allows it; negative stiffness that is stable asks for nothing.
+// Unstable lattices are refused with the mode that grows, or run with a warning if the scene allows
+// it. Stable lattices with negative stiffness give no message.
 #include <model/stability.hpp>
 #include <support/scenes.hpp>
 
@@ -20,7 +20,7 @@ std::string scene_of(const std::string& material, bool allow,
   return allow ? scene.insert(scene.find("\"pipeline\""), "\"allow_unstable\": true, ") : scene;
 }
 
-/// What is wrong with it; "" if nothing.
+/// The message of the refusal; "" if the scene is accepted.
 std::string faults_of(const std::string& material, bool allow,
                       const std::string& lattice = "lattices.cubic") {
   try {
@@ -33,9 +33,9 @@ std::string faults_of(const std::string& material, bool allow,
 
 struct Case {
   const char* material;
-  const char* pointer;  ///< of its refusal
+  const char* pointer;  ///< pointer of the refusal
   const char* expected;
-  const char* grows;  ///< in the warning
+  const char* grows;  ///< part of the warning
 };
 const Case unstable[] = {
     {R"("membrane": "III", "lambda": -1.55)", "/pipeline/1/lambda: -1.55",
@@ -66,7 +66,7 @@ TEST(Unstable, IsRefusedUnlessTheSceneAllowsIt) {
     EXPECT_NE(faults.find(c.pointer), std::string::npos) << faults;
     EXPECT_NE(faults.find(c.expected), std::string::npos) << faults;
     const auto plan = plan_of(scene_of(c.material, true));
-    if (c.grows[0] == '\0') continue;  // at the very edge neither grows nor resists
+    if (c.grows[0] == '\0') continue;  // at the limit the mode neither grows nor resists
     ASSERT_EQ(plan->model->warnings.size(), 1u) << c.material;
     EXPECT_NE(plan->model->warnings[0].find(c.grows), std::string::npos)
         << plan->model->warnings[0];
@@ -87,7 +87,7 @@ TEST(Unstable, CentredLatticesToo) {
 
 TEST(Unstable, WhatNoSpringsHaveIsRefusedAnyway) {
   EXPECT_NE(faults_of(R"("membrane": "I-m", "poisson": -0.2)", true).find("within (-0.2, 0.25]"),
-            std::string::npos);  // no lambda reaches it
+            std::string::npos);  // no lambda gives this value
   EXPECT_NE(faults_of(R"("membrane": "I-m", "poisson": -0.4)", true).find("without stiffness"),
             std::string::npos);  // E would be negative
   EXPECT_NE(faults_of(R"("poisson": 0.3)", true).find("/pipeline/1/poisson"), std::string::npos);
@@ -112,7 +112,8 @@ TEST(Unstable, StableNegativeStiffnessNeedsNoPermission) {
   }
 }
 
-// One layer under its mirror is stable with negative cross springs; two free layers would part.
+// One layer with its mirror image is stable with negative cross springs. Two free layers would move
+// apart.
 TEST(Unstable, ThePlanSaysIfOnlyTheMirrorKeepsTheLayersTogether) {
   const auto why = [](const char* material) {
     const auto plan = plan_of(scene_of(material, false));
@@ -127,8 +128,8 @@ TEST(Unstable, ThePlanSaysIfOnlyTheMirrorKeepsTheLayersTogether) {
             "it mirrors the first exactly, so one layer is computed");
 }
 
-// The warning is no exaggeration: noise grows at least as fast as the softest wave says (surfaces
-// are softer still), and in a stable lattice not at all.
+// The warning must not exaggerate: noise grows at least as fast as the softest wave predicts, since
+// surfaces are softer. In a stable lattice noise does not grow.
 TEST(Unstable, GrowsAsTheWaveSays) {
   const double size = 1e-16;
   const auto growth = [&](const std::string& material, int steps) {
@@ -139,8 +140,8 @@ TEST(Unstable, GrowsAsTheWaveSays) {
     return std::pair{largest(displacements(simulation)) / size,
                      0.9 * steps * plan->model->critical_time_step};
   };
-  // IV, k_beta = -3: springs along the axes are worth k (1 - 3/2) in space. The softest of all
-  // waves is looked for on a grid of the zone, not by the search that is tested.
+  // In membrane IV with k_beta = -3, springs along the axes act as k (1 - 3/2) in space. A grid
+  // over the zone gives the softest wave, independently of the tested search.
   const auto plan =
       plan_of(scene_of(R"("membrane": "IV", "lambda": -3)", true, "lattices.cubic", 8));
   const Model& model = *plan->model;

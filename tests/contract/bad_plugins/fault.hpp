@@ -1,4 +1,4 @@
-// What a misbehaving plugin is to do: the environment says it.
+// The environment names the fault that a misbehaving plugin must commit.
 #pragma once
 
 #include <cstdlib>

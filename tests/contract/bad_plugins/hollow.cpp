@@ -1,4 +1,4 @@
-// Registers a table of functions with one missing.
+// This plugin registers a table with one function missing.
 #include "law.hpp"
 
 struct Hollow : Law {

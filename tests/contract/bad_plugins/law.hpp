@@ -1,9 +1,9 @@
-// A failure law that does nothing, for the bad plugins beside it: each is sound but for one thing.
+// A failure criterion that does nothing. The bad plugins beside it use it; each has one fault only.
 #pragma once
 
 #include <hyperlattice/failure.hpp>
 
-/// The name a plugin registers; fixed when it is compiled.
+/// The type that a plugin registers. The compiler's flags set it.
 #ifndef TYPE
 #define TYPE "failures.unnamed"
 #endif

@@ -1,4 +1,4 @@
-// A failure criterion that does what it is asked for, see fault.hpp.
+// A failure criterion that commits the fault named in the environment; see fault.hpp.
 #include "fault.hpp"
 
 #include <hyperlattice/failure.hpp>
@@ -8,7 +8,7 @@
 namespace {
 using namespace hyperlattice;
 
-/// Calls itself until its thread has no stack left.
+/// Calls itself until the stack of its thread is full.
 [[gnu::noinline]] double deeper(const volatile double* number) {
   volatile double room[100] = {*number};
   return *number < 1 ? deeper(number) + room[99] : 0;

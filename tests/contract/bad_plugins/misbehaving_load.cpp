@@ -1,4 +1,4 @@
-// A load that does what it is asked for, see fault.hpp.
+// A load that commits the fault named in the environment; see fault.hpp.
 #include "fault.hpp"
 
 #include <hyperlattice/load.hpp>
@@ -11,7 +11,7 @@
 namespace {
 using namespace hyperlattice;
 
-/// Runs while the library is loaded.
+/// Its constructor runs when the library is loaded.
 struct AtLoad {
   AtLoad() {
     if (asked_for("exit at load")) std::exit(0);
@@ -56,8 +56,8 @@ class Misbehaves {
   }
 
   double factor(double time) const {
-    if (time < 1e-6 || time > 2e-6)
-      return 1;  // the plan asks about the start, the middle and the end
+    // The plan evaluates the factor only at the start, the middle and the end of the run.
+    if (time < 1e-6 || time > 2e-6) return 1;
     if (asked_for("throw")) throw std::runtime_error("boom");
     if (asked_for("no memory in factor")) throw std::bad_alloc();
     if (asked_for("wild error")) throw std::runtime_error("\x1b[31mred\r\nforged\n");

@@ -1,5 +1,5 @@
-// Nothing is wrong with it; how it is compiled, or where it lies, may be. Its static constructor
-// leaves a trace, so that a test sees whether any code of it ran.
+// This source has no fault; the fault lies in its compilation or in its place. The static
+// constructor leaves a trace, so that a test sees whether any code of the library ran.
 #include "law.hpp"
 
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// Throws after it has registered a sound component, which must not count then.
+// This plugin registers a sound component and then throws. The host must not accept the component.
 #include "law.hpp"
 
 #include <stdexcept>

@@ -1,4 +1,4 @@
-// Registers the same type twice.
+// This plugin registers the same type twice.
 #include "law.hpp"
 
 HYPERLATTICE_PLUGIN("1.0") {

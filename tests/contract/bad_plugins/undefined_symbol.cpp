@@ -1,4 +1,4 @@
-// Calls a function that no library has.
+// This plugin calls a function that no library has.
 #include "law.hpp"
 
 void function_that_nobody_wrote(int);

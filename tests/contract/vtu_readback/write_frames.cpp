@@ -1,6 +1,6 @@
-// Writes a series with writers.vtu, and beside it the same numbers as plain binary dumps:
-// positions, displacement, velocity, broken_open.
-//   vtu_readback FOLDER COMPRESS FILE REGION DEFORMED
+// Writes a series with writers.vtu, and the same numbers as plain binary dumps: positions,
+// displacement, velocity, broken_open.
+// Usage: vtu_readback FOLDER COMPRESS FILE REGION DEFORMED
 #include <support/output.hpp>
 
 using namespace hyperlattice;
@@ -21,7 +21,8 @@ void dump(const std::string& path, const std::vector<double>& values,
 int main(int, char** arguments) {
   const std::string folder = arguments[1], compress = arguments[2], file = arguments[3],
                     region = arguments[4], deformed = arguments[5];
-  FakeBody body({31, 29, 37});  // arrays of more than one compressed block, and no multiple of it
+  // The arrays have more than one compressed block, and not a whole number of them.
+  FakeBody body({31, 29, 37});
   Plugin writer("writers.vtu", {{"compress", compress == "true"},
                                 {"file", file},
                                 {"region", region},

@@ -1,5 +1,5 @@
-// A writer that looks at nothing: it writes under the final name, and does not notice when the disk
-// is full.
+// A writer without any care: its files have their final names from the start, and it does not
+// notice a full disk.
 #include <hyperlattice/output.hpp>
 
 #include <fstream>

@@ -1,4 +1,4 @@
-// A criterion whose alarm rings at twice the elongation at which its springs break.
+// A failure criterion whose alarm is twice the elongation at which its springs break.
 #include <hyperlattice/failure.hpp>
 
 namespace {

@@ -1,5 +1,5 @@
-// A law whose springs pull a tenth harder than their energy says. Its kernels are for one
-// instruction set, to be compiled soon.
+// A law whose force is a tenth larger than the derivative of its energy. Its kernels are for one
+// instruction set only, to save time of compilation.
 #define HYPERLATTICE_INSTRUCTIONS baseline
 #include <hyperlattice/elastic_solid.hpp>
 #include <hyperlattice/kernels/sweep.hpp>
