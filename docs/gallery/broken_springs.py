@@ -1,10 +1,12 @@
-# The springs that broke in a run, for scenes that keep where their particles are at rest:
-#   { "type": "writers.csv", "name": "particles", "file": "particles", "every": 0, "last": false, "fields": [] }
+# Finds the springs that broke in a run. The scene must write the rest positions of its particles:
+#   { "type": "writers.csv", "name": "particles", "file": "particles",
+#     "every": 0, "last": false, "fields": [] }
 import csv
 
 
 def broken_springs(out):
-    """Time and middle (x, y) of each broken spring of the run in the folder `out`, in the order of breaking; s and m."""
+    """Yields time (s) and middle (x, y) (m) of each broken spring in the order of breaking; `out`
+    is the folder of the run."""
     with open(out / "particles" / "particles_000000.csv") as file:
         places = [(float(row["x"]), float(row["y"])) for row in csv.DictReader(file)]
     with open(out / "failures.csv") as file:

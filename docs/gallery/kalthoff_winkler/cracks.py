@@ -1,6 +1,8 @@
-# Reads a run of this scene: when the upper notch's crack starts, where it goes, when it comes near the edge.
+# Prints, for a run of this scene, the start of the crack at the upper notch, its path, and its
+# distance from the edge.
 #   python3 cracks.py OUT
-# The crack's tip is the broken spring farthest from the middle of the plate; what breaks elsewhere is behind it.
+# The tip of the crack is the broken spring farthest from the middle of the plate. Springs that
+# break behind the tip do not count.
 import math
 import pathlib
 import sys
@@ -12,7 +14,7 @@ NOTCH, EDGE = (0.05, 0.1255), 0.2  # m
 
 
 def crack(out):
-    """(time, x, y) of the tip each time that it has come farther; s and m."""
+    """List of (time, x, y), s and m, whenever the tip of the crack has advanced."""
     path, highest = [], NOTCH[1]
     for time, x, y in broken_springs(out):
         if 0.045 < x < 0.095 and y > highest:
@@ -22,7 +24,7 @@ def crack(out):
 
 
 def angle(place):
-    """Of the line from the notch's tip, against the notch, degrees."""
+    """Angle between the notch and the line from its tip to `place`, degrees."""
     return math.degrees(math.atan2(place[2] - NOTCH[1], place[1] - NOTCH[0]))
 
 

@@ -1,6 +1,7 @@
-# Writes the images of this page: raw voxels, one byte each, x fastest; 1: matrix, 2: stiff.
-#   python3 grains.py FOLDER [COUNT]     COUNT voxels along an edge, 24 if left out
-# grains.raw holds balls that may overlap, with the same places and sizes for any COUNT; layers.raw holds plates along the load, two voxels thick each.
+# Writes the images of this page as raw voxels of one byte each, x fastest; 1: matrix, 2: stiff.
+#   python3 grains.py FOLDER [COUNT]     COUNT voxels along an edge, default 24
+# grains.raw holds balls that may overlap. Their places and sizes are the same for any COUNT.
+# layers.raw holds plates along the load, each two voxels thick.
 import pathlib
 import random
 import sys

@@ -1,6 +1,7 @@
-# Reads a run of this scene: when the crack runs, how fast it is, when it branches.
+# Prints, for a run of this scene, the times of the crack, its speed, and its branching.
 #   python3 crack.py OUT
-# The crack's tip is the farthest broken spring. It has branched when springs within 3 mm of the tip have broken on lines more than 4 mm apart.
+# The tip of the crack is the farthest broken spring. The crack has branched when springs
+# within 3 mm of the tip have broken on lines more than 4 mm apart.
 import pathlib
 import sys
 
@@ -11,7 +12,8 @@ NOTCH, SURFACE_WAVES = 0.05, 2125.0  # m, m/s
 
 
 def crack(out):
-    """Times at which the tip has come each millimetre farther, s; time and place of branching, s and m, or None."""
+    """Returns the times (s) at which the tip has advanced by each further millimetre, and the time
+    (s) and place (m) of branching, or None."""
     branched, tip, near_tip, passed = None, NOTCH, [], []
     for time, x, y in broken_springs(out):
         tip = max(tip, x)

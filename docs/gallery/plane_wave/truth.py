@@ -1,5 +1,7 @@
-# Writes truth.csv: the displacement of the travelling wave u(x, t) = 1 / (rho c) times the integral of the pressure up to t - x / c, at 80 us.
-# The bar cannot move sideways, so that c is the speed of pressure waves, c^2 = E (1 - nu) / ((1 + nu) (1 - 2 nu) rho).
+# Writes truth.csv: the displacement of a travelling wave at 80 us,
+#   u(x, t) = I(t - x / c) / (rho c), I(t) the integral of the pressure from 0 to t.
+# The bar cannot move sideways, so that c is the speed of pressure waves,
+#   c^2 = E (1 - nu) / ((1 + nu) (1 - 2 nu) rho).
 #   python3 truth.py
 import math
 import pathlib
@@ -10,7 +12,7 @@ speed = math.sqrt(young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson) * d
 
 
 def impulse(t):
-    """Integral of the pressure from 0 to t, per area."""
+    """Impulse per area: the integral of the pressure from 0 to t, Pa s."""
     return 0.0 if t <= 0 else pressure * (t * t / (2 * rise) if t <= rise else t - rise / 2)
 
 
