@@ -1,10 +1,16 @@
-"""Dead references in the pages of the project. A line for each, file:line: what is wrong; the exit code is 1 if there is one.
+"""Finds dead references in the pages of the project. Prints a line for each, "file:line: fault",
+and exits with 1 if any exists.
 Argument: the project's folder.
 
-- A relative link points to a file or folder of the project, and its anchor to a heading of that page.
-- A path in code (in backticks, or in a block) that begins with a folder of the project exists. `*`, `{a,b}` and `<name>` stand for any that fits.
-- A source file that is named without its folder in backticks, `law.hpp` or `kernels/simd.hpp`, exists somewhere.
-- A component, `family.name`, exists as a folder. Names that begin with my_, and mine, are the reader's own, as are their files."""
+- A relative link points to a file or folder of the project, and its anchor to a heading of that
+  page.
+- A path in code (in backticks, or in a block) that begins with a folder of the project exists. `*`,
+  `{a,b}` and `<name>` stand for any name that fits.
+- A source file named in backticks without its folder, `law.hpp` or `kernels/simd.hpp`, exists
+  somewhere in the project.
+- A component, `family.name`, exists as a folder. Names that begin with my_, and the name mine,
+  belong to the reader, and so do their files.
+"""
 import itertools
 import pathlib
 import re
@@ -35,12 +41,12 @@ def is_own(name):
 
 
 def blank(match):
-    """Spaces in place of what was found, lines kept."""
+    """Replaces a match by spaces and keeps its line breaks."""
     return re.sub(r"[^\n]", " ", match.group())
 
 
 def variants(path):
-    """What `a/{b,c}/<d>` stands for, as patterns."""
+    """Lists the patterns that a path such as `a/{b,c}/<d>` stands for."""
     parts = [part[1:-1].split(",") if part.startswith("{") else [part] for part in re.split(r"(\{[^}]*\})", re.sub(r"<[^>]*>", "*", path)) if part]
     return ["".join(choice) for choice in itertools.product(*parts)]
 

@@ -1,12 +1,18 @@
-"""Who may know whom, read from the sources. A line for each breach, file:line: what is wrong; the exit code is 1 if there is one.
+"""Checks which parts of the project know which others. Prints a line for each breach,
+"file:line: fault", and exits with 1 if any exists.
 Argument: the project's folder.
 
-- Core and the tools name no built-in component: what their scenes are made of is handed to them.
-- A room of core includes itself, the rooms that its target links, directly or through others, the SDK and the kernels. The kernels include the
-  SDK; the SDK includes nothing of the project. A folder of core that is none of these is a library: it includes itself and the SDK.
-- A tool under apps includes rooms, itself, and the tools that it links. Nothing else includes apps.
+- Core and the tools name no built-in component: the program gives them the components of their
+  scenes.
+- A room of core includes itself, the rooms that its target links (directly or through others), the
+  SDK and the kernels. The kernels include the SDK; the SDK includes nothing else of the project.
+  Any other folder of core is a library: it includes itself and the SDK.
+- A tool under apps includes rooms, itself, and the tools that it links. No other part includes
+  apps.
 - A component's folder includes itself, the SDK and the kernels, never another component.
-Who includes a library of core, links it: its CMakeLists.txt names hyperlattice_<library>."""
+- A part that includes a library of core also links it: its CMakeLists.txt names
+  hyperlattice_<library>.
+"""
 import pathlib
 import re
 import sys
@@ -31,7 +37,7 @@ def lines_below(folder):
 
 
 def projects(place):
-    """The folders below with a CMakeLists.txt, by their names."""
+    """Maps the name of each subfolder with a CMakeLists.txt to its path."""
     return {file.parent.name: file.parent for file in sorted((source / place).glob("*/CMakeLists.txt"))}
 
 
@@ -41,7 +47,9 @@ def recipe_of(folder):
 
 
 def targets(place, function, key):
-    """What each target of the folders there links, directly and through others: of hyperlattice_room(model ... ROOMS scene ...) scene and its own."""
+    """Maps each target of the folders under `place` to the targets that it links, directly or
+    through others. hyperlattice_room(model ... ROOMS scene ...) links scene and everything that
+    scene links."""
     direct = {}
     for name, folder in projects(place).items():
         for call in re.findall(rf"\b{function}\(([^)]*)\)", recipe_of(folder)):
@@ -69,7 +77,8 @@ def check_names(folder):
 
 
 def check_includes(folder, who, may, roots):
-    """`may`: first folders of what is included; `roots`: where <hyperlattice/...> may be."""
+    """Checks the includes of a folder. `may`: allowed first folders of paths; `roots`: folders
+    where <hyperlattice/...> may be found."""
     may = may | {library for library in libraries if re.search(rf"\b(hyperlattice_|Hyperlattice::){library}\b", recipe_of(folder))}
     for file, number, line in lines_below(folder):
         if file.suffix not in (".hpp", ".cpp", ".h", ".c") or not (found := INCLUDE.match(line)):
@@ -94,7 +103,8 @@ of_the_project = {*rooms, *tools, *libraries, "core", "apps", "plugins", "materi
 assert {"base", "model"} <= rooms["run"] and {"analyze", "contract"} <= set(tools), "the lists were not read"
 assert set(FAMILIES.values()) == {name.split(".")[0] for name in components}, "the components were not found"
 
-NO_MEMBER = r"(?![\w(\[]|->|\.(?!so\b)[a-z])"  # model.loads.force(time), loads.force.x are no types
+# The pattern excludes model.loads.force(time) and loads.force.x, which are no types.
+NO_MEMBER = r"(?![\w(\[]|->|\.(?!so\b)[a-z])"
 TYPE = re.compile(r"(?<![\w.])(" + "|".join(re.escape(name) for name in components) + ")" + NO_MEMBER)
 sdk, kernels = source / "core/sdk/include", source / "core/kernels/include"
 assert sdk.is_dir() and kernels.is_dir()

@@ -1,5 +1,6 @@
-"""The page of `hyperlattice report`, judged by other programs: by an XML parser and an HTML parser. It is well-formed, holds the figures of summary.json, runs
-no script, and asks for nothing outside. Arguments: the program, a folder to work in, which is made anew."""
+"""Other programs check the page of `hyperlattice report`: an XML parser and an HTML parser. The
+page must be well-formed, hold the numbers of summary.json, run no script, and load nothing from
+outside. Arguments: the program, and a working folder, which is deleted and made anew."""
 import base64
 import html.parser
 import json
@@ -25,7 +26,7 @@ SCENE = {
 
 
 class Page(html.parser.HTMLParser):
-    """What stands in the page: elements, links, text without that of the style."""
+    """The contents of a page: elements, links, and text without the style sheet."""
 
     def __init__(self, text):
         super().__init__()
@@ -57,7 +58,7 @@ class Page(html.parser.HTMLParser):
 
 def complaints_about(text, summaries, title):
     found = []
-    xml.etree.ElementTree.fromstring(text)  # raises if it is not well-formed
+    xml.etree.ElementTree.fromstring(text)  # raises an error if the page is not well-formed
     page = Page(text)
     words = "".join(page.texts)
     if page.open:
@@ -103,7 +104,7 @@ def main():
     for n, place in ((0, "first"), (-1, "last")):
         if pictures and base64.b64decode(pictures[n].split(",", 1)[1]) != written[n].read_bytes():
             found.append(f"the {place} picture is not the writer's {place}")
-    # energies, balance, broken springs, and the probe's three components
+    # Plots: energies, balance, broken springs, and the probe's three components.
     if page.elements.count("svg") != 6:
         found.append(f"{page.elements.count('svg')} plots")
 
@@ -111,7 +112,8 @@ def main():
     subprocess.run([program, "report", *both, "--out", folder / "both.html"], check=True, capture_output=True)
     more, page = complaints_about((folder / "both.html").read_text(encoding="utf-8"), summaries, shown_title)
     found += more
-    # two runs of six, and together: four energies, balance, open and closed, three components
+    # Six plots for each of two runs, and common plots: four energies, the balance, open and closed
+    # failures, three components.
     if page.elements.count("svg") != 2 * 6 + 4 + 1 + 2 + 3:
         found.append(f"{page.elements.count('svg')} plots of two runs")
     if "/pipeline/1/poisson" not in "".join(page.texts) or runs[1] not in "".join(page.texts):

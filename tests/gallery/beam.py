@@ -1,5 +1,7 @@
-# The beams of the gallery against geometrically nonlinear finite elements, over the whole curve of loads, with numbers of cells through the height:
-# within the tolerances, of second order; far from linear finite elements.
+# Compares the beams of the gallery with geometrically nonlinear finite elements over the whole
+# curve of loads. The arguments CELLS are numbers of cells through the height. Errors must be within
+# the tolerances and of second order. The result at full load must be far from linear finite
+# elements.
 #   beam.py PROGRAM SCENE CELLS...
 import math
 import os
@@ -7,7 +9,7 @@ import sys
 
 from lattice_field import run, table
 
-# What is compared, the full load, N, and the largest errors by boundary and cells through the height.
+# Probe, column, full load (N), and the largest errors by boundary and cells through the height.
 CASES = {
     "beam": ("tip", "displacement_y_mean", 40.0, {"cells": {4: 0.06, 8: 0.016, 12: 0.01, 16: 0.005}, "particles": {4: 0.08, 8: 0.04, 12: 0.04, 16: 0.04}}),
     "clamped_beam": ("middle", "displacement_y@(0.1 0 0)", 600.0, {"cells": {4: 0.06, 8: 0.016, 12: 0.01}, "particles": {4: 0.08, 8: 0.04, 12: 0.04}}),
@@ -25,7 +27,8 @@ for boundary in tolerance:
     for n in numbers:
         spacing = 0.01 / n
         settings = {"/pipeline/0/boundary": boundary, "/pipeline/1/stiffness": "bulk" if boundary == "cells" else "eq15"}
-        if name == "clamped_beam" and boundary == "particles":  # those beside the middle
+        # With boundary particles, the load acts on the two layers beside the middle.
+        if name == "clamped_beam" and boundary == "particles":
             settings |= {f"/pipeline/3/on/box/{end}": [0.1 + sign * 0.6 * spacing, sign, sign] for end, sign in (("low", -1), ("high", 1))}
         summary, out = run(program, scene, spacing, settings)
         rows = {round(full * float(row["time"]), 6): float(row[column]) for row in table(os.path.join(out.name, "probes", probe + ".csv"))}
@@ -33,7 +36,9 @@ for boundary in tolerance:
             faults.append("the probe missed a step of the load")
         off = {load: rows[load] / value - 1 for load, value in curve["fem_nlgeom"].items() if load in rows}
         worst = max(off.values(), key=abs)
-        errors[n] = off[min(off)]  # where the beam is linear, as the continuum's law and the springs' differ at large strains
+        # The order is measured at the least load, where the beam is linear: at large strains the
+        # laws of the continuum and of the springs differ.
+        errors[n] = off[min(off)]
         print(f"{n} through the height, {boundary}: {summary['particles']} particles, at the least load {errors[n]:.4f}, worst {worst:.4f}, "
               f"at full load {off[full]:.4f}, {summary['rest']['iterations']} iterations")
         if abs(worst) > tolerance[boundary][n]:

@@ -1,5 +1,6 @@
-# The bracket of the gallery against finite elements, along three lines, at spacings in mm: within the tolerances, first order, and membrane IV, which
-# is not isotropic, far off.
+# Compares the bracket of the gallery with finite elements along three lines, at spacings in mm.
+# Errors must be within the tolerances and of first order. The error with membrane IV, which is not
+# isotropic, must be large.
 #   complex_domain.py PROGRAM SCENE SPACING...
 import os
 import sys

@@ -1,5 +1,5 @@
-# Runs the crawler of the gallery for a second: with bristles it goes forwards, with the bristles turned round backwards, and without any it stays about
-# where it is.
+# Runs the crawler of the gallery for one second. With bristles it must move forwards, with reversed
+# bristles backwards, and without bristles almost nowhere.
 #   crawler.py PROGRAM SCENE
 import csv
 import json

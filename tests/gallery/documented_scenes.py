@@ -1,4 +1,4 @@
-# Every scene that stands in the documents, as JSON between fences, is one that the program accepts; every study is one that it can run.
+# The program must accept every scene in the documents (JSON between fences) and run every study.
 #   documented_scenes.py PROGRAM SOURCE
 import pathlib
 import re

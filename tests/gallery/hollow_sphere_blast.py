@@ -1,5 +1,6 @@
-# Runs the hollow sphere of the gallery at a spacing in mm: it is done, holds the particles and springs that a count of its own finds, keeps
-# its energy balance, and every spring breaks in the same step as its 47 images under the symmetries of the cube.
+# Runs the hollow sphere of the gallery at a spacing in mm. The run must be done, have as many
+# particles and springs as this script counts, and keep its energy balance. Every spring must break
+# in the same step as its 47 images under the symmetries of the cube.
 #   hollow_sphere_blast.py PROGRAM SCENE SPACING
 import csv
 import itertools
@@ -17,7 +18,7 @@ def check(holds, what):
         faults.append(what)
 
 
-# The particles: odd multiples of half the spacing; integers, in halves of a spacing.
+# Particles have odd integer coordinates, in units of half a spacing.
 inner, outer = (2 * radius / spacing for radius in (20, 50))
 reach = range(-int(outer) - 1 | 1, int(outer) + 2, 2)
 sites = [(x, y, z) for z in reach for y in reach for x in reach if inner**2 < x * x + y * y + z * z < outer**2]
@@ -44,7 +45,8 @@ check(abs(summary["energy"]["largest_relative_error"]) < 0.01, f"energy balance:
 counted = summary["broken_springs"]["open"] + summary["broken_springs"]["closed"]
 check(len(events) == counted > springs / 100, f"{len(events)} events, {counted} broken springs of {springs}")
 
-# Mirrors at the coordinate planes, the exchange of two axes and the turn of all three: together they make all 48 symmetries.
+# Mirrors at the coordinate planes, the exchange of two axes, and the rotation of all three axes
+# generate all 48 symmetries.
 symmetries = {
     "mirror x": lambda s: (-s[0], s[1], s[2]),
     "mirror y": lambda s: (s[0], -s[1], s[2]),

@@ -1,4 +1,4 @@
-# The displacements that a run wrote, between its particles too; and a run of a scene with other values.
+# Runs a scene with other values, and interpolates the displacements that the run wrote.
 import csv
 import itertools
 import json
@@ -20,7 +20,8 @@ class Field:
         self.values = {tuple(site): u for site, u in zip(numpy.rint((rows[:, :3] - self.origin) / spacing).astype(int), rows[:, 3:6])}
 
     def at(self, point):
-        """Trilinear between the eight particles around; where some are missing, from the nearest eight."""
+        """Interpolates linearly between the eight particles around a point. If some of these are
+        missing, extrapolates from the nearest eight."""
         where = (numpy.asarray(point) - self.origin) / self.spacing
         low = numpy.floor(where + 1e-9).astype(int)
         for shift in sorted(itertools.product((0, -1, 1), repeat=3), key=lambda s: math.dist(where, low + numpy.array(s) + 0.5)):
@@ -34,7 +35,8 @@ class Field:
 
 
 def run(program, scene, spacing, settings):
-    """Runs a scene at a spacing (m); returns its summary and a function that reads a file of its results."""
+    """Runs a scene at a spacing (m). Returns the summary and the temporary folder of the results.
+    """
     out = tempfile.TemporaryDirectory()
     command = [program, "run", scene, "--quiet", "--out", out.name, "--set", f"/pipeline/0/spacing={spacing}"]
     for pointer, value in settings.items():

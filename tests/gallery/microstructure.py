@@ -1,5 +1,7 @@
-# A cube from an image of matrix and grains. Plates along the load stretch alike, so that with equal Poisson ratios the body's modulus is the mean of theirs (Voigt's,
-# exact); grains lie between the bounds of Hashin and Shtrikman, which for a Poisson ratio of 0.2 hold for E as they do for K and G.
+# A cube from an image of a matrix with stiff grains. Plates along the load have equal strains; with
+# equal Poisson ratios, the modulus of the cube is therefore exactly the mean of both moduli
+# (Voigt). The modulus of a cube with grains lies between the bounds of Hashin and Shtrikman; for a
+# Poisson ratio of 0.2, these bounds hold for E as for K and G.
 #   microstructure.py PROGRAM SOURCE
 import json
 import pathlib
@@ -24,7 +26,7 @@ def check(holds, what):
 
 
 def energy(folder, spacing, young):
-    """Stored in the stretched cube, J."""
+    """Stored energy of the stretched cube, J."""
     settings = {"/pipeline/0/spacing": spacing, "/pipeline/2/young": young, "/pipeline/5": STRETCHED}
     words = [word for at, value in settings.items() for word in ("--set", f"{at}={json.dumps(value)}")]
     subprocess.run([program, "run", folder / "scene.json", "--quiet", "--out", folder / "out", *words], check=True, stderr=subprocess.DEVNULL)
@@ -32,12 +34,12 @@ def energy(folder, spacing, young):
 
 
 def modulus_ratio(folder, spacing):
-    """Of the body with stiff grains and that with grains like the matrix."""
+    """Modulus of the cube with stiff grains over that of the cube with grains like the matrix."""
     return energy(folder, spacing, STIFF) / energy(folder, spacing, MATRIX)
 
 
 def bounds(share):
-    """Of Hashin and Shtrikman, over the matrix's modulus."""
+    """Bounds of Hashin and Shtrikman over the modulus of the matrix."""
     contrast = STIFF / MATRIX
     lower = 1 + share / (1 / (contrast - 1) + (1 - share) / 2)
     upper = contrast * (1 + (1 - share) / (1 / (1 / contrast - 1) + share / 2))
@@ -51,7 +53,8 @@ with tempfile.TemporaryDirectory() as name:
     (folder / "grains.raw").write_bytes(image.layers(24))
     coarse, fine = modulus_ratio(folder, 1e-3), modulus_ratio(folder, 0.5e-3)
     voigt = (1 + STIFF / MATRIX) / 2
-    limit = 2 * fine - coarse  # springs between the phases are softer than their mean: first order
+    # Springs between the phases are softer than the mean of both: the error is of first order.
+    limit = 2 * fine - coarse
     check(abs(limit / voigt - 1) < 0.01, f"plates: {coarse:.4f} at 1 mm, {fine:.4f} at 0.5 mm, limit {limit:.4f}, exact {voigt}")
     (folder / "grains.raw").write_bytes(image.grains(24))
     ratio = modulus_ratio(folder, 1e-3)

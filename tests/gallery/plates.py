@@ -1,5 +1,5 @@
-# Runs the notched plate and the plate of Kalthoff and Winkler: cracks are slower than surface waves, mirror images of each other, branch or turn as
-# they must, and do not where the load is too small.
+# Runs the notched plate and the plate of Kalthoff and Winkler. Cracks must be slower than surface
+# waves, symmetric, and branch or turn as expected. Under a small load no crack may run.
 #   plates.py PROGRAM GALLERY
 import collections
 import json
@@ -32,7 +32,7 @@ def run(name, out, *sets):
 
 
 def mirrored(out, height):
-    """Whether springs break in pairs that are each other's image across the plate's middle."""
+    """Do springs break in pairs that are mirror images across the middle of the plate?"""
     places = collections.Counter((f"{time:.4e}", round(1e6 * x), round(1e6 * y)) for time, x, y in broken_springs(out))
     return all(places[time, x, round(1e6 * height) - y] == number for (time, x, y), number in places.items())
 

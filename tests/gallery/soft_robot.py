@@ -1,5 +1,6 @@
-# Runs the soft robot of the gallery at a spacing in mm with two time steps: nothing but itself moves it, so that its momentum stays zero to round-off;
-# what the engine put in is kinetic and stored energy, with an error that falls by the square of the step; and its wings move.
+# Runs the soft robot of the gallery at a spacing in mm with two time steps. No external force acts,
+# so that the momentum must stay zero to round-off. The injected energy must equal kinetic plus
+# stored energy, with an error that falls with the square of the step. The wings must move.
 #   soft_robot.py PROGRAM SCENE SPACING
 import csv
 import json
@@ -18,7 +19,7 @@ def check(holds, what):
 
 
 def run(safety, end_us, threads):
-    force = 32e3 * (float(spacing) / 2) ** 2  # of a spring, whose section goes with the square of the spacing
+    force = 32e3 * (float(spacing) / 2) ** 2  # N, in proportion to the section of a spring
     with tempfile.TemporaryDirectory() as out:
         settings = [f'/pipeline/0/spacing="{spacing} mm"', f"/pipeline/4/force={force}", f"/pipeline/5/safety={safety}", f'/pipeline/5/end_time="{end_us} us"', "/pipeline/7/every=0"]
         command = [program, "run", scene, "--quiet", "--out", out, "--threads", str(threads)]
@@ -50,7 +51,7 @@ check(momentum < 1e-12 * scale, f"momentum {momentum / scale} of sqrt(2 m kineti
 moved = max(abs(row["displacement_y_mean"]) for row in tip)
 check(moved > 5e-3, f"the wing's tip moves by {moved} m")
 
-long_run, history, tip = run(0.5, 1000, 2)  # many swings
+long_run, history, tip = run(0.5, 1000, 2)  # many oscillations
 check(long_run["status"] == "done" and long_run["energy"]["largest_relative_error"] < 0.05, f"after a millisecond: {long_run['energy']}")
 momentum = max(math.hypot(row["momentum_x"], row["momentum_y"], row["momentum_z"]) for row in history)
 check(momentum < 1e-11 * scale, f"after a millisecond: momentum {momentum / scale}")

@@ -1,4 +1,5 @@
-# Runs a study of the gallery without its finest spacings and checks what it found: the errors, the orders of convergence, the files.
+# Runs a study of the gallery without its finest spacings, and checks errors, orders of convergence
+# and files.
 #   studies.py PROGRAM SOURCE NAME
 import json
 import pathlib
@@ -16,8 +17,9 @@ def check(holds, what):
 
 
 def plane_wave(rows, orders):
-    """Particles lose the springs of the surface, a share of the section that falls with the spacing: order 1. Cells lose nothing; a scheme of second
-    order has the order 2 * 2.5 / 3 for a wave whose displacement has a kink in its second derivative."""
+    """Boundary particles lack the springs of the surface, a fraction of the section in proportion
+    to the spacing: order 1. Boundary cells lack nothing. A second-order scheme then has
+    the order 2 * 2.5 / 3, because the second derivative of the displacement has a kink."""
     order = {o["boundary"]: o["order"] for o in orders}
     check(abs(order["particles"] - 1) < 0.2, f"order of particles {order['particles']}, expected 1")
     check(abs(order["cells"] - 5 / 3) < 0.15, f"order of cells {order['cells']}, expected 5/3")
@@ -26,7 +28,8 @@ def plane_wave(rows, orders):
 
 
 def hollow_sphere_blast(rows, orders):
-    """Within the tolerances of the truth: 16 % for eq15 at 2 mm; cells are better than any particles."""
+    """Errors are within the tolerances of the truth: 16 % for eq15 at 2 mm. Cells are better than
+    any particles."""
     error = {(r["boundary"], r["stiffness"], r["spacing"]): r["error"] for r in rows}
     check(error["particles", "eq15", "2 mm"] < 0.16, f"eq15, 2 mm: {error['particles', 'eq15', '2 mm']}")
     check(error["cells", "bulk", "2 mm"] < 0.07, f"cells, 2 mm: {error['cells', 'bulk', '2 mm']}")
@@ -36,7 +39,8 @@ def hollow_sphere_blast(rows, orders):
 
 
 def complex_domain(rows, orders):
-    """Within the tolerances of the truth, first order as for any mesh of equal cells; membrane IV, which is not isotropic, far off at any spacing."""
+    """Errors are within the tolerances of the truth, and of first order, as for any mesh of equal
+    cells. Membrane IV, which is not isotropic, has a large error at any spacing."""
     error = {(r["boundary"], r["membrane"], r["spacing"]): r["error"] for r in rows}
     for boundary, tolerance in (("cells", {"10 mm": 0.12, "5 mm": 0.065}), ("particles", {"10 mm": 0.13, "5 mm": 0.08})):
         for spacing, most in tolerance.items():
@@ -48,7 +52,8 @@ def complex_domain(rows, orders):
 
 
 def table(rows, orders):
-    """Across and down: particles within the tolerances of the truth, cells as what is reached with a little room; cells of higher order."""
+    """Displacements across and down. Particles are within the tolerances of the truth, cells within
+    the errors that they reach, with a small margin. Cells have a higher order."""
     tolerance = {("cells", "5 mm"): (0.17, 0.14), ("cells", "2.5 mm"): (0.06, 0.05), ("particles", "5 mm"): (0.12, 0.105), ("particles", "2.5 mm"): (0.08, 0.07)}
     for r in rows:
         for name, most in zip(("across", "down"), tolerance[r["boundary"], r["spacing"]]):
@@ -58,7 +63,8 @@ def table(rows, orders):
 
 
 def beam(rows, orders):
-    """Within the tolerances of the truth over the whole curve of loads; cells of second order."""
+    """Errors are within the tolerances of the truth over the whole curve of loads. Cells are of
+    second order."""
     tolerance = {"cells": {"h/4": 0.06, "h/6": 0.03, "h/8": 0.016}, "particles": {"h/4": 0.08, "h/6": 0.05, "h/8": 0.04}}
     for r in rows:
         most = tolerance[r["boundary"]][r["spacing"]]
@@ -69,7 +75,8 @@ def beam(rows, orders):
 
 
 def clamped_beam(rows, orders):
-    """Within the tolerances of the truth over the whole curve of loads and at the least load, where the beam is linear; cells of second order there."""
+    """Errors are within the tolerances of the truth over the whole curve of loads. At the least
+    load, where the beam is linear, cells are of second order."""
     tolerance = {"cells": {"h/4": 0.06, "h/6": 0.03, "h/8": 0.016}, "particles": {"h/4": 0.08, "h/6": 0.05, "h/8": 0.04}}
     for r in rows:
         most = tolerance[r["boundary"]][r["spacing"]]
@@ -79,14 +86,16 @@ def clamped_beam(rows, orders):
 
 
 def notched_plate(rows, orders):
-    """Without a truth from outside, the spacings among each other: the notch gapes alike, within 5 % with a crack and more nearly without one."""
+    """No external truth exists, so that spacings are compared with each other. The opening of the
+    notch agrees within 5 % with a crack, and better without one."""
     error = {(r["traction"], r["spacing"]): r["error"] for r in rows}
     check(error["1 MPa", "0.5 mm"] < 0.05, f"with a crack: {error['1 MPa', '0.5 mm']}")
     check(error["0.2 MPa", "0.5 mm"] < 0.5 * error["1 MPa", "0.5 mm"], f"without one: {error['0.2 MPa', '0.5 mm']}")
 
 
 def kalthoff_winkler(rows, orders):
-    """Likewise: where nothing breaks the plate moves alike at 2 and 1 mm. With cracks it does not converge, and nothing is asked of the error."""
+    """As for the notched plate. Without cracks the plate moves alike at 2 and 1 mm. With cracks the
+    motion does not converge, so that its error has no bound here."""
     error = {(r["speed"], r["spacing"]): r["error"] for r in rows}
     check(error["4 m/s", "1 mm"] < 0.08, f"without cracks: {error['4 m/s', '1 mm']}")
     check(error["4 m/s", "1 mm"] < error["16.5 m/s", "1 mm"], "cracks do no harm")

@@ -1,5 +1,6 @@
-"""The JSON Schema that the program prints, judged by another program: it accepts good scenes, as written and as resolved, and refuses
-those malformed scenes that a schema can see. Arguments: the program, the table of malformed scenes, good scenes."""
+"""Another program checks the JSON Schema that the program prints. The schema must accept good
+scenes, as written and as resolved, and refuse malformed scenes if a schema can find their fault.
+Arguments: the program, the table of malformed scenes, good scenes."""
 import copy
 import json
 import subprocess
@@ -15,7 +16,7 @@ def load(path):
 
 
 def place(document, pointer):
-    """The container that holds the pointer's last key, and that key."""
+    """Returns the container of the pointer's last key, and this key."""
     keys = [key.replace("~1", "/").replace("~0", "~") for key in pointer.split("/")[1:]]
     for key in keys[:-1]:
         document = document[int(key)] if isinstance(document, list) else document.setdefault(key, {})
@@ -48,7 +49,8 @@ def main():
         complaints += [f"{name} is good, but at {error.json_path}: {error.message}" for error in validator.iter_errors(scene)]
 
     components = json.loads(subprocess.run([program, "plugins", "--json"], check=True, capture_output=True).stdout)["components"]
-    for component in components:  # the example of every page, in place of the stage of its family
+    # The example of each page replaces the stage of its family.
+    for component in components:
         scene = copy.deepcopy(table["base"])
         if component["family"] == "failures":
             scene["pipeline"][1]["failure"] = component["example"]

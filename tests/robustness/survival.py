@@ -1,8 +1,10 @@
-"""What a run survives: survival.py PROGRAM kills|checkpoints|full_disk|power_cuts [COUNT].
+"""Disturbs runs and resumes them: survival.py PROGRAM kills|checkpoints|full_disk|power_cuts
+[COUNT].
 
-Each trial ends a run at a random moment, or spoils its checkpoint, and goes on with it. What the run leaves must be, byte for byte, what a run leaves
-that was never disturbed; a refusal must leave the folder as it was. full_disk and power_cuts need root, for a disk of their own, and power_cuts
-needs mkfs.ext4; without, they are skipped (exit code 77).
+Each trial ends a run at a random time, or damages its checkpoint, and resumes the run. The results
+must be, byte for byte, those of a run without disturbance. A refusal must leave the folder as it
+was. full_disk and power_cuts need root to mount a disk of their own, and power_cuts needs
+mkfs.ext4; otherwise they are skipped (exit code 77).
 """
 import hashlib
 import json
@@ -56,7 +58,7 @@ class Trial:
         return subprocess.Popen(self.command(out, *more), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
     def finish(self, out, what):
-        """Goes on with the run, or begins it if it had come to no checkpoint, and compares what it leaves."""
+        """Resumes the run, or starts it if no checkpoint exists, and compares its results."""
         resumable = any(os.path.exists(os.path.join(out, name)) for name in CHECKPOINTS)
         end = self.run(out, *(["--resume"] if resumable else []))
         if end.returncode != 0:
@@ -79,7 +81,8 @@ def contents(folder):
 
 
 def results(folder):
-    """The hash of each file, without what a run took; of the list of files the last word on each."""
+    """Hashes of all files, without times and memory of the run. Only the last entry of each file in
+    files.csv counts."""
     files = contents(folder)
     summary = json.loads(files.pop("summary.json"))
     for key in ("wall_seconds", "nanoseconds_per_particle_step", "peak_memory_bytes"):
@@ -98,7 +101,7 @@ def kills(trial, count):
     for n in range(count):
         out = os.path.join(trial.folder, "killed")
         shutil.rmtree(out, ignore_errors=True)
-        for _ in range(random.randint(1, 3)):  # it may be killed again
+        for _ in range(random.randint(1, 3)):  # the run may be killed several times
             resumable = any(os.path.exists(os.path.join(out, name)) for name in CHECKPOINTS)
             process = trial.start(out, *(["--resume"] if resumable else []))
             time.sleep(random.uniform(0, 1.2 * trial.seconds))
@@ -143,7 +146,7 @@ def spoiled(data):
         changed[place:place + length] = random.randbytes(length)
     elif kind == 3:
         changed += random.randbytes(random.randint(1, 100))
-    elif kind == 4:  # records that change places, are there twice, or are gone
+    elif kind == 4:  # records swapped, repeated or removed
         parts = records_of(data)
         a, b = random.randrange(1, len(parts)), random.randrange(1, len(parts))
         way = random.randrange(3)
@@ -154,7 +157,7 @@ def spoiled(data):
         else:
             del parts[a]
         changed = b"".join(parts)
-    elif kind == 5:  # another size
+    elif kind == 5:  # another size in a record
         parts = records_of(data)
         a = random.randrange(1, len(parts))
         part = bytearray(parts[a])
@@ -174,7 +177,7 @@ def checkpoints(trial, count):
     for n in range(count):
         shutil.rmtree(out, ignore_errors=True)
         shutil.copytree(base, out)
-        both = n % 8 != 0  # a whole run is dearer than a refusal
+        both = n % 8 != 0  # a whole run takes longer than a refusal
         for name in CHECKPOINTS if both else CHECKPOINTS[:1]:
             data = spoiled(good[name])
             if data == good[name]:
@@ -256,12 +259,12 @@ def power_cuts(trial, count):
             process = trial.start(os.path.join(disk, "out"))
             time.sleep(random.uniform(0.1, 1) * trial.seconds)
             process.send_signal(signal.SIGSTOP)
-            shutil.copyfile(image, copy)  # what the disk holds now; what waits in memory is lost
+            shutil.copyfile(image, copy)  # state of the disk; caches are lost
             process.kill()
             process.wait()
         finally:
             subprocess.run(["umount", disk], check=False)
-        mount("-o", "loop", copy, after)  # the journal is replayed
+        mount("-o", "loop", copy, after)  # the mount replays the journal
         try:
             out = os.path.join(after, "out")
             resumable = any(os.path.exists(os.path.join(out, name)) for name in CHECKPOINTS)

@@ -1,4 +1,4 @@
-# Reads a series with VTK's own reader and compares every number, bit by bit, with the dumps written beside it.
+# Reads a series with VTK's own reader and compares all numbers, bit by bit, with dumps of them.
 #   read_back.py PROGRAM COMPRESS
 import subprocess
 import sys

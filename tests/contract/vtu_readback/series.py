@@ -1,11 +1,11 @@
-# A series of VTK files, read with VTK's own reader.
+# Reads series of VTK files with VTK's own reader.
 import xml.etree.ElementTree as xml
 
 import vtk
 
 
 def times(path):
-    """Time and file name of each entry of a .pvd collection."""
+    """Times and file names of the entries of a .pvd collection."""
     collection = xml.parse(path).getroot()
     if collection.get("type") != "Collection":
         raise SystemExit(f"{path}: not a collection")
@@ -13,7 +13,7 @@ def times(path):
 
 
 def read(path):
-    """The grid of a file; ends the test if VTK's reader complains."""
+    """Reads the grid in a file. Ends the test if VTK's reader complains."""
     complaints = []
     reader = vtk.vtkXMLUnstructuredGridReader()
     reader.AddObserver("ErrorEvent", lambda *_: complaints.append(path))

@@ -1,4 +1,5 @@
-# A whole run writes the same frames as VTK files and as tables; both hold the same numbers, at the same times, as the probe of a point.
+# A run writes the same frames as VTK files and as tables. Both must hold the same numbers at the
+# same times, and agree with the probe of a point.
 #   whole_run.py PROGRAM
 import json
 import subprocess
