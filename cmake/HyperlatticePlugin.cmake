@@ -1,17 +1,19 @@
-# How a plugin is built, inside this project and outside (find_package(Hyperlattice) includes this file).
+# Functions that build plugins, inside this project and outside: find_package(Hyperlattice) includes
+# this file.
 #
 #   hyperlattice_add_plugin(loads.blast blast.cpp)
-#     a library `loads.blast.so` that is found by the type's name.
+#     builds the library `loads.blast.so`. The program finds it by the name of the type.
 #
 #   hyperlattice_add_material(materials.elastic elastic.cpp LAW elastic.hpp Elastic)
-#     the same, and the kernels that run the law over a lattice, compiled once for each instruction set; the processor chooses at run time.
+#     also builds the kernels of the law, once for each instruction set. The program chooses
+#     one of them at run time.
 
 function(hyperlattice_add_plugin type)
   add_library(${type} MODULE ${ARGN})
   set_target_properties(${type} PROPERTIES PREFIX "" OUTPUT_NAME ${type} CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   target_compile_features(${type} PRIVATE cxx_std_20)
   target_link_libraries(${type} PRIVATE Hyperlattice::kernels)
-  if(TARGET hyperlattice_flags) # this project's own plugins
+  if(TARGET hyperlattice_flags) # plugins of this project
     target_link_libraries(${type} PRIVATE hyperlattice_flags)
     set_target_properties(${type} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/hyperlattice)
     install(TARGETS ${type} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/hyperlattice COMPONENT plugins)
@@ -28,11 +30,13 @@ function(hyperlattice_add_material type)
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     list(APPEND variants avx2 avx512)
   endif()
-  # -Wno-psabi: vectors stay inside one file, so their calling convention is nobody's concern
+  # -Wno-psabi: the calling convention of vectors does not matter, as they stay inside one file.
   set(flags_baseline -Wno-psabi)
   set(flags_avx2 -march=x86-64-v3 -Wno-psabi)
   set(flags_avx512 -march=x86-64-v4 -mprefer-vector-width=512)
-  if(HYPERLATTICE_SANITIZE) # kernels would take many minutes to compile with them; what calls them is checked
+  # Kernels would take many minutes to compile with sanitizers. Sanitizers still check the callers
+  # of kernels.
+  if(HYPERLATTICE_SANITIZE)
     foreach(variant ${variants})
       list(APPEND flags_${variant} -fno-sanitize=all)
     endforeach()

@@ -1,8 +1,9 @@
-# A room of the runtime, and a tool that stands on it.
+# Functions that build a room of the runtime, and a tool on top of the rooms.
 #
 #   hyperlattice_room(plan SOURCES plan.cpp ... ROOMS statics LIBRARIES Eigen3::Eigen)
-#     the library hyperlattice_plan of core/plan, which links the rooms named and, through them, what they link. With tests, each room is also
-#     linked whole with those rooms alone: what it uses of a room after it is then an error.
+#     builds the library hyperlattice_plan of core/plan. The library links the given rooms and,
+#     through them, the rooms that they link. With tests, each room is also linked completely
+#     with these rooms alone, so that a call into a later room is an error.
 
 add_library(hyperlattice_room_flags INTERFACE)
 target_compile_definitions(hyperlattice_room_flags INTERFACE BOOST_DLL_USE_STD_FS HYPERLATTICE_VERSION="${PROJECT_VERSION}")
@@ -31,13 +32,14 @@ function(hyperlattice_room name)
 endfunction()
 
 #   hyperlattice_tool(study SOURCES study_file.cpp ... TOOLS report LIBRARIES Eigen3::Eigen)
-#     the library hyperlattice_study of apps/study.
+#     builds the library hyperlattice_study of apps/study.
 function(hyperlattice_tool name)
   cmake_parse_arguments(TOOL "" "" "SOURCES;TOOLS;LIBRARIES" ${ARGN})
   list(TRANSFORM TOOL_TOOLS PREPEND hyperlattice_)
   set(tool hyperlattice_${name})
   add_library(${tool} STATIC ${TOOL_SOURCES})
-  set_target_properties(${tool} PROPERTIES CXX_VISIBILITY_PRESET default VISIBILITY_INLINES_HIDDEN OFF) # as the precompiled headers are
+  # The precompiled headers need the same visibility.
+  set_target_properties(${tool} PROPERTIES CXX_VISIBILITY_PRESET default VISIBILITY_INLINES_HIDDEN OFF)
   target_include_directories(${tool} PUBLIC ${PROJECT_SOURCE_DIR}/apps)
   target_link_libraries(${tool} PUBLIC hyperlattice ${TOOL_TOOLS} PRIVATE ${TOOL_LIBRARIES} hyperlattice_room_flags)
   target_precompile_headers(${tool} REUSE_FROM hyperlattice_base)

@@ -1,4 +1,5 @@
-# The installed tree: program, runtime, plugins, what a plugin author compiles against, and the project to start from. It may be moved as a whole.
+# The installed tree: program, runtime, plugins, the headers for authors of plugins, and a project
+# to start from. Users may move the tree as a whole.
 include(CMakePackageConfigHelpers)
 
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/Hyperlattice)
@@ -16,7 +17,8 @@ install(FILES ${PROJECT_BINARY_DIR}/HyperlatticeConfig.cmake ${PROJECT_BINARY_DI
               cmake/HyperlatticePlugin.cmake DESTINATION ${package})
 
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/hyperlattice RENAME copyright)
-install(FILES README.md CONTRIBUTING.md CHANGELOG.md CITATION.cff DESTINATION ${share}) # pages of docs lead to them
+# The pages of docs link to these files.
+install(FILES README.md CONTRIBUTING.md CHANGELOG.md CITATION.cff DESTINATION ${share})
 foreach(folder docs scenes)
   if(IS_DIRECTORY ${PROJECT_SOURCE_DIR}/${folder})
     install(DIRECTORY ${folder}/ DESTINATION ${share}/${folder} FILES_MATCHING PATTERN "*.md" PATTERN "*.csv" PATTERN "*.json" PATTERN "*.png" PATTERN "*.svg"
