@@ -1,5 +1,6 @@
-# The first plugin of a user: installs this build, moves the installed tree, lets the program write a project for each family that it knows, and builds and tests
-# them there. BUILD and SOURCE are this project's folders, COMPILER its C++ compiler.
+# The first plugin of a user. The script installs this build and moves the installed tree. There the
+# program writes a project for each family that it supports, and the script builds and tests these
+# projects. BUILD and SOURCE are the folders of this project, COMPILER is its C++ compiler.
 set(temporary $ENV{TMPDIR})
 if(NOT temporary)
   set(temporary /tmp)
@@ -35,7 +36,7 @@ foreach(type failures.tearing materials.wearing_out lattices.dense loads.nudge w
   set(project ${folder}/${type})
   string(TIMESTAMP start "%s")
   must_work(${folder}/moved/bin/hyperlattice plugins --new ${type} --out ${project})
-  set(build "${project}/built anywhere")  # not the folder that scene.json names, and with a space in its name
+  set(build "${project}/built anywhere")  # another folder than in scene.json, with a space
   must_work(${CMAKE_COMMAND} -S ${project} -B ${build} -D CMAKE_PREFIX_PATH=${folder}/moved -D CMAKE_CXX_COMPILER=${COMPILER}
             -D CMAKE_CXX_FLAGS=-Wall\ -Wextra\ -Wpedantic\ -Wconversion\ -Werror)
   must_work(${CMAKE_COMMAND} --build ${build} --parallel)

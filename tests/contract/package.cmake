@@ -1,4 +1,5 @@
-# The Debian package: made, unpacked elsewhere and run there. BUILD is the build's folder, CPACK the program.
+# The script makes the Debian package, unpacks it elsewhere and runs the program there. BUILD is the
+# folder of the build, CPACK the program.
 set(temporary $ENV{TMPDIR})
 if(NOT temporary)
   set(temporary /tmp)
