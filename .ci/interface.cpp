@@ -1,6 +1,6 @@
-// What crosses between program and plugin, for abidiff: the tables of functions hang on pointers
-// without a type, so that nothing that the library exports leads to them. See .ci/abi and the list
-// in boundary.hpp.
+// Shows abidiff all types that cross between program and plugin. Pointers to the tables of
+// functions have no type, so that no exported symbol leads to these types. See .ci/abi, and the
+// list in boundary.hpp.
 #include <hyperlattice/boundary.hpp>
 
 namespace hyperlattice {

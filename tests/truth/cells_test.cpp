@@ -253,8 +253,8 @@ struct Uniaxial {
 struct UniaxialCase {
   const char* name;
   const char* membrane;
-  double poisson, modulus;                              ///< of the infinite lattice
-  double poisson_4, modulus_4, poisson_10, modulus_10;  ///< of boundary particles, 4^3 and 10^3
+  double poisson, modulus;                              ///< the infinite lattice
+  double poisson_4, modulus_4, poisson_10, modulus_10;  ///< boundary particles, 4^3 and 10^3
 };
 const UniaxialCase uniaxial_cases[] = {
     {"L_0", R"("membrane": "none")", .25, 2.5, .230965, 2.127954, .243257, 2.352596},

@@ -58,7 +58,7 @@ void compare(const Plan& plan, double strain, double shear,
   EXPECT_LT(expected.size(), model.body.base_springs() + model.body.listed.springs.size());
 }
 
-constexpr double l = 1e-3, k = 0.4 * 1e10 * l;  // of block() with nu = 1/4
+constexpr double l = 1e-3, k = 0.4 * 1e10 * l;  // as in block(), nu = 1/4
 
 TEST(Failures, StrainCountsSpringsByTheirLength) {
   const auto plan = plan_of(block(5, 4, 6, breakable(R"(strain", "limit": 0.008)")));

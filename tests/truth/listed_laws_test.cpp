@@ -1,6 +1,6 @@
-// Laws with constants and memory on lists. Each end of a spring keeps its own copy of the memory
-// there. The tests therefore first check that both ends agree, then closed forms, agreement with
-// the grid, and the energy balance.
+// Laws with constants and memory on lists. In a list, each end of a spring keeps its own copy of
+// the memory. The tests therefore first check that both ends agree, then closed forms, agreement
+// with the grid, and the energy balance.
 #include <support/laws.hpp>
 #include <support/lists.hpp>
 
@@ -137,7 +137,7 @@ TEST(ListedLaws, AViscousPairOscillatesAsTheDampedOscillator) {
   EXPECT_LT(worst, 0.012 * 2 / omega);
   const EnergyBalance balance = simulation.balance();
   EXPECT_LT(std::abs(balance.relative_error()), 1e-4);
-  const double lost = mass * (1 - std::exp(-2));  // of the 2 * 1/2 m v^2 at the start
+  const double lost = mass * (1 - std::exp(-2));  // 2 * 1/2 m v^2 at the start
   EXPECT_NEAR(balance.dissipated(), lost, 0.02 * lost);
 }
 
