@@ -19,6 +19,7 @@ class LoneSpring {
   SpringAnswer move(double elongation, double time_step);
   /// Returns the stored energy, J, at this elongation, m, with the present memory.
   double energy(double elongation) const;
+  const std::vector<double>& memory() const { return memory_; }
   double rest_length() const { return spring_.rest_length; }
   double period() const { return period_; }  ///< sqrt(m / k) with the mass m of a particle, s
 

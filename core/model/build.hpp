@@ -31,6 +31,10 @@ void add_materials(Model& model, RegionIndex& regions, Faults& faults);
 /// kernels.
 void set_springs(Model& model, Faults& faults);
 
+/// Returns the part of a composite spring that has a material's own springs.
+SpringPart part_of(const Model& model, std::uint8_t material, std::uint32_t spring_class,
+                   double weight);
+
 /// Appends the springs, masses and alpha springs of each mixture to those of the materials.
 void add_mixtures(Model& model);
 

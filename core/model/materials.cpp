@@ -101,20 +101,6 @@ Material make_material(const Model& model, const Stage& stage, const LatticeFact
   return material;
 }
 
-/// Adds a fault for each material with another law than the first: the materials of a body share
-/// their kernels.
-void check_laws(const std::vector<Material>& materials, Faults& faults) {
-  const std::string_view law = materials[0].stage->functions<MaterialFunctions>().law;
-  for (const Material& material : materials) {
-    const std::string_view other = material.stage->functions<MaterialFunctions>().law;
-    if (other != law)
-      faults.add(material.stage->pointer, material.stage->component->type(),
-                 fmt::format("a material with the law \"{}\" of {}, because one body has one law; "
-                             "this one has \"{}\"",
-                             law, materials[0].stage->pointer, other));
-  }
-}
-
 /// Assigns a material to each particle, or to each cell of a body of cells. A later stage overrides
 /// earlier ones.
 void assign(Model& model, RegionIndex& regions, Faults& faults) {
@@ -180,7 +166,6 @@ void add_materials(Model& model, RegionIndex& regions, Faults& faults) {
       add_all(faults, error);
     }
   if (!faults.empty()) return;
-  check_laws(model.materials, faults);
   assign(model, regions, faults);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 namespace hyperlattice {
 
@@ -54,8 +55,8 @@ double Mixtures::bytes() const {
 
 namespace {
 
-/// Returns the mean of the springs of these cells' materials. The lowest alarm of them decides when
-/// the spring is checked for failure.
+/// Returns the mean stiffness of the springs of these cells' materials. The lowest alarm of them
+/// decides when the spring is checked for failure. Constants of laws have no mean.
 SpringConstants mean_spring(const Model& model, const std::vector<std::uint8_t>& cells,
                             std::uint32_t spring_class) {
   const double part = 1 / static_cast<double>(cells.size());
@@ -65,11 +66,29 @@ SpringConstants mean_spring(const Model& model, const std::vector<std::uint8_t>&
     mean.stiffness += part * own.stiffness;
     mean.cross_stiffness += part * own.cross_stiffness;
     mean.alarm = std::min(mean.alarm, own.alarm);
-    for (int cross = 0; cross < 2; ++cross)
-      for (std::size_t n = 0; n < max_law_constants; ++n)
-        mean.law[cross][n] += part * own.law[cross][n];
   }
   return mean;
+}
+
+/// Returns whether the cells' materials have one linear law without constants.
+bool is_one_spring(const Model& model, const std::vector<std::uint8_t>& cells) {
+  const std::uint32_t law = model.materials[cells.front()].law;
+  return model.laws[law].kernels.linear &&
+         std::all_of(cells.begin(), cells.end(), [&](std::uint8_t material) {
+           return model.materials[material].law == law;
+         });
+}
+
+/// Returns the springs of the cells' materials, side by side. `cells` is sorted.
+CompositeSpring side_by_side(const Model& model, const std::vector<std::uint8_t>& cells,
+                             std::uint32_t spring_class) {
+  std::vector<SpringPart> parts;
+  for (const std::uint8_t material : cells) {
+    if (parts.empty() || parts.back().material != material)
+      parts.push_back(part_of(model, material, spring_class, 0));
+    parts.back().weight += 1 / static_cast<double>(cells.size());
+  }
+  return {model.laws, std::move(parts), CompositeSpring::Joined::side_by_side};
 }
 
 }  // namespace
@@ -92,7 +111,11 @@ void add_mixtures(Model& model) {
       if (!cells.empty() && cells.back() != first) {
         const auto [entry, is_new] = known.try_emplace(
             {to.spring_class, cells}, static_cast<std::uint32_t>(model.springs.size()));
-        if (is_new) model.springs.push_back(mean_spring(model, cells, to.spring_class));
+        if (is_new) {
+          model.springs.push_back(mean_spring(model, cells, to.spring_class));
+          if (!is_one_spring(model, cells))
+            model.add_composite(entry->second, side_by_side(model, cells, to.spring_class));
+        }
         place = entry->second;
       }
       model.mixture_springs.push_back(place);

@@ -1,6 +1,8 @@
 // The model of a scene: particles, springs, masses and loads. It does not change during a run.
 #pragma once
 
+#include <model/composite_spring.hpp>
+#include <model/law.hpp>
 #include <model/mixtures.hpp>
 #include <scene/scene.hpp>
 
@@ -31,6 +33,7 @@ struct Material {
   const Stage* stage = nullptr;
   ComponentPointer component;
   MaterialConstants constants;
+  std::uint32_t law = 0;                 ///< index in Model::laws
   double mass = 0;                       ///< mass of a whole particle, kg
   double critical_time_step = 0;         ///< for the infinite lattice of this material, s
   const Stage* failure_stage = nullptr;  ///< null: the springs do not break
@@ -90,7 +93,20 @@ struct SpringProperties {
   double share = 1;              ///< share of the whole spring, 0 to 1
   std::uint32_t spring_class = 0;
   double stiffness = 0, cross_stiffness = 0;          ///< of the whole spring, N/m
-  const double *law = nullptr, *cross_law = nullptr;  ///< SpringConstants::law
+  /// The law by its index in Model::laws, and its constants of base and cross springs.
+  std::uint32_t law = 0;
+  const double* constants[2] = {};
+  /// The parts of a spring of several laws or constants, which `law` and `constants` do not
+  /// describe; null: a spring of one law.
+  const CompositeSpring* composite = nullptr;
+  double factor = 1;  ///< stiffness of a listed spring over that of its class
+
+  double rest_length_of(std::size_t cross) const {
+    return cross == 0 ? rest_length : cross_rest_length;
+  }
+  double stiffness_of(std::size_t cross) const {
+    return cross == 0 ? stiffness : cross_stiffness;
+  }
 };
 
 struct Model {
@@ -112,9 +128,15 @@ struct Model {
   std::vector<SpringConstants> springs;
   /// [mixture * neighbours + n]: index in `springs`
   std::vector<std::uint32_t> mixture_springs;
+  /// The parts of each spring in `springs` by their index in `composites`; -1, or beyond the end: a
+  /// spring of one law.
+  std::vector<std::int32_t> composite_of;
+  std::vector<CompositeSpring> composites;
   double crossings = 0;  ///< base springs through a unit of area, 1/m2, see SpringFacts
   KernelChoice choice;
-  KernelSet kernels;
+  std::vector<Law> laws;  ///< each once; the first one's kernels move the particles
+  std::uint32_t memory = 0;  ///< numbers that each base or cross spring keeps
+  bool softens = false;      ///< whether a law softens
   int degrees_of_freedom = 3;
   /// Stable time step, s: exact for one material, a rigorous lower bound for several materials and
   /// for loads that answer to the motion.
@@ -142,8 +164,13 @@ struct Model {
     return body.share(particle) * masses[kind(particle)];
   }  ///< kg
   const SpringConstants& spring(std::uint8_t a, std::uint8_t b, std::uint32_t spring_class) const {
-    return springs[(a * materials.size() + b) * body.grid.spring_classes + spring_class];
+    return springs[spring_index(a, b, spring_class)];
   }
+  std::size_t spring_index(std::uint8_t a, std::uint8_t b, std::uint32_t spring_class) const {
+    return (a * materials.size() + b) * body.grid.spring_classes + spring_class;
+  }
+  /// Makes the spring with this index in `springs` a composite one.
+  void add_composite(std::size_t spring, CompositeSpring composite);
   /// Returns the constants of the spring to a neighbour from a particle of kind `here` to one of
   /// kind `there`.
   const SpringConstants& spring_to(std::uint32_t neighbour, std::uint32_t here,
@@ -152,22 +179,35 @@ struct Model {
     return spring(static_cast<std::uint8_t>(here), static_cast<std::uint8_t>(there),
                   neighbours[neighbour].site.spring_class);
   }
+  const KernelSet& kernels() const { return laws.front().kernels; }
+  /// Returns the parts of a spring in `springs`; null if it has one law.
+  const CompositeSpring* composite(const SpringConstants& of) const {
+    const auto index = static_cast<std::size_t>(&of - springs.data());
+    if (index >= composite_of.size() || composite_of[index] < 0) return nullptr;
+    return &composites[static_cast<std::size_t>(composite_of[index])];
+  }
   /// Returns the properties of the spring from a to b. `neighbour`: in a structured body the index
   /// in `neighbours`, in a listed body the index in its list of springs.
   SpringProperties spring_properties(Particle a, Particle b, std::uint32_t neighbour) const;
   /// Returns the materials of the spring from a to b: those of its cells in a body of cells of
   /// several materials, else those of its ends.
   SpringMaterials materials_of(Particle a, Particle b, std::uint32_t neighbour) const;
-  /// Returns what the failure criterion of `material` knows of a spring. A spring of several cells
-  /// consists of one part for each material, side by side; its stiffness here is that inside
-  /// `material`. A spring between two particles has its own stiffness.
+  /// Returns what the failure criterion of `material` knows of a spring. A spring of several
+  /// materials consists of one part for each material; the criterion is asked about a whole spring
+  /// of its material with the force of this part, see elongation_in().
   SpringFacts facts(const SpringProperties& properties, std::uint8_t material) const {
-    const double stiffness = mixtures.empty()
-                                 ? properties.stiffness
-                                 : spring(material, material, properties.spring_class).stiffness;
+    const double stiffness =
+        properties.factor * spring(material, material, properties.spring_class).stiffness;
     return {properties.rest_length, stiffness, body.grid.spacing, properties.spring_class,
             crossings};
   }
+  /// Returns the elongation, m, of a whole spring of `material` with the force of this material's
+  /// part of a spring. `kept`: memory of the spring; used by composite springs.
+  double elongation_in(std::uint8_t material, const SpringProperties& properties,
+                       double elongation, const double* kept) const;
+  /// Returns the elongation, m, of a whole spring of `material`, with the rest length of a spring,
+  /// below which this material's criterion does not break it; infinite if it has none.
+  double own_alarm(std::uint8_t material, const SpringProperties& properties) const;
   /// Returns the elongation, m, below which no criterion breaks the spring from a to b; infinite if
   /// none can.
   double alarm(Particle a, Particle b, std::uint32_t neighbour,

@@ -1,14 +1,18 @@
 // Springs between all pairs of materials, and those of mixtures. A spring between particles of two
-// materials consists of two half springs in series,
+// materials consists of two half springs in series. If both have the same linear law without
+// constants, these are one spring,
 //   k = 2 a b / (a + b),
-// and k = 0 if a or b is 0. The constants of the law are the mean of both. (Stiffnesses of opposite
-// sign, which only some membranes have, are not in series; they take the mean.)
+// and k = 0 if a or b is 0. Stiffnesses of opposite sign, which only some membranes have, are not in
+// series; they take the mean. All other pairs are composite springs (composite_spring.hpp). The
+// scene may choose the softer or the stiffer material's spring instead.
 #include <model/build.hpp>
 
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace hyperlattice {
 
@@ -46,6 +50,8 @@ double alarm_of(const Material& material, const SpringFacts& facts) {
                   -facts.rest_length);  // no length is negative, so no elongation is below -L0
 }
 
+/// Returns the kernels of a law. Throws OutsideError if they are not whole, and InputError if the
+/// law has no kernel for the body.
 KernelSet kernels_of(const Stage& stage, const KernelChoice& choice) {
   KernelSet kernels;
   call(stage, "kernels", [&](const Complaint& why) {
@@ -57,25 +63,116 @@ KernelSet kernels_of(const Stage& stage, const KernelChoice& choice) {
     throw plugin_error(
         stage, "kernels",
         "it lacks the functions of one spring, or its springs keep more numbers than they may");
+  if (kernels.step == nullptr || kernels.step_damped == nullptr || kernels.measure == nullptr ||
+      kernels.step_row == nullptr || kernels.measure_row == nullptr) {
+    if (choice.precision == Precision::floats)
+      throw InputError(
+          {{"/precision", "float",
+            fmt::format("double; {} has no kernel in floats for {}", stage.component->type(),
+                        choice.listed ? "lists of springs" : "this lattice")}});
+    throw refusal(stage, choice.listed ? "its law has no kernel for lists of springs"
+                                       : "its library has no kernel for this membrane");
+  }
   return kernels;
 }
 
-SpringConstants spring_between(const Model& model, const Material& a, const Material& b,
-                               std::uint32_t spring_class) {
-  const MaterialConstants &left = a.constants, &right = b.constants;
+/// Returns the material of the springs between two materials; nothing if they have parts of both.
+std::optional<std::uint8_t> chosen_material(const Model& model, std::uint8_t a, std::uint8_t b) {
+  const InterfaceSprings rule = model.scene->interface_springs;
+  if (a == b || rule == InterfaceSprings::series || !model.mixtures.empty()) return std::nullopt;
+  const auto [first, second] = std::minmax(a, b);
+  const bool first_is_softer = model.materials[first].constants.base_stiffness <=
+                               model.materials[second].constants.base_stiffness;
+  return first_is_softer == (rule == InterfaceSprings::softer) ? first : second;
+}
+
+/// Returns the springs of one material, with its own alarm.
+SpringConstants spring_within(const Model& model, const Material& material,
+                              std::uint32_t spring_class) {
+  const MaterialConstants& own = material.constants;
   SpringConstants spring;
-  spring.stiffness = model.body.grid.class_stiffness[spring_class] *
-                     between(left.base_stiffness, right.base_stiffness);
-  spring.cross_stiffness = between(left.cross_ratio[spring_class] * left.base_stiffness,
-                                   right.cross_ratio[spring_class] * right.base_stiffness);
+  spring.stiffness = model.body.grid.class_stiffness[spring_class] * own.base_stiffness;
+  spring.cross_stiffness = own.cross_ratio[spring_class] * own.base_stiffness;
   const SpringFacts facts{rest_length(model, spring_class), spring.stiffness,
                           model.body.grid.spacing, spring_class, model.crossings};
-  spring.alarm = std::min(alarm_of(a, facts), alarm_of(b, facts));
+  spring.alarm = alarm_of(material, facts);
   for (int cross = 0; cross < 2; ++cross)
-    for (std::size_t n = 0; n < max_law_constants; ++n)
-      spring.law[cross][n] =
-          0.5 * (left.law[spring_class][cross][n] + right.law[spring_class][cross][n]);
+    std::copy_n(own.law[spring_class][cross], max_law_constants, spring.law[cross]);
   return spring;
+}
+
+/// Returns the spring between two materials: of linear laws itself, of others its stiffness near
+/// rest. Each material's alarm is that of the same force in a spring of its own.
+SpringConstants spring_between(const Model& model, std::uint8_t a, std::uint8_t b,
+                               std::uint32_t spring_class) {
+  if (a == b) return spring_within(model, model.materials[a], spring_class);
+  const SpringConstants left = spring_within(model, model.materials[a], spring_class),
+                        right = spring_within(model, model.materials[b], spring_class);
+  if (const auto chosen = chosen_material(model, a, b)) return *chosen == a ? left : right;
+  SpringConstants spring;
+  spring.stiffness = between(left.stiffness, right.stiffness);
+  spring.cross_stiffness = between(left.cross_stiffness, right.cross_stiffness);
+  for (const SpringConstants* own : {&left, &right})
+    spring.alarm = std::min(spring.alarm, own->alarm * (own->stiffness / spring.stiffness));
+  return spring;
+}
+
+/// Returns whether one spring of the kernels describes the springs between these materials.
+bool is_one_spring(const Model& model, std::uint8_t a, std::uint8_t b) {
+  return a == b ||
+         (model.materials[a].law == model.materials[b].law &&
+          model.laws[model.materials[a].law].kernels.linear);
+}
+
+/// Makes the parts of the springs between two materials whose laws or constants differ.
+void join(Model& model, std::uint8_t a, std::uint8_t b, std::uint32_t spring_class) {
+  const auto [first, second] = std::minmax(a, b);
+  std::vector<SpringPart> parts;
+  auto joined = CompositeSpring::Joined::side_by_side;
+  if (const auto chosen = chosen_material(model, a, b)) {
+    parts = {part_of(model, *chosen, spring_class, 1)};
+  } else {
+    parts = {part_of(model, first, spring_class, 0.5), part_of(model, second, spring_class, 0.5)};
+    joined = CompositeSpring::Joined::in_series;
+  }
+  model.add_composite(model.spring_index(a, b, spring_class),
+                      CompositeSpring(model.laws, std::move(parts), joined));
+}
+
+/// Makes the springs between all pairs of materials.
+void add_springs(Model& model) {
+  const auto materials = static_cast<std::uint8_t>(model.materials.size());
+  const std::uint32_t classes = model.body.grid.spring_classes;
+  for (std::uint8_t a = 0; a < materials; ++a)
+    for (std::uint8_t b = 0; b < materials; ++b)
+      for (std::uint32_t c = 0; c < classes; ++c)
+        model.springs.push_back(spring_between(model, a, b, c));
+  for (std::uint8_t a = 0; a < materials && model.mixtures.empty(); ++a)
+    for (std::uint8_t b = 0; b < materials; ++b)
+      for (std::uint32_t c = 0; c < classes && !is_one_spring(model, a, b); ++c)
+        join(model, a, b, c);
+}
+
+/// Finds the body's laws and their kernels.
+void find_laws(Model& model) {
+  for (Material& material : model.materials) {
+    const Stage& stage = *material.stage;
+    const auto has_law = [&](const Law& law) {
+      return law.stage->component->path == stage.component->path &&
+             law.stage->functions<MaterialFunctions>().law ==
+                 stage.functions<MaterialFunctions>().law;
+    };
+    const auto found = std::find_if(model.laws.begin(), model.laws.end(), has_law);
+    material.law = static_cast<std::uint32_t>(found - model.laws.begin());
+    if (found != model.laws.end()) continue;
+    model.laws.push_back({&stage, kernels_of(stage, model.choice)});
+    KernelSet& kernels = model.laws.back().kernels;
+    model.memory = std::max(model.memory, kernels.memory);
+    model.softens = model.softens || kernels.softens;
+    KernelChoice row = model.choice;  // linearise takes listed springs as rows of one spring
+    row.listed = false;
+    if (model.choice.listed) kernels.linearise = kernels_of(stage, row).linearise;
+  }
 }
 
 /// Returns the number of springs through a unit of area, 1/m2. A spring crosses a plane that is
@@ -124,6 +221,14 @@ void hold_heights(Model& model) {
 
 }  // namespace
 
+SpringPart part_of(const Model& model, std::uint8_t material, std::uint32_t spring_class,
+                   double weight) {
+  const Material& of = model.materials[material];
+  const SpringConstants& own = model.spring(material, material, spring_class);
+  return {material, of.law, weight, {own.stiffness, own.cross_stiffness},
+          {of.constants.law[spring_class][0], of.constants.law[spring_class][1]}};
+}
+
 SpringProperties Model::spring_properties(Particle a, Particle b, std::uint32_t neighbour) const {
   SpringProperties properties;
   double stiffness = 1;
@@ -144,14 +249,25 @@ SpringProperties Model::spring_properties(Particle a, Particle b, std::uint32_t 
                                                       : spring_to(neighbour, kind(a), kind(b));
   properties.stiffness = stiffness * constants.stiffness;
   properties.cross_stiffness = stiffness * constants.cross_stiffness;
-  properties.law = constants.law[0];
-  properties.cross_law = constants.law[1];
+  properties.law = materials[material(a)].law;
+  properties.composite = composite(constants);
+  properties.factor = stiffness;
+  for (const std::size_t cross : {0U, 1U}) properties.constants[cross] = constants.law[cross];
   return properties;
+}
+
+void Model::add_composite(std::size_t spring, CompositeSpring composite) {
+  memory = std::max(memory, composite.memory());
+  composite_of.resize(std::max(composite_of.size(), springs.size()), -1);
+  composite_of[spring] = static_cast<std::int32_t>(composites.size());
+  composites.push_back(std::move(composite));
 }
 
 SpringMaterials Model::materials_of(Particle a, Particle b, std::uint32_t neighbour) const {
   SpringMaterials found;
-  if (!mixtures.empty()) {
+  if (const auto chosen = chosen_material(*this, material(a), material(b))) {
+    found.add(*chosen);
+  } else if (!mixtures.empty()) {
     mixtures.for_cells(mixtures.of(a), body.neighbours[neighbour],
                        [&](std::uint8_t material) { found.add(material); });
   } else {
@@ -161,11 +277,31 @@ SpringMaterials Model::materials_of(Particle a, Particle b, std::uint32_t neighb
   return found;
 }
 
+double Model::elongation_in(std::uint8_t material, const SpringProperties& properties,
+                            double elongation, const double* kept) const {
+  if (properties.composite != nullptr) {
+    const auto parts = properties.composite->parts();
+    for (std::size_t n = 0; n < parts.size(); ++n)
+      if (parts[n].material == material)
+        return properties.composite->elongation_of(n, elongation, kept);
+  }
+  if (!mixtures.empty()) return elongation;
+  return elongation * (properties.stiffness / facts(properties, material).stiffness);
+}
+
+double Model::own_alarm(std::uint8_t material, const SpringProperties& properties) const {
+  if (body.is_listed()) return alarm_of(materials[material], facts(properties, material));
+  return spring(material, material, properties.spring_class).alarm;
+}
+
 double Model::alarm(Particle a, Particle b, std::uint32_t neighbour,
                     const SpringProperties& properties) const {
   double lowest = infinity;
-  for (const std::uint8_t material : materials_of(a, b, neighbour))
-    lowest = std::min(lowest, alarm_of(materials[material], facts(properties, material)));
+  for (const std::uint8_t material : materials_of(a, b, neighbour)) {
+    const double scale =
+        mixtures.empty() ? facts(properties, material).stiffness / properties.stiffness : 1;
+    lowest = std::min(lowest, own_alarm(material, properties) * scale);
+  }
   return lowest;
 }
 
@@ -196,27 +332,8 @@ void set_springs(Model& model, Faults& faults) {
       faults.add(material.failure_stage->pointer, material.failure_stage->component->type(),
                  "a criterion that does not ask for the rate, for a listed lattice");
   }
-  model.kernels = kernels_of(*model.materials[0].stage, model.choice);
-  KernelChoice row = model.choice;  // linearise takes listed springs as rows of one spring
-  row.listed = false;
-  if (model.choice.listed)
-    model.kernels.linearise = kernels_of(*model.materials[0].stage, row).linearise;
-  if (model.kernels.step == nullptr || model.kernels.step_damped == nullptr ||
-      model.kernels.measure == nullptr) {
-    if (model.choice.precision == Precision::floats)
-      throw InputError({{"/precision", "float",
-                         fmt::format("double; {} has no kernel in floats for {}",
-                                     model.materials[0].stage->component->type(),
-                                     model.choice.listed ? "lists of springs" : "this lattice")}});
-    throw refusal(*model.materials[0].stage, model.choice.listed
-                                                 ? "its law has no kernel for lists of springs"
-                                                 : "its library has no kernel for this membrane");
-  }
-
-  for (const Material& a : model.materials)
-    for (const Material& b : model.materials)
-      for (std::uint32_t c = 0; c < model.body.grid.spring_classes; ++c)
-        model.springs.push_back(spring_between(model, a, b, c));
+  find_laws(model);
+  add_springs(model);
   for (const Material& material : model.materials) {
     const MaterialConstants& constants = material.constants;
     model.masses.push_back(material.mass);
@@ -224,6 +341,10 @@ void set_springs(Model& model, Faults& faults) {
                                              : constants.alpha_ratio * constants.base_stiffness);
   }
   if (!model.mixtures.empty()) add_mixtures(model);
+  if (!model.composites.empty() && model.choice.precision == Precision::floats)
+    faults.add("/precision", "float",
+               "double: springs between materials with different laws, or different constants of "
+               "a law, are computed in doubles");
 }
 
 }  // namespace hyperlattice

@@ -141,7 +141,7 @@ void estimate_time(Plan& plan) {
   constexpr double fourth_dimension = 1.8, damped = 1.1, floats = 0.6, listed = 4,
                    second_thread = 0.6;
   const Model& model = *plan.model;
-  const std::string_view instructions = model.kernels.instructions;
+  const std::string_view instructions = model.kernels().instructions;
   plan.expected_seconds = 0;
   double spring = instructions == "avx512" ? avx512 : instructions == "avx2" ? avx2 : baseline;
   if (model.degrees_of_freedom == 4) spring *= fourth_dimension;

@@ -36,9 +36,11 @@ void leave_out_kernel_parts(const Plan& plan, std::vector<LeftOut>& out) {
   if (model.choice.breakable && std::any_of(plan.stages.begin(), plan.stages.end(), is_static))
     out.push_back({"failure during static stages",
                    "springs beyond their limit break in the first step in time that follows"});
-  if (model.kernels.memory == 0)
-    out.push_back(
-        {"memory of springs", "the law of this material has none: a spring is where its ends are"});
+  if (model.memory == 0)
+    out.push_back({"memory of springs", "no law has one: a spring is where its ends are"});
+  if (model.composites.empty())
+    out.push_back({"springs of several laws",
+                   "no spring joins materials with different laws or different constants"});
   if (!model.choice.mixed)
     out.push_back({"mixed materials", "there is one material: no particle stores which"});
   const auto is_damped = [](const PlannedStage& stage) { return stage.plan.damping > 0; };

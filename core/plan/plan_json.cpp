@@ -105,7 +105,7 @@ nlohmann::json common_facts(const Plan& plan) {
           {"materials", model.materials.size()},
           {"loads", model.loads.size()},
           {"precision", precision_names[static_cast<std::size_t>(model.choice.precision)]},
-          {"instructions", model.kernels.instructions},
+          {"instructions", model.kernels().instructions},
           {"spring_arithmetic", spring_arithmetic()},
           {"threads", plan.threads},
           {"steps", plan.steps()},

@@ -23,7 +23,7 @@ SolverFacts solver_facts(const Model& model, double start_time) {
     const Vec3 size = model.body.highest - model.body.lowest;
     facts.sites_across = count(std::max({size.x, size.y, size.z}) / model.body.grid.spacing);
   }
-  facts.tangents = model.kernels.linearise != nullptr;
+  facts.remembers = model.memory > 0;
   facts.answering = model.answering;
   return facts;
 }

@@ -87,9 +87,11 @@ void SnapshotSource::compute_damage(std::vector<double>& numbers) {
   }
   numbers.assign(body.particles, 0.0);
   for (const Breakage& breakage : simulation_.breakages()) {
+    if (breakage.softened) continue;  // the spring is still there, with the integrity 0
     numbers[breakage.a] += 1;
     numbers[breakage.b] += 1;
   }
+  if (model_.softens) simulation_.add_softening(numbers);
   for (Particle a = 0; a < body.particles; ++a)
     if (springs_of_[a] > 0) numbers[a] /= springs_of_[a];
 }

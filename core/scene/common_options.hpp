@@ -31,6 +31,13 @@ inline constexpr std::string_view precision_help =
     "and less time, with errors near 1e-6 "
     "of the largest displacement; energies are summed in doubles";
 
+/// Values of the scene's key "interface_springs", in the order of InterfaceSprings.
+inline constexpr std::string_view interface_springs_names[] = {"series", "softer", "stiffer"};
+inline constexpr std::string_view interface_springs_help =
+    "springs between particles of two materials: two half springs in series, each with its own "
+    "material's law and strength, or a whole spring of the softer or of the stiffer material; not "
+    "used by bodies of cells, whose springs have the materials of their cells side by side";
+
 /// Help text of a material's key "failure", which is no plain option.
 inline constexpr std::string_view failure_help =
     "criterion by which springs break: an object with the type of a component of the family "

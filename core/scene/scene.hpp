@@ -58,6 +58,13 @@ struct InputFile {
   std::filesystem::path path;
 };
 
+/// The springs between particles of two materials.
+enum class InterfaceSprings : std::uint32_t {
+  series,  ///< two half springs, one of each material
+  softer,  ///< the spring of the material with the smaller stiffness
+  stiffer  ///< the spring of the other one
+};
+
 /// A whole scene after validation.
 struct Scene {
   std::filesystem::path file;
@@ -67,6 +74,7 @@ struct Scene {
   bool allow_unstable = false;
   /// floating-point type of the state and of the time steps
   Precision precision = Precision::doubles;
+  InterfaceSprings interface_springs = InterfaceSprings::series;
   Regions regions;
   std::vector<Stage> stages;     ///< in pipeline order
   std::vector<InputFile> files;  ///< files named by options, one entry per option

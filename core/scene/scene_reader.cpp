@@ -22,6 +22,7 @@ struct Heading {
   std::vector<std::string> plugins;
   bool allow_unstable = false;
   Precision precision = Precision::doubles;
+  InterfaceSprings interface_springs = InterfaceSprings::series;
 };
 struct HeadingSchema {
   using Options = Heading;
@@ -40,7 +41,10 @@ struct HeadingSchema {
         .fallback("false")
         .add<&Heading::precision>("precision", "", precision_help)
         .choices(precision_names)
-        .fallback("\"double\"");
+        .fallback("\"double\"")
+        .add<&Heading::interface_springs>("interface_springs", "", interface_springs_help)
+        .choices(interface_springs_names)
+        .fallback("\"series\"");
   }
 };
 
@@ -67,6 +71,7 @@ class SceneReader {
       scene_.title = given.title;
       scene_.allow_unstable = given.allow_unstable;
       scene_.precision = given.precision;
+      scene_.interface_springs = given.interface_springs;
     }
     read_plugins(resolved);
     resolved["regions"] = Json::object();

@@ -7,7 +7,7 @@
 // before n. Velocity and momentum are then those at n, with the exact impulse of the loads up to n,
 // and no load is asked for a time after n. The error does not depend on this choice: another force
 // would add to the kinetic energy its work over the same half step.
-#include <model/kernel_calls.hpp>
+#include <model/law.hpp>
 #include <state/parts.hpp>
 
 #include <algorithm>
@@ -26,21 +26,28 @@ RowSums Simulation::Parts::measure(const Sweep& sweep) {
   if (prepares) prepare_answers();
   team.for_each(blocks.size(), [&](std::size_t b) {
     prepare_supports(blocks[b], sweep);
-    call_kernel(model, model.kernels.measure, request_for(blocks[b], sweep.measured, 0));
+    run_kernel(model.kernels().measure, blocks[b], sweep.measured, 0, true);
   });
   RowSums total;
   for (const Block& block : blocks)
     for (std::size_t r = block.layout->first_own; r < block.layout->last_own; ++r) {
       if (block.rows[r].begin == block.rows[r].end) continue;
-      const RowSums& row = block.sums[r];
+      RowSums row = block.sums[r];
+      if (block.rows[r].law != 0) {
+        row.stored += block.other_sums[r].stored;
+        row.damped += block.other_sums[r].dissipated;
+        row.fractured += block.other_sums[r].fractured;
+      }
       total.stored += row.stored;
       total.kinetic += row.kinetic;
       total.kinetic_mean += row.kinetic_mean;
       total.momentum = total.momentum + row.momentum;
       total.potential += row.potential;
       total.damped += row.damped + block.damped_work[r];
+      if (!block.fracture_work.empty()) total.fractured += row.fractured + block.fracture_work[r];
     }
   total.damped += halted_energy;
+  total.fractured += softened_energy;
   total.potential -= gravity_unused;
   return total;
 }
@@ -51,7 +58,7 @@ void Simulation::Parts::find_start() {
   start_known = true;
   const RowSums sums = measure_now();
   start_potential = sums.potential;
-  start_energy = sums.kinetic + sums.stored + sums.damped + failure_energy;
+  start_energy = sums.kinetic + sums.stored + sums.damped + sums.fractured + failure_energy;
   for (const double work : work_by_load(0)) start_energy -= work;
 }
 
@@ -112,7 +119,7 @@ EnergyBalance Simulation::Parts::balance() {
   balance.stored = sums.stored;
   balance.momentum = sums.momentum;
   balance.dissipated_damping = sums.damped;
-  balance.dissipated_failure = failure_energy;
+  balance.dissipated_failure = failure_energy + sums.fractured;
   const double potential = sums.potential - start_potential;
   for (const double work : work_by_load(potential)) balance.injected += work;
   balance.error =

@@ -45,7 +45,11 @@ struct Block {
   AlignedArray<double> memory;  ///< of laws, see KernelRequest
   AlignedArray<double> scratch;
   ListedArrays listed;
-  std::vector<double> damped_work;  ///< per row, J
+  std::vector<double> damped_work;    ///< per row, J
+  std::vector<double> fracture_work;  ///< per row, of laws that soften, J; empty if there are none
+  /// Of the last measurement, per row whose springs the kernel did not compute; empty if there are
+  /// none.
+  std::vector<RowEnergies> other_sums;
   std::vector<RowSums> sums;        ///< per row
   /// In the order of the rows. Their forces have no component along prescribed axes.
   std::vector<BoundaryParticle> boundary_particles;
@@ -66,6 +70,7 @@ struct Block {
     double elongation;
     std::uint32_t row, neighbour;  ///< place in the kernel's AlarmRow
     std::int32_t site;
+    bool softened = false;  ///< its integrity became 0; it stays
   };
   std::vector<Broken> broken;         ///< in this step, in the order of row, neighbour, site
   std::vector<std::uint8_t> answers;  ///< of the failure criterion to one batch

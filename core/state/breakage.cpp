@@ -1,5 +1,5 @@
 // Broken springs: the answer of the criterion, the breakage and the energy lost with it.
-#include <model/kernel_calls.hpp>
+#include <model/spring_calls.hpp>
 #include <state/parts.hpp>
 
 #include <hyperlattice/failure.hpp>
@@ -38,7 +38,8 @@ const std::uint8_t* Simulation::Parts::review(Block& block, const AlarmRow& alar
     return layout->spring(block, alarm.row, alarm.neighbour, alarm.sites[n]);
   };
   const auto ask = [&](const Material& material, const SpringFacts& facts, std::size_t first,
-                       std::size_t count) {
+                       std::span<const double> elongation) {
+    const std::size_t count = elongation.size();
     if (material.failure_stage == nullptr) return;
     const Stage& stage = *material.failure_stage;
     const auto& functions = stage.functions<FailureFunctions>();
@@ -52,7 +53,7 @@ const std::uint8_t* Simulation::Parts::review(Block& block, const AlarmRow& alar
       a.push_back(std::min(spring.a, spring.b));
       b.push_back(std::max(spring.a, spring.b));
     }
-    const SpringBatch batch{time, facts, alarm.elongation.subspan(first, count), a, b, rates};
+    const SpringBatch batch{time, facts, elongation, a, b, rates};
     call(stage, "breaks", [&](const Complaint& why) {
       return functions.review(material.failure.get(), batch, answers.data(), why);
     });
@@ -63,15 +64,20 @@ const std::uint8_t* Simulation::Parts::review(Block& block, const AlarmRow& alar
     const SpringEnds first = ends(0);
     ask(model.materials.front(),
         model.facts(model.spring_properties(first.a, first.b, first.neighbour), 0), 0,
-        alarm.sites.size());
+        alarm.elongation);
   } else {
     for (std::size_t n = 0; n < alarm.sites.size(); ++n) {
       const SpringEnds spring = ends(n);
       const SpringProperties properties =
           model.spring_properties(spring.a, spring.b, spring.neighbour);
+      const SpringMemory memory = memory_of(block, alarm.row, alarm.neighbour, alarm.sites[n], 0);
       // One material whose criterion says so breaks the spring.
-      for (const std::uint8_t material : model.materials_of(spring.a, spring.b, spring.neighbour))
-        ask(model.materials[material], model.facts(properties, material), n, 1);
+      for (const std::uint8_t material : model.materials_of(spring.a, spring.b, spring.neighbour)) {
+        const double elongation =
+            model.elongation_in(material, properties, alarm.elongation[n], memory.data());
+        if (elongation > model.own_alarm(material, properties))
+          ask(model.materials[material], model.facts(properties, material), n, {&elongation, 1});
+      }
     }
   }
   for (std::size_t n = 0; n < alarm.sites.size(); ++n)
@@ -79,6 +85,17 @@ const std::uint8_t* Simulation::Parts::review(Block& block, const AlarmRow& alar
       block.broken.push_back(
           {ends(n), alarm.elongation[n], alarm.row, alarm.neighbour, alarm.sites[n]});
   return block.answers.data();
+}
+
+Simulation::Parts::SpringMemory Simulation::Parts::memory_of(const Block& block, std::uint32_t row,
+                                                             std::uint32_t neighbour,
+                                                             std::int32_t site,
+                                                             std::size_t cross) const {
+  SpringMemory memory{};
+  if (model.memory == 0) return memory;
+  const Layout::Memory kept = layout->memory(block, row, neighbour, site, cross != 0);
+  for (std::uint32_t n = 0; n < model.memory; ++n) memory[n] = kept.first[n * kept.stride];
+  return memory;
 }
 
 /// Returns the rate of growth of a spring, m/s, from the velocities half a step before. The step
@@ -113,9 +130,10 @@ void Simulation::Parts::collect_breakages(double dt) {
       breakage.b = spring.b;
       breakage.neighbour = spring.neighbour;
       breakage.elongation = broken.elongation;
+      breakage.softened = broken.softened;
       breakages.push_back(breakage);
       note_ends(breakage);
-      failure_energy += energy_of(breakages.size() - 1, block, broken, dt);
+      if (!broken.softened) failure_energy += energy_of(breakages.size() - 1, block, broken, dt);
     }
     block.broken.clear();
   }
@@ -146,19 +164,11 @@ double Simulation::Parts::energy_of(std::size_t index, const Block& block,
   const auto lost = [&](bool cross, double growth, double rate) {
     const double rest_length = cross ? properties.cross_rest_length : properties.rest_length;
     const double length = std::sqrt(rest_length * rest_length + growth);
-    OneSpring spring{cross ? properties.cross_stiffness : properties.stiffness, rest_length,
-                     growth / (length + rest_length),
-                     cross ? properties.cross_law : properties.law};
-    double memory[max_law_memory + 2] = {};
-    if (model.kernels.memory > 0) {
-      const Layout::Memory kept =
-          layout->memory(block, broken.row, broken.neighbour, broken.site, cross);
-      for (std::uint32_t n = 0; n < model.kernels.memory; ++n)
-        memory[n] = kept.first[n * kept.stride];
-    }
-    spring.memory = memory;
-    const SpringAnswer answer = ask_spring(model, spring);
-    return answer.energy + 0.5 * answer.force * rate / (2 * length);
+    const SpringMemory memory =
+        memory_of(block, broken.row, broken.neighbour, broken.site, cross ? 1 : 0);
+    const CompositeAnswer answer = ask_spring(model, properties, cross ? 1 : 0,
+                                              growth / (length + rest_length), memory.data());
+    return answer.stored + 0.5 * answer.force * rate / (2 * length);
   };
   const double difference = b.height - a.height, total = b.height + a.height,
                delta = model.body.grid.membrane_distance;

@@ -115,6 +115,7 @@ void Simulation::apply_equilibrium(const EquilibriumUpdate& to) {
     }
   }
   parts_->halted_energy += to.dissipated;
+  parts_->advance_laws(to);
   set({false, 0, 3}, to.xyz);
   if (!to.heights.empty()) set({false, 3, 1}, to.heights);
   // Known since halt(); the work on the way from there is in the balance.

@@ -92,6 +92,27 @@ GridLayout::GridLayout(const Model& model, int threads) : Layout(model) {
   }
 }
 
+/// Returns the law of all springs of a row, see Row::law.
+std::int32_t GridLayout::law_of_row(std::int32_t material, std::int32_t j, std::int32_t k) const {
+  if (model_.laws.size() == 1 && model_.composites.empty()) return 0;
+  if (material >= 0)
+    return static_cast<std::int32_t>(model_.materials[static_cast<std::size_t>(material)].law);
+  Materials materials;
+  const auto look = [&](std::span<const Run> runs) {
+    for (const Run& run : runs)
+      for (Particle p = run.first; p < run.first + static_cast<Particle>(run.end - run.begin); ++p)
+        if (model_.mixtures.empty())
+          materials.set(model_.material(p));
+        else
+          for (const std::uint8_t of_cell : model_.mixtures.around(model_.mixtures.of(p)))
+            if (of_cell != Mixtures::no_cell) materials.set(of_cell);
+  };
+  look(model_.body.row(j, k));
+  for (const Neighbour& to : model_.body.neighbours)
+    if (model_.mixtures.empty()) look(model_.body.row(j + to.dy, k + to.dz));
+  return law_between(materials);
+}
+
 BlockLayout GridLayout::make_block(Planes planes, std::uint64_t padding) {
   const Body& body = model_.body;
   check_block(body, planes.count);
@@ -111,6 +132,7 @@ BlockLayout GridLayout::make_block(Planes planes, std::uint64_t padding) {
         for (std::uint32_t n = 0; n < body.neighbours.size(); ++n)
           if (!body.springs_of(j, k, body.neighbours[n]).empty()) row.neighbours |= 1u << n;
         row.material = material_of_row(model_, j, k);
+        row.law = law_of_row(row.material, j, k);
         if (!body.cells.empty()) row.weights = block.weight_sets.size();
         weights_.add_row(body, j, k, row, whole_vectors(row.end - row.begin) / lanes,
                          block.weight_sets);
@@ -183,7 +205,7 @@ SpringEnds GridLayout::spring(const Block& block, std::uint32_t row, std::uint32
 Layout::Memory GridLayout::memory(const Block& block, std::uint32_t row, std::uint32_t neighbour,
                                   std::int32_t site, bool cross) const {
   const std::uint64_t sites = block.layout->sites,
-                      before = kept_numbers() * neighbour + (cross ? model_.kernels.memory : 0);
+                      before = kept_numbers() * neighbour + (cross ? model_.memory : 0);
   const Row& of = block.rows[row];
   return {
       block.memory.get() + before * sites + of.start + static_cast<std::uint64_t>(site - of.begin),
@@ -197,6 +219,20 @@ std::uint64_t GridLayout::other_end(std::size_t block, std::uint32_t row, std::u
       static_cast<std::int32_t>(row) + to.dz * model_.body.grid.sites[1] + to.dy;
   const Row& other = blocks[block].rows[static_cast<std::size_t>(other_row)];
   return other.start + static_cast<std::uint64_t>(site + to.dx - other.begin);
+}
+
+void GridLayout::for_springs(const Block& block,
+                             const std::function<void(const SpringPlace&)>& visit) const {
+  for (std::uint32_t r = 0; r < block.rows.size(); ++r) {
+    const Row& row = block.rows[r];
+    for (std::uint32_t n = 0; n < model_.body.neighbours.size(); ++n)
+      for (std::int32_t i = row.begin; i < row.end; ++i) {
+        const std::uint64_t place = row.start + static_cast<std::uint64_t>(i - row.begin);
+        if ((block.alive[place] >> n & 1U) == 0) continue;
+        visit({r, n, i, spring(block, r, n, i),
+               r >= block.layout->first_own && r < block.layout->last_own});
+      }
+  }
 }
 
 std::uint64_t GridLayout::alive_bits(const Block& block, std::uint64_t index) const {
@@ -215,7 +251,7 @@ void GridLayout::fill(Block& block) const {
     if (row.begin == row.end) continue;
     Site site = first_site_of_row(block.number, r);
     fill_alive(body, site.j, site.k, row, block.alive.get() + row.start);
-    if (model_.kernels.start != nullptr) start_row(block, r, site);
+    if (starts_memory()) start_row(block, r, site);
     if (model_.materials.size() == 1) continue;
     for (; site.i < row.end; ++site.i) {
       const Particle particle = body.at(site);
@@ -270,6 +306,7 @@ void GridLayout::describe(const Block& block, KernelRequest& request) const {
   request.mixture = block.mixture.get();
   request.mixture_springs = model_.mixture_springs.data();
   request.memory = block.memory.get();
+  request.memory_numbers = model_.memory;
   request.memory_stride = block.layout->sites;
 }
 

@@ -19,6 +19,8 @@ class GridLayout final : public Layout {
                 bool cross) const override;
   std::uint64_t other_end(std::size_t block, std::uint32_t row, std::uint32_t neighbour,
                           std::int32_t site) const override;
+  void for_springs(const Block& block,
+                   const std::function<void(const SpringPlace&)>& visit) const override;
   std::uint64_t alive_bits(const Block& block, std::uint64_t index) const override;
   void fill(Block& block) const override;
   void exchange(const std::vector<Block>& all, Block& block) const override;
@@ -37,6 +39,7 @@ class GridLayout final : public Layout {
     std::uint64_t begin = 0, end = 0;
   };
 
+  std::int32_t law_of_row(std::int32_t material, std::int32_t j, std::int32_t k) const;
   BlockLayout make_block(Planes planes, std::uint64_t padding);
   /// Returns how many places a row of so many sites takes, with the padding.
   std::uint64_t whole_vectors(std::int32_t sites) const;

@@ -1,14 +1,33 @@
-#include <model/kernel_calls.hpp>
+#include <model/spring_calls.hpp>
 #include <state/grid_layout.hpp>
 #include <state/listed_layout.hpp>
 
 #include <algorithm>
+#include <array>
 
 namespace hyperlattice {
 
 std::unique_ptr<Layout> make_layout(const Model& model, int threads) {
   if (model.body.is_listed()) return std::make_unique<ListedLayout>(model, threads);
   return std::make_unique<GridLayout>(model, threads);
+}
+
+bool Layout::starts_memory() const {
+  return std::any_of(model_.laws.begin(), model_.laws.end(),
+                     [](const Law& law) { return law.kernels.start != nullptr; });
+}
+
+std::int32_t Layout::law_between(const Materials& materials) const {
+  std::int32_t law = -1;
+  for (std::size_t m = 0; m < model_.materials.size(); ++m) {
+    if (!materials[m]) continue;
+    const auto own = static_cast<std::int32_t>(model_.materials[m].law);
+    if (law >= 0 && law != own) return -1;
+    law = own;
+  }
+  const bool one_spring =
+      materials.count() <= 1 || model_.laws[static_cast<std::size_t>(law)].kernels.linear;
+  return one_spring ? law : -1;
 }
 
 void Layout::start_memory(const Block& block, std::uint32_t row, std::uint32_t neighbour,
@@ -18,13 +37,12 @@ void Layout::start_memory(const Block& block, std::uint32_t row, std::uint32_t n
     a = model_.body.listed.source[a];
     b = model_.body.listed.source[b];
   }
-  for (std::size_t cross = 0; cross < kept_numbers() / model_.kernels.memory; ++cross) {
-    double kept[max_law_memory + 2] = {};
-    start_spring(model_, cross == 0 ? properties.law : properties.cross_law,
-                 {std::min(a, b), std::max(a, b)}, kept);
+  const SpringIdentity identity{std::min(a, b), std::max(a, b)};
+  for (std::size_t cross = 0; cross < kept_numbers() / model_.memory; ++cross) {
+    std::array<double, max_spring_memory> kept{};
+    start_memory_of(model_, properties, cross, identity, kept.data());
     const Memory memory = this->memory(block, row, neighbour, site, cross != 0);
-    for (std::uint32_t n = 0; n < model_.kernels.memory; ++n)
-      memory.first[n * memory.stride] = kept[n];
+    for (std::uint32_t n = 0; n < model_.memory; ++n) memory.first[n * memory.stride] = kept[n];
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <model/model.hpp>
 
+#include <bitset>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -48,6 +49,14 @@ struct SpringEnds {
   bool is_first = true;
 };
 
+/// The place of a spring in a block, and its ends.
+struct SpringPlace {
+  std::uint32_t row = 0, neighbour = 0;  ///< as in AlarmRow
+  std::int32_t site = 0;
+  SpringEnds ends;
+  bool counts = true;  ///< false for copies: in ghost rows, or from the second end
+};
+
 class Layout {
  public:
   virtual ~Layout() = default;
@@ -74,6 +83,10 @@ class Layout {
   /// same block. Throws std::logic_error for a listed body.
   virtual std::uint64_t other_end(std::size_t block, std::uint32_t row, std::uint32_t neighbour,
                                   std::int32_t site) const = 0;
+  /// Visits all springs of a block, those of its ghost rows included. Of a listed body each spring
+  /// is visited once from each of its ends in the block.
+  virtual void for_springs(const Block& block,
+                           const std::function<void(const SpringPlace&)>& visit) const = 0;
   /// Returns which springs of a particle exist, as bits for hashes.
   virtual std::uint64_t alive_bits(const Block& block, std::uint64_t index) const = 0;
 
@@ -94,13 +107,21 @@ class Layout {
   }
 
  protected:
+  using Materials = std::bitset<256>;
+
   explicit Layout(const Model& model) : model_(model) {}
   /// Returns how many numbers laws keep for a base spring and its cross spring.
   std::size_t kept_numbers() const {
     return (model_.choice.membrane == KernelChoice::Membrane::none ? 1 : 2) *
-           std::size_t{model_.kernels.memory};
+           std::size_t{model_.memory};
   }
 
+  /// Returns the law of springs between these materials, by its index in Model::laws; -1 if they
+  /// need several laws, or several sets of constants of one law.
+  std::int32_t law_between(const Materials& materials) const;
+
+  /// Returns whether the memory of a law does not start at zero.
+  bool starts_memory() const;
   /// Initializes the law's memory of a new spring between a and b. `index`: see
   /// Model::spring_properties.
   void start_memory(const Block& block, std::uint32_t row, std::uint32_t neighbour,

@@ -9,7 +9,8 @@ namespace hyperlattice {
 
 ListedLayout::ListedLayout(const Model& model, int threads)
     : Layout(model),
-      width_(model.choice.precision == Precision::floats ? lanes_of<float> : lanes_of<double>) {
+      width_(model.choice.precision == Precision::floats ? lanes_of<float> : lanes_of<double>),
+      materials_of_rows_(materials_of_rows()) {
   const std::uint64_t particles = model.body.particles,
                       rows = (particles + row_length - 1) / row_length;
   const std::uint64_t wanted =
@@ -57,6 +58,7 @@ BlockLayout ListedLayout::make_block(const Part& part) const {
     row.end = static_cast<std::int32_t>(last - first);
     row.start = first - part.first;
     row.material = material_of_row(first, last);
+    row.law = law_of_row(row.material, first / row_length);
     if (weighted) row.weights = block.weight_sets.size();
     for (std::uint64_t n = 0; weighted && n < padded(last - first); n += lanes)
       block.weight_sets.push_back(static_cast<std::uint32_t>(row.start + n));
@@ -72,6 +74,27 @@ std::int32_t ListedLayout::material_of_row(Particle first, Particle last) const 
   for (Particle p = first; p < last; ++p)
     if (model_.material(p) != material) return -1;
   return material;
+}
+
+/// Finds the materials at both ends of the springs of each row of the body.
+std::vector<ListedLayout::Materials> ListedLayout::materials_of_rows() const {
+  std::vector<Materials> found;
+  if (model_.laws.size() == 1 && model_.composites.empty()) return found;
+  found.resize((model_.body.particles + row_length - 1) / row_length);
+  for (const ListedSpring& spring : model_.body.listed.springs)
+    for (const Particle end : {spring.a, spring.b}) {
+      found[end / row_length].set(model_.material(spring.a));
+      found[end / row_length].set(model_.material(spring.b));
+    }
+  return found;
+}
+
+/// Returns the law of all springs of a row of the body, see Row::law.
+std::int32_t ListedLayout::law_of_row(std::int32_t material, std::uint64_t row) const {
+  if (materials_of_rows_.empty()) return 0;
+  Materials materials = materials_of_rows_[row];
+  if (materials.none() && material >= 0) materials.set(static_cast<std::size_t>(material));
+  return law_between(materials);
 }
 
 /// Returns whether springs differ in stiffness, so that each needs its own.
@@ -128,7 +151,7 @@ SpringEnds ListedLayout::spring(const Block& block, std::uint32_t row, std::uint
 Layout::Memory ListedLayout::memory(const Block& block, std::uint32_t, std::uint32_t slot,
                                     std::int32_t site, bool cross) const {
   const std::size_t numbers =
-      std::size_t{slot} * kept_numbers() + (cross ? model_.kernels.memory : 0);
+      std::size_t{slot} * kept_numbers() + (cross ? model_.memory : 0);
   return {block.memory.get() + numbers * width_ + static_cast<std::uint64_t>(site) % width_,
           width_};
 }
@@ -137,6 +160,21 @@ std::uint64_t ListedLayout::other_end(std::size_t, std::uint32_t, std::uint32_t,
                                       std::int32_t) const {
   // The model refuses criteria that ask for velocities in a listed body.
   throw std::logic_error("a listed body holds no velocities of others");
+}
+
+void ListedLayout::for_springs(const Block& block,
+                               const std::function<void(const SpringPlace&)>& visit) const {
+  const Part& part = parts_[block.number];
+  const std::uint64_t count = part.last - part.first;
+  for (std::uint64_t index = 0; index < count; ++index)
+    for (std::uint32_t slot = part.first_slot[index / width_];
+         slot < part.first_slot[index / width_ + 1]; ++slot) {
+      if (block.listed.neighbour[slot * width_ + index % width_] == index) continue;
+      const auto row = static_cast<std::uint32_t>(index / row_length);
+      const auto site = static_cast<std::int32_t>(index % row_length);
+      const SpringEnds ends = spring(block, row, slot, site);
+      visit({row, slot, site, ends, ends.is_first});
+    }
 }
 
 std::uint64_t ListedLayout::alive_bits(const Block& block, std::uint64_t index) const {
@@ -211,7 +249,7 @@ void ListedLayout::fill_springs(Block& block) const {
     const std::uint64_t own = here - part.first, lane = own % width_;
     const std::size_t slot = part.first_slot[own / width_] + taken[own]++;
     listed.neighbour[slot * width_ + lane] = record_of(part, there);
-    if (model_.kernels.start != nullptr)
+    if (starts_memory())
       start_memory(block, 0, static_cast<std::uint32_t>(slot), static_cast<std::int32_t>(lane),
                    here, there, index);
     if (!listed.alarm.empty()) listed.alarm.set(slot * width_ + lane, alarm);
@@ -255,6 +293,7 @@ void ListedLayout::describe(const Block& block, KernelRequest& request) const {
   request.listed = {block.listed.first.get(),     block.listed.neighbour.get(),
                     block.listed.stiffness.get(), block.listed.alarm.get(),
                     block.listed.records.get(),   block.memory.get()};
+  request.memory_numbers = model_.memory;
 }
 
 double ListedLayout::state_bytes() const {

@@ -19,6 +19,8 @@ class ListedLayout final : public Layout {
                 bool cross) const override;
   std::uint64_t other_end(std::size_t block, std::uint32_t row, std::uint32_t neighbour,
                           std::int32_t site) const override;
+  void for_springs(const Block& block,
+                   const std::function<void(const SpringPlace&)>& visit) const override;
   std::uint64_t alive_bits(const Block& block, std::uint64_t index) const override;
   void fill(Block& block) const override;
   void exchange(const std::vector<Block>& all, Block& block) const override;
@@ -30,6 +32,8 @@ class ListedLayout final : public Layout {
   static constexpr std::uint64_t row_length = Listed::stretch;  ///< particles
 
   const std::uint64_t width_;  ///< particles in a pack, one a lane
+  /// At both ends of the springs of each row of the body; empty if all rows have one law.
+  const std::vector<Materials> materials_of_rows_;
 
   /// A block's particles [first, last) and the slots of their springs.
   struct Part {
@@ -42,6 +46,8 @@ class ListedLayout final : public Layout {
   };
 
   Part make_part(Particle first, Particle last, const std::vector<std::uint32_t>& springs_of) const;
+  std::vector<Materials> materials_of_rows() const;
+  std::int32_t law_of_row(std::int32_t material, std::uint64_t row) const;
   BlockLayout make_block(const Part& part) const;
   std::uint64_t padded(std::uint64_t particles) const {
     return (particles + width_ - 1) / width_ * width_;

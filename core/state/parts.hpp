@@ -8,6 +8,7 @@
 #include <state/block.hpp>
 #include <state/simulation.hpp>
 
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -41,7 +42,7 @@ struct Simulation::Parts {
   std::unique_ptr<Layout> layout;
   std::vector<Block> blocks;
   std::vector<double> particle_masses;  ///< kg; filled when first asked for
-  Team team;
+  mutable Team team;  ///< threads; reading the state in parallel does not change it
 
   /// A load during a sweep, and the motion that it watches.
   struct Acting {
@@ -68,6 +69,7 @@ struct Simulation::Parts {
   };
   std::vector<Ends> ends;     ///< storage of the particles of each breakage
   double failure_energy = 0;  ///< dissipated by failure since the start, J
+  double softened_energy = 0;  ///< lost in softening during equilibrium updates, J
   double halted_energy = 0;   ///< dissipated where motion was stopped or an equilibrium applied, J
   /// Work, J, that body accelerations would have done in addition, had they acted in full during
   /// equilibrium updates.
@@ -94,7 +96,26 @@ struct Simulation::Parts {
 
   // step.cpp
   void step(double dt);
+  /// Calls a kernel for a block.
+  void run_kernel(decltype(KernelSet::step) kernel, Block& block, double back, double forward,
+            bool measuring);
   KernelRequest request_for(Block& block, double back, double forward) const;
+
+  // other_rows.cpp
+  void compute_other_row(Block& block, const KernelRequest& request, const RowPlace& row,
+                         bool measuring) const;
+  RowEnergies several_laws_of_grid(Block& block, const KernelRequest& request,
+                                   const RowPlace& row, bool measuring) const;
+  RowEnergies several_laws_of_list(Block& block, const KernelRequest& request,
+                                   const RowPlace& row, bool measuring) const;
+  bool reaches_alarm(const SpringProperties& properties, double alarm, double elongation,
+                     const Layout::Memory& memory) const;
+  void receive_gone(Block& block, const AlarmRow& springs) const;
+
+  // law_memory.cpp
+  double elongation_of(const SpringProperties& properties, std::size_t cross, const Vec3& d,
+                       double height_difference, double height_sum) const;
+  void advance_laws(const EquilibriumUpdate& to);
 
   // start.cpp
   void start_prescribed(double dt);
@@ -103,6 +124,10 @@ struct Simulation::Parts {
   // breakage.cpp
   const std::uint8_t* review(Block& block, const AlarmRow& alarm) const;
   double rate_of(const Block& block, const AlarmRow& alarm, std::size_t n) const;
+  using SpringMemory = std::array<double, max_spring_memory>;
+  /// Returns the law's memory of a spring, which a kernel names by its place.
+  SpringMemory memory_of(const Block& block, std::uint32_t row, std::uint32_t neighbour,
+                         std::int32_t site, std::size_t cross) const;
   void collect_breakages(double dt);
   void note_ends(const Breakage& breakage);
   double energy_of(std::size_t breakage, const Block& block, const Block::Broken& broken,

@@ -21,6 +21,7 @@ void visit(Archive& archive, Block& block, int components) {
   visit(archive, block.memory);
   visit(archive, block.listed.neighbour);
   archive(block.damped_work);
+  archive(block.fracture_work);
   archive(block.boundary_particles);
   archive(block.contributions);
 }
@@ -40,6 +41,7 @@ void Simulation::archive(Archive& archive) {
   archive(p.steps);
   archive(p.breakages);
   archive(p.failure_energy);
+  archive(p.softened_energy);
   archive(p.halted_energy);
   archive(p.gravity_unused);
   archive(p.start_known);

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <model/model.hpp>
+#include <state/layout.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -18,6 +20,9 @@ struct Breakage {
   Particle a = 0, b = 0;  ///< a precedes b in the order z, y, x
   std::uint32_t neighbour = 0;
   double elongation = 0;  ///< at the failure, m
+  /// false: a criterion removed the spring; true: its law softened until its integrity was 0, and
+  /// the spring stays, because a closed crack may push
+  bool softened = false;
 };
 
 /// Energies and momentum of the whole body at one time.
@@ -84,6 +89,7 @@ class Simulation {
   /// Costs one extra sweep that changes nothing.
   std::vector<Vec3> force_on_load();
 
+  /// Returns the failures in the order of their steps.
   const std::vector<Breakage>& breakages() const;
   /// Returns the present elongation, m, of a broken spring: above 0 if the failure is open.
   double elongation_now(std::size_t breakage) const;
@@ -99,6 +105,16 @@ class Simulation {
   /// Copies the bits of the springs that start at each particle's site: see KernelRequest::alive.
   void alive(std::vector<std::uint16_t>& bits) const;
   void height_rates(std::vector<double>& values) const;
+  /// Returns the memory of the law of the spring that starts at a particle of a structured body.
+  Layout::Memory law_memory(Particle particle, std::uint32_t neighbour, bool cross) const;
+  /// The memory of a spring of a listed body: of the base and of the cross spring.
+  struct SpringMemory {
+    std::uint32_t index = 0;  ///< in the body's list
+    Layout::Memory of[2];
+  };
+  void for_springs_of_list(const std::function<void(const SpringMemory&)>& visit) const;
+  /// Adds 1 - integrity of each spring that exists to the numbers of both of its ends.
+  void add_softening(std::vector<double>& lost) const;
   /// Set the state of all particles, for tests and for stages that start from another state.
   void set_displacements(const std::vector<double>& xyz, const std::vector<double>& heights);
   void set_velocities(const std::vector<double>& xyz, const std::vector<double>& height_rates);

@@ -1,5 +1,6 @@
 // One step: ghost planes, loads, the kernel on every block, then the energy of broken springs.
-#include <model/kernel_calls.hpp>
+#include <host/plugin_call.hpp>
+#include <model/law.hpp>
 #include <state/parts.hpp>
 
 namespace hyperlattice {
@@ -10,11 +11,7 @@ void Simulation::Parts::step(double dt) {
   prepare_loads(sweep);
   check_factors();
   const auto kernel =
-      damping != 0 || damping_rate != 0 ? model.kernels.step_damped : model.kernels.step;
-  struct Reviewer {
-    const Parts* parts;
-    Block* block;
-  };
+      damping != 0 || damping_rate != 0 ? model.kernels().step_damped : model.kernels().step;
   team.for_each(blocks.size(), [&](std::size_t b) {
     layout->exchange(blocks, blocks[b]);
     watch(blocks[b]);
@@ -23,16 +20,7 @@ void Simulation::Parts::step(double dt) {
   team.for_each(blocks.size(), [&](std::size_t b) {
     Block& block = blocks[b];
     prepare_supports(block, sweep);
-    Reviewer reviewer{this, &block};
-    KernelRequest request = request_for(block, sweep.before, sweep.after);
-    request.self = &reviewer;
-    request.review = [](void* self, const AlarmRow& alarm) noexcept {
-      return PluginCall::answer(static_cast<const std::uint8_t*>(nullptr), [&] {
-        const auto* asked = static_cast<const Reviewer*>(self);
-        return asked->parts->review(*asked->block, alarm);
-      });
-    };
-    call_kernel(model, kernel, request);
+    run_kernel(kernel, block, sweep.before, sweep.after, false);
     for (Contribution& part : block.contributions) {
       const BoundaryParticle& support = block.boundary_particles[part.support];
       part.work += part.factor * dot(part.force, support.path);
@@ -49,6 +37,36 @@ void Simulation::Parts::step(double dt) {
   }
   last_step = dt;
   ++steps;
+}
+
+void Simulation::Parts::run_kernel(decltype(KernelSet::step) kernel, Block& block, double back,
+                             double forward, bool measuring) {
+  struct Host {
+    const Parts* parts;
+    Block* block;
+    KernelRequest request;
+    bool measuring;
+  } host{this, &block, request_for(block, back, forward), measuring};
+  host.request.self = &host;
+  host.request.review = [](void* self, const AlarmRow& alarm) noexcept {
+    return PluginCall::answer(static_cast<const std::uint8_t*>(nullptr), [&] {
+      const auto* asked = static_cast<const Host*>(self);
+      return asked->parts->review(*asked->block, alarm);
+    });
+  };
+  host.request.receive_gone = [](void* self, const AlarmRow& springs) noexcept {
+    PluginCall::answer([&] {
+      const auto* asked = static_cast<const Host*>(self);
+      asked->parts->receive_gone(*asked->block, springs);
+    });
+  };
+  host.request.other_row = [](void* self, const RowPlace& row) noexcept {
+    PluginCall::answer([&] {
+      const auto* asked = static_cast<const Host*>(self);
+      asked->parts->compute_other_row(*asked->block, asked->request, row, asked->measuring);
+    });
+  };
+  call_kernel(model.laws.front(), kernel, host.request);
 }
 
 KernelRequest Simulation::Parts::request_for(Block& block, double back, double forward) const {
@@ -77,6 +95,7 @@ KernelRequest Simulation::Parts::request_for(Block& block, double back, double f
   request.boundary_particles = block.boundary_particles.data();
   request.scratch = block.scratch.get();
   request.damped_work = block.damped_work.data();
+  request.fracture_work = block.fracture_work.empty() ? nullptr : block.fracture_work.data();
   request.sums = block.sums.data();
   return request;
 }

@@ -29,7 +29,12 @@ void Statics::make_list() {
   }
   grid.springs = springs_;
   weight_.assign(springs_.size(), 1);
-  for (const Breakage& broken : simulation_.breakages()) weight_[broken.neighbour] = 0;
+  for (const Breakage& broken : simulation_.breakages())
+    if (!broken.softened) weight_[broken.neighbour] = 0;
+  if (model_.memory == 0) return;
+  spring_memory_.resize(springs_.size());
+  simulation_.for_springs_of_list(
+      [&](const Simulation::SpringMemory& spring) { spring_memory_[spring.index] = spring; });
 }
 
 double Statics::respond_list(const double* u, double* force, const SpringTangents* tangents) const {
@@ -39,7 +44,7 @@ double Statics::respond_list(const double* u, double* force, const SpringTangent
                     of_spring = 2 * static_cast<std::size_t>(grid.components);
   std::vector<double> pulls(of_spring * springs, 0),
       energies(pieces, 0);  // at both ends of each spring, by component and end
-  const auto respond_piece = [&](std::size_t n, const Complaint& why) {
+  const auto respond_piece = [&](std::size_t n) {
     RowBuffers buffer(grid, 1);
     SpringRow& row = buffer.springs;
     row.count = 1;
@@ -49,6 +54,9 @@ double Statics::respond_list(const double* u, double* force, const SpringTangent
       row.there[c] = there[c];
     }
     for (std::size_t s = n * piece; s < std::min(springs, (n + 1) * piece); ++s) {
+      const ListedSpring& ends = model_.body.listed.springs[s];
+      const SpringConstants& constants =
+          model_.spring(model_.material(ends.a), model_.material(ends.b), 0);
       const StaticSpring& spring = springs_[s];
       row.rest = spring.rest;
       row.rest_length = norm(spring.rest);
@@ -60,22 +68,18 @@ double Statics::respond_list(const double* u, double* force, const SpringTangent
         here[c][0] = u[c * grid.places + spring.a];
         there[c][0] = u[c * grid.places + spring.b];
       }
-      double energy = 0;
-      if (!model_.kernels.linearise(row, energy, why)) return false;
-      energies[n] += energy;
+      LawMemory memory;
+      for (std::size_t cross = 0; cross < 2 && !spring_memory_.empty(); ++cross)
+        memory[cross] = spring_memory_[s].of[cross];
+      energies[n] += linearise({constants, model_.material(ends.a), buffer.stiffness[0], memory},
+                               buffer);
       add_forces(buffer, grid, 2, 1, pulls.data() + of_spring * s);
       if (tangents != nullptr) keep_tangents(buffer, grid.components == 4, s, *tangents);
     }
-    return true;
   };
   ThreadErrors errors;
 #pragma omp parallel for num_threads(grid.threads) schedule(static)
-  for (std::size_t n = 0; n < pieces; ++n)  // one call of the plugin for a piece: what stands
-                                            // around a call would cost as much as a spring
-    errors.run(n, [&] {
-      call(*model_.materials.front().stage, "force",
-           [&](const Complaint& why) { return respond_piece(n, why); });
-    });
+  for (std::size_t n = 0; n < pieces; ++n) errors.run(n, [&] { respond_piece(n); });
   errors.rethrow();
   for (std::size_t s = 0; s < springs; ++s)
     for (int c = 0; c < grid.components; ++c) {

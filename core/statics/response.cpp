@@ -2,11 +2,13 @@
 // and neighbours. The springs of a plane act on it and on planes after it. Planes that share none
 // of these are computed in parallel, so that sums have the same order for any number of threads.
 #include <base/thread_errors.hpp>
-#include <model/kernel_calls.hpp>
+#include <model/law.hpp>
 #include <statics/spring_rows.hpp>
 #include <statics/statics.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 namespace hyperlattice {
 
@@ -70,13 +72,7 @@ double Statics::respond_plane(std::int32_t k, const double* u, double* force,
       }
       for (std::size_t t = 0; t < padded; ++t) {
         buffer.weight[t] = t < count ? static_cast<double>(weight[t]) : 0.0;
-        const auto kind = [&](std::int64_t place) {
-          return buffer.weight[t] == 0 || kind_.empty()
-                     ? 0
-                     : kind_[static_cast<std::size_t>(place) + t];
-        };
-        const SpringConstants& constants =
-            model_.spring_to(static_cast<std::uint32_t>(n), kind(first), kind(first + step));
+        const SpringConstants& constants = constants_of(n, first, step, t, buffer.weight[t] != 0);
         buffer.stiffness[t] = constants.stiffness;
         buffer.cross_stiffness[t] = constants.cross_stiffness;
       }
@@ -88,10 +84,110 @@ double Statics::respond_plane(std::int32_t k, const double* u, double* force,
         springs.here[c] = u + c * grid.places + first;
         springs.there[c] = springs.here[c] + step;
       }
-      energy += linearise_springs(model_, springs);
+      energy += linearise_row(n, row.begin, j, k, buffer);
       add_forces(buffer, grid, grid.places, step, force + first);
       if (tangents != nullptr) keep_tangents(buffer, grid.components == 4, at, *tangents);
     }
+  }
+  return energy;
+}
+
+const SpringConstants& Statics::constants_of(std::size_t neighbour, std::int64_t first,
+                                             std::int64_t step, std::size_t t,
+                                             bool exists) const {
+  const auto kind = [&](std::int64_t place) {
+    return !exists || kind_.empty() ? 0 : kind_[static_cast<std::size_t>(place) + t];
+  };
+  return model_.spring_to(static_cast<std::uint32_t>(neighbour), kind(first), kind(first + step));
+}
+
+/// Linearises the springs of a row, in runs of springs of one law and of one set of constants.
+/// Returns their energy, J.
+double Statics::linearise_row(std::size_t neighbour, std::int32_t begin, std::int32_t j,
+                              std::int32_t k, RowBuffers& buffer) const {
+  const StaticGrid& grid = problem_.grid;
+  const std::int64_t first = grid.place(begin, j, k),
+                     step = grid.step_to(grid.neighbours[neighbour].site);
+  const auto count = static_cast<std::size_t>(buffer.springs.count);
+  const auto constants = [&](std::size_t t) -> const SpringConstants& {
+    return constants_of(neighbour, first, step, t, buffer.weight[t] != 0);
+  };
+  const auto memory = [&](std::size_t t) {
+    LawMemory found;
+    if (model_.memory == 0) return found;
+    const Site low = model_.body.low;
+    const Particle particle = model_.body.at(
+        {begin + static_cast<std::int32_t>(t) + low.i, j + low.j, k + low.k});
+    for (const bool cross : {false, true})
+      if (!cross || model_.choice.membrane != KernelChoice::Membrane::none)
+        found[cross ? 1 : 0] = simulation_.law_memory(
+            particle, static_cast<std::uint32_t>(neighbour), cross);
+    return found;
+  };
+  const auto material = [&](std::size_t t) {
+    const std::uint32_t kind =
+        kind_.empty() || buffer.weight[t] == 0 ? 0 : kind_[static_cast<std::size_t>(first) + t];
+    return model_.mixtures.empty() ? static_cast<std::uint8_t>(kind)
+                                   : model_.mixtures.commonest(kind);
+  };
+  const bool alike = model_.laws.size() == 1 && model_.composites.empty() &&
+                     (model_.materials.size() == 1 || model_.kernels().linear);
+  if (alike) return linearise({constants(0), 0, 0, memory(0)}, buffer);
+  double energy = 0;
+  RowBuffers part(grid, grid.sites[0]);
+  for (std::size_t start = 0, end; start < count; start = end) {
+    const SpringConstants& own = constants(start);
+    const bool composite = model_.composite(own) != nullptr;
+    end = start + 1;
+    while (!composite && end < count && &constants(end) == &own) ++end;
+    copy_row(buffer, start, end - start, grid.components, part);
+    energy += linearise({own, material(start), own.stiffness, memory(start)}, part);
+    keep_results(part, start, buffer);
+  }
+  return energy;
+}
+
+/// Linearises springs with the same constants; a composite spring alone. Returns their energy, J.
+double Statics::linearise(const AlikeSprings& alike, RowBuffers& buffer) const {
+  SpringRow& row = buffer.springs;
+  const CompositeSpring* composite = model_.composite(alike.constants);
+  if (composite != nullptr) return linearise_composite(*composite, alike, buffer);
+  for (std::size_t cross = 0; cross < 2; ++cross) {
+    row.law[cross] = alike.constants.law[cross];
+    row.memory[cross] = alike.memory[cross].first;
+    if (row.memory[cross] != nullptr) row.memory_stride = alike.memory[cross].stride;
+  }
+  return linearise_springs(model_.laws[model_.materials[alike.material].law], row);
+}
+
+double Statics::linearise_composite(const CompositeSpring& composite, const AlikeSprings& alike,
+                                    RowBuffers& buffer) const {
+  const SpringRow& row = buffer.springs;
+  const auto difference = [&](std::size_t c) {
+    return row.here[c] == nullptr ? 0 : row.there[c][0] - row.here[c][0];
+  };
+  const Vec3 d{difference(0), difference(1), difference(2)};
+  const double in_space = dot(d, 2 * row.rest + d);
+  double energy = 0;
+  const std::size_t kinds = model_.choice.membrane == KernelChoice::Membrane::none ? 1 : 2;
+  for (std::size_t cross = 0; cross < kinds; ++cross) {
+    const double rise =
+        row.here[3] == nullptr ? 0 : row.there[3][0] + (cross == 0 ? -1 : 1) * row.here[3][0];
+    const double growth = in_space + rise * (cross == 0 ? rise : 2 * row.membrane_distance + rise),
+                 rest_length = cross == 0 ? row.rest_length : row.cross_rest_length,
+                 length = std::sqrt(rest_length * rest_length + growth);
+    const CompositeSpring::Spring spring{cross, alike.stiffness / alike.constants.stiffness,
+                                         rest_length, growth / (length + rest_length)};
+    std::array<double, max_spring_memory> kept{};
+    const Layout::Memory& memory = alike.memory[cross];
+    for (std::uint32_t n = 0; n < model_.memory; ++n) kept[n] = memory.first[n * memory.stride];
+    const double tangent = composite.tangent(spring, kept.data());
+    const CompositeAnswer answer = composite.take(spring, 0, kept.data());
+    const double pull = answer.force / length;
+    (cross == 0 ? row.pull : row.cross_pull)[0] = row.weight[0] * pull;
+    (cross == 0 ? row.axial : row.cross_axial)[0] =
+        row.weight[0] * (tangent - pull) * row.spacing * row.spacing / (length * length);
+    energy += row.weight[0] * answer.stored;
   }
   return energy;
 }

@@ -31,6 +31,35 @@ struct RowBuffers {
   }
 };
 
+/// Copies `count` springs of a row, from `start` on, into a row of their own.
+inline void copy_row(const RowBuffers& from, std::size_t start, std::size_t count, int components,
+                     RowBuffers& to) {
+  std::fill(to.weight.begin(), to.weight.end(), 0.0);
+  for (std::size_t t = 0; t < count; ++t) {
+    to.weight[t] = from.weight[start + t];
+    to.stiffness[t] = from.stiffness[start + t];
+    to.cross_stiffness[t] = from.cross_stiffness[start + t];
+  }
+  to.springs.count = static_cast<int>(count);
+  to.springs.rest = from.springs.rest;
+  to.springs.rest_length = from.springs.rest_length;
+  to.springs.cross_rest_length = from.springs.cross_rest_length;
+  for (int c = 0; c < components; ++c) {
+    to.springs.here[c] = from.springs.here[c] + start;
+    to.springs.there[c] = from.springs.there[c] + start;
+  }
+}
+
+/// Writes the results of such a row into the whole row.
+inline void keep_results(const RowBuffers& from, std::size_t start, RowBuffers& to) {
+  for (std::size_t t = 0; t < static_cast<std::size_t>(from.springs.count); ++t) {
+    to.pull[start + t] = from.pull[t];
+    to.axial[start + t] = from.axial[t];
+    to.cross_pull[start + t] = from.cross_pull[t];
+    to.cross_axial[start + t] = from.cross_axial[t];
+  }
+}
+
 /// Adds the forces of a row of springs to both of their ends. `force` points to the row's first
 /// place; the other ends are `step` places on, the next component is `places` on.
 inline void add_forces(const RowBuffers& row, const StaticGrid& grid, std::int64_t places,

@@ -8,9 +8,12 @@
 #include <hyperlattice/array_memory.hpp>
 #include <hyperlattice/statics.hpp>
 
+#include <array>
 #include <functional>
 
 namespace hyperlattice {
+
+struct RowBuffers;
 
 class Statics {
  public:
@@ -54,6 +57,22 @@ class Statics {
   // response.cpp
   double respond_grid(const double* u, double* force, const SpringTangents* tangents) const;
   double respond(const double* u, double* force, const SpringTangents* tangents) const;
+  using LawMemory = std::array<Layout::Memory, 2>;
+  /// Springs with the same constants. `material`: one of their materials; `stiffness`: of the
+  /// first, N/m; `memory`: of the first base and cross spring.
+  struct AlikeSprings {
+    const SpringConstants& constants;
+    std::uint8_t material;
+    double stiffness;
+    LawMemory memory;
+  };
+  const SpringConstants& constants_of(std::size_t neighbour, std::int64_t first, std::int64_t step,
+                                      std::size_t t, bool exists) const;
+  double linearise_row(std::size_t neighbour, std::int32_t begin, std::int32_t j, std::int32_t k,
+                       RowBuffers& buffer) const;
+  double linearise(const AlikeSprings& alike, RowBuffers& buffer) const;
+  double linearise_composite(const CompositeSpring& composite, const AlikeSprings& alike,
+                             RowBuffers& buffer) const;
   double respond_plane(std::int32_t k, const double* u, double* force,
                        const SpringTangents* tangents) const;
   void fill_alpha(const SpringTangents& tangents) const;
@@ -73,6 +92,7 @@ class Statics {
   std::vector<StaticRow> rows_;
   std::vector<StaticSpring> springs_;                              ///< of a listed body
   std::vector<double> spring_stiffness_, spring_cross_stiffness_;  ///< N/m
+  std::vector<Simulation::SpringMemory> spring_memory_;  ///< of a listed body whose laws keep some
   std::vector<std::uint8_t> free_;
   std::vector<std::uint32_t> kind_;  ///< Model::kind of each place; empty: one material
   /// Fraction of each spring that counts, [n * places + place] or per listed spring; 0: no spring.

@@ -29,6 +29,13 @@ struct PlasticLaw {
   static double force(const hyperlattice::SpringState& s, const Constants&, const Memory& m) {
     return s.stiffness * (s.elongation - m.flowed);
   }
+  /// Returns the consistent tangent: k within the limit of the start of the step, k h / (k + h)
+  /// beyond it.
+  static double tangent(const hyperlattice::SpringState& s, const Constants& c, const Memory& m) {
+    const double force = s.stiffness * (s.elongation - m.flowed);
+    if (std::abs(force) <= c.limit + c.hardening * m.summed) return s.stiffness;
+    return s.stiffness * c.hardening / (std::abs(s.stiffness) + c.hardening);
+  }
   static double energy(const hyperlattice::SpringState& s, const Constants&, const Memory& m) {
     const double elastic = s.elongation - m.flowed;
     return 0.5 * s.stiffness * elastic * elastic;

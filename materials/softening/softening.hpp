@@ -17,12 +17,16 @@ struct SofteningLaw {
     double largest;  ///< largest elongation so far, m
   };
 
-  static double left(const hyperlattice::SpringState& s, const Constants& c,
-                     const Memory& m) {  // 1 - D
+  /// Returns 1 - D.
+  static double integrity(const hyperlattice::SpringState& s, const Constants& c,
+                          const Memory& m) {
     const double largest = m.largest / s.rest_length;
-    if (s.elongation < 0 || largest <= c.strength) return 1;
+    if (largest <= c.strength) return 1;
     if (largest >= c.opening) return 0;
     return c.strength * (c.opening - largest) / (largest * (c.opening - c.strength));
+  }
+  static double left(const hyperlattice::SpringState& s, const Constants& c, const Memory& m) {
+    return s.elongation < 0 ? 1 : integrity(s, c, m);
   }
   static void update(const hyperlattice::SpringState& s, const Constants&, Memory& m) {
     m.largest = std::max(m.largest, s.elongation);

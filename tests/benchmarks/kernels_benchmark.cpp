@@ -116,7 +116,7 @@ void explicit_step(benchmark::State& state, const Variant& variant, int size, co
       Counter(particles, Counter::kIsIterationInvariantRate | Counter::kInvert);
   state.counters["springs/s"] = Counter(springs, Counter::kIsIterationInvariantRate);
   state.counters["of_peak"] = Counter(flops / (peak * threads), Counter::kIsIterationInvariantRate);
-  state.SetLabel(plan->model->kernels.instructions);
+  state.SetLabel(plan->model->kernels().instructions);
 }
 
 void add(const Variant& variant, int size, const char* precision, int threads) {

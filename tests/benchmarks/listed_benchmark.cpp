@@ -150,7 +150,7 @@ void compare(benchmark::State& state, const Variant& variant, const std::string&
   state.counters["scalar_ns"] = scalar_nanoseconds;
   state.counters["of_scalar_list"] = median(ratios);
   state.counters["bytes"] = plan->bytes_per_particle;
-  state.SetLabel(model.kernels.instructions);
+  state.SetLabel(model.kernels().instructions);
 }
 
 }  // namespace

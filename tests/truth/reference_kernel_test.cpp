@@ -2,7 +2,7 @@
 // precisions, for bodies with random displacements.
 #include <support/scenes.hpp>
 
-#include <model/kernel_calls.hpp>
+#include <model/spring_calls.hpp>
 
 #include <hyperlattice/kernels/reference.hpp>
 
@@ -54,14 +54,12 @@ std::vector<FourVector> reference_forces(const Model& model, const std::vector<F
     const auto source = [&](Particle particle) {
       return model.body.is_listed() ? std::uint64_t{model.body.listed.source[particle]} : particle;
     };
-    const auto respond = [&](bool cross, double rest_length, double elongation) {
-      const double* constants = cross ? properties.cross_law : properties.law;
-      OneSpring spring{cross ? properties.cross_stiffness : properties.stiffness, rest_length,
-                       elongation, constants, nullptr};
-      double kept[max_law_memory + 2] = {};
-      start_spring(model, constants,
-                   {std::min(source(a), source(b)), std::max(source(a), source(b))}, kept);
-      return properties.share * take_spring(model, spring, 0, kept).force;
+    const auto respond = [&](bool cross, double, double elongation) {
+      double kept[max_spring_memory] = {};
+      const std::size_t kind = cross ? 1 : 0;
+      start_memory_of(model, properties, kind,
+                      {std::min(source(a), source(b)), std::max(source(a), source(b))}, kept);
+      return properties.share * take_spring(model, properties, kind, elongation, 0, kept).force;
     };
     add_reference_forces(properties.rest, model.body.grid.membrane_distance, has_cross, moved[a],
                          moved[b], respond, forces[a], forces[b]);

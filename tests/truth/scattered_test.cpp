@@ -1,6 +1,6 @@
 // Springs with scattered stiffness: the stiffnesses follow Weibull's distribution, and the
 // stiffness of bodies agrees with theory.
-#include <model/kernel_calls.hpp>
+#include <model/spring_calls.hpp>
 #include <support/laws.hpp>
 
 #include <gtest/gtest.h>
@@ -29,14 +29,10 @@ std::vector<double> shares(const Model& model) {
   std::vector<double> found;
   model.body.for_springs([&](Particle a, Particle b, std::uint32_t n) {
     const SpringProperties properties = model.spring_properties(a, b, n);
-    double kept[max_law_memory + 2] = {};
-    start_spring(model, properties.law, {std::min(a, b), std::max(a, b)}, kept);
-    found.push_back(
-        take_spring(model,
-                    {properties.stiffness, properties.rest_length, 1e-7, properties.law, nullptr},
-                    0, kept)
-            .force /
-        (properties.stiffness * 1e-7));
+    double kept[max_spring_memory] = {};
+    start_memory_of(model, properties, 0, {std::min(a, b), std::max(a, b)}, kept);
+    found.push_back(take_spring(model, properties, 0, 1e-7, 0, kept).force /
+                    (properties.stiffness * 1e-7));
   });
   return found;
 }

@@ -111,6 +111,10 @@ class Relaxation {
   explicit Relaxation(const Options& options) : o_(options) {}
 
   SolverPlan plan(const SolverFacts& facts) const {
+    if (facts.remembers)
+      throw std::runtime_error(
+          "laws without memory, which would follow the motion on the way to rest; a body with such "
+          "a law comes to rest by solvers.static, or by steps in time with damping");
     SolverPlan plan = plan_of_rest(facts, o_.end_time);
     plan.bytes_per_site = 250;  // for the measurement of the residual
     plan.damping = alpha();

@@ -26,7 +26,7 @@
 /// Raise this number if the meaning of anything in these headers changes; changes of layout are
 /// detected without it.
 #ifndef HYPERLATTICE_INTERFACE_VERSION
-#define HYPERLATTICE_INTERFACE_VERSION 2
+#define HYPERLATTICE_INTERFACE_VERSION 3
 #endif
 
 // clang-format off
@@ -58,20 +58,22 @@
   CROSSES(KernelChoice, membrane, breakable, mixed, listed, precision)                                                                                \
   CROSSES(SpringIdentity, a, b)                                                                                                                       \
   CROSSES(OneSpring, stiffness, rest_length, elongation, law, memory)                                                                                 \
-  CROSSES(SpringAnswer, force, energy)                                                                                                                \
-  CROSSES(KernelSet, step, step_damped, measure, linearise, ask, take, start, memory, instructions)                                                   \
+  CROSSES(SpringAnswer, force, energy, dissipated, integrity)                                                                                                                \
+  CROSSES(KernelSet, step, step_damped, measure, step_row, measure_row, linearise, ask, take, start, memory, linear, softens, instructions)                                                   \
   CROSSES(MaterialFunctions, constants, kernels, law, stable_step)                                                                                    \
   CROSSES(SpringConstants, stiffness, cross_stiffness, alarm, law)                                                                                    \
   CROSSES(NeighbourGeometry, site, rest, rest_length, cross_rest_length)                                                                              \
-  CROSSES(Row, begin, end, start, neighbours, material, weights, first_boundary_particle, last_boundary_particle)                                                         \
+  CROSSES(Row, begin, end, start, neighbours, material, law, weights, first_boundary_particle, last_boundary_particle)                                                         \
   CROSSES(BoundaryParticle, index, row, site, mass, axes, force, velocity, path, reaction_work, reaction_now, sum, speed_before, place_before)                 \
   CROSSES(AlarmRow, row, neighbour, sites, elongation)                                                                                                \
-  CROSSES(RowSums, stored, kinetic, kinetic_mean, momentum, potential, damped)                                                                        \
+  CROSSES(RowPlace, index, j, k)                                                                                                                      \
+  CROSSES(RowEnergies, stored, dissipated, fractured)                                                                                                 \
+  CROSSES(RowSums, stored, kinetic, kinetic_mean, momentum, potential, damped, fractured)                                                                        \
   CROSSES(ListedSlots, first, neighbour, stiffness, alarm, records, memory)                                                                           \
-  CROSSES(KernelRequest, rows_per_plane, planes, reach, rows, displacement, velocity, alive, material, mixture, mixture_springs, memory, memory_stride, weight_sets, weights, \
+  CROSSES(KernelRequest, rows_per_plane, planes, reach, rows, displacement, velocity, alive, material, mixture, mixture_springs, memory, memory_numbers, memory_stride, weight_sets, weights, \
           listed, neighbours, springs, mass, alpha, materials, spring_classes, membrane_distance, exact, back, forward, damping, damping_rate, acceleration, \
-          boundary_particles, self, review, scratch, scratch_width, damped_work, sums)                                                                          \
-  CROSSES(SpringRow, count, here, there, stiffness, cross_stiffness, weight, rest, rest_length, cross_rest_length, membrane_distance, spacing, pull,  \
+          boundary_particles, self, review, receive_gone, other_row, scratch, scratch_width, damped_work, fracture_work, sums)                                                                          \
+  CROSSES(SpringRow, count, here, there, stiffness, cross_stiffness, weight, law, memory, memory_stride, rest, rest_length, cross_rest_length, membrane_distance, spacing, pull,  \
           axial, cross_pull, cross_axial)                                                                                                             \
   CROSSES(SpringFacts, rest_length, stiffness, spacing, spring_class, crossings)                                                                      \
   CROSSES(SpringBatch, time, spring, elongation, a, b, rate)                                                                                          \
@@ -91,7 +93,7 @@
   CROSSES(SpringTangents, axial, pull, cross_axial, cross_pull, alpha)                                                                                \
   CROSSES(StaticProblem, self, grid, state, respond_to, load_at, prescribe_at, scale_of, position_of)                                                 \
   CROSSES(RestReport, residual, displacement_error, iterations)                                                                                       \
-  CROSSES(SolverFacts, start_time, critical_time_step, corners, sites_across, listed, tangents, answering)                                            \
+  CROSSES(SolverFacts, start_time, critical_time_step, corners, sites_across, listed, remembers, answering)                                            \
   CROSSES(SolverPlan, end_time, time_step, stable_time_step, damping, steps, at_rest, resumes, bytes_per_site, sweeps_per_step)                       \
   CROSSES(SolverHost, self, time, steps_done, take_step, show, open, take, measure_rest, stop_motion, set_damping_rate, show_rest, keep_motion)       \
   CROSSES(SolverFunctions, plan, run)                                                                                                                 \

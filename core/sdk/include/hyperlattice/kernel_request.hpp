@@ -4,6 +4,8 @@
 #include <hyperlattice/law.hpp>
 #include <hyperlattice/sites.hpp>
 
+#include <cstddef>
+
 namespace hyperlattice {
 
 inline constexpr std::uint16_t particle_bit = 1u << 15;
@@ -51,6 +53,9 @@ struct Row {
   std::uint64_t start = 0;       ///< place of site `begin` in the block's arrays
   std::uint32_t neighbours = 0;  ///< bit n: some site of the row has a spring to neighbour n
   std::int32_t material = 0;     ///< material of all springs of the row, or -1 if there are several
+  /// Law of all springs of the row, by its number in the body; 0: the kernel's own; -1: several.
+  /// Rows with another number than 0 are computed by KernelRequest::other_row.
+  std::int32_t law = 0;
   /// Place of the first vector in KernelRequest::weight_sets; no_weights: all weights are 1.
   std::uint64_t weights = no_weights;
   /// The row's range in KernelRequest::boundary_particles.
@@ -87,6 +92,18 @@ struct AlarmRow {
   std::span<const double> elongation;  ///< metres
 };
 
+/// A row in a block.
+struct RowPlace {
+  std::uint32_t index = 0;     ///< in KernelRequest::rows
+  std::int32_t j = 0, k = 0;   ///< line and plane in the block; k < 0: a ghost plane
+};
+
+/// Energies of the springs of one row, J.
+struct RowEnergies {
+  double stored = 0;
+  double dissipated = 0, fractured = 0;  ///< in the last step: by laws, and by laws that soften
+};
+
 /// Sums of a measurement over one row.
 struct RowSums {
   double stored = 0;        ///< energy of the springs at u(n), J
@@ -95,6 +112,7 @@ struct RowSums {
   Vec3 momentum;            ///< momentum of the mean velocity, N s
   double potential = 0;     ///< work of the body acceleration since the start: sum m a.u, J
   double damped = 0;        ///< energy that damping and laws took in the half step before now, J
+  double fractured = 0;     ///< energy that softening took since the last step, J
 };
 
 /// The springs of a block of a listed lattice. Particles are grouped into packs, with as many
@@ -152,6 +170,7 @@ struct KernelRequest {
   /// Memory of laws that have one: [neighbour][base, cross][number][site]; no cross springs without
   /// a membrane.
   double* memory = nullptr;
+  std::uint32_t memory_numbers = 0;  ///< numbers of each spring; a law may use fewer
   std::uint64_t memory_stride = 0;  ///< number of sites in `memory`
   /// For each vector of sites of a row with weights: the place of its set in `weights`. A set has
   /// `lanes` fractions of a whole particle (for mass and alpha), then for each neighbour `lanes`
@@ -183,6 +202,11 @@ struct KernelRequest {
   /// Asks the failure criterion about springs above their alarm. Returns one flag for each spring:
   /// 1 removes it. Null: the criterion failed, and the run ends.
   const std::uint8_t* (*review)(void* self, const AlarmRow& springs) noexcept = nullptr;
+  /// Receives springs whose integrity became 0 in the step. They stay: a closed crack may push.
+  void (*receive_gone)(void* self, const AlarmRow& springs) noexcept = nullptr;
+  /// Computes the springs of a row whose law is not the kernel's: sets the row's own forces, which
+  /// include those that earlier rows added, and adds to those of later rows.
+  void (*other_row)(void* self, const RowPlace& row) noexcept = nullptr;
 
   // scratch and results
   /// Array of scratch_size(...) doubles, 64-byte aligned, zero at the start of the run; a kernel
@@ -191,6 +215,7 @@ struct KernelRequest {
   std::int32_t scratch_width = 0;  ///< numbers in a row of scratch
   /// For each row, ghosts included: energy that damping and laws took, summed over the run, J.
   double* damped_work = nullptr;
+  double* fracture_work = nullptr;  ///< the same of laws that soften; null if there are none
   RowSums* sums = nullptr;  ///< for each row of the block, ghosts included; written by measure()
 };
 
@@ -202,6 +227,12 @@ struct SpringRow {
   const double *here[4] = {}, *there[4] = {};
   const double *stiffness = nullptr, *cross_stiffness = nullptr;  ///< N/m
   const double* weight = nullptr;  ///< fraction of a whole spring; 0: no spring
+  /// Constants of the law for base and cross springs, if it has any.
+  const double* law[2] = {};
+  /// Memory of base and cross springs at the start of the load step, if the law has one: [number *
+  /// memory_stride + spring].
+  const double* memory[2] = {};
+  std::uint64_t memory_stride = 0;
   Vec3 rest;
   double rest_length = 0, cross_rest_length = 0, membrane_distance = 0, spacing = 0;
   /// Results, N/m: see kernels/tangent.hpp.
@@ -219,5 +250,34 @@ constexpr std::size_t scratch_size(std::int32_t rows_per_plane, std::int32_t rea
   return (static_cast<std::size_t>(reach + 1) * static_cast<std::size_t>(rows_per_plane) + 1) *
          components * static_cast<std::size_t>(width);
 }
+
+/// The places of rows in a block's scratch array. Real: precision of the forces.
+template <class Real>
+class ScratchRows {
+ public:
+  ScratchRows(const KernelRequest& request, int components)
+      : scratch_(static_cast<double*>(request.scratch)),
+        width_(request.scratch_width),
+        rows_(request.rows_per_plane),
+        reach_(request.reach),
+        row_(components * request.scratch_width) {}
+
+  /// Returns the forces on the row in work; element t belongs to site begin + t.
+  Real* own(int c) const { return reinterpret_cast<Real*>(scratch_) + c * width_; }
+  /// Returns the forces that a row received from earlier rows; element i belongs to site i. The
+  /// address of a plane is the same for both precisions, so that steps and measurements find zeros
+  /// there.
+  Real* received(int c, int j, int k) const {
+    return received_plane(k) + row_ * j + c * width_ + scratch_margin;
+  }
+  Real* received_plane(int k) const {
+    return reinterpret_cast<Real*>(scratch_ + row_) + row_ * rows_ * ((k + reach_) % (reach_ + 1));
+  }
+  std::size_t plane_size() const { return static_cast<std::size_t>(row_ * rows_); }
+
+ private:
+  double* scratch_;
+  std::ptrdiff_t width_, rows_, reach_, row_;
+};
 
 }  // namespace hyperlattice

@@ -13,6 +13,8 @@
 namespace hyperlattice {
 
 struct KernelRequest;  // kernel_request.hpp
+struct RowPlace;
+struct RowEnergies;
 struct SpringRow;
 
 /// The springs that a material gives to a lattice. A cross spring (beta, gamma) belongs to the same
@@ -118,6 +120,8 @@ struct OneSpring {
 };
 struct SpringAnswer {
   double force = 0, energy = 0;  ///< N, J
+  double dissipated = 0;         ///< in the last step, J
+  double integrity = 1;          ///< 1 intact, 0 gone; 1 of laws that do not soften
 };
 
 /// Functions that move a block of particles by one step, or measure it. Null members: this library
@@ -126,6 +130,12 @@ struct KernelSet {
   bool (*step)(const KernelRequest& request, const Complaint& why) noexcept = nullptr;
   bool (*step_damped)(const KernelRequest& request, const Complaint& why) noexcept = nullptr;
   bool (*measure)(const KernelRequest& request, const Complaint& why) noexcept = nullptr;
+  /// Computes the springs of one row of a structured body for the kernel of another law: sets the
+  /// row's own forces, and adds to those of other rows. The kernel has written a list's records.
+  bool (*step_row)(const KernelRequest& request, const RowPlace& row, RowEnergies& energies,
+                   const Complaint& why) noexcept = nullptr;
+  bool (*measure_row)(const KernelRequest& request, const RowPlace& row, RowEnergies& energies,
+                      const Complaint& why) noexcept = nullptr;
   /// Computes forces and tangents of a row of springs, and their energy, J.
   bool (*linearise)(const SpringRow& row, double& energy, const Complaint& why) noexcept = nullptr;
   bool (*ask)(const OneSpring& spring, SpringAnswer& answer,
@@ -137,7 +147,10 @@ struct KernelSet {
   /// Sets the initial memory of a spring, whose numbers are all zero. Null: zeros are right.
   bool (*start)(const double* law, const SpringIdentity& spring, double* kept,
                 const Complaint& why) noexcept = nullptr;
-  std::uint32_t memory = 0;       ///< numbers in the memory of each spring, base or cross
+  std::uint32_t memory = 0;  ///< numbers in the memory of each spring, base or cross
+  /// Two half springs in series are one spring of the law: it is linear and has no constants.
+  bool linear = false;
+  bool softens = false;           ///< the law has an integrity
   const char* instructions = "";  ///< instruction set: "avx512", "avx2" or "baseline"
 };
 
@@ -146,7 +159,7 @@ struct MaterialFunctions {
   bool (*constants)(const void* material, const LatticeFacts& lattice, MaterialConstants& constants,
                     const Complaint& why) noexcept;
   bool (*kernels)(const KernelChoice& choice, KernelSet& kernels, const Complaint& why) noexcept;
-  std::string_view law;  ///< name; materials with one law share kernels and may be in one body
+  std::string_view law;  ///< name; materials with one law share kernels
   /// Null: the stable step of the elastic springs holds.
   bool (*stable_step)(const void* material, double elastic_step, double& step,
                       const Complaint& why) noexcept;

@@ -14,9 +14,6 @@ namespace hyperlattice {
 /// changing. Throws std::runtime_error if the core has no statics for the body, and for an end
 /// before the start.
 inline SolverPlan plan_of_rest(const SolverFacts& facts, std::optional<double> end_time) {
-  if (!facts.tangents)
-    throw std::runtime_error(
-        "a law without memory; with this one a body comes to rest by steps in time with damping");
   if (facts.answering)
     throw std::runtime_error(
         "loads that do not answer to the motion; with such loads a body comes to rest by steps in "

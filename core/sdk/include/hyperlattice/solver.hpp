@@ -14,7 +14,7 @@ struct SolverFacts {
   std::span<const double> corners;  ///< times, s, where a load has a kink or jump, ascending
   std::int32_t sites_across = 1;    ///< sites along the longest side of the body's box
   bool listed = false;              ///< the lattice is listed
-  bool tangents = true;  ///< the law has a tangent; if not, SolverHost::statics() is not available
+  bool remembers = false;  ///< a law has a memory, which advances with each accepted state of rest
   bool answering = false;  ///< a load answers to the motion; statics() does not include such loads
 };
 

@@ -51,12 +51,12 @@ struct KernelConfig {
 template <Precision precision>
 using NumberOf = std::conditional_t<precision == Precision::floats, float, double>;
 
-/// Measurements are computed in doubles, whatever the precision of the state; so are laws with
-/// constants.
+/// Measurements are computed in doubles, whatever the precision of the state; so are laws with a
+/// memory.
 template <class Law>
 constexpr KernelConfig config_of(Membrane membrane, bool breakable, bool mixed, Task task,
                                  Precision stored) {
-  const bool in_doubles = task == Task::measure || LawWithConstants<Law>;
+  const bool in_doubles = task == Task::measure || LawWithMemory<Law>;
   return {membrane, stored, in_doubles ? Precision::doubles : stored, task, breakable, mixed};
 }
 

@@ -45,6 +45,7 @@ class ListedForces {
       all_packs<false>(row, index, forces, energies);
     energies.stored *= 0.5;
     energies.dissipated *= 0.5;
+    energies.fractured *= 0.5;
   }
 
  private:
@@ -99,10 +100,12 @@ class ListedForces {
                                    : Several                  ? stiffness(slot, 1)
                                              : fill<Real>(request_.springs->cross_stiffness);
       Pulls pulls;
-      if constexpr (LawWithConstants<Law>)
-        pulls = pulls_by_law(reach, base_stiffness, cross_stiffness, slot, energies);
+      if constexpr (LawWithMemory<Law>)
+        pulls = pulls_by_law(reach, base_stiffness, cross_stiffness, constants_of(row), slot,
+                             energies);
       else
-        pulls = pulls_of(reach, base_stiffness, cross_stiffness, slot, energies.stored);
+        pulls = pulls_of(reach, base_stiffness, cross_stiffness, constants_of(row), slot,
+                         energies.stored);
       Pack pull = pulls.base;
       if constexpr (membrane != Membrane::none) pull += pulls.cross;
       if constexpr (membrane == Membrane::free)
@@ -157,8 +160,8 @@ class ListedForces {
   }
 
   HYPERLATTICE_INLINE Pulls pulls_of(const Reach& reach, const Pack& stiffness,
-                                     const Pack& cross_stiffness, const Slot& slot,
-                                     Pack& stored) const {
+                                     const Pack& cross_stiffness, const SpringConstants& constants,
+                                     const Slot& slot, Pack& stored) const {
     constexpr Real smallest = std::numeric_limits<Real>::min();  // m2, for lanes without a spring
     Pulls pulls;
     if constexpr (!measuring && is_linear<Law>) {
@@ -174,33 +177,45 @@ class ListedForces {
       }
       if constexpr (Breakable) outside.look_above(reach.growth, load(alarms(slot)));
       if (!outside && !request_.exact) [[likely]] {
-        pulls.base = pull_near_rest<Law>(stiffness, p);
+        pulls.base = near_rest(stiffness, reach.square, p, constants.law[0]);
         if constexpr (membrane != Membrane::none)
-          pulls.cross =
-              where(not_zero(reach.square), pull_near_rest<Law>(cross_stiffness, cross_p));
+          pulls.cross = where(
+              not_zero(reach.square),
+              near_rest(cross_stiffness,
+                        reach.square + request_.membrane_distance * request_.membrane_distance,
+                        cross_p, constants.law[1]));
         return pulls;
       }
     }
     const Reach in_memory = reach;
     Pack stored_by_slot = 0;
-    pulls = pulls_by_root(in_memory, stiffness, cross_stiffness, slot, stored_by_slot);
+    pulls = pulls_by_root(in_memory, stiffness, cross_stiffness, constants, slot, stored_by_slot);
     if constexpr (measuring) stored += stored_by_slot;
     return pulls;
   }
 
+  /// `square`: of the rest length, m2; used by laws with constants only.
+  HYPERLATTICE_INLINE static Pack near_rest(const Pack& stiffness, const Pack& square,
+                                            const Pack& p, const double* constants) {
+    return pull_near_rest<Law, Real>(stiffness, LawWithConstants<Law> ? root(square) : square, p,
+                                     constants);
+  }
+
   [[gnu::noinline]] Pulls pulls_by_root(const Reach& reach, const Pack& stiffness,
-                                        const Pack& cross_stiffness, const Slot& slot,
+                                        const Pack& cross_stiffness,
+                                        const SpringConstants& constants, const Slot& slot,
                                         Pack& stored) const {
     const LanesOf<Real> there_is = not_zero(reach.square);
     Pulls pulls;
     const ResponseOf<Pack> base =
-        respond<Law, measuring>(stiffness, root(reach.square), reach.growth);
+        respond<Law, measuring>(stiffness, root(reach.square), reach.growth, constants.law[0]);
     pulls.base = where(there_is, base.force_over_length);
     if constexpr (measuring) stored += where(there_is, base.energy);
     if constexpr (membrane != Membrane::none) {
       const double delta = request_.membrane_distance;
-      const ResponseOf<Pack> cross = respond<Law, measuring>(
-          cross_stiffness, root(reach.square + delta * delta), reach.cross_growth);
+      const ResponseOf<Pack> cross =
+          respond<Law, measuring>(cross_stiffness, root(reach.square + delta * delta),
+                                  reach.cross_growth, constants.law[1]);
       pulls.cross = where(there_is, cross.force_over_length);
       if constexpr (measuring) stored += where(there_is, cross.energy);
     }
@@ -208,31 +223,29 @@ class ListedForces {
     return pulls;
   }
 
-  /// Computes the same for a law with its own constants, and perhaps a memory.
+  /// Computes the same for a law with a memory.
   [[gnu::noinline]] Pulls pulls_by_law(const Reach& reach, const Pack& stiffness,
-                                       const Pack& cross_stiffness, const Slot& slot,
+                                       const Pack& cross_stiffness,
+                                       const SpringConstants& constants, const Slot& slot,
                                        Energies<Pack>& energies) const {
     LawSprings springs;
     springs.time_step = 2 * request_.back;
     springs.memory_stride = slot_width;
-    const SpringConstants* constants[lanes];
-    for (std::uint32_t lane = 0; lane < lanes; ++lane) {
-      const std::uint32_t own = own_place(slot, lane),
-                          other = slots_.neighbour[slot.first_lane + lane];
-      constants[lane] = request_.springs + (material(own) * request_.materials + material(other)) *
-                                               request_.spring_classes;
-      if (other != own) springs.there |= 1u << lane;
-    }
+    for (std::uint32_t lane = 0; lane < lanes; ++lane)
+      if (slots_.neighbour[slot.first_lane + lane] != own_place(slot, lane))
+        springs.there |= 1u << lane;
     const auto pull = [&](std::size_t cross, const Pack& square, const Pack& growth,
                           const Pack& k) {
       springs.rest_length = root(square);
       springs.memory = slots_.memory +
-                       (kinds_of(membrane) * slot.number + cross) * slot_width * memory_of<Law>() +
+                       (kinds_of(membrane) * slot.number + cross) * slot_width *
+                           request_.memory_numbers +
                        slot.first_lane % slot_width;
-      for (int lane = 0; lane < lanes; ++lane)
-        springs.constants[lane] = constants[lane]->law[cross];
+      springs.constants = constants.law[cross];
       const LawResponse response = springs.template ask<Law, !measuring>(k, growth);
-      energies.dissipated += response.dissipated;
+      (has_integrity<Law> ? energies.fractured : energies.dissipated) += response.dissipated;
+      if (has_integrity<Law> && !measuring && cross == 0 && response.gone != 0) [[unlikely]]
+        report_gone(reach, slot, response.gone);
       if constexpr (measuring) energies.stored += response.energy;
       return where(not_zero(reach.square),
                    response.force_over_length);  // missing springs give NaN
@@ -251,8 +264,24 @@ class ListedForces {
     return static_cast<std::uint32_t>(request_.rows[slot.row].start) +
            static_cast<std::uint32_t>(slot.site) + lane;
   }
-  std::uint32_t material(std::uint32_t place) const {
-    return static_cast<std::uint32_t>(record(place)[record_material]);
+  /// Returns the constants of all springs of a row of one material.
+  const SpringConstants& constants_of(const Row& row) const {
+    const auto material = static_cast<std::uint32_t>(row.material < 0 ? 0 : row.material);
+    return request_.springs[std::size_t{material} * (request_.materials + 1) *
+                            request_.spring_classes];
+  }
+
+  /// Reports the springs of a slot whose integrity became 0. `gone`: bits of lanes.
+  void report_gone(const Reach& reach, const Slot& slot, std::uint32_t gone) const {
+    Real elongation[width];
+    store(elongation,
+          reach.growth / (root(reach.square + reach.growth) + root(reach.square)));
+    for (int lane = 0; lane < width; ++lane) {
+      if ((gone >> lane & 1u) == 0) continue;
+      const std::int32_t site = slot.site + lane;
+      const double found = elongation[lane];
+      request_.receive_gone(request_.self, {slot.row, slot.number, {&site, 1}, {&found, 1}});
+    }
   }
 
   /// Asks the failure criterion about the slot's springs above their alarm, and removes broken
@@ -281,26 +310,51 @@ class ListedForces {
 };
 
 template <class Law, KernelConfig config>
-struct ListedSweep {
+class ListedSweep {
+  static constexpr int components = config.components();
+  using Real = NumberOf<config.computed>;
+  using Pack = PackOf<Real>;
+  using Springs = ListedForces<Law, config.of_springs(false, false)>;
+
+ public:
   static void run(const KernelRequest& request) {
-    constexpr int components = config.components();
-    using Real = NumberOf<config.computed>;
-    using Pack = PackOf<Real>;
-    const ListedForces<Law, config.of_springs(false, false)> springs(request);
+    const Springs springs(request);
     springs.write_records();
+    Real* forces[components];
+    own_rows(request, forces);
     for (std::uint32_t index = 0; index < static_cast<std::uint32_t>(request.rows_per_plane);
          ++index) {
       const Row& row = request.rows[index];
       Motion<config.of_motion()> motion(request, row);
-      Real* forces[components];
-      for (int c = 0; c < components; ++c)
-        forces[c] = static_cast<Real*>(request.scratch) + c * request.scratch_width;
-      motion.set_body_force(forces, row.end);
       Energies<Pack> energies;
-      springs.add(row, index, forces, energies);
+      if (config.mixed && row.law != 0) {
+        request.other_row(request.self, {index, static_cast<std::int32_t>(index), 0});
+        if (motion.accelerated()) motion.add_body_force(forces, row.end);
+      } else {
+        motion.set_body_force(forces, row.end);
+        springs.add(row, index, forces, energies);
+      }
       motion.vectors(forces);
       motion.template finish<LawWithMemory<Law>>(index, energies);
     }
+  }
+
+  /// Computes the springs of one row for the kernel of another law, which has written the records.
+  static void run_row(const KernelRequest& request, const RowPlace& place, RowEnergies& sums) {
+    const Row& row = request.rows[place.index];
+    Real* forces[components];
+    own_rows(request, forces);
+    for (Real* force : forces)
+      for (int t = 0; t < row.end; t += lanes_of<Real>) store(force + t, Pack(0));
+    Energies<Pack> energies;
+    Springs(request).add(row, place.index, forces, energies);
+    sums = energies.sums();
+  }
+
+ private:
+  static void own_rows(const KernelRequest& request, Real* (&forces)[components]) {
+    for (int c = 0; c < components; ++c)
+      forces[c] = static_cast<Real*>(request.scratch) + c * request.scratch_width;
   }
 };
 

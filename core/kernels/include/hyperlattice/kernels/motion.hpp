@@ -87,10 +87,12 @@ class RowValues {
 template <int Components, class Real>
 using Forces = std::array<PackOf<Real>, static_cast<std::size_t>(Components)>;
 
-/// Energies of a row's springs, J. Only laws with a memory dissipate.
+/// Energies of a row's springs, J. Only laws with a memory dissipate; laws that soften fracture.
 template <class Pack>
 struct Energies {
-  Pack stored = 0, dissipated = 0;
+  Pack stored = 0, dissipated = 0, fractured = 0;
+
+  RowEnergies sums() const { return {sum(stored), sum(dissipated), sum(fractured)}; }
 };
 
 inline double with_sign(double magnitude, double sign) {
@@ -223,6 +225,9 @@ class Motion {
     damped_ += springs.dissipated;
     if constexpr (task == Task::step_damped || (task == Task::step && Dissipating))
       request_.damped_work[index] += sum(damped_) - not_damped_;
+    if constexpr (task != Task::measure && Dissipating)
+      if (request_.fracture_work != nullptr)
+        request_.fracture_work[index] += sum(springs.fractured);
     if constexpr (measuring) {
       RowSums measured;
       measured.stored = sum(springs.stored + stored_);
@@ -231,6 +236,7 @@ class Motion {
       measured.momentum = {sum(momentum_[0]), sum(momentum_[1]), sum(momentum_[2])};
       measured.potential = sum(potential_);
       measured.damped = sum(damped_);
+      measured.fractured = sum(springs.fractured);
       supports_measured(measured);
       request_.sums[index] = measured;
     }

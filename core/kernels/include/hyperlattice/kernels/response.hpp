@@ -8,18 +8,12 @@
 
 #include <hyperlattice/kernel_request.hpp>
 #include <hyperlattice/kernels/simd.hpp>
+#include <hyperlattice/law.hpp>
 
 #include <array>
 #include <limits>
 
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
-
-/// Whether a law has `static constexpr bool linear = true`: its force is proportional to the
-/// elongation, which saves arithmetic.
-template <class Law>
-constexpr bool is_linear = requires {
-  requires Law::linear;
-};
 
 /// Response of a spring: force divided by length, N/m, and stored energy, J.
 template <class Pack>
@@ -29,21 +23,23 @@ struct ResponseOf {
 using Response = ResponseOf<Pack>;
 
 /// Returns force over length and, if Energy, energy of springs whose squared length grew by q from
-/// rest_length^2. Length: one number for all lanes, or a pack.
+/// rest_length^2. Length: one number for all lanes, or a pack. `constants`: those of the law.
 template <class Law, bool Energy, class Pack, class Length>
-inline ResponseOf<Pack> respond(Pack stiffness, Length rest_length, Pack q) {
+inline ResponseOf<Pack> respond(Pack stiffness, Length rest_length, Pack q,
+                                const double* constants) {
   const Pack length = root(rest_length * rest_length + q);
   const Pack inverse = 1.0 / (length * (length + rest_length));
+  const Pack elongation = q * length * inverse;
+  const auto spring = [&](Pack along) {
+    return SpringOf<Pack>{stiffness, Pack(rest_length), along};
+  };
   ResponseOf<Pack> response;
-  if constexpr (is_linear<Law>) {
-    response.force_over_length = Law::force(stiffness, q * inverse);
-    if constexpr (Energy) response.energy = Law::energy(stiffness, q * length * inverse);
-  } else {
-    const Pack elongation = q * length * inverse;
+  if constexpr (is_linear<Law>)
+    response.force_over_length = force_of<Law>(spring(q * inverse), constants);
+  else
     response.force_over_length =
-        Law::force(stiffness, elongation) * ((length + rest_length) * inverse);
-    if constexpr (Energy) response.energy = Law::energy(stiffness, elongation);
-  }
+        force_of<Law>(spring(elongation), constants) * ((length + rest_length) * inverse);
+  if constexpr (Energy) response.energy = energy_of<Law>(spring(elongation), constants);
   return response;
 }
 
@@ -89,17 +85,18 @@ struct Terms<float> {
   static constexpr Series<8> many{1.0 / 4};
 };
 
-/// Returns the force over length of springs with stiffness k and relative growth p = q / L0^2, all
-/// in the range of the short series.
+/// Returns the force over length of springs of a linear law with stiffness k and relative growth
+/// p = q / L0^2, all in the range of the short series.
 template <class Law, class Real>
 HYPERLATTICE_INLINE PackOf<Real> pull_near_rest(const PackOf<Real>& stiffness,
-                                                const PackOf<Real>& p) {
+                                                const PackOf<Real>& rest_length,
+                                                const PackOf<Real>& p, const double* constants) {
   constexpr auto& c = Terms<Real>::few.coefficients;
   PackOf<Real> sum = c.back();
   each<c.size() - 1>([&]<std::size_t n>() __attribute__((always_inline)) {
     sum = sum * p + PackOf<Real>(c[c.size() - 2 - n]);
   });
-  return Law::force(stiffness, sum * p);
+  return force_of<Law>(SpringOf<PackOf<Real>>{stiffness, rest_length, sum * p}, constants);
 }
 
 /// Springs of one class between two materials, base or cross, with constants prepared for the loop.
@@ -116,14 +113,16 @@ class SpringKind {
 
  public:
   SpringKind() = default;
-  /// `alarm`: elongation, m; infinity if there is no alarm.
-  [[gnu::noinline]] SpringKind(double stiffness, double rest_length, double alarm)
-      : stiffness_(stiffness), rest_length_(rest_length) {
+  /// `constants`: those of the law, which must outlive the kind; `alarm`: elongation, m; infinity if
+  /// there is no alarm.
+  [[gnu::noinline]] SpringKind(double stiffness, double rest_length, const double* constants,
+                               double alarm)
+      : stiffness_(stiffness), rest_length_(rest_length), constants_(constants) {
     if (alarm < infinity) alarm_ = static_cast<Real>(squared_growth<Real>(rest_length, alarm));
     if constexpr (is_linear<Law>) {
       const double square = rest_length * rest_length;
-      const bool fits = set(few_, Terms<Real>::few.coefficients, stiffness, square);
-      set(many_, Terms<Real>::many.coefficients, stiffness, 1);
+      const bool fits = set(few_, Terms<Real>::few.coefficients, square);
+      set(many_, Terms<Real>::many.coefficients, 1);
       if (fits) highest_ = static_cast<Real>(Terms<Real>::few.range * square);
     }
     lowest_ = -highest_;
@@ -163,14 +162,14 @@ class SpringKind {
   /// Sets the coefficient of each power n to the law's force for series[n] / square^(n + 1).
   /// Returns false if this precision cannot hold them.
   template <std::size_t terms>
-  static bool set(Real (&to)[terms], const std::array<double, terms>& series, double stiffness,
-                  double square) {
+  bool set(Real (&to)[terms], const std::array<double, terms>& series, double square) const {
     constexpr double most = std::numeric_limits<Real>::max() / 1e3,
                      least = std::numeric_limits<Real>::min() * 1e3;
     double power = 1 / square;
     bool fits = true;
     for (std::size_t n = 0; n < terms; ++n, power /= square) {
-      const double coefficient = Law::force(stiffness, series[n] * power),
+      const double coefficient = force_of<Law>(
+                       SpringOf<double>{stiffness_, rest_length_, series[n] * power}, constants_),
                    size = coefficient < 0 ? -coefficient : coefficient;
       fits = fits && (size == 0 || (size > least && size < most));
       to[n] = fits ? static_cast<Real>(coefficient) : Real{};
@@ -194,7 +193,7 @@ class SpringKind {
         return pull * p;
       }
     }
-    return respond<Law, false>(Pack(stiffness_), rest_length_, q).force_over_length;
+    return respond<Law, false>(Pack(stiffness_), rest_length_, q, constants_).force_over_length;
   }
 
   Real few_[few_terms] = {}, many_[many_terms] = {};
@@ -203,6 +202,7 @@ class SpringKind {
   /// Alarm as growth of the squared length, m2.
   Real alarm_ = std::numeric_limits<Real>::infinity();
   double stiffness_ = 0, rest_length_ = 0;
+  const double* constants_ = nullptr;
 };
 
 }  // namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS

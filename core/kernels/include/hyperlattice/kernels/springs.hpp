@@ -49,11 +49,12 @@ class Springs {
 
  public:
   /// Adds the forces of `count` springs (padded to whole vectors) and their energies. Returns
-  /// whether any spring is above its alarm.
+  /// whether any spring is above its alarm. `report_gone(t, lanes)`: receives springs that are gone.
+  template <class ReportGone>
   [[gnu::noinline]] static bool add(const KernelRequest& request, const Pair& pair,
                                     const NeighbourGeometry& neighbour, std::uint16_t bit,
                                     const SpringConstants& constants, int count,
-                                    Energies<Pack>& energies) {
+                                    Energies<Pack>& energies, const ReportGone& report_gone) {
     const Vec3 rest = neighbour.rest;
     const double twice_delta = 2 * request.membrane_distance;
     Pack base_stiffness = constants.stiffness, cross_stiffness = constants.cross_stiffness;
@@ -73,15 +74,19 @@ class Springs {
       /// cross springs.
       const auto pull_of = [&](int cross, const Pack& stiffness, double rest_length,
                                const Pack& growth) {
-        if constexpr (LawWithConstants<Law>) {
+        if constexpr (LawWithMemory<Law>) {
           const LawSprings springs =
-              law_springs(request, pair, neighbour, bit, constants, cross, rest_length, t);
+              law_springs(request, pair, bit, constants, cross, rest_length, t);
           const LawResponse response = springs.template ask<Law, !energy>(stiffness, growth);
-          energies.dissipated += counted(response.dissipated);
+          if (has_integrity<Law> && cross == 0 && response.gone != 0) [[unlikely]]
+            report_gone(t, response.gone);
+          (has_integrity<Law> ? energies.fractured : energies.dissipated) +=
+              counted(response.dissipated);
           if constexpr (energy) energies.stored += counted(response.energy);
           return counted(response.force_over_length);
         } else {
-          const ResponseOf<Pack> response = respond<Law, energy>(stiffness, rest_length, growth);
+          const ResponseOf<Pack> response =
+              respond<Law, energy>(stiffness, rest_length, growth, constants.law[cross]);
           if constexpr (energy) energies.stored += counted(response.energy);
           return counted(response.force_over_length);
         }
@@ -126,6 +131,21 @@ class Springs {
     return rung;
   }
 
+  /// Reports the springs of a vector whose integrity became 0. `gone`: bits of lanes.
+  [[gnu::noinline]] static void report_gone(const KernelRequest& request, const Pair& pair,
+                                            const Row& row, std::uint32_t row_index,
+                                            std::uint32_t neighbour_index, int t,
+                                            std::uint32_t gone) {
+    const NeighbourGeometry& neighbour = request.neighbours[neighbour_index];
+    for (int lane = 0; lane < lanes; ++lane) {
+      if ((gone >> lane & 1u) == 0) continue;
+      const std::int32_t site = row.begin + t + lane;
+      const double elongation = elongation_of(pair, neighbour, t + lane);
+      request.receive_gone(request.self,
+                           {row_index, neighbour_index, {&site, 1}, {&elongation, 1}});
+    }
+  }
+
   /// Asks the failure criterion about the row's springs above their alarm, and removes broken ones.
   [[gnu::noinline]] static void review(const KernelRequest& request, const Pair& pair,
                                        const Row& row, std::uint32_t row_index,
@@ -149,15 +169,9 @@ class Springs {
     };
     for (int t = 0; t < row.end - row.begin; ++t) {
       if ((pair.alive[t] & bit) == 0) continue;
-      const auto moved = [&](int c) { return double{pair.there[c][t]} - double{pair.here[c][t]}; };
-      const Vec3 d{moved(0), moved(1), moved(2)};
-      double q = dot(d, 2 * neighbour.rest + d);
-      if constexpr (membrane == Membrane::free) q += moved(3) * moved(3);
       const SpringConstants& constants =
           uniform != nullptr ? *uniform : between(request, pair, neighbour, t);
-      const double elongation =
-          q / (__builtin_sqrt(neighbour.rest_length * neighbour.rest_length + q) +
-               neighbour.rest_length);
+      const double elongation = elongation_of(pair, neighbour, t);
       if (!(elongation > constants.alarm)) continue;
       sites[found] = row.begin + t;
       elongations[found] = elongation;
@@ -167,21 +181,30 @@ class Springs {
   }
 
  private:
-  static LawSprings law_springs(const KernelRequest& request, const Pair& pair,
-                                const NeighbourGeometry& neighbour, std::uint16_t bit,
+  /// Returns the elongation, m, of the base spring of site t.
+  static double elongation_of(const Pair& pair, const NeighbourGeometry& neighbour, int t) {
+    const auto moved = [&](int c) { return double{pair.there[c][t]} - double{pair.here[c][t]}; };
+    const Vec3 d{moved(0), moved(1), moved(2)};
+    double q = dot(d, 2 * neighbour.rest + d);
+    if constexpr (membrane == Membrane::free) q += moved(3) * moved(3);
+    return q / (__builtin_sqrt(neighbour.rest_length * neighbour.rest_length + q) +
+                neighbour.rest_length);
+  }
+
+  static LawSprings law_springs(const KernelRequest& request, const Pair& pair, std::uint16_t bit,
                                 const SpringConstants& constants, int cross, double rest_length,
                                 int t) {
     LawSprings springs;
     springs.rest_length = rest_length;
     springs.time_step = 2 * request.back;
-    for (int lane = 0; lane < lanes; ++lane)
-      springs.constants[lane] =
-          (config.mixed ? between(request, pair, neighbour, t + lane) : constants).law[cross];
+    springs.constants = constants.law[cross];
     for (int lane = 0; lane < lanes; ++lane)
       springs.there |= ((pair.alive[t + lane] & bit) != 0 ? 1u : 0u) << lane;
     springs.memory_stride = request.memory_stride;
     springs.memory = pair.memory +
-                     static_cast<std::size_t>(cross) * memory_of<Law>() * request.memory_stride + t;
+                     static_cast<std::size_t>(cross) * request.memory_numbers *
+                         request.memory_stride +
+                     t;
     return springs;
   }
 

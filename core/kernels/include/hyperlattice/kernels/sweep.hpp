@@ -28,17 +28,35 @@ class Sweep {
  public:
   static void run(const KernelRequest& request) { Sweep(request).all_rows(); }
 
+  /// Computes the springs of one row for the kernel of another law: see KernelSet::step_row.
+  static void run_row(const KernelRequest& request, const RowPlace& place, RowEnergies& sums) {
+    Sweep sweep(request);
+    const Row& row = request.rows[place.index];
+    const int count = (row.end - row.begin + width - 1) / width * width;
+    Energies<Pack> energies;
+    if (sweep.fuses(row)) {
+      sweep.in_one(row, place.index, place.j, place.k, count);
+    } else {
+      for (Real* own : sweep.own_)
+        for (int t = 0; t < count; t += width) store(own + t, Pack(0));
+      sweep.one_by_one(row, place.index, place.j, place.k, count, energies);
+    }
+    sums = energies.sums();
+  }
+
  private:
   template <bool Several, bool Weighted>
   using OneByOne = Springs<Law, config.of_springs(Several, Weighted)>;
   using Fused = Stencil<Law, config.of_springs(false, false), CubicList>;
   static constexpr bool can_fuse =
-      !measuring && !LawWithConstants<Law> &&
+      !measuring && !LawWithMemory<Law> &&
       vectors <= 2;  // processors with shorter vectors have too few registers
 
   explicit Sweep(const KernelRequest& request)
-      : request_(request), fused_(can_fuse && !request.exact && CubicList::is(request.neighbours)) {
-    for (int c = 0; c < components; ++c) own_[c] = own_row(c);
+      : request_(request),
+        scratch_(request, components),
+        fused_(can_fuse && !request.exact && CubicList::is(request.neighbours)) {
+    for (int c = 0; c < components; ++c) own_[c] = scratch_.own(c);
   }
 
   void all_rows() {
@@ -50,46 +68,63 @@ class Sweep {
       }
     for (int k = request_.planes; k < request_.planes + request_.reach;
          ++k) {  // the next block computes the forces on its own planes
-      Real* plane = received_plane(k);
-      const std::size_t size = static_cast<std::size_t>(request_.rows_per_plane) * row_size();
-      for (std::size_t n = 0; n < size; ++n) plane[n] = 0;
+      Real* plane = scratch_.received_plane(k);
+      for (std::size_t n = 0; n < scratch_.plane_size(); ++n) plane[n] = 0;
     }
   }
 
   void one_row(const Row& row, std::uint32_t index, int j, int k) {
-    const bool owned = k >= 0, fused = fused_ && (!Mixed || row.material >= 0);
+    const bool owned = k >= 0, others = Mixed && row.law != 0;
     const int count = (row.end - row.begin + width - 1) / width * width;
     Motion<config.of_motion()> motion(request_, row);
-    const bool accelerated = motion.accelerated();
     // Particles can move as soon as the forces on them are known, unless a criterion or a boundary
     // particle must see the forces first.
-    constexpr bool may_move_at_once = !Breakable && !Mixed && !measuring;
-    const bool at_once = may_move_at_once && fused && owned &&
-                         row.first_boundary_particle == row.last_boundary_particle;
+    constexpr bool may_move_at_once = can_fuse && !Breakable && !Mixed && !measuring;
     Energies<Pack> energies;
-    if (!fused) {
+    if constexpr (may_move_at_once)
+      if (fused_ && owned && row.first_boundary_particle == row.last_boundary_particle) {
+        move_at_once(row, j, k, count, motion);
+        return motion.template finish<LawWithMemory<Law>>(index, energies);
+      }
+    const bool in_one_pass = !others && fuses(row);
+    if (others) {
+      request_.other_row(request_.self, {index, j, k});
+    } else if (in_one_pass) {
+      in_one(row, index, j, k, count);
+    } else {
       motion.set_body_force(own_, count);
       one_by_one(row, index, j, k, count, energies);
-    } else if constexpr (can_fuse) {
-      const typename Fused::Rows rows = rows_of(row, j, k, count);
-      Fused stencil(request_, rows);
-      if (may_move_at_once && at_once) {
-        if constexpr (may_move_at_once)
-          stencil.run([&](int t, Forces<components, Real>& forces) __attribute__((always_inline)) {
-            if (accelerated)
-              for (std::size_t c = 0; c < components; ++c)
-                forces[c] += motion.body_force(static_cast<int>(c), t);
-            motion.vector(t, forces);
-          });
-      } else {
-        const std::uint32_t rung = stencil.run(own_);
-        if (accelerated) motion.add_body_force(own_, count);
-        if (Breakable && owned) review_all(row, index, j, k, rung);
-      }
     }
     if (!owned) return;
-    if (!at_once) motion.vectors(own_);
+    if ((others || in_one_pass) && motion.accelerated()) motion.add_body_force(own_, count);
+    motion.vectors(own_);
     motion.template finish<LawWithMemory<Law>>(index, energies);
+  }
+
+  void move_at_once(const Row& row, int j, int k, int count, Motion<config.of_motion()>& motion) {
+    const bool accelerated = motion.accelerated();
+    const typename Fused::Rows rows = rows_of(row, j, k, count);
+    Fused(request_, rows)
+        .run([&](int t, Forces<components, Real>& forces) __attribute__((always_inline)) {
+          if (accelerated)
+            for (std::size_t c = 0; c < components; ++c)
+              forces[c] += motion.body_force(static_cast<int>(c), t);
+          motion.vector(t, forces);
+        });
+  }
+
+  /// Returns whether all springs of the row can be computed in one pass.
+  bool fuses(const Row& row) const {
+    return can_fuse && fused_ && (!Mixed || row.material >= 0);
+  }
+
+  /// Sets the row's own forces to those of its springs and of earlier rows' springs.
+  void in_one(const Row& row, std::uint32_t index, int j, int k, int count) {
+    if constexpr (can_fuse) {
+      const typename Fused::Rows rows = rows_of(row, j, k, count);
+      const std::uint32_t rung = Fused(request_, rows).run(own_);
+      if (Breakable && k >= 0) review_all(row, index, j, k, rung);
+    }
   }
 
   typename Fused::Rows rows_of(const Row& row, int j, int k, int count) {
@@ -104,7 +139,7 @@ class Sweep {
       const Row& other = request_.rows[row_index(to_j, to_k)];
       rows.displacement[line] =
           static_cast<std::ptrdiff_t>(other.start) + (row.begin - other.begin);
-      rows.received[line] = received_row(0, to_j, to_k) + row.begin;
+      rows.received[line] = scratch_.received(0, to_j, to_k) + row.begin;
     }
     rows.alive = request_.alive + row.start;
     rows.weight_sets = row.weights == no_weights ? nullptr : request_.weight_sets + row.weights;
@@ -122,6 +157,8 @@ class Sweep {
                                        constants_of(row, request_.neighbours[n].site.spring_class));
   }
 
+  /// Adds the forces of the row's springs, one neighbour after another, and those that it received
+  /// from earlier rows, to the row's own.
   [[gnu::noinline]] void one_by_one(const Row& row, std::uint32_t index, int j, int k, int count,
                                     Energies<Pack>& energies) {
     const bool owned = k >= 0;
@@ -131,14 +168,19 @@ class Sweep {
       Pair pair = pair_of(row, neighbour.site, j, k);
       if constexpr (memory_of<Law>() > 0)
         pair.memory = request_.memory +
-                      n * kinds_of(config.membrane) * memory_of<Law>() * request_.memory_stride +
+                      n * kinds_of(config.membrane) * request_.memory_numbers *
+                          request_.memory_stride +
                       row.start;
       const auto bit = static_cast<std::uint16_t>(1u << n);
       const bool uniform = !Mixed || row.material >= 0;
       const SpringConstants* constants = constants_of(row, neighbour.site.spring_class);
       const auto add = [&]<bool Several, bool Weighted>() {
+        const auto report_gone = [&](int t, std::uint32_t gone) {
+          if (!measuring && owned)
+            OneByOne<Several, Weighted>::report_gone(request_, pair, row, index, n, t, gone);
+        };
         return OneByOne<Several, Weighted>::add(request_, pair, neighbour, bit, *constants, count,
-                                                energies);
+                                                energies, report_gone);
       };
       bool rung;
       if (row.weights == no_weights) {
@@ -160,7 +202,7 @@ class Sweep {
   /// Adds the forces that the row received from earlier rows to its own.
   void join_received(const Row& row, int j, int k, int count) {
     for (int c = 0; c < components; ++c) {
-      Real* received = received_row(c, j, k) + row.begin;
+      Real* received = scratch_.received(c, j, k) + row.begin;
       for (int t = 0; t < count; t += width) {
         store(own_[c] + t, load(own_[c] + t) + load(received + t));
         store(received + t, Pack(0));
@@ -184,9 +226,10 @@ class Sweep {
     for (const NeighbourGeometry& neighbour : request_.neighbours) {
       const SpringConstants& constants = of_material[neighbour.site.spring_class];
       auto& kinds = kinds_[neighbour.site.spring_class];
-      kinds.base = {constants.stiffness, neighbour.rest_length,
+      kinds.base = {constants.stiffness, neighbour.rest_length, constants.law[0],
                     Breakable ? constants.alarm : infinity};
-      kinds.cross = {constants.cross_stiffness, neighbour.cross_rest_length, infinity};
+      kinds.cross = {constants.cross_stiffness, neighbour.cross_rest_length, constants.law[1],
+                     infinity};
     }
   }
 
@@ -194,24 +237,6 @@ class Sweep {
   std::uint32_t row_index(int j, int k) const {
     return static_cast<std::uint32_t>((k + request_.reach) * request_.rows_per_plane + j);
   }
-  std::size_t row_size() const {
-    return static_cast<std::size_t>(components) * static_cast<std::size_t>(request_.scratch_width);
-  }
-  Real* received_plane(int k) const {  // the same address for both precisions, so that steps and
-                                       // measurements find zeros there
-    const auto slot = static_cast<std::size_t>((k + request_.reach) % (request_.reach + 1));
-    void* first = static_cast<double*>(request_.scratch) + row_size();
-    return static_cast<Real*>(first) +
-           row_size() * slot * static_cast<std::size_t>(request_.rows_per_plane);
-  }
-  Real* received_row(int c, int j, int k) const {  // element i belongs to site i
-    return received_plane(k) + row_size() * static_cast<std::size_t>(j) +
-           c * request_.scratch_width + scratch_margin;
-  }
-  Real* own_row(int c) const {
-    return static_cast<Real*>(request_.scratch) + c * request_.scratch_width;
-  }  // element t belongs to site begin + t
-
   Pair pair_of(const Row& row, const Neighbour& to, int j, int k) const {
     const Row& other = request_.rows[row_index(j + to.dy, k + to.dz)];
     const auto here = static_cast<std::ptrdiff_t>(row.start);
@@ -221,8 +246,8 @@ class Sweep {
       const auto* displacement = static_cast<const Stored*>(request_.displacement[c]);
       pair.here[c] = displacement + here;
       pair.there[c] = displacement + there;
-      pair.own[c] = own_row(c);
-      pair.received[c] = received_row(c, j + to.dy, k + to.dz) + row.begin + to.dx;
+      pair.own[c] = own_[c];
+      pair.received[c] = scratch_.received(c, j + to.dy, k + to.dz) + row.begin + to.dx;
     }
     pair.alive = request_.alive + here;
     if (Mixed && request_.mixture != nullptr) {
@@ -235,6 +260,7 @@ class Sweep {
   }
 
   const KernelRequest& request_;
+  const ScratchRows<Real> scratch_;
   const bool fused_;
   typename Fused::Kinds kinds_[max_spring_classes];
   std::int32_t kinds_of_ = -1;
@@ -248,10 +274,12 @@ class Kernels {
   static KernelSet of(const KernelChoice& choice, const char* instructions) {
     KernelSet set = of_membrane(choice);
     set.memory = memory_of<Law>();
-    if constexpr (LawWithStart<Law>)
+    set.linear = is_linear<Law> && !LawWithConstants<Law> && !LawWithMemory<Law>;
+    set.softens = has_integrity<Law>;
+    if constexpr (has_start<Law>)
       set.start = [](const double* law, const SpringIdentity& spring, double* kept,
                      const Complaint& why) noexcept {
-        return detail::guarded(why, [&] { SpringStep<Law>::start(law, spring, kept); });
+        return detail::guarded(why, [&] { SpringWithMemory<Law>(law).start(spring, kept); });
       };
     set.ask = [](const OneSpring& spring, SpringAnswer& answer, const Complaint& why) noexcept {
       return detail::guarded(why, [&] { answer = asked(spring); });
@@ -266,31 +294,38 @@ class Kernels {
 
  private:
   static SpringAnswer asked(const OneSpring& spring) {
-    const double k = spring.stiffness, u = spring.elongation;
     if constexpr (LawWithMemory<Law>)
-      return {
-          spring.memory[SpringStep<Law>::own + 1],
-          SpringStep<Law>::energy_of({k, spring.rest_length, u, 0, 0}, spring.law, spring.memory)};
+      return answer_of(SpringWithMemory<Law>(spring.law)
+                           .present({spring.stiffness, spring.rest_length, spring.elongation, 0, 0},
+                                    spring.memory));
     else
       return taken(spring, 0, nullptr);
   }
 
   static SpringAnswer taken(const OneSpring& spring, double time_step, double* kept) {
-    if constexpr (LawWithConstants<Law>) {
-      const auto step = SpringStep<Law>::take(
-          {spring.stiffness, spring.rest_length, spring.elongation, 0, time_step}, spring.law,
-          kept);
-      return {step.force, step.energy};
+    if constexpr (LawWithMemory<Law>) {
+      return answer_of(SpringWithMemory<Law>(spring.law)
+                           .take({spring.stiffness, spring.rest_length, spring.elongation, 0,
+                                  time_step},
+                                 kept));
     } else {
-      return {Law::force(spring.stiffness, spring.elongation),
-              Law::energy(spring.stiffness, spring.elongation)};
+      const SpringOf<double> of{spring.stiffness, spring.rest_length, spring.elongation};
+      return {force_of<Law>(of, spring.law), energy_of<Law>(of, spring.law)};
     }
+  }
+  static SpringAnswer answer_of(const SpringStep& step) {
+    return {step.force, step.energy, step.dissipated, step.integrity};
   }
 
   /// The try block is outside of the kernel, so that it does not affect the loops.
   template <class Kernel>
   static bool run(const KernelRequest& request, const Complaint& why) noexcept {
     return detail::guarded(why, [&] { Kernel::run(request); });
+  }
+  template <class Kernel>
+  static bool run_row(const KernelRequest& request, const RowPlace& row, RowEnergies& energies,
+                      const Complaint& why) noexcept {
+    return detail::guarded(why, [&] { Kernel::run_row(request, row, energies); });
   }
 
   static KernelSet of_membrane(const KernelChoice& choice) {
@@ -305,13 +340,13 @@ class Kernels {
   }
   template <Membrane membrane>
   static KernelSet of_failure(const KernelChoice& choice) {
-    if constexpr (LawWithConstants<Law>) return of_mixture<membrane, true>(choice);
+    if constexpr (LawWithMemory<Law>) return of_mixture<membrane, true>(choice);
     return choice.breakable ? of_mixture<membrane, true>(choice)
                             : of_mixture<membrane, false>(choice);
   }
   template <Membrane membrane, bool breakable>
   static KernelSet of_mixture(const KernelChoice& choice) {
-    if constexpr (LawWithConstants<Law>)
+    if constexpr (LawWithMemory<Law>)
       return of_precision<membrane, breakable, true>(
           choice);  // such laws run lane by lane, so fewer materials save nothing
     return choice.mixed ? of_precision<membrane, breakable, true>(choice)
@@ -328,15 +363,14 @@ class Kernels {
     constexpr auto config = [](Task task) {
       return config_of<Law>(membrane, breakable && task != Task::measure, mixed, task, stored);
     };
-    if (choice.listed)
-      return of_sweep<ListedSweep, config(Task::step), config(Task::step_damped),
-                      config(Task::measure)>();
-    KernelSet set =
-        of_sweep<Sweep, config(Task::step), config(Task::step_damped), config(Task::measure)>();
-    if constexpr (!LawWithConstants<Law>)
-      set.linearise = [](const SpringRow& row, double& energy, const Complaint& why) noexcept {
-        return detail::guarded(why, [&] { energy = Tangent<Law, membrane>::run(row); });
-      };
+    KernelSet set = choice.listed
+                        ? of_sweep<ListedSweep, config(Task::step), config(Task::step_damped),
+                                   config(Task::measure)>()
+                        : of_sweep<Sweep, config(Task::step), config(Task::step_damped),
+                                   config(Task::measure)>();
+    set.linearise = [](const SpringRow& row, double& energy, const Complaint& why) noexcept {
+      return detail::guarded(why, [&] { energy = Tangent<Law, membrane>::run(row); });
+    };
     return set;
   }
   template <template <class, KernelConfig> class Of, KernelConfig step, KernelConfig step_damped,
@@ -346,6 +380,8 @@ class Kernels {
     set.step = &run<Of<Law, step>>;
     set.step_damped = &run<Of<Law, step_damped>>;
     set.measure = &run<Of<Law, measure>>;
+    set.step_row = &run_row<Of<Law, step>>;
+    set.measure_row = &run_row<Of<Law, measure>>;
     return set;
   }
 };

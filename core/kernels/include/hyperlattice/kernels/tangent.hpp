@@ -14,17 +14,29 @@ namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
 /// Returns the derivative of the law's force, N/m: the law's own tangent(); the stiffness of a
 /// linear law; else a central difference.
 template <class Law>
-inline Pack tangent_of(Pack stiffness, Pack elongation, double rest_length) {
-  if constexpr (requires { Law::tangent(stiffness, elongation); }) {
-    return Law::tangent(stiffness, elongation);
+inline Pack tangent_of(const SpringOf<Pack>& spring, const double* constants) {
+  const auto force = [&](Pack elongation) {
+    return force_of<Law>(SpringOf<Pack>{spring.stiffness, spring.rest_length, elongation},
+                         constants);
+  };
+  if constexpr (requires { Law::tangent(spring.stiffness, spring.elongation); }) {
+    return Law::tangent(spring.stiffness, spring.elongation);
+  } else if constexpr (requires {
+                         Law::tangent(spring, struct_of<typename Law::Constants>(constants));
+                       }) {
+    return Law::tangent(spring, struct_of<typename Law::Constants>(constants));
   } else if constexpr (is_linear<Law>) {
-    return stiffness;
+    return force(Pack(1));
   } else {
-    const double h = 1e-6 * rest_length;
-    return (Law::force(stiffness, elongation + h) - Law::force(stiffness, elongation - h)) /
-           (2 * h);
+    const Pack h = 1e-6 * spring.rest_length;
+    return (force(spring.elongation + h) - force(spring.elongation - h)) / (2 * h);
   }
 }
+
+/// Force, N, tangent, N/m, and energy, J, of springs.
+struct Linearised {
+  Pack force = 0, tangent = 0, energy = 0;
+};
 
 template <class Law, Membrane membrane>
 struct Tangent {
@@ -32,7 +44,6 @@ struct Tangent {
   static double run(const SpringRow& row) {
     Pack stored{};
     for (int t = 0; t < row.count; t += lanes) {
-      const Pack weight = load(row.weight + t);
       Pack difference{}, total{};  // difference and sum of the heights
       Pack q{};
       const double rest[3] = {row.rest.x, row.rest.y, row.rest.z};
@@ -45,30 +56,66 @@ struct Tangent {
         difference = there - here;
         total = there + here;
       }
-      stored += one(row, row.rest_length, load(row.stiffness + t), q + difference * difference,
-                    weight, row.pull + t, row.axial + t);
-      if constexpr (membrane != Membrane::none) {
-        const Pack growth = q + total * (2 * row.membrane_distance + total);
-        stored += one(row, row.cross_rest_length, load(row.cross_stiffness + t), growth, weight,
-                      row.cross_pull + t, row.cross_axial + t);
-      }
+      stored += one(row, 0, t, q + difference * difference);
+      if constexpr (membrane != Membrane::none)
+        stored += one(row, 1, t, q + total * (2 * row.membrane_distance + total));
     }
     return sum(stored);
   }
 
  private:
-  static Pack one(const SpringRow& row, double rest_length, Pack stiffness, Pack q, Pack weight,
-                  double* pull, double* axial) {
-    const Pack square = rest_length * rest_length + q, length = root(square),
-               elongation = q / (length + rest_length);
-    const Pack force_over_length = Law::force(stiffness, elongation) / length;
-    const Pack along = (tangent_of<Law>(stiffness, elongation, rest_length) - force_over_length) *
-                       (row.spacing * row.spacing) / square;
+  /// Writes the results of a vector of springs, base (cross 0) or cross (1), whose squared lengths
+  /// grew by `q`. Returns their energy.
+  static Pack one(const SpringRow& row, std::size_t cross, int t, Pack q) {
+    const double rest_length = cross == 0 ? row.rest_length : row.cross_rest_length;
+    const Pack weight = load(row.weight + t);
+    const Pack square = rest_length * rest_length + q, length = root(square);
+    const SpringOf<Pack> spring{load((cross == 0 ? row.stiffness : row.cross_stiffness) + t),
+                                Pack(rest_length), q / (length + rest_length)};
+    const Linearised at = linearised(row, cross, t, spring, weight);
+    const Pack force_over_length = at.force / length;
+    const Pack along = (at.tangent - force_over_length) * (row.spacing * row.spacing) / square;
     const LanesOf<double> there_is =
         not_zero(weight);  // missing springs have values that may not be finite
-    store(pull, where(there_is, weight * force_over_length));
-    store(axial, where(there_is, weight * along));
-    return where(there_is, weight * Law::energy(stiffness, elongation));
+    store((cross == 0 ? row.pull : row.cross_pull) + t,
+          where(there_is, weight * force_over_length));
+    store((cross == 0 ? row.axial : row.cross_axial) + t, where(there_is, weight * along));
+    return where(there_is, weight * at.energy);
+  }
+
+  static Linearised linearised(const SpringRow& row, std::size_t cross, int t,
+                               const SpringOf<Pack>& spring, Pack weight) {
+    if constexpr (LawWithMemory<Law>)
+      return lane_by_lane(row, cross, t, spring, weight);
+    else
+      return {force_of<Law>(spring, row.law[cross]), tangent_of<Law>(spring, row.law[cross]),
+              energy_of<Law>(spring, row.law[cross])};
+  }
+
+  /// Calls a law with a memory, which stays that of the start of the load step.
+  static Linearised lane_by_lane(const SpringRow& row, std::size_t cross, int t,
+                                 const SpringOf<Pack>& spring, Pack weight) {
+    double k[lanes], rest[lanes], elongation[lanes], there[lanes], force[lanes] = {},
+                                                                   tangent[lanes] = {},
+                                                                   energy[lanes] = {};
+    store(k, spring.stiffness);
+    store(rest, spring.rest_length);
+    store(elongation, spring.elongation);
+    store(there, weight);
+    const SpringWithMemory<Law> law(row.law[cross]);
+    for (int lane = 0; lane < lanes; ++lane) {
+      if (there[lane] == 0) continue;
+      constexpr std::size_t numbers = memory_of<Law>();
+      double own[numbers];
+      for (std::size_t n = 0; n < numbers; ++n)
+        own[n] = row.memory[cross][n * row.memory_stride + static_cast<std::size_t>(t + lane)];
+      const SpringState state{k[lane], rest[lane], elongation[lane], 0, 0};
+      tangent[lane] = law.tangent(state, own);
+      const SpringStep step = law.take(state, own);
+      force[lane] = step.force;
+      energy[lane] = step.energy;
+    }
+    return {load(force), load(tangent), load(energy)};
   }
 };
 

@@ -1,0 +1,53 @@
+// Calls of the law of a spring of the body, of one law or composite. Each function throws
+// OutsideError with the name of the material's plugin if a law throws. `cross`: 0 base spring, 1
+// cross spring. `kept`: memory of the spring, Model::memory numbers.
+#pragma once
+
+#include <model/model.hpp>
+
+namespace hyperlattice {
+
+inline OneSpring one_spring(const SpringProperties& properties, std::size_t cross,
+                            double elongation) {
+  return {properties.stiffness_of(cross), properties.rest_length_of(cross), elongation,
+          properties.constants[cross], nullptr};
+}
+inline CompositeSpring::Spring composite_spring(const SpringProperties& properties,
+                                                std::size_t cross, double elongation) {
+  return {cross, properties.factor, properties.rest_length_of(cross), elongation};
+}
+
+/// Sets the start values of a new spring's memory, which is all zero.
+inline void start_memory_of(const Model& model, const SpringProperties& properties,
+                            std::size_t cross, const SpringIdentity& identity, double* kept) {
+  if (properties.composite != nullptr)
+    return properties.composite->start(identity, cross, kept);
+  start_spring(model.laws[properties.law], properties.constants[cross], identity, kept);
+}
+
+/// Advances a spring by a step of `time_step` seconds to an elongation, m.
+inline CompositeAnswer take_spring(const Model& model, const SpringProperties& properties,
+                                   std::size_t cross, double elongation, double time_step,
+                                   double* kept) {
+  if (properties.composite != nullptr)
+    return properties.composite->take(composite_spring(properties, cross, elongation), time_step,
+                                      kept);
+  const Law& law = model.laws[properties.law];
+  const SpringAnswer answer =
+      take_spring(law, one_spring(properties, cross, elongation), time_step, kept);
+  return {answer.force, answer.energy, law.kernels.softens ? 0 : answer.dissipated,
+          law.kernels.softens ? answer.dissipated : 0, answer.integrity};
+}
+
+/// Returns the present answer of a spring without a step.
+inline CompositeAnswer ask_spring(const Model& model, const SpringProperties& properties,
+                                  std::size_t cross, double elongation, const double* kept) {
+  if (properties.composite != nullptr)
+    return properties.composite->present(composite_spring(properties, cross, elongation), kept);
+  OneSpring spring = one_spring(properties, cross, elongation);
+  spring.memory = kept;
+  const SpringAnswer answer = ask_spring(model.laws[properties.law], spring);
+  return {answer.force, answer.energy, 0, 0, answer.integrity};
+}
+
+}  // namespace hyperlattice

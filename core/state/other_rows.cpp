@@ -1,0 +1,296 @@
+// Rows whose springs the kernel of the first law does not compute. A row of one law goes to the
+// kernel of this law. A row with springs of several laws, or of several sets of constants, is
+// computed here, one spring after another, as the theory states it (kernels/reference.hpp).
+#include <model/spring_calls.hpp>
+#include <state/parts.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace hyperlattice {
+namespace {
+
+/// The springs of one row, with all that is alike for them.
+class SeveralLaws {
+ public:
+  SeveralLaws(const Model& model, const KernelRequest& request, bool measuring)
+      : model_(model),
+        time_step_(2 * request.back),
+        delta_(request.membrane_distance),
+        kinds_(model.choice.membrane == KernelChoice::Membrane::none ? 1 : 2),
+        free_(model.choice.membrane == KernelChoice::Membrane::free),
+        measuring_(measuring) {}
+
+  /// A spring between two particles: displacements and heights there less those here, and the sum of
+  /// the heights, m.
+  struct Spring {
+    SpringProperties properties;
+    double difference[4] = {};
+    double height_sum = 0;
+    double weight = 1;
+    Layout::Memory memory[2];
+  };
+  /// Force on the end here, N, and its fourth component there.
+  struct Result {
+    double force[4] = {}, height_force_there = 0;
+    double elongation = 0;  ///< of the base spring, m
+    bool gone = false;      ///< whether the integrity of the base spring became 0
+  };
+
+  /// Computes the forces of a spring and adds its energies. In a step the spring's memory advances.
+  Result forces(const Spring& spring, RowEnergies& energies) const {
+    const SpringProperties& of = spring.properties;
+    const Vec3 d{spring.difference[0], spring.difference[1], spring.difference[2]};
+    const Vec3 r = of.rest + d;
+    const double in_space = dot(d, 2 * of.rest + d);
+    Result result;
+    for (std::size_t cross = 0; cross < kinds_; ++cross) {
+      const double rise = cross == 0 ? spring.difference[3] : spring.height_sum,
+                   growth = in_space + rise * (cross == 0 ? rise : 2 * delta_ + rise),
+                   rest_length = of.rest_length_of(cross),
+                   length = std::sqrt(rest_length * rest_length + growth),
+                   elongation = growth / (length + rest_length);
+      const CompositeAnswer answer =
+          advance(of, cross, elongation, spring.memory[cross], cross == 0 ? &result : nullptr);
+      energies.stored += spring.weight * answer.stored;
+      energies.dissipated += spring.weight * answer.dissipated;
+      energies.fractured += spring.weight * answer.fractured;
+      if (cross == 0) result.elongation = elongation;
+      const double pull = spring.weight * answer.force / length;
+      result.force[0] += pull * r.x;
+      result.force[1] += pull * r.y;
+      result.force[2] += pull * r.z;
+      if (!free_) continue;
+      const double along = pull * (cross == 0 ? rise : delta_ + rise);
+      result.force[3] += cross == 0 ? along : -along;
+      result.height_force_there -= along;
+    }
+    return result;
+  }
+
+ private:
+  CompositeAnswer advance(const SpringProperties& of, std::size_t cross, double elongation,
+                          const Layout::Memory& memory, Result* result) const {
+    std::array<double, max_spring_memory> kept{};
+    for (std::uint32_t n = 0; n < model_.memory; ++n) kept[n] = memory.first[n * memory.stride];
+    const bool was_there = result != nullptr && model_.softens && !measuring_ &&
+                           ask_spring(model_, of, cross, elongation, kept.data()).integrity > 0;
+    const CompositeAnswer answer =
+        take_spring(model_, of, cross, elongation, time_step_, kept.data());
+    if (result != nullptr) result->gone = was_there && answer.integrity <= 0;
+    for (std::uint32_t n = 0; n < model_.memory && !measuring_; ++n)
+      memory.first[n * memory.stride] = kept[n];
+    return answer;
+  }
+
+  const Model& model_;
+  double time_step_, delta_;
+  std::size_t kinds_;
+  bool free_, measuring_;
+};
+
+/// Sets the forces on the row in work to zero, up to whole vectors.
+void clear_own(const ScratchRows<double>& scratch, int components, int count) {
+  for (int c = 0; c < components; ++c)
+    std::fill_n(scratch.own(c), (count + lanes - 1) / lanes * lanes, 0.0);
+}
+
+/// Returns the properties of a spring with these constants. `material`: one of its materials.
+SpringProperties properties_of(const Model& model, const SpringConstants& constants,
+                               std::uint8_t material) {
+  SpringProperties of;
+  of.stiffness = constants.stiffness;
+  of.cross_stiffness = constants.cross_stiffness;
+  of.law = model.materials[material].law;
+  of.constants[0] = constants.law[0];
+  of.constants[1] = constants.law[1];
+  of.composite = model.composite(constants);
+  return of;
+}
+
+}  // namespace
+
+void Simulation::Parts::compute_other_row(Block& block, const KernelRequest& request,
+                                          const RowPlace& place, bool measuring) const {
+  const Row& row = request.rows[place.index];
+  RowEnergies energies;
+  if (row.law > 0) {
+    const Law& law = model.laws[static_cast<std::size_t>(row.law)];
+    energies = call_row_kernel(
+        law, measuring ? law.kernels.measure_row : law.kernels.step_row, request, place);
+  } else {
+    energies = model.body.is_listed() ? several_laws_of_list(block, request, place, measuring)
+                                      : several_laws_of_grid(block, request, place, measuring);
+  }
+  const bool owned = place.index >= block.layout->first_own;
+  if (!owned) return;
+  if (measuring) {
+    block.other_sums[place.index] = energies;
+    return;
+  }
+  block.damped_work[place.index] += energies.dissipated;
+  if (!block.fracture_work.empty()) block.fracture_work[place.index] += energies.fractured;
+}
+
+/// Returns whether a criterion must be asked about a spring. `alarm`: elongation, m, from which it
+/// must be asked about a spring of one law.
+bool Simulation::Parts::reaches_alarm(const SpringProperties& properties, double alarm,
+                                      double elongation, const Layout::Memory& memory) const {
+  if (properties.composite == nullptr || !properties.composite->in_series())
+    return elongation > alarm;
+  SpringMemory kept{};
+  for (std::uint32_t n = 0; n < model.memory; ++n) kept[n] = memory.first[n * memory.stride];
+  const auto parts = properties.composite->parts();
+  return std::any_of(parts.begin(), parts.end(), [&](const SpringPart& part) {
+    return model.elongation_in(part.material, properties, elongation, kept.data()) >
+           model.own_alarm(part.material, properties);
+  });
+}
+
+void Simulation::Parts::receive_gone(Block& block, const AlarmRow& springs) const {
+  for (std::size_t n = 0; n < springs.sites.size(); ++n)
+    block.broken.push_back(
+        {layout->spring(block, springs.row, springs.neighbour, springs.sites[n]),
+         springs.elongation[n], springs.row, springs.neighbour, springs.sites[n], true});
+}
+
+RowEnergies Simulation::Parts::several_laws_of_grid(Block& block, const KernelRequest& request,
+                                                    const RowPlace& place, bool measuring) const {
+  const Row& row = request.rows[place.index];
+  const int components = model.degrees_of_freedom, sites = row.end - row.begin;
+  const bool owned = place.k >= 0;
+  const ScratchRows<double> scratch(request, components);
+  clear_own(scratch, components, sites);
+  const SeveralLaws laws(model, request, measuring);
+  RowEnergies energies;
+  for (std::uint32_t n = 0; n < model.neighbours.size(); ++n) {
+    const NeighbourGeometry& neighbour = model.neighbours[n];
+    const Neighbour& to = neighbour.site;
+    if ((row.neighbours >> n & 1U) == 0 || (!owned && place.k + to.dz < 0)) continue;
+    const Row& other = request.rows[static_cast<std::int64_t>(place.index) +
+                                    to.dz * request.rows_per_plane + to.dy];
+    std::vector<std::int32_t> rung;
+    std::vector<double> elongations;
+    for (std::int32_t i = row.begin; i < row.end; ++i) {
+      const std::uint64_t here = row.start + static_cast<std::uint64_t>(i - row.begin);
+      if ((block.alive[here] >> n & 1U) == 0) continue;
+      const std::uint64_t there =
+          other.start + static_cast<std::uint64_t>(i + to.dx - other.begin);
+      const bool cells = !model.mixtures.empty();
+      const std::uint32_t kind = cells ? block.mixture[here] : block.material[here];
+      const SpringConstants& constants =
+          model.spring_to(n, kind, cells ? 0 : block.material[there]);
+      SeveralLaws::Spring spring;
+      spring.properties =
+          properties_of(model, constants,
+                        cells ? model.mixtures.commonest(kind) : static_cast<std::uint8_t>(kind));
+      spring.properties.rest = neighbour.rest;
+      spring.properties.rest_length = neighbour.rest_length;
+      spring.properties.cross_rest_length = neighbour.cross_rest_length;
+      spring.properties.spring_class = to.spring_class;
+      for (int c = 0; c < components; ++c)
+        spring.difference[c] = block.displacement[c][there] - block.displacement[c][here];
+      if (components == 4)
+        spring.height_sum = block.displacement[3][there] + block.displacement[3][here];
+      if (row.weights != no_weights) {
+        const auto t = static_cast<std::uint64_t>(i - row.begin);
+        const std::uint32_t set = request.weight_sets[row.weights + t / lanes];
+        spring.weight = request.weights[set + lanes * (std::uint64_t{n} + 1) + t % lanes];
+      }
+      for (const bool cross : {false, true})
+        if (model.memory > 0 && (!cross || model.choice.membrane != KernelChoice::Membrane::none))
+          spring.memory[cross ? 1 : 0] = layout->memory(block, place.index, n, i, cross);
+      const SeveralLaws::Result result = laws.forces(spring, energies);
+      for (int c = 0; c < components; ++c) {
+        scratch.own(c)[i - row.begin] += result.force[c];
+        scratch.received(c, place.j + to.dy, place.k + to.dz)[i + to.dx] +=
+            c == 3 ? result.height_force_there : -result.force[c];
+      }
+      if (measuring || !owned) continue;
+      if (result.gone) receive_gone(block, {place.index, n, {&i, 1}, {&result.elongation, 1}});
+      if (!model.choice.breakable ||
+          !reaches_alarm(spring.properties, constants.alarm, result.elongation, spring.memory[0]))
+        continue;
+      rung.push_back(i);
+      elongations.push_back(result.elongation);
+    }
+    if (rung.empty()) continue;
+    const std::uint8_t* broken = review(block, {place.index, n, rung, elongations});
+    for (std::size_t s = 0; s < rung.size(); ++s)
+      if (broken[s] != 0) {
+        std::uint16_t& bits =
+            block.alive[row.start + static_cast<std::uint64_t>(rung[s] - row.begin)];
+        bits = static_cast<std::uint16_t>(bits & ~(1U << n));
+      }
+  }
+  for (int c = 0; c < components; ++c) {
+    double* received = scratch.received(c, place.j, place.k) + row.begin;
+    for (int t = 0; t < sites; ++t) {
+      scratch.own(c)[t] += received[t];
+      received[t] = 0;
+    }
+  }
+  return energies;
+}
+
+RowEnergies Simulation::Parts::several_laws_of_list(Block& block, const KernelRequest& request,
+                                                    const RowPlace& place, bool measuring) const {
+  const Row& row = request.rows[place.index];
+  const int components = model.degrees_of_freedom;
+  const ListedSlots& slots = request.listed;
+  const ScratchRows<double> scratch(request, components);
+  clear_own(scratch, components, row.end);
+  const SeveralLaws laws(model, request, measuring);
+  const auto record = [&](std::uint64_t index) {
+    return static_cast<const double*>(slots.records) + record_numbers * index;
+  };
+  const auto* stiffness = static_cast<const double*>(slots.stiffness);
+  RowEnergies energies;
+  for (std::int32_t t = 0; t < row.end; ++t) {
+    const std::uint64_t here = row.start + static_cast<std::uint64_t>(t), lane = here % lanes;
+    const double* own = record(here);
+    for (std::uint32_t slot = slots.first[here / lanes]; slot < slots.first[here / lanes + 1];
+         ++slot) {
+      std::uint32_t& there = slots.neighbour[std::uint64_t{slot} * lanes + lane];
+      if (there == here) continue;
+      const double* other = record(there);
+      const auto material = static_cast<std::uint8_t>(own[record_material]);
+      const SpringConstants& constants =
+          model.spring(material, static_cast<std::uint8_t>(other[record_material]), 0);
+      SeveralLaws::Spring spring;
+      SpringProperties& of = spring.properties = properties_of(model, constants, material);
+      of.rest = {other[0] - own[0], other[1] - own[1], other[2] - own[2]};
+      of.rest_length = norm(of.rest);
+      of.cross_rest_length = std::hypot(of.rest_length, request.membrane_distance);
+      of.stiffness = stiffness[(std::uint64_t{slot} * 2) * lanes + lane];
+      of.cross_stiffness = stiffness[(std::uint64_t{slot} * 2 + 1) * lanes + lane];
+      of.factor = of.stiffness / constants.stiffness;
+      for (int c = 0; c < components; ++c)
+        spring.difference[c] = other[record_moved + static_cast<std::size_t>(c)] -
+                               own[record_moved + static_cast<std::size_t>(c)];
+      if (components == 4) spring.height_sum = other[record_moved + 3] + own[record_moved + 3];
+      for (const bool cross : {false, true})
+        if (model.memory > 0 && (!cross || model.choice.membrane != KernelChoice::Membrane::none))
+          spring.memory[cross ? 1 : 0] = layout->memory(block, place.index, slot, t, cross);
+      const SeveralLaws::Result result = laws.forces(spring, energies);
+      for (int c = 0; c < components; ++c) scratch.own(c)[t] += result.force[c];
+      if (measuring) continue;
+      if (result.gone) receive_gone(block, {place.index, slot, {&t, 1}, {&result.elongation, 1}});
+      if (!model.choice.breakable) continue;
+      const double growth =
+          static_cast<const double*>(slots.alarm)[std::uint64_t{slot} * lanes + lane];
+      const double alarm =
+          std::sqrt(of.rest_length * of.rest_length + growth) - of.rest_length;
+      if (reaches_alarm(of, alarm, result.elongation, spring.memory[0]) &&
+          *review(block, {place.index, slot, {&t, 1}, {&result.elongation, 1}}) != 0)
+        there = static_cast<std::uint32_t>(here);
+    }
+  }
+  energies.stored *= 0.5;  // the other half is counted at the other end
+  energies.dissipated *= 0.5;
+  energies.fractured *= 0.5;
+  return energies;
+}
+
+}  // namespace hyperlattice
