@@ -31,21 +31,6 @@ double rest_length(const Model& model, std::uint32_t spring_class) {
   return found == model.neighbours.end() ? 0 : found->rest_length;
 }
 
-/// Returns the alarm of a criterion, m. NaN is an error, because such a spring would never break
-/// and nobody would notice.
-double alarm_of(const Material& material, const SpringFacts& facts) {
-  if (!material.failure) return infinity;
-  const Stage& stage = *material.failure_stage;
-  double alarm = 0;
-  call(stage, "alarm", [&](const Complaint& why) {
-    return stage.functions<FailureFunctions>().alarm(material.failure.get(), facts, alarm, why);
-  });
-  if (std::isnan(alarm))
-    throw plugin_error(stage, "alarm", "it gives an elongation that is no number (nan)");
-  return std::max(alarm,
-                  -facts.rest_length);  // no length is negative, so no elongation is below -L0
-}
-
 KernelSet kernels_of(const Stage& stage, const KernelChoice& choice) {
   KernelSet kernels;
   call(stage, "kernels", [&](const Complaint& why) {
@@ -70,7 +55,7 @@ SpringConstants spring_between(const Model& model, const Material& a, const Mate
                                    right.cross_ratio[spring_class] * right.base_stiffness);
   const SpringFacts facts{rest_length(model, spring_class), spring.stiffness,
                           model.body.grid.spacing, spring_class, model.crossings};
-  spring.alarm = std::min(alarm_of(a, facts), alarm_of(b, facts));
+  spring.alarm = std::min(a.alarm(facts), b.alarm(facts));
   for (int cross = 0; cross < 2; ++cross)
     for (std::size_t n = 0; n < max_law_constants; ++n)
       spring.law[cross][n] =
@@ -124,6 +109,24 @@ void hold_heights(Model& model) {
 
 }  // namespace
 
+double Material::Criterion::alarm(const SpringFacts& spring) const {
+  double alarm = 0;
+  call(*stage, "alarm", [&](const Complaint& why) {
+    return stage->functions<FailureFunctions>().alarm(component.get(), spring, alarm, why);
+  });
+  // Such a spring would never break, and nobody would notice.
+  if (std::isnan(alarm))
+    throw plugin_error(*stage, "alarm", "it gives an elongation that is no number (nan)");
+  return std::max(alarm,
+                  -spring.rest_length);  // no length is negative, so no elongation is below -L0
+}
+
+double Material::alarm(const SpringFacts& spring) const {
+  double lowest = infinity;
+  for (const Criterion& criterion : failures) lowest = std::min(lowest, criterion.alarm(spring));
+  return lowest;
+}
+
 SpringProperties Model::spring_properties(Particle a, Particle b, std::uint32_t neighbour) const {
   SpringProperties properties;
   double stiffness = 1;
@@ -165,7 +168,7 @@ double Model::alarm(Particle a, Particle b, std::uint32_t neighbour,
                     const SpringProperties& properties) const {
   double lowest = infinity;
   for (const std::uint8_t material : materials_of(a, b, neighbour))
-    lowest = std::min(lowest, alarm_of(materials[material], facts(properties, material)));
+    lowest = std::min(lowest, materials[material].alarm(facts(properties, material)));
   return lowest;
 }
 
@@ -187,15 +190,15 @@ void set_springs(Model& model, Faults& faults) {
   model.choice.mixed = model.materials.size() > 1;
   model.choice.listed = model.body.is_listed();
   model.choice.precision = model.scene->precision;
-  for (const Material& material : model.materials) {
-    if (material.failure == nullptr) continue;
-    model.choice.breakable = true;
-    if (!material.failure_stage->functions<FailureFunctions>().asks_rate) continue;
-    model.asks_rate = true;
-    if (model.body.is_listed())
-      faults.add(material.failure_stage->pointer, material.failure_stage->component->type(),
-                 "a criterion that does not ask for the rate, for a listed lattice");
-  }
+  for (const Material& material : model.materials)
+    for (const Material::Criterion& criterion : material.failures) {
+      model.choice.breakable = true;
+      if (!criterion.stage->functions<FailureFunctions>().asks_rate) continue;
+      model.asks_rate = true;
+      if (model.body.is_listed())
+        faults.add(criterion.stage->pointer, criterion.stage->component->type(),
+                   "a criterion that does not ask for the rate, for a listed lattice");
+    }
   model.kernels = kernels_of(*model.materials[0].stage, model.choice);
   KernelChoice row = model.choice;  // linearise takes listed springs as rows of one spring
   row.listed = false;
