@@ -10,7 +10,9 @@
 #include <hyperlattice/component.hpp>
 #include <hyperlattice/law.hpp>
 
-#include <cstring>
+#include <algorithm>
+#include <array>
+#include <bit>
 
 namespace hyperlattice {
 
@@ -127,22 +129,28 @@ AlarmedSpring state_in(const SpringBatch& batch, std::size_t n) {
 template <FailureComponent T>
 constexpr std::uint32_t failure_memory() {
   if constexpr (AsksMemory<T>) {
-    static_assert(std::is_trivially_copyable_v<typename T::Memory>, "doubles only");
-    static_assert(numbers_in<typename T::Memory>() <= max_failure_memory);
-    return static_cast<std::uint32_t>(numbers_in<typename T::Memory>());
+    constexpr std::size_t numbers = numbers_in<typename T::Memory>();
+    static_assert(numbers > 0 && numbers <= max_failure_memory);
+    return numbers;
   } else {
     return 0;
   }
 }
 
+/// The numbers of a criterion's Memory.
+template <FailureComponent T>
+using FailureNumbers = std::array<double, failure_memory<T>()>;
+
 template <FailureComponent T>
 bool breaks(const T& failure, const SpringBatch& batch, std::size_t n) {
   if constexpr (AsksMemory<T>) {
-    typename T::Memory memory;
-    double* const kept = batch.memory + n * failure_memory<T>();
-    std::memcpy(&memory, kept, failure_memory<T>() * sizeof(double));
+    FailureNumbers<T> numbers;
+    double* const kept = batch.memory + n * numbers.size();
+    std::copy_n(kept, numbers.size(), numbers.begin());
+    auto memory = std::bit_cast<typename T::Memory>(numbers);
     const bool broken = failure.breaks(batch.spring, state_in<T>(batch, n), memory);
-    std::memcpy(kept, &memory, failure_memory<T>() * sizeof(double));
+    numbers = std::bit_cast<FailureNumbers<T>>(memory);
+    std::copy_n(numbers.begin(), numbers.size(), kept);
     return broken;
   } else if constexpr (AsksElongation<T>) {
     return failure.breaks(batch.spring, batch.elongation[n]);
@@ -156,8 +164,8 @@ constexpr auto start_of() {
   void (*start)(double*) noexcept = nullptr;
   if constexpr (failure_memory<T>() > 0)
     start = [](double* memory) noexcept {
-      const typename T::Memory begun{};
-      std::memcpy(memory, &begun, failure_memory<T>() * sizeof(double));
+      const auto numbers = std::bit_cast<FailureNumbers<T>>(typename T::Memory{});
+      std::copy_n(numbers.begin(), numbers.size(), memory);
     };
   return start;
 }
