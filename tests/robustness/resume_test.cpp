@@ -55,7 +55,7 @@ const Case cases[] = {
      [](json& scene) {
        scene["pipeline"][material]["failure"] = {
            {{"type", "failures.strain"}, {"limit", 0.01}},
-           {{"type", "failures.tuler_butcher"}, {"threshold", 5e-4}, {"impulse", "10 ps"}}};
+           {{"type", "failures.tuler_butcher"}, {"threshold", 5e-4}, {"impulse", 1e-11}}};
      }},
     {"after_rest",
      [](json& scene) {

@@ -1,6 +1,8 @@
 // Several failure criteria on one material, and criteria that keep numbers for each spring: against
 // closed forms, with restarts, threads, lists of springs and two materials.
+#include <contract/contract.hpp>
 #include <contract/scenes.hpp>
+#include <support/components.hpp>
 #include <support/lists.hpp>
 #include <support/models.hpp>
 
@@ -237,7 +239,8 @@ TEST(FailureCriteria, TheAlarmIsTheSmallestOfAll) {
 }
 
 TEST(FailureCriteria, EachIsAskedAboveItsOwnAlarmOnly) {  // or else the fatigue throws
-  const std::string fatigue = R"({ "type": "failures.fatigue", "limit": 0.006, "cycles": 1 })";
+  const std::string fatigue =
+      R"({ "type": "failures.fatigue", "limit": 0.006, "cycles": 1, "strict": true })";
   const std::string weibull =
       R"({ "type": "failures.weibull", "scale": 0.009, "modulus": 3, "least": 0.01 })";
   const ListFiles files(5, 4, 6);
@@ -408,10 +411,10 @@ TEST(FailureMemory, CheckpointsOfEqualStatesHaveEqualBytes) {
 /// The pair of particles of a free oscillation.
 TEST(FailureMemory, FatigueCountsTheCyclesOfAnOscillator) {
   for (const double cycles : {1.0, 2.0, 7.0}) {
-    const auto plan = plan_of(
-        with_plugins(block(2, 1, 1,
-                           breakable(R"({ "type": "failures.fatigue", "limit": 0.001, "cycles": )" +
-                                     std::to_string(cycles) + " }"))));
+    const auto plan = plan_of(with_plugins(block(
+        2, 1, 1,
+        breakable(R"({ "type": "failures.fatigue", "limit": 0.001, "strict": true, "cycles": )" +
+                  std::to_string(cycles) + " }"))));
     const Model& model = *plan->model;
     const double k = model.spring(0, 0, model.neighbours.front().site.spring_class).stiffness,
                  omega = std::sqrt(2 * k / model.mass(0)), amplitude = 2e-6, step = 1e-3 / omega;
@@ -426,6 +429,19 @@ TEST(FailureMemory, FatigueCountsTheCyclesOfAnOscillator) {
     EXPECT_NEAR(breakage.time, expected, 1e-4 * expected + 2 * step) << cycles;
     EXPECT_NEAR(breakage.elongation, 1e-6, 2 * step * amplitude * omega);
   }
+}
+
+TEST(FailureMemory, ACriterionOfSomebodyElseKeepsTheContract) {
+  Host host({HYPERLATTICE_BUILD "/tests/truth_plugins", HYPERLATTICE_BUILD "/lib/hyperlattice"});
+  const Component* component = host.find("failures.fatigue");
+  ASSERT_NE(component, nullptr) << host.why_not("failures.fatigue");
+  std::set<std::string> passed;
+  for (const contract::Check& check : contract::check(*component, host, around)) {
+    EXPECT_EQ(check.verdict, contract::Verdict::passed) << check.name << ": " << check.detail;
+    passed.insert(check.name);
+  }
+  EXPECT_EQ(passed.size(), 7u);
+  EXPECT_EQ(passed.count("memory"), 1u);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // A criterion with memory, written as a user would: a base spring breaks when it has been pulled
-// above a strain for the given number of times. It throws if it is asked about a spring below its
-// alarm.
+// above a strain for the given number of times. If it is strict, it throws when it is asked about a
+// spring below its alarm.
 #include <hyperlattice/failure.hpp>
 
 #include <stdexcept>
@@ -12,6 +12,7 @@ class Fatigue {
  public:
   struct Options {
     double limit = 0, cycles = 0;
+    bool strict = false;
   };
 
   static Schema<Options> schema() {
@@ -21,7 +22,9 @@ class Fatigue {
         .positive()
         .add<&Options::cycles>("cycles", "", "cycles that break a base spring")
         .example("3")
-        .positive();
+        .positive()
+        .add<&Options::strict>("strict", "", "whether a question below the alarm ends the run")
+        .fallback("false");
   }
 
   explicit Fatigue(const Options& options) : o_(options) {}
@@ -32,7 +35,10 @@ class Fatigue {
   };
   double alarm(const SpringFacts& spring) const { return o_.limit * spring.rest_length; }
   bool breaks(const SpringFacts& spring, const AlarmedSpring& state, Memory& memory) const {
-    if (!(state.elongation > alarm(spring))) throw std::logic_error("asked below the alarm");
+    if (!(state.elongation > alarm(spring))) {
+      if (o_.strict) throw std::logic_error("asked below the alarm");
+      return false;
+    }
     // Not asked a step ago: the spring was below its alarm, so a new cycle begins.
     const bool begins = memory.asked < 0 || state.time - memory.asked > 1.5 * state.time_step;
     if (begins) memory.cycles += 1;
