@@ -31,8 +31,8 @@ std::string breakable(const std::string& failure) {
 std::string both(const std::string& one, const std::string& other) {
   return "[" + one + ", " + other + "]";
 }
-std::string limit(const std::string& type, double value) {
-  return R"({ "type": "failures.)" + type + R"(", "limit": )" + std::to_string(value) + " }";
+std::string limit(const std::string& type, const std::string& value) {
+  return R"({ "type": "failures.)" + type + R"(", "limit": ")" + value + R"(" })";
 }
 
 /// The same scene with the folder of the test's own plugins.
@@ -211,7 +211,8 @@ TEST(FailureMemory, TimeThatIsHeldDoesNoDamage) {
 }
 
 TEST(FailureCriteria, TheFirstThatIsMetBreaksASpring) {
-  const std::vector<std::string> criteria{limit("strain", 0.008), limit("elongation", 0.000009)};
+  // Springs along x are strained by 0.95 % and grow by 9.5 um, some diagonals by 0.68 %, 9.58 um.
+  const std::vector<std::string> criteria{limit("strain", "0.8 %"), limit("elongation", "9.54 um")};
   std::map<Spring, std::uint64_t> found[4];
   int n = 0;
   for (const std::string& failure :
@@ -231,7 +232,8 @@ TEST(FailureCriteria, TheFirstThatIsMetBreaksASpring) {
 }
 
 TEST(FailureCriteria, TheAlarmIsTheSmallestOfAll) {
-  const auto plan = plan_of(block(3, 3, 3, breakable(both(limit("strain", 0.008), tuler_butcher))));
+  const auto plan =
+      plan_of(block(3, 3, 3, breakable(both(limit("strain", "0.8 %"), tuler_butcher))));
   const Model& model = *plan->model;
   for (const NeighbourGeometry& to : model.neighbours)
     EXPECT_NEAR(model.spring(0, 0, to.site.spring_class).alarm, threshold * to.rest_length,
@@ -272,7 +274,7 @@ TEST(FailureCriteria, EachIsAskedAboveItsOwnAlarmOnly) {  // or else the fatigue
 
 TEST(FailureCriteria, MemoryAndLimitTogetherInAnyOrder) {
   // The strain of 0.01 breaks at once by the limit, 0.005 after 1.8 us by its damage.
-  const std::string of_strain = limit("strain", 0.008);
+  const std::string of_strain = limit("strain", "0.8 %");
   std::map<Spring, std::uint64_t> found[3];
   int n = 0;
   for (const std::string& failure :
@@ -334,7 +336,7 @@ struct Body {
   std::string scene;
 };
 std::vector<Body> bodies() {
-  const std::string failure = both(tuler_butcher, limit("strain", 0.03));
+  const std::string failure = both(tuler_butcher, limit("strain", "3 %"));
   return {{"grid", block(5, 4, 7, breakable(failure))},
           {"free membrane",
            block(5, 4, 7, R"("membrane": "I-m", "poisson": 0.1, "failure": )" + failure)},
