@@ -1,5 +1,6 @@
 // The contract of failure criteria: springs below their alarm do not break, springs break at the
-// threshold that the criterion states, and broken springs do not heal.
+// threshold that the criterion states, and broken springs do not heal. A criterion with memory is
+// asked about springs that are pulled and released several times.
 #include <contract/families.hpp>
 #include <scene/stage_call.hpp>
 
@@ -7,20 +8,33 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
 namespace hyperlattice::contract {
 namespace {
 
+/// How often a spring is pulled to find out whether it breaks, and the lengths of steps, s. A pull
+/// lasts one short step, in which the spring moves hardly; then it is released for two long steps.
+struct Pulling {
+  int pulls = 1;
+  double pull = 0, release = 0;
+};
+
 /// The failure criterion of a model, evaluated for one spring at a time.
 class Criterion {
  public:
   explicit Criterion(const Model& model)
       : model_(model),
-        material_(model.materials.front()),
-        functions_(material_.failure_stage->functions<FailureFunctions>()) {}
+        criterion_(model.materials.front().failures.front()),
+        functions_(criterion_.stage->functions<FailureFunctions>()) {}
 
+  bool remembers() const { return functions_.memory > 0; }
+  Pulling pulling() const {
+    return {remembers() ? 5 : 1, 1e-6 * model_.critical_time_step, model_.critical_time_step};
+  }
   /// Returns one entry for each class of base springs.
   std::vector<SpringFacts> springs() const {
     std::vector<SpringFacts> all;
@@ -34,25 +48,46 @@ class Criterion {
   }
   double alarm(const SpringFacts& spring) const {
     double alarm = 0;
-    call(*material_.failure_stage, "alarm", [&](const Complaint& why) {
-      return functions_.alarm(material_.failure.get(), spring, alarm, why);
+    call(*criterion_.stage, "alarm", [&](const Complaint& why) {
+      return functions_.alarm(criterion_.component.get(), spring, alarm, why);
     });
     return alarm;
   }
-  bool breaks(const SpringFacts& spring, double elongation, Particle other = 1,
-              double rate = 0) const {
-    const Particle first = 0;
-    SpringBatch batch{0, spring, {&elongation, 1}, {}, {}, {}};
+  /// The numbers that the criterion keeps for a spring.
+  using Memory = std::array<double, max_failure_memory>;
+  Memory start() const { return criterion_.start; }
+  bool breaks(const SpringFacts& spring, const AlarmedSpring& state, Memory& memory) const {
+    SpringBatch batch{state.time, spring, {&state.elongation, 1}, {},
+                      {},         {},     memory.data(),          state.time_step};
     if (functions_.asks_ends) {
-      batch.a = {&first, 1};
-      batch.b = {&other, 1};
+      batch.a = {&state.a, 1};
+      batch.b = {&state.b, 1};
     }
-    if (functions_.asks_rate) batch.rate = {&rate, 1};
+    if (functions_.asks_rate) batch.rate = {&state.rate, 1};
     std::uint8_t broken = 0;
-    call(*material_.failure_stage, "breaks", [&](const Complaint& why) {
-      return functions_.review(material_.failure.get(), batch, &broken, why);
+    call(*criterion_.stage, "breaks", [&](const Complaint& why) {
+      return functions_.review(criterion_.component.get(), batch, &broken, why);
     });
     return broken != 0;
+  }
+  /// Returns whether the spring to particle `other` breaks when it is pulled to `elongation` as
+  /// often as pulling() says.
+  bool breaks(const SpringFacts& spring, double elongation, Particle other = 1) const {
+    const Pulling how = pulling();
+    const double least = alarm(spring);
+    Memory memory = start();
+    AlarmedSpring state{0, 0, 0, other, 0, 0};
+    const auto step = [&](double to, double length) {
+      state.elongation = to;
+      const bool broken = to > least && breaks(spring, state, memory);
+      state.time += length;
+      state.time_step = length;
+      return broken;
+    };
+    if (!remembers()) return breaks(spring, {0, elongation, 0, other, 0, 0}, memory);
+    for (int n = 0; n < how.pulls; ++n)
+      if (step(elongation, how.pull) || step(0, how.release) || step(0, how.release)) return true;
+    return false;
   }
   /// Returns the elongation, m, at which the spring to particle `other` breaks; nothing if it holds
   /// up to ten times its length.
@@ -70,8 +105,46 @@ class Criterion {
 
  private:
   const Model& model_;
-  const Material& material_;
+  const Material::Criterion& criterion_;
   const FailureFunctions& functions_;
+};
+
+/// Two particles whose spring is pulled.
+class Pair {
+ public:
+  Pair(const Model& model, Pulling how) : model_(model), how_(how), led_(model) {}
+
+  /// Pulls the spring to `elongation`, m, as often as needed to break it, but not more often than
+  /// `how` says. Returns the number of pulls that it held.
+  int pull(double elongation) {
+    int held = 0;
+    while (held < how_.pulls && !breaks_at(elongation)) {
+      ++held;
+      release();
+    }
+    return held;
+  }
+  /// Moves the spring to an elongation for a short step. Returns the force on one particle, N.
+  double at(double elongation) { return led_.forces(moved(elongation), how_.pull)[0]; }
+  void release() {
+    for (int n = 0; n < 2 && how_.pulls > 1; ++n) led_.forces(moved(0), how_.release);
+  }
+  Simulation& simulation() { return led_.simulation(); }
+
+ private:
+  bool breaks_at(double elongation) {
+    at(elongation);
+    return !simulation().breakages().empty();
+  }
+  std::vector<double> moved(double elongation) const {
+    std::vector<double> u(3 * model_.body.particles, 0.0);
+    u[3] = elongation;
+    return u;
+  }
+
+  const Model& model_;
+  Pulling how_;
+  Led led_;
 };
 
 Finding alarm_is_conservative(const Criterion& criterion) {
@@ -79,6 +152,7 @@ Finding alarm_is_conservative(const Criterion& criterion) {
   constexpr double rates[] = {-1e3, -1, 0, 1, 1e3};  // m/s
   std::string alarms;
   for (const SpringFacts& spring : criterion.springs()) {
+    Criterion::Memory memory = criterion.start();  // of a spring with a long history
     const double alarm = criterion.alarm(spring),
                  highest = std::min(alarm, 10 * spring.rest_length),
                  lowest = -0.9 * spring.rest_length;
@@ -92,7 +166,7 @@ Finding alarm_is_conservative(const Criterion& criterion) {
                                              : highest * n / pieces;
       for (Particle other = 1; elongation <= highest && other <= 20; ++other)
         for (const double rate : rates)
-          if (criterion.breaks(spring, elongation, other, rate))
+          if (criterion.breaks(spring, {1.0 * n, elongation, 0, other, rate, 1}, memory))
             return passes_if(false, fmt::format("breaks a spring of class {} at {:.6g} m, below "
                                                 "its alarm of {:.6g} m: a run would never ask",
                                                 spring.spring_class, elongation, alarm));
@@ -101,39 +175,27 @@ Finding alarm_is_conservative(const Criterion& criterion) {
   return passes_if(true, "nothing breaks below " + alarms);
 }
 
-/// Moves two particles just below and just above the threshold, and checks whether their spring
-/// breaks there.
-Finding breaks_at_the_criterion(const Model& model, double threshold) {
-  Led pair(model);
-  Simulation& simulation = pair.simulation();
-  const double step = 1e-3 * model.critical_time_step;
-  const auto at = [&](double share) {
-    std::vector<double> u(3 * model.body.particles, 0.0);
-    u[3] = share * threshold;
-    const double pull = pair.forces(u, step)[0];
-    return std::pair{pull, simulation.breakages().size()};
-  };
-  if (at(1 - 1e-6).second != 0)
+/// Pulls two particles to just below and to just above the threshold, and checks whether their
+/// spring breaks there.
+Finding breaks_at_the_criterion(const Model& model, const Pulling& how, double threshold) {
+  if (Pair below(model, how); below.pull((1 - 1e-6) * threshold) < how.pulls)
     return passes_if(false,
                      fmt::format("the spring of two particles is gone before {:.6g} m", threshold));
-  if (at(1 + 1e-6).second != 1)
+  Pair above(model, how);
+  if (above.pull((1 + 1e-6) * threshold) == how.pulls)
     return passes_if(false,
                      fmt::format("the spring of two particles holds beyond {:.6g} m", threshold));
-  const double elongation = simulation.breakages().front().elongation;
+  const double elongation = above.simulation().breakages().front().elongation;
   return passes_if(std::abs(elongation / threshold - 1) < 1e-5,
                    fmt::format("at {:.6g} m, logged as {:.6g} m", threshold, elongation));
 }
 
-Finding stays_broken(const Model& model, double threshold) {
-  Led pair(model);
-  const double step = 1e-3 * model.critical_time_step;
+Finding stays_broken(const Model& model, const Pulling& how, double threshold) {
+  Pair pair(model, how);
+  pair.pull(1.01 * threshold);
   double pull = 0;
-  for (const double share : {1.01, 0.5, -0.5, 0.0, 1.5, 0.9}) {
-    std::vector<double> u(3 * model.body.particles, 0.0);
-    u[3] = share * threshold;
-    const double now = std::abs(pair.forces(u, step)[0]);
-    if (share != 1.01) take_largest(pull, now);
-  }
+  for (const double share : {0.5, -0.5, 0.0, 1.5, 0.9})
+    take_largest(pull, pair.at(share * threshold));
   const std::size_t breakages = pair.simulation().breakages().size();
   return passes_if(
       pull == 0 && breakages == 1,
@@ -142,19 +204,42 @@ Finding stays_broken(const Model& model, double threshold) {
           breakages, breakages == 1 ? "" : "s"));
 }
 
-Finding takes_its_energy(const Model& model, double threshold) {
+Finding takes_its_energy(const Model& model, const Pulling& how, double threshold) {
   const double stiffness = model.spring(0, 0, model.neighbours.front().site.spring_class).stiffness;
   const double expected = 0.5 * stiffness * threshold * threshold;
-  Simulation simulation(model, 1);
-  std::vector<double> u(3 * model.body.particles, 0.0);
-  u[3] = threshold * (1 + 1e-9);
-  simulation.set_displacements(u, {});
-  simulation.balance();
-  simulation.step(1e-6 * model.critical_time_step);
-  const double taken = simulation.balance().dissipated_failure;
+  Pair pair(model, how);
+  pair.pull(threshold * (1 + 1e-9));
+  const double taken = pair.simulation().balance().dissipated_failure;
   return passes_if(std::abs(taken / expected - 1) < 1e-6,
                    fmt::format("{:.4g} J are counted as dissipated, {:.4g} J were in the spring",
                                taken, expected));
+}
+
+/// Asks twice about a spring with the same random history, and checks the numbers that are kept.
+Finding memory_is_sound(const Criterion& criterion, double threshold) {
+  const SpringFacts spring = criterion.springs().front();
+  const double least = criterion.alarm(spring), step = criterion.pulling().release;
+  const std::vector<double> elongations = noise(1000, 2 * threshold);
+  std::vector<Criterion::Memory> kept;
+  std::vector<bool> answers;
+  for (int time = 0; time < 2; ++time) {
+    Criterion::Memory memory = criterion.start();
+    for (std::size_t n = 0; n < elongations.size(); ++n) {
+      if (!(elongations[n] > least)) continue;
+      answers.push_back(criterion.breaks(
+          spring, {static_cast<double>(n) * step, elongations[n], 0, 1, 0, n == 0 ? 0 : step},
+          memory));
+      kept.push_back(memory);
+    }
+  }
+  const auto half = static_cast<std::ptrdiff_t>(kept.size() / 2);
+  for (const Criterion::Memory& memory : kept)
+    for (const double number : memory)
+      if (std::isnan(number)) return passes_if(false, "a number of it is no number (nan)");
+  return passes_if(
+      std::equal(kept.begin(), kept.begin() + half, kept.begin() + half) &&
+          std::equal(answers.begin(), answers.begin() + half, answers.begin() + half),
+      fmt::format("asked {} times about the same history, it answers and keeps the same", half));
 }
 
 Finding same_bits(const Model& model, double threshold) {
@@ -190,17 +275,21 @@ void check_failure(Trial& trial) {
   const auto block =
       scenes.plan_of({scenes.grid_box(5, 4, 6), with(scenes.material(usual_membrane))});
   const Criterion all(*cell->model), one(*pair->model);
+  const Pulling how = one.pulling();
   const std::optional<double> threshold = one.threshold(one.springs().front());
 
   trial.check("alarm is conservative", [&] { return alarm_is_conservative(all); });
   trial.check("breaks at the criterion", [&] {
-    return threshold ? breaks_at_the_criterion(*pair->model, *threshold)
-                     : passes_if(false, "a spring holds up to ten times its length");
+    return threshold ? breaks_at_the_criterion(*pair->model, how, *threshold)
+                     : passes_if(false, fmt::format("a spring holds {} pull{} to ten times its "
+                                                    "length",
+                                                    how.pulls, how.pulls == 1 ? "" : "s"));
   });
   if (!threshold) return;
-  trial.check("stays broken", [&] { return stays_broken(*pair->model, *threshold); });
+  trial.check("stays broken", [&] { return stays_broken(*pair->model, how, *threshold); });
   trial.check("takes the spring's energy",
-              [&] { return takes_its_energy(*pair->model, *threshold); });
+              [&] { return takes_its_energy(*pair->model, how, *threshold); });
+  if (one.remembers()) trial.check("memory", [&] { return memory_is_sound(one, *threshold); });
   trial.check("same bits", [&] { return same_bits(*block->model, *threshold); });
   trial.check("restart", [&] { return restart(*block->model, *threshold); });
 }

@@ -39,8 +39,9 @@ void Guard::fail(const std::string& what, double time_step) const {
   const Material& material = model_.materials[model_.material(particle)];
   std::string law =
       fmt::format("{} ({})", material.stage->component->type(), material.stage->pointer);
-  if (material.failure_stage != nullptr)
-    law += fmt::format(" with {}", material.failure_stage->component->type());
+  for (const Material::Criterion& criterion : material.failures)
+    law += fmt::format("{}{}", &criterion == &material.failures.front() ? " with " : ", ",
+                       criterion.stage->component->type());
   throw RunError(fmt::format(
       "step {}, t = {:.6g} s: {}. {} particle {} at ({:.4g}, {:.4g}, {:.4g}) m{}, law {}. "
       "The step was {:.4g} s, {:.3g} of the critical {:.4g} s.",

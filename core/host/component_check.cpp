@@ -22,7 +22,9 @@ bool is_identifier(std::string_view text) {
 // Returns whether each function of a family's table is set.
 bool whole(const LatticeFunctions& f) { return f.build; }
 bool whole(const MaterialFunctions& f) { return f.constants && f.kernels && !f.law.empty(); }
-bool whole(const FailureFunctions& f) { return f.alarm && f.review; }
+bool whole(const FailureFunctions& f) {
+  return f.alarm && f.review && f.memory <= max_failure_memory && (f.memory == 0 || f.start);
+}
 bool whole(const LoadFunctions& f) { return f.declare && f.factor; }
 bool whole(const SolverFunctions& f) { return f.plan && f.run; }
 bool whole(const WriterFunctions& f) { return f.begin && f.frame && f.end; }

@@ -85,9 +85,15 @@ Material make_material(const Model& model, const Stage& stage, const LatticeFact
   Material material;
   material.stage = &stage;
   material.component = make_component(stage);
-  if (stage.failure) {
-    material.failure_stage = stage.failure.get();
-    material.failure = make_component(*stage.failure);
+  for (const Stage& failure : stage.failures) {
+    Material::Criterion& criterion = material.failures.emplace_back();
+    criterion.stage = &failure;
+    criterion.component = make_component(failure);
+    if (const auto& functions = failure.functions<FailureFunctions>(); functions.memory > 0)
+      call(failure, "start", [&](const Complaint&) {
+        functions.start(criterion.start.data());
+        return true;
+      });
   }
   const auto refused = refusal_of(stage, "constants", [&](const Complaint& why) {
     return stage.functions<MaterialFunctions>().constants(material.component.get(), facts,
@@ -166,6 +172,9 @@ void add_materials(Model& model, RegionIndex& regions, Faults& faults) {
       add_all(faults, error);
     }
   if (!faults.empty()) return;
+  std::uint32_t criteria = 0;
+  for (Material& material : model.materials)
+    for (Material::Criterion& criterion : material.failures) criterion.number = criteria++;
   assign(model, regions, faults);
 }
 

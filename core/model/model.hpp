@@ -11,6 +11,7 @@
 #include <hyperlattice/load.hpp>
 #include <hyperlattice/material.hpp>
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -33,11 +34,25 @@ struct Material {
   const Stage* stage = nullptr;
   ComponentPointer component;
   MaterialConstants constants;
-  std::uint32_t law = 0;                 ///< index in Model::laws
-  double mass = 0;                       ///< mass of a whole particle, kg
-  double critical_time_step = 0;         ///< for the infinite lattice of this material, s
-  const Stage* failure_stage = nullptr;  ///< null: the springs do not break
-  ComponentPointer failure;
+  std::uint32_t law = 0;  ///< index in Model::laws
+  double mass = 0;                ///< mass of a whole particle, kg
+  double critical_time_step = 0;  ///< for the infinite lattice of this material, s
+
+  /// A failure criterion of the material's springs.
+  struct Criterion {
+    const Stage* stage = nullptr;
+    ComponentPointer component;
+    std::uint32_t number = 0;  ///< among the criteria of all materials
+    /// Memory with which each spring starts; see FailureFunctions::start.
+    std::array<double, max_failure_memory> start{};
+    /// Returns the elongation, m, below which the criterion breaks no such spring.
+    double alarm(const SpringFacts& spring) const;
+  };
+  /// In the order of the scene: the first one that is met breaks a spring. Empty: the springs do
+  /// not break.
+  std::vector<Criterion> failures;
+  /// Returns the smallest alarm of all criteria, m; infinite without criteria.
+  double alarm(const SpringFacts& spring) const;
 };
 
 /// All that a load declared for one particle.

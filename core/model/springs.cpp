@@ -35,21 +35,6 @@ double rest_length(const Model& model, std::uint32_t spring_class) {
   return found == model.neighbours.end() ? 0 : found->rest_length;
 }
 
-/// Returns the alarm of a criterion, m. NaN is an error, because such a spring would never break
-/// and nobody would notice.
-double alarm_of(const Material& material, const SpringFacts& facts) {
-  if (!material.failure) return infinity;
-  const Stage& stage = *material.failure_stage;
-  double alarm = 0;
-  call(stage, "alarm", [&](const Complaint& why) {
-    return stage.functions<FailureFunctions>().alarm(material.failure.get(), facts, alarm, why);
-  });
-  if (std::isnan(alarm))
-    throw plugin_error(stage, "alarm", "it gives an elongation that is no number (nan)");
-  return std::max(alarm,
-                  -facts.rest_length);  // no length is negative, so no elongation is below -L0
-}
-
 /// Returns the kernels of a law. Throws OutsideError if they are not whole, and InputError if the
 /// law has no kernel for the body.
 KernelSet kernels_of(const Stage& stage, const KernelChoice& choice) {
@@ -95,7 +80,7 @@ SpringConstants spring_within(const Model& model, const Material& material,
   spring.cross_stiffness = own.cross_ratio[spring_class] * own.base_stiffness;
   const SpringFacts facts{rest_length(model, spring_class), spring.stiffness,
                           model.body.grid.spacing, spring_class, model.crossings};
-  spring.alarm = alarm_of(material, facts);
+  spring.alarm = material.alarm(facts);
   for (int cross = 0; cross < 2; ++cross)
     std::copy_n(own.law[spring_class][cross], max_law_constants, spring.law[cross]);
   return spring;
@@ -229,6 +214,24 @@ SpringPart part_of(const Model& model, std::uint8_t material, std::uint32_t spri
           {of.constants.law[spring_class][0], of.constants.law[spring_class][1]}};
 }
 
+double Material::Criterion::alarm(const SpringFacts& spring) const {
+  double alarm = 0;
+  call(*stage, "alarm", [&](const Complaint& why) {
+    return stage->functions<FailureFunctions>().alarm(component.get(), spring, alarm, why);
+  });
+  // Such a spring would never break, and nobody would notice.
+  if (std::isnan(alarm))
+    throw plugin_error(*stage, "alarm", "it gives an elongation that is no number (nan)");
+  return std::max(alarm,
+                  -spring.rest_length);  // no length is negative, so no elongation is below -L0
+}
+
+double Material::alarm(const SpringFacts& spring) const {
+  double lowest = infinity;
+  for (const Criterion& criterion : failures) lowest = std::min(lowest, criterion.alarm(spring));
+  return lowest;
+}
+
 SpringProperties Model::spring_properties(Particle a, Particle b, std::uint32_t neighbour) const {
   SpringProperties properties;
   double stiffness = 1;
@@ -290,7 +293,7 @@ double Model::elongation_in(std::uint8_t material, const SpringProperties& prope
 }
 
 double Model::own_alarm(std::uint8_t material, const SpringProperties& properties) const {
-  if (body.is_listed()) return alarm_of(materials[material], facts(properties, material));
+  if (body.is_listed()) return materials[material].alarm(facts(properties, material));
   return spring(material, material, properties.spring_class).alarm;
 }
 
@@ -323,15 +326,15 @@ void set_springs(Model& model, Faults& faults) {
   model.choice.mixed = model.materials.size() > 1;
   model.choice.listed = model.body.is_listed();
   model.choice.precision = model.scene->precision;
-  for (const Material& material : model.materials) {
-    if (material.failure == nullptr) continue;
-    model.choice.breakable = true;
-    if (!material.failure_stage->functions<FailureFunctions>().asks_rate) continue;
-    model.asks_rate = true;
-    if (model.body.is_listed())
-      faults.add(material.failure_stage->pointer, material.failure_stage->component->type(),
-                 "a criterion that does not ask for the rate, for a listed lattice");
-  }
+  for (const Material& material : model.materials)
+    for (const Material::Criterion& criterion : material.failures) {
+      model.choice.breakable = true;
+      if (!criterion.stage->functions<FailureFunctions>().asks_rate) continue;
+      model.asks_rate = true;
+      if (model.body.is_listed())
+        faults.add(criterion.stage->pointer, criterion.stage->component->type(),
+                   "a criterion that does not ask for the rate, for a listed lattice");
+    }
   find_laws(model);
   add_springs(model);
   for (const Material& material : model.materials) {

@@ -111,7 +111,7 @@ Identity identity_of(const Scene& scene) {
   std::set<std::string> plugins;
   for (const Stage& stage : scene.stages) {
     add_plugin(identity, plugins, *stage.component);
-    if (stage.failure) add_plugin(identity, plugins, *stage.failure->component);
+    for (const Stage& failure : stage.failures) add_plugin(identity, plugins, *failure.component);
   }
   identity.push_back({Kind::program,
                       "program",

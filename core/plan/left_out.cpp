@@ -12,6 +12,14 @@ namespace hyperlattice {
 
 namespace {
 
+/// Returns whether a failure criterion keeps numbers for springs.
+bool criteria_remember(const Model& model) {
+  for (const Material& material : model.materials)
+    for (const Material::Criterion& criterion : material.failures)
+      if (criterion.stage->functions<FailureFunctions>().memory > 0) return true;
+  return false;
+}
+
 void leave_out_kernel_parts(const Plan& plan, std::vector<LeftOut>& out) {
   const Model& model = *plan.model;
   using Membrane = KernelChoice::Membrane;
@@ -30,6 +38,8 @@ void leave_out_kernel_parts(const Plan& plan, std::vector<LeftOut>& out) {
                             : "; two free ones would not stay so: " + model.two_layers_grow)});
   if (!model.choice.breakable)
     out.push_back({"failure", "no material names a failure law: no spring is tested"});
+  if (model.choice.breakable && !criteria_remember(model))
+    out.push_back({"memory of failure laws", "none keeps one: springs break by what they are now"});
   const auto is_static = [](const PlannedStage& stage) {
     return stage.plan.at_rest && stage.plan.time_step == 0;
   };

@@ -23,7 +23,7 @@ nlohmann::json plugins_json(const Scene& scene) {
   };
   for (const Stage& stage : scene.stages) {
     add(*stage.component);
-    if (stage.failure) add(*stage.failure->component);
+    for (const Stage& failure : stage.failures) add(*failure.component);
   }
   return list;
 }

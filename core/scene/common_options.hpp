@@ -41,7 +41,8 @@ inline constexpr std::string_view interface_springs_help =
 /// Help text of a material's key "failure", which is no plain option.
 inline constexpr std::string_view failure_help =
     "criterion by which springs break: an object with the type of a component of the family "
-    "failures; unbreakable if left out";
+    "failures, or a list of such objects, of which the first that is met breaks a spring; "
+    "unbreakable if left out";
 
 /// Returns the family that a type begins with ("loads"); nothing if no family has that name.
 std::optional<Family> family_of(std::string_view type);

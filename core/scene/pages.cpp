@@ -58,7 +58,8 @@ void table(std::string& page, std::span<const Option> options, bool failure) {
   for (const Option& option : options)
     page += fmt::format("| `{}` | {} | {} | {} | {} |\n", option.name, option.unit,
                         range_column(option), fallback_text(option), option.help);
-  if (failure) page += fmt::format("| `failure` | | object | none | {} |\n", failure_help);
+  if (failure)
+    page += fmt::format("| `failure` | | object, or list of objects | none | {} |\n", failure_help);
 }
 
 void section(std::string& page, const char* title, std::string_view text) {

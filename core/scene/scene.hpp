@@ -36,9 +36,9 @@ struct Stage {
   /// label, unique in the family, valid in a file name; default: the type's last part, with a
   /// number if several stages share it
   std::string name;
-  RegionId region;                 ///< materials: region of the material; default "all"
-  std::unique_ptr<Stage> failure;  ///< materials: the failure criterion, if any
-  Cadence cadence;                 ///< writers, probes
+  RegionId region;              ///< materials: region of the material; default "all"
+  std::vector<Stage> failures;  ///< materials: the failure criteria
+  Cadence cadence;              ///< writers, probes
   /// solvers: time between history records, s; 0: 200 records over the stage
   double record_every = 0;
   /// solvers: relative error of the energy balance at which the run stops; 0: no limit

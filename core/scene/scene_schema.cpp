@@ -157,7 +157,11 @@ std::string scene_schema(const std::vector<const Component*>& components) {
       later.push_back(component->type());
   }
   const auto types = [&](Family family) { return of_family[static_cast<std::size_t>(family)]; };
-  definitions["failure"] = one_of(types(Family::failures));
+  definitions["criterion"] = one_of(types(Family::failures));
+  definitions["failure"] = {
+      {"anyOf",
+       {reference("criterion"),
+        {{"type", "array"}, {"items", reference("criterion")}, {"minItems", 1}}}}};
   const auto holds = [&](Family family) {
     Json has{
         {"properties", {{"type", {{"pattern", fmt::format(R"(^{}\.)", family_name(family))}}}}},

@@ -134,8 +134,9 @@ std::optional<Stage> StageReader::read_stage(const Json& given, const std::strin
   const auto failure = family == Family::materials ? given.find("failure") : given.end();
   // read first, so that its faults are found also if the material is unknown
   Json failure_resolved;
+  std::optional<std::vector<Stage>> failures;
   if (failure != given.end())
-    stage.failure = read_failure(*failure, member(pointer, "failure"), failure_resolved);
+    failures = read_failures(*failure, member(pointer, "failure"), failure_resolved);
   stage.component = find(given, pointer, family);
   if (stage.component == nullptr) return std::nullopt;
 
@@ -146,33 +147,63 @@ std::optional<Stage> StageReader::read_stage(const Json& given, const std::strin
   stage.options =
       reader.fill(option_set(stage.component->info, stage.component->path.c_str()), resolved);
   reader.reject_unknown();
-  if (!common || !stage.options || (failure != given.end() && !stage.failure)) return std::nullopt;
-  if (stage.failure) resolved["failure"] = std::move(failure_resolved);
+  if (!common || !stage.options || (failure != given.end() && !failures)) return std::nullopt;
+  if (failures) {
+    stage.failures = std::move(*failures);
+    resolved["failure"] = std::move(failure_resolved);
+  }
   take_common(*static_cast<const CommonOptions*>(common.get()), stage);
   return stage;
 }
 
-std::unique_ptr<Stage> StageReader::read_failure(const Json& given, const std::string& pointer,
-                                                 Json& resolved) {
+/// Reads one criterion or a list of them; nothing after a fault.
+std::optional<std::vector<Stage>> StageReader::read_failures(const Json& given,
+                                                             const std::string& pointer,
+                                                             Json& resolved) {
+  std::vector<Stage> failures;
+  if (!given.is_array()) {
+    auto failure = read_failure(given, pointer, resolved);
+    if (!failure) return std::nullopt;
+    failures.push_back(std::move(*failure));
+    return failures;
+  }
+  if (given.empty())
+    reading_.faults.add(pointer, shown(given),
+                        "at least one criterion; without the key springs do not break");
+  resolved = Json::array();
+  for (std::size_t n = 0; n < given.size(); ++n) {
+    Json failure_resolved;
+    auto failure = read_failure(given[n], member(pointer, n), failure_resolved);
+    if (!failure) continue;
+    failures.push_back(std::move(*failure));
+    resolved.push_back(std::move(failure_resolved));
+  }
+  if (given.empty() || failures.size() < given.size()) return std::nullopt;
+  return failures;
+}
+
+std::optional<Stage> StageReader::read_failure(const Json& given, const std::string& pointer,
+                                               Json& resolved) {
   const auto family = read_family(given, pointer);
-  if (!family) return nullptr;
+  if (!family) return std::nullopt;
   if (*family != Family::failures) {
     reading_.faults.add(member(pointer, "type"), shown(given["type"]),
                         "a type of the family failures");
-    return nullptr;
+    return std::nullopt;
   }
-  auto stage = std::make_unique<Stage>();
-  stage->component = find(given, pointer, Family::failures);
-  if (stage->component == nullptr) return nullptr;
-  stage->pointer = pointer;
-  const std::string type = stage->component->type();
-  stage->name = type.substr(type.rfind('.') + 1);
+  Stage stage;
+  stage.component = find(given, pointer, Family::failures);
+  if (stage.component == nullptr) return std::nullopt;
+  stage.pointer = pointer;
+  const std::string type = stage.component->type();
+  stage.name = type.substr(type.rfind('.') + 1);
   resolved = {{"type", given["type"]}};
   OptionReader reader(given, pointer, reading_, {"type"});
-  stage->options =
-      reader.fill(option_set(stage->component->info, stage->component->path.c_str()), resolved);
+  stage.options =
+      reader.fill(option_set(stage.component->info, stage.component->path.c_str()), resolved);
   reader.reject_unknown();
-  return stage->options ? std::move(stage) : nullptr;
+  if (!stage.options) return std::nullopt;
+  return stage;
 }
 
 void StageReader::check_order(const std::vector<std::optional<Family>>& families) {

@@ -19,8 +19,9 @@ class StageReader {
 
  private:
   std::optional<Stage> read_stage(const Json& given, const std::string& pointer, Json& resolved);
-  std::unique_ptr<Stage> read_failure(const Json& given, const std::string& pointer,
-                                      Json& resolved);
+  std::optional<std::vector<Stage>> read_failures(const Json& given, const std::string& pointer,
+                                                  Json& resolved);
+  std::optional<Stage> read_failure(const Json& given, const std::string& pointer, Json& resolved);
   const Component* find(const Json& given, const std::string& pointer, Family family);
   std::optional<Family> read_family(const Json& given, const std::string& pointer);
   void check_order(const std::vector<std::optional<Family>>& families);

@@ -4,7 +4,10 @@
 #include <state/layout.hpp>
 #include <state/numbers.hpp>
 
+#include <array>
+#include <compare>
 #include <cstdint>
+#include <map>
 #include <vector>
 
 namespace hyperlattice {
@@ -34,6 +37,17 @@ struct ListedArrays {
   AlignedArray<double> shares;
 };
 
+/// A spring as kernels name it (see AlarmRow), and a failure criterion that keeps numbers for it.
+struct FailureKey {
+  std::uint32_t row = 0, neighbour = 0;
+  std::int32_t site = 0;
+  std::uint32_t criterion = 0;  ///< see Material::Criterion::number
+  auto operator<=>(const FailureKey&) const = default;
+};
+/// The memory of failure criteria. It holds only springs that were above the alarm of such a
+/// criterion and are whole.
+using FailureMemory = std::map<FailureKey, std::array<double, max_failure_memory>>;
+
 struct Block {
   const BlockLayout* layout = nullptr;
   std::size_t number = 0;  ///< index among the blocks
@@ -43,6 +57,7 @@ struct Block {
   AlignedArray<std::uint8_t> material;
   AlignedArray<std::uint32_t> mixture;
   AlignedArray<double> memory;  ///< of laws, see KernelRequest
+  FailureMemory failure_memory;
   AlignedArray<double> scratch;
   ListedArrays listed;
   std::vector<double> damped_work;    ///< per row, J

@@ -32,39 +32,20 @@ End end_of(const Block& block, std::uint64_t n, int components, double dt) {
 
 }  // namespace
 
+/// Asks the failure criteria about springs above their alarm. Criteria answer in the order of the
+/// scene; a spring that one of them breaks is not shown to those after it.
 const std::uint8_t* Simulation::Parts::review(Block& block, const AlarmRow& alarm) const {
   block.answers.assign(alarm.sites.size(), 0);
   const auto ends = [&](std::size_t n) {
     return layout->spring(block, alarm.row, alarm.neighbour, alarm.sites[n]);
   };
-  const auto ask = [&](const Material& material, const SpringFacts& facts, std::size_t first,
-                       std::span<const double> elongation) {
-    const std::size_t count = elongation.size();
-    if (material.failure_stage == nullptr) return;
-    const Stage& stage = *material.failure_stage;
-    const auto& functions = stage.functions<FailureFunctions>();
-    std::vector<std::uint8_t> answers(count, 0);
-    std::vector<Particle> a, b;
-    std::vector<double> rates;
-    for (std::size_t n = first; functions.asks_rate && n < first + count; ++n)
-      rates.push_back(rate_of(block, alarm, n));
-    for (std::size_t n = first; functions.asks_ends && n < first + count; ++n) {
-      const SpringEnds spring = ends(n);
-      a.push_back(std::min(spring.a, spring.b));
-      b.push_back(std::max(spring.a, spring.b));
-    }
-    const SpringBatch batch{time, facts, elongation, a, b, rates};
-    call(stage, "breaks", [&](const Complaint& why) {
-      return functions.review(material.failure.get(), batch, answers.data(), why);
-    });
-    for (std::size_t n = 0; n < count; ++n) block.answers[first + n] |= answers[n];
-  };
   // All of these springs are alike.
   if (model.materials.size() == 1 && !model.body.is_listed()) {
     const SpringEnds first = ends(0);
-    ask(model.materials.front(),
-        model.facts(model.spring_properties(first.a, first.b, first.neighbour), 0), 0,
-        alarm.elongation);
+    const SpringFacts facts =
+        model.facts(model.spring_properties(first.a, first.b, first.neighbour), 0);
+    for (const Material::Criterion& criterion : model.materials.front().failures)
+      ask(block, alarm, criterion, facts, 0, alarm.elongation);
   } else {
     for (std::size_t n = 0; n < alarm.sites.size(); ++n) {
       const SpringEnds spring = ends(n);
@@ -75,15 +56,21 @@ const std::uint8_t* Simulation::Parts::review(Block& block, const AlarmRow& alar
       for (const std::uint8_t material : model.materials_of(spring.a, spring.b, spring.neighbour)) {
         const double elongation =
             model.elongation_in(material, properties, alarm.elongation[n], memory.data());
-        if (elongation > model.own_alarm(material, properties))
-          ask(model.materials[material], model.facts(properties, material), n, {&elongation, 1});
+        for (const Material::Criterion& criterion : model.materials[material].failures)
+          ask(block, alarm, criterion, model.facts(properties, material), n, {&elongation, 1});
       }
     }
   }
-  for (std::size_t n = 0; n < alarm.sites.size(); ++n)
-    if (block.answers[n] != 0)
-      block.broken.push_back(
-          {ends(n), alarm.elongation[n], alarm.row, alarm.neighbour, alarm.sites[n]});
+  for (std::size_t n = 0; n < alarm.sites.size(); ++n) {
+    if (block.answers[n] == 0) continue;
+    block.broken.push_back(
+        {ends(n), alarm.elongation[n], alarm.row, alarm.neighbour, alarm.sites[n]});
+    const FailureKey first{alarm.row, alarm.neighbour, alarm.sites[n], 0};
+    auto kept = block.failure_memory.lower_bound(first);
+    while (kept != block.failure_memory.end() && kept->first.row == first.row &&
+           kept->first.neighbour == first.neighbour && kept->first.site == first.site)
+      kept = block.failure_memory.erase(kept);
+  }
   return block.answers.data();
 }
 
@@ -96,6 +83,45 @@ Simulation::Parts::SpringMemory Simulation::Parts::memory_of(const Block& block,
   const Layout::Memory kept = layout->memory(block, row, neighbour, site, cross != 0);
   for (std::uint32_t n = 0; n < model.memory; ++n) memory[n] = kept.first[n * kept.stride];
   return memory;
+}
+
+/// Asks a criterion about alike springs from number `first` on, with these elongations of whole
+/// springs of the criterion's material. The criterion is shown only springs that are above its own
+/// alarm and not broken yet.
+void Simulation::Parts::ask(Block& block, const AlarmRow& alarm,
+                            const Material::Criterion& criterion, const SpringFacts& facts,
+                            std::size_t first, std::span<const double> elongation) const {
+  const auto& functions = criterion.stage->functions<FailureFunctions>();
+  const double least = criterion.alarm(facts);
+  std::vector<std::size_t> asked;
+  std::vector<Particle> a, b;
+  std::vector<double> elongations, rates, memory;
+  std::vector<FailureMemory::mapped_type*> kept;
+  for (std::size_t n = first; n < first + elongation.size(); ++n) {
+    if (block.answers[n] != 0 || !(elongation[n - first] > least)) continue;
+    asked.push_back(n);
+    elongations.push_back(elongation[n - first]);
+    if (functions.asks_rate) rates.push_back(rate_of(block, alarm, n));
+    if (functions.asks_ends) {
+      const SpringEnds spring = layout->spring(block, alarm.row, alarm.neighbour, alarm.sites[n]);
+      a.push_back(std::min(spring.a, spring.b));
+      b.push_back(std::max(spring.a, spring.b));
+    }
+    if (functions.memory > 0) {
+      const FailureKey key{alarm.row, alarm.neighbour, alarm.sites[n], criterion.number};
+      kept.push_back(&block.failure_memory.try_emplace(key, criterion.start).first->second);
+      memory.insert(memory.end(), kept.back()->begin(), kept.back()->begin() + functions.memory);
+    }
+  }
+  if (asked.empty()) return;
+  std::vector<std::uint8_t> answers(asked.size(), 0);
+  const SpringBatch batch{time, facts, elongations, a, b, rates, memory.data(), advanced};
+  call(*criterion.stage, "breaks", [&](const Complaint& why) {
+    return functions.review(criterion.component.get(), batch, answers.data(), why);
+  });
+  for (std::size_t n = 0; n < asked.size(); ++n) block.answers[asked[n]] = answers[n];
+  for (std::size_t n = 0; n < kept.size(); ++n)
+    std::copy_n(&memory[n * functions.memory], functions.memory, kept[n]->begin());
 }
 
 /// Returns the rate of growth of a spring, m/s, from the velocities half a step before. The step

@@ -121,6 +121,7 @@ void Simulation::apply_equilibrium(const EquilibriumUpdate& to) {
   // Known since halt(); the work on the way from there is in the balance.
   parts_->start_known = true;
   set_time(to.time);
+  parts_->advanced = 0;  // failure criteria know no times between the states of rest
   ++parts_->steps;
 }
 

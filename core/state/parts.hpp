@@ -60,6 +60,7 @@ struct Simulation::Parts {
 
   double damping = 0, damping_rate = 0, last_step = 0;
   double time = 0, time_rest = 0;  ///< s, with the rest of a compensated sum
+  double advanced = 0;             ///< by how much the last step advanced the time, s
   bool time_held = false;
   std::uint64_t steps = 0;
   std::vector<Breakage> breakages;
@@ -123,6 +124,8 @@ struct Simulation::Parts {
 
   // breakage.cpp
   const std::uint8_t* review(Block& block, const AlarmRow& alarm) const;
+  void ask(Block& block, const AlarmRow& alarm, const Material::Criterion& criterion,
+           const SpringFacts& facts, std::size_t first, std::span<const double> elongation) const;
   double rate_of(const Block& block, const AlarmRow& alarm, std::size_t n) const;
   using SpringMemory = std::array<double, max_spring_memory>;
   /// Returns the law's memory of a spring, which a kernel names by its place.

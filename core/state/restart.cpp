@@ -12,6 +12,21 @@ void visit(Archive& archive, const AlignedArray<T>& array) {
   archive(std::span(array.get(), array.size()));
 }
 
+/// Saves the memory in the order of its keys, so that equal memories have equal bytes.
+void visit(Archive& archive, FailureMemory& memory) {
+  struct Kept {
+    FailureKey key;
+    FailureMemory::mapped_type numbers;
+  };
+  std::vector<Kept> all;
+  if (!archive.restores())
+    for (const auto& [key, numbers] : memory) all.push_back({key, numbers});
+  archive(all);
+  if (!archive.restores()) return;
+  memory.clear();
+  for (const Kept& kept : all) memory.emplace_hint(memory.end(), kept.key, kept.numbers);
+}
+
 void visit(Archive& archive, Block& block, int components) {
   for (int c = 0; c < components; ++c) {
     archive(block.displacement[c].bytes());
@@ -19,6 +34,7 @@ void visit(Archive& archive, Block& block, int components) {
   }
   visit(archive, block.alive);
   visit(archive, block.memory);
+  visit(archive, block.failure_memory);
   visit(archive, block.listed.neighbour);
   archive(block.damped_work);
   archive(block.fracture_work);
@@ -35,6 +51,7 @@ void Simulation::archive(Archive& archive) {
   archive(p.damping);
   archive(p.damping_rate);
   archive(p.last_step);
+  archive(p.advanced);
   archive(p.time);
   archive(p.time_rest);
   archive(p.time_held);

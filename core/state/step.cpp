@@ -35,6 +35,7 @@ void Simulation::Parts::step(double dt) {
     time_rest = (sum - time) - added;
     time = sum;
   }
+  advanced = time_held ? 0 : dt;
   last_step = dt;
   ++steps;
 }

@@ -51,6 +51,12 @@ const Case cases[] = {
        scene["pipeline"][lattice]["type"] = "lattices.random";
        scene["pipeline"][material]["membrane"] = "I";
      }},
+    {"remembered_damage",
+     [](json& scene) {
+       scene["pipeline"][material]["failure"] = {
+           {{"type", "failures.strain"}, {"limit", 0.01}},
+           {{"type", "failures.tuler_butcher"}, {"threshold", 5e-4}, {"impulse", 1e-11}}};
+     }},
     {"after_rest",
      [](json& scene) {
        json& pipeline = scene["pipeline"];

@@ -59,6 +59,9 @@ def main():
         else:
             scene["pipeline"].append(component["example"])
         complaints += [f"example of {component['type']}: {error.message}" for error in validator.iter_errors(scene)]
+    scene = copy.deepcopy(table["base"])
+    scene["pipeline"][1]["failure"] = [component["example"] for component in components if component["family"] == "failures"]
+    complaints += [f"list of failures: {error.message}" for error in validator.iter_errors(scene)]
 
     refused = 0
     for case in table["cases"]:

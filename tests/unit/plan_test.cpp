@@ -263,8 +263,15 @@ TEST(Plan, carries_only_what_the_scene_needs) {
   EXPECT_EQ(flat->model->degrees_of_freedom, 3);
   EXPECT_TRUE(leaves_out(*flat, "fourth dimension"));
   EXPECT_FALSE(leaves_out(*flat, "failure"));
+  EXPECT_TRUE(leaves_out(*flat, "memory of failure laws"));
   EXPECT_FALSE(leaves_out(*flat, "local damping"));
   EXPECT_LT(flat->bytes_per_particle, plain->bytes_per_particle);
+
+  nlohmann::json& failure = scene["pipeline"][1]["failure"];
+  failure = {failure, {{"type", "failures.tuler_butcher"}, {"threshold", 1e-3}, {"impulse", 1e-9}}};
+  const auto damaged = plan_of(scene);
+  EXPECT_FALSE(leaves_out(*damaged, "memory of failure laws"));
+  EXPECT_EQ(damaged->bytes_per_particle, flat->bytes_per_particle);
 }
 
 TEST(Plan, fields_that_nobody_asks_for_are_left_out) {

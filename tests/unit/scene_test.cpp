@@ -73,7 +73,7 @@ TEST(Scene, ValuesAreInSiAndDefaultsAreFilled) {
   EXPECT_EQ(spring.poisson, 0.2);
   EXPECT_EQ(options<fakes::Spring>(scene->stages[2]).density, 2500);
   EXPECT_EQ(options<fakes::Spring>(scene->stages[2]).law, fakes::Spring::Law::cubic);
-  EXPECT_EQ(options<fakes::Limit>(*scene->stages[1].failure).limit, 3.5e-6);
+  EXPECT_EQ(options<fakes::Limit>(scene->stages[1].failures.at(0)).limit, 3.5e-6);
   const auto& push = options<fakes::Push>(scene->stages[3]);
   EXPECT_EQ(push.force, (Vec3{0, 0, 1000}));
   EXPECT_EQ(push.times, (std::vector<double>{0, 2e-6}));
@@ -127,6 +127,43 @@ TEST(Scene, ResolvedReadsBackAsItself) {
   EXPECT_EQ(json["pipeline"][3]["on"]["intersection"][0], "x_max");
 }
 
+TEST(Scene, AMaterialHasAListOfFailureCriteria) {
+  const auto with = [](Json failure) {
+    Json json = Json::parse(good, nullptr, true, true);
+    json["pipeline"][1]["failure"] = std::move(failure);
+    return json.dump();
+  };
+  const Json one{{"type", "failures.limit"}, {"limit", "2 um"}},
+      other{{"type", "failures.limit"}, {"limit", "3 um"}};
+  const auto scene = read(with({one, other})), again = read(scene->resolved);
+  for (const Scene* read_one : {scene.get(), again.get()}) {
+    const std::vector<Stage>& failures = read_one->stages[1].failures;
+    ASSERT_EQ(failures.size(), 2u);
+    EXPECT_EQ(options<fakes::Limit>(failures[0]).limit, 2e-6);
+    EXPECT_EQ(options<fakes::Limit>(failures[1]).limit, 3e-6);
+    EXPECT_EQ(failures[1].pointer, "/pipeline/1/failure/1");
+  }
+  EXPECT_EQ(again->resolved, scene->resolved);
+  EXPECT_EQ(read(good)->stages[1].failures.at(0).pointer, "/pipeline/1/failure");
+  EXPECT_EQ(read(with(Json::array({one})))->stages[1].failures.at(0).pointer,
+            "/pipeline/1/failure/0");
+
+  EXPECT_NE(messages(faults(with(Json::array())))
+                .find("/pipeline/1/failure: []: expected at least one criterion"),
+            std::string::npos);
+  const std::string wrong = messages(faults(with({one,
+                                                  "failures.limit",
+                                                  {{"type", "failures.limit"}, {"limit", -1}},
+                                                  {{"type", "loads.push"}},
+                                                  Json::array({one})})));
+  for (const char* at :
+       {"/pipeline/1/failure/1: \"failures.limit\": expected an object with a type",
+        "/pipeline/1/failure/2/limit: -1",
+        "/pipeline/1/failure/3/type: \"loads.push\": expected a type of the family",
+        "/pipeline/1/failure/4: "})
+    EXPECT_NE(wrong.find(at), std::string::npos) << at << "\n" << wrong;
+}
+
 TEST(Scene, ResolvedKeepsEveryBitOfEveryNumber) {
   const bool good_for_all = rc::check([] {
     const auto positive = [] {
@@ -146,7 +183,7 @@ TEST(Scene, ResolvedKeepsEveryBitOfEveryNumber) {
     RC_ASSERT(again->resolved == scene->resolved);
     for (const Scene* one : {scene.get(), again.get()}) {
       RC_ASSERT(options<fakes::Spring>(one->stages[1]).young == young);
-      RC_ASSERT(options<fakes::Limit>(*one->stages[1].failure).limit == limit);
+      RC_ASSERT(options<fakes::Limit>(one->stages[1].failures.at(0)).limit == limit);
       RC_ASSERT(options<fakes::March>(one->stages[4]).end_time == end);
       RC_ASSERT((options<fakes::Spot>(one->stages[8]).point == Vec3{x, -x, 0}));
       RC_ASSERT(options<fakes::Grid>(one->stages[0]).shape->high.z == radius);

@@ -8,7 +8,7 @@ struct Hollow : Law {
 template <>
 struct hyperlattice::detail::FunctionsOf<Hollow> {
   static constexpr Family family = Family::failures;
-  static constexpr FailureFunctions table{nullptr, nullptr, false, false};
+  static constexpr FailureFunctions table{nullptr, nullptr, false, false, 0, nullptr};
 };
 
 HYPERLATTICE_PLUGIN("1.0") { plugin.add<Hollow>(); }

@@ -76,8 +76,8 @@
   CROSSES(SpringRow, count, here, there, stiffness, cross_stiffness, weight, law, memory, memory_stride, rest, rest_length, cross_rest_length, membrane_distance, spacing, pull,  \
           axial, cross_pull, cross_axial)                                                                                                             \
   CROSSES(SpringFacts, rest_length, stiffness, spacing, spring_class, crossings)                                                                      \
-  CROSSES(SpringBatch, time, spring, elongation, a, b, rate)                                                                                          \
-  CROSSES(FailureFunctions, alarm, review, asks_ends, asks_rate)                                                                                      \
+  CROSSES(SpringBatch, time, spring, elongation, a, b, rate, memory, time_step)                                                                       \
+  CROSSES(FailureFunctions, alarm, review, asks_ends, asks_rate, memory, start)                                                                       \
   CROSSES(OpenArea, particle, area)                                                                                                                   \
   CROSSES(RestSpring, a, b, stiffness, share, rest_length, breakable)                                                                                 \
   CROSSES(LoadBody, self, spacing, rim, region_particles, particle_position, particle_mass, particle_share, region_open_areas, region_true_area,      \
@@ -115,9 +115,10 @@ constexpr std::uint32_t boundary_hash() {
   LayoutHash hash;
   for (const std::uint64_t constant :
        {std::uint64_t{max_spring_classes}, std::uint64_t{max_neighbours},
-        std::uint64_t{max_law_constants}, std::uint64_t{max_law_memory}, std::uint64_t{lanes},
-        std::uint64_t{slots_ahead}, std::uint64_t{record_numbers}, std::uint64_t{record_moved},
-        std::uint64_t{record_material}, std::uint64_t{particle_bit}, std::uint64_t{scratch_margin},
+        std::uint64_t{max_law_constants}, std::uint64_t{max_law_memory},
+        std::uint64_t{max_failure_memory}, std::uint64_t{lanes}, std::uint64_t{slots_ahead},
+        std::uint64_t{record_numbers}, std::uint64_t{record_moved}, std::uint64_t{record_material},
+        std::uint64_t{particle_bit}, std::uint64_t{scratch_margin},
         std::uint64_t{std::size(family_names)}, std::uint64_t{std::size(field_names)}})
     hash.add(constant);
 #define HYPERLATTICE_ADD(Struct, ...) Layout<Struct>::add_to(hash);
