@@ -3,7 +3,7 @@
 #include <scene/option_reader.hpp>
 #include <scene/settings.hpp>
 
-#include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
 #include <nlohmann/json.hpp>
 
 #include <stdexcept>
@@ -65,6 +65,7 @@ LatticeGeometry load_lattice(Host& host, const std::string& type,
   if (!faults.empty())
     throw InputError(
         {{where, type, "a lattice that is described by a spacing and a shape, and by --option"}});
+  for (const std::string& warning : faults.warnings()) spdlog::warn("warning: {}", warning);
 
   const ComponentPointer lattice = make_component(stage);
   try {

@@ -10,8 +10,6 @@ namespace hyperlattice {
 
 namespace {
 
-double along(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
 /// The rest positions of a cube's particles, for its start displacements and its growth along an
 /// axis.
 class Cube {
@@ -35,8 +33,7 @@ class Cube {
     const auto [low, high] = ends(axis);
     double sum_low = 0, sum_high = 0, count_low = 0, count_high = 0;
     for (std::size_t p = 0; p < places_.size(); ++p) {
-      const double place = along(places_[p], axis),
-                   moved = xyz[3 * p + static_cast<std::size_t>(axis)];
+      const double place = places_[p][axis], moved = xyz[3 * p + static_cast<std::size_t>(axis)];
       if (place < low + nearby) {
         sum_low += moved;
         ++count_low;
@@ -52,8 +49,8 @@ class Cube {
   std::pair<double, double> ends(int axis) const {
     double low = infinity, high = -infinity;
     for (const Vec3& place : places_) {
-      low = std::min(low, along(place, axis));
-      high = std::max(high, along(place, axis));
+      low = std::min(low, place[axis]);
+      high = std::max(high, place[axis]);
     }
     return {low, high};
   }

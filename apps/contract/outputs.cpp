@@ -32,8 +32,10 @@ class Folder {
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
   ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
+    try {
+      fs::remove_all(path_);
+    } catch (...) {  // files that stay are in the system's folder for temporary ones
+    }
   }
   const fs::path& path() const { return path_; }
 

@@ -127,7 +127,7 @@ int obey(int count, char** words) {
 
 }  // namespace
 
-int main(int count, char** words) {
+int main(int count, char** words) try {
   open_missing_streams();
   watch_memory();
   const FileLimitGuard file_limit;
@@ -138,4 +138,10 @@ int main(int count, char** words) {
            "cannot write all of what was to be printed: standard output is closed, or the device "
            "behind it is full or gone");
   return code == exit_done ? exit_outside : code;
+} catch (const std::bad_alloc&) {
+  std::cerr << "hyperlattice: not enough memory\n";
+  return hyperlattice::exit_outside;
+} catch (const std::exception& error) {
+  std::cerr << "hyperlattice: " << error.what() << '\n';
+  return hyperlattice::exit_outside;
 }

@@ -2,7 +2,7 @@
 #include <scene/settings.hpp>
 #include <study/study_file.hpp>
 
-#include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
 
 namespace hyperlattice::study {
 
@@ -70,6 +70,7 @@ class StudyReader {
     if (heading) take(*heading);
     check_finest();
     faults_.throw_if_any();
+    for (const std::string& warning : faults_.warnings()) spdlog::warn("warning: {}", warning);
   }
 
  private:

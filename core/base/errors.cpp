@@ -10,7 +10,7 @@ namespace {
 
 // bytes; one name in an input may have up to 4 GB
 constexpr std::size_t longest_place = 200, longest_value = 300, longest_expectation = 2000;
-constexpr std::size_t most_lines = 100, most_kept = 1000;  // faults
+constexpr std::size_t most_lines = 100, most_kept = 1000;  // faults or warnings
 
 std::string lines(const std::vector<Fault>& faults) {
   std::string text;
@@ -58,6 +58,11 @@ void Faults::add(std::string pointer, std::string value, std::string expected) {
 
 void Faults::throw_if_any() const {
   if (!faults_.empty()) throw InputError(faults_);
+}
+
+void Faults::warn(std::string_view pointer, const std::string& sentence) {
+  if (warnings_.size() < most_lines)
+    warnings_.push_back(visible(pointer, longest_place) + ": " + sentence);
 }
 
 std::string nearest(std::string_view name, const std::vector<std::string>& candidates) {

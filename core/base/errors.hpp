@@ -44,7 +44,8 @@ enum ExitCode : int {
   exit_interrupted = 130
 };
 
-/// Collects faults, so that a user sees all of them at once.
+/// Collects what is wrong in an input: faults, so that a user sees all of them at once, and
+/// warnings of what is accepted.
 class Faults {
  public:
   void add(std::string pointer, std::string value, std::string expected);
@@ -53,8 +54,13 @@ class Faults {
   const std::vector<Fault>& all() const { return faults_; }
   void throw_if_any() const;  ///< throws InputError with all faults
 
+  /// Adds a warning about the value at a JSON pointer.
+  void warn(std::string_view pointer, const std::string& sentence);
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
  private:
   std::vector<Fault> faults_;
+  std::vector<std::string> warnings_;
 };
 
 /// Returns the candidate nearest to `name` in spelling, or "" if none is near.

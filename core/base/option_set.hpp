@@ -9,6 +9,7 @@ namespace hyperlattice {
 /// Declarations of options, and functions on an object that holds their values.
 struct OptionSet {
   std::span<const Option> options;
+  std::span<const OldName> old_names;
   void* (*create)(const Complaint& why) noexcept = nullptr;
   void (*destroy)(void* options) noexcept = nullptr;
   /// null: no cross-check
@@ -21,8 +22,9 @@ struct OptionSet {
 /// Returns the options of a plugin's component. `library`: the plugin's file; the text must outlive
 /// the set.
 inline OptionSet option_set(const ComponentInfo& info, const char* library) {
-  return {info.options,       info.create_options, info.destroy_options,
-          info.check_options, info.name,           library};
+  return {
+      info.options, info.old_names, info.create_options, info.destroy_options, info.check_options,
+      info.name,    library};
 }
 
 /// Returns the options of a class with `struct Options` and `static Schema<Options> schema()`.
@@ -31,6 +33,7 @@ OptionSet option_set() {
   using Options = typename Declared::Options;
   static const Schema<Options> schema = Declared::schema();
   OptionSet set{schema.options(),
+                schema.old_names(),
                 &detail::make_options<Options>,
                 [](void* options) noexcept { delete static_cast<Options*>(options); },
                 nullptr,

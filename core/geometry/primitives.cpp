@@ -242,8 +242,10 @@ struct Voxels {
                            "header, x running fastest, then y, then z")
         .add<&Options::file>(path_option, "", "the file, relative to the scene")
         .file()
-        .add<&Options::counts>("counts", "", "voxels along x, y and z")
-        .positive()
+        .add<&Options::counts>("counts", "", "voxels along x, y and z; whole numbers")
+        .at_least(1)
+        .at_most(1e5)
+        .example("[1, 1, 1]")
         .add<&Options::voxel>("voxel", "m", "edge of a voxel, a cube")
         .positive()
         .add<&Options::low>("low", "m", "where the image's corner with the smallest coordinates is")
@@ -254,10 +256,9 @@ struct Voxels {
         .add<&Options::values>("values", "", "values of the voxels inside; left out: all but 0")
         .fallback("[]")
         .check([](const Options& image, const FaultSink& faults) {
-          constexpr double most = 1e5;
           for (const double count : {image.counts.x, image.counts.y, image.counts.z})
-            if (count != std::floor(count) || count > most)
-              return faults.fault("counts", "whole numbers of voxels, up to 100000");
+            if (count != std::floor(count))
+              return faults.fault("counts", "whole numbers of voxels");
           const double largest = image.type == VoxelType::uint8 ? 255 : 65535;
           for (const double value : image.values)
             if (!(value >= 0 && value <= largest && value == std::floor(value)))

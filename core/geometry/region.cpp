@@ -28,15 +28,14 @@ Vec3 lower(Vec3 a, Vec3 b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std
 Vec3 upper(Vec3 a, Vec3 b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
 bool is_finite(Vec3 v) { return std::isfinite(norm(v)); }
 
-using Axis = double Vec3::*;
-constexpr Axis axes[] = {&Vec3::x, &Vec3::y, &Vec3::z};
+constexpr int axes[] = {0, 1, 2};
 
 /// Returns whether a solid fills its bounding box: a box, or a half-space along an axis.
 bool fills_its_box(const Region& region) {
   if (region.primitive == "box") return true;
   return region.primitive == "half_space" &&
-         std::any_of(std::begin(axes), std::end(axes), [&](Axis axis) {
-           return std::isfinite(region.low.*axis) || std::isfinite(region.high.*axis);
+         std::any_of(std::begin(axes), std::end(axes), [&](int axis) {
+           return std::isfinite(region.low[axis]) || std::isfinite(region.high[axis]);
          });
 }
 
@@ -45,38 +44,37 @@ void cut(SolidExtent& extent, const Region& part) {
   if (part.kind == Region::Kind::set_union)
     for (const auto& piece : part.parts) cut(extent, *piece);
   if (!fills_its_box(part)) return;
-  const auto covers = [&](Axis axis) {
-    return part.low.*axis <= extent.low.*axis && part.high.*axis >= extent.high.*axis;
+  const auto covers = [&](int axis) {
+    return part.low[axis] <= extent.low[axis] && part.high[axis] >= extent.high[axis];
   };
-  for (const Axis along : axes) {
+  for (const int along : axes) {
     if (!std::all_of(std::begin(axes), std::end(axes),
-                     [&](Axis axis) { return axis == along || covers(axis); }))
+                     [&](int axis) { return axis == along || covers(axis); }))
       continue;
-    if (part.low.*along <= extent.low.*along)
-      extent.low.*along = std::clamp(part.high.*along, extent.low.*along, extent.high.*along);
-    else if (part.high.*along >= extent.high.*along)
-      extent.high.*along = std::clamp(part.low.*along, extent.low.*along, extent.high.*along);
+    if (part.low[along] <= extent.low[along])
+      extent.low[along] = std::clamp(part.high[along], extent.low[along], extent.high[along]);
+    else if (part.high[along] >= extent.high[along])
+      extent.high[along] = std::clamp(part.low[along], extent.low[along], extent.high[along]);
   }
 }
 
 /// Returns whether at least one of many evenly spaced points close to a side is inside.
-bool reaches(const Region& solid, const SolidExtent& extent, std::size_t along, bool upper_side) {
+bool reaches(const Region& solid, const SolidExtent& extent, int along, bool upper_side) {
   constexpr int points = 24;  // number along each edge of the side
   // distance from the side over the width; some points are as near to the summit of a round side
   constexpr double in_from_the_side = 2.5e-3;
   const Vec3 size = extent.high - extent.low;
-  const auto at = [&](int n, Axis axis) {
-    return extent.low.*axis + (n + 0.5) / points * (size.*axis);
+  const auto at = [&](int n, int axis) {
+    return extent.low[axis] + (n + 0.5) / points * size[axis];
   };
-  const Axis one = axes[(along + 1) % 3], other = axes[(along + 2) % 3];
+  const int one = (along + 1) % 3, other = (along + 2) % 3;
   Vec3 point;
-  point.*axes[along] = upper_side
-                           ? extent.high.*axes[along] - in_from_the_side * (size.*axes[along])
-                           : extent.low.*axes[along] + in_from_the_side * (size.*axes[along]);
+  point[along] = upper_side ? extent.high[along] - in_from_the_side * size[along]
+                            : extent.low[along] + in_from_the_side * size[along];
   for (int i = 0; i < points; ++i)
     for (int j = 0; j < points; ++j) {
-      point.*one = at(i, one);
-      point.*other = at(j, other);
+      point[one] = at(i, one);
+      point[other] = at(j, other);
       if (solid.contains(point)) return true;
     }
   return false;
@@ -84,7 +82,7 @@ bool reaches(const Region& solid, const SolidExtent& extent, std::size_t along, 
 
 bool reaches_all_sides(const Region& solid, const SolidExtent& extent) {
   if (!is_finite(extent.low) || !is_finite(extent.high)) return false;
-  for (std::size_t along = 0; along < std::size(axes); ++along)
+  for (const int along : axes)
     if (!reaches(solid, extent, along, false) || !reaches(solid, extent, along, true)) return false;
   return true;
 }

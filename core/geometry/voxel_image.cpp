@@ -94,12 +94,11 @@ void VoxelSet::find_box() {
 bool VoxelSet::contains(Vec3 point) const {
   constexpr double rounding = 1e-9;  // voxels
   const Vec3 at = (1 / edge_) * (point - low_);
-  const double t[3] = {at.x, at.y, at.z};
   Index index;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double end = static_cast<double>(counts_[axis]);
-    if (!(t[axis] >= -rounding && t[axis] <= end + rounding)) return false;
-    index[axis] = std::min(static_cast<std::int64_t>(t[axis] + rounding), counts_[axis] - 1);
+    if (!(at[axis] >= -rounding && at[axis] <= end + rounding)) return false;
+    index[axis] = std::min(static_cast<std::int64_t>(at[axis] + rounding), counts_[axis] - 1);
   }
   return inside_[number(index)];
 }

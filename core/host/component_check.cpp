@@ -93,6 +93,21 @@ std::string option_fault(const Option& option) {
   return "";
 }
 
+/// `names`: the names of the component's options and the former names before this one.
+std::string old_name_fault(const OldName& old, const std::set<std::string_view>& names,
+                           std::span<const Option> options) {
+  if (!is_identifier(old.name))
+    return "it must be small letters, digits and underscores, a letter first";
+  if (old.name == "type" || old.name == "name") return "a stage has that key already";
+  if (names.count(old.name) != 0) return "it is declared twice";
+  if (std::none_of(options.begin(), options.end(),
+                   [&](const Option& option) { return option.name == old.option; }))
+    return "no option has its present name";
+  if (old.since.empty() || !is_text(old.since) || !is_seen(old.since))
+    return "it has no version since when it is the former one";
+  return "";
+}
+
 }  // namespace
 
 bool is_type_name(std::string_view text) {
@@ -127,6 +142,14 @@ std::string component_fault(const ComponentInfo& info) {
     if (!fault.empty())
       return "registers " + name + " with a bad option '" + std::string(option.name) +
              "': " + fault;
+  }
+  for (const OldName& old : info.old_names) {
+    if (old.name.size() > longest_name || !is_text(old.name) || !is_text(old.option))
+      return "registers " + name + " with a former name of an option that is no text";
+    if (const std::string fault = old_name_fault(old, names, info.options); !fault.empty())
+      return "registers " + name + " with a bad former name '" + std::string(old.name) +
+             "' of an option: " + fault;
+    names.insert(old.name);
   }
   return "";
 }

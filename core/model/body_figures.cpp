@@ -13,13 +13,13 @@ namespace {
 /// Returns the distance of the lattice's planes of sites along each axis, m. A particle stands for
 /// half of it on both sides.
 Vec3 between_planes(const Grid& grid) {
-  const auto least = [&](double Vec3::*axis) {
+  const auto least = [&](int axis) {
     double step = 1;
     for (const Vec3 a : grid.basis)
-      if (a.*axis != 0) step = std::min(step, std::abs(a.*axis));
+      if (a[axis] != 0) step = std::min(step, std::abs(a[axis]));
     return grid.spacing * step;
   };
-  return {least(&Vec3::x), least(&Vec3::y), least(&Vec3::z)};
+  return {least(0), least(1), least(2)};
 }
 
 template <class Value, class Text>
@@ -39,8 +39,7 @@ BodyFigures body_figures(const Model& model) {
   figures.size = body.highest - body.lowest;
   figures.of_particles = body.is_listed();
   figures.is_centred = !body.is_listed() && !body.is_cubic();
-  if (!body.is_listed() && body.cells.empty())
-    figures.size = figures.size + between_planes(body.grid);
+  if (!body.is_listed() && body.cells.empty()) figures.size += between_planes(body.grid);
   double particles =
       static_cast<double>(body.cells.empty() ? body.particles : body.cells.count());  // whole ones
   if (!body.listed.shares.empty()) {

@@ -154,7 +154,7 @@ struct Collector {
     to.receive_force = [](void* self, Particle particle, Vec3 amplitude) noexcept {
       take(self, [&](Collector& c) {
         LoadedParticle& loaded = c.at(particle, amplitude);
-        loaded.force = loaded.force + amplitude;
+        loaded.force += amplitude;
       });
     };
     to.receive_displacement = [](void* self, Particle particle, Axes axes,
@@ -174,14 +174,14 @@ struct Collector {
       take(self, [&](Collector& c) {
         if (!is_finite(value))
           throw std::range_error("it gives an acceleration that is not finite");
-        c.acceleration = c.acceleration + value;
+        c.acceleration += value;
       });
     };
     to.receive_start_velocity = [](void* self, Particle particle, Vec3 velocity) noexcept {
       take(self, [&](Collector& c) {
         if (particle >= c.body.particles || !is_finite(velocity))
           throw std::range_error("it gives a start velocity that is not finite, or to no particle");
-        c.start_velocities[particle] = c.start_velocities[particle] + velocity;
+        c.start_velocities[particle] += velocity;
       });
     };
     to.receive_watched = [](void* self, Particle particle, bool answered,
@@ -350,9 +350,9 @@ void add_loads(Model& model, RegionIndex& regions, Faults& faults) {
       model.answering |= !load.watched.empty();
       load.particles = in_order(collector.particles);
       load.acceleration = collector.acceleration;
-      model.acceleration = model.acceleration + load.acceleration;
+      model.acceleration += load.acceleration;
       for (const auto& [particle, velocity] : collector.start_velocities)
-        start_velocities[particle] = start_velocities[particle] + velocity;
+        start_velocities[particle] += velocity;
       for (const std::string& warning : collector.warnings)
         model.warnings.push_back(fmt::format("{} ({}): {}", stage->name, stage->pointer, warning));
       if (const auto more = collector.warned - collector.warnings.size(); more > 0)

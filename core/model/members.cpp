@@ -161,7 +161,7 @@ std::vector<OpenArea> open_areas(const Body& body, const Surfaces& surfaces, con
         if ((open >> direction & 1U) == 0 || !meaning.means(region, {cell, direction})) continue;
         sites.for_points({cell, direction}, [&](Site particle) {
           Vec3& area = areas[body.at(particle)];
-          area = area + (share * face_area) * face_normals[direction];
+          area += (share * face_area) * face_normals[direction];
         });
       }
     }

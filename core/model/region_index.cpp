@@ -114,7 +114,7 @@ Vec3 RegionIndex::centre(RegionId region) {
   if (is_surface(*of) || of->kind == Region::Kind::all) of = filled();
   if (of != nullptr && of->is_solid() && std::isfinite(norm(of->high - of->low))) return of->centre;
   Vec3 sum;
-  for (const Particle particle : particles(region)) sum = sum + body_.position(particle);
+  for (const Particle particle : particles(region)) sum += body_.position(particle);
   const std::size_t count = particles(region).size();
   return count == 0 ? sum : (1 / static_cast<double>(count)) * sum;
 }

@@ -151,7 +151,7 @@ std::vector<OpenArea> open_areas(const Body& body, const std::function<const Ski
   for (const Skin::Face& face : skin().faces())
     if (meaning.means(region, face)) {
       Vec3& area = areas[face.particle];
-      area = area + skin().face_area() * face_normals[face.direction];
+      area += skin().face_area() * face_normals[face.direction];
     }
   std::vector<OpenArea> found;
   found.reserve(areas.size());

@@ -123,12 +123,14 @@ std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, Threads threads) {
         "out of memory while the lattice was built: too many particles for this machine; " +
         lack_of_memory());
   }
+  std::vector<std::string>& warnings = plan->model->warnings;
+  warnings.insert(warnings.begin(), plan->scene->warnings.begin(), plan->scene->warnings.end());
   plan->body = body_figures(*plan->model);
   for (std::string& warning : size_warnings(plan->body, plan->model->body.grid.spacing))
-    plan->model->warnings.push_back(std::move(warning));
+    warnings.push_back(std::move(warning));
   if (plan->model->body.is_listed())
     if (std::string warning = coordination_warning(plan->model->body); !warning.empty())
-      plan->model->warnings.push_back(std::move(warning));
+      warnings.push_back(std::move(warning));
   Faults faults;
   plan->asked_fields = asked_fields(*plan->scene);
   plan_stages(*plan, faults);

@@ -69,10 +69,12 @@ class AtRest {
     snapshot.positions = positions_;
     snapshot.self = this;
     snapshot.get_field = [](void* self, std::string_view name, Field& field) noexcept {
-      const auto& rest = *static_cast<AtRest*>(self);
-      field.components = name == "displacement" || name == "velocity" ? 3 : 1;
-      field.values = std::span(rest.zeros_).first(field.components * rest.model_.body.particles);
-      return has_field(rest.model_, name);
+      return PluginCall::answer(false, [&] {
+        const auto& rest = *static_cast<AtRest*>(self);
+        field.components = name == "displacement" || name == "velocity" ? 3 : 1;
+        field.values = std::span(rest.zeros_).first(field.components * rest.model_.body.particles);
+        return has_field(rest.model_, name);
+      });
     };
     return snapshot;
   }
@@ -216,8 +218,10 @@ class TrialFolder {
   TrialFolder(const TrialFolder&) = delete;
   TrialFolder& operator=(const TrialFolder&) = delete;
   ~TrialFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
+    try {
+      std::filesystem::remove_all(path_);
+    } catch (...) {  // files that stay are in the system's folder for temporary ones
+    }
   }
   const std::string& path() const { return path_; }
 

@@ -16,6 +16,8 @@ struct Reading {
   std::deque<std::string>& texts;
 };
 
+struct ReadValue;
+
 /// Reads options from one JSON object.
 class OptionReader {
  public:
@@ -25,19 +27,25 @@ class OptionReader {
                std::vector<std::string> keys = {});
 
   /// Returns new options of the set, filled and checked; null after faults. Appends every value,
-  /// given or default, in SI units to `resolved`.
+  /// given or default, in SI units to `resolved`. An option that the object gives by a former name
+  /// is accepted with a warning; `resolved` has its present name.
   OptionsPointer fill(const OptionSet& set, Json& resolved);
   /// Adds a fault for each key that none of the filled sets declares.
   void reject_unknown();
 
  private:
   bool fill_one(const OptionSet& set, const Option& option, void* options, Json& resolved);
+  bool read_given(const Option& option, const std::string& key, ReadValue& value, Json& resolved);
+  std::string key_of(std::string_view option) const;
+  bool is_known(const std::string& key) const;
+  std::string nearest_option(const std::string& key) const;
   bool check(const OptionSet& set, const void* options);
 
   const Json& object_;
   std::string pointer_;
   Reading reading_;
   std::vector<std::string> known_;
+  std::vector<OldName> old_names_;
 };
 
 }  // namespace hyperlattice

@@ -53,11 +53,22 @@ std::string range_column(const Option& option) {
   return text;
 }
 
-void table(std::string& page, std::span<const Option> options, bool failure) {
+/// Returns the help with the former names of the option.
+std::string meaning_column(const Option& option, std::span<const OldName> old_names) {
+  std::string text(option.help);
+  for (const OldName& old : old_names)
+    if (old.option == option.name)
+      text += fmt::format("; named `{}` before version {}", old.name, old.since);
+  return text;
+}
+
+void table(std::string& page, std::span<const Option> options, std::span<const OldName> old_names,
+           bool failure) {
   page += "| option | unit | range | default | meaning |\n|---|---|---|---|---|\n";
   for (const Option& option : options)
-    page += fmt::format("| `{}` | {} | {} | {} | {} |\n", option.name, option.unit,
-                        range_column(option), fallback_text(option), option.help);
+    page +=
+        fmt::format("| `{}` | {} | {} | {} | {} |\n", option.name, option.unit,
+                    range_column(option), fallback_text(option), meaning_column(option, old_names));
   if (failure)
     page += fmt::format("| `failure` | | object, or list of objects | none | {} |\n", failure_help);
 }
@@ -66,7 +77,7 @@ void section(std::string& page, const char* title, std::string_view text) {
   if (!text.empty()) page += fmt::format("\n## {}\n\n{}\n", title, text);
 }
 
-Json option_json(const Option& option) {
+Json option_json(const Option& option, std::span<const OldName> old_names) {
   Json json{{"name", option.name},
             {"kind", kind_names[static_cast<std::size_t>(option.kind)]},
             {"help", option.help}};
@@ -78,12 +89,15 @@ Json option_json(const Option& option) {
   if (!option.word.empty()) json["word"] = option.word;
   if (!option.fallback.empty()) json["default"] = Json::parse(option.fallback);
   json["required"] = option.fallback.empty() && !option.optional;
+  for (const OldName& old : old_names)
+    if (old.option == option.name)
+      json["formerly"].push_back(Json{{"name", old.name}, {"since", old.since}});
   return json;
 }
 
-Json options_json(std::span<const Option> options) {
+Json options_json(std::span<const Option> options, std::span<const OldName> old_names) {
   Json json = Json::array();
-  for (const Option& option : options) json.push_back(option_json(option));
+  for (const Option& option : options) json.push_back(option_json(option, old_names));
   return json;
 }
 
@@ -91,7 +105,7 @@ Json options_json(std::span<const Option> options) {
 
 std::string component_page(const Component& component) {
   const ComponentInfo& info = component.info;
-  const auto common = common_options(info.family).options;
+  const OptionSet& common = common_options(info.family);
   std::string page = fmt::format("# {}\n\n{}\n", info.name, info.summary);
   if (!info.equation.empty())
     section(page, "Equation", fmt::format("```text\n{}\n```", info.equation));
@@ -99,10 +113,10 @@ std::string component_page(const Component& component) {
   if (info.options.empty())
     page += "None of its own.\n";
   else
-    table(page, info.options, false);
-  if (!common.empty()) {
+    table(page, info.options, info.old_names, false);
+  if (!common.options.empty()) {
     page += fmt::format("\nAs every component of the family {}:\n\n", family_name(info.family));
-    table(page, common, info.family == Family::materials);
+    table(page, common.options, common.old_names, info.family == Family::materials);
   }
   page += "\nNumbers are in the unit given; a text with a unit, such as \"1 mm\", is converted.\n";
   const Json stage = example_stage(info);
@@ -117,7 +131,8 @@ std::string component_page(const Component& component) {
 
 std::string component_json(const Component& component) {
   const ComponentInfo& info = component.info;
-  Json common = options_json(common_options(info.family).options);
+  const OptionSet& keys = common_options(info.family);
+  Json common = options_json(keys.options, keys.old_names);
   if (info.family == Family::materials)
     common.push_back(
         {{"name", "failure"}, {"kind", "stage"}, {"help", failure_help}, {"required", false}});
@@ -130,7 +145,7 @@ std::string component_json(const Component& component) {
                         {"plugin", component.plugin},
                         {"version", component.version},
                         {"path", component.path.string()},
-                        {"options", options_json(info.options)},
+                        {"options", options_json(info.options, info.old_names)},
                         {"common_options", std::move(common)},
                         {"example", example_stage(info)}});
 }

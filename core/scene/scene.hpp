@@ -76,8 +76,9 @@ struct Scene {
   Precision precision = Precision::doubles;
   InterfaceSprings interface_springs = InterfaceSprings::series;
   Regions regions;
-  std::vector<Stage> stages;     ///< in pipeline order
-  std::vector<InputFile> files;  ///< files named by options, one entry per option
+  std::vector<Stage> stages;          ///< in pipeline order
+  std::vector<InputFile> files;       ///< files named by options, one entry per option
+  std::vector<std::string> warnings;  ///< about options given by former names
   /// text of scene.resolved.json: all defaults filled in, SI units; running it gives the same bits
   std::string resolved;
   /// storage of text options; the addresses of entries do not change

@@ -158,6 +158,7 @@ std::unique_ptr<Scene> read_scene_text(std::string_view text, const std::filesys
   scene->file = std::filesystem::absolute(file);
   SceneReader(json, *scene, faults, catalogue).read();
   faults.throw_if_any();
+  scene->warnings = faults.warnings();
   return scene;
 }
 

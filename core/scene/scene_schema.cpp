@@ -73,11 +73,33 @@ Json option_schema(const Option& option) {
   return value;
 }
 
+/// Declares the former names of an option as deprecated, so that an object has at most one of all
+/// its names. Returns whether there are any.
+bool declare_former(Json& object, const Option& option, std::span<const OldName> old_names,
+                    bool required) {
+  const auto has = [](std::string_view name) { return Json{{"required", Json::array({name})}}; };
+  Json names = Json::array({has(option.name)});
+  for (const OldName& old : old_names) {
+    if (old.option != option.name) continue;
+    Json& former = object["properties"][std::string(old.name)] = option_schema(option);
+    former["description"] = fmt::format("named \"{}\" since version {}", option.name, old.since);
+    former["deprecated"] = true;
+    names.push_back(has(old.name));
+  }
+  if (names.size() == 1) return false;
+  const Json none{{"not", {{"anyOf", names}}}};
+  if (!required) names.push_back(none);
+  object["allOf"].push_back({{"oneOf", std::move(names)}});
+  return true;
+}
+
 /// Adds options to the schema of an object.
-void declare(Json& object, std::span<const Option> options) {
+void declare(Json& object, std::span<const Option> options, std::span<const OldName> old_names) {
   for (const Option& option : options) {
     object["properties"][std::string(option.name)] = option_schema(option);
-    if (option.fallback.empty() && !option.optional) object["required"].push_back(option.name);
+    const bool required = option.fallback.empty() && !option.optional;
+    if (!declare_former(object, option, old_names, required) && required)
+      object["required"].push_back(option.name);
   }
 }
 
@@ -93,8 +115,9 @@ Json component_schema(const ComponentInfo& info) {
   Json object = object_schema(info.summary);
   object["properties"]["type"] = {{"const", info.name}};
   object["required"].push_back("type");
-  declare(object, info.options);
-  declare(object, common_options(info.family).options);
+  declare(object, info.options, info.old_names);
+  const OptionSet& common = common_options(info.family);
+  declare(object, common.options, common.old_names);
   if (info.family == Family::materials) {
     object["properties"]["failure"] = reference("failure");
     object["properties"]["failure"]["description"] = failure_help;
@@ -130,7 +153,7 @@ Json expression(const std::string& definition, Json name) {
   };
   for (const Primitive& primitive : primitives()) {
     Json parameters = object_schema(primitive.summary);
-    declare(parameters, primitive.options.options);
+    declare(parameters, primitive.options.options, primitive.options.old_names);
     add(primitive.name, std::move(parameters));
   }
   for (const SetOperation& operation : set_operations)

@@ -25,15 +25,21 @@ void take_common(const CommonOptions& common, Stage& stage) {
   stage.energy_tolerance = common.energy_tolerance;
 }
 
-/// Returns the first option of a component whose name is a key of the core, since the two could not
-/// be told apart; empty if there is none.
+/// Returns the first name of a component's option, present or former, that is a key of the core,
+/// since the two could not be told apart; empty if there is none.
 std::string taken_key(const ComponentInfo& info) {
-  std::vector<std::string_view> keys{"type"};
-  for (const Option& option : common_options(info.family).options) keys.push_back(option.name);
+  const auto names = [](std::span<const Option> options, std::span<const OldName> old_names) {
+    std::vector<std::string_view> names;
+    for (const Option& option : options) names.push_back(option.name);
+    for (const OldName& old : old_names) names.push_back(old.name);
+    return names;
+  };
+  const OptionSet& common = common_options(info.family);
+  std::vector<std::string_view> keys = names(common.options, common.old_names);
+  keys.push_back("type");
   if (info.family == Family::materials) keys.push_back("failure");
-  for (const Option& option : info.options)
-    if (std::find(keys.begin(), keys.end(), option.name) != keys.end())
-      return std::string(option.name);
+  for (const std::string_view name : names(info.options, info.old_names))
+    if (std::find(keys.begin(), keys.end(), name) != keys.end()) return std::string(name);
   return "";
 }
 

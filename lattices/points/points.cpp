@@ -217,7 +217,7 @@ class Points {
   }
 
   std::vector<ListedSpring> nearest_springs(const std::vector<Vec3>& positions) const {
-    Vec3 low{infinity, infinity, infinity}, high = -1.0 * low;
+    Vec3 low{infinity, infinity, infinity}, high = -low;
     for (const Vec3 x : positions) {
       low = {std::min(low.x, x.x), std::min(low.y, x.y), std::min(low.z, x.z)};
       high = {std::max(high.x, x.x), std::max(high.y, x.y), std::max(high.z, x.z)};

@@ -96,6 +96,7 @@ class Random {
         .fallback("0.82")
         .add<&Options::seed>("seed", "", "another seed is another lattice of the same make")
         .at_least(0)
+        .at_most(1LL << 53)
         .fallback("1")
         .add<&Options::sample>(
             "sample", "",

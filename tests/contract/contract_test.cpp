@@ -42,6 +42,17 @@ TEST_P(Contract, IsKept) {
   }
 }
 
+// A whole number that fits in 64 bits may not fit where it is used.
+TEST_P(Contract, WholeNumbersHaveBothBounds) {
+  const Component* component = host().find(GetParam());
+  ASSERT_NE(component, nullptr) << host().why_not(GetParam());
+  for (const Option& option : component->info.options)
+    if (option.kind == OptionKind::integer) {
+      EXPECT_GT(option.low, -infinity) << option.name;
+      EXPECT_LT(option.high, infinity) << option.name;
+    }
+}
+
 struct Wrong {
   const char *type, *check, *detail;
 };

@@ -24,6 +24,7 @@ struct Grid {
         .add<&Options::spacing>("spacing", "m", "lattice constant")
         .positive()
         .add<&Options::shape>("shape", "", "solid to fill")
+        .formerly("solid", "0.9")
         .add<&Options::boundary>("boundary", "", "how the surface counts")
         .choices(boundaries)
         .fallback("\"particles\"")
@@ -48,6 +49,7 @@ struct Spring {
         .add<&Options::young>("young", "Pa", "Young's modulus")
         .positive()
         .add<&Options::poisson>("poisson", "", "Poisson's ratio")
+        .formerly("nu", "0.9")
         .above(-1)
         .at_most(0.25)
         .add<&Options::density>("density", "kg/m3", "mass by volume")
@@ -92,6 +94,7 @@ struct Push {
         .at_least(0)
         .fallback("[]")
         .add<&Options::repeats>("repeats", "", "how often")
+        .formerly("count", "0.9")
         .at_least(1)
         .at_most(100)
         .fallback("1")
@@ -110,6 +113,8 @@ struct March {
   static Schema<Options> schema() {
     return Schema<Options>("solvers.march", "Steps in time")
         .add<&Options::end_time>("end_time", "s", "when it ends")
+        .formerly("until", "0.8")
+        .formerly("duration", "0.9")
         .positive()
         .add<&Options::time_step>("time_step", "s", "length of a step")
         .positive()
@@ -167,6 +172,7 @@ class Catalogue final : public hyperlattice::Catalogue {
     info.source = schema.source();
     info.restrictions = schema.restrictions();
     info.options = set.options;
+    info.old_names = set.old_names;
     info.create_options = set.create;
     info.destroy_options = set.destroy;
     info.check_options = set.check;

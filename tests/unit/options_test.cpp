@@ -2,11 +2,14 @@
 #include "support/fake_components.hpp"
 
 #include <geometry/primitives.hpp>
+#include <host/component_check.hpp>
 #include <scene/common_options.hpp>
 #include <scene/examples.hpp>
 #include <scene/expectation.hpp>
 #include <scene/option_reader.hpp>
 #include <scene/value_reader.hpp>
+
+#include <hyperlattice/failure.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -45,6 +48,13 @@ struct Whole {
   std::uint32_t count = 0;
   std::optional<std::int8_t> tiny;
   std::int64_t wide = 0;
+};
+
+/// A criterion that is complete, so that component_fault() finds only what a test puts in.
+struct Renamed : fakes::Limit {
+  explicit Renamed(const Options&) {}
+  double alarm(const SpringFacts&) const { return infinity; }
+  bool breaks(const SpringFacts&, double) const { return false; }
 };
 
 }  // namespace
@@ -158,6 +168,31 @@ TEST(Options, EveryFaultOfAnObjectIsFound) {
   EXPECT_EQ(faults.size(), 5u);
 }
 
+TEST(Options, AFormerNameBelongsToOneOptionAndHasAVersion) {
+  const auto fault = [](OldName old, bool twice = false) {
+    ComponentInfo info = detail::describe<Renamed>();
+    const std::vector<OldName> names(twice ? 2 : 1, old);
+    info.old_names = names;
+    return component_fault(info);
+  };
+  const auto refusal = [](const std::string& name, const std::string& reason) {
+    return "registers 'failures.limit' with a bad former name '" + name +
+           "' of an option: " + reason;
+  };
+  EXPECT_EQ(fault({"threshold", "limit", "0.9"}), "");
+  EXPECT_EQ(fault({"limit", "limit", "0.9"}), refusal("limit", "it is declared twice"));
+  EXPECT_EQ(fault({"threshold", "limit", "0.9"}, true),
+            refusal("threshold", "it is declared twice"));
+  EXPECT_EQ(fault({"type", "limit", "0.9"}), refusal("type", "a stage has that key already"));
+  EXPECT_EQ(
+      fault({"Threshold", "limit", "0.9"}),
+      refusal("Threshold", "it must be small letters, digits and underscores, a letter first"));
+  EXPECT_EQ(fault({"threshold", "limits", "0.9"}),
+            refusal("threshold", "no option has its present name"));
+  EXPECT_EQ(fault({"threshold", "limit", ""}),
+            refusal("threshold", "it has no version since when it is the former one"));
+}
+
 TEST(Options, RangesInWords) {
   Option option = make(OptionKind::number, "m");
   EXPECT_EQ(range_text(option), "");
@@ -201,6 +236,31 @@ TEST(Pages, SayWhatIsDeclared) {
   EXPECT_EQ(json["options"][0]["above"], 0);
   EXPECT_TRUE(json["options"][0]["required"]);
   EXPECT_EQ(json["common_options"][2]["name"], "energy_tolerance");
+}
+
+TEST(Pages, NameWhatOptionsWereCalledBefore) {
+  fakes::Catalogue catalogue;
+  const std::string page = component_page(*catalogue.find("solvers.march"));
+  EXPECT_NE(page.find("| `end_time` | s | above 0 | required | when it ends; named `until` before "
+                      "version 0.8; named `duration` before version 0.9 |"),
+            std::string::npos)
+      << page;
+  const Json json = Json::parse(component_json(*catalogue.find("solvers.march")));
+  EXPECT_EQ(json["options"][0]["formerly"].dump(),
+            R"([{"name":"until","since":"0.8"},{"name":"duration","since":"0.9"}])");
+  EXPECT_FALSE(json["options"][1].contains("formerly"));
+  const Json schema = Json::parse(scene_schema(catalogue.all()));
+  const Json &march = schema["$defs"]["solvers.march"], &push = schema["$defs"]["loads.push"];
+  EXPECT_EQ(march["properties"]["until"]["deprecated"], true);
+  EXPECT_EQ(march["properties"]["until"]["description"], "named \"end_time\" since version 0.8");
+  EXPECT_FALSE(march["properties"]["end_time"].contains("deprecated"));
+  // exactly one name of a required option, at most one of another
+  EXPECT_EQ(march["required"].dump(), R"(["type"])");
+  EXPECT_EQ(march["allOf"].dump(), R"([{"oneOf":[{"required":["end_time"]},)"
+                                   R"({"required":["until"]},{"required":["duration"]}]}])");
+  EXPECT_EQ(push["allOf"].dump(),
+            R"([{"oneOf":[{"required":["repeats"]},{"required":["count"]},)"
+            R"({"not":{"anyOf":[{"required":["repeats"]},{"required":["count"]}]}}]}])");
 }
 
 TEST(Pages, SchemaIsStrict) {

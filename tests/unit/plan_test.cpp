@@ -37,6 +37,17 @@ bool leaves_out(const Plan& plan, const std::string& what) {
                      [&](const LeftOut& left) { return left.what == what; });
 }
 
+TEST(Plan, warnings_of_the_scene_come_first) {
+  const test::Folder folder("plan");
+  setenv("HYPERLATTICE_PLUGIN_PATH", HYPERLATTICE_BUILD "/lib/hyperlattice", 1);
+  static Host host;
+  auto scene = read_scene(test::write_scene(folder, small_sphere()), {}, host);
+  scene->warnings = {"/pipeline/2/old: of the scene"};
+  const auto plan = make_plan(std::move(scene), 1);
+  ASSERT_FALSE(plan->model->warnings.empty());
+  EXPECT_EQ(plan->model->warnings.front(), "/pipeline/2/old: of the scene");
+}
+
 TEST(Plan, small_bodies_take_few_threads_unless_a_number_is_asked_for) {
   EXPECT_EQ(Threads::up_to(8).of(432), 1);
   EXPECT_EQ(Threads::up_to(8).of(3 * 4096), 3);

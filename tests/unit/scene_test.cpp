@@ -233,6 +233,92 @@ TEST(Scene, CrossChecksSeeTheFilledOptions) {
   EXPECT_EQ(found[0].expected, "no negative ratio with the cubic law");
 }
 
+namespace {
+
+/// Returns the good scene with an option of a stage under another name.
+std::string renamed(std::size_t stage, const char* name, const char* other) {
+  Json scene = Json::parse(good, nullptr, true, true);
+  Json& options = scene["pipeline"][stage];
+  options[other] = options[name];
+  options.erase(name);
+  return scene.dump();
+}
+
+}  // namespace
+
+TEST(Scene, AFormerNameOfAnOptionIsAcceptedWithAWarning) {
+  EXPECT_TRUE(read(good)->warnings.empty());
+  const auto scene = read(renamed(4, "end_time", "until"));
+  EXPECT_EQ(scene->warnings,
+            (std::vector<std::string>{"/pipeline/4/until: \"until\" is named \"end_time\" since "
+                                      "version 0.8; the old name will go"}));
+  EXPECT_EQ(options<fakes::March>(scene->stages[4]).end_time, 40e-6);
+  EXPECT_EQ(scene->resolved, read(good)->resolved);
+  EXPECT_TRUE(read(scene->resolved)->warnings.empty());
+}
+
+TEST(Scene, FaultsNameAnOptionAsTheSceneDoes) {
+  EXPECT_EQ(messages(faults(renamed(4, "end_time", "until"), {"/pipeline/4/until=0"})),
+            "/pipeline/4/until: 0: expected a time above 0 s such as \"1 us\"");
+  EXPECT_EQ(messages(faults(renamed(2, "poisson", "nu"), {"/pipeline/2/nu=-0.1"})),
+            "/pipeline/2/nu: -0.1: expected no negative ratio with the cubic law");
+}
+
+TEST(Scene, AnOptionHasOneNameAtATime) {
+  EXPECT_EQ(messages(faults(good, {"/pipeline/4/until=1 us"})),
+            "/pipeline/4/until: \"1 us\": expected \"end_time\" alone; \"until\" is its name "
+            "before version 0.8");
+  EXPECT_EQ(messages(faults(renamed(4, "end_time", "until"), {"/pipeline/4/duration=1 us"})),
+            "/pipeline/4/duration: \"1 us\": expected \"until\" alone; \"duration\" is its name "
+            "before version 0.9");
+}
+
+TEST(Scene, WhoMisspellsAFormerNameIsToldThePresentOne) {
+  EXPECT_EQ(messages(faults(good, {"/pipeline/4/durations=1 us"})),
+            "/pipeline/4/durations: \"1 us\": expected a known key; did you mean \"end_time\"?");
+}
+
+TEST(Scene, AFormerNameIsNoKeyOfTheCore) {
+  struct Clash {
+    struct Options {
+      double every_step = 0;
+    };
+    static Schema<Options> schema() {
+      return Schema<Options>("probes.clash", "Has had a name of the core's")
+          .add<&Options::every_step>("every_step", "", "of no effect")
+          .formerly("every", "0.9");
+    }
+  };
+  fakes::Catalogue catalogue;
+  catalogue.add<Clash>(Family::probes);
+  Json json = Json::parse(good, nullptr, true, true);
+  json["pipeline"].push_back({{"type", "probes.clash"}, {"every_step", 1}});
+  try {
+    read_scene_text(json.dump(), "/scenes/scene.json", {}, catalogue);
+    FAIL();
+  } catch (const OutsideError& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "/pipeline/9/type: probes.clash declares the option \"every\", a key of the core's "
+        "own");
+  }
+}
+
+TEST(Scene, FilesStandUnderPresentNames) {
+  const test::Folder here("former_names");
+  std::ofstream(here.file("image.raw")) << "\1";
+  Json json = Json::parse(good, nullptr, true, true);
+  Json& grid = json["pipeline"][0];
+  grid.erase("shape");
+  grid["solid"] = {{"voxels", {{"file", "image.raw"}, {"counts", {1, 1, 1}}, {"voxel", "1 mm"}}}};
+  fakes::Catalogue catalogue;
+  const auto scene = read_scene_text(json.dump(), here.file("scene.json"), {}, catalogue);
+  ASSERT_EQ(scene->files.size(), 1u);
+  EXPECT_EQ(scene->files[0].pointer, "/pipeline/0/shape/voxels/file");
+  const Json moved = Json::parse(scene->resolved_in(here.file("results")));
+  EXPECT_EQ(moved["pipeline"][0]["shape"]["voxels"]["file"], "../image.raw");
+}
+
 TEST(Scene, ARefusedLibraryIsTheOutsidesFailure) {
   fakes::Catalogue catalogue;
   catalogue.refused_type = "loads.bad";

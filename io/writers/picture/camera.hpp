@@ -37,7 +37,7 @@ inline Camera make_camera(std::span<const double> points, double edge, Vec3 view
   Camera camera;
   camera.forward = (-1 / norm(view)) * view;
   const Vec3 sideways = cross(camera.forward, {0, 0, 1});  // z is up, or y for a view along z
-  camera.right = norm(sideways) > 1e-6 ? (1 / norm(sideways)) * sideways : Vec3{1, 0, 0};
+  camera.right = norm(sideways) > 1e-6 ? sideways / norm(sideways) : Vec3{1, 0, 0};
   camera.up = cross(camera.right, camera.forward);
 
   Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};

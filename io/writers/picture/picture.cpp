@@ -63,7 +63,7 @@ class Picture {
     Fit fit = Fit::rest;
     Form particles = Form::cubes;
     double scale = 1;
-    std::int64_t width = 0, height = 0;
+    int width = 0, height = 0;
   };
 
   static Schema<Options> schema() {
@@ -144,7 +144,7 @@ class Picture {
   void frame(const Snapshot& snapshot) {
     if (Field field; !options_.colour_by)
       options_.colour_by = snapshot.field("broken_open", field) ? failure : "displacement";
-    Image image(static_cast<int>(options_.width), static_cast<int>(options_.height));
+    Image image(options_.width, options_.height);
     std::vector<double> buffer;
     if (!camera_ || options_.fit == Fit::frame) {
       const auto shown = options_.fit == Fit::frame

@@ -46,6 +46,7 @@ class Weibull {
         .below(1)
         .add<&Options::seed>("seed", "", "of the strengths")
         .at_least(0)
+        .at_most(1LL << 53)
         .fallback("1");
   }
 

@@ -101,9 +101,8 @@ class Contact {
       if (!(depth > 0)) continue;
       const PenaltyContact pair(stiffness_, mass_[n] * mass_[other] / (mass_[n] + mass_[other]),
                                 o_.damping, o_.grip);
-      sum = sum + pair.force(depth, (1 / distance) * apart,
-                             motion.velocity[n] - motion.velocity[other],
-                             [this](Vec3) { return o_.friction; });
+      sum += pair.force(depth, (1 / distance) * apart, motion.velocity[n] - motion.velocity[other],
+                        [this](Vec3) { return o_.friction; });
     }
     return sum;
   }

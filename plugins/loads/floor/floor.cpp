@@ -75,9 +75,9 @@ class Floor {
         });
   }
 
-  explicit Floor(const Options& o) : o_(o), normal_((1 / norm(o.normal)) * o.normal) {
+  explicit Floor(const Options& o) : o_(o), normal_(o.normal / norm(o.normal)) {
     const Vec3 along = o.forward - dot(o.forward, normal_) * normal_;
-    if (norm(along) > 0) forward_ = (1 / norm(along)) * along;
+    if (norm(along) > 0) forward_ = along / norm(along);
   }
 
   void declare(const LoadBody& body, const LoadSink& sink) {

@@ -52,7 +52,8 @@ class Relaxation {
  public:
   struct Options {
     Damping method = Damping::local_damping;
-    double damping = 0.8, tolerance = 1e-5, safety = 0.9, most_steps = 1e6;
+    double damping = 0.8, tolerance = 1e-5, safety = 0.9;
+    std::int64_t most_steps = 1'000'000;
     std::optional<double> displacement_error, end_time, time_step;
   };
 
@@ -105,6 +106,7 @@ class Relaxation {
         .fallback("0.9")
         .add<&Options::most_steps>("most_steps", "", "after so many the run fails")
         .at_least(1)
+        .at_most(1e12)
         .fallback("1e6");
   }
 
@@ -126,7 +128,7 @@ class Relaxation {
     const double digits = std::max(1.0, -std::log10(o_.tolerance)),
                  per_site = o_.method == Damping::accelerated ? 1.5 : 7.5;  // measured on cubes
     plan.steps = static_cast<std::uint64_t>(
-        std::min(o_.most_steps, per_site * digits * facts.sites_across + 20));
+        std::min(static_cast<double>(o_.most_steps), per_site * digits * facts.sites_across + 20));
     return plan;
   }
 
@@ -136,7 +138,7 @@ class Relaxation {
     RestReport report;
     Acceleration acceleration(time_step);
     if (!host.observe()) return;
-    while (static_cast<double>(report.iterations) < o_.most_steps) {
+    while (report.iterations < static_cast<std::uint64_t>(o_.most_steps)) {
       if (o_.method == Damping::accelerated && !acceleration.set_drag(host)) return;
       if (!host.step(time_step)) return;
       ++report.iterations;
@@ -153,8 +155,8 @@ class Relaxation {
       why += "; the estimated error of the displacements " +
              short_number(report.displacement_error) + ", and displacement_error " +
              short_number(*o_.displacement_error);
-    throw std::runtime_error("the body is not at rest after " + short_number(o_.most_steps) +
-                             " steps: " + why);
+    throw std::runtime_error("the body is not at rest after " +
+                             short_number(static_cast<double>(o_.most_steps)) + " steps: " + why);
   }
 
  private:

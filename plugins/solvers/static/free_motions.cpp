@@ -12,15 +12,13 @@ namespace {
 using Six = Eigen::Matrix<double, 6, 1>;
 using SixBySix = Eigen::Matrix<double, 6, 6>;
 
-double component(Vec3 v, int c) { return c == 0 ? v.x : c == 1 ? v.y : v.z; }
-
 /// Returns the displacement along the axis c of a particle at r (from the centre, over the piece's
 /// size) for a unit of each of the six numbers of a motion.
 Six row(int c, Vec3 r) {
   Six row = Six::Zero();
   row[c] = 1;
   const Vec3 turned[3] = {cross({1, 0, 0}, r), cross({0, 1, 0}, r), cross({0, 0, 1}, r)};
-  for (int axis = 0; axis < 3; ++axis) row[3 + axis] = component(turned[axis], c);
+  for (int axis = 0; axis < 3; ++axis) row[3 + axis] = turned[axis][c];
   return row;
 }
 
@@ -64,8 +62,7 @@ Vec3 FreeMotions::position(std::int64_t place) const {
 /// sum of h h^T over the rows h of held components, made orthonormal over the particles.
 void FreeMotions::find_motions(Piece& piece) const {
   const auto number = static_cast<double>(piece.places.size());
-  for (const std::int64_t place : piece.places)
-    piece.centre = piece.centre + (1 / number) * position(place);
+  for (const std::int64_t place : piece.places) piece.centre += (1 / number) * position(place);
   double square = 0;
   for (const std::int64_t place : piece.places)
     square += dot(position(place) - piece.centre, position(place) - piece.centre);
@@ -104,8 +101,7 @@ double FreeMotions::along(const Piece& piece, const Motion& motion, const Field&
   const std::int64_t places = problem_.grid.places;
   for (const std::int64_t place : piece.places) {
     const Vec3 way = moved(piece, motion, place);
-    for (int c = 0; c < 3; ++c)
-      sum += field[static_cast<std::size_t>(c * places + place)] * component(way, c);
+    for (int c = 0; c < 3; ++c) sum += field[static_cast<std::size_t>(c * places + place)] * way[c];
   }
   return sum;
 }
@@ -118,7 +114,7 @@ void FreeMotions::remove_from(Field& field) const {
       for (const std::int64_t place : piece.places) {
         const Vec3 way = moved(piece, motion, place);
         for (int c = 0; c < 3; ++c)
-          field[static_cast<std::size_t>(c * places + place)] -= part * component(way, c);
+          field[static_cast<std::size_t>(c * places + place)] -= part * way[c];
       }
     }
 }
@@ -146,7 +142,7 @@ FreeMotions::Driven FreeMotions::driven_by(const Field& force) const {
   for (const std::int64_t place : found->places)
     for (int c = 0; c < 3; ++c)
       most_driven.motion[static_cast<std::size_t>(c * problem_.grid.places + place)] =
-          component(moved(*found, with, place), c);
+          moved(*found, with, place)[c];
   return most_driven;
 }
 

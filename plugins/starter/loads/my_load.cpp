@@ -38,7 +38,7 @@ class MyLoad {
   void declare(const LoadBody& body, const LoadSink& sink) const {
     const std::span<const Particle> particles = body.particles(o_.on);
     for (const Particle particle : particles)
-      sink.force(particle, (1 / static_cast<double>(particles.size())) * o_.total);
+      sink.force(particle, o_.total / static_cast<double>(particles.size()));
     sink.corner(o_.duration);
   }
 

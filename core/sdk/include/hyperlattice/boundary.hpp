@@ -39,9 +39,10 @@
   CROSSES(Complaint, self, receive)                                                                                                                   \
   CROSSES(OptionValue, absent, boolean, integer, number, text, numbers, texts, shape, region)                                                         \
   CROSSES(Option, name, unit, help, fallback, word, example, choices, low, high, low_open, high_open, optional, kind, set)                            \
+  CROSSES(OldName, name, option, since)                                                                                                               \
   CROSSES(FaultSink, self, receive)                                                                                                                   \
-  CROSSES(ComponentInfo, family, name, summary, equation, source, restrictions, options, create_options, destroy_options, check_options, create,      \
-          destroy, functions, functions_size)                                                                                                         \
+  CROSSES(ComponentInfo, family, name, summary, equation, source, restrictions, options, old_names, create_options, destroy_options, check_options,   \
+          create, destroy, functions, functions_size)                                                                                                 \
   CROSSES(PluginInfo, version, register_components)                                                                                                   \
   CROSSES(Neighbour, dx, dy, dz, spring_class)                                                                                                        \
   CROSSES(Grid, origin, spacing, basis, sites, site_volume, membrane_distance, neighbours, spring_classes, class_stiffness, boundary, shape)          \

@@ -35,6 +35,7 @@ struct ComponentInfo {
   std::string_view name;  ///< "<family>.<name>", the value of "type" in a scene
   std::string_view summary, equation, source, restrictions;
   std::span<const Option> options;
+  std::span<const OldName> old_names;
   /// Null result: failed; `why` has the reason.
   void* (*create_options)(const Complaint& why) noexcept = nullptr;
   void (*destroy_options)(void* options) noexcept = nullptr;
@@ -96,6 +97,7 @@ ComponentInfo describe() {
   info.source = schema.source();
   info.restrictions = schema.restrictions();
   info.options = schema.options();
+  info.old_names = schema.old_names();
   info.create_options = &make_options<Options>;
   info.destroy_options = [](void* options) noexcept { delete static_cast<Options*>(options); };
   if (schema.cross_check() != nullptr)

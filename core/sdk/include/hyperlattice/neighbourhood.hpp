@@ -18,11 +18,10 @@ class Neighbourhood {
   /// is narrower than three times `reach`.
   Neighbourhood(Vec3 low, Vec3 high, double reach, std::size_t points, bool periodic = false)
       : low_(low), size_(high - low), reach_(reach), periodic_(periodic) {
-    const double extents[3] = {size_.x, size_.y, size_.z}, most_along = 1e6,
-                 most_cells = 8 * static_cast<double>(points) + 4096;
+    const double most_along = 1e6, most_cells = 8 * static_cast<double>(points) + 4096;
     double count[3];
     for (int axis = 0; axis < 3; ++axis) {
-      count[axis] = std::clamp(std::floor(extents[axis] / reach), 1.0, most_along);
+      count[axis] = std::clamp(std::floor(size_[axis] / reach), 1.0, most_along);
       if (periodic && count[axis] < 3)
         throw std::invalid_argument(
             "a periodic box of points must be at least three times as wide as their neighbours' "
@@ -71,10 +70,8 @@ class Neighbourhood {
   static constexpr std::uint32_t none = ~std::uint32_t{0};
 
   std::int64_t step(Vec3 point, int axis) const {
-    const Vec3 from = point - low_;
-    const double along[3] = {from.x, from.y, from.z}, extents[3] = {size_.x, size_.y, size_.z};
-    const double cells =
-        extents[axis] > 0 ? along[axis] / extents[axis] * static_cast<double>(count_[axis]) : 0;
+    const double size = size_[axis], along = point[axis] - low_[axis],
+                 cells = size > 0 ? along / size * static_cast<double>(count_[axis]) : 0;
     return std::clamp(static_cast<std::int64_t>(std::floor(cells)), std::int64_t{0},
                       count_[axis] - 1);
   }
@@ -112,9 +109,7 @@ inline std::vector<NearPair> near_pairs(std::span<const Vec3> points, Vec3 low, 
   Neighbourhood near(low, high, reach, points.size(), periodic);
   std::vector<NearPair> pairs;
   for (std::uint32_t b = 0; b < points.size(); ++b) {
-    near.for_near(points[b], [&](std::uint32_t a, Vec3 away) {
-      pairs.push_back({a, b, -1.0 * away});
-    });
+    near.for_near(points[b], [&](std::uint32_t a, Vec3 away) { pairs.push_back({a, b, -away}); });
     near.add(points[b]);
   }
   return pairs;

@@ -68,6 +68,13 @@ struct Option {
   bool (*set)(void* options, const OptionValue& value, const Complaint& why) noexcept = nullptr;
 };
 
+/// A former name of an option. A scene may still use it, with a warning.
+struct OldName {
+  std::string_view name;    ///< the former name, which no option has
+  std::string_view option;  ///< the present name
+  std::string_view since;   ///< version that introduced the present name: "0.9"
+};
+
 /// Receives the errors of a cross-field check: the option, and the expected value.
 struct FaultSink {
   void* self = nullptr;
@@ -259,6 +266,12 @@ class Schema {
     last().choices = names;
     return *this;
   }
+  /// Keeps a former name of the option valid. `since` is the version in which the option got its
+  /// present name.
+  Schema& formerly(std::string_view name, std::string_view since) {
+    old_names_.push_back({name, last().name, since});
+    return *this;
+  }
   /// Makes the text the name of a file, relative to the scene's folder. The file must exist; the
   /// component gets its full path.
   Schema& file() {
@@ -277,6 +290,7 @@ class Schema {
   std::string_view source() const { return source_; }
   std::string_view restrictions() const { return restrictions_; }
   std::span<const Option> options() const { return options_; }
+  std::span<const OldName> old_names() const { return old_names_; }
   auto cross_check() const { return check_; }
 
  private:
@@ -284,6 +298,7 @@ class Schema {
 
   std::string_view name_, summary_, equation_, source_, restrictions_;
   std::vector<Option> options_;
+  std::vector<OldName> old_names_;
   void (*check_)(const Options&, const FaultSink&) = nullptr;
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -17,9 +18,25 @@ namespace hyperlattice {
 struct Vec3 {
   double x = 0, y = 0, z = 0;
 
+  /// Returns the component along an axis: 0 for x, 1 for y, 2 for z.
+  constexpr double operator[](std::integral auto axis) const {
+    return axis == 0 ? x : axis == 1 ? y : z;
+  }
+  constexpr double& operator[](std::integral auto axis) {
+    return axis == 0 ? x : axis == 1 ? y : z;
+  }
+
   friend constexpr Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
   friend constexpr Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend constexpr Vec3 operator-(Vec3 a) { return {-a.x, -a.y, -a.z}; }
   friend constexpr Vec3 operator*(double s, Vec3 a) { return {s * a.x, s * a.y, s * a.z}; }
+  friend constexpr Vec3 operator*(Vec3 a, double s) { return s * a; }
+  /// Divides each component by `s`. The last bits can differ from those of (1 / s) * a.
+  friend constexpr Vec3 operator/(Vec3 a, double s) { return {a.x / s, a.y / s, a.z / s}; }
+  constexpr Vec3& operator+=(Vec3 b) { return *this = *this + b; }
+  constexpr Vec3& operator-=(Vec3 b) { return *this = *this - b; }
+  constexpr Vec3& operator*=(double s) { return *this = s * *this; }
+  constexpr Vec3& operator/=(double s) { return *this = *this / s; }
   friend constexpr bool operator==(Vec3, Vec3) = default;
 };
 
@@ -27,6 +44,7 @@ constexpr double dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z;
 constexpr Vec3 cross(Vec3 a, Vec3 b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
+/// Returns the Euclidean length.
 inline double norm(Vec3 a) { return std::sqrt(dot(a, a)); }
 
 /// Index of a particle: its position in the lattice's order, by z, then y, then x.

@@ -47,7 +47,7 @@ class SpringPush {
       const Vec3 rest = body.position(spring.b) - body.position(spring.a);
       const double push = strength(spring);
       links[spring.a].push_back({b, rest, push});
-      links[spring.b].push_back({a, -1.0 * rest, push});
+      links[spring.b].push_back({a, -rest, push});
     }
     if (!particles.empty() && links.empty())
       throw std::invalid_argument(
@@ -67,7 +67,7 @@ class SpringPush {
     for (std::size_t l = first_[n]; l < first_[n + 1]; ++l) {
       const Link& link = links_[l];
       const Vec3 apart = link.rest + (motion.displacement[link.other] - motion.displacement[n]);
-      sum = sum - (motion.factor * link.push / norm(apart)) * apart;
+      sum -= (motion.factor * link.push / norm(apart)) * apart;
     }
     return sum;
   }
@@ -125,9 +125,9 @@ class MovingAreas {
     for (std::size_t a = first_[n]; a < first_[n + 1]; ++a) {
       const Vec3 moved = motion.displacement[arms_[a].other] - motion.displacement[n],
                  w = arms_[a].weight;
-      F[0] = F[0] + w.x * moved;
-      F[1] = F[1] + w.y * moved;
-      F[2] = F[2] + w.z * moved;
+      F[0] += w.x * moved;
+      F[1] += w.y * moved;
+      F[2] += w.z * moved;
     }
     const Vec3 rest = areas_[n].area;
     return rest.x * cross(F[1], F[2]) + rest.y * cross(F[2], F[0]) + rest.z * cross(F[0], F[1]);
@@ -144,9 +144,9 @@ class MovingAreas {
     double size = 0;
     for (const Arm& arm : arms) {
       const Vec3 r = arm.weight;
-      x = x + r.x * r;
-      y = y + r.y * r;
-      z = z + r.z * r;
+      x += r.x * r;
+      y += r.y * r;
+      z += r.z * r;
       size += dot(r, r);
     }
     const double determinant = dot(x, cross(y, z));
