@@ -65,7 +65,8 @@ class Watched {
     simulation_->set_velocities(noise(3 * particles, 1), std::vector<double>(particles, 0.0));
     run_folder_ = std::make_unique<RunFolder>(folder.path(), true);
     run_folder_->begin(false, {});
-    outputs_ = std::make_unique<Outputs>(model_, *simulation_, *run_folder_, 1e-4);
+    outputs_ = std::make_unique<Outputs>(model_, *simulation_, *run_folder_, end_time);
+    outputs_->begin();
   }
   void show() { outputs_->show_now(); }
   void move() { simulation_->step(0.5 * model_.critical_time_step); }
@@ -73,19 +74,21 @@ class Watched {
 
   /// Imitates the end of the program and a resumed run.
   void restart() {
-    const std::string shown = saved([&](Archive& archive) { outputs_->save(archive); });
+    const std::string shown = saved([&](Archive& archive) { outputs_->archive(archive); });
     const auto marks = run_folder_->sync();
     outputs_.reset();
     run_folder_.reset();
     run_folder_ = std::make_unique<RunFolder>(folder_.path(), false);
     run_folder_->go_on(marks);
     simulation_ = restarted(*simulation_, model_, plan_.threads);
-    restore(shown, [&](Archive& archive) {
-      outputs_ = std::make_unique<Outputs>(model_, *simulation_, *run_folder_, 1e-4, &archive);
-    });
+    outputs_ = std::make_unique<Outputs>(model_, *simulation_, *run_folder_, end_time);
+    restore(shown, [&](Archive& archive) { outputs_->archive(archive); });
+    outputs_->begin();
   }
 
  private:
+  static constexpr double end_time = 1e-4;  // s
+
   const Plan& plan_;
   const Folder& folder_;
   const Model& model_;

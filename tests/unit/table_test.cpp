@@ -2,7 +2,7 @@
 // instants.
 #include <base/errors.hpp>
 #include <process/file_limit.hpp>
-#include <run/history.hpp>
+#include <run/failure_log.hpp>
 #include <run/progress.hpp>
 #include <run/schedule.hpp>
 #include <run/table.hpp>
@@ -87,6 +87,7 @@ TEST(FailureLog, writes_each_breakage_once) {
   RunFolder run(folder, true);
   run.begin(false, {});
   FailureLog log(run);
+  log.begin();
   std::vector<Breakage> breakages{{3, 0.5, 7, 8, 0, 1e-6}};
   log.write_new(breakages);
   breakages.push_back({4, 0.75, 1, 2, 1, 2e-6});
