@@ -3,11 +3,11 @@
 #include <base/errors.hpp>
 #include <base/figures.hpp>
 #include <base/gnuplot.hpp>
+#include <base/ticks.hpp>
 #include <report/curves.hpp>
 #include <report/differences.hpp>
 #include <report/html.hpp>
 #include <report/thin.hpp>
-#include <report/ticks.hpp>
 
 #include <gtest/gtest.h>
 
