@@ -104,12 +104,12 @@ Finding alarm_is_conservative(const Criterion& criterion) {
 /// Moves two particles just below and just above the threshold, and checks whether their spring
 /// breaks there.
 Finding breaks_at_the_criterion(const Model& model, double threshold) {
-  Led pair(model);
+  DrivenBody pair(model);
   Simulation& simulation = pair.simulation();
   const double step = 1e-3 * model.critical_time_step;
-  const auto at = [&](double share) {
+  const auto at = [&](double factor) {
     std::vector<double> u(3 * model.body.particles, 0.0);
-    u[3] = share * threshold;
+    u[3] = factor * threshold;
     const double pull = pair.forces(u, step)[0];
     return std::pair{pull, simulation.breakages().size()};
   };
@@ -125,14 +125,14 @@ Finding breaks_at_the_criterion(const Model& model, double threshold) {
 }
 
 Finding stays_broken(const Model& model, double threshold) {
-  Led pair(model);
+  DrivenBody pair(model);
   const double step = 1e-3 * model.critical_time_step;
   double pull = 0;
-  for (const double share : {1.01, 0.5, -0.5, 0.0, 1.5, 0.9}) {
+  for (const double factor : {1.01, 0.5, -0.5, 0.0, 1.5, 0.9}) {
     std::vector<double> u(3 * model.body.particles, 0.0);
-    u[3] = share * threshold;
+    u[3] = factor * threshold;
     const double now = std::abs(pair.forces(u, step)[0]);
-    if (share != 1.01) take_largest(pull, now);
+    if (factor != 1.01) take_largest(pull, now);
   }
   const std::size_t breakages = pair.simulation().breakages().size();
   return passes_if(
@@ -158,20 +158,20 @@ Finding takes_its_energy(const Model& model, double threshold) {
 }
 
 Finding same_bits(const Model& model, double threshold) {
-  Shaking how{threshold / model.critical_time_step};  // moves by a threshold in a step
-  const Shaken one = shake(model, how);
-  how.threads = 3;
-  const Shaken three = shake(model, how);
+  RandomMotion motion{threshold / model.critical_time_step};  // moves by a threshold in a step
+  const MotionResult one = run_motion(model, motion);
+  motion.threads = 3;
+  const MotionResult three = run_motion(model, motion);
   return passes_if(one.is_finite() && one.hash == three.hash && one.balance.dissipated_failure > 0,
                    fmt::format("with 1 and 3 threads, while springs with {:.3g} J break",
                                one.balance.dissipated_failure));
 }
 
 Finding restart(const Model& model, double threshold) {
-  Shaking how{threshold / model.critical_time_step};
-  const Shaken whole = shake(model, how);
-  how.cut_off = true;
-  const Shaken cut_off = shake(model, how);
+  RandomMotion motion{threshold / model.critical_time_step};
+  const MotionResult whole = run_motion(model, motion);
+  motion.cut_off = true;
+  const MotionResult cut_off = run_motion(model, motion);
   return passes_if(whole.is_finite() && cut_off.hash == whole.hash &&
                        cut_off.balance.dissipated_failure == whole.balance.dissipated_failure,
                    "the same springs break when it is cut off half-way and goes on");

@@ -54,9 +54,9 @@ class Folder {
 };
 
 /// A small block in motion, whose springs may break, and the output under test.
-class Watched {
+class MovingBlock {
  public:
-  Watched(const Plan& plan, const Folder& folder)
+  MovingBlock(const Plan& plan, const Folder& folder)
       : plan_(plan),
         folder_(folder),
         model_(*plan.model),
@@ -107,7 +107,7 @@ std::unique_ptr<Plan> plan_with(const Trial& trial, int threads = 1) {
 std::map<std::string, std::string> written(const Plan& plan, bool cut_off = false,
                                            std::string* unannounced = nullptr) {
   const Folder folder;
-  Watched watched(plan, folder);
+  MovingBlock watched(plan, folder);
   for (int n = 0; n < 3; ++n) {
     if (n > 0) watched.move();
     watched.show();
@@ -155,7 +155,7 @@ std::string difference(const std::map<std::string, std::string>& a,
 Finding full_disk(const Plan& plan) {
   constexpr rlim_t nothing = 16;
   const Folder folder;
-  Watched watched(plan, folder);
+  MovingBlock watched(plan, folder);
   watched.show();
   const auto before = folder.files();
   watched.move();

@@ -7,12 +7,12 @@
 namespace hyperlattice::test {
 
 /// Around a component under test.
-inline const contract::Surroundings around{.grid = "lattices.cubic",
-                                           .list = "lattices.random",
-                                           .material = "materials.elastic",
-                                           .failure = "failures.elongation",
-                                           .displacement = "loads.displacement",
-                                           .steps = "solvers.explicit"};
+inline const contract::OtherComponents around{.grid = "lattices.cubic",
+                                              .list = "lattices.random",
+                                              .material = "materials.elastic",
+                                              .failure = "failures.elongation",
+                                              .displacement = "loads.displacement",
+                                              .steps = "solvers.explicit"};
 
 /// A virtual test of that lattice.
 inline VirtualTest virtual_test(Host& host, VirtualTest::Options options) {

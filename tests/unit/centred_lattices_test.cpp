@@ -310,7 +310,7 @@ TEST_P(Centred, AMeasuredCubeApproachesTheEndlessLattice) {
     options.particles = cells;
     options.strain = -1e-6;  // pulled: at the edges of fcc some particles have nothing that would
                              // keep them from buckling
-    const Measured measured = test::virtual_test(host, options).measure(r);
+    const VirtualTestResult measured = test::virtual_test(host, options).measure(r);
     poisson.push_back(measured.poisson - 0.1);
     modulus.push_back(measured.young / young - 1);
   }
