@@ -1,6 +1,5 @@
 // The story of a run: its folder is prepared, its stages are solved, its summary is written.
 #include <base/descriptor.hpp>
-#include <plan/precision.hpp>
 #include <plan/shortage.hpp>
 #include <process/lack_of_memory.hpp>
 #include <run/interrupt.hpp>
@@ -107,17 +106,6 @@ bool may_be_short(const Plan& plan, std::uint64_t steps) {
                      [](const PlannedStage& stage) { return stage.plan.at_rest; });
 }
 
-/// Writes the state that the simulation has reached into the outcome.
-void note(const Plan& plan, Simulation& simulation, Outcome& outcome) {
-  outcome.steps = simulation.steps();
-  outcome.time = simulation.time();
-  outcome.injected_by_load = simulation.injected_by_load();
-  outcome.state_hash = simulation.hash();
-  if (plan.model->choice.precision == Precision::doubles) return;
-  if (std::string warning = precision_warning(*plan.model, simulation.farthest()); !warning.empty())
-    outcome.warnings.push_back(std::move(warning));
-}
-
 /// Solves the plan. `simulation`: null if it is not built yet. Errors go to the outcome.
 void solve(const Plan& plan, const RunOptions& options, RunFolder& folder,
            const std::optional<Checkpoint>& resumed, std::unique_ptr<Simulation> simulation,
@@ -136,10 +124,7 @@ void solve(const Plan& plan, const RunOptions& options, RunFolder& folder,
     if (stop_requested() && may_be_short(plan, simulation->steps()))
       outcome.end("interrupted", exit_interrupted, "asked to stop by a signal");
   });
-  attempt(plan, outcome, [&] {
-    if (stages) stages->note(outcome);
-    if (simulation) note(plan, *simulation, outcome);
-  });
+  if (stages) attempt(plan, outcome, [&] { stages->note(outcome); });
 }
 
 /// Finishes the folder after the summary, which stays true if an error occurs here.

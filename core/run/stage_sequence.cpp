@@ -1,4 +1,5 @@
 #include <engine/stage_calls.hpp>
+#include <plan/precision.hpp>
 #include <run/failing_motion.hpp>
 #include <run/interrupt.hpp>
 #include <run/stage_sequence.hpp>
@@ -87,7 +88,15 @@ void StageSequence::write_motion(const std::vector<double>& motion,
 void StageSequence::note(Outcome& outcome) {
   outcome.solve_seconds = stopwatch_.solve_seconds();
   outcome.output_seconds = stopwatch_.output_seconds();
+  outcome.steps = simulation_.steps();
+  outcome.time = simulation_.time();
+  outcome.injected_by_load = simulation_.injected_by_load();
+  outcome.state_hash = simulation_.hash();
   recorder_.note(outcome);
+  if (plan_.model->choice.precision == Precision::doubles) return;
+  if (std::string warning = precision_warning(*plan_.model, simulation_.farthest());
+      !warning.empty())
+    outcome.warnings.push_back(std::move(warning));
 }
 
 }  // namespace hyperlattice
