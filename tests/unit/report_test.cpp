@@ -83,6 +83,15 @@ TEST(Ticks, AreNeverManyAndNeverMissing) {
   EXPECT_TRUE(round_ticks(0, std::numeric_limits<double>::infinity(), 5).empty());
 }
 
+TEST(Ticks, HaveRoundSteps) {
+  EXPECT_DOUBLE_EQ(round_step(0.45, 5), 0.1);
+  EXPECT_DOUBLE_EQ(round_step(1, 5), 0.2);
+  EXPECT_DOUBLE_EQ(round_step(11, 5), 5);
+  EXPECT_DOUBLE_EQ(round_step(30, 5), 10);
+  for (const double none : {0.0, -1.0, nothing, std::numeric_limits<double>::infinity()})
+    EXPECT_EQ(round_step(none, 5), 1) << none;
+}
+
 TEST(Thinning, KeepsPeaksEndsAndGaps) {
   std::vector<double> x(100000), y(x.size(), 0.0);
   for (std::size_t n = 0; n < x.size(); ++n) x[n] = static_cast<double>(n);
