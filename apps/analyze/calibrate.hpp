@@ -43,8 +43,8 @@ std::optional<ElasticPair> affine_pair(const LatticeGeometry& geometry,
 // The results as JSON and as text.
 Json calibration_json(const Calibration& calibration);
 std::string calibration_text(const Calibration& calibration);
-Json measured_json(const Measured& measured, const VirtualTest::Options& options);
-std::string measured_text(const Measured& measured, const VirtualTest::Options& options,
+Json measured_json(const VirtualTestResult& measured, const VirtualTest::Options& options);
+std::string measured_text(const VirtualTestResult& measured, const VirtualTest::Options& options,
                           const ElasticPair& infinite);
 
 }  // namespace hyperlattice

@@ -16,7 +16,7 @@ struct CurveChoice {
 struct CurvePoint {
   double lambda = 0;
   ElasticPair infinite;
-  std::optional<Measured> measured;
+  std::optional<VirtualTestResult> measured;
   /// For a listed lattice under affine strain, see affine_pair.
   std::optional<ElasticPair> affine;
 

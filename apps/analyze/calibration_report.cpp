@@ -54,7 +54,7 @@ std::string calibration_text(const Calibration& found) {
   return text;
 }
 
-Json measured_json(const Measured& measured, const VirtualTest::Options& options) {
+Json measured_json(const VirtualTestResult& measured, const VirtualTest::Options& options) {
   Json json = pair_json(measured);
   json["young_over_k_per_l"] = measured.young;
   json["particles_along_edge"] = options.particles;
@@ -66,7 +66,7 @@ Json measured_json(const Measured& measured, const VirtualTest::Options& options
   return json;
 }
 
-std::string measured_text(const Measured& measured, const VirtualTest::Options& options,
+std::string measured_text(const VirtualTestResult& measured, const VirtualTest::Options& options,
                           const ElasticPair& infinite) {
   const auto edge = static_cast<std::uint64_t>(options.particles),
              in_a_cell = measured.particles / (edge * edge * edge);

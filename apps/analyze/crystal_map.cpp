@@ -68,9 +68,9 @@ void append_membrane(std::string& text, calibration::Membrane membrane, double f
   fmt::format_to(std::back_inserter(text), "$membrane{} << EOD\n", static_cast<int>(membrane));
   const double start = first / (first + 4);
   for (int n = 0; n < points; ++n) {
-    const double share = start + (1 - start) * (n + 0.5) / points;
+    const double fraction = start + (1 - start) * (n + 0.5) / points;
     const calibration::Elasticity e =
-        calibration::elasticity(calibration::ratios(membrane, 4 * share / (1 - share)));
+        calibration::elasticity(calibration::ratios(membrane, 4 * fraction / (1 - fraction)));
     fmt::format_to(std::back_inserter(text), "{:.6g} {:.6g}\n", e.poisson(), e.poisson_shear());
   }
   fmt::format_to(std::back_inserter(text), "EOD # {}\n", name);
@@ -92,12 +92,11 @@ std::string crystal_map_script(const std::vector<FittedCrystal>& crystals,
                                const std::optional<MapPoint>& lattice) {
   using calibration::Membrane;
   std::string text =
-      "set encoding utf8\nset xrange [0:0.5]\nset yrange [-0.5:0.5]\nset xlabel \"ν′ = C12 / (C11 "
+      "set xrange [0:0.5]\nset yrange [-0.5:0.5]\nset xlabel \"ν′ = C12 / (C11 "
       "+ C12)\" offset 0,0.4\n"
       "set ylabel \"ν″ = (2 C44 − C11) / (2 C44 − 2 C11)\"\nset key below horizontal samplen 2 "
       "width -4 maxrows 3 font ',11'\nset style fill solid 1 "
-      "noborder\nset "
-      "tics out\n";
+      "noborder\n";
   append_regions(text);
   struct Curve {
     Membrane membrane;

@@ -2,13 +2,10 @@
 #include <base/csv.hpp>
 #include <base/input_file.hpp>
 
-#include <hyperlattice/tables.hpp>
-
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 #include <array>
-#include <sstream>
 
 namespace hyperlattice {
 
@@ -20,18 +17,19 @@ struct Columns {
   std::optional<std::size_t> reliability;
 };
 
-std::optional<Columns> columns_of(const TableColumns& header, const std::string& file,
-                                  Faults& faults) {
-  const std::size_t before = faults.size();
+/// Returns the columns of a table. Throws InputError if one that is needed is missing.
+Columns columns_of(const CsvReader& table, const std::string& file) {
+  Faults faults;
   Columns columns;
   for (std::size_t n = 0; n < columns.at.size(); ++n)
-    if (const auto place = header.find(Columns::names[n]))
+    if (const auto place = find_column(table.columns(), Columns::names[n]))
       columns.at[n] = *place;
     else
-      faults.add(file + ":1", header.text(),
+      faults.add(fmt::format("{}:{}", file, table.columns_line()), table.columns_text(),
                  fmt::format("a column {}, named in the first line", Columns::names[n]));
-  columns.reliability = header.find("reliability");
-  return faults.size() > before ? std::nullopt : std::optional(columns);
+  faults.throw_if_any();
+  columns.reliability = find_column(table.columns(), "reliability");
+  return columns;
 }
 
 /// Reads the constants of one line. Adds a fault if they do not belong to a stable crystal.
@@ -66,21 +64,16 @@ std::optional<Crystal> crystal_of(const std::vector<std::string>& cells, const C
 }  // namespace
 
 std::vector<Crystal> read_crystals(const std::filesystem::path& file) {
-  std::istringstream stream(read_input_file(file, "--crystals", "a table of crystals"));
+  const std::string text = read_input_file(file, "--crystals", "a table of crystals");
+  CsvReader table(text);
   Faults faults;
   std::vector<Crystal> crystals;
-  std::optional<TableColumns> header;
-  std::optional<Columns> columns;
-  std::string line;
-  for (int number = 1; std::getline(stream, line); ++number) {
-    if (!header) {
-      columns = columns_of(header.emplace(line), file.string(), faults);
-      faults.throw_if_any();
-    } else if (!TableColumns::is_empty(line)) {
-      if (auto crystal = crystal_of(header->cells(line), *columns,
-                                    fmt::format("{}:{}", file.string(), number), faults))
+  if (!table.columns().empty()) {
+    const Columns columns = columns_of(table, file.string());
+    while (table.next())
+      if (auto crystal = crystal_of(table.cells(), columns,
+                                    fmt::format("{}:{}", file.string(), table.line()), faults))
         crystals.push_back(*crystal);
-    }
   }
   if (crystals.empty() && faults.empty()) faults.add(file.string(), "", "at least one crystal");
   faults.throw_if_any();

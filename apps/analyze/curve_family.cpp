@@ -1,4 +1,5 @@
 #include <analyze/curve_family.hpp>
+#include <base/gnuplot.hpp>
 
 #include <spdlog/fmt/fmt.h>
 #include <nlohmann/json.hpp>
@@ -32,15 +33,13 @@ std::string family_text(const CurveFamily& family) {
 }
 
 std::string family_script(const CurveFamily& family) {
-  constexpr const char* colours[] = {"#1b6ca8", "#c0392b", "#27ae60",
-                                     "#8e44ad", "#e67e22", "#16a085"};
   std::string text =
-                  "set encoding utf8\nset tics out\nset key right top samplen 2 font ',11'\nset "
+                  "set key right top samplen 2 font ',11'\nset "
                   "xlabel 'λ'\nset ylabel 'Poisson ratio ν'\n",
               plots;
   for (std::size_t n = 0; n < family.members.size(); ++n) {
     const auto& [value, curve] = family.members[n];
-    const char* colour = colours[n % std::size(colours)];
+    const char* colour = plot_colours[n % plot_colours.size()];
     fmt::format_to(std::back_inserter(text), "$curve{} << EOD\n", n);
     for (const CurvePoint& point : curve.points)
       fmt::format_to(std::back_inserter(text), "{:.10g} {:.10g} {:.10g}\n", point.lambda,

@@ -1,4 +1,6 @@
 #include <analyze/calibration_curve.hpp>
+#include <base/gnuplot.hpp>
+#include <base/ticks.hpp>
 
 #include <spdlog/fmt/fmt.h>
 #include <nlohmann/json.hpp>
@@ -40,12 +42,6 @@ std::string horner(std::span<const double> coefficients, const char* x) {
   for (const double coefficient : coefficients)
     text = fmt::format("({})*{}+({:.10g})", text, x, coefficient);
   return text;
-}
-
-/// Returns 1, 2 or 5 times a power of ten that divides a range into at most five parts.
-double tic_step(double range) {
-  const double power = std::pow(10, std::floor(std::log10(range / 5))), share = range / 5 / power;
-  return power * (share <= 1 ? 1 : share <= 2 ? 2 : share <= 5 ? 5 : 10);
 }
 
 }  // namespace
@@ -100,8 +96,7 @@ std::string curve_text(const Curve& curve, const VirtualTest::Options& options) 
 }
 
 std::string curve_script(const Curve& curve, const VirtualTest::Options& options) {
-  std::string text =
-      "set encoding utf8\nset tics out\nset key right top samplen 2 font ',11'\n$points << EOD\n";
+  std::string text = "set key right top samplen 2 font ',11'\n$points << EOD\n";
   for (const CurvePoint& point : curve.points)
     fmt::format_to(std::back_inserter(text), "{:.10g} {:.10g} {:.10g} {:.10g} {:.10g}\n",
                    point.lambda, point.pair().poisson, point.pair().modulus_ratio,
@@ -111,12 +106,12 @@ std::string curve_script(const Curve& curve, const VirtualTest::Options& options
   const auto panel = [&](const Fit& fit, std::span<const double> paper, const char* x,
                          const std::string& columns, const std::string& endless) {
     fmt::format_to(std::back_inserter(text),
-                   "plot {} with lines lw 2 lc rgb '#1b6ca8' title 'least squares'",
-                   horner(fit.coefficients, x));
+                   "plot {} with lines lw 2 lc rgb '{}' title 'least squares'",
+                   horner(fit.coefficients, x), plot_colours[0]);
     if (curve.has_paper_fit)
       fmt::format_to(std::back_inserter(text),
-                     ", {} with lines dt 2 lw 3 lc rgb '#e67e22' title 'Zhao 2017'",
-                     horner(paper, x));
+                     ", {} with lines dt 2 lw 3 lc rgb '{}' title 'Zhao 2017'", horner(paper, x),
+                     plot_colours[1]);
     if (is_measured(curve))
       fmt::format_to(std::back_inserter(text),
                      ", $points using {} with lines lw 1 lc rgb '#7f8c8d' title 'endless lattice'",
@@ -133,7 +128,7 @@ std::string curve_script(const Curve& curve, const VirtualTest::Options& options
                    "set dummy {}\nset xlabel '{}'\nset ylabel '{}'\nset xrange "
                    "[{:.6g}:{:.6g}]\nset xtics {:g}\n",
                    dummy, x, y, std::min(from, to), std::max(from, to),
-                   tic_step(std::abs(to - from)));
+                   round_step(std::abs(to - from), 5));
   };
   const CurvePoint &first = curve.points.front(), &last = curve.points.back();
   axes("Poisson ratio ν", "λ", "nu", first.pair().poisson, last.pair().poisson);

@@ -106,13 +106,13 @@ double VirtualTest::length_at_rest() const {
   return model->body.highest.z - model->body.lowest.z;
 }
 
-Measured VirtualTest::measure(const calibration::Ratios& ratios) {
-  Measured measured = compress(ratios);
+VirtualTestResult VirtualTest::measure(const calibration::Ratios& ratios) {
+  VirtualTestResult measured = compress(ratios);
   measured.modulus_ratio = measured.young / base_young_;
   return measured;
 }
 
-Measured VirtualTest::compress(const calibration::Ratios& ratios) {
+VirtualTestResult VirtualTest::compress(const calibration::Ratios& ratios) {
   const auto start = std::chrono::steady_clock::now();
   const auto plan =
       make_plan(read_scene_text(scene(ratios, options_.strain * length_), host_), options_.threads);
@@ -127,7 +127,7 @@ Measured VirtualTest::compress(const calibration::Ratios& ratios) {
   const std::vector<Vec3> pushed = simulation.force_on_load();
   const double area = options_.particles * options_.particles,
                force = (pushed.at(1).z - pushed.at(0).z) / 2;
-  Measured measured;
+  VirtualTestResult measured;
   measured.poisson = -(cube.growth(0, moved) + cube.growth(1, moved)) / 2 / cube.growth(2, moved);
   measured.young =
       force / area / options_.strain / model.materials.front().constants.base_stiffness;

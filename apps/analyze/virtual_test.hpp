@@ -19,7 +19,7 @@ struct ElasticPair {
 };
 
 /// The result of a test.
-struct Measured : ElasticPair {
+struct VirtualTestResult : ElasticPair {
   double young = 0;              ///< E l / k, for the area of N^2 cells
   std::uint64_t particles = 0;   ///< of the cube
   double residual = 0;           ///< see RestReport
@@ -56,12 +56,12 @@ class VirtualTest {
 
   /// Measures the lattice with these stiffness ratios. Throws RunError if the cube finds no state
   /// of rest.
-  Measured measure(const calibration::Ratios& ratios);
+  VirtualTestResult measure(const calibration::Ratios& ratios);
 
  private:
   std::string scene(const calibration::Ratios& ratios, double shortening) const;
   double length_at_rest() const;
-  Measured compress(const calibration::Ratios& ratios);
+  VirtualTestResult compress(const calibration::Ratios& ratios);
 
   Host& host_;
   Components components_;

@@ -34,7 +34,7 @@ void check_family(Trial& trial) {
 
 }  // namespace
 
-std::vector<Check> check(const Component& component, Host& host, const Surroundings& around,
+std::vector<Check> check(const Component& component, Host& host, const OtherComponents& around,
                          const std::filesystem::path& pictures) {
   std::vector<Check> checks;
   const Scenes scenes(host, around);

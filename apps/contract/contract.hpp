@@ -22,7 +22,7 @@ struct Check {
 };
 
 /// The types of the other components in the scenes of the component under test.
-struct Surroundings {
+struct OtherComponents {
   std::string grid;      ///< a structured lattice of cubic cells; options: spacing, shape, boundary
   std::string list;      ///< a lattice that is a list of springs; options: spacing, shape
   std::string material;  ///< an elastic solid; options: young, poisson, density, membrane
@@ -36,7 +36,7 @@ struct Surroundings {
 /// Writes a picture <type>.svg into the folder `pictures`, which is created if needed; an empty
 /// path: no pictures. Never throws because of an error in the component; such an error is a failed
 /// check.
-std::vector<Check> check(const Component& component, Host& host, const Surroundings& around,
+std::vector<Check> check(const Component& component, Host& host, const OtherComponents& around,
                          const std::filesystem::path& pictures = {});
 
 }  // namespace hyperlattice::contract

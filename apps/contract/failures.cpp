@@ -112,7 +112,7 @@ class Criterion {
 /// Two particles whose spring is pulled.
 class Pair {
  public:
-  Pair(const Model& model, Pulling how) : model_(model), how_(how), led_(model) {}
+  Pair(const Model& model, Pulling how) : model_(model), how_(how), driven_(model) {}
 
   /// Pulls the spring to `elongation`, m, as often as needed to break it, but not more often than
   /// `how` says. Returns the number of pulls that it held.
@@ -125,11 +125,11 @@ class Pair {
     return held;
   }
   /// Moves the spring to an elongation for a short step. Returns the force on one particle, N.
-  double at(double elongation) { return led_.forces(moved(elongation), how_.pull)[0]; }
+  double at(double elongation) { return driven_.forces(moved(elongation), how_.pull)[0]; }
   void release() {
-    for (int n = 0; n < 2 && how_.pulls > 1; ++n) led_.forces(moved(0), how_.release);
+    for (int n = 0; n < 2 && how_.pulls > 1; ++n) driven_.forces(moved(0), how_.release);
   }
-  Simulation& simulation() { return led_.simulation(); }
+  Simulation& simulation() { return driven_.simulation(); }
 
  private:
   bool breaks_at(double elongation) {
@@ -144,7 +144,7 @@ class Pair {
 
   const Model& model_;
   Pulling how_;
-  Led led_;
+  DrivenBody driven_;
 };
 
 Finding alarm_is_conservative(const Criterion& criterion) {
@@ -243,20 +243,20 @@ Finding memory_is_sound(const Criterion& criterion, double threshold) {
 }
 
 Finding same_bits(const Model& model, double threshold) {
-  Shaking how{threshold / model.critical_time_step};  // moves by a threshold in a step
-  const Shaken one = shake(model, how);
-  how.threads = 3;
-  const Shaken three = shake(model, how);
+  RandomMotion motion{threshold / model.critical_time_step};  // moves by a threshold in a step
+  const MotionResult one = run_motion(model, motion);
+  motion.threads = 3;
+  const MotionResult three = run_motion(model, motion);
   return passes_if(one.is_finite() && one.hash == three.hash && one.balance.dissipated_failure > 0,
                    fmt::format("with 1 and 3 threads, while springs with {:.3g} J break",
                                one.balance.dissipated_failure));
 }
 
 Finding restart(const Model& model, double threshold) {
-  Shaking how{threshold / model.critical_time_step};
-  const Shaken whole = shake(model, how);
-  how.cut_off = true;
-  const Shaken cut_off = shake(model, how);
+  RandomMotion motion{threshold / model.critical_time_step};
+  const MotionResult whole = run_motion(model, motion);
+  motion.cut_off = true;
+  const MotionResult cut_off = run_motion(model, motion);
   return passes_if(whole.is_finite() && cut_off.hash == whole.hash &&
                        cut_off.balance.dissipated_failure == whole.balance.dissipated_failure,
                    "the same springs break when it is cut off half-way and goes on");

@@ -64,7 +64,7 @@ Finding patch(const Model& model) {
                d{u[3 * b] - u[3 * a], u[3 * b + 1] - u[3 * a + 1], u[3 * b + 2] - u[3 * a + 2]};
     take_largest(strongest, model.spring(0, 0, spring_class).stiffness * dot(r, d) / norm(r));
   });
-  const std::vector<double> forces = Led(model).forces(u, 0.1 * model.critical_time_step);
+  const std::vector<double> forces = DrivenBody(model).forces(u, 0.1 * model.critical_time_step);
   double worst = 0;
   std::size_t inner = 0;
   for (Particle p = 0; p < body.particles; ++p) {
@@ -80,7 +80,7 @@ Finding patch(const Model& model) {
 }
 
 Finding books(const Model& model) {
-  const Shaken coarse = shake(model, {1, 0.4}), fine = shake(model, {1, 0.1});
+  const MotionResult coarse = run_motion(model, {1, 0.4}), fine = run_motion(model, {1, 0.1});
   return passes_if(
       coarse.largest_error < 0.01 && fine.largest_error < std::max(1e-10, coarse.largest_error / 8),
       fmt::format("a body set in motion: relative error of the energy balance {:.1e} at 0.4 of the "
@@ -101,7 +101,8 @@ void check_lattice(Trial& trial) {
   trial.check("patch test", [&] { return patch(model); });
   trial.check("books of energy", [&] { return books(model); });
   trial.check("same bits", [&] {
-    const Shaken one = shake(model, {1, 0.4, 40, 1}), three = shake(model, {1, 0.4, 40, 3});
+    const MotionResult one = run_motion(model, {1, 0.4, 40, 1}),
+                       three = run_motion(model, {1, 0.4, 40, 3});
     return passes_if(one.is_finite() && one.hash == three.hash, "with 1 and 3 threads");
   });
 }

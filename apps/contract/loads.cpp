@@ -27,7 +27,7 @@ Finding factor(const Model& model) {
 /// Checks the error of the energy balance at two time steps. Errors of central differences are of
 /// second order in the step; with loads that depend on velocities, of first order.
 Finding work(const Model& model) {
-  const Shaken coarse = shake(model, {0.5, 0.4}), fine = shake(model, {0.5, 0.1});
+  const MotionResult coarse = run_motion(model, {0.5, 0.4}), fine = run_motion(model, {0.5, 0.1});
   const double power = model.answering ? 2.5 : 8;
   return passes_if(coarse.largest_error < 0.02 &&
                        fine.largest_error < std::max(1e-9, coarse.largest_error / power),
@@ -45,12 +45,13 @@ void check_load(Trial& trial) {
   trial.check("factor", [&] { return factor(model); });
   trial.check("work accounting", [&] { return work(model); });
   trial.check("same bits", [&] {
-    const Shaken one = shake(model, {0.5, 0.4, 40, 1}), three = shake(model, {0.5, 0.4, 40, 3});
+    const MotionResult one = run_motion(model, {0.5, 0.4, 40, 1}),
+                       three = run_motion(model, {0.5, 0.4, 40, 3});
     return passes_if(one.is_finite() && one.hash == three.hash, "with 1 and 3 threads");
   });
   trial.check("restart", [&] {
-    const Shaken whole = shake(model, {0.5}),
-                 cut_off = shake(model, {.speed = 0.5, .cut_off = true});
+    const MotionResult whole = run_motion(model, {0.5}),
+                       cut_off = run_motion(model, {.speed = 0.5, .cut_off = true});
     return passes_if(whole.is_finite() && cut_off.hash == whole.hash &&
                          cut_off.balance.injected == whole.balance.injected,
                      "the same motion and work when it is cut off half-way and goes on");

@@ -138,7 +138,7 @@ Finding kernels_follow_the_law(const Model& model, const LoneSpring& spring, dou
   for (double& elongation : elongations)
     elongation = double{static_cast<float>(elongation)};  // the same in every precision
   const std::vector<PathPoint> path = follow(spring, elongations, spring.period() / 10);
-  Led pair(model);
+  DrivenBody pair(model);
   double worst = 0;
   for (std::size_t n = 0; n < path.size(); ++n) {
     const std::vector<double> forces =
@@ -171,7 +171,7 @@ std::vector<double> turned(const Model& model, const std::vector<double>& displa
 Finding objective(const Model& model, const LoneSpring& spring) {
   const std::size_t count = 3 * model.body.particles;
   const double time_step = spring.period() / 10, amplitude = spring.reach();
-  Led upright(model), leaning(model);
+  DrivenBody upright(model), leaning(model);
   std::vector<double> forces, expected, seen;
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     const std::vector<double> u = noise(count, amplitude, seed);
@@ -191,7 +191,8 @@ Finding objective(const Model& model, const LoneSpring& spring) {
 
 Finding books(const Model& model, const LoneSpring& spring) {
   const double speed = spring.reach() / (2 * spring.period());
-  const Shaken coarse = shake(model, {speed, 0.4}), fine = shake(model, {speed, 0.1});
+  const MotionResult coarse = run_motion(model, {speed, 0.4}),
+                     fine = run_motion(model, {speed, 0.1});
   return passes_if(coarse.largest_error < 0.02 &&
                        fine.largest_error < std::max(1e-10, coarse.largest_error / 2.5),
                    fmt::format("a block set in motion: relative error of the energy balance {:.1e} "
@@ -201,18 +202,19 @@ Finding books(const Model& model, const LoneSpring& spring) {
 
 Finding same_bits(const Model& model, const LoneSpring& spring) {
   const double speed = spring.reach() / (2 * spring.period());
-  Shaking how{speed};
-  const Shaken one = shake(model, how);
-  how.threads = 3;
-  return passes_if(one.is_finite() && shake(model, how).hash == one.hash, "with 1 and 3 threads");
+  RandomMotion motion{speed};
+  const MotionResult one = run_motion(model, motion);
+  motion.threads = 3;
+  return passes_if(one.is_finite() && run_motion(model, motion).hash == one.hash,
+                   "with 1 and 3 threads");
 }
 
 Finding restart(const Model& model, const LoneSpring& spring) {
   const double speed = spring.reach() / (2 * spring.period());
-  Shaking how{speed};
-  const Shaken whole = shake(model, how);
-  how.cut_off = true;
-  const Shaken cut_off = shake(model, how);
+  RandomMotion motion{speed};
+  const MotionResult whole = run_motion(model, motion);
+  motion.cut_off = true;
+  const MotionResult cut_off = run_motion(model, motion);
   return passes_if(whole.is_finite() && cut_off.hash == whole.hash &&
                        cut_off.balance.error == whole.balance.error,
                    "the same bits, and the same books, when it is cut off half-way and goes on");
@@ -272,7 +274,7 @@ Finding fracture_energy(const Scenes& scenes, const Json& material) {
   const double piece = spring.reach() / 100, time_step = spring.period() / 10,
                area = model.body.grid.spacing * model.body.grid.spacing;
   constexpr int most = 10000;
-  Led cell(model);
+  DrivenBody cell(model);
   double work = 0, last = 0, strongest = 0;
   std::vector<double> u(3 * model.body.particles, 0.0);
   for (int n = 0; n < most; ++n) {

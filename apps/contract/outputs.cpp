@@ -56,9 +56,9 @@ class Folder {
 };
 
 /// A small block in motion, whose springs may break, and the output under test.
-class Watched {
+class MovingBlock {
  public:
-  Watched(const Plan& plan, const Folder& folder)
+  MovingBlock(const Plan& plan, const Folder& folder)
       : plan_(plan),
         folder_(folder),
         model_(*plan.model),
@@ -67,7 +67,8 @@ class Watched {
     simulation_->set_velocities(noise(3 * particles, 1), std::vector<double>(particles, 0.0));
     run_folder_ = std::make_unique<RunFolder>(folder.path(), true);
     run_folder_->begin(false, {});
-    outputs_ = std::make_unique<Outputs>(model_, *simulation_, *run_folder_, 1e-4);
+    outputs_ = std::make_unique<Outputs>(model_, *simulation_, *run_folder_, end_time);
+    outputs_->begin();
   }
   void show() { outputs_->show_now(); }
   void move() { simulation_->step(0.5 * model_.critical_time_step); }
@@ -75,19 +76,21 @@ class Watched {
 
   /// Imitates the end of the program and a resumed run.
   void restart() {
-    const std::string shown = saved([&](Archive& archive) { outputs_->save(archive); });
+    const std::string shown = saved([&](Archive& archive) { outputs_->archive(archive); });
     const auto marks = run_folder_->sync();
     outputs_.reset();
     run_folder_.reset();
     run_folder_ = std::make_unique<RunFolder>(folder_.path(), false);
     run_folder_->go_on(marks);
     simulation_ = restarted(*simulation_, model_, plan_.threads);
-    restore(shown, [&](Archive& archive) {
-      outputs_ = std::make_unique<Outputs>(model_, *simulation_, *run_folder_, 1e-4, &archive);
-    });
+    outputs_ = std::make_unique<Outputs>(model_, *simulation_, *run_folder_, end_time);
+    restore(shown, [&](Archive& archive) { outputs_->archive(archive); });
+    outputs_->begin();
   }
 
  private:
+  static constexpr double end_time = 1e-4;  // s
+
   const Plan& plan_;
   const Folder& folder_;
   const Model& model_;
@@ -106,7 +109,7 @@ std::unique_ptr<Plan> plan_with(const Trial& trial, int threads = 1) {
 std::map<std::string, std::string> written(const Plan& plan, bool cut_off = false,
                                            std::string* unannounced = nullptr) {
   const Folder folder;
-  Watched watched(plan, folder);
+  MovingBlock watched(plan, folder);
   for (int n = 0; n < 3; ++n) {
     if (n > 0) watched.move();
     watched.show();
@@ -154,7 +157,7 @@ std::string difference(const std::map<std::string, std::string>& a,
 Finding full_disk(const Plan& plan) {
   constexpr rlim_t nothing = 16;
   const Folder folder;
-  Watched watched(plan, folder);
+  MovingBlock watched(plan, folder);
   watched.show();
   const auto before = folder.files();
   watched.move();

@@ -1,5 +1,6 @@
 // The path of one spring as an SVG, written without a library: small, and the same bytes on every
 // machine.
+#include <base/gnuplot.hpp>
 #include <contract/lone_spring.hpp>
 
 #include <hyperlattice/files.hpp>
@@ -56,7 +57,7 @@ std::string picture(const std::string& title, const std::vector<PathPoint>& path
       width, height);
   svg += line(left, y.place(0), width - right, y.place(0), "#bbb") +
          line(x.place(0), top, x.place(0), height - bottom, "#bbb");
-  svg += "<path stroke=\"#1b6ca8\" stroke-width=\"1.6\" d=\"";
+  svg += fmt::format("<path stroke=\"{}\" stroke-width=\"1.6\" d=\"", plot_colours[0]);
   for (std::size_t n = 0; n < path.size(); n += 5)
     fmt::format_to(std::back_inserter(svg), "{}{} {}", n == 0 ? "M" : "L",
                    x.place(path[n].elongation), y.place(path[n].force));

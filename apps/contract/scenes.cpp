@@ -94,26 +94,27 @@ std::unique_ptr<Simulation> restarted(Simulation& simulation, const Model& model
   return other;
 }
 
-Shaken shake(const Model& model, const Shaking& how) {
-  auto simulation = std::make_unique<Simulation>(model, how.threads);
+MotionResult run_motion(const Model& model, const RandomMotion& motion) {
+  auto simulation = std::make_unique<Simulation>(model, motion.threads);
   const std::size_t particles = model.body.particles;
   simulation->set_velocities(
-      noise(3 * particles, how.speed),
+      noise(3 * particles, motion.speed),
       std::vector<double>(model.degrees_of_freedom == 4 ? particles : 0, 0.0));
-  Shaken shaken;
+  MotionResult result;
   simulation->balance();
-  const int steps = static_cast<int>(std::ceil(how.duration / how.step));
+  const int steps = static_cast<int>(std::ceil(motion.duration / motion.step));
   for (int n = 0; n < steps; ++n) {
-    if (how.cut_off && n == steps / 2) simulation = restarted(*simulation, model, how.threads);
-    simulation->step(how.duration / steps * model.critical_time_step);
-    shaken.balance = simulation->balance();
-    take_largest(shaken.largest_error, shaken.balance.relative_error());
+    if (motion.cut_off && n == steps / 2)
+      simulation = restarted(*simulation, model, motion.threads);
+    simulation->step(motion.duration / steps * model.critical_time_step);
+    result.balance = simulation->balance();
+    take_largest(result.largest_error, result.balance.relative_error());
   }
-  shaken.hash = simulation->hash();
-  return shaken;
+  result.hash = simulation->hash();
+  return result;
 }
 
-std::vector<double> Led::forces(const std::vector<double>& displacements, double time_step) {
+std::vector<double> DrivenBody::forces(const std::vector<double>& displacements, double time_step) {
   const bool heights = model_.degrees_of_freedom == 4;
   const std::vector<double> still(displacements.size(), 0.0),
       level(heights ? displacements.size() / 3 : 0, 0.0);

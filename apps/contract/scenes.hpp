@@ -21,7 +21,7 @@ inline constexpr const char* usual_membrane = "I-m";
 /// Makes stages from the components of `around`, and plans from stages.
 class Scenes {
  public:
-  Scenes(Host& host, const Surroundings& around) : host_(host), around_(around) {}
+  Scenes(Host& host, const OtherComponents& around) : host_(host), around_(around) {}
 
   /// Returns a grid of nx x ny x nz cells 1 mm wide, with its low corner at the origin.
   Json grid_box(int nx, int ny, int nz, const char* boundary = "particles") const;
@@ -46,7 +46,7 @@ class Scenes {
 
  private:
   Host& host_;
-  const Surroundings& around_;
+  const OtherComponents& around_;
 };
 
 /// Returns random numbers, uniform in [-amplitude, amplitude]; the same seed gives the same numbers
@@ -54,7 +54,7 @@ class Scenes {
 std::vector<double> noise(std::size_t count, double amplitude, std::uint64_t seed = 1);
 
 /// The result of the motion of a body from random start velocities.
-struct Shaken {
+struct MotionResult {
   double largest_error = 0;  ///< largest relative error of the energy balance
   EnergyBalance balance;
   std::uint64_t hash = 0;
@@ -62,7 +62,7 @@ struct Shaken {
   bool is_finite() const { return std::isfinite(largest_error); }
 };
 /// A motion from random start velocities.
-struct Shaking {
+struct RandomMotion {
   double speed = 1;      ///< largest component of a start velocity, m/s
   double step = 0.4;     ///< time step over the critical time step
   double duration = 40;  ///< in critical time steps
@@ -70,7 +70,7 @@ struct Shaking {
   /// Continue half-way in another simulation, from the archive of the first one.
   bool cut_off = false;
 };
-Shaken shake(const Model& model, const Shaking& how);
+MotionResult run_motion(const Model& model, const RandomMotion& motion);
 
 /// saved() returns what `visit` archives as bytes; restore() reads it back from these bytes.
 std::string saved(const std::function<void(Archive&)>& visit);
@@ -80,9 +80,9 @@ void restore(const std::string& bytes, const std::function<void(Archive&)>& visi
 std::unique_ptr<Simulation> restarted(Simulation& simulation, const Model& model, int threads);
 
 /// A body whose displacements the caller prescribes in each step.
-class Led {
+class DrivenBody {
  public:
-  explicit Led(const Model& model) : model_(model), simulation_(model, 1) {}
+  explicit DrivenBody(const Model& model) : model_(model), simulation_(model, 1) {}
 
   /// Sets the displacements of all particles, m, with heights 0 and velocities 0, and takes one
   /// step of `time_step` seconds. Returns the forces of the springs on the particles, x y z each,

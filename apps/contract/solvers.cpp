@@ -17,7 +17,7 @@ std::vector<Json> pressed_bar(const Scenes& scenes) {
           scenes.platen("z_max", -1e-6)};
 }
 
-struct Solved {
+struct SolverResult {
   double time = 0;
   double relative_error = 0;  ///< relative error of the energy balance
   std::uint64_t steps = 0, hash = 0;
@@ -25,10 +25,10 @@ struct Solved {
 };
 /// Runs the solver; with `cut_off` > 0, stops after that many steps and continues in another
 /// simulation.
-Solved solve(const Plan& plan, std::uint64_t cut_off = 0) {
+SolverResult solve(const Plan& plan, std::uint64_t cut_off = 0) {
   auto simulation = std::make_unique<Simulation>(*plan.model, plan.threads);
   simulation->balance();
-  Solved solved;
+  SolverResult solved;
   const auto run = [&](std::uint64_t done, std::uint64_t end) {
     StageCalls::Hooks hooks;
     hooks.report = [&](const RestReport& report) { solved.rest = report; };
@@ -55,7 +55,7 @@ Finding stable(const SolverPlan& plan) {
                                plan.stable_time_step));
 }
 
-Finding comes_to_its_end(const SolverPlan& plan, const Solved& solved) {
+Finding comes_to_its_end(const SolverPlan& plan, const SolverResult& solved) {
   if (plan.at_rest) {
     const double residual = solved.rest.residual;
     return passes_if(residual >= 0 && residual < 1e-2 && solved.steps > 0,
@@ -74,7 +74,7 @@ void check_solver(Trial& trial) {
   stages.push_back(trial.example);
   const auto plan = trial.scenes.plan_of(stages, 1), with_three = trial.scenes.plan_of(stages, 3);
   trial.check("stable step", [&] { return stable(plan->stages.front().plan); });
-  std::optional<Solved> solved;
+  std::optional<SolverResult> solved;
   trial.check("comes to its end", [&] {
     solved = solve(*plan);
     return comes_to_its_end(plan->stages.front().plan, *solved);

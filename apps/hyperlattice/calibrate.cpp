@@ -120,7 +120,7 @@ int calibrate(Arguments a) {
   std::string text = calibration_text(found);
   if (a.measure) {
     const VirtualTest::Options options = a.virtual_test();
-    const Measured measured =
+    const VirtualTestResult measured =
         VirtualTest(host, bundled::virtual_test, options).measure(found.chosen.ratios);
     json["measured"] = measured_json(measured, options);
     text += measured_text(measured, options, found.infinite);

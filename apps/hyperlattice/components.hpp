@@ -10,7 +10,7 @@ namespace hyperlattice::bundled {
 inline constexpr const char* cubic = "lattices.cubic";
 
 /// The components around the one under test in `plugins --test`.
-inline const contract::Surroundings surroundings{
+inline const contract::OtherComponents other_components{
     .grid = cubic,
     .list = "lattices.random",
     .material = "materials.elastic",

@@ -1,7 +1,7 @@
 // hyperlattice plan: shows what a run will load, allocate and compute, and what it leaves out;
 // writes no file.
 #include "commands.hpp"
-#include "patience.hpp"
+#include "elapsed_time.hpp"
 
 #include <plan/calibration.hpp>
 #include <plan/shortage.hpp>
@@ -68,7 +68,7 @@ void SceneArguments::declare(CLI::App& command) {
 }
 
 std::unique_ptr<Plan> SceneArguments::plan(Host& host) const {
-  const Patience patience;
+  const ElapsedTime elapsed_time;
   return make_plan(read_scene(scene, settings, host), threads.count());
 }
 

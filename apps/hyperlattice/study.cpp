@@ -4,8 +4,8 @@
 
 #include <base/gnuplot.hpp>
 #include <scene/units.hpp>
-#include <study/conduct.hpp>
 #include <study/report.hpp>
+#include <study/study_runs.hpp>
 
 #include <hyperlattice/files.hpp>
 
@@ -25,7 +25,7 @@ struct Arguments {
   std::vector<std::string> settings;
   std::string target_error;
   std::vector<std::filesystem::path> peers;
-  ConductOptions options;
+  StudyRunOptions options;
   ThreadArgument threads;
   bool json = false;
 };
@@ -33,10 +33,10 @@ struct Arguments {
 /// Reads "1%" or 0.01 as 0.01.
 double read_target(const std::string& text) {
   const auto plain = csv_number(text);
-  const Quantity share = plain ? Quantity{*plain, ""} : read_quantity(text, "");
-  if (!share.problem.empty() || !(share.value > 0))
+  const Quantity fraction = plain ? Quantity{*plain, ""} : read_quantity(text, "");
+  if (!fraction.problem.empty() || !(fraction.value > 0))
     throw InputError({{"--target-error", text, "an error above 0 such as 1% or 0.01"}});
-  return share.value;
+  return fraction.value;
 }
 
 void write_results(const Study& study, const std::vector<Row>& rows, const Findings& findings,
@@ -52,7 +52,7 @@ void write_results(const Study& study, const std::vector<Row>& rows, const Findi
   }
 }
 
-int exit_code(const Conducted& done) {
+int exit_code(const StudyResult& done) {
   if (done.interrupted) return exit_interrupted;
   int code = exit_done;
   for (const Row& row : done.rows) code = std::max(code, row.exit_code);
@@ -65,13 +65,13 @@ int run_study(Arguments a) {
   Faults faults;
   for (const auto& file : a.peers) append_peers(study.peers, file, "--peers", faults);
   faults.throw_if_any();
-  ConductOptions& options = a.options;
+  StudyRunOptions& options = a.options;
   options.threads = a.threads.count();
   choose_directory(options.directory, a.study);
 
   Host host;
   stop_gently_when_interrupted();
-  Conducted done = conduct(study, grid(study), options, host);
+  StudyResult done = run_study(study, grid(study), options, host);
   auto limits = find_errors(study, options.directory, done.rows);
   const Findings findings = find(study, done.rows, std::move(limits));
   write_results(study, done.rows, findings, options.directory);

@@ -47,7 +47,7 @@ int test_plugins(Host& host, const std::vector<const Component*>& components,
   for (const Component* component : components) {
     if (!json) std::cout << component->type() << '\n';
     const std::vector<Check> checks =
-        contract::check(*component, host, bundled::surroundings, pictures);
+        contract::check(*component, host, bundled::other_components, pictures);
     for (const Check& check : checks) ++counts[static_cast<std::size_t>(check.verdict)];
     if (json)
       document["components"].push_back(json_of(*component, checks));

@@ -26,31 +26,25 @@ const std::vector<double>* Columns::find(std::string_view name) const {
 
 Columns read_columns(const std::filesystem::path& file, std::string_view text, Faults& faults) {
   Columns columns;
-  const auto whole = text.rfind('\n');
-  columns.is_cut = whole != text.size() - 1 && !text.empty();
-  if (whole == std::string_view::npos) {
+  const std::string_view whole = text.substr(0, text.rfind('\n') + 1);
+  columns.is_cut = whole.size() < text.size();
+  CsvReader table(whole);
+  columns.names = table.columns();
+  columns.values.resize(columns.names.size());
+  if (columns.names.empty())
     faults.add(file.string(), "", "a table whose first line names its columns");
-    return columns;
-  }
-  std::size_t line = 0;
-  for (std::size_t begin = 0, end = 0; begin <= whole; begin = end + 1) {
-    end = text.find('\n', begin);
-    const auto cells = csv_cells(text.substr(begin, end - begin));
-    if (++line == 1) {
-      columns.names = cells;
-      columns.values.resize(cells.size());
-      continue;
-    }
-    const std::string place = fmt::format("{} line {}", file.string(), line);
+  const auto place = [&] { return fmt::format("{} line {}", file.string(), table.line()); };
+  while (table.next()) {
+    const std::vector<std::string>& cells = table.cells();
     if (cells.size() != columns.names.size()) {
-      faults.add(place, fmt::format("{} cells", cells.size()),
+      faults.add(place(), fmt::format("{} cells", cells.size()),
                  fmt::format("{}, as in the first line", columns.names.size()));
       return columns;
     }
     std::vector<double> numbers(cells.size());
     for (std::size_t c = 0; c < cells.size(); ++c)
       if (!read_number(cells[c], numbers[c])) {
-        faults.add(place, fmt::format("\"{}\"", cells[c]),
+        faults.add(place(), fmt::format("\"{}\"", cells[c]),
                    fmt::format("a number in column \"{}\"", columns.names[c]));
         return columns;
       }

@@ -1,9 +1,9 @@
 #include <base/figures.hpp>
+#include <base/ticks.hpp>
 #include <report/html.hpp>
 #include <report/plot.hpp>
 #include <report/style.hpp>
 #include <report/thin.hpp>
-#include <report/ticks.hpp>
 
 #include <spdlog/fmt/fmt.h>
 
@@ -53,7 +53,7 @@ struct Range {
 };
 
 /// An axis in the picture: its range in scaled numbers, its ticks, and its position.
-struct Drawn {
+struct DrawnAxis {
   Scale scale;
   Range range;
   double begin = 0, end = 0;  ///< position in the picture
@@ -65,8 +65,8 @@ struct Drawn {
   double place_of_tick(const Tick& tick) const { return place(tick.value * scale.factor); }
 };
 
-Drawn drawn(const Axis& axis, Range range, int ticks) {
-  Drawn result;
+DrawnAxis drawn(const Axis& axis, Range range, int ticks) {
+  DrawnAxis result;
   range.widen();
   result.scale = scale_for(range.largest(), axis.unit);
   result.range = {range.low / result.scale.factor, range.high / result.scale.factor, false};
@@ -192,7 +192,7 @@ class Picture {
   }
 
   const Plot& plot_;
-  Drawn x_, y_;
+  DrawnAxis x_, y_;
   double top_ = 0;  ///< upper end of the free space
   std::string body_;
 };

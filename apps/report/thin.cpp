@@ -42,8 +42,8 @@ std::vector<std::size_t> thinned(std::span<const double> x, std::span<const doub
     return all;
   }
   const auto column = [&](std::size_t n) {
-    const double share = (x[n] - x.front()) / (x.back() - x.front());
-    return std::min(columns - 1, static_cast<std::size_t>(share * static_cast<double>(columns)));
+    const double fraction = (x[n] - x.front()) / (x.back() - x.front());
+    return std::min(columns - 1, static_cast<std::size_t>(fraction * static_cast<double>(columns)));
   };
   std::vector<std::size_t> kept;
   for (std::size_t begin = 0, end = 0; begin < count; begin = end) {

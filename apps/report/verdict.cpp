@@ -48,9 +48,9 @@ double largest_of(const Columns& table, const char* name) {
   return largest;
 }
 
-class Sceptic {
+class RunExamination {
  public:
-  explicit Sceptic(const RunRecord& run) : run_(run), solvers_(solvers(run)) {
+  explicit RunExamination(const RunRecord& run) : run_(run), solvers_(solvers(run)) {
     if (run.summary.is_object() && run.summary.contains("stages") &&
         run.summary["stages"].is_array())
       for (const Json& stage : run.summary["stages"])
@@ -58,7 +58,7 @@ class Sceptic {
     all_at_rest_ = !stages_.empty() && std::all_of(stages_.begin(), stages_.end(), is_at_rest);
   }
 
-  std::vector<Finding> ask() {
+  std::vector<Finding> findings() {
     if (const std::string reason = run_.word("/reason"); !reason.empty())
       add("reason", run_.status() == "failed" ? Judgement::wrong : Judgement::doubtful, reason, {});
     ask_progress();
@@ -109,12 +109,12 @@ class Sceptic {
     const double step = number_in(stage, "time_step", 0),
                  stable = number_in(stage, "stable_time_step", 0);
     if (!(step > 0) || !(stable > 0)) return;
-    const double share = step / stable;
+    const double fraction = step / stable;
     const std::string because = run_.word("/critical_because");
     const double critical = run_.number("/critical_time_step").value_or(stable);
-    add("time_step", share <= 1 ? Judgement::fine : Judgement::wrong,
+    add("time_step", fraction <= 1 ? Judgement::fine : Judgement::wrong,
         fmt::format("Time step ({}): at most {}, {} of the stable {}{}.", word_in(stage, "type"),
-                    seconds(step), short_number(share, 3), seconds(stable),
+                    seconds(step), short_number(fraction, 3), seconds(stable),
                     because.empty() ? ""
                                     : fmt::format("; the critical step of the body is {}, by {}",
                                                   seconds(critical), because)),
@@ -122,7 +122,7 @@ class Sceptic {
          {"time_step", step},
          {"stable_time_step", stable},
          {"critical_time_step", critical},
-         {"share", share}});
+         {"share", fraction}});
   }
 
   void ask_rest() {
@@ -255,6 +255,6 @@ class Sceptic {
 
 }  // namespace
 
-std::vector<Finding> verdict(const RunRecord& run) { return Sceptic(run).ask(); }
+std::vector<Finding> verdict(const RunRecord& run) { return RunExamination(run).findings(); }
 
 }  // namespace hyperlattice::report

@@ -16,13 +16,14 @@ namespace hyperlattice::study {
 void RunFaults::add(const InputError& error, const std::string& run, const std::string& prefix) {
   for (const Fault& fault : error.faults()) {
     const std::string pointer = prefix + fault.pointer;
-    const auto same = [&](const Found& other) {
+    const auto same = [&](const SharedFault& other) {
       return other.fault.pointer == pointer && other.fault.value == fault.value &&
              other.fault.expected == fault.expected;
     };
     auto found = std::find_if(found_.begin(), found_.end(), same);
     if (found == found_.end())
-      found = found_.insert(found_.end(), Found{Fault{pointer, fault.value, fault.expected}, {}});
+      found =
+          found_.insert(found_.end(), SharedFault{Fault{pointer, fault.value, fault.expected}, {}});
     found->runs.push_back(run);
   }
 }
@@ -69,7 +70,7 @@ namespace {
 
 /// Returns why a truth over time cannot be compared with a run; empty if no reason is known.
 std::string fault_of_times(const Comparison& comparison, const Truth& truth, const Curve& curve,
-                           const Foreseen* run) {
+                           const RunProperties* run) {
   if (run == nullptr || truth.kind != Truth::Kind::table || comparison.along ||
       comparison.reduction != Reduction::none)
     return "";
@@ -86,7 +87,7 @@ std::string fault_of_times(const Comparison& comparison, const Truth& truth, con
 
 }  // namespace
 
-void check_truth(const Study& study, const Row& row, const Foreseen* foreseen) {
+void check_truth(const Study& study, const Row& row, const RunProperties* properties) {
   const Truth& truth = *std::find_if(study.truths.begin(), study.truths.end(),
                                      [&](const Truth& t) { return t.when.holds(row.choice); });
   if (truth.kind == Truth::Kind::finest) return;
@@ -110,7 +111,7 @@ void check_truth(const Study& study, const Row& row, const Foreseen* foreseen) {
         if (truth.table)
           for (const auto& [at, column] : placed_columns(*truth.table, comparison.truth))
             fault = fault_of_times(comparison, truth,
-                                   true_curve(comparison, truth, at, row.numbers), foreseen);
+                                   true_curve(comparison, truth, at, row.numbers), properties);
         if (!fault.empty()) faults.add(place, "", fault);
       } catch (const std::runtime_error& error) {
         refuse(place, comparison, error);
@@ -125,7 +126,7 @@ void check_truth(const Study& study, const Row& row, const Foreseen* foreseen) {
                        [](double value) { return std::isfinite(value); }))
         faults.add(place, "",
                    fmt::format("a truth of \"{}\" that is finite with its scale", comparison.name));
-      if (const std::string fault = fault_of_times(comparison, truth, curve, foreseen);
+      if (const std::string fault = fault_of_times(comparison, truth, curve, properties);
           !fault.empty())
         faults.add(place, "", fault);
       all_zero = all_zero && is_zero;

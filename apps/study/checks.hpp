@@ -16,27 +16,27 @@ class RunFaults {
   void throw_if_any(std::size_t runs) const;  ///< throws InputError; `runs`: number of all runs
 
  private:
-  struct Found {
+  struct SharedFault {
     Fault fault;
     std::vector<std::string> runs;
   };
-  std::vector<Found> found_;
+  std::vector<SharedFault> found_;
 };
 
 /// Checks that the tables have the probe and the column of every comparison. Throws InputError.
 void check_columns(const Study& study, const std::vector<PlannedTable>& tables);
 
 /// The known properties of a planned or finished run.
-struct Foreseen {
+struct RunProperties {
   std::vector<PlannedTable> tables;
   double end_time = infinity;  ///< s
   double step = 0;             ///< s; a solver passes the end time by less than this
 };
 
 /// Checks that the truth of a row exists, is not zero, and does not lie only at times that the run
-/// does not reach. `foreseen`: the properties of the run; null if they are not known. Throws
+/// does not reach. `properties`: the properties of the run; null if they are not known. Throws
 /// InputError.
-void check_truth(const Study& study, const Row& row, const Foreseen* foreseen);
+void check_truth(const Study& study, const Row& row, const RunProperties* properties);
 
 /// Returns the tables of the scene's probes in a finished run; nothing if one is missing.
 std::optional<std::vector<PlannedTable>> tables_in(const std::filesystem::path& run_directory,

@@ -12,7 +12,7 @@ namespace hyperlattice::study {
 
 namespace {
 
-struct Compared {
+struct ComparisonEntry {
   struct Options {
     std::string probe, column;
     std::optional<Coordinate> along;
@@ -154,7 +154,7 @@ std::vector<std::pair<double, std::size_t>> placed_columns(const CsvTable& table
 }
 
 std::vector<Comparison> read_comparisons(const Json& given, const std::vector<Truth>& truths,
-                                         const std::vector<Axis>& axes, PlainReader& reader) {
+                                         const std::vector<Axis>& axes, ObjectReader& reader) {
   Faults& faults = reader.faults();
   std::vector<Comparison> comparisons;
   if (!given.is_object() || given.empty()) {
@@ -174,7 +174,8 @@ std::vector<Comparison> read_comparisons(const Json& given, const std::vector<Tr
     if (item.value().is_object() && item.value().contains("where"))
       comparison.where =
           read_filters(item.value()["where"], comparison.pointer + "/where", axes, reader);
-    const auto options = reader.read<Compared>(item.value(), comparison.pointer, {"at", "where"});
+    const auto options =
+        reader.read<ComparisonEntry>(item.value(), comparison.pointer, {"at", "where"});
     if (!options) continue;
     comparison.probe = options->probe;
     comparison.column = options->column;

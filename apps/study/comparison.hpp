@@ -36,7 +36,7 @@ struct Comparison {
 /// Reads the study's "compare" and checks it against the truths. Adds a fault for each column that
 /// a table lacks.
 std::vector<Comparison> read_comparisons(const Json& given, const std::vector<Truth>& truths,
-                                         const std::vector<Axis>& axes, PlainReader& reader);
+                                         const std::vector<Axis>& axes, ObjectReader& reader);
 
 /// Returns the column of time or place in the table of a truth: that of the comparison, else that
 /// of the truth, else the usual one ("t" or "time"; the coordinate).

@@ -52,8 +52,8 @@ double value_at(const Curve& curve, double over) {
   if (right == curve.over.begin()) return curve.values.front();
   if (right == curve.over.end()) return curve.values.back();
   const auto n = static_cast<std::size_t>(right - curve.over.begin());
-  const double share = (over - curve.over[n - 1]) / (curve.over[n] - curve.over[n - 1]);
-  return (1 - share) * curve.values[n - 1] + share * curve.values[n];
+  const double weight = (over - curve.over[n - 1]) / (curve.over[n] - curve.over[n - 1]);
+  return (1 - weight) * curve.values[n - 1] + weight * curve.values[n];
 }
 
 Curve reduced(Curve curve, Reduction reduction) {

@@ -1,8 +1,8 @@
 #include <base/folder_file.hpp>
-#include <study/conduct.hpp>
 #include <study/evaluate.hpp>
 #include <study/expected.hpp>
 #include <study/observe.hpp>
+#include <study/study_runs.hpp>
 
 #include <spdlog/fmt/fmt.h>
 
@@ -43,7 +43,7 @@ class Evaluation {
   }
 
  private:
-  struct Observed {
+  struct ObservedCurve {
     Curve curve;
     std::optional<double> place;
   };
@@ -196,7 +196,7 @@ class Evaluation {
   const Study& study_;
   const std::filesystem::path& directory_;
   std::vector<Row>& rows_;
-  std::vector<std::vector<Observed>> curves_;  // for each row and comparison
+  std::vector<std::vector<ObservedCurve>> curves_;  // for each row and comparison
 };
 
 std::vector<ChoiceOrder> find_orders(std::size_t refinement, const std::vector<Row>& rows) {

@@ -71,16 +71,16 @@ class RowValue {
       return;
     }
     const double left = columns[right - 1].first,
-                 share = std::clamp((*place - left) / (columns[right].first - left), 0.0, 1.0);
-    parts_ = {{columns[right - 1].second, 1 - share}, {columns[right].second, share}};
+                 weight = std::clamp((*place - left) / (columns[right].first - left), 0.0, 1.0);
+    parts_ = {{columns[right - 1].second, 1 - weight}, {columns[right].second, weight}};
   }
 
   std::optional<double> operator()(std::size_t row, RowNumbers& numbers) const {
     double value = 0;
-    for (const auto& [column, share] : parts_) {
+    for (const auto& [column, weight] : parts_) {
       const auto number = numbers(row, column);
       if (!number) return std::nullopt;
-      value += share * *number;
+      value += weight * *number;
     }
     return value;
   }

@@ -12,10 +12,6 @@ namespace hyperlattice::study {
 
 namespace {
 
-constexpr const char* colours[] = {"#1b6ca8", "#e67e22", "#27825a", "#8e44ad",
-                                   "#b03a2e", "#7f6000", "#2e86c1", "#7f8c8d",
-                                   "#c2185b", "#00796b", "#5d4037", "#9e9d24"};
-
 /// Appends points as a named gnuplot data block, and the labels of those that have one.
 void append_points(std::string& text, const std::string& name,
                    const std::vector<std::pair<Cost, std::string>>& points, const char* colour) {
@@ -42,7 +38,7 @@ class Plot {
     draw_peers();
     draw_front();
     std::string text =
-        "set encoding utf8\nset logscale xy\nset tics out\nset key above left Left reverse "
+        "set logscale xy\nset key above left Left reverse "
         "vertical maxrows 6 samplen 2 font ',11'\n";
     fmt::format_to(std::back_inserter(text),
                    "set title {} noenhanced\nset xlabel 'run time in s'\nset ylabel 'error in %, "
@@ -89,7 +85,7 @@ class Plot {
             const std::vector<std::pair<Cost, std::string>>& points, const std::string& title,
             int mark) {
     const std::string name = fmt::format("{}{}", kind, number);
-    const char* colour = colours[curves_.size() % std::size(colours)];
+    const char* colour = plot_colours[curves_.size() % plot_colours.size()];
     append_points(data_, name, points, colour);
     for (const auto& [cost, label] : points) include(cost);
     curves_.push_back(fmt::format(

@@ -14,7 +14,7 @@ namespace {
 /// Returns the text without control characters that a terminal would act on.
 std::string shown_whole(const std::string& text) { return visible(text, std::string::npos); }
 
-std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
+std::string percent(double fraction) { return fmt::format("{:.3g} %", 100 * fraction); }
 
 /// Appends the values of the axes as keys of an object.
 void append_choice(Json& json, const std::vector<Axis>& axes, const Choice& choice,

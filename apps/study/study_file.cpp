@@ -176,7 +176,7 @@ class StudyReader {
   const Json& given_;
   Study& study_;
   Faults faults_;
-  PlainReader reader_{faults_};
+  ObjectReader reader_{faults_};
 };
 
 }  // namespace

@@ -66,7 +66,7 @@ std::optional<double> read_plain_number(const Json& given, const std::string& po
 }
 
 void read_table(Truth& truth, const Json& given, const std::filesystem::path& folder,
-                const std::vector<Axis>& axes, PlainReader& reader) {
+                const std::vector<Axis>& axes, ObjectReader& reader) {
   truth.kind = Truth::Kind::table;
   if (given.contains("where"))
     truth.where = read_filters(given["where"], truth.pointer + "/where", axes, reader);
@@ -90,7 +90,7 @@ void read_table(Truth& truth, const Json& given, const std::filesystem::path& fo
   }
 }
 
-void read_numbers(Truth& truth, const Json& given, PlainReader& reader) {
+void read_numbers(Truth& truth, const Json& given, ObjectReader& reader) {
   truth.kind = Truth::Kind::numbers;
   if (given.contains("value")) {
     truth.numbers[""] =
@@ -117,7 +117,7 @@ void reject_others(const Json& given, const Truth& truth, const std::string& kin
 }
 
 Truth read_truth(const Json& given, const std::string& pointer, const std::filesystem::path& folder,
-                 const std::vector<Axis>& axes, PlainReader& reader) {
+                 const std::vector<Axis>& axes, ObjectReader& reader) {
   Faults& faults = reader.faults();
   Truth truth;
   truth.pointer = pointer;
@@ -157,7 +157,7 @@ Truth read_truth(const Json& given, const std::string& pointer, const std::files
 }  // namespace
 
 std::vector<Truth> read_truths(const Json& given, const std::filesystem::path& folder,
-                               const std::vector<Axis>& axes, PlainReader& reader) {
+                               const std::vector<Axis>& axes, ObjectReader& reader) {
   std::vector<Truth> truths;
   if (!given.is_array()) return {read_truth(given, "/truth", folder, axes, reader)};
   if (given.empty()) reader.faults().add("/truth", "[]", "at least one truth");
@@ -167,7 +167,7 @@ std::vector<Truth> read_truths(const Json& given, const std::filesystem::path& f
 }
 
 std::vector<RowFilter> read_filters(const Json& given, const std::string& pointer,
-                                    const std::vector<Axis>& axes, PlainReader& reader) {
+                                    const std::vector<Axis>& axes, ObjectReader& reader) {
   std::vector<RowFilter> filters;
   if (!given.is_object()) {
     reader.faults().add(pointer, shown(given),

@@ -3,7 +3,7 @@
 
 #include <base/csv.hpp>
 #include <study/axes.hpp>
-#include <study/plain_reader.hpp>
+#include <study/object_reader.hpp>
 
 #include <filesystem>
 #include <map>
@@ -41,11 +41,11 @@ struct Truth {
 
 /// Reads the study's "truth", one or a list. Paths are relative to `folder`.
 std::vector<Truth> read_truths(const Json& given, const std::filesystem::path& folder,
-                               const std::vector<Axis>& axes, PlainReader& reader);
+                               const std::vector<Axis>& axes, ObjectReader& reader);
 
 /// Reads { "<column>": value, or { "axis": name, "scale": number }, ... }.
 std::vector<RowFilter> read_filters(const Json& given, const std::string& pointer,
-                                    const std::vector<Axis>& axes, PlainReader& reader);
+                                    const std::vector<Axis>& axes, ObjectReader& reader);
 
 /// Returns whether a row of the table passes all filters. `numbers`: the value of each axis in SI,
 /// if it is a number.

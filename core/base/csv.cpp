@@ -1,7 +1,5 @@
 #include <base/csv.hpp>
 
-#include <hyperlattice/tables.hpp>
-
 #include <set>
 
 namespace hyperlattice {
@@ -41,28 +39,24 @@ std::string_view take_line(std::string_view& text) {
   return line;
 }
 
-/// Returns what is wrong with the number of cells of a row; empty if it is right. Columns without a
-/// name at the end need no cell.
-std::string fault_of_length(const TableColumns& columns, const std::vector<std::string>& cells) {
-  if (std::string excess = columns.excess(cells); !excess.empty()) return excess;
-  const std::size_t needed = columns.count();
-  return cells.size() < needed ? "a row of " + std::to_string(needed) + " cells, not of " +
-                                     std::to_string(cells.size())
-                               : "";
-}
+/// Columns and the number of the line that names them.
+struct NamedColumns {
+  TableColumns columns;
+  std::size_t line = 0;
+};
 
 /// Returns the columns that a comment in `lines` names for the row that follows; nothing if there
 /// is no comment.
-std::optional<TableColumns> columns_in_comments(std::string_view lines, std::string_view row) {
-  std::optional<TableColumns> found;
+std::optional<NamedColumns> columns_in_comments(std::string_view lines, std::string_view row) {
+  std::optional<NamedColumns> found;
   bool found_fits = false;
-  while (!lines.empty()) {
+  for (std::size_t number = 1; !lines.empty(); ++number) {
     const std::string_view line = take_line(lines);
     if (!TableColumns::is_comment(line)) continue;
     TableColumns columns(line);
     const bool fits = columns.cells(row).size() == columns.names().size();
     if (found_fits && !fits) continue;
-    found = std::move(columns);
+    found = {std::move(columns), number};
     found_fits = fits;
   }
   return found;
@@ -70,29 +64,55 @@ std::optional<TableColumns> columns_in_comments(std::string_view lines, std::str
 
 }  // namespace
 
-CsvTable parse_csv(std::string_view text) {
-  CsvTable table;
-  std::optional<TableColumns> columns;
-  std::size_t number = 0;
-  for (std::string_view rest = text; !rest.empty();) {
-    ++number;
-    const std::string_view above = text.substr(0, text.size() - rest.size()),
-                           line = take_line(rest);
+CsvReader::CsvReader(std::string_view text) : rest_(text), columns_("") {
+  while (names_.empty() && !rest_.empty()) {
+    const std::string_view here = rest_, above = text.substr(0, text.size() - here.size()),
+                           line = take_line(rest_);
+    ++line_;
     if (TableColumns::is_empty(line)) continue;
-    bool is_row = true;
-    if (!columns) {
-      if (holds_number(TableColumns(line).names())) columns = columns_in_comments(above, line);
-      is_row = columns.has_value();
-      if (!columns) columns.emplace(line);
-      table.columns = columns->names();
+    columns_ = TableColumns(line);
+    columns_line_ = line_;
+    if (auto named =
+            holds_number(columns_.names()) ? columns_in_comments(above, line) : std::nullopt) {
+      columns_ = std::move(named->columns);
+      columns_line_ = named->line;
+      rest_ = here;  // the line is a row
+      --line_;
     }
-    if (!is_row) continue;
-    table.rows.push_back(columns->cells(line));
-    table.lines.push_back(number);
-    if (table.faults.size() < most_faults)
-      if (std::string fault = fault_of_length(*columns, table.rows.back()); !fault.empty())
-        table.faults.push_back({number, std::move(fault)});
+    names_ = columns_.names();
+  }
+}
+
+bool CsvReader::next() {
+  while (!rest_.empty()) {
+    const std::string_view line = take_line(rest_);
+    ++line_;
+    if (TableColumns::is_empty(line)) continue;
+    cells_ = columns_.cells(line);
+    return true;
+  }
+  return false;
+}
+
+std::string CsvReader::fault() const {
+  if (std::string excess = columns_.excess(cells_); !excess.empty()) return excess;
+  const std::size_t needed = columns_.count();
+  return cells_.size() < needed ? "a row of " + std::to_string(needed) + " cells, not of " +
+                                      std::to_string(cells_.size())
+                                : "";
+}
+
+CsvTable parse_csv(std::string_view text) {
+  CsvReader reader(text);
+  CsvTable table;
+  table.columns = reader.columns();
+  while (reader.next()) {
+    table.rows.push_back(reader.cells());
     table.rows.back().resize(table.columns.size());
+    table.lines.push_back(reader.line());
+    if (table.faults.size() < most_faults)
+      if (std::string fault = reader.fault(); !fault.empty())
+        table.faults.push_back({reader.line(), std::move(fault)});
   }
   return table;
 }

@@ -1,6 +1,8 @@
-// Tables as text (CSV): the first line names the columns, see parse_csv(). The SDK's
+// Tables as text (CSV): the first line names the columns, see CsvReader. The SDK's
 // <hyperlattice/tables.hpp> cuts lines into cells.
 #pragma once
+
+#include <hyperlattice/tables.hpp>
 
 #include <optional>
 #include <string>
@@ -14,6 +16,41 @@ std::vector<std::string> csv_cells(std::string_view line);
 
 /// Returns the number in a cell; nothing if the cell holds no number or one that is not finite.
 std::optional<double> csv_number(std::string_view cell);
+
+/// Reads the rows of a table, one after the other. The first line that is neither blank nor begins
+/// with "#" names the columns. If this line holds a number, it is a row, and the columns are named
+/// by the last line above it that begins with "#" and has as many cells, otherwise by the last line
+/// above it that begins with "#". All other lines that begin with "#" are skipped. Lines end with
+/// LF, CR or both.
+class CsvReader {
+ public:
+  /// Reads the names of the columns. The text must outlive the reader.
+  explicit CsvReader(std::string_view text);
+
+  /// Returns the names of the columns; none if the text has no line that names them.
+  const std::vector<std::string>& columns() const { return names_; }
+  /// Returns these names for a message, see TableColumns.
+  std::string columns_text() const { return columns_.text(); }
+  /// Returns the number of the line that names the columns, from 1.
+  std::size_t columns_line() const { return columns_line_; }
+
+  /// Goes to the next row. Returns false at the end.
+  bool next();
+  /// Returns the cells of the row, which may be more or fewer than columns.
+  const std::vector<std::string>& cells() const { return cells_; }
+  /// Returns the number of the row's line in the text, from 1.
+  std::size_t line() const { return line_; }
+  /// Returns what was expected if the row has a wrong number of cells; empty if it is right.
+  /// Columns without a name at the end need no cell.
+  std::string fault() const;
+
+ private:
+  std::string_view rest_;
+  TableColumns columns_;
+  std::vector<std::string> names_;
+  std::size_t columns_line_ = 0, line_ = 0;
+  std::vector<std::string> cells_;
+};
 
 /// A row with a wrong number of cells.
 struct CsvFault {
@@ -40,10 +77,7 @@ struct CsvTable {
 /// name do not count.
 std::optional<std::string> name_of_several(const CsvTable& table);
 
-/// Reads a table. The first line that is neither blank nor begins with "#" names the columns. If
-/// this line holds a number, it is a row, and the columns are named by the last line above it that
-/// begins with "#" and has as many cells, otherwise by the last line above it that begins with "#".
-/// All other lines that begin with "#" are skipped. Lines end with LF, CR or both.
+/// Reads a whole table.
 CsvTable parse_csv(std::string_view text);
 
 }  // namespace hyperlattice

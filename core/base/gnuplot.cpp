@@ -134,8 +134,9 @@ std::string svg_picture(const std::filesystem::path& file, const std::string& co
                         int height, std::chrono::milliseconds patience) {
   MemoryFile script(file), picture(file), words(file);
   script.write(
-      fmt::format("set terminal svg size {},{} font 'Helvetica,13' background 'white'\n{}\n", width,
-                  height, commands));
+      fmt::format("set terminal svg size {},{} font 'Helvetica,13' background 'white'\nset "
+                  "encoding utf8\nset tics out\n{}\n",
+                  width, height, commands));
   std::string program = "gnuplot", plain = "--default-settings";
   char* arguments[] = {program.data(), plain.data(), nullptr};
   posix_spawn_file_actions_t streams;

@@ -1,6 +1,7 @@
 // Pictures drawn by gnuplot, in a process of its own.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <string>
@@ -8,9 +9,15 @@
 
 namespace hyperlattice {
 
-/// Runs gnuplot on the commands and returns the picture as SVG, `width` x `height` pixels. Uses no
-/// shell and no start-up file of the user. Throws OutsideError with the name of `file` if gnuplot
-/// is not installed, fails or takes longer than `patience`.
+/// The colours of the curves of a plot, in their order.
+inline constexpr std::array<const char*, 12> plot_colours{
+    "#1b6ca8", "#e67e22", "#27825a", "#8e44ad", "#b03a2e", "#7f6000",
+    "#2e86c1", "#7f8c8d", "#c2185b", "#00796b", "#5d4037", "#9e9d24"};
+
+/// Runs gnuplot on the commands and returns the picture as SVG, `width` x `height` pixels. Texts
+/// are UTF-8, and ticks point outwards. Uses no shell and no start-up file of the user. Throws
+/// OutsideError with the name of `file` if gnuplot is not installed, fails or takes longer than
+/// `patience`.
 std::string svg_picture(const std::filesystem::path& file, const std::string& commands,
                         int width = 760, int height = 760,
                         std::chrono::milliseconds patience = std::chrono::seconds(60));

@@ -56,10 +56,10 @@ StageCalls::StageCalls(const Model& model, Simulation& simulation, const Planned
     auto& calls = *static_cast<StageCalls*>(self);
     return calls.guarded([&] { calls.statics(); }) ? &calls.statics_->problem() : nullptr;
   };
-  host_.take = [](void* self, double share, const double* displacement) noexcept {
+  host_.take = [](void* self, double fraction, const double* displacement) noexcept {
     auto& calls = *static_cast<StageCalls*>(self);
     return calls.guarded([&] {
-      calls.statics().accept(share, displacement);
+      calls.statics().accept(fraction, displacement);
       calls.host_.time = calls.simulation_.time();
     });
   };

@@ -1,5 +1,5 @@
 // The particles, cells and faces of a region in a body on a cubic grid.
-#include <model/meaning.hpp>
+#include <model/region_membership.hpp>
 #include <model/surfaces.hpp>
 
 #include <map>
@@ -8,7 +8,7 @@ namespace hyperlattice {
 
 namespace {
 
-/// The sites of a body and the faces of its cells, see meaning.hpp.
+/// The sites of a body and the faces of its cells, see region_membership.hpp.
 struct Sites {
   using Point = Site;
   struct Face {
@@ -100,7 +100,7 @@ struct Sites {
   }
 };
 
-/// The cells of a body as points at their centres, see meaning.hpp.
+/// The cells of a body as points at their centres, see region_membership.hpp.
 struct Centres {
   using Point = Site;
   using Face = Sites::Face;
@@ -127,11 +127,11 @@ struct Centres {
 std::vector<Particle> cells_in(const Body& body, const Surfaces& surfaces, const Region& region) {
   const Sites sites{body, surfaces};
   const Centres centres{sites};
-  const Meaning<Centres> meaning(centres);
+  const RegionMembership<Centres> membership(centres);
   std::vector<Particle> found;
   for (const Run& run : body.cells.runs())
     for (std::int32_t i = run.begin; i < run.end; ++i)
-      if (meaning.holds(region, {i, run.j, run.k}))
+      if (membership.holds(region, {i, run.j, run.k}))
         found.push_back(run.first + static_cast<Particle>(i - run.begin));
   return found;
 }
@@ -139,18 +139,18 @@ std::vector<Particle> cells_in(const Body& body, const Surfaces& surfaces, const
 std::vector<Particle> particles_in(const Body& body, const Surfaces& surfaces,
                                    const Region& region) {
   const Sites sites{body, surfaces};
-  const Meaning<Sites> meaning(sites);
+  const RegionMembership<Sites> membership(sites);
   std::vector<Particle> found;
   for (const Run& run : body.runs)
     for (std::int32_t i = run.begin; i < run.end; ++i)
-      if (meaning.holds(region, {i, run.j, run.k}))
+      if (membership.holds(region, {i, run.j, run.k}))
         found.push_back(run.first + static_cast<Particle>(i - run.begin));
   return found;
 }
 
 std::vector<OpenArea> open_areas(const Body& body, const Surfaces& surfaces, const Region& region) {
   const Sites sites{body, surfaces};
-  const Meaning<Sites> meaning(sites);
+  const RegionMembership<Sites> membership(sites);
   const double face_area = body.grid.spacing * body.grid.spacing,
                share = body.cells.empty() ? 1 : 0.25;
   std::map<Particle, Vec3> areas;
@@ -158,7 +158,8 @@ std::vector<OpenArea> open_areas(const Body& body, const Surfaces& surfaces, con
     for (Site cell{run.begin, run.j, run.k}; cell.i < run.end; ++cell.i) {
       const OpenFaces open = surfaces.faces(cell);
       for (int direction = 0; direction < 6; ++direction) {
-        if ((open >> direction & 1U) == 0 || !meaning.means(region, {cell, direction})) continue;
+        if ((open >> direction & 1U) == 0 || !membership.holds_face(region, {cell, direction}))
+          continue;
         sites.for_points({cell, direction}, [&](Site particle) {
           Vec3& area = areas[body.at(particle)];
           area += (share * face_area) * face_normals[direction];

@@ -1,5 +1,5 @@
-#include <model/meaning.hpp>
 #include <model/nearby.hpp>
+#include <model/region_membership.hpp>
 #include <model/skin.hpp>
 
 #include <map>
@@ -64,8 +64,8 @@ constexpr LatticeFunctions cubes_functions{
       return detail::guarded(why, [&] { static_cast<const Cubes*>(lattice)->send(sink); });
     }};
 
-/// The particles of a body and the faces of its skin, see meaning.hpp. The skin is built on first
-/// use.
+/// The particles of a body and the faces of its skin, see region_membership.hpp. The skin is built
+/// on first use.
 struct SkinPlaces {
   using Point = Particle;
   using Face = Skin::Face;
@@ -136,20 +136,20 @@ Skin::Skin(const Body& body) : width_(body.grid.spacing / 2), sides_(body.partic
 std::vector<Particle> particles_in(const Body& body, const std::function<const Skin&()>& skin,
                                    const Region& region) {
   const SkinPlaces places{body, skin};
-  const Meaning<SkinPlaces> meaning(places);
+  const RegionMembership<SkinPlaces> membership(places);
   std::vector<Particle> found;
   for (Particle particle = 0; particle < body.particles; ++particle)
-    if (meaning.holds(region, particle)) found.push_back(particle);
+    if (membership.holds(region, particle)) found.push_back(particle);
   return found;
 }
 
 std::vector<OpenArea> open_areas(const Body& body, const std::function<const Skin&()>& skin,
                                  const Region& region) {
   const SkinPlaces places{body, skin};
-  const Meaning<SkinPlaces> meaning(places);
+  const RegionMembership<SkinPlaces> membership(places);
   std::map<Particle, Vec3> areas;
   for (const Skin::Face& face : skin().faces())
-    if (meaning.means(region, face)) {
+    if (membership.holds_face(region, face)) {
       Vec3& area = areas[face.particle];
       area += skin().face_area() * face_normals[face.direction];
     }

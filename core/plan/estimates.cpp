@@ -98,14 +98,14 @@ void estimate_memory(Plan& plan) {
 
 void estimate_output(Plan& plan) {
   constexpr double bytes_per_text_number = 19, history_numbers = 16;
-  constexpr double share_at_rest = 0.3;  // of the bytes of a frame in motion
+  constexpr double fraction_at_rest = 0.3;  // of the bytes of a frame in motion
   constexpr double own_files = 12e3,
                    listed_file =
                        90;  // bytes: scene.resolved.json and summary.json; a line of files.csv
   plan.output_bytes = own_files;
   for (const Stage* stage : plan.scene->of(Family::writers)) {
     const double frames = frames_of(plan, *stage),
-                 saved = stage->cadence.first ? 1 - share_at_rest : 0;
+                 saved = stage->cadence.first ? 1 - fraction_at_rest : 0;
     plan.output_bytes += (frames - saved) * frame_bytes(plan, *stage) + frames * listed_file;
   }
   const auto probes = plan.scene->of(Family::probes);

@@ -19,15 +19,15 @@ bool has_folder(const Stage& writer) {
 }
 
 /// A writer and the text with which the names of all its files begin.
-struct Named {
+struct NamedWriter {
   const Stage* writer;
   std::string base;
 };
 
 /// Returns the writers that have an option `file`.
-std::vector<Named> named_of(const std::vector<const Stage*>& writers,
-                            const nlohmann::json& resolved) {
-  std::vector<Named> named;
+std::vector<NamedWriter> named_writers(const std::vector<const Stage*>& writers,
+                                       const nlohmann::json& resolved) {
+  std::vector<NamedWriter> named;
   for (const Stage* writer : writers) {
     const nlohmann::json::json_pointer place(writer->pointer + "/file");
     if (resolved.contains(place) && resolved[place].is_string())
@@ -52,7 +52,7 @@ bool OutputName::may_be(std::string_view name) const {
 std::vector<OutputName> output_names(const Plan& plan) {
   std::vector<OutputName> names;
   const auto resolved = nlohmann::json::parse(plan.scene->resolved, nullptr, false);
-  for (const auto& [writer, base] : named_of(plan.scene->of(Family::writers), resolved))
+  for (const auto& [writer, base] : named_writers(plan.scene->of(Family::writers), resolved))
     names.push_back({has_folder(*writer) ? writer->name : "", base, 1 + frames_of(plan, *writer)});
   for (const Stage* probe : plan.scene->of(Family::probes))
     names.push_back({"probes", probe->name + ".csv"});
@@ -62,8 +62,8 @@ std::vector<OutputName> output_names(const Plan& plan) {
 void check_file_names(const Scene& scene, Faults& faults) {
   const auto resolved = nlohmann::json::parse(scene.resolved, nullptr, false);
   const auto writers = scene.of(Family::writers);
-  std::vector<Named> unlabelled = named_of(writers, resolved);
-  std::erase_if(unlabelled, [](const Named& one) { return has_folder(*one.writer); });
+  std::vector<NamedWriter> unlabelled = named_writers(writers, resolved);
+  std::erase_if(unlabelled, [](const NamedWriter& one) { return has_folder(*one.writer); });
   for (const Stage* writer : writers) {
     if (!has_folder(*writer)) continue;
     const std::string& name = writer->name;

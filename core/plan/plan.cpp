@@ -6,9 +6,9 @@
 #include <plan/file_names.hpp>
 #include <plan/idle_loads.hpp>
 #include <plan/left_out.hpp>
+#include <plan/output_trial.hpp>
 #include <plan/plan.hpp>
 #include <plan/precision.hpp>
-#include <plan/rehearsal.hpp>
 #include <plan/resolution.hpp>
 #include <plan/solver_facts.hpp>
 #include <process/lack_of_memory.hpp>
@@ -139,7 +139,7 @@ std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, Threads threads) {
   if (faults.empty()) check_precision(*plan, faults);
   if (faults.empty()) check_resolution(*plan, faults);
   if (faults.empty() && !plan->stages.empty()) warn_of_idle_loads(*plan);
-  if (faults.empty()) rehearse_outputs(*plan, faults);
+  if (faults.empty()) try_outputs(*plan, faults);
   faults.throw_if_any();
   estimate_output(*plan);
   set_threads(*plan, threads.of(plan->model->body.particles));

@@ -41,7 +41,7 @@ Pieces pieces_of(const Load& load) {
 }
 
 ShortPiece shortest(const Load& load, const Pieces& pieces, const PlannedStage& stage) {
-  constexpr double enough_steps = 2, round_off = 1e-6, share = 0.1;
+  constexpr double enough_steps = 2, round_off = 1e-6, fraction = 0.1;
   const double step = stage.plan.time_step, nearby = round_off * step;
   const double largest = std::max(std::abs(load.factor(stage.plan.end_time)), pieces.largest);
   ShortPiece shortest{0, enough_steps * step * (1 - round_off), false};
@@ -55,7 +55,7 @@ ShortPiece shortest(const Load& load, const Pieces& pieces, const PlannedStage& 
       least = std::min(least, load.factor(time));
       most = std::max(most, load.factor(time));
     }
-    if (most - least > share * largest) shortest = {from, to, true};
+    if (most - least > fraction * largest) shortest = {from, to, true};
   }
   return shortest;
 }
@@ -65,7 +65,7 @@ ShortPiece shortest(const Load& load, const Pieces& pieces, const PlannedStage& 
 /// the stage; returns nothing if all agree.
 std::optional<double> too_fast_at(const Load& load, const PlannedStage& stage,
                                   std::uint64_t most_steps) {
-  constexpr double share = 1e-3;
+  constexpr double fraction = 1e-3;
   const double step = stage.plan.time_step;
   const std::uint64_t stride = std::max<std::uint64_t>(1, stage.plan.steps / most_steps);
   double largest = 0, worst = 0, at = 0;
@@ -79,7 +79,7 @@ std::optional<double> too_fast_at(const Load& load, const PlannedStage& stage,
     worst = std::abs(whole - halves);
     at = from;
   }
-  return worst > share * largest ? std::optional(at) : std::nullopt;
+  return worst > fraction * largest ? std::optional(at) : std::nullopt;
 }
 
 /// Returns the stage with the longest time step, or null if no stage has steps in time.

@@ -192,7 +192,7 @@ void RunFolder::begin(bool overwrite, const std::vector<OutputName>& outputs,
                "results by --overwrite");
   refuse_losses(met(outputs, faults), inputs, overwrite, faults);
   try {
-    remove_leavings(earlier_, overwrite, faults);
+    remove_earlier_files(earlier_, overwrite, faults);
   } catch (const InputError&) {
     if (list_->extent().bytes == 0) ::unlink(list_path().c_str());  // leave no empty list
     throw;
@@ -202,7 +202,7 @@ void RunFolder::begin(bool overwrite, const std::vector<OutputName>& outputs,
   earlier_.clear();
 }
 
-void RunFolder::remove_leavings(const OwnFiles& files, bool overwrite, Faults& faults) {
+void RunFolder::remove_earlier_files(const OwnFiles& files, bool overwrite, Faults& faults) {
   struct stat list {};
   ::lstat(list_path().c_str(), &list);
   std::vector<fs::path> old;
@@ -275,7 +275,7 @@ void RunFolder::go_on(std::vector<TableMark> marks, const std::vector<OutputName
         is_real(directory_, name, status) &&
         (file.hash.empty() || (static_cast<std::uint64_t>(status.st_size) == file.bytes &&
                                has_extent(path_of(name), {file.bytes, file.hash})));
-    mine_[name] = {file.hash.empty(), !file.hash.empty()};
+    files_[name] = {file.hash.empty(), !file.hash.empty()};
     if (!is_same)
       faults.add("--resume", path_of(name).string(),
                  "a file as it was when the checkpoint was made; it was changed or removed");
@@ -288,14 +288,14 @@ void RunFolder::go_on(std::vector<TableMark> marks, const std::vector<OutputName
     if (::unlink(path_of(name).c_str()) != 0 && errno != ENOENT)
       throw cannot("remove", path_of(name), errno);
   std::set<fs::path> folders{directory_};
-  for (const auto& [name, file] : mine_) folders.insert(path_of(name).parent_path());
+  for (const auto& [name, file] : files_) folders.insert(path_of(name).parent_path());
   for (const fs::path& folder : folders) remove_parts(folder);
   list_->cut(listed);
   // Files written after the checkpoint are the run's, but will be written again.
   for (const auto& [name, file] : earlier_) {
-    if (mine_.count(name) > 0 || tables.count(name) > 0) continue;
+    if (files_.count(name) > 0 || tables.count(name) > 0) continue;
     list_->lines(own_file_line(name, {}));
-    mine_[name] = {true, false};
+    files_[name] = {true, false};
   }
 }
 
@@ -332,20 +332,20 @@ void RunFolder::write(const std::string& name, std::string_view text) {
 void RunFolder::claim(const std::string& name, bool rewritten) {
   if (!is_own_name(name))
     throw OutsideError(fmt::format("\"{}\" cannot be the name of a file of the run", name));
-  const auto found = mine_.find(name);
-  if (found != mine_.end() && !found->second.noted) {
+  const auto found = files_.find(name);
+  if (found != files_.end() && !found->second.noted) {
     found->second.rewritten = rewritten;
     return;
   }
-  if (found == mine_.end() && !may_replace_ && is_there(path_of(name)))
+  if (found == files_.end() && !may_replace_ && is_there(path_of(name)))
     throw OutsideError(fmt::format(
         "{} is there already and is not this run's: move it, or replace it by --overwrite",
         path_of(name).string()));
   list_->lines(own_file_line(name, {}));
-  mine_[name] = {rewritten, false};
+  files_[name] = {rewritten, false};
 }
 
-void RunFolder::note(const std::string& name, Mine& file, bool to_the_disk) {
+void RunFolder::note(const std::string& name, ListedFile& file, bool to_the_disk) {
   const fs::path path = path_of(name);
   const Descriptor there(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   struct stat status {};
@@ -370,7 +370,7 @@ std::vector<TableMark> RunFolder::sync() {
     return std::any_of(tables_.begin(), tables_.end(),
                        [&](const auto& one) { return one.first == name; });
   };
-  for (auto& [name, file] : mine_) {
+  for (auto& [name, file] : files_) {
     if (file.noted || is_table(name)) continue;
     note(name, file, true);
     folders.insert(path_of(name).parent_path());
@@ -387,7 +387,7 @@ void RunFolder::check_tables() const {
 }
 
 void RunFolder::finish() {
-  for (auto& [name, file] : mine_)
+  for (auto& [name, file] : files_)
     if (!file.noted) note(name, file, false);
 }
 

@@ -61,11 +61,11 @@ class RunFolder {
   void finish();
 
  private:
-  struct Mine {
+  struct ListedFile {
     bool rewritten = false, noted = false;  ///< noted: its hash is in the list
   };
-  void note(const std::string& name, Mine& file, bool to_the_disk);
-  void remove_leavings(const OwnFiles& files, bool overwrite, Faults& faults);
+  void note(const std::string& name, ListedFile& file, bool to_the_disk);
+  void remove_earlier_files(const OwnFiles& files, bool overwrite, Faults& faults);
   std::set<std::string> met(const std::vector<OutputName>& outputs, Faults& faults) const;
   void refuse_losses(const std::set<std::string>& names,
                      const std::vector<std::filesystem::path>& inputs, bool overwrite,
@@ -78,7 +78,7 @@ class RunFolder {
   std::unique_ptr<Table> list_;  ///< open and locked
   std::list<std::pair<std::string, Table>> tables_;
   std::vector<TableMark> marks_;
-  std::map<std::string, Mine> mine_;
+  std::map<std::string, ListedFile> files_;
   OwnFiles earlier_;  ///< content of the list when the folder was opened
   bool may_replace_ = false;
 };

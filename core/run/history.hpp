@@ -1,8 +1,8 @@
 // history.csv: the energy balance, the momentum and the number of broken springs at every record.
-// failures.csv: every broken spring.
 #pragma once
 
 #include <run/folder.hpp>
+#include <state/archive.hpp>
 #include <state/simulation.hpp>
 
 namespace hyperlattice {
@@ -17,24 +17,28 @@ struct Record {
 
 class History {
  public:
-  explicit History(RunFolder& folder);
-  void write(const Record& record);
+  explicit History(RunFolder& folder) : folder_(folder) {}
+  void archive(Archive& archive);
+  /// Begins the table, or continues it. Throws OutsideError if the disk refuses.
+  void begin();
+
+  /// Returns whether the latest record is of this step.
+  bool has(std::uint64_t step) const { return has_record_ && last_.step == step; }
+  /// Makes this record the latest.
+  void take(const Record& record);
+  /// Writes the latest record. Throws OutsideError if the disk refuses.
+  void write();
+
+  const Record& last() const { return last_; }
+  /// Returns the largest relative error of the energy balance in all records.
+  double largest_relative_error() const { return largest_relative_error_; }
 
  private:
-  Table& table_;
-};
-
-/// failures.csv, only for runs with a failure criterion.
-class FailureLog {
- public:
-  explicit FailureLog(RunFolder& folder, Archive* resumed = nullptr);
-  void save(Archive& archive);
-  /// Writes the breakages since the last call.
-  void write_new(const std::vector<Breakage>& breakages);
-
- private:
-  Table& table_;
-  std::uint64_t written_ = 0;
+  RunFolder& folder_;
+  Table* table_ = nullptr;
+  Record last_;
+  bool has_record_ = false;
+  double largest_relative_error_ = 0;
 };
 
 }  // namespace hyperlattice

@@ -10,7 +10,7 @@
 namespace hyperlattice {
 
 Outputs::Outputs(const Model& model, const Simulation& simulation, RunFolder& folder,
-                 double end_time, Archive* resumed)
+                 double end_time)
     : model_(model),
       simulation_(simulation),
       source_(model, simulation),
@@ -22,24 +22,24 @@ Outputs::Outputs(const Model& model, const Simulation& simulation, RunFolder& fo
     for (const Stage* stage : model.scene->of(family)) {
       Output& output = outputs_.emplace_back();
       output.stage = stage;
-      output.component = make_component(*stage);
       output.schedule = Schedule(0, output_interval(*stage, end_time), stage->cadence.first);
-      if (resumed != nullptr) visit(*resumed, output);
-      begin(output);
     }
 }
 
-void Outputs::visit(Archive& archive, Output& output) {
-  archive(output.schedule);
-  archive(output.shown);
+void Outputs::archive(Archive& archive) {
+  for (Output& output : outputs_) {
+    archive(output.schedule);
+    archive(output.shown);
+  }
 }
 
-void Outputs::save(Archive& archive) {
-  for (Output& output : outputs_) visit(archive, output);
+void Outputs::begin() {
+  for (Output& output : outputs_) begin(output);
 }
 
 void Outputs::begin(Output& output) {
   const Stage& stage = *output.stage;
+  output.component = make_component(stage);
   const bool is_probe = stage.family() == Family::probes;
   const std::string type = stage.component->type();
   const bool is_labelled =

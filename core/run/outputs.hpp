@@ -13,11 +13,11 @@ namespace hyperlattice {
 /// All members throw OutsideError when a writer, a probe or the disk refuses.
 class Outputs {
  public:
-  /// Begins every writer and probe, or continues them. `end_time`, s, is the run's and sets the
-  /// interval of outputs that have none.
-  Outputs(const Model& model, const Simulation& simulation, RunFolder& folder, double end_time,
-          Archive* resumed = nullptr);
-  void save(Archive& archive);
+  /// `end_time`, s, is the run's and sets the interval of outputs that have none.
+  Outputs(const Model& model, const Simulation& simulation, RunFolder& folder, double end_time);
+  void archive(Archive& archive);
+  /// Makes and begins every writer and probe, or continues them.
+  void begin();
 
   /// Shows the present state to the outputs that are due.
   void show(double time_step);
@@ -41,7 +41,6 @@ class Outputs {
   };
   void begin(Output& output);
   void announce(std::string_view file, bool rewritten);
-  static void visit(Archive& archive, Output& output);
   bool has_seen_this(const Output& output) const {
     return !output.shown.empty() && output.shown.back().step == simulation_.steps();
   }

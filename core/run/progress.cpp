@@ -43,9 +43,9 @@ void Progress::update(std::uint64_t step, double time, double time_step, std::ui
   if (now - shown_ < pause_ && step != steps_) return;
   shown_ = now;
   const double spent = std::chrono::duration<double>(now - start_).count();
-  const double share = steps_ > 0 ? static_cast<double>(step) / static_cast<double>(steps_) : 1;
-  const double left = step > 0 && share < 1
-                          ? spent * (1 / share - 1)
+  const double fraction = steps_ > 0 ? static_cast<double>(step) / static_cast<double>(steps_) : 1;
+  const double left = step > 0 && fraction < 1
+                          ? spent * (1 / fraction - 1)
                           : 0;  // a search for rest may take more steps than planned
   std::string line;
   if (form_ == Form::json) {
@@ -56,7 +56,7 @@ void Progress::update(std::uint64_t step, double time, double time_step, std::ui
         step, steps_, time, time_step, left, broken, rest);
   } else {
     line = fmt::format("step {}/{} ({:.1f}%)  t {:.4g} s  dt {:.3g} s  ETA {}", step, steps_,
-                       100 * share, time, time_step, clock_time(left));
+                       100 * fraction, time, time_step, clock_time(left));
     if (residual >= 0) line += fmt::format("  residual {:.2g}", residual);
     if (broken > 0) line += fmt::format("  broken {}", broken);
     line = form_ == Form::terminal ? "\r" + line + "\x1b[K" : line + "\n";

@@ -19,7 +19,7 @@ bool is_label(const std::string& name) {
 }
 
 template <Family family>
-struct Common {
+struct CommonSchema {
   using Options = CommonOptions;
   static Declaration schema() {
     Declaration declared("", "");
@@ -73,10 +73,10 @@ struct Common {
 
 const OptionSet& common_options(Family family) {
   static const std::array sets{
-      option_set<Common<Family::lattices>>(), option_set<Common<Family::materials>>(),
-      option_set<Common<Family::failures>>(), option_set<Common<Family::loads>>(),
-      option_set<Common<Family::solvers>>(),  option_set<Common<Family::writers>>(),
-      option_set<Common<Family::probes>>()};
+      option_set<CommonSchema<Family::lattices>>(), option_set<CommonSchema<Family::materials>>(),
+      option_set<CommonSchema<Family::failures>>(), option_set<CommonSchema<Family::loads>>(),
+      option_set<CommonSchema<Family::solvers>>(),  option_set<CommonSchema<Family::writers>>(),
+      option_set<CommonSchema<Family::probes>>()};
   return sets[static_cast<std::size_t>(family)];
 }
 

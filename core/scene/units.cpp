@@ -20,32 +20,32 @@ namespace hyperlattice {
 
 namespace {
 
-struct Known {
+struct KnownUnit {
   const char *unit, *name, *example;
 };
 // The first entry of a dimension gives its name. An entry with exactly the same unit has priority
 // ("J/m2" is an energy per area, "N/m" a stiffness).
-constexpr Known known[] = {{"", "a number", "0.5"},
-                           {"m", "a length", "1 mm"},
-                           {"s", "a time", "1 us"},
-                           {"kg", "a mass", "1 g"},
-                           {"K", "a temperature", "300 K"},
-                           {"rad", "an angle", "90 degrees"},
-                           {"m2", "an area", "1 mm2"},
-                           {"m3", "a volume", "1 mm3"},
-                           {"1/s", "a rate", "1 kHz"},
-                           {"m/s", "a velocity", "1 m/s"},
-                           {"m/s2", "an acceleration", "9.81 m/s2"},
-                           {"kg/m3", "a density", "2500 kg/m3"},
-                           {"N", "a force", "1 kN"},
-                           {"Pa", "a pressure", "1 MPa"},
-                           {"J", "an energy", "1 J"},
-                           {"W", "a power", "1 W"},
-                           {"N/m", "a stiffness", "1 kN/m"},
-                           {"J/m2", "an energy per area", "1 J/m2"},
-                           {"Pa s", "a viscosity", "1 Pa s"},
-                           {"kg/s", "a damping coefficient", "1 kg/s"},
-                           {"rad/s", "an angular velocity", "1 rad/s"}};
+constexpr KnownUnit known[] = {{"", "a number", "0.5"},
+                               {"m", "a length", "1 mm"},
+                               {"s", "a time", "1 us"},
+                               {"kg", "a mass", "1 g"},
+                               {"K", "a temperature", "300 K"},
+                               {"rad", "an angle", "90 degrees"},
+                               {"m2", "an area", "1 mm2"},
+                               {"m3", "a volume", "1 mm3"},
+                               {"1/s", "a rate", "1 kHz"},
+                               {"m/s", "a velocity", "1 m/s"},
+                               {"m/s2", "an acceleration", "9.81 m/s2"},
+                               {"kg/m3", "a density", "2500 kg/m3"},
+                               {"N", "a force", "1 kN"},
+                               {"Pa", "a pressure", "1 MPa"},
+                               {"J", "an energy", "1 J"},
+                               {"W", "a power", "1 W"},
+                               {"N/m", "a stiffness", "1 kN/m"},
+                               {"J/m2", "an energy per area", "1 J/m2"},
+                               {"Pa s", "a viscosity", "1 Pa s"},
+                               {"kg/s", "a damping coefficient", "1 kg/s"},
+                               {"rad/s", "an angular velocity", "1 rad/s"}};
 
 /// Prefixes of a unit's symbol or name; at most one is allowed.
 constexpr std::string_view prefixes[] = {
@@ -59,15 +59,15 @@ using Converter = std::unique_ptr<cv_converter, void (*)(cv_converter*)>;
 
 /// Makes this thread read numbers with a decimal point while it exists, since UDUNITS uses the
 /// program's locale for its database and for units.
-class PlainNumbers {
+class NumberLocale {
  public:
-  PlainNumbers() : plain_(::newlocale(LC_ALL_MASK, "C", nullptr)), before_(::uselocale(plain_)) {}
-  ~PlainNumbers() {
+  NumberLocale() : plain_(::newlocale(LC_ALL_MASK, "C", nullptr)), before_(::uselocale(plain_)) {}
+  ~NumberLocale() {
     ::uselocale(before_);
     ::freelocale(plain_);
   }
-  PlainNumbers(const PlainNumbers&) = delete;
-  PlainNumbers& operator=(const PlainNumbers&) = delete;
+  NumberLocale(const NumberLocale&) = delete;
+  NumberLocale& operator=(const NumberLocale&) = delete;
 
  private:
   locale_t plain_, before_;
@@ -77,7 +77,7 @@ class PlainNumbers {
 /// than 255 characters, which no useful unit is.
 std::string definition(const ut_unit* unit) {
   char text[256];
-  const PlainNumbers plain;
+  const NumberLocale plain;
   const int length = ut_format(unit, text, sizeof text, UT_ASCII | UT_DEFINITION);
   return length > 0 && length < static_cast<int>(sizeof text)
              ? std::string(text, static_cast<std::size_t>(length))
@@ -150,7 +150,7 @@ class Database {
     constexpr double enough = 16e6;
     if (memory_room().bytes < enough) throw std::bad_alloc();
     ut_set_error_message_handler(ut_ignore);
-    const PlainNumbers plain;
+    const NumberLocale plain;
     system_ = ut_read_xml(nullptr);
     if (system_ == nullptr)
       throw OutsideError(
@@ -171,7 +171,7 @@ class Database {
           return symbol.size() > prefix.size() && symbol.starts_with(prefix) &&
                  knows(symbol.substr(prefix.size()));
         });
-    const PlainNumbers plain;
+    const NumberLocale plain;
     return {known ? ut_parse(system_, std::string(symbol).c_str(), UT_UTF8) : nullptr, ut_free};
   }
 
@@ -190,9 +190,9 @@ bool same_dimension(const ut_unit* a, const ut_unit* b) {
 }
 
 Dimension dimension_of(std::string_view text, const ut_unit* unit, const Database& database) {
-  for (const Known& entry : known)
+  for (const KnownUnit& entry : known)
     if (text == entry.unit) return {entry.name, entry.example};
-  for (const Known& entry : known) {
+  for (const KnownUnit& entry : known) {
     const Unit other = database.parse(entry.unit);
     if (unit != nullptr && other && same_dimension(unit, other.get()))
       return {entry.name, entry.example};

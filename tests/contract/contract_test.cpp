@@ -89,9 +89,9 @@ TEST(Numbers, WhatIsNoNumberIsLargerThanAll) {
   EXPECT_EQ(contract::largest({1, none, 2}), infinity);
   EXPECT_EQ(contract::distance({1, none}, {1, 0}), infinity);
   EXPECT_EQ(contract::largest({1, -3, 2}), 3);
-  contract::Shaken shaken;
-  contract::take_largest(shaken.largest_error, none);
-  EXPECT_FALSE(shaken.is_finite());
+  contract::MotionResult result;
+  contract::take_largest(result.largest_error, none);
+  EXPECT_FALSE(result.is_finite());
 }
 
 TEST(ContractCommand, CountsWhatItFound) {

@@ -1,73 +1,12 @@
-// `hyperlattice study` from the command line: output for programs, runs that are reused or
-// repeated, refusals and their messages.
+// `hyperlattice study` from the command line: output for programs, refusals and their messages.
 #include <gtest/gtest.h>
-#include <support/program.hpp>
+#include <support/study.hpp>
 
 namespace {
 using namespace hyperlattice::test;
 using nlohmann::json;
 using Words = std::vector<std::string>;
 namespace fs = std::filesystem;
-
-/// Two particles joined by a spring. The lower one is held, the upper one starts with 1 mm/s and
-/// oscillates. The error of central differences falls with the square of the step.
-json swinging_pair() {
-  return json::parse(R"({
-    "format": "hyperlattice-study/1", "title": "Swinging pair",
-    "scene": { "format": "hyperlattice/1", "pipeline": [
-      { "type": "lattices.cubic", "spacing": "1 mm", "shape": { "box": { "low": [0, 0, 0], "high": ["1 mm", "1 mm", "2 mm"] } } },
-      { "type": "materials.elastic", "young": "10 GPa", "poisson": 0.25, "density": 2500 },
-      { "type": "loads.fixed", "on": "z_min" },
-      { "type": "loads.start_velocity", "on": "z_max", "linear": [0, 0, "1 mm/s"] },
-      { "type": "solvers.explicit", "end_time": "2 us" },
-      { "type": "probes.point", "name": "upper", "position": [0, 0, "2 mm"], "component": "z", "every": 0 } ] },
-    "vary": {
-      "step": { "/pipeline/4/time_step": ["0.2 us", "0.1 us", "0.05 us"] },
-      "stiffness": { "/pipeline/1/young": ["10 GPa", "5 GPa"], "labels": ["stiff", "soft"] } },
-    "refine": "step",
-    "truth": [ { "when": { "stiffness": "stiff" }, "value": 1e-10 }, { "when": { "stiffness": ["soft"] }, "value": 1e-10 } ],
-    "compare": { "upper": { "probe": "upper", "column": "displacement_z" } },
-    "repeats": 1 })");
-}
-
-/// v / omega sin(omega t); omega^2 = k / m = 0.4 E l / (rho l^3).
-double swing(double young) {
-  const double omega = std::sqrt(0.4 * young / 2500) / 1e-3;
-  return 1e-3 / omega * std::sin(omega * 2e-6);
-}
-
-json true_swinging_pair() {
-  json study = swinging_pair();
-  study["truth"][0]["value"] = swing(10e9);
-  study["truth"][1]["value"] = swing(5e9);
-  return study;
-}
-
-class StudyCommand : public testing::Test {
- protected:
-  Result study(const json& file, Words words = {}) {
-    std::ofstream(folder_.file("study.json")) << file.dump(1);
-    const Words all{"study", folder_.file("study.json"), "--out", out()};
-    words.insert(words.begin(), all.begin(), all.end());
-    return run_program(words);
-  }
-  std::string out() const { return folder_.file("out"); }
-
-  /// Expects exit code 2, no files, a message with all of the parts, and no further faults.
-  void expect_refused(const json& file, const Words& parts, const Words& words = {}) {
-    const Result result = study(file, words);
-    EXPECT_EQ(result.exit_code, 2) << result.err;
-    for (const std::string& part : parts)
-      EXPECT_NE(result.err.find(part), std::string::npos) << "missing: " << part << '\n'
-                                                          << result.err;
-    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'),
-              1 + static_cast<std::ptrdiff_t>(parts.size()))
-        << result.err;
-    EXPECT_FALSE(fs::exists(out()));
-  }
-
-  Folder folder_{"study"};
-};
 
 TEST_F(StudyCommand, GivesRowsOrdersAndTheCheapestSetting) {
   const Result result = study(true_swinging_pair(), {"--json", "--target-error", "0.5%"});
@@ -232,143 +171,6 @@ TEST_F(StudyCommand, DrawsTextsAsTheyStand) {
   EXPECT_EQ(picture.find("hijacked"), std::string::npos);
 }
 
-TEST_F(StudyCommand, RunsAgainOnlyWhatIsMissing) {
-  json file = true_swinging_pair();
-  file["repeats"] = 2;
-  ASSERT_EQ(study(file).exit_code, 0);
-  const auto written = [&](const std::string& run) {
-    return fs::last_write_time(out() + "/runs/" + run + "/summary.json");
-  };
-  const std::string gone = "step-0.1us_stiffness-soft", kept = "step-0.1us_stiffness-stiff";
-  const auto before = written(kept), before_repeat = written(gone + "/repeat_2");
-  fs::remove(out() + "/runs/" + gone + "/summary.json");
-  const Result again = study(file);
-  EXPECT_EQ(again.exit_code, 0) << again.err;
-  EXPECT_TRUE(fs::exists(out() + "/runs/" + gone + "/summary.json"));
-  EXPECT_EQ(written(kept), before);
-  EXPECT_EQ(written(gone + "/repeat_2"), before_repeat);
-  const auto count = [](const std::string& text, const std::string& part) {
-    std::size_t n = 0;
-    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
-      ++n;
-    return n;
-  };
-  EXPECT_EQ(count(again.err, "there already"), 11u) << again.err;
-  EXPECT_EQ(count(again.err, gone + ": there already"), 1u);
-
-  file["scene"]["pipeline"][1]["density"] = 2600;  // no run of this scene exists
-  EXPECT_EQ(count(study(file).err, "there already"), 0u);
-  EXPECT_EQ(count(study(file, {"--fresh"}).err, "there already"), 0u);
-}
-
-TEST_F(StudyCommand, RunsAgainWhatIsNotAsItWasLeft) {
-  const json file = true_swinging_pair();
-  const std::string first = study(file, {"--json"}).out;
-  const std::string runs = out() + "/runs/", cut = "step-0.1us_stiffness-soft",
-                    changed = "step-0.2us_stiffness-soft", gone = "step-0.2us_stiffness-stiff",
-                    unreadable = "step-0.1us_stiffness-stiff",
-                    unlisted = "step-0.05us_stiffness-soft";
-  const std::string table = runs + cut + "/probes/upper.csv";
-  fs::resize_file(table, fs::file_size(table) / 2);
-  std::string text = contents(runs + changed + "/probes/upper.csv");
-  text[text.size() - 3] = text[text.size() - 3] == '1' ? '2' : '1';
-  std::ofstream(runs + changed + "/probes/upper.csv") << text;
-  fs::remove(runs + gone + "/probes/upper.csv");
-  std::ofstream(runs + unreadable + "/summary.json") << "{";
-  fs::remove(runs + unlisted + "/files.csv");
-  const Result again = study(file, {"--json"});
-  EXPECT_EQ(again.exit_code, 0) << again.err;
-  for (const std::string& line : {cut + ": runs again: probes/upper.csv has changed",
-                                  changed + ": runs again: probes/upper.csv has changed",
-                                  gone + ": runs again: probes/upper.csv is missing",
-                                  unreadable + ": runs again: its summary.json cannot be read",
-                                  unlisted + ": runs again: its files.csv is missing",
-                                  std::string("step-0.05us_stiffness-stiff: there already")})
-    EXPECT_NE(again.err.find(line), std::string::npos) << line << '\n' << again.err;
-  const json before = json::parse(first), after = json::parse(again.out);
-  for (std::size_t r = 0; r < 6; ++r)
-    EXPECT_EQ(after["rows"][r]["error"], before["rows"][r]["error"]);
-  EXPECT_EQ(study(file).err.find("runs again"), std::string::npos);
-}
-
-TEST_F(StudyCommand, LocksItsFolder) {
-  json file = true_swinging_pair();
-  file["scene"]["pipeline"][4]["end_time"] = "1 s";  // much longer than the test
-  std::ofstream(folder_.file("study.json")) << file.dump();
-  Launch launch;
-  launch.meanwhile = [&](pid_t child) {
-    EXPECT_TRUE(wait_until(
-        [&] { return fs::exists(out() + "/runs/step-0.2us_stiffness-stiff/history.csv"); }));
-    const Result second =
-        run_program({"study", folder_.file("study.json"), "--out", out(), "--fresh"});
-    EXPECT_EQ(second.exit_code, 4) << second.err;
-    EXPECT_NE(second.err.find(out() + " is in use: another study is running there; wait until it "
-                                      "ends, or choose another folder"),
-              std::string::npos)
-        << second.err;
-    EXPECT_FALSE(fs::exists(out() + "/study.csv"));
-    kill(child, SIGINT);
-  };
-  EXPECT_EQ(run_program({"study", folder_.file("study.json"), "--out", out()}, launch).exit_code,
-            130);
-  EXPECT_EQ(study(true_swinging_pair()).exit_code, 0);  // the lock ended with the study
-}
-
-TEST_F(StudyCommand, SharesItsFolderWithNoRun) {
-  json file = true_swinging_pair();
-  const std::string scene = write_scene(folder_, file["scene"]);
-  ASSERT_EQ(study(file).exit_code, 0);
-  const auto expect_no_run = [&](const std::string& why) {
-    for (const char* way : {"--quiet", "--overwrite"}) {
-      const Result run = run_program({"run", scene, "--out", out(), way});
-      EXPECT_EQ(run.exit_code, 2) << run.err;
-      EXPECT_NE(run.err.find(why), std::string::npos) << run.err;
-      EXPECT_FALSE(fs::exists(out() + "/files.csv"));
-    }
-  };
-  expect_no_run("the results of a study are there (study.json)");
-  EXPECT_NE(study(file).err.find("there already"), std::string::npos);
-  fs::remove_all(out());
-  json longer = file;
-  longer["scene"]["pipeline"][4]["end_time"] = "1 s";  // much longer than the test
-  std::ofstream(folder_.file("study.json")) << longer.dump();
-  Launch launch;
-  launch.meanwhile = [&](pid_t child) {
-    EXPECT_TRUE(wait_until(
-        [&] { return fs::exists(out() + "/runs/step-0.2us_stiffness-stiff/history.csv"); }));
-    expect_no_run("a study is running there");
-    kill(child, SIGINT);
-  };
-  EXPECT_EQ(run_program({"study", folder_.file("study.json"), "--out", out()}, launch).exit_code,
-            130);
-
-  fs::remove_all(out());
-  ASSERT_EQ(run_program({"run", scene, "--out", out(), "--quiet"}).exit_code, 0);
-  const Result refused = study(file);
-  EXPECT_EQ(refused.exit_code, 2) << refused.err;
-  EXPECT_NE(refused.err.find("the results of a run are there (files.csv)"), std::string::npos)
-      << refused.err;
-  EXPECT_FALSE(fs::exists(out() + "/runs"));
-}
-
-TEST_F(StudyCommand, ReplacesNothingButAStudysResults) {
-  std::ofstream(folder_.file("study.json")) << true_swinging_pair().dump();
-  const std::string before = contents(folder_.file("study.json"));
-  const auto expect_kept = [&](const std::string& name, const std::string& expected) {
-    const Result result =
-        run_program({"study", folder_.file("study.json"), "--out", folder_.path()});
-    EXPECT_EQ(result.exit_code, 2) << result.err;
-    EXPECT_NE(result.err.find(folder_.file(name) + ": expected " + expected), std::string::npos)
-        << result.err;
-    EXPECT_FALSE(fs::exists(folder_.file("runs")));
-  };
-  expect_kept("study.json", "a folder in which the study replaces nothing that it needs");
-  EXPECT_EQ(contents(folder_.file("study.json")), before);
-  fs::create_symlink("victim", folder_.file("study.svg"));
-  expect_kept("study.svg", "a regular file, or nothing, of that name");
-  EXPECT_FALSE(fs::exists(folder_.file("victim")));
-}
-
 TEST_F(StudyCommand, RefusesTablesThatSayNotWhatIsMeant) {
   json file = swinging_pair();
   file["truth"] = {{"csv", "truth.csv"}};
@@ -395,28 +197,6 @@ TEST_F(StudyCommand, RefusesTablesThatSayNotWhatIsMeant) {
   file["peers"] = {"peers.csv"};
   std::ofstream(folder_.file("peers.csv")) << "label,error,seconds\nA,0,1,2\n";
   expect_refused(file, {"/peers/0: peers.csv, line 2: expected a row of at most 3 cells"});
-}
-
-TEST_F(StudyCommand, GoesOnAfterAnInterruption) {
-  json file = true_swinging_pair();
-  file["scene"]["pipeline"][4]["end_time"] = "5 ms";  // at least 25,000 steps
-  Launch launch;
-  launch.meanwhile = [&](pid_t child) {
-    EXPECT_TRUE(wait_until(
-        [&] { return fs::exists(out() + "/runs/step-0.2us_stiffness-soft/history.csv"); }));
-    kill(child, SIGINT);
-  };
-  std::ofstream(folder_.file("study.json")) << file.dump();
-  const Result cut =
-      run_program({"study", folder_.file("study.json"), "--out", out(), "--json"}, launch);
-  EXPECT_EQ(cut.exit_code, 130) << cut.err;
-  const json found = json::parse(cut.out);
-  EXPECT_EQ(found["rows"][0]["status"], "done");
-  EXPECT_EQ(found["rows"][5]["status"], "waiting");
-  const auto first = fs::last_write_time(out() + "/runs/step-0.2us_stiffness-stiff/summary.json");
-  file["exclude"] = {{{"step", {"0.1 us", "0.05 us"}}}};
-  EXPECT_EQ(study(file).exit_code, 0);
-  EXPECT_EQ(fs::last_write_time(out() + "/runs/step-0.2us_stiffness-stiff/summary.json"), first);
 }
 
 TEST_F(StudyCommand, TakesThreadsAndTheFinestRun) {

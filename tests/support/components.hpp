@@ -7,7 +7,7 @@
 namespace hyperlattice::test {
 
 /// The components that surround a component under test.
-inline const contract::Surroundings around{.grid = "lattices.cubic",
+inline const contract::OtherComponents around{.grid = "lattices.cubic",
                                            .list = "lattices.random",
                                            .material = "materials.elastic",
                                            .failure = "failures.elongation",

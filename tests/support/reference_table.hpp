@@ -2,11 +2,14 @@
 // independently of this program.
 #pragma once
 
+#include <base/csv.hpp>
+#include <base/input_file.hpp>
+
 #include <hyperlattice/calibration.hpp>
 
-#include <fstream>
+#include <spdlog/fmt/fmt.h>
+
 #include <map>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -23,25 +26,21 @@ struct Row {
 using Rows = std::vector<Row>;
 
 inline Rows nu_eta_table() {
-  std::ifstream file(std::string(HYPERLATTICE_SOURCE) + "/tests/data/nu_eta_table.csv");
-  std::string line, cell;
-  std::vector<std::string> columns;
-  std::getline(file, line);
-  for (std::istringstream cells(line); std::getline(cells, cell, ',');) columns.push_back(cell);
+  const CsvTable table = parse_csv(read_input_file(
+      std::string(HYPERLATTICE_SOURCE) + "/tests/data/nu_eta_table.csv", "", "a table"));
   Rows rows;
-  while (std::getline(file, line)) {
+  for (const std::vector<std::string>& cells : table.rows) {
     Row row;
-    row.text = line;
-    std::istringstream cells(line);
-    for (const std::string& column : columns) std::getline(cells, row.values[column], ',');
+    row.text = fmt::format("{}", fmt::join(cells, ","));
+    for (std::size_t c = 0; c < cells.size(); ++c) row.values[table.columns[c]] = cells[c];
     for (std::uint32_t m = 0; m < std::size(calibration::membrane_names); ++m)
       if (calibration::membrane_names[m] == row.values["lattice"])
         row.membrane = static_cast<calibration::Membrane>(m);
     if (row.membrane == calibration::Membrane::none)
-      throw std::runtime_error("no membrane: " + line);
+      throw std::runtime_error("no membrane: " + row.text);
     rows.push_back(row);
   }
-  if (rows.empty()) throw std::runtime_error("nu_eta_table.csv is empty or missing");
+  if (rows.empty()) throw std::runtime_error("nu_eta_table.csv is empty");
   return rows;
 }
 

@@ -29,7 +29,7 @@ void expect_table(int particles) {
   int compared = 0;
   for (const test::Row& row : test::nu_eta_table()) {
     if (row.values.at("nu" + n).empty()) continue;  // unstable
-    const Measured measured =
+    const VirtualTestResult measured =
         cube_test.measure(calibration::ratios(row.membrane, row.number("lambda")));
     EXPECT_NEAR(measured.poisson, row.number("nu" + n), last_digit) << row.text;
     EXPECT_NEAR(measured.modulus_ratio, row.number("eta" + n), last_digit * row.number("eta" + n))
@@ -56,8 +56,8 @@ TEST(VirtualTest, ModulusWithoutMembrane) {
 TEST(VirtualTest, PullingIsPressingReversed) {
   Host host;
   const calibration::Ratios ratios = calibration::ratios(calibration::Membrane::I_m, 2.8);
-  const Measured pressed = virtual_test(host, cube(6, 1e-4)).measure(ratios),
-                 pulled = virtual_test(host, cube(6, -1e-4)).measure(ratios);
+  const VirtualTestResult pressed = virtual_test(host, cube(6, 1e-4)).measure(ratios),
+                          pulled = virtual_test(host, cube(6, -1e-4)).measure(ratios);
   EXPECT_NEAR(pressed.poisson, pulled.poisson, 1e-4);
   EXPECT_NE(pressed.poisson, pulled.poisson);
   EXPECT_NEAR(pressed.young, pulled.young, 1e-3 * pressed.young);

@@ -312,7 +312,7 @@ TEST_P(Centred, AMeasuredCubeApproachesTheEndlessLattice) {
     options.particles = cells;
     // The cube is pulled, because some particles at the edges of fcc would buckle under pressure.
     options.strain = -1e-6;
-    const Measured measured = test::virtual_test(host, options).measure(r);
+    const VirtualTestResult measured = test::virtual_test(host, options).measure(r);
     poisson.push_back(measured.poisson - 0.1);
     modulus.push_back(measured.young / young - 1);
   }

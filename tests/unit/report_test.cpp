@@ -3,11 +3,11 @@
 #include <base/errors.hpp>
 #include <base/figures.hpp>
 #include <base/gnuplot.hpp>
+#include <base/ticks.hpp>
 #include <report/curves.hpp>
 #include <report/differences.hpp>
 #include <report/html.hpp>
 #include <report/thin.hpp>
-#include <report/ticks.hpp>
 
 #include <gtest/gtest.h>
 
@@ -81,6 +81,15 @@ TEST(Ticks, AreNeverManyAndNeverMissing) {
   EXPECT_TRUE(round_ticks(2, 1, 5).empty());
   EXPECT_TRUE(round_ticks(0, nothing, 5).empty());
   EXPECT_TRUE(round_ticks(0, std::numeric_limits<double>::infinity(), 5).empty());
+}
+
+TEST(Ticks, HaveRoundSteps) {
+  EXPECT_DOUBLE_EQ(round_step(0.45, 5), 0.1);
+  EXPECT_DOUBLE_EQ(round_step(1, 5), 0.2);
+  EXPECT_DOUBLE_EQ(round_step(11, 5), 5);
+  EXPECT_DOUBLE_EQ(round_step(30, 5), 10);
+  for (const double none : {0.0, -1.0, nothing, std::numeric_limits<double>::infinity()})
+    EXPECT_EQ(round_step(none, 5), 1) << none;
 }
 
 TEST(Thinning, KeepsPeaksEndsAndGaps) {

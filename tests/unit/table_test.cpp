@@ -2,6 +2,7 @@
 // their times.
 #include <base/errors.hpp>
 #include <process/file_limit.hpp>
+#include <run/failure_log.hpp>
 #include <run/history.hpp>
 #include <run/progress.hpp>
 #include <run/schedule.hpp>
@@ -11,6 +12,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <clocale>
 #include <fstream>
 #include <iterator>
@@ -87,6 +89,7 @@ TEST(FailureLog, writes_each_breakage_once) {
   RunFolder run(folder, true);
   run.begin(false, {});
   FailureLog log(run);
+  log.begin();
   std::vector<Breakage> breakages{{3, 0.5, 7, 8, 0, 1e-6}};
   log.write_new(breakages);
   breakages.push_back({4, 0.75, 1, 2, 1, 2e-6});
@@ -94,6 +97,29 @@ TEST(FailureLog, writes_each_breakage_once) {
   log.write_new(breakages);
   EXPECT_EQ(text_of(folder / "failures.csv"),
             "step,time,particle_a,particle_b,elongation\n3,0.5,7,8,1e-06\n4,0.75,1,2,2e-06\n");
+}
+
+TEST(History, keeps_the_latest_record_and_the_largest_error) {
+  const auto folder = fresh_folder("history");
+  RunFolder run(folder, true);
+  run.begin(false, {});
+  History history(run);
+  history.begin();
+  EXPECT_FALSE(history.has(0));
+  for (const double error : {0.1, -0.3, 0.2}) {
+    Record record;
+    record.step = history.last().step + 1;
+    record.balance.error = error;
+    record.balance.scale = 1;
+    history.take(record);
+    history.write();
+  }
+  EXPECT_TRUE(history.has(3));
+  EXPECT_FALSE(history.has(2));
+  EXPECT_EQ(history.last().balance.error, 0.2);
+  EXPECT_EQ(history.largest_relative_error(), 0.3);
+  const std::string text = text_of(folder / "history.csv");
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 4);
 }
 
 TEST(Schedule, picks_the_step_nearest_to_each_instant) {

@@ -8,9 +8,9 @@
 
 namespace hyperlattice::study {
 
-class PlainReader {
+class ObjectReader {
  public:
-  explicit PlainReader(Faults& faults)
+  explicit ObjectReader(Faults& faults)
       : faults_(faults), region_reader_(none_, regions_, faults, texts_) {}
 
   Faults& faults() { return faults_; }

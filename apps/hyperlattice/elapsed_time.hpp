@@ -9,12 +9,12 @@ namespace hyperlattice {
 
 /// Prints the elapsed time on standard error every few seconds during its life, from its own
 /// thread. Short work prints nothing.
-class Patience {
+class ElapsedTime {
  public:
-  Patience();
-  ~Patience();
-  Patience(const Patience&) = delete;
-  Patience& operator=(const Patience&) = delete;
+  ElapsedTime();
+  ~ElapsedTime();
+  ElapsedTime(const ElapsedTime&) = delete;
+  ElapsedTime& operator=(const ElapsedTime&) = delete;
 
  private:
   void watch() noexcept;

@@ -1,4 +1,4 @@
-#include "patience.hpp"
+#include "elapsed_time.hpp"
 
 #include <unistd.h>
 
@@ -8,14 +8,14 @@
 
 namespace hyperlattice {
 
-Patience::Patience() {
+ElapsedTime::ElapsedTime() {
   try {
     thread_ = std::thread([this] { watch(); });
   } catch (const std::system_error&) {  // no thread, no messages
   }
 }
 
-Patience::~Patience() {
+ElapsedTime::~ElapsedTime() {
   {
     const std::scoped_lock lock(mutex_);
     over_ = true;
@@ -25,7 +25,7 @@ Patience::~Patience() {
 }
 
 /// Allocates no memory, since the planned work may be near the memory limit.
-void Patience::watch() noexcept {
+void ElapsedTime::watch() noexcept {
   constexpr int every = 5;  // s
   std::unique_lock lock(mutex_);
   for (int seconds = every;

@@ -3,7 +3,7 @@
 #include <model/region_index.hpp>
 #include <plan/columns.hpp>
 #include <plan/fields.hpp>
-#include <plan/rehearsal.hpp>
+#include <plan/output_trial.hpp>
 #include <process/file_limit.hpp>
 #include <process/lack_of_memory.hpp>
 #include <process/room.hpp>
@@ -28,9 +28,10 @@ namespace hyperlattice {
 namespace {
 
 /// The body at rest. All fields of the run are zero.
-class AtRest {
+class BodyAtRest {
  public:
-  explicit AtRest(const Model& model) : model_(model), regions_(model.body, model.scene->regions) {
+  explicit BodyAtRest(const Model& model)
+      : model_(model), regions_(model.body, model.scene->regions) {
     for (const std::string_view name : field_names)
       if (has_field(model, name)) fields_.push_back(name);
   }
@@ -42,7 +43,7 @@ class AtRest {
     context.self = this;
     context.region_particles = [](void* self, RegionId region) noexcept {
       return PluginCall::answer(std::span<const Particle>(), [&] {
-        auto& rest = *static_cast<AtRest*>(self);
+        auto& rest = *static_cast<BodyAtRest*>(self);
         rest.asked_.push_back(region);
         return rest.regions_.particles(region);
       });
@@ -70,7 +71,7 @@ class AtRest {
     snapshot.self = this;
     snapshot.get_field = [](void* self, std::string_view name, Field& field) noexcept {
       return PluginCall::answer(false, [&] {
-        const auto& rest = *static_cast<AtRest*>(self);
+        const auto& rest = *static_cast<BodyAtRest*>(self);
         field.components = name == "displacement" || name == "velocity" ? 3 : 1;
         field.values = std::span(rest.zeros_).first(field.components * rest.model_.body.particles);
         return has_field(rest.model_, name);
@@ -96,11 +97,12 @@ class AtRest {
 };
 
 /// A few particles, spread over all that a writer shows, in a motion whose numbers have all digits.
-class Sample {
+class ParticleSample {
  public:
   /// `regions`: those that the writer asks for. It shows the largest of them, or the whole body if
   /// there are none.
-  Sample(const Model& model, AtRest& rest, const std::vector<RegionId>& regions, std::size_t most)
+  ParticleSample(const Model& model, BodyAtRest& rest, const std::vector<RegionId>& regions,
+                 std::size_t most)
       : model_(model), rest_(rest) {
     std::span<const Particle> shown;
     for (const RegionId region : regions)
@@ -117,8 +119,8 @@ class Sample {
       positions_.insert(positions_.end(), {x.x, x.y, x.z});
     }
   }
-  Sample(const Sample&) = delete;
-  Sample& operator=(const Sample&) = delete;
+  ParticleSample(const ParticleSample&) = delete;
+  ParticleSample& operator=(const ParticleSample&) = delete;
 
   std::size_t size() const { return particles_.size(); }
   /// Returns how many particles the sample stands for.
@@ -129,8 +131,9 @@ class Sample {
     context.directory = directory;
     context.self = this;
     context.region_particles = [](void* self, RegionId region) noexcept {
-      return PluginCall::answer(std::span<const Particle>(),
-                                [&] { return static_cast<Sample*>(self)->particles(region); });
+      return PluginCall::answer(std::span<const Particle>(), [&] {
+        return static_cast<ParticleSample*>(self)->particles(region);
+      });
     };
     return context;
   }
@@ -145,8 +148,8 @@ class Sample {
     snapshot.positions = positions_;
     snapshot.self = this;
     snapshot.get_field = [](void* self, std::string_view name, Field& field) noexcept {
-      return PluginCall::answer(false,
-                                [&] { return static_cast<Sample*>(self)->field(name, field); });
+      return PluginCall::answer(
+          false, [&] { return static_cast<ParticleSample*>(self)->field(name, field); });
     };
     return snapshot;
   }
@@ -200,7 +203,7 @@ class Sample {
   }
 
   const Model& model_;
-  AtRest& rest_;
+  BodyAtRest& rest_;
   std::size_t all_ = 0;
   std::vector<Particle> particles_;  ///< their numbers in the body
   std::vector<double> positions_;
@@ -237,7 +240,7 @@ class TrialFolder {
 };
 
 /// Returns the cost of a frame of the sample, or nothing if it cannot be written here.
-std::optional<FrameCost> try_frame(const Stage& stage, Sample& sample) try {
+std::optional<FrameCost> try_frame(const Stage& stage, ParticleSample& sample) try {
   using Clock = std::chrono::steady_clock;
   // Seconds. A faster first frame is repeated, because it may include preparations that later
   // frames do not need.
@@ -272,7 +275,7 @@ std::optional<FrameCost> try_frame(const Stage& stage, Sample& sample) try {
 
 /// Returns the same. If memory runs out here, this is forgotten: the run reports the failure if it
 /// meets it too.
-std::optional<FrameCost> cost_of(const Stage& stage, Sample& sample) {
+std::optional<FrameCost> cost_of(const Stage& stage, ParticleSample& sample) {
   const auto cost = try_frame(stage, sample);
   if (!cost) forget_lack_of_memory();
   return cost;
@@ -290,17 +293,17 @@ double of_all(double all, double few, double cost_of_few, double some, double co
 /// Returns the cost of a frame of all particles that the writer shows, extrapolated from frames of
 /// a few and of some particles. If the frame of some particles cannot be written, because files may
 /// be limited in size, the cost is proportional to that of a few.
-std::optional<FrameCost> frame_cost(const Model& model, AtRest& rest, const Stage& stage,
+std::optional<FrameCost> frame_cost(const Model& model, BodyAtRest& rest, const Stage& stage,
                                     const std::vector<RegionId>& regions) {
   constexpr std::size_t few_particles = 256, some_particles = 8192;
   // Seconds: much longer than so few particles take, so that their number matters little.
   constexpr double long_time = 0.5;
-  Sample some(model, rest, regions, some_particles);
+  ParticleSample some(model, rest, regions, some_particles);
   const auto all = static_cast<double>(some.all());
   if (all == 0) return std::nullopt;
   const auto cost = cost_of(stage, some);
   if (cost && (some.all() == some.size() || cost->seconds > long_time)) return cost;
-  Sample few(model, rest, regions, few_particles);
+  ParticleSample few(model, rest, regions, few_particles);
   const auto least = cost_of(stage, few);
   if (!least) return cost;
   const auto number = static_cast<double>(few.size());
@@ -312,10 +315,10 @@ std::optional<FrameCost> frame_cost(const Model& model, AtRest& rest, const Stag
 
 }  // namespace
 
-void rehearse_outputs(Plan& plan, Faults& faults) {
+void try_outputs(Plan& plan, Faults& faults) {
   const auto probes = plan.scene->of(Family::probes), writers = plan.scene->of(Family::writers);
   if (probes.empty() && writers.empty()) return;
-  AtRest rest(*plan.model);
+  BodyAtRest rest(*plan.model);
   const OutputContext context = rest.context();
   for (const Stage* stage : writers) {
     const ComponentPointer writer = make_component(*stage);

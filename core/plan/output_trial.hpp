@@ -9,6 +9,6 @@ namespace hyperlattice {
 
 /// Begins a copy of every writer and probe. A refusal becomes a fault at its stage. Fills the
 /// plan's tables and costs of frames.
-void rehearse_outputs(Plan& plan, Faults& faults);
+void try_outputs(Plan& plan, Faults& faults);
 
 }  // namespace hyperlattice

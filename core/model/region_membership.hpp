@@ -1,4 +1,5 @@
-// The points and faces of a region, for any kind of body. `Places` describes one kind of body:
+// Which points and faces of a body a region has, for any kind of body. `Places` describes one kind
+// of body:
 //   Point, Face: a particle (or cell); an open face of the surface
 //   bool in_solid(region, point): whether the point is in the solid
 //   bool has_face(region, point): whether the point has a face for which is_open() holds
@@ -14,12 +15,12 @@
 namespace hyperlattice {
 
 template <class Places>
-class Meaning {
+class RegionMembership {
  public:
   using Point = typename Places::Point;
   using Face = typename Places::Face;
 
-  explicit Meaning(const Places& places) : places_(places) {}
+  explicit RegionMembership(const Places& places) : places_(places) {}
 
   bool holds(const Region& region, const Point& point) const {
     const auto part_holds = [&](const auto& part) { return holds(*part, point); };
@@ -47,16 +48,16 @@ class Meaning {
 
   /// Returns whether the open face is part of the region. A region without parts has the face if it
   /// holds all points of it and the face is open to the side of the region.
-  bool means(const Region& region, const Face& face) const {
-    const auto part_means = [&](const auto& part) { return means(*part, face); };
+  bool holds_face(const Region& region, const Face& face) const {
+    const auto part_holds_face = [&](const auto& part) { return holds_face(*part, face); };
     const auto part_holds = [&](const auto& part) { return holds_all(*part, face); };
     switch (region.kind) {
       case Region::Kind::set_union:
-        return std::any_of(region.parts.begin(), region.parts.end(), part_means);
+        return std::any_of(region.parts.begin(), region.parts.end(), part_holds_face);
       case Region::Kind::intersection:
-        return std::all_of(region.parts.begin(), region.parts.end(), part_means);
+        return std::all_of(region.parts.begin(), region.parts.end(), part_holds_face);
       case Region::Kind::difference:
-        return part_means(region.parts.front()) &&
+        return part_holds_face(region.parts.front()) &&
                std::none_of(region.parts.begin() + 1, region.parts.end(), part_holds);
       default:
         return places_.is_open(region, face) && holds_all(region, face);

@@ -10,16 +10,16 @@
 
 namespace hyperlattice::study {
 
-/// Options of conduct.
-struct ConductOptions {
+/// Options of run_study().
+struct StudyRunOptions {
   std::filesystem::path directory;  ///< folder of the study's results; runs are in runs/<name>/,
                                     ///< further repeats of a run in runs/<name>/repeat_2/ ...
   Threads threads = 1;              ///< for runs whose threads the study does not vary
   bool fresh = false;               ///< repeat runs that exist already
 };
 
-/// Results of conduct.
-struct Conducted {
+/// Results of run_study().
+struct StudyResult {
   std::vector<Row> rows;     ///< one for each point, in the order of the grid
   bool interrupted = false;  ///< a signal stopped the study before its end
   FolderLock lock;           ///< on the study's folder, until its results are written
@@ -31,8 +31,8 @@ struct Conducted {
 /// the machine's speed affects all points alike. Reuses a finished run with the same threads and
 /// the same identity (plan/identity.hpp); if the identity differs, the log says what changed. A
 /// failed run is a row with its reason.
-Conducted conduct(const Study& study, const std::vector<Point>& points,
-                  const ConductOptions& options, Host& host);
+StudyResult run_study(const Study& study, const std::vector<Point>& points,
+                      const StudyRunOptions& options, Host& host);
 
 /// Returns the folder of a repeat of a run; repeats count from 1.
 std::filesystem::path run_directory(const std::filesystem::path& directory, const std::string& run,

@@ -1,10 +1,14 @@
-// The ticks of an axis.
+// The ticks of the axes of all plots.
 #pragma once
 
 #include <string>
 #include <vector>
 
-namespace hyperlattice::report {
+namespace hyperlattice {
+
+/// Returns 1, 2 or 5 times a power of ten, the smallest that divides a range into at most `most`
+/// parts. Returns 1 if the range is not above 0 or not finite.
+double round_step(double range, int most);
 
 struct Tick {
   double value = 0;
@@ -16,4 +20,4 @@ struct Tick {
 /// numbers only, for counts.
 std::vector<Tick> round_ticks(double low, double high, int most, bool whole = false);
 
-}  // namespace hyperlattice::report
+}  // namespace hyperlattice

@@ -6,7 +6,7 @@
 #include <run/occupancy.hpp>
 #include <run/run.hpp>
 #include <study/checks.hpp>
-#include <study/conduct.hpp>
+#include <study/study_runs.hpp>
 
 #include <spdlog/spdlog.h>
 
@@ -40,16 +40,16 @@ Json summary_in(const fs::path& folder) {
 }
 
 /// A run that exists already.
-struct Earlier {
+struct EarlierRun {
   Json summary;         ///< null if the run does not exist, is not done, or cannot be reused
   std::string changed;  ///< why a finished run cannot be reused
 };
 
 /// Returns the finished run in a folder if it depends on the same input as the new run and used the
 /// same number of threads, which changes its times.
-Earlier find_earlier(const fs::path& folder, const Scene& scene, const Identity& identity,
-                     Threads threads) {
-  Earlier earlier{summary_in(folder), ""};
+EarlierRun find_earlier(const fs::path& folder, const Scene& scene, const Identity& identity,
+                        Threads threads) {
+  EarlierRun earlier{summary_in(folder), ""};
   if (earlier.summary.is_discarded()) return {nullptr, "its summary.json cannot be read"};
   const Json status = earlier.summary.is_null() ? Json() : earlier.summary.value("status", Json());
   if (status != "done") return {};
@@ -75,9 +75,9 @@ std::uint64_t count_in(const Json& summary, const char* key) {
   return count.is_number_unsigned() ? count.get<std::uint64_t>() : 0;
 }
 
-class Conductor {
+class StudyRuns {
  public:
-  Conductor(const Study& study, const std::vector<Point>& points, const ConductOptions& options,
+  StudyRuns(const Study& study, const std::vector<Point>& points, const StudyRunOptions& options,
             Host& host)
       : study_(study), points_(points), options_(options), host_(host) {}
 
@@ -88,21 +88,21 @@ class Conductor {
       Row& row = result_.rows.emplace_back();
       row.choice = point.choice;
       row.run = point.name;
-      std::optional<Foreseen> foreseen;
+      std::optional<RunProperties> properties;
       try {
         auto scene = read(point);
         row.numbers = numbers(point, *scene);
-        foreseen = foresee(point, std::move(scene));
+        properties = properties_of(point, std::move(scene));
       } catch (const InputError& error) {
         faults.add(error, row.run, "scene ");
       }
       try {
-        if (!row.numbers.empty()) check_truth(study_, row, foreseen ? &*foreseen : nullptr);
+        if (!row.numbers.empty()) check_truth(study_, row, properties ? &*properties : nullptr);
       } catch (const InputError& error) {
         faults.add(error, row.run, "");
       }
       try {
-        if (foreseen) check_columns(study_, foreseen->tables);
+        if (properties) check_columns(study_, properties->tables);
       } catch (const InputError& error) {
         faults.add(error, row.run, "");
       }
@@ -132,7 +132,7 @@ class Conductor {
       }
   }
 
-  Conducted result() && { return std::move(result_); }
+  StudyResult result() && { return std::move(result_); }
 
  private:
   /// Throws InputError if the results of the study would replace foreign files.
@@ -175,7 +175,8 @@ class Conductor {
 
   /// Returns the properties of the finished or planned run; nothing if it is too large for this
   /// machine: it becomes a failed row later, and the other runs go on.
-  std::optional<Foreseen> foresee(const Point& point, std::unique_ptr<Scene> scene) const {
+  std::optional<RunProperties> properties_of(const Point& point,
+                                             std::unique_ptr<Scene> scene) const {
     const fs::path folder = run_directory(options_.directory, point.name, 1);
     if (!options_.fresh)
       if (const Json summary =
@@ -183,14 +184,14 @@ class Conductor {
           !summary.is_null())
         if (auto tables = tables_in(folder, *scene)) {
           const Json end_time = summary.value("end_time", Json());
-          return Foreseen{std::move(*tables),
-                          end_time.is_number() ? end_time.get<double>() : infinity, 0};
+          return RunProperties{std::move(*tables),
+                               end_time.is_number() ? end_time.get<double>() : infinity, 0};
         }
     forget_lack_of_memory();
     try {
       const auto plan = make_plan(std::move(scene), threads(point));
-      return Foreseen{std::move(plan->tables), plan->end_time(),
-                      plan->stages.empty() ? 0 : plan->stages.back().plan.time_step};
+      return RunProperties{std::move(plan->tables), plan->end_time(),
+                           plan->stages.empty() ? 0 : plan->stages.back().plan.time_step};
     } catch (const OutsideError&) {
       return std::nullopt;
     } catch (const std::bad_alloc&) {
@@ -235,7 +236,7 @@ class Conductor {
     auto scene = read(point);
     Identity identity = identity_of(*scene);
     auto [summary, changed] =
-        options_.fresh ? Earlier()
+        options_.fresh ? EarlierRun()
                        : find_earlier(run_options.directory, *scene, identity, threads(point));
     const bool there = !summary.is_null();
     if (!changed.empty()) spdlog::info("{}: runs again: {}", title, changed);
@@ -289,9 +290,9 @@ class Conductor {
 
   const Study& study_;
   const std::vector<Point>& points_;
-  const ConductOptions& options_;
+  const StudyRunOptions& options_;
   Host& host_;
-  Conducted result_;
+  StudyResult result_;
 };
 
 }  // namespace
@@ -301,12 +302,12 @@ fs::path run_directory(const fs::path& directory, const std::string& run, std::i
   return repeat == 1 ? folder : folder / fmt::format("repeat_{}", repeat);
 }
 
-Conducted conduct(const Study& study, const std::vector<Point>& points,
-                  const ConductOptions& options, Host& host) {
-  Conductor conductor(study, points, options, host);
-  conductor.check();
-  conductor.run_all();
-  return std::move(conductor).result();
+StudyResult run_study(const Study& study, const std::vector<Point>& points,
+                      const StudyRunOptions& options, Host& host) {
+  StudyRuns runs(study, points, options, host);
+  runs.check();
+  runs.run_all();
+  return std::move(runs).result();
 }
 
 }  // namespace hyperlattice::study

@@ -1,0 +1,38 @@
+// The checkpoints that a run saves: at stops, before stages that are repeated as a whole, and at
+// an interval.
+#pragma once
+
+#include <run/checkpoint.hpp>
+#include <run/stopwatch.hpp>
+
+namespace hyperlattice {
+
+/// All members throw OutsideError or std::runtime_error if the disk refuses.
+class Checkpoints {
+ public:
+  /// `seconds_between`: of save_if_due(); 0: it never saves. `state` passes all that the run needs
+  /// to an archive.
+  Checkpoints(const Plan& plan, RunFolder& folder, Stopwatch& stopwatch, double seconds_between,
+              Visit state)
+      : plan_(plan),
+        folder_(folder),
+        stopwatch_(stopwatch),
+        seconds_between_(seconds_between),
+        state_(std::move(state)) {}
+
+  /// Saves the state after this number of steps of the run; before the first one nothing but the
+  /// head.
+  void save(std::uint64_t steps);
+  /// Saves the state if the last checkpoint is old. `stage_steps`: steps of the present stage.
+  void save_if_due(std::uint64_t steps, std::uint64_t stage_steps);
+
+ private:
+  const Plan& plan_;
+  RunFolder& folder_;
+  Stopwatch& stopwatch_;
+  double seconds_between_;
+  Visit state_;
+  std::chrono::steady_clock::time_point saved_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace hyperlattice

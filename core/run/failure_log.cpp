@@ -1,0 +1,25 @@
+#include <run/failure_log.hpp>
+
+#include <spdlog/fmt/fmt.h>
+
+#include <iterator>
+
+namespace hyperlattice {
+
+void FailureLog::begin() {
+  table_ =
+      &folder_.table("failures.csv", {"step", "time", "particle_a", "particle_b", "elongation"});
+}
+
+void FailureLog::write_new(const std::vector<Breakage>& breakages) {
+  if (written_ == breakages.size()) return;
+  std::string lines;
+  for (; written_ < breakages.size(); ++written_) {
+    const Breakage& b = breakages[written_];
+    fmt::format_to(std::back_inserter(lines), "{},{},{},{},{}\n", b.step, b.time, b.a, b.b,
+                   b.elongation);
+  }
+  table_->lines(lines);
+}
+
+}  // namespace hyperlattice

@@ -1,0 +1,115 @@
+#include <run/recorder.hpp>
+
+#include <spdlog/spdlog.h>
+
+namespace hyperlattice {
+
+Recorder::Recorder(const Plan& plan, Simulation& simulation, RunFolder& folder,
+                   Stopwatch& stopwatch)
+    : simulation_(simulation),
+      stopwatch_(stopwatch),
+      guard_(*plan.model, simulation),
+      cells_(*plan.model),
+      history_(folder),
+      outputs_(*plan.model, simulation, folder, plan.end_time()),
+      planned_steps_(plan.steps()) {
+  if (plan.model->choice.breakable) failures_.emplace(folder);
+}
+
+void Recorder::archive(Archive& archive) {
+  archive(schedule_);
+  archive(time_step_);
+  history_.archive(archive);
+  archive(rest_);
+  archive(cells_.seen());
+  stopwatch_.archive(archive);
+  if (failures_) failures_->archive(archive);
+  outputs_.archive(archive);
+  if (archive.restores()) observed_ = simulation_.steps();
+}
+
+void Recorder::begin(bool quiet) {
+  history_.begin();
+  if (failures_) failures_->begin();
+  outputs_.begin();
+  progress_ = std::make_unique<Progress>(planned_steps_, quiet);
+}
+
+void Recorder::start_stage(const PlannedStage& stage, bool is_resumed) {
+  stage_ = &stage;
+  guard_.start(stage);
+  if (is_resumed) return;
+  schedule_ = Schedule(stage.start_time, record_interval(stage), true);
+  time_step_ = stage.plan.time_step;
+}
+
+void Recorder::take_step(double time_step) {
+  time_step_ = time_step;
+  if (simulation_.steps() % guard_every == 0) guard_.check_motion(time_step);
+}
+
+void Recorder::observe() {
+  observed_ = simulation_.steps();
+  const bool at_rest = stage_->plan.at_rest;
+  if (at_rest ? simulation_.steps() % record_steps(*stage_) == 0
+              : schedule_.due(simulation_.time(), time_step_))
+    record();
+  // In a static stage times are rarely round numbers: the times of outputs have a tolerance.
+  const double near_enough = 1e-6 * (stage_->plan.end_time - stage_->start_time);
+  stopwatch_.output([&] { outputs_.show(at_rest ? near_enough : time_step_); });
+  progress_->update(simulation_.steps(), simulation_.time(), time_step_,
+                    simulation_.breakages().size(), at_rest && rest_ ? rest_->residual : -1);
+}
+
+void Recorder::observe_once() {
+  if (observed_ != simulation_.steps()) observe();
+}
+
+void Recorder::record() {
+  if (history_.has(simulation_.steps())) return;
+  const std::uint64_t open = simulation_.broken_open();
+  const Record record{simulation_.time(), simulation_.steps(), simulation_.balance(), open,
+                      simulation_.breakages().size() - open};
+  if (record.step > 0) guard_.check_motion(time_step_);
+  guard_.check_finite(record.balance, time_step_);
+  history_.take(record);
+  if (cells_.is_due(record.step)) look_at_cells();
+  stopwatch_.output([&] {
+    history_.write();
+    if (failures_) failures_->write_new(simulation_.breakages());
+  });
+  if (!stage_->plan.at_rest) guard_.check_balance(record.balance, time_step_);
+}
+
+void Recorder::look_at_cells() {
+  stopwatch_.output([&] {
+    if (cells_.look(simulation_)) spdlog::warn("{}", cells_.sentence());
+  });
+}
+
+void Recorder::end_stage() {
+  record();
+  if (!stage_->plan.at_rest) return;
+  look_at_cells();
+  stopwatch_.output([&] { outputs_.show_now(); });
+}
+
+void Recorder::finish() {
+  progress_.reset();
+  look_at_cells();
+  stopwatch_.output([&] {
+    outputs_.show_last();
+    outputs_.end();
+  });
+}
+
+void Recorder::note(Outcome& outcome) {
+  outcome.last = history_.last();
+  outcome.largest_relative_error = history_.largest_relative_error();
+  outcome.rest = rest_;
+  if (outcome.exit_code == exit_run) look_at_cells();  // folded cells may be the reason
+  if (std::string sentence = cells_.sentence(); !sentence.empty())
+    outcome.warnings.push_back(std::move(sentence));
+}
+
+}  // namespace hyperlattice

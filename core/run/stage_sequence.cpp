@@ -1,0 +1,102 @@
+#include <engine/stage_calls.hpp>
+#include <plan/precision.hpp>
+#include <run/failing_motion.hpp>
+#include <run/interrupt.hpp>
+#include <run/stage_sequence.hpp>
+
+#include <spdlog/spdlog.h>
+
+namespace hyperlattice {
+
+StageSequence::StageSequence(const Plan& plan, const RunOptions& options, RunFolder& folder,
+                             Simulation& simulation)
+    : plan_(plan),
+      options_(options),
+      folder_(folder),
+      simulation_(simulation),
+      recorder_(plan, simulation, folder, stopwatch_),
+      checkpoints_(plan, folder, stopwatch_, options.checkpoint_every,
+                   [this](Archive& state) { archive(state); }) {}
+
+void StageSequence::archive(Archive& archive) {
+  simulation_.archive(archive);
+  archive(stages_done_);
+  archive(stage_steps_);
+  recorder_.archive(archive);
+  if (archive.restores()) is_resumed_ = stage_steps_ > 0;
+}
+
+void StageSequence::begin(const std::optional<Checkpoint>& resumed) {
+  if (resumed) read_checkpoint(*resumed, [this](Archive& state) { archive(state); });
+  recorder_.begin(options_.quiet);
+}
+
+void StageSequence::solve() {
+  stopwatch_.start();
+  while (stages_done_ < plan_.stages.size()) {
+    if (stop_requested()) return checkpoints_.save(simulation_.steps());
+    try {
+      solve_stage(plan_.stages[stages_done_]);
+    } catch (...) {
+      stopwatch_.lap();
+      throw;
+    }
+    stopwatch_.lap();
+    if (stop_requested()) return;
+    ++stages_done_;
+    stage_steps_ = 0;
+  }
+}
+
+void StageSequence::solve_stage(const PlannedStage& stage) {
+  const bool resumes = stage.plan.resumes;  // otherwise the stage is repeated from its start
+  recorder_.start_stage(stage, is_resumed_);
+  if (!is_resumed_ && !resumes) checkpoints_.save(simulation_.steps());
+  is_resumed_ = false;
+  StageCalls::Hooks hooks;
+  hooks.stepped = [this](double time_step) {
+    ++stage_steps_;
+    recorder_.take_step(time_step);
+  };
+  hooks.observe = [this, resumes] {
+    recorder_.observe();
+    if (resumes) checkpoints_.save_if_due(simulation_.steps(), stage_steps_);
+  };
+  hooks.report = [this](const RestReport& report) { recorder_.take_report(report); };
+  hooks.failing_motion = [this](const std::vector<double>& motion,
+                                const std::vector<double>& heights) {
+    write_motion(motion, heights);
+  };
+  hooks.must_stop = [] { return stop_requested(); };
+  StageCalls(*plan_.model, simulation_, stage, plan_.threads, std::move(hooks), stage_steps_).run();
+  if (stop_requested()) {
+    if (!resumes) return;
+    recorder_.observe_once();
+    checkpoints_.save(simulation_.steps());
+  }
+  recorder_.end_stage();
+  if (stage.plan.at_rest) simulation_.reset_energy_balance();
+}
+
+void StageSequence::write_motion(const std::vector<double>& motion,
+                                 const std::vector<double>& heights) {
+  folder_.claim(failing_motion_file, false);
+  write_failing_motion(options_.directory, plan_.model->body, motion, heights);
+  spdlog::info("how the body moves is in {}", (options_.directory / failing_motion_file).string());
+}
+
+void StageSequence::note(Outcome& outcome) {
+  outcome.solve_seconds = stopwatch_.solve_seconds();
+  outcome.output_seconds = stopwatch_.output_seconds();
+  outcome.steps = simulation_.steps();
+  outcome.time = simulation_.time();
+  outcome.injected_by_load = simulation_.injected_by_load();
+  outcome.state_hash = simulation_.hash();
+  recorder_.note(outcome);
+  if (plan_.model->choice.precision == Precision::doubles) return;
+  if (std::string warning = precision_warning(*plan_.model, simulation_.farthest());
+      !warning.empty())
+    outcome.warnings.push_back(std::move(warning));
+}
+
+}  // namespace hyperlattice

@@ -1,0 +1,52 @@
+// The solver stages of a run, one after the other.
+#pragma once
+
+#include <run/checkpoints.hpp>
+#include <run/recorder.hpp>
+#include <run/run.hpp>
+
+#include <optional>
+
+namespace hyperlattice {
+
+/// Solves the stages of a plan, records them, and saves checkpoints.
+class StageSequence {
+ public:
+  StageSequence(const Plan& plan, const RunOptions& options, RunFolder& folder,
+                Simulation& simulation);
+  StageSequence(const StageSequence&) = delete;
+  StageSequence& operator=(const StageSequence&) = delete;
+
+  /// Saves or restores all that the run needs to continue.
+  void archive(Archive& archive);
+  /// Begins a new run, or continues from the checkpoint `resumed`. Throws OutsideError if the disk
+  /// refuses, and std::runtime_error if the checkpoint does not fit.
+  void begin(const std::optional<Checkpoint>& resumed);
+
+  /// Solves the stages until the last one ends, or until stop_requested(). Throws RunError if a
+  /// solver or a check fails, and OutsideError or std::runtime_error if the disk refuses.
+  void solve();
+  /// Ends the outputs.
+  void finish() { recorder_.finish(); }
+
+  /// Writes into the outcome what the run has reached, at any time after construction.
+  void note(Outcome& outcome);
+
+ private:
+  void solve_stage(const PlannedStage& stage);
+  void write_motion(const std::vector<double>& motion, const std::vector<double>& heights);
+
+  const Plan& plan_;
+  const RunOptions& options_;
+  RunFolder& folder_;
+  Simulation& simulation_;
+  Stopwatch stopwatch_;
+  Recorder recorder_;
+  Checkpoints checkpoints_;
+
+  std::uint64_t stages_done_ = 0;  ///< number of completed stages
+  std::uint64_t stage_steps_ = 0;  ///< steps of the present stage
+  bool is_resumed_ = false;        ///< the run continues in the middle of a stage
+};
+
+}  // namespace hyperlattice
