@@ -101,7 +101,7 @@ nlohmann::json common_facts(const Plan& plan) {
           {"degrees_of_freedom", model.degrees_of_freedom},
           {"membrane", membrane_name(model)},
           {"fourth_dimension", motion_name(model.choice.membrane)},
-          {"breakable", model.choice.breakable},
+          {"breakable", model.choice.breakable || model.softens},
           {"materials", model.materials.size()},
           {"loads", model.loads.size()},
           {"precision", precision_names[static_cast<std::size_t>(model.choice.precision)]},

@@ -7,8 +7,8 @@
 namespace hyperlattice {
 
 void FailureLog::begin() {
-  table_ =
-      &folder_.table("failures.csv", {"step", "time", "particle_a", "particle_b", "elongation"});
+  table_ = &folder_.table("failures.csv",
+                          {"step", "time", "particle_a", "particle_b", "elongation", "softened"});
 }
 
 void FailureLog::write_new(const std::vector<Breakage>& breakages) {
@@ -16,8 +16,8 @@ void FailureLog::write_new(const std::vector<Breakage>& breakages) {
   std::string lines;
   for (; written_ < breakages.size(); ++written_) {
     const Breakage& b = breakages[written_];
-    fmt::format_to(std::back_inserter(lines), "{},{},{},{},{}\n", b.step, b.time, b.a, b.b,
-                   b.elongation);
+    fmt::format_to(std::back_inserter(lines), "{},{},{},{},{},{:d}\n", b.step, b.time, b.a, b.b,
+                   b.elongation, b.softened);
   }
   table_->lines(lines);
 }
