@@ -49,7 +49,7 @@ KernelSet kernels_of(const Stage& stage, const KernelChoice& choice) {
         stage, "kernels",
         "it lacks the functions of one spring, or its springs keep more numbers than they may");
   if (kernels.step == nullptr || kernels.step_damped == nullptr || kernels.measure == nullptr ||
-      kernels.step_row == nullptr || kernels.measure_row == nullptr) {
+      (choice.mixed && (kernels.step_row == nullptr || kernels.measure_row == nullptr))) {
     if (choice.precision == Precision::floats)
       throw InputError(
           {{"/precision", "float",

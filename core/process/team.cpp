@@ -57,6 +57,31 @@ void Team::stop() noexcept {
   others_.clear();
 }
 
+/// Does the items left in a range. A thread that comes late finds another round in the range and
+/// takes nothing.
+inline void Team::do_range(std::size_t range, std::uint32_t round) noexcept {
+  std::atomic<std::uint64_t>& left = ranges_[range].now;
+  for (std::uint64_t now = left.load(std::memory_order_acquire); is_of(now, round);) {
+    if (!left.compare_exchange_weak(now, now - 1, std::memory_order_acq_rel,
+                                    std::memory_order_acquire))
+      continue;
+    const std::size_t n = end_of(range) - (now & left_bits);
+    try {
+      call_(work_, n);
+    } catch (...) {
+      fail(range, round, n);
+    }
+    finish(round, 1);
+    now = left.load(std::memory_order_acquire);
+  }
+}
+
+inline void Team::work(std::size_t thread, std::uint32_t round) noexcept {
+  do_range(thread, round);
+  if (!helping_.load(std::memory_order_relaxed)) return;
+  for (std::size_t n = 1; n < threads_; ++n) do_range((thread + n) % threads_, round);
+}
+
 void Team::share(std::size_t size, bool helping, Call call, const void* work_to_do) {
   if (size == 0) return;
   size_ = size;
@@ -73,31 +98,6 @@ void Team::share(std::size_t size, bool helping, Call call, const void* work_to_
   work(0, round);
   while (done_.now.load(std::memory_order_acquire) != round) wait_for_change(done_.now, before);
   if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
-}
-
-void Team::work(std::size_t thread, std::uint32_t round) noexcept {
-  do_range(thread, round);
-  if (!helping_.load(std::memory_order_relaxed)) return;
-  for (std::size_t n = 1; n < threads_; ++n) do_range((thread + n) % threads_, round);
-}
-
-/// Does the items left in a range. A thread that comes late finds another round in the range and
-/// takes nothing.
-void Team::do_range(std::size_t range, std::uint32_t round) noexcept {
-  std::atomic<std::uint64_t>& left = ranges_[range].now;
-  for (std::uint64_t now = left.load(std::memory_order_acquire); is_of(now, round);) {
-    if (!left.compare_exchange_weak(now, now - 1, std::memory_order_acq_rel,
-                                    std::memory_order_acquire))
-      continue;
-    const std::size_t n = end_of(range) - (now & left_bits);
-    try {
-      call_(work_, n);
-    } catch (...) {
-      fail(range, round, n);
-    }
-    finish(round, 1);
-    now = left.load(std::memory_order_acquire);
-  }
 }
 
 /// Keeps the present exception and skips the rest of the range.

@@ -60,8 +60,8 @@ class Team {
   using Range = Apart<std::uint64_t>;
 
   void share(std::size_t size, bool helping, Call call, const void* work);
-  void work(std::size_t thread, std::uint32_t round) noexcept;
-  void do_range(std::size_t range, std::uint32_t round) noexcept;
+  [[gnu::always_inline]] void work(std::size_t thread, std::uint32_t round) noexcept;
+  [[gnu::always_inline]] void do_range(std::size_t range, std::uint32_t round) noexcept;
   void fail(std::size_t range, std::uint32_t round, std::size_t n) noexcept;
   void finish(std::uint32_t round, std::size_t count) noexcept;
   void serve(std::size_t thread) noexcept;

@@ -132,6 +132,7 @@ struct KernelSet {
   bool (*measure)(const KernelRequest& request, const Complaint& why) noexcept = nullptr;
   /// Computes the springs of one row of a structured body for the kernel of another law: sets the
   /// row's own forces, and adds to those of other rows. The kernel has written a list's records.
+  /// Null if there is one material.
   bool (*step_row)(const KernelRequest& request, const RowPlace& row, RowEnergies& energies,
                    const Complaint& why) noexcept = nullptr;
   bool (*measure_row)(const KernelRequest& request, const RowPlace& row, RowEnergies& energies,

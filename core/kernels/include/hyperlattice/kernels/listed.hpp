@@ -101,8 +101,8 @@ class ListedForces {
                                              : fill<Real>(request_.springs->cross_stiffness);
       Pulls pulls;
       if constexpr (LawWithMemory<Law>)
-        pulls = pulls_by_law(reach, base_stiffness, cross_stiffness, constants_of(row), slot,
-                             energies);
+        pulls =
+            pulls_by_law(reach, base_stiffness, cross_stiffness, constants_of(row), slot, energies);
       else
         pulls = pulls_of(reach, base_stiffness, cross_stiffness, constants_of(row), slot,
                          energies.stored);
@@ -237,10 +237,10 @@ class ListedForces {
     const auto pull = [&](std::size_t cross, const Pack& square, const Pack& growth,
                           const Pack& k) {
       springs.rest_length = root(square);
-      springs.memory = slots_.memory +
-                       (kinds_of(membrane) * slot.number + cross) * slot_width *
-                           request_.memory_numbers +
-                       slot.first_lane % slot_width;
+      springs.memory =
+          slots_.memory +
+          (kinds_of(membrane) * slot.number + cross) * slot_width * request_.memory_numbers +
+          slot.first_lane % slot_width;
       springs.constants = constants.law[cross];
       const LawResponse response = springs.template ask<Law, !measuring>(k, growth);
       (has_integrity<Law> ? energies.fractured : energies.dissipated) += response.dissipated;
@@ -267,15 +267,14 @@ class ListedForces {
   /// Returns the constants of all springs of a row of one material.
   const SpringConstants& constants_of(const Row& row) const {
     const auto material = static_cast<std::uint32_t>(row.material < 0 ? 0 : row.material);
-    return request_.springs[std::size_t{material} * (request_.materials + 1) *
-                            request_.spring_classes];
+    return request_
+        .springs[std::size_t{material} * (request_.materials + 1) * request_.spring_classes];
   }
 
   /// Reports the springs of a slot whose integrity became 0. `gone`: bits of lanes.
   void report_gone(const Reach& reach, const Slot& slot, std::uint32_t gone) const {
     Real elongation[width];
-    store(elongation,
-          reach.growth / (root(reach.square + reach.growth) + root(reach.square)));
+    store(elongation, reach.growth / (root(reach.square + reach.growth) + root(reach.square)));
     for (int lane = 0; lane < width; ++lane) {
       if ((gone >> lane & 1u) == 0) continue;
       const std::int32_t site = slot.site + lane;

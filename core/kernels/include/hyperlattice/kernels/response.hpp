@@ -113,8 +113,8 @@ class SpringKind {
 
  public:
   SpringKind() = default;
-  /// `constants`: those of the law, which must outlive the kind; `alarm`: elongation, m; infinity if
-  /// there is no alarm.
+  /// `constants`: those of the law, which must outlive the kind; `alarm`: elongation, m; infinity
+  /// if there is no alarm.
   [[gnu::noinline]] SpringKind(double stiffness, double rest_length, const double* constants,
                                double alarm)
       : stiffness_(stiffness), rest_length_(rest_length), constants_(constants) {

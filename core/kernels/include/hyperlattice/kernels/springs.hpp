@@ -48,13 +48,19 @@ class Springs {
   static constexpr bool energy = config.measures();
 
  public:
+  /// A row and the index of a neighbour.
+  struct Place {
+    const Row& row;
+    std::uint32_t row_index, neighbour;
+  };
+
   /// Adds the forces of `count` springs (padded to whole vectors) and their energies. Returns
-  /// whether any spring is above its alarm. `report_gone(t, lanes)`: receives springs that are gone.
-  template <class ReportGone>
+  /// whether any spring is above its alarm. `report`: place of the springs, to report those whose
+  /// integrity becomes 0; null: do not report.
   [[gnu::noinline]] static bool add(const KernelRequest& request, const Pair& pair,
                                     const NeighbourGeometry& neighbour, std::uint16_t bit,
                                     const SpringConstants& constants, int count,
-                                    Energies<Pack>& energies, const ReportGone& report_gone) {
+                                    Energies<Pack>& energies, const Place* report) {
     const Vec3 rest = neighbour.rest;
     const double twice_delta = 2 * request.membrane_distance;
     Pack base_stiffness = constants.stiffness, cross_stiffness = constants.cross_stiffness;
@@ -78,8 +84,9 @@ class Springs {
           const LawSprings springs =
               law_springs(request, pair, bit, constants, cross, rest_length, t);
           const LawResponse response = springs.template ask<Law, !energy>(stiffness, growth);
-          if (has_integrity<Law> && cross == 0 && response.gone != 0) [[unlikely]]
-            report_gone(t, response.gone);
+          if (has_integrity<Law> && report != nullptr && cross == 0 && response.gone != 0)
+              [[unlikely]]
+            report_gone(request, pair, *report, t, response.gone);
           (has_integrity<Law> ? energies.fractured : energies.dissipated) +=
               counted(response.dissipated);
           if constexpr (energy) energies.stored += counted(response.energy);
@@ -131,21 +138,6 @@ class Springs {
     return rung;
   }
 
-  /// Reports the springs of a vector whose integrity became 0. `gone`: bits of lanes.
-  [[gnu::noinline]] static void report_gone(const KernelRequest& request, const Pair& pair,
-                                            const Row& row, std::uint32_t row_index,
-                                            std::uint32_t neighbour_index, int t,
-                                            std::uint32_t gone) {
-    const NeighbourGeometry& neighbour = request.neighbours[neighbour_index];
-    for (int lane = 0; lane < lanes; ++lane) {
-      if ((gone >> lane & 1u) == 0) continue;
-      const std::int32_t site = row.begin + t + lane;
-      const double elongation = elongation_of(pair, neighbour, t + lane);
-      request.receive_gone(request.self,
-                           {row_index, neighbour_index, {&site, 1}, {&elongation, 1}});
-    }
-  }
-
   /// Asks the failure criterion about the row's springs above their alarm, and removes broken ones.
   [[gnu::noinline]] static void review(const KernelRequest& request, const Pair& pair,
                                        const Row& row, std::uint32_t row_index,
@@ -181,6 +173,19 @@ class Springs {
   }
 
  private:
+  /// Reports the springs of a vector whose integrity became 0. `gone`: bits of lanes.
+  [[gnu::noinline]] static void report_gone(const KernelRequest& request, const Pair& pair,
+                                            const Place& place, int t, std::uint32_t gone) {
+    const NeighbourGeometry& neighbour = request.neighbours[place.neighbour];
+    for (int lane = 0; lane < lanes; ++lane) {
+      if ((gone >> lane & 1u) == 0) continue;
+      const std::int32_t site = place.row.begin + t + lane;
+      const double elongation = elongation_of(pair, neighbour, t + lane);
+      request.receive_gone(request.self,
+                           {place.row_index, place.neighbour, {&site, 1}, {&elongation, 1}});
+    }
+  }
+
   /// Returns the elongation, m, of the base spring of site t.
   static double elongation_of(const Pair& pair, const NeighbourGeometry& neighbour, int t) {
     const auto moved = [&](int c) { return double{pair.there[c][t]} - double{pair.here[c][t]}; };
@@ -201,10 +206,9 @@ class Springs {
     for (int lane = 0; lane < lanes; ++lane)
       springs.there |= ((pair.alive[t + lane] & bit) != 0 ? 1u : 0u) << lane;
     springs.memory_stride = request.memory_stride;
-    springs.memory = pair.memory +
-                     static_cast<std::size_t>(cross) * request.memory_numbers *
-                         request.memory_stride +
-                     t;
+    springs.memory =
+        pair.memory +
+        static_cast<std::size_t>(cross) * request.memory_numbers * request.memory_stride + t;
     return springs;
   }
 

@@ -114,9 +114,7 @@ class Sweep {
   }
 
   /// Returns whether all springs of the row can be computed in one pass.
-  bool fuses(const Row& row) const {
-    return can_fuse && fused_ && (!Mixed || row.material >= 0);
-  }
+  bool fuses(const Row& row) const { return can_fuse && fused_ && (!Mixed || row.material >= 0); }
 
   /// Sets the row's own forces to those of its springs and of earlier rows' springs.
   void in_one(const Row& row, std::uint32_t index, int j, int k, int count) {
@@ -167,20 +165,18 @@ class Sweep {
       if ((row.neighbours >> n & 1u) == 0 || (!owned && k + neighbour.site.dz < 0)) continue;
       Pair pair = pair_of(row, neighbour.site, j, k);
       if constexpr (memory_of<Law>() > 0)
-        pair.memory = request_.memory +
-                      n * kinds_of(config.membrane) * request_.memory_numbers *
-                          request_.memory_stride +
-                      row.start;
+        pair.memory =
+            request_.memory +
+            n * kinds_of(config.membrane) * request_.memory_numbers * request_.memory_stride +
+            row.start;
       const auto bit = static_cast<std::uint16_t>(1u << n);
       const bool uniform = !Mixed || row.material >= 0;
       const SpringConstants* constants = constants_of(row, neighbour.site.spring_class);
       const auto add = [&]<bool Several, bool Weighted>() {
-        const auto report_gone = [&](int t, std::uint32_t gone) {
-          if (!measuring && owned)
-            OneByOne<Several, Weighted>::report_gone(request_, pair, row, index, n, t, gone);
-        };
-        return OneByOne<Several, Weighted>::add(request_, pair, neighbour, bit, *constants, count,
-                                                energies, report_gone);
+        using Springs = OneByOne<Several, Weighted>;
+        const typename Springs::Place place{row, index, n};
+        return Springs::add(request_, pair, neighbour, bit, *constants, count, energies,
+                            !measuring && owned ? &place : nullptr);
       };
       bool rung;
       if (row.weights == no_weights) {
@@ -304,10 +300,9 @@ class Kernels {
 
   static SpringAnswer taken(const OneSpring& spring, double time_step, double* kept) {
     if constexpr (LawWithMemory<Law>) {
-      return answer_of(SpringWithMemory<Law>(spring.law)
-                           .take({spring.stiffness, spring.rest_length, spring.elongation, 0,
-                                  time_step},
-                                 kept));
+      return answer_of(
+          SpringWithMemory<Law>(spring.law)
+              .take({spring.stiffness, spring.rest_length, spring.elongation, 0, time_step}, kept));
     } else {
       const SpringOf<double> of{spring.stiffness, spring.rest_length, spring.elongation};
       return {force_of<Law>(of, spring.law), energy_of<Law>(of, spring.law)};
@@ -363,11 +358,10 @@ class Kernels {
     constexpr auto config = [](Task task) {
       return config_of<Law>(membrane, breakable && task != Task::measure, mixed, task, stored);
     };
-    KernelSet set = choice.listed
-                        ? of_sweep<ListedSweep, config(Task::step), config(Task::step_damped),
-                                   config(Task::measure)>()
-                        : of_sweep<Sweep, config(Task::step), config(Task::step_damped),
-                                   config(Task::measure)>();
+    KernelSet set = choice.listed ? of_sweep<ListedSweep, config(Task::step),
+                                             config(Task::step_damped), config(Task::measure)>()
+                                  : of_sweep<Sweep, config(Task::step), config(Task::step_damped),
+                                             config(Task::measure)>();
     set.linearise = [](const SpringRow& row, double& energy, const Complaint& why) noexcept {
       return detail::guarded(why, [&] { energy = Tangent<Law, membrane>::run(row); });
     };
@@ -380,8 +374,10 @@ class Kernels {
     set.step = &run<Of<Law, step>>;
     set.step_damped = &run<Of<Law, step_damped>>;
     set.measure = &run<Of<Law, measure>>;
-    set.step_row = &run_row<Of<Law, step>>;
-    set.measure_row = &run_row<Of<Law, measure>>;
+    if constexpr (step.mixed) {
+      set.step_row = &run_row<Of<Law, step>>;
+      set.measure_row = &run_row<Of<Law, measure>>;
+    }
     return set;
   }
 };

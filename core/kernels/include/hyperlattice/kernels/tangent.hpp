@@ -95,9 +95,8 @@ struct Tangent {
   /// Calls a law with a memory, which stays that of the start of the load step.
   static Linearised lane_by_lane(const SpringRow& row, std::size_t cross, int t,
                                  const SpringOf<Pack>& spring, Pack weight) {
-    double k[lanes], rest[lanes], elongation[lanes], there[lanes], force[lanes] = {},
-                                                                   tangent[lanes] = {},
-                                                                   energy[lanes] = {};
+    double k[lanes], rest[lanes], elongation[lanes], there[lanes],
+        force[lanes] = {}, tangent[lanes] = {}, energy[lanes] = {};
     store(k, spring.stiffness);
     store(rest, spring.rest_length);
     store(elongation, spring.elongation);
