@@ -22,6 +22,11 @@ struct Variant {
   bool breakable, damped, cells;
   /// Operations in kernels/stencil.hpp and kernels/motion.hpp; a root counts with its series.
   int flops_of_spring, flops_of_particle;
+  const char* law = "materials.elastic";
+  /// Law of the upper half of the body, or of its half in every row of particles, so that a part of
+  /// each row has several laws; null: the body has one law.
+  const char* second_law = nullptr;
+  bool in_every_row = false;
 };
 const Variant variants[] = {
     {"three", "none", false, false, false, 33, 18},
@@ -34,15 +39,23 @@ const Variant variants[] = {
     {"free_breakable", "I-m", true, false, false, 61, 27},
     {"free_damped", "I-m", false, true, false, 61, 55},
     {"free_cells", "I-m", false, false, true, 61, 27},
+    {"viscous", "none", false, false, false, 33, 18, "materials.viscous"},
+    {"elastic_and_viscous_rows", "none", false, false, false, 33, 18, "materials.elastic",
+     "materials.viscous"},
+    {"elastic_and_viscous_in_rows", "none", false, false, false, 33, 18, "materials.elastic",
+     "materials.viscous", true},
 };
 
 /// A cube of `size` particles along an edge, or the hollow sphere of 490,432 particles (size 0), in
 /// slow torsion.
 Json scene_of(const Variant& variant, int size, const char* precision) {
-  Json material = {{"type", "materials.elastic"},
-                   {"young", 1e10},
-                   {"density", 2500},
-                   {"membrane", variant.membrane}};
+  const auto material_of = [&](const char* law) {
+    Json material = {
+        {"type", law}, {"young", 1e10}, {"density", 2500}, {"membrane", variant.membrane}};
+    if (std::string(law) == "materials.viscous") material["time"] = "1 ns";
+    return material;
+  };
+  Json material = material_of(variant.law);
   if (std::string(variant.membrane) != "none") material["lambda"] = 0.5;
   if (variant.breakable)
     material["failure"] = {{"type", "failures.elongation"}, {"limit", 1e-4}};  // never reached
@@ -57,17 +70,21 @@ Json scene_of(const Variant& variant, int size, const char* precision) {
                 {"centre", {edge / 2, edge / 2, 0}}};
   };
   const double middle = size > 0 ? edge / 2 : 0;
-  return {{"format", "hyperlattice/1"},
-          {"precision", precision},
-          {"pipeline",
-           {{{"type", "lattices.cubic"},
-             {"spacing", 1e-3},
-             {"boundary", variant.cells ? "cells" : "particles"},
-             {"shape", shape}},
-            material,
-            spin(-far, middle, 1),
-            spin(middle, far, -1),
-            {{"type", "solvers.explicit"}, {"end_time", "1 ms"}}}}};
+  Json pipeline = {{{"type", "lattices.cubic"},
+                    {"spacing", 1e-3},
+                    {"boundary", variant.cells ? "cells" : "particles"},
+                    {"shape", shape}},
+                   material};
+  if (variant.second_law != nullptr) {
+    Json second = material_of(variant.second_law);
+    const Json low = variant.in_every_row ? Json{middle, -far, -far} : Json{-far, -far, middle};
+    second["region"] = {{"box", {{"low", low}, {"high", {far, far, far}}}}};
+    pipeline.push_back(second);
+  }
+  pipeline.push_back(spin(-far, middle, 1));
+  pipeline.push_back(spin(middle, far, -1));
+  pipeline.push_back({{"type", "solvers.explicit"}, {"end_time", "1 ms"}});
+  return {{"format", "hyperlattice/1"}, {"precision", precision}, {"pipeline", pipeline}};
 }
 
 /// Multiply-adds in registers of one thread, flops per second, measured at the start.
@@ -139,7 +156,9 @@ int main(int argc, char** argv) {
     for (const int size : {25, 50, 100, 0})
       if (size > 0 || !variant.cells)
         for (const char* precision : {"double", "float"})
-          for (const int threads : {1, 2}) add(variant, size, precision, threads);
+          for (const int threads : {1, 2})
+            if (variant.second_law == nullptr || std::string(precision) == "double")
+              add(variant, size, precision, threads);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   benchmark::RunSpecifiedBenchmarks();
