@@ -1,11 +1,7 @@
-// Rows whose springs the kernel of the first law does not compute. A row of one law goes to the
-// kernel of this law. A row with springs of several laws, or of several sets of constants, is
-// computed here, one spring after another, as the theory states it (kernels/reference.hpp).
 #include <model/spring_calls.hpp>
-#include <state/parts.hpp>
+#include <state/other_rows.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace hyperlattice {
@@ -14,16 +10,16 @@ namespace {
 /// The springs of one row, with all that is alike for them.
 class SeveralLaws {
  public:
-  SeveralLaws(const Model& model, const KernelRequest& request, bool measuring)
+  SeveralLaws(const Model& model, const KernelRequest& request, bool measures)
       : model_(model),
         time_step_(2 * request.back),
         delta_(request.membrane_distance),
         kinds_(model.choice.membrane == KernelChoice::Membrane::none ? 1 : 2),
         free_(model.choice.membrane == KernelChoice::Membrane::free),
-        measuring_(measuring) {}
+        measures_(measures) {}
 
-  /// A spring between two particles: displacements and heights there less those here, and the sum of
-  /// the heights, m.
+  /// A spring between two particles: displacements and heights there less those here, and the sum
+  /// of the heights, m.
   struct Spring {
     SpringProperties properties;
     double difference[4] = {};
@@ -72,14 +68,13 @@ class SeveralLaws {
  private:
   CompositeAnswer advance(const SpringProperties& of, std::size_t cross, double elongation,
                           const Layout::Memory& memory, Result* result) const {
-    std::array<double, max_spring_memory> kept{};
-    for (std::uint32_t n = 0; n < model_.memory; ++n) kept[n] = memory.first[n * memory.stride];
-    const bool was_there = result != nullptr && model_.softens && !measuring_ &&
+    LawNumbers kept = read_numbers(memory, model_.memory);
+    const bool was_there = result != nullptr && model_.softens && !measures_ &&
                            ask_spring(model_, of, cross, elongation, kept.data()).integrity > 0;
     const CompositeAnswer answer =
         take_spring(model_, of, cross, elongation, time_step_, kept.data());
     if (result != nullptr) result->gone = was_there && answer.integrity <= 0;
-    for (std::uint32_t n = 0; n < model_.memory && !measuring_; ++n)
+    for (std::uint32_t n = 0; n < model_.memory && !measures_; ++n)
       memory.first[n * memory.stride] = kept[n];
     return answer;
   }
@@ -87,7 +82,7 @@ class SeveralLaws {
   const Model& model_;
   double time_step_, delta_;
   std::size_t kinds_;
-  bool free_, measuring_;
+  bool free_, measures_;
 };
 
 /// Sets the forces on the row in work to zero, up to whole vectors.
@@ -111,21 +106,21 @@ SpringProperties properties_of(const Model& model, const SpringConstants& consta
 
 }  // namespace
 
-void Simulation::Parts::compute_other_row(Block& block, const KernelRequest& request,
-                                          const RowPlace& place, bool measuring) const {
+void OtherRows::compute(Block& block, const KernelRequest& request, const RowPlace& place,
+                        bool measures) const {
   const Row& row = request.rows[place.index];
   RowEnergies energies;
   if (row.law > 0) {
-    const Law& law = model.laws[static_cast<std::size_t>(row.law)];
-    energies = call_row_kernel(
-        law, measuring ? law.kernels.measure_row : law.kernels.step_row, request, place);
+    const Law& law = model_.laws[static_cast<std::size_t>(row.law)];
+    energies = call_row_kernel(law, measures ? law.kernels.measure_row : law.kernels.step_row,
+                               request, place);
   } else {
-    energies = model.body.is_listed() ? several_laws_of_list(block, request, place, measuring)
-                                      : several_laws_of_grid(block, request, place, measuring);
+    energies = model_.body.is_listed() ? several_laws_of_list(block, request, place, measures)
+                                       : several_laws_of_grid(block, request, place, measures);
   }
   const bool owned = place.index >= block.layout->first_own;
   if (!owned) return;
-  if (measuring) {
+  if (measures) {
     block.other_sums[place.index] = energies;
     return;
   }
@@ -135,56 +130,48 @@ void Simulation::Parts::compute_other_row(Block& block, const KernelRequest& req
 
 /// Returns whether a criterion must be asked about a spring. `alarm`: elongation, m, from which it
 /// must be asked about a spring of one law.
-bool Simulation::Parts::reaches_alarm(const SpringProperties& properties, double alarm,
-                                      double elongation, const Layout::Memory& memory) const {
+bool OtherRows::reaches_alarm(const SpringProperties& properties, double alarm, double elongation,
+                              const Layout::Memory& memory) const {
   if (properties.composite == nullptr || !properties.composite->in_series())
     return elongation > alarm;
-  SpringMemory kept{};
-  for (std::uint32_t n = 0; n < model.memory; ++n) kept[n] = memory.first[n * memory.stride];
+  const LawNumbers kept = read_numbers(memory, model_.memory);
   const auto parts = properties.composite->parts();
   return std::any_of(parts.begin(), parts.end(), [&](const SpringPart& part) {
-    return model.elongation_in(part.material, properties, elongation, kept.data()) >
-           model.own_alarm(part.material, properties);
+    return model_.elongation_in(part.material, properties, elongation, kept.data()) >
+           model_.own_alarm(part.material, properties);
   });
 }
 
-void Simulation::Parts::receive_gone(Block& block, const AlarmRow& springs) const {
-  for (std::size_t n = 0; n < springs.sites.size(); ++n)
-    block.broken.push_back(
-        {layout->spring(block, springs.row, springs.neighbour, springs.sites[n]),
-         springs.elongation[n], springs.row, springs.neighbour, springs.sites[n], true});
-}
-
-RowEnergies Simulation::Parts::several_laws_of_grid(Block& block, const KernelRequest& request,
-                                                    const RowPlace& place, bool measuring) const {
+RowEnergies OtherRows::several_laws_of_grid(Block& block, const KernelRequest& request,
+                                            const RowPlace& place, bool measures) const {
   const Row& row = request.rows[place.index];
-  const int components = model.degrees_of_freedom, sites = row.end - row.begin;
+  const int components = model_.degrees_of_freedom, sites = row.end - row.begin;
   const bool owned = place.k >= 0;
   const ScratchRows<double> scratch(request, components);
   clear_own(scratch, components, sites);
-  const SeveralLaws laws(model, request, measuring);
+  const SeveralLaws laws(model_, request, measures);
   RowEnergies energies;
-  for (std::uint32_t n = 0; n < model.neighbours.size(); ++n) {
-    const NeighbourGeometry& neighbour = model.neighbours[n];
+  for (std::uint32_t n = 0; n < model_.neighbours.size(); ++n) {
+    const NeighbourGeometry& neighbour = model_.neighbours[n];
     const Neighbour& to = neighbour.site;
     if ((row.neighbours >> n & 1U) == 0 || (!owned && place.k + to.dz < 0)) continue;
-    const Row& other = request.rows[static_cast<std::int64_t>(place.index) +
-                                    to.dz * request.rows_per_plane + to.dy];
+    const Row& other =
+        request
+            .rows[static_cast<std::int64_t>(place.index) + to.dz * request.rows_per_plane + to.dy];
     std::vector<std::int32_t> rung;
     std::vector<double> elongations;
     for (std::int32_t i = row.begin; i < row.end; ++i) {
       const std::uint64_t here = row.start + static_cast<std::uint64_t>(i - row.begin);
       if ((block.alive[here] >> n & 1U) == 0) continue;
-      const std::uint64_t there =
-          other.start + static_cast<std::uint64_t>(i + to.dx - other.begin);
-      const bool cells = !model.mixtures.empty();
+      const std::uint64_t there = other.start + static_cast<std::uint64_t>(i + to.dx - other.begin);
+      const bool cells = !model_.mixtures.empty();
       const std::uint32_t kind = cells ? block.mixture[here] : block.material[here];
       const SpringConstants& constants =
-          model.spring_to(n, kind, cells ? 0 : block.material[there]);
+          model_.spring_to(n, kind, cells ? 0 : block.material[there]);
       SeveralLaws::Spring spring;
       spring.properties =
-          properties_of(model, constants,
-                        cells ? model.mixtures.commonest(kind) : static_cast<std::uint8_t>(kind));
+          properties_of(model_, constants,
+                        cells ? model_.mixtures.commonest(kind) : static_cast<std::uint8_t>(kind));
       spring.properties.rest = neighbour.rest;
       spring.properties.rest_length = neighbour.rest_length;
       spring.properties.cross_rest_length = neighbour.cross_rest_length;
@@ -199,24 +186,24 @@ RowEnergies Simulation::Parts::several_laws_of_grid(Block& block, const KernelRe
         spring.weight = request.weights[set + lanes * (std::uint64_t{n} + 1) + t % lanes];
       }
       for (const bool cross : {false, true})
-        if (model.memory > 0 && (!cross || model.choice.membrane != KernelChoice::Membrane::none))
-          spring.memory[cross ? 1 : 0] = layout->memory(block, place.index, n, i, cross);
+        if (model_.memory > 0 && (!cross || model_.choice.membrane != KernelChoice::Membrane::none))
+          spring.memory[cross ? 1 : 0] = blocks_.layout().memory(block, place.index, n, i, cross);
       const SeveralLaws::Result result = laws.forces(spring, energies);
       for (int c = 0; c < components; ++c) {
         scratch.own(c)[i - row.begin] += result.force[c];
         scratch.received(c, place.j + to.dy, place.k + to.dz)[i + to.dx] +=
             c == 3 ? result.height_force_there : -result.force[c];
       }
-      if (measuring || !owned) continue;
-      if (result.gone) receive_gone(block, {place.index, n, {&i, 1}, {&result.elongation, 1}});
-      if (!model.choice.breakable ||
+      if (measures || !owned) continue;
+      if (result.gone) blocks_.note_gone(block, {place.index, n, {&i, 1}, {&result.elongation, 1}});
+      if (!model_.choice.breakable ||
           !reaches_alarm(spring.properties, constants.alarm, result.elongation, spring.memory[0]))
         continue;
       rung.push_back(i);
       elongations.push_back(result.elongation);
     }
     if (rung.empty()) continue;
-    const std::uint8_t* broken = review(block, {place.index, n, rung, elongations});
+    const std::uint8_t* broken = review_.review(block, {place.index, n, rung, elongations});
     for (std::size_t s = 0; s < rung.size(); ++s)
       if (broken[s] != 0) {
         std::uint16_t& bits =
@@ -234,14 +221,14 @@ RowEnergies Simulation::Parts::several_laws_of_grid(Block& block, const KernelRe
   return energies;
 }
 
-RowEnergies Simulation::Parts::several_laws_of_list(Block& block, const KernelRequest& request,
-                                                    const RowPlace& place, bool measuring) const {
+RowEnergies OtherRows::several_laws_of_list(Block& block, const KernelRequest& request,
+                                            const RowPlace& place, bool measures) const {
   const Row& row = request.rows[place.index];
-  const int components = model.degrees_of_freedom;
+  const int components = model_.degrees_of_freedom;
   const ListedSlots& slots = request.listed;
   const ScratchRows<double> scratch(request, components);
   clear_own(scratch, components, row.end);
-  const SeveralLaws laws(model, request, measuring);
+  const SeveralLaws laws(model_, request, measures);
   const auto record = [&](std::uint64_t index) {
     return static_cast<const double*>(slots.records) + record_numbers * index;
   };
@@ -257,9 +244,9 @@ RowEnergies Simulation::Parts::several_laws_of_list(Block& block, const KernelRe
       const double* other = record(there);
       const auto material = static_cast<std::uint8_t>(own[record_material]);
       const SpringConstants& constants =
-          model.spring(material, static_cast<std::uint8_t>(other[record_material]), 0);
+          model_.spring(material, static_cast<std::uint8_t>(other[record_material]), 0);
       SeveralLaws::Spring spring;
-      SpringProperties& of = spring.properties = properties_of(model, constants, material);
+      SpringProperties& of = spring.properties = properties_of(model_, constants, material);
       of.rest = {other[0] - own[0], other[1] - own[1], other[2] - own[2]};
       of.rest_length = norm(of.rest);
       of.cross_rest_length = std::hypot(of.rest_length, request.membrane_distance);
@@ -271,19 +258,20 @@ RowEnergies Simulation::Parts::several_laws_of_list(Block& block, const KernelRe
                                own[record_moved + static_cast<std::size_t>(c)];
       if (components == 4) spring.height_sum = other[record_moved + 3] + own[record_moved + 3];
       for (const bool cross : {false, true})
-        if (model.memory > 0 && (!cross || model.choice.membrane != KernelChoice::Membrane::none))
-          spring.memory[cross ? 1 : 0] = layout->memory(block, place.index, slot, t, cross);
+        if (model_.memory > 0 && (!cross || model_.choice.membrane != KernelChoice::Membrane::none))
+          spring.memory[cross ? 1 : 0] =
+              blocks_.layout().memory(block, place.index, slot, t, cross);
       const SeveralLaws::Result result = laws.forces(spring, energies);
       for (int c = 0; c < components; ++c) scratch.own(c)[t] += result.force[c];
-      if (measuring) continue;
-      if (result.gone) receive_gone(block, {place.index, slot, {&t, 1}, {&result.elongation, 1}});
-      if (!model.choice.breakable) continue;
+      if (measures) continue;
+      if (result.gone)
+        blocks_.note_gone(block, {place.index, slot, {&t, 1}, {&result.elongation, 1}});
+      if (!model_.choice.breakable) continue;
       const double growth =
           static_cast<const double*>(slots.alarm)[std::uint64_t{slot} * lanes + lane];
-      const double alarm =
-          std::sqrt(of.rest_length * of.rest_length + growth) - of.rest_length;
+      const double alarm = std::sqrt(of.rest_length * of.rest_length + growth) - of.rest_length;
       if (reaches_alarm(of, alarm, result.elongation, spring.memory[0]) &&
-          *review(block, {place.index, slot, {&t, 1}, {&result.elongation, 1}}) != 0)
+          *review_.review(block, {place.index, slot, {&t, 1}, {&result.elongation, 1}}) != 0)
         there = static_cast<std::uint32_t>(here);
     }
   }

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <model/model.hpp>
+#include <state/breakage.hpp>
+#include <state/energy_balance.hpp>
+#include <state/equilibrium_update.hpp>
 #include <state/layout.hpp>
 
 #include <cstdint>
@@ -12,42 +15,6 @@
 namespace hyperlattice {
 
 class Archive;
-
-/// The failure of one base spring. Its cross springs fail with it.
-struct Breakage {
-  std::uint64_t step = 0;
-  double time = 0;        ///< s
-  Particle a = 0, b = 0;  ///< a precedes b in the order z, y, x
-  std::uint32_t neighbour = 0;
-  double elongation = 0;  ///< at the failure, m
-  /// false: a criterion removed the spring; true: its law softened until its integrity was 0, and
-  /// the spring stays, because a closed crack may push
-  bool softened = false;
-};
-
-/// Energies and momentum of the whole body at one time.
-struct EnergyBalance {
-  double kinetic = 0, kinetic_mean = 0, stored = 0, injected = 0, dissipated_failure = 0,
-         dissipated_damping = 0;  ///< J
-  Vec3 momentum;                  ///< N s
-  double dissipated() const { return dissipated_failure + dissipated_damping; }
-  double error = 0;  ///< J: kinetic + stored + dissipated - injected - energy at the start
-  /// The largest value so far, J, of each kind of energy and of the sum of the absolute works.
-  double scale = 0;
-  double relative_error() const { return scale > 0 ? error / scale : 0; }
-};
-
-/// A change from one state of rest to another without a time step. Fields have x, y, z of each
-/// particle; heights exist only in free membranes.
-struct EquilibriumUpdate {
-  double time = 0;                   ///< after the change, s
-  std::vector<double> xyz, heights;  ///< displacements after the change, m
-  /// Forces of the springs on the particles after and before the change, N.
-  std::vector<double> force, force_before;
-  std::vector<double> factor, factor_before;  ///< load factor of each load
-  double gravity = 1, gravity_before = 1;     ///< fractions of the body accelerations
-  double dissipated = 0;  ///< by the forces that held the earlier state in place, J
-};
 
 /// The moving body. Results have the same bits for any number of threads.
 class Simulation {
@@ -134,7 +101,7 @@ class Simulation {
   void archive(Archive& archive);
 
  private:
-  struct Parts;
+  struct State;
   struct Quantity {
     bool velocity;
     int first, components;
@@ -144,7 +111,7 @@ class Simulation {
             std::vector<double>& values) const;
   void set(const Quantity& quantity, const std::vector<double>& values);
 
-  std::unique_ptr<Parts> parts_;
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace hyperlattice

@@ -14,12 +14,6 @@
 
 namespace hyperlattice {
 
-namespace {
-
-double component(Vec3 v, int c) { return c == 0 ? v.x : c == 1 ? v.y : v.z; }
-
-}  // namespace
-
 void Statics::make_loads() {
   const bool fresh = simulation_.steps() == 0;  // no load acted before the run
   gravity_start_ = fresh ? 0 : 1;
@@ -53,9 +47,8 @@ void Statics::make_loads() {
         if (((loaded.displaced | loaded.driven) >> c & 1u) == 0) continue;
         hold.axes |= 1u << c;
         hold.from[c] = state_[static_cast<std::size_t>(c * places + place)];
-        hold.to[c] = (loaded.displaced >> c & 1u) != 0
-                         ? factor_end_[l] * component(loaded.displacement, c)
-                         : hold.from[c] + way * component(loaded.velocity, c);
+        hold.to[c] = (loaded.displaced >> c & 1u) != 0 ? factor_end_[l] * loaded.displacement[c]
+                                                       : hold.from[c] + way * loaded.velocity[c];
         free_[static_cast<std::size_t>(place)] =
             static_cast<std::uint8_t>(free_[static_cast<std::size_t>(place)] & ~(1u << c));
       }
@@ -98,12 +91,12 @@ void Statics::add_loads(double share, double* force) const {
   const std::vector<double> factor = factors(share);
   for (const Loaded& loaded : loaded_)
     for (int c = 0; c < 3; ++c)
-      force[c * places + loaded.place] += factor[loaded.load] * component(loaded.force, c);
+      force[c * places + loaded.place] += factor[loaded.load] * loaded.force[c];
   const double gravity = (1 - share) * gravity_start_ + share;
   for (int c = 0; c < 3 && !mass_.empty(); ++c)
     for (std::size_t p = 0; p < mass_.size(); ++p)
       force[static_cast<std::size_t>(c * places) + p] +=
-          gravity * mass_[p] * component(model_.acceleration, c);
+          gravity * mass_[p] * model_.acceleration[c];
 }
 
 void Statics::prescribe(double share, double* u) const {

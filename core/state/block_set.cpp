@@ -1,0 +1,155 @@
+// The blocks of a state: arrays, living springs, boundary particles. Each block is first touched by
+// the thread that will work on it.
+#include <state/block_set.hpp>
+
+#include <algorithm>
+
+namespace hyperlattice {
+
+namespace {
+
+template <class T>
+void visit(Archive& archive, const AlignedArray<T>& array) {
+  archive(std::span(array.get(), array.size()));
+}
+
+/// Saves the memory in the order of its keys, so that equal memories have equal bytes.
+void visit(Archive& archive, FailureMemory& memory) {
+  struct Kept {
+    FailureKey key;
+    FailureMemory::mapped_type numbers;
+  };
+  std::vector<Kept> all;
+  if (!archive.restores())
+    for (const auto& [key, numbers] : memory) all.push_back({key, numbers});
+  archive(all);
+  if (!archive.restores()) return;
+  memory.clear();
+  for (const Kept& kept : all) memory.emplace_hint(memory.end(), kept.key, kept.numbers);
+}
+
+void visit(Archive& archive, Block& block, int components) {
+  for (int c = 0; c < components; ++c) {
+    archive(block.displacement[c].bytes());
+    archive(block.velocity[c].bytes());
+  }
+  visit(archive, block.alive);
+  visit(archive, block.memory);
+  visit(archive, block.failure_memory);
+  visit(archive, block.listed.neighbour);
+  archive(block.damped_work);
+  archive(block.fracture_work);
+  archive(block.boundary_particles);
+  archive(block.contributions);
+}
+
+}  // namespace
+
+BlockSet::BlockSet(const Model& model, int threads)
+    : model_(model),
+      layout_(make_layout(model, threads)),
+      blocks_(layout_->blocks.size()),
+      team_(threads) {
+  team_.for_own(blocks_.size(), [&](std::size_t b) { allocate(blocks_[b], b); });
+  for (Block& block : blocks_) add_supports(block);
+  for (const auto& [particle, velocity] : model.start_velocities) {
+    const auto [block, place] = at(particle);
+    for (int c = 0; c < 3; ++c) block->velocity[c].set(place, velocity[c]);
+  }
+}
+
+void BlockSet::allocate(Block& block, std::size_t number) const {
+  block.layout = &layout_->blocks[number];
+  block.number = number;
+  block.rows = block.layout->rows;
+  for (int c = 0; c < model_.degrees_of_freedom; ++c) {
+    block.displacement[c] = Numbers(model_.choice.precision, block.layout->sites);
+    block.velocity[c] = Numbers(model_.choice.precision, block.layout->sites);
+  }
+  block.scratch = AlignedArray<double>(layout_->scratch_numbers());
+  block.damped_work.assign(block.rows.size(), 0);
+  if (model_.softens) block.fracture_work.assign(block.rows.size(), 0);
+  const auto is_other = [](const Row& row) { return row.law != 0; };
+  if (std::any_of(block.rows.begin(), block.rows.end(), is_other))
+    block.other_sums.resize(block.rows.size());
+  block.sums.resize(block.rows.size());
+  layout_->fill(block);
+}
+
+void BlockSet::add_supports(Block& block) const {
+  std::vector<std::pair<Particle, Contribution>> found;
+  for (std::size_t l = 0; l < model_.loads.size(); ++l) {
+    Contribution part;
+    part.load = static_cast<std::uint32_t>(l);
+    for (const LoadedParticle& loaded : model_.loads[l].particles)
+      if (layout_->place(loaded.particle).block == block.number) {
+        part.particle = loaded.particle;
+        part.force = loaded.force;
+        part.displacement = loaded.displacement;
+        part.velocity = loaded.velocity;
+        part.displaced = loaded.displaced;
+        part.driven = loaded.driven;
+        found.emplace_back(loaded.particle, part);
+      }
+    const std::vector<WatchedParticle>& watched = model_.loads[l].watched;
+    for (std::uint32_t n = 0; n < watched.size(); ++n) {
+      const Place place = layout_->place(watched[n].particle);
+      if (place.block != block.number) continue;
+      block.watched.push_back({part.load, n, place.index});
+      if (!watched[n].answered) continue;
+      Contribution answer;
+      answer.load = part.load;
+      answer.particle = watched[n].particle;
+      answer.watched = n;
+      found.emplace_back(answer.particle, answer);
+    }
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+
+  Particle last = Body::no_particle;
+  for (auto& [particle, part] : found) {
+    if (particle != last) {
+      const Place place = layout_->place(particle);
+      BoundaryParticle support;
+      support.row = static_cast<std::int32_t>(place.row);
+      support.site = place.site;
+      support.index = place.index;
+      support.mass = model_.mass(particle);
+      block.boundary_particles.push_back(support);
+      last = particle;
+    }
+    part.support = static_cast<std::uint32_t>(block.boundary_particles.size() - 1);
+    block.boundary_particles.back().axes |= part.displaced | part.driven;
+    block.contributions.push_back(part);
+  }
+  block.held_force.resize(block.boundary_particles.size());
+  std::uint32_t next = 0;
+  for (std::size_t r = 0; r < block.rows.size(); ++r) {
+    block.rows[r].first_boundary_particle = next;
+    while (next < block.boundary_particles.size() &&
+           block.boundary_particles[next].row == static_cast<std::int32_t>(r))
+      ++next;
+    block.rows[r].last_boundary_particle = next;
+  }
+}
+
+LawNumbers BlockSet::law_numbers(const Block& block, std::uint32_t row, std::uint32_t neighbour,
+                                 std::int32_t site, bool cross) const {
+  if (model_.memory == 0) return {};
+  return read_numbers(layout_->memory(block, row, neighbour, site, cross), model_.memory);
+}
+
+void BlockSet::note_gone(Block& block, const AlarmRow& springs) const {
+  for (std::size_t n = 0; n < springs.sites.size(); ++n)
+    block.broken.push_back(
+        {layout_->spring(block, springs.row, springs.neighbour, springs.sites[n]),
+         springs.elongation[n], springs.row, springs.neighbour, springs.sites[n], true});
+}
+
+void BlockSet::archive(Archive& archive) {
+  archive.same(blocks_.size(), "the number of blocks");
+  for (Block& block : blocks_) visit(archive, block, model_.degrees_of_freedom);
+}
+
+}  // namespace hyperlattice

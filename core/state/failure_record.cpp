@@ -1,0 +1,132 @@
+#include <model/spring_calls.hpp>
+#include <state/failure_record.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+namespace hyperlattice {
+namespace {
+
+/// The end of a spring: its displacement and height, and their changes in a step.
+struct End {
+  Vec3 place;
+  double height = 0;
+  Vec3 moved;
+  double raised = 0;
+};
+
+/// Returns the end as it was `time`, s, before now, if its velocity was the present one since then.
+End end_of(const Block& block, std::uint64_t n, int components, double time) {
+  const auto moved = [&](int c) { return time * block.velocity[c][n]; };
+  const auto place = [&](int c) { return block.displacement[c][n] - moved(c); };
+  End end{{place(0), place(1), place(2)}, 0, {moved(0), moved(1), moved(2)}, 0};
+  if (components == 4) {
+    end.height = place(3);
+    end.raised = moved(3);
+  }
+  return end;
+}
+
+}  // namespace
+
+void FailureRecord::collect(double step) {
+  for (Block& block : blocks_) {
+    for (const Block::Broken& broken : block.broken) {
+      const SpringEnds& spring = broken.spring;
+      if (!spring.is_first) continue;
+      Breakage breakage;
+      breakage.step = clock_.steps();
+      breakage.time = clock_.time();
+      breakage.a = spring.a;
+      breakage.b = spring.b;
+      breakage.neighbour = spring.neighbour;
+      breakage.elongation = broken.elongation;
+      breakage.softened = broken.softened;
+      breakages_.push_back(breakage);
+      ends_.push_back(find_ends(breakage));
+      if (!broken.softened) energy_ += energy_of(breakages_.size() - 1, block, broken, step);
+    }
+    block.broken.clear();
+  }
+}
+
+FailureRecord::Ends FailureRecord::find_ends(const Breakage& breakage) const {
+  const auto [block_a, place_a] = blocks_.at(breakage.a);
+  const auto [block_b, place_b] = blocks_.at(breakage.b);
+  return {block_a, block_b, place_a, place_b};
+}
+
+/// Returns the energy lost with a base spring and its cross springs, J. They pulled during the step
+/// that found them broken, so the lost energy includes half a step of that work: this keeps the
+/// scheme's balance exact to second order.
+double FailureRecord::energy_of(std::size_t index, const Block& block, const Block::Broken& broken,
+                                double step) const {
+  const Model& model = blocks_.model();
+  const Breakage& breakage = breakages_[index];
+  const Ends& where = ends_[index];
+  const SpringProperties properties =
+      model.spring_properties(breakage.a, breakage.b, breakage.neighbour);
+  const End a = end_of(*where.block_a, where.a, model.degrees_of_freedom, step),
+            b = end_of(*where.block_b, where.b, model.degrees_of_freedom, step);
+
+  const Vec3 d = b.place - a.place, moved = b.moved - a.moved;
+  const double in_space = dot(d, 2 * properties.rest + d),
+               rate_in_space = 2 * dot(properties.rest + d, moved);
+  // Growth and its rate are those of the squared length, as in kernels/springs.hpp.
+  const auto lost = [&](bool cross, double growth, double rate) {
+    const double rest_length = cross ? properties.cross_rest_length : properties.rest_length;
+    const double length = std::sqrt(rest_length * rest_length + growth);
+    const LawNumbers memory =
+        blocks_.law_numbers(block, broken.row, broken.neighbour, broken.site, cross);
+    const CompositeAnswer answer = ask_spring(model, properties, cross ? 1 : 0,
+                                              growth / (length + rest_length), memory.data());
+    return answer.stored + 0.5 * answer.force * rate / (2 * length);
+  };
+  const double difference = b.height - a.height, total = b.height + a.height,
+               delta = model.body.grid.membrane_distance;
+  double energy = lost(false, in_space + difference * difference,
+                       rate_in_space + 2 * difference * (b.raised - a.raised));
+  if (model.choice.membrane != KernelChoice::Membrane::none)
+    energy += lost(true, in_space + total * (2 * delta + total),
+                   rate_in_space + 2 * (delta + total) * (b.raised + a.raised));
+  return energy * properties.share;
+}
+
+double FailureRecord::elongation_now(std::size_t index) const {
+  const Model& model = blocks_.model();
+  const Breakage& breakage = breakages_[index];
+  const SpringProperties properties =
+      model.spring_properties(breakage.a, breakage.b, breakage.neighbour);
+  const Ends& where = ends_[index];
+  const End a = end_of(*where.block_a, where.a, model.degrees_of_freedom, 0),
+            b = end_of(*where.block_b, where.b, model.degrees_of_freedom, 0);
+  const Vec3 d = b.place - a.place;
+  const double growth =
+      dot(d, 2 * properties.rest + d) + (b.height - a.height) * (b.height - a.height);
+  return growth / (std::sqrt(properties.rest_length * properties.rest_length + growth) +
+                   properties.rest_length);
+}
+
+std::uint64_t FailureRecord::open() const {
+  constexpr std::size_t piece = 1024;  // breakages
+  const std::size_t all = breakages_.size();
+  std::atomic<std::uint64_t> open = 0;
+  blocks_.team().for_each((all + piece - 1) / piece, [&](std::size_t number) {
+    std::uint64_t here = 0;
+    for (std::size_t n = number * piece; n < std::min(all, (number + 1) * piece); ++n)
+      here += elongation_now(n) > 0 ? 1 : 0;
+    open += here;
+  });
+  return open;
+}
+
+void FailureRecord::archive(Archive& archive) {
+  archive(breakages_);
+  archive(energy_);
+  if (!archive.restores()) return;
+  ends_.clear();
+  for (const Breakage& breakage : breakages_) ends_.push_back(find_ends(breakage));
+}
+
+}  // namespace hyperlattice

@@ -1,0 +1,50 @@
+// The record of all springs that failed, and of the energy lost with them.
+#pragma once
+
+#include <state/block_set.hpp>
+#include <state/breakage.hpp>
+#include <state/clock.hpp>
+
+#include <vector>
+
+namespace hyperlattice {
+
+class FailureRecord {
+ public:
+  FailureRecord(BlockSet& blocks, const Clock& clock) : blocks_(blocks), clock_(clock) {}
+
+  /// Takes the breakages of a step of length `step`, s, from the blocks. The record does not depend
+  /// on the number of threads: blocks are in the order of their particles, and each block's list is
+  /// in the order of its rows.
+  void collect(double step);
+
+  /// Returns the failures in the order of their steps.
+  const std::vector<Breakage>& breakages() const { return breakages_; }
+  /// Returns the energy, J, that was lost with springs that criteria removed.
+  double energy() const { return energy_; }
+  /// Returns the present elongation, m, of a broken spring: above 0 if the failure is open.
+  double elongation_now(std::size_t breakage) const;
+  /// Returns the number of open failures; all others are closed.
+  std::uint64_t open() const;
+
+  void archive(Archive& archive);
+
+ private:
+  /// The places where the ends of a broken spring are stored.
+  struct Ends {
+    const Block *block_a, *block_b;
+    std::uint64_t a, b;
+  };
+
+  Ends find_ends(const Breakage& breakage) const;
+  double energy_of(std::size_t breakage, const Block& block, const Block::Broken& broken,
+                   double step) const;
+
+  BlockSet& blocks_;
+  const Clock& clock_;
+  std::vector<Breakage> breakages_;
+  std::vector<Ends> ends_;  // of each breakage
+  double energy_ = 0;       // J
+};
+
+}  // namespace hyperlattice

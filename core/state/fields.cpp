@@ -1,0 +1,107 @@
+// Copies of fields of the whole body, out of the blocks and into them.
+#include <state/state.hpp>
+
+#include <algorithm>
+
+namespace hyperlattice {
+
+void Simulation::copy(const Quantity& quantity, std::vector<double>& values) const {
+  copy(quantity, 0, state_->blocks.model().body.particles, values);
+}
+
+void Simulation::copy(const Quantity& quantity, Particle first, std::uint64_t count,
+                      std::vector<double>& values) const {
+  const auto components = static_cast<std::size_t>(quantity.components);
+  values.resize(count * components);
+  state_->blocks.for_runs(
+      [&](const Block& block, std::uint64_t place, Particle start, std::uint64_t length) {
+        const Particle from = std::max(start, first), to = std::min(start + length, first + count);
+        if (from >= to) return;
+        for (std::size_t c = 0; c < components; ++c) {
+          const Numbers& numbers =
+              (quantity.velocity ? block.velocity
+                                 : block.displacement)[quantity.first + static_cast<int>(c)];
+          for (Particle n = from; n < to; ++n)
+            values[(n - first) * components + c] = numbers[place + (n - start)];
+        }
+      });
+}
+
+void Simulation::set(const Quantity& quantity, const std::vector<double>& values) {
+  const auto components = static_cast<std::size_t>(quantity.components);
+  state_->blocks.for_runs(
+      [&](const Block& block, std::uint64_t place, Particle first, std::uint64_t count) {
+        for (std::size_t c = 0; c < components; ++c) {
+          const Numbers& to =
+              (quantity.velocity ? block.velocity
+                                 : block.displacement)[quantity.first + static_cast<int>(c)];
+          for (std::uint64_t n = 0; n < count; ++n)
+            to.set(place + n, values[(first + n) * components + c]);
+        }
+      });
+}
+
+void Simulation::displacements(std::vector<double>& xyz) const { copy({false, 0, 3}, xyz); }
+void Simulation::displacements(std::vector<double>& xyz, Particle first,
+                               std::uint64_t count) const {
+  copy({false, 0, 3}, first, count, xyz);
+}
+
+void Simulation::velocities(std::vector<double>& xyz) const { copy({true, 0, 3}, xyz); }
+void Simulation::heights(std::vector<double>& values) const {
+  values.clear();
+  if (state_->blocks.model().degrees_of_freedom == 4) copy({false, 3, 1}, values);
+}
+
+void Simulation::height_rates(std::vector<double>& values) const {
+  values.clear();
+  if (state_->blocks.model().degrees_of_freedom == 4) copy({true, 3, 1}, values);
+}
+
+void Simulation::alive(std::vector<std::uint16_t>& bits) const {
+  bits.resize(state_->blocks.model().body.particles);
+  state_->blocks.for_runs(
+      [&](const Block& block, std::uint64_t place, Particle first, std::uint64_t count) {
+        std::copy_n(block.alive.get() + place, count,
+                    bits.begin() + static_cast<std::ptrdiff_t>(first));
+      });
+}
+
+Layout::Memory Simulation::law_memory(Particle particle, std::uint32_t neighbour,
+                                      bool cross) const {
+  const BlockSet& blocks = state_->blocks;
+  const Place place = blocks.layout().place(particle);
+  return blocks.layout().memory(blocks[place.block], place.row, neighbour, place.site, cross);
+}
+
+void Simulation::for_springs_of_list(const std::function<void(const SpringMemory&)>& visit) const {
+  const BlockSet& blocks = state_->blocks;
+  const bool has_cross = blocks.model().choice.membrane != KernelChoice::Membrane::none;
+  for (const Block& block : blocks)
+    blocks.layout().for_springs(block, [&](const SpringPlace& spring) {
+      if (!spring.counts) return;
+      SpringMemory found;
+      found.index = spring.ends.neighbour;
+      for (const bool cross : {false, true})
+        if (!cross || has_cross)
+          found.of[cross ? 1 : 0] =
+              blocks.layout().memory(block, spring.row, spring.neighbour, spring.site, cross);
+      visit(found);
+    });
+}
+
+void Simulation::set_displacements(const std::vector<double>& xyz,
+                                   const std::vector<double>& heights) {
+  set({false, 0, 3}, xyz);
+  if (!heights.empty()) set({false, 3, 1}, heights);
+  state_->energy.forget_start();
+}
+
+void Simulation::set_velocities(const std::vector<double>& xyz,
+                                const std::vector<double>& height_rates) {
+  set({true, 0, 3}, xyz);
+  if (!height_rates.empty()) set({true, 3, 1}, height_rates);
+  state_->energy.forget_start();
+}
+
+}  // namespace hyperlattice

@@ -1,0 +1,31 @@
+// The memory of laws outside a step: its advance to a state of rest, and the integrity of springs
+// that soften.
+#pragma once
+
+#include <state/block_set.hpp>
+#include <state/energy_account.hpp>
+#include <state/equilibrium_update.hpp>
+
+#include <vector>
+
+namespace hyperlattice {
+
+class LawMemory {
+ public:
+  LawMemory(BlockSet& blocks, EnergyAccount& energy)
+      : blocks_(blocks), model_(blocks.model()), energy_(energy) {}
+
+  /// Advances the memory of all laws to a state of rest, without a duration. Adds what the laws
+  /// dissipate to the energy account, and notes in the blocks the springs whose integrity becomes
+  /// 0.
+  void advance(const EquilibriumUpdate& to);
+  /// Adds 1 - integrity of each spring that exists to the numbers of both of its ends.
+  void add_softening(std::vector<double>& lost) const;
+
+ private:
+  BlockSet& blocks_;
+  const Model& model_;
+  EnergyAccount& energy_;
+};
+
+}  // namespace hyperlattice

@@ -1,0 +1,30 @@
+// The work of loads. Each block keeps the work of its contributions up to the last step.
+#pragma once
+
+#include <state/block_set.hpp>
+#include <state/equilibrium_update.hpp>
+
+#include <vector>
+
+namespace hyperlattice {
+
+/// Adds the work of the step that the block has just done.
+void count_work(Block& block);
+/// Adds the work on the way from one state of rest to the next. Only the ends of the way are known:
+/// the work is the mean of the forces at both ends times the displacement between them.
+void count_work(BlockSet& blocks, const EquilibriumUpdate& to);
+
+/// Returns the work of each load, J, up to the state that was measured last. The reaction of a
+/// constraint counts for its load, and takes back the work of other loads along the same axes.
+/// `potential`: the work of body accelerations, J.
+std::vector<double> work_by_load(const BlockSet& blocks, double potential);
+/// Returns the sum of the absolute works, J, of each load on each particle, because works may
+/// cancel. A body acceleration on a held particle and the reaction also cancel in each step of
+/// length `step`, s.
+double gross_work(const BlockSet& blocks, double potential, double step);
+
+/// Returns for each load the force, N, on the particles that it moves, along the axes that it
+/// prescribes, in the state that was measured last.
+std::vector<Vec3> force_by_load(const BlockSet& blocks);
+
+}  // namespace hyperlattice

@@ -1,0 +1,34 @@
+// Rows whose springs the kernel of the first law does not compute. A row of one law goes to the
+// kernel of this law. A row with springs of several laws, or of several sets of constants, is
+// computed here, one spring after another, as the theory states it (kernels/reference.hpp).
+#pragma once
+
+#include <state/block_set.hpp>
+#include <state/spring_review.hpp>
+
+namespace hyperlattice {
+
+class OtherRows {
+ public:
+  OtherRows(const BlockSet& blocks, const SpringReview& review)
+      : blocks_(blocks), model_(blocks.model()), review_(review) {}
+
+  /// Computes a row's forces and its energies. A measurement changes nothing but the forces and
+  /// Block::other_sums.
+  void compute(Block& block, const KernelRequest& request, const RowPlace& place,
+               bool measures) const;
+
+ private:
+  RowEnergies several_laws_of_grid(Block& block, const KernelRequest& request,
+                                   const RowPlace& place, bool measures) const;
+  RowEnergies several_laws_of_list(Block& block, const KernelRequest& request,
+                                   const RowPlace& place, bool measures) const;
+  bool reaches_alarm(const SpringProperties& properties, double alarm, double elongation,
+                     const Layout::Memory& memory) const;
+
+  const BlockSet& blocks_;
+  const Model& model_;
+  const SpringReview& review_;
+};
+
+}  // namespace hyperlattice

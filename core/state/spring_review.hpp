@@ -1,0 +1,32 @@
+// The review of springs by failure criteria.
+#pragma once
+
+#include <state/block_set.hpp>
+#include <state/clock.hpp>
+
+#include <span>
+
+namespace hyperlattice {
+
+class SpringReview {
+ public:
+  SpringReview(const BlockSet& blocks, const Clock& clock)
+      : blocks_(blocks), model_(blocks.model()), clock_(clock) {}
+
+  /// Asks the failure criteria about springs above their alarm, and notes in the block those that
+  /// break. Returns an answer for each spring, valid until the block's next review; 0: the spring
+  /// holds. Criteria answer in the order of the scene; a spring that one of them breaks is not
+  /// shown to those after it.
+  const std::uint8_t* review(Block& block, const AlarmRow& alarm) const;
+
+ private:
+  void ask(Block& block, const AlarmRow& alarm, const Material::Criterion& criterion,
+           const SpringFacts& facts, std::size_t first, std::span<const double> elongation) const;
+  double rate_of(const Block& block, const AlarmRow& alarm, std::size_t n) const;
+
+  const BlockSet& blocks_;
+  const Model& model_;
+  const Clock& clock_;
+};
+
+}  // namespace hyperlattice

@@ -1,0 +1,39 @@
+// The parts of a simulation, each after those that it uses.
+#pragma once
+
+#include <state/acting_loads.hpp>
+#include <state/block_set.hpp>
+#include <state/clock.hpp>
+#include <state/energy_account.hpp>
+#include <state/failure_record.hpp>
+#include <state/kinetic_energy.hpp>
+#include <state/law_memory.hpp>
+#include <state/other_rows.hpp>
+#include <state/simulation.hpp>
+#include <state/spring_review.hpp>
+#include <state/sweeps.hpp>
+
+namespace hyperlattice {
+
+struct Simulation::State {
+  BlockSet blocks;
+  Clock clock;
+  ActingLoads loads{blocks, clock};
+  SpringReview review{blocks, clock};
+  OtherRows other_rows{blocks, review};
+  Sweeps sweeps{blocks, loads, review, other_rows};
+  FailureRecord failures{blocks, clock};
+  EnergyAccount energy{blocks, clock, failures, sweeps};
+  LawMemory law_memory{blocks, energy};
+  KineticEnergy kinetic{blocks};
+
+  State(const Model& model, int threads) : blocks(model, threads) {}
+
+  /// Advances the body by a step of this length, s.
+  void step(double length);
+
+ private:
+  void change_step(double length);
+};
+
+}  // namespace hyperlattice

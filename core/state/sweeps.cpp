@@ -1,0 +1,146 @@
+#include <host/plugin_call.hpp>
+#include <model/arithmetic.hpp>
+#include <model/law.hpp>
+#include <state/load_work.hpp>
+#include <state/sweeps.hpp>
+
+namespace hyperlattice {
+
+Sweeps::Sweeps(BlockSet& blocks, ActingLoads& loads, const SpringReview& review,
+               const OtherRows& other_rows)
+    : blocks_(blocks),
+      model_(blocks.model()),
+      loads_(loads),
+      review_(review),
+      other_rows_(other_rows),
+      exact_(asked_for_exact_springs()) {}
+
+void Sweeps::set_damping(double alpha, double rate) {
+  damping_ = alpha;
+  damping_rate_ = rate;
+}
+
+void Sweeps::step(const Sweep& sweep) {
+  loads_.prepare(sweep);
+  loads_.check_factors();
+  const Kernel kernel =
+      damping_ != 0 || damping_rate_ != 0 ? model_.kernels().step_damped : model_.kernels().step;
+  read_motion();
+  blocks_.team().for_each(blocks_.size(), [&](std::size_t b) {
+    Block& block = blocks_[b];
+    loads_.set_supports(block, sweep);
+    run_kernel(kernel, block, sweep.before, sweep.after, false);
+    count_work(block);
+  });
+  loads_.check_answers();
+}
+
+RowSums Sweeps::measure(const Sweep& sweep) {
+  loads_.prepare(sweep);
+  read_motion();
+  blocks_.team().for_each(blocks_.size(), [&](std::size_t b) {
+    loads_.set_supports(blocks_[b], sweep);
+    run_kernel(model_.kernels().measure, blocks_[b], sweep.measured, 0, true);
+  });
+  RowSums total;
+  for (const Block& block : blocks_)
+    for (std::size_t r = block.layout->first_own; r < block.layout->last_own; ++r) {
+      if (block.rows[r].begin == block.rows[r].end) continue;
+      RowSums row = block.sums[r];
+      if (block.rows[r].law != 0) {
+        row.stored += block.other_sums[r].stored;
+        row.damped += block.other_sums[r].dissipated;
+        row.fractured += block.other_sums[r].fractured;
+      }
+      total.stored += row.stored;
+      total.kinetic += row.kinetic;
+      total.kinetic_mean += row.kinetic_mean;
+      total.momentum = total.momentum + row.momentum;
+      total.potential += row.potential;
+      total.damped += row.damped + block.damped_work[r];
+      if (!block.fracture_work.empty()) total.fractured += row.fractured + block.fracture_work[r];
+    }
+  return total;
+}
+
+void Sweeps::check_loads() const {
+  loads_.check_factors();
+  loads_.check_answers();
+}
+
+/// Copies ghost planes, and lets loads see the motion of the particles that they watch.
+void Sweeps::read_motion() {
+  blocks_.team().for_each(blocks_.size(), [&](std::size_t b) {
+    blocks_.exchange(blocks_[b]);
+    loads_.watch(blocks_[b]);
+  });
+  loads_.prepare_answers();
+}
+
+void Sweeps::run_kernel(Kernel kernel, Block& block, double back, double forward,
+                        bool measures) const {
+  struct Host {
+    const Sweeps* sweeps;
+    Block* block;
+    KernelRequest request;
+    bool measures;
+  } host{this, &block, request_for(block, back, forward), measures};
+  host.request.self = &host;
+  host.request.review = [](void* self, const AlarmRow& alarm) noexcept {
+    return PluginCall::answer(static_cast<const std::uint8_t*>(nullptr), [&] {
+      const auto* asked = static_cast<const Host*>(self);
+      return asked->sweeps->review_.review(*asked->block, alarm);
+    });
+  };
+  host.request.receive_gone = [](void* self, const AlarmRow& springs) noexcept {
+    PluginCall::answer([&] {
+      const auto* asked = static_cast<const Host*>(self);
+      asked->sweeps->blocks_.note_gone(*asked->block, springs);
+    });
+  };
+  host.request.other_row = [](void* self, const RowPlace& row) noexcept {
+    PluginCall::answer([&] {
+      const auto* asked = static_cast<const Host*>(self);
+      asked->sweeps->other_rows_.compute(*asked->block, asked->request, row, asked->measures);
+    });
+  };
+  call_kernel(model_.laws.front(), kernel, host.request);
+}
+
+KernelRequest Sweeps::request_for(Block& block, double back, double forward) const {
+  KernelRequest request;
+  blocks_.layout().describe(block, request);
+  request.rows = block.rows.data();
+  for (int c = 0; c < model_.degrees_of_freedom; ++c) {
+    request.displacement[c] = block.displacement[c].get();
+    request.velocity[c] = block.velocity[c].get();
+  }
+  request.alive = block.alive.get();
+  request.material = block.material.get();
+  request.neighbours = model_.neighbours;
+  request.springs = model_.springs.data();
+  request.mass = model_.masses.data();
+  request.alpha = model_.alphas.data();
+  request.materials = static_cast<std::uint32_t>(model_.materials.size());
+  request.spring_classes = model_.body.grid.spring_classes;
+  request.membrane_distance = model_.body.grid.membrane_distance;
+  request.exact = exact_;
+  request.back = back;
+  request.forward = forward;
+  request.damping = damping_;
+  request.damping_rate = damping_rate_;
+  request.acceleration = model_.acceleration;
+  request.boundary_particles = block.boundary_particles.data();
+  request.scratch = block.scratch.get();
+  request.damped_work = block.damped_work.data();
+  request.fracture_work = block.fracture_work.empty() ? nullptr : block.fracture_work.data();
+  request.sums = block.sums.data();
+  return request;
+}
+
+void Sweeps::archive(Archive& archive) {
+  archive(damping_);
+  archive(damping_rate_);
+}
+
+}  // namespace hyperlattice
