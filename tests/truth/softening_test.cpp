@@ -17,7 +17,7 @@ std::string pair_of(double displacement) {
       R"({ "type": "materials.softening", "young": 1e10, "density": 2500, "membrane": "none",
                     "strength": 3e6, "fracture_energy": 5 },
                   { "type": "loads.fixed", "on": "z_min" },
-                  { "type": "loads.displacement", "on": "z_max", "value": [0, 0, )" +
+                  { "type": "loads.displacement", "on": "z_max", "rise": "1 us", "value": [0, 0, )" +
           number(displacement) + R"(] },
                   { "type": "solvers.static", "load_steps": 400 })");
 }
