@@ -69,7 +69,7 @@ TEST(Cells, BalanceTheirEnergy) {
   };
   for (const char* membrane : {R"("poisson": 0.25)", R"("membrane": "I-m", "poisson": 0.1)"})
     for (const auto& [name, loads, damping, tolerance] : flows) {
-      const auto plan = plan_of(scene_of_cells(box_text({0, 0, 0}, {5, 4, 7}), membrane, loads));
+      const auto plan = plan_of(scene_of_cells(box_of_cells({0, 0, 0}, {5, 4, 7}), membrane, loads));
       const double coarse = keep_books(*plan->model, 0.4, damping).largest_error,
                    fine = keep_books(*plan->model, 0.1, damping).largest_error;
       EXPECT_LT(coarse, tolerance) << name << membrane;
@@ -83,7 +83,7 @@ std::unique_ptr<Plan> breaking(int threads = 1) {
   const std::string failure = R"(, "failure": { "type": "failures.elongation", "limit": 1e-6 })";
   return plan_of(
       scene_of_cells(
-          box_text({0, 0, 0}, {5, 6, 11}), R"("membrane": "I-m", "poisson": 0.2)" + failure,
+          box_of_cells({0, 0, 0}, {5, 6, 11}), R"("membrane": "I-m", "poisson": 0.2)" + failure,
           R"({ "type": "materials.elastic", "young": 3e10, "density": 7000, "membrane": "I-m", "poisson": 0.1,
                                      "region": { "half_space": { "point": [0, 2.1e-3, 0], "normal": [0, 1, 0.3] } })" +
               failure + R"( },

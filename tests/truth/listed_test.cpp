@@ -179,12 +179,9 @@ TEST_P(RandomBlock, HasTheSameBitsForAnyNumberOfThreads) {
 }
 
 TEST_P(RandomBlock, FloatsGiveTheForcesAndTheEnergyOfDoubles) {
-  const std::string box = R"("low": [0, 0, 0], "high": [6e-3)",
-                    far_box = R"("low": [10, 0, 0], "high": [10.006)";
   // The body is far from the origin, which must not matter.
-  std::string lattice = random_lattice(6, 5, 4);
-  lattice.replace(lattice.find(box), box.size(), far_box);
-  const std::string scene = listed_scene(lattice, GetParam().material);
+  const Keys far_box = {{"shape", box({10, 0, 0}, {10.006, 5e-3, 4e-3})}};
+  const std::string scene = listed_scene(random_lattice(6, 5, 4, far_box), GetParam().material);
   const auto after_a_step = [](const Plan& plan, double size) {
     Simulation simulation(*plan.model, 1);
     std::vector<double> start = noise(3 * plan.model->body.particles, size, 1), found;
