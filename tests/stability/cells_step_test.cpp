@@ -31,7 +31,8 @@ TEST_P(CellsStep, HoldsForEveryShape) {
 }
 
 TEST_P(CellsStep, IsExactForOneCell) {
-  const auto plan = plan_of(scene_of_cells(box_of_cells({0, 0, 0}, {1, 1, 1}), GetParam().material));
+  const auto plan =
+      plan_of(scene_of_cells(box_of_cells({0, 0, 0}, {1, 1, 1}), GetParam().material));
   EXPECT_GT(growth(*plan->model, 1.02), 1e6);
 }
 

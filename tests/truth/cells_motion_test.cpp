@@ -69,7 +69,8 @@ TEST(Cells, BalanceTheirEnergy) {
   };
   for (const char* membrane : {R"("poisson": 0.25)", R"("membrane": "I-m", "poisson": 0.1)"})
     for (const auto& [name, loads, damping, tolerance] : flows) {
-      const auto plan = plan_of(scene_of_cells(box_of_cells({0, 0, 0}, {5, 4, 7}), membrane, loads));
+      const auto plan =
+          plan_of(scene_of_cells(box_of_cells({0, 0, 0}, {5, 4, 7}), membrane, loads));
       const double coarse = keep_books(*plan->model, 0.4, damping).largest_error,
                    fine = keep_books(*plan->model, 0.1, damping).largest_error;
       EXPECT_LT(coarse, tolerance) << name << membrane;
