@@ -67,6 +67,7 @@ class Stages {
   Stages() = default;
   /// One stage; the keys include its type.
   Stages(const Keys& stage) { json_.push_back(stage.json()); }
+  Stages(std::initializer_list<std::pair<std::string, Json>> keys) : Stages(Keys(keys)) {}
   /// The text is as between the brackets of an array.
   Stages(const std::string& text) : json_(parse_inside(text, '[', ']')) {}
   Stages(const char* text) : Stages(std::string(text)) {}
