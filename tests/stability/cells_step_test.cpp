@@ -31,15 +31,15 @@ TEST_P(CellsStep, HoldsForEveryShape) {
 }
 
 TEST_P(CellsStep, IsExactForOneCell) {
-  const auto plan = plan_of(scene_of_cells(box_text({0, 0, 0}, {1, 1, 1}), GetParam().material));
+  const auto plan = plan_of(scene_of_cells(box_mm(1, 1, 1), GetParam().material));
   EXPECT_GT(growth(*plan->model, 1.02), 1e6);
 }
 
 TEST_P(CellsStep, HoldsForSeveralMaterials) {
-  const std::string other =
-      R"({ "type": "materials.elastic", "young": 3e10, "density": 700, "region": { "half_space": { "point": [2e-3, 0, 0],
-                              "normal": [-1, 0.2, 0] } }, )" +
-      std::string(GetParam().material) + " }";
+  const Json part = {{"half_space", {{"point", {2e-3, 0, 0}}, {"normal", {-1, 0.2, 0}}}}};
+  const Stages other =
+      stage("materials.elastic",
+            Keys{{"young", 3e10}, {"density", 700}, {"region", part}} + GetParam().material);
   for (const CellShape& shape : cell_shapes()) {
     if (shape.cells().size() < 30) continue;  // too small for two materials
     EXPECT_LT(

@@ -46,11 +46,11 @@ TEST_P(CriticalStep, HasATighterLimitWithLocalDamping) {
 
 TEST(CriticalStepOfSeveralMaterials, HoldsForCentredLattices) {
   for (const MembraneCase& of : centred_lattices) {
-    const std::string other =
-        R"({ "type": "materials.elastic", "young": 3e10, "density": 700, "region": { "half_space": { "point": [4e-3, 0, 0],
-                                "normal": [-1, 0.2, 0] } }, )" +
-        std::string(of.material) + " }";
-    const auto plan = plan_of(block(8, 6, 6, of, "", other));
+    const Json part = {{"half_space", {{"point", {4e-3, 0, 0}}, {"normal", {-1, 0.2, 0}}}}};
+    const Stages other =
+        stage("materials.elastic",
+              Keys{{"young", 3e10}, {"density", 700}, {"region", part}} + of.material);
+    const auto plan = plan_of(block(8, 6, 6, of, {}, other));
     ASSERT_TRUE(plan->model->choice.mixed);
     EXPECT_LT(growth(*plan->model, 0.99, 0), 100) << of.name;
     // The bound for several materials takes no advantage of negative springs.

@@ -11,35 +11,27 @@ namespace {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
+const Keys membrane = {{"membrane", "I-m"}, {"poisson", 0.1}};
+
 /// A bar of 4 x 4 x 10 particles, held at one end and pulled at the other.
 struct Bar {
   double spacing = 1e-3, young = 1e10, density = 2500, force = 20,
          from = 0;  ///< `from`: each coordinate of the corner
-  const char* membrane = R"("membrane": "I-m", "poisson": 0.1)";
 };
-
-std::string number(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
-}
 
 std::string scene_of(const Bar& bar) {
   const auto corner = [&](double i, double j, double k) {
-    return "[" + number(bar.from + i * bar.spacing) + ", " + number(bar.from + j * bar.spacing) +
-           ", " + number(bar.from + k * bar.spacing) + "]";
+    return Vec3{bar.from + i * bar.spacing, bar.from + j * bar.spacing, bar.from + k * bar.spacing};
   };
-  return R"({ "format": "hyperlattice/1", "pipeline": [
-    { "type": "lattices.cubic", "spacing": )" +
-         number(bar.spacing) + R"(, "shape": { "box": { "low": )" + corner(0, 0, 0) +
-         R"(, "high": )" + corner(4, 4, 10) + R"( } } },
-    { "type": "materials.elastic", "young": )" +
-         number(bar.young) + R"(, "density": )" + number(bar.density) + ", " + bar.membrane + R"( },
-    { "type": "loads.fixed", "on": "z_min", "axes": "xyz" },
-    { "type": "loads.force", "on": "z_max", "total": [0, 0, )" +
-         number(bar.force) + R"(] },
-    { "type": "solvers.explicit", "end_time": )" +
-         number(1000 * bar.spacing * std::sqrt(bar.density / bar.young)) + " } ] }";
+  return SceneBuilder{}
+      .lattice("lattices.cubic", bar.spacing, box(corner(0, 0, 0), corner(4, 4, 10)))
+      .material("materials.elastic",
+                Keys{{"young", bar.young}, {"density", bar.density}} + membrane)
+      .load("loads.fixed", {{"on", "z_min"}, {"axes", "xyz"}})
+      .load("loads.force", {{"on", "z_max"}, {"total", Vec3{0, 0, bar.force}}})
+      .solver("solvers.explicit",
+              {{"end_time", 1000 * bar.spacing * std::sqrt(bar.density / bar.young)}})
+      .text();
 }
 
 /// Displacements after 300 steps of half the critical time step, over force / (young spacing). All
@@ -73,7 +65,7 @@ TEST(Extreme, ABodyFarFromTheOriginMovesTheSame) {
 }
 
 TEST(Extreme, NoLoadIsNoMotion) {
-  const auto plan = plan_of(block(5, 5, 5, R"("membrane": "I-m", "poisson": 0.1)"));
+  const auto plan = plan_of(block(5, 5, 5, membrane));
   Simulation simulation(*plan->model, 1);
   for (int n = 0; n < 100; ++n) simulation.step(0.9 * plan->model->critical_time_step);
   EXPECT_EQ(largest(displacements(simulation)), 0);
@@ -81,16 +73,13 @@ TEST(Extreme, NoLoadIsNoMotion) {
 
 /// A block of 6 x 6 x 12 particles whose upper half is of another material.
 std::string two_materials(double young, double density) {
-  return block(
-      6, 6, 12, R"("membrane": "I-m", "poisson": 0.1)",
-      R"({ "type": "materials.elastic", "young": )" + number(young) + R"(, "density": )" +
-          number(density) +
-          R"(, "membrane": "I-m", "poisson": 0.1, "region": { "box": { "low": [-1, -1, 6e-3], "high": [1, 1, 1] } } })");
+  const Keys upper = {
+      {"young", young}, {"density", density}, {"region", box({-1, -1, 6e-3}, {1, 1, 1})}};
+  return block(6, 6, 12, membrane, stage("materials.elastic", upper + membrane));
 }
 
 TEST(Extreme, TwoMaterialsThatAreTheSameAreOne) {
-  const auto one = plan_of(block(6, 6, 12, R"("membrane": "I-m", "poisson": 0.1)")),
-             two = plan_of(two_materials(1e10, 2500));
+  const auto one = plan_of(block(6, 6, 12, membrane)), two = plan_of(two_materials(1e10, 2500));
   ASSERT_TRUE(two->model->choice.mixed);
   Simulation a(*one->model, 1), b(*two->model, 2);
   const auto start = noise(3 * one->model->body.particles, 1e-6);
@@ -121,8 +110,7 @@ TEST(Extreme, ContrastsOfStiffnessAndDensityStayStable) {
 
 TEST(Extreme, ABodyMayFallApartInOneStep) {
   const auto plan = plan_of(block(
-      6, 6, 6,
-      R"("membrane": "I-m", "poisson": 0.1, "failure": { "type": "failures.elongation", "limit": 1e-15 })"));
+      6, 6, 6, membrane + Keys{{"failure", {{"type", "failures.elongation"}, {"limit", 1e-15}}}}));
   const Model& model = *plan->model;
   std::vector<double> larger;
   for (Particle p = 0; p < model.body.particles; ++p) {
@@ -140,7 +128,7 @@ TEST(Extreme, ABodyMayFallApartInOneStep) {
 
 TEST(Extreme, SmallBodies) {
   for (const auto& [x, y, z] : {std::array{1, 1, 1}, {2, 1, 1}, {1, 1, 9}, {1, 17, 1}, {3, 3, 1}}) {
-    const auto plan = plan_of(block(x, y, z, R"("membrane": "I-m", "poisson": 0.1)"), 3);
+    const auto plan = plan_of(block(x, y, z, membrane), 3);
     Simulation simulation(*plan->model, 3);
     simulation.set_displacements(noise(3 * plan->model->body.particles, 1e-7), {});
     for (int n = 0; n < 200; ++n) simulation.step(0.9 * plan->model->critical_time_step);

@@ -14,14 +14,14 @@ namespace {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
-std::string scene_of(const std::string& material, bool allow,
+std::string scene_of(const Keys& material, bool allow,
                      const std::string& lattice = "lattices.cubic", int cells = 4) {
-  std::string scene = block(cells, cells, cells, material, "", lattice);
-  return allow ? scene.insert(scene.find("\"pipeline\""), "\"allow_unstable\": true, ") : scene;
+  const std::string scene = block(cells, cells, cells, material, {}, lattice);
+  return allow ? SceneBuilder(scene).key("allow_unstable", true).text() : scene;
 }
 
 /// The message of the refusal; "" if the scene is accepted.
-std::string faults_of(const std::string& material, bool allow,
+std::string faults_of(const Keys& material, bool allow,
                       const std::string& lattice = "lattices.cubic") {
   try {
     plan_of(scene_of(material, allow, lattice));
@@ -79,19 +79,19 @@ TEST(Unstable, IsRefusedUnlessTheSceneAllowsIt) {
 
 TEST(Unstable, CentredLatticesToo) {
   for (const char* lattice : {"lattices.bcc", "lattices.fcc"}) {
-    const char* material = R"("membrane": "I-m", "lambda": -0.05)";
+    const Keys material = {{"membrane", "I-m"}, {"lambda", -0.05}};
     EXPECT_NE(faults_of(material, false, lattice).find("/pipeline/1/lambda"), std::string::npos);
     EXPECT_EQ(plan_of(scene_of(material, true, lattice))->model->warnings.size(), 1u);
   }
 }
 
 TEST(Unstable, WhatNoSpringsHaveIsRefusedAnyway) {
-  EXPECT_NE(faults_of(R"("membrane": "I-m", "poisson": -0.2)", true).find("within (-0.2, 0.25]"),
+  EXPECT_NE(faults_of({{"membrane", "I-m"}, {"poisson", -0.2}}, true).find("within (-0.2, 0.25]"),
             std::string::npos);  // no lambda gives this value
-  EXPECT_NE(faults_of(R"("membrane": "I-m", "poisson": -0.4)", true).find("without stiffness"),
+  EXPECT_NE(faults_of({{"membrane", "I-m"}, {"poisson", -0.4}}, true).find("without stiffness"),
             std::string::npos);  // E would be negative
-  EXPECT_NE(faults_of(R"("poisson": 0.3)", true).find("/pipeline/1/poisson"), std::string::npos);
-  const std::string scene = block(4, 4, 4).insert(2, "\"allow_unstable\": 1, ");
+  EXPECT_NE(faults_of({{"poisson", 0.3}}, true).find("/pipeline/1/poisson"), std::string::npos);
+  const std::string scene = SceneBuilder(block(4, 4, 4)).key("allow_unstable", 1).text();
   try {
     plan_of(scene);
     ADD_FAILURE();
@@ -115,16 +115,16 @@ TEST(Unstable, StableNegativeStiffnessNeedsNoPermission) {
 // One layer with its mirror image is stable with negative cross springs. Two free layers would move
 // apart.
 TEST(Unstable, ThePlanSaysIfOnlyTheMirrorKeepsTheLayersTogether) {
-  const auto why = [](const char* material) {
+  const auto why = [](const Keys& material) {
     const auto plan = plan_of(scene_of(material, false));
     for (const LeftOut& left : plan->left_out)
       if (left.what == "second layer of the membrane") return left.why;
     return std::string("missing");
   };
-  EXPECT_NE(why(R"("membrane": "IV", "poisson": 0.3)")
+  EXPECT_NE(why({{"membrane", "IV"}, {"poisson", 0.3}})
                 .find("two free ones would not stay so: the wave with vector"),
             std::string::npos);
-  EXPECT_EQ(why(R"("membrane": "IV", "poisson": 0.2)"),
+  EXPECT_EQ(why({{"membrane", "IV"}, {"poisson", 0.2}}),
             "it mirrors the first exactly, so one layer is computed");
 }
 
@@ -132,8 +132,11 @@ TEST(Unstable, ThePlanSaysIfOnlyTheMirrorKeepsTheLayersTogether) {
 // surfaces are softer. In a stable lattice noise does not grow.
 TEST(Unstable, GrowsAsTheWaveSays) {
   const double size = 1e-16;
-  const auto growth = [&](const std::string& material, int steps) {
-    const auto plan = plan_of(scene_of(material, true, "lattices.cubic", 8));
+  const auto scene = [](double lambda) {
+    return scene_of({{"membrane", "IV"}, {"lambda", lambda}}, true, "lattices.cubic", 8);
+  };
+  const auto growth = [&](double lambda, int steps) {
+    const auto plan = plan_of(scene(lambda));
     Simulation simulation(*plan->model, 2);
     simulation.set_displacements(noise(3 * plan->model->body.particles, size), {});
     for (int n = 0; n < steps; ++n) simulation.step(0.9 * plan->model->critical_time_step);
@@ -142,8 +145,7 @@ TEST(Unstable, GrowsAsTheWaveSays) {
   };
   // In membrane IV with k_beta = -3, springs along the axes act as k (1 - 3/2) in space. A grid
   // over the zone gives the softest wave, independently of the tested search.
-  const auto plan =
-      plan_of(scene_of(R"("membrane": "IV", "lambda": -3)", true, "lattices.cubic", 8));
+  const auto plan = plan_of(scene(-3));
   const Model& model = *plan->model;
   const InfiniteLattice lattice{
       model.neighbours,      model.springs,          0, model.body.grid.membrane_distance,
@@ -158,12 +160,12 @@ TEST(Unstable, GrowsAsTheWaveSays) {
             stiffness_range(lattice, {i * step, j * step, k * step}, Sector::mirrored).softest);
       }
   const double rate = std::sqrt(-softest / model.materials[0].mass);
-  const auto [early, time_early] = growth(R"("membrane": "IV", "lambda": -3)", 30);
-  const auto [late, time_late] = growth(R"("membrane": "IV", "lambda": -3)", 45);
+  const auto [early, time_early] = growth(-3, 30);
+  const auto [late, time_late] = growth(-3, 45);
   const double measured = std::log(late / early) / (time_late - time_early);
   EXPECT_GT(measured, 0.9 * rate);
   EXPECT_LT(measured, 2 * rate);
-  EXPECT_LT(growth(R"("membrane": "IV", "lambda": -1.9)", 500).first, 100);
+  EXPECT_LT(growth(-1.9, 500).first, 100);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ using CellIndex = std::array<int, 3>;
 /// A shape in cells of 1 mm: as a scene describes it, and as a test of the cells' centres.
 struct CellShape {
   const char* name;
-  std::string shape;
+  Json shape;
   std::function<bool(double x, double y, double z)> holds;  ///< is the point (mm) inside?
 
   /// Lists all cells of the shape by their index from the origin.
@@ -29,12 +29,10 @@ struct CellShape {
   }
 };
 
-inline std::string box_text(const CellIndex& low, const CellIndex& high) {
-  const auto corner = [](const CellIndex& c) {
-    return "[" + std::to_string(c[0]) + "e-3, " + std::to_string(c[1]) + "e-3, " +
-           std::to_string(c[2]) + "e-3]";
-  };
-  return R"({ "box": { "low": )" + corner(low) + R"(, "high": )" + corner(high) + " } }";
+/// A box from one corner of cells to another.
+inline Json box_of_cells(const CellIndex& low, const CellIndex& high) {
+  const auto corner = [](const CellIndex& c) { return Vec3{mm(c[0]), mm(c[1]), mm(c[2])}; };
+  return box(corner(low), corner(high));
 }
 
 /// Returns a function that says whether a point (mm) is in the box.
@@ -48,30 +46,29 @@ inline const std::vector<CellShape>& cell_shapes() {
   const auto both = [](const char* name, CellIndex low_a, CellIndex high_a, CellIndex low_b,
                        CellIndex high_b) {
     const auto a = in_box(low_a, high_a), b = in_box(low_b, high_b);
-    return CellShape{
-        name, R"({ "union": [)" + box_text(low_a, high_a) + ", " + box_text(low_b, high_b) + "] }",
-        [a, b](double x, double y, double z) { return a(x, y, z) || b(x, y, z); }};
+    return CellShape{name,
+                     {{"union", {box_of_cells(low_a, high_a), box_of_cells(low_b, high_b)}}},
+                     [a, b](double x, double y, double z) { return a(x, y, z) || b(x, y, z); }};
   };
   const auto without = [](const char* name, CellIndex low_a, CellIndex high_a, CellIndex low_b,
                           CellIndex high_b) {
     const auto a = in_box(low_a, high_a), b = in_box(low_b, high_b);
-    return CellShape{
-        name,
-        R"({ "difference": [)" + box_text(low_a, high_a) + ", " + box_text(low_b, high_b) + "] }",
-        [a, b](double x, double y, double z) { return a(x, y, z) && !b(x, y, z); }};
+    return CellShape{name,
+                     {{"difference", {box_of_cells(low_a, high_a), box_of_cells(low_b, high_b)}}},
+                     [a, b](double x, double y, double z) { return a(x, y, z) && !b(x, y, z); }};
   };
   static const std::vector<CellShape> all{
-      {"one_cell", box_text({0, 0, 0}, {1, 1, 1}), in_box({0, 0, 0}, {1, 1, 1})},
-      {"box", box_text({0, 0, 0}, {17, 3, 4}), in_box({0, 0, 0}, {17, 3, 4})},
+      {"one_cell", box_of_cells({0, 0, 0}, {1, 1, 1}), in_box({0, 0, 0}, {1, 1, 1})},
+      {"box", box_of_cells({0, 0, 0}, {17, 3, 4}), in_box({0, 0, 0}, {17, 3, 4})},
       {"L",
-       R"({ "difference": [)" + box_text({0, 0, 0}, {6, 6, 3}) + ", " +
-           box_text({2, 2, -1}, {7, 7, 4}) + "] }",
+       {{"difference", {box_of_cells({0, 0, 0}, {6, 6, 3}), box_of_cells({2, 2, -1}, {7, 7, 4})}}},
        [](double x, double y, double z) {
          return in_box({0, 0, 0}, {6, 6, 3})(x, y, z) && !(x > 2 && y > 2);
        }},
       without("cavity", {0, 0, 0}, {9, 5, 5}, {2, 2, 2}, {5, 3, 4}),
       without("slit_of_one_cell", {0, 0, 0}, {9, 4, 4}, {4, 1, 0}, {5, 4, 4}),
-      {"sphere", R"({ "sphere": { "radius": 4.4e-3 } })",
+      {"sphere",
+       {{"sphere", {{"radius", 4.4e-3}}}},
        [](double x, double y, double z) { return x * x + y * y + z * z < 4.4 * 4.4; }},
       both("touching_in_an_edge", {0, 0, 0}, {2, 2, 2}, {2, 2, 0}, {4, 4, 2}),
       both("touching_in_a_corner", {0, 0, 0}, {2, 2, 2}, {2, 2, 2}, {4, 3, 4}),
@@ -80,14 +77,14 @@ inline const std::vector<CellShape>& cell_shapes() {
 }
 
 /// A scene of this shape, filled with cells of 1 mm.
-inline std::string scene_of_cells(const std::string& shape, const std::string& material,
-                                  const std::string& stages = "") {
-  return R"({ "format": "hyperlattice/1", "pipeline": [
-    { "type": "lattices.cubic", "boundary": "cells", "spacing": 1e-3, "anchor": [0, 0, 0], "shape": )" +
-         shape + R"( },
-    { "type": "materials.elastic", "young": 1e10, "density": 2500, )" +
-         material + " }" + (stages.empty() ? "" : ",\n" + stages) + R"(,
-    { "type": "solvers.explicit", "end_time": 1e-6 } ] })";
+inline std::string scene_of_cells(const Json& shape, const Keys& material,
+                                  const Stages& stages = {}) {
+  return SceneBuilder{}
+      .lattice("lattices.cubic", 1e-3, shape, {{"boundary", "cells"}, {"anchor", {0, 0, 0}}})
+      .material("materials.elastic", Keys{{"young", 1e10}, {"density", 2500}} + material)
+      .stages(stages)
+      .solver("solvers.explicit", {{"end_time", 1e-6}})
+      .text();
 }
 
 /// Returns the cell corner nearest to a particle.

@@ -13,17 +13,19 @@ struct LawCase {
   const char* material;  ///< type and keys; at strains of 1e-3 the effect of the law shows
 };
 
-/// A scene of a lattice stage, the keys of a material after young and density, and more stages,
-/// which begin with a comma.
-inline std::string law_scene(const std::string& lattice, const std::string& material,
-                             const std::string& stages = "") {
-  return R"({ "format": "hyperlattice/1", "pipeline": [ )" + lattice +
-         R"(, { "young": 1e10, "density": 2500, )" + material + " }" + stages +
-         R"(, { "type": "solvers.explicit", "end_time": 1 } ] })";
+/// A scene of a lattice stage, the type and keys of a material after young and density, and more
+/// stages.
+inline std::string law_scene(const Stages& lattice, const Keys& material,
+                             const Stages& stages = {}) {
+  return SceneBuilder{}
+      .stages(lattice)
+      .stages(Keys{{"young", 1e10}, {"density", 2500}} + material)
+      .stages(stages)
+      .solver("solvers.explicit", {{"end_time", 1}})
+      .text();
 }
 
-inline const char* const law_failure =
-    R"(, "failure": { "type": "failures.elongation", "limit": 1.2e-6 })";
+inline const Keys law_failure = {{"failure", {{"type", "failures.elongation"}, {"limit", 1.2e-6}}}};
 
 /// The number of springs that a criterion removed; springs that softened stay.
 inline std::size_t removed_springs(const Simulation& simulation) {

@@ -54,10 +54,12 @@ class ListFiles {
   ListFiles& operator=(const ListFiles&) = delete;
 
   /// The lattice stage that reads these files, with `more` keys.
-  std::string lattice(const std::string& more = "") const {
-    return R"({ "type": "lattices.points", "points": ")" + points.string() + R"(", "springs": ")" +
-           springs.string() + R"(", "scale": "1 mm", "spacing": "1 mm")" +
-           (more.empty() ? "" : ", " + more) + " }";
+  Stages lattice(const Keys& more = {}) const {
+    return stage("lattices.points", Keys{{"points", points.string()},
+                                         {"springs", springs.string()},
+                                         {"scale", "1 mm"},
+                                         {"spacing", "1 mm"}} +
+                                        more);
   }
 
   std::filesystem::path points, springs;
@@ -99,24 +101,24 @@ class InGrid {
 };
 
 /// A scene of a lattice stage, the keys of a material, and more stages.
-inline std::string listed_scene(const std::string& lattice, const std::string& material,
-                                const std::string& stages = "", double young = 1e10) {
-  return R"({ "format": "hyperlattice/1", "pipeline": [)" + lattice +
-         R"(, { "type": "materials.elastic", "density": 2500, "young": )" + std::to_string(young) +
-         ", " + material + " }" + (stages.empty() ? "" : ",\n" + stages) +
-         R"(, { "type": "solvers.explicit", "end_time": 1e-6 } ] })";
+inline std::string listed_scene(const Stages& lattice, const Keys& material,
+                                const Stages& stages = {}, double young = 1e10) {
+  return SceneBuilder{}
+      .stages(lattice)
+      .material("materials.elastic", Keys{{"density", 2500}, {"young", young}} + material)
+      .stages(stages)
+      .solver("solvers.explicit", {{"end_time", 1e-6}})
+      .text();
 }
 
 /// The same scene with a state in single precision.
-inline std::string in_floats(std::string scene) {
-  return scene.insert(scene.find('{') + 1, R"( "precision": "float",)");
+inline std::string in_floats(const std::string& scene) {
+  return SceneBuilder(scene).key("precision", "float").text();
 }
 
 /// A random lattice that fills a box of nx * ny * nz mm, spacing 1 mm.
-inline std::string random_lattice(int nx, int ny, int nz, const std::string& more = "") {
-  return R"({ "type": "lattices.random", "spacing": "1 mm", "shape": { "box": { "low": [0, 0, 0], "high": [)" +
-         std::to_string(nx) + "e-3, " + std::to_string(ny) + "e-3, " + std::to_string(nz) +
-         "e-3] } }" + (more.empty() ? "" : ", " + more) + " }";
+inline Stages random_lattice(int nx, int ny, int nz, const Keys& more = {}) {
+  return stage("lattices.random", Keys{{"spacing", "1 mm"}, {"shape", box_mm(nx, ny, nz)}} + more);
 }
 
 }  // namespace hyperlattice::test

@@ -6,18 +6,16 @@
 namespace hyperlattice::test {
 
 /// A block of 1 mm cells, soft as rubber or stiff as stone, with more stages.
-inline std::string loaded_block(int nx, int ny, int nz, const std::string& stages,
-                                double young = 1e10,
-                                const std::string& material = R"("poisson": 0.25)",
-                                const std::string& lattice = R"("boundary": "particles")") {
-  const auto mm = [](int n) { return std::to_string(n) + "e-3"; };
-  return R"({ "format": "hyperlattice/1", "regions": { "half": { "half_space": { "point": [0, 0, )" +
-         mm(nz / 2) + R"(], "normal": [0, 0, 1] } } },
-    "pipeline": [ { "type": "lattices.cubic", "spacing": 1e-3, )" +
-         lattice + R"(, "shape": { "box": { "low": [0, 0, 0], "high": [)" + mm(nx) + ", " + mm(ny) +
-         ", " + mm(nz) + R"(] } } }, { "type": "materials.elastic", "density": 2500, "young": )" +
-         std::to_string(young) + ", " + material + " }, " + stages +
-         R"(, { "type": "solvers.explicit", "end_time": 1e-6 } ] })";
+inline std::string loaded_block(int nx, int ny, int nz, const Stages& stages, double young = 1e10,
+                                const Keys& material = {{"poisson", 0.25}},
+                                const Keys& lattice = {{"boundary", "particles"}}) {
+  return SceneBuilder{}
+      .region("half", {{"half_space", {{"point", {0, 0, mm(nz / 2)}}, {"normal", {0, 0, 1}}}}})
+      .lattice("lattices.cubic", 1e-3, box_mm(nx, ny, nz), lattice)
+      .material("materials.elastic", Keys{{"density", 2500}, {"young", young}} + material)
+      .stages(stages)
+      .solver("solvers.explicit", {{"end_time", 1e-6}})
+      .text();
 }
 
 /// Sums over all particles.

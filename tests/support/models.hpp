@@ -2,6 +2,7 @@
 #pragma once
 
 #include <model/model.hpp>
+#include <support/scene_builder.hpp>
 
 #include <unistd.h>
 
@@ -20,14 +21,14 @@ struct BuiltScene {
   const Model* operator->() const { return model.get(); }
 };
 
-/// Reads and builds a pipeline without a solver. `pipeline` is the text between its brackets.
-inline BuiltScene build(const std::string& pipeline) {
+/// Reads and builds a pipeline without a solver.
+inline BuiltScene build(const Stages& pipeline) {
   static int count = 0;
   const std::filesystem::path file =
       std::filesystem::temp_directory_path() / ("hyperlattice_model_" + std::to_string(::getpid()) +
                                                 "_" + std::to_string(count++) + ".json");
-  std::ofstream(file) << R"({ "format": "hyperlattice/1", "pipeline": [)" << pipeline
-                      << R"(, { "type": "solvers.explicit", "end_time": 1e-6 } ] })";
+  std::ofstream(file)
+      << SceneBuilder{}.stages(pipeline).solver("solvers.explicit", {{"end_time", 1e-6}}).text();
   Host host;
   BuiltScene built;
   try {
@@ -42,7 +43,7 @@ inline BuiltScene build(const std::string& pipeline) {
 }
 
 /// The faults of a pipeline, as the user reads them; "" if the pipeline can be built.
-inline std::string faults_of(const std::string& pipeline) {
+inline std::string faults_of(const Stages& pipeline) {
   try {
     build(pipeline);
   } catch (const InputError& error) {
@@ -52,14 +53,14 @@ inline std::string faults_of(const std::string& pipeline) {
 }
 
 /// A lattice stage: a box of nx * ny * nz particles, 1 m apart, with its corner at the origin.
-inline std::string box_lattice(int nx, int ny, int nz) {
-  return R"({ "type": "lattices.cubic", "spacing": 1, "shape": { "box": { "low": [0, 0, 0], "high": [)" +
-         std::to_string(nx) + ", " + std::to_string(ny) + ", " + std::to_string(nz) + "] } } }";
+inline Stages box_lattice(int nx, int ny, int nz) {
+  return stage("lattices.cubic",
+               {{"spacing", 1}, {"shape", box({}, {1.0 * nx, 1.0 * ny, 1.0 * nz})}});
 }
 
 /// A material stage with young 1e9, density 1000, and `more` keys.
-inline std::string elastic(const std::string& more = R"("poisson": 0.25)") {
-  return R"({ "type": "materials.elastic", "young": 1e9, "density": 1000, )" + more + " }";
+inline Stages elastic(const Keys& more = {{"poisson", 0.25}}) {
+  return stage("materials.elastic", Keys{{"young", 1e9}, {"density", 1000}} + more);
 }
 
 }  // namespace hyperlattice::test

@@ -5,8 +5,6 @@
 
 #include <engine/stage_calls.hpp>
 
-#include <sstream>
-
 namespace hyperlattice::test {
 
 /// A scene that its first solver brings to rest.
@@ -36,30 +34,15 @@ struct AtRest {
   }
 };
 
-inline std::string number(double value) {
-  std::ostringstream text;
-  text.precision(17);
-  text << value;
-  return text.str();
+/// A scene of the cubic lattice with these keys, and more stages.
+inline std::string scene(const Keys& lattice, const Stages& stages) {
+  return SceneBuilder{}.stage("lattices.cubic", lattice).stages(stages).text();
 }
 
-inline std::string box(Vec3 low, Vec3 high) {
-  const auto corner = [](Vec3 v) {
-    return "[" + number(v.x) + ", " + number(v.y) + ", " + number(v.z) + "]";
-  };
-  return R"({ "box": { "low": )" + corner(low) + R"(, "high": )" + corner(high) + " } }";
+inline Stages elastic(double young, const Keys& more) {
+  return stage("materials.elastic", Keys{{"density", 2000}, {"young", young}} + more);
 }
 
-inline std::string scene(const std::string& lattice, const std::string& stages) {
-  return R"({ "format": "hyperlattice/1", "pipeline": [ { "type": "lattices.cubic", )" + lattice +
-         " },\n" + stages + " ] }";
-}
-
-inline std::string elastic(double young, const std::string& more) {
-  return R"({ "type": "materials.elastic", "density": 2000, "young": )" + number(young) + ", " +
-         more + " },\n";
-}
-
-inline const char* const to_rest = R"({ "type": "solvers.static", "tolerance": 1e-8 })";
+inline const Stages to_rest = stage("solvers.static", {{"tolerance", 1e-8}});
 
 }  // namespace hyperlattice::test

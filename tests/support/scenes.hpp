@@ -4,6 +4,7 @@
 
 #include <plan/plan.hpp>
 #include <state/simulation.hpp>
+#include <support/scene_builder.hpp>
 
 #include <unistd.h>
 
@@ -33,18 +34,14 @@ inline std::unique_ptr<Plan> plan_of(const std::string& scene, int threads = 1) 
 
 /// A scene of a free block of nx * ny * nz cells of 1 mm with its corner at the origin; in the
 /// cubic lattice each cell holds one particle. `material` holds the keys after young and density.
-inline std::string block(int nx, int ny, int nz, const std::string& material = R"("poisson": 0.25)",
-                         const std::string& stages = "",
-                         const std::string& lattice = "lattices.cubic") {
-  const auto size = [](int n) { return std::to_string(n) + "e-3"; };
-  return R"({ "format": "hyperlattice/1", "pipeline": [
-    { "type": ")" +
-         lattice + R"(", "spacing": 1e-3, "shape": { "box": { "low": [0, 0, 0], "high": [)" +
-         size(nx) + ", " + size(ny) + ", " + size(nz) +
-         R"(] } } },
-    { "type": "materials.elastic", "young": 1e10, "density": 2500, )" +
-         material + " }" + (stages.empty() ? "" : ",\n" + stages) + R"(,
-    { "type": "solvers.explicit", "end_time": 1e-6 } ] })";
+inline std::string block(int nx, int ny, int nz, const Keys& material = {{"poisson", 0.25}},
+                         const Stages& stages = {}, const std::string& lattice = "lattices.cubic") {
+  return SceneBuilder{}
+      .lattice(lattice, 1e-3, box_mm(nx, ny, nz))
+      .material("materials.elastic", Keys{{"young", 1e10}, {"density", 2500}} + material)
+      .stages(stages)
+      .solver("solvers.explicit", {{"end_time", 1e-6}})
+      .text();
 }
 
 /// The material's keys for each membrane that the paper names, with a Poisson ratio that it
@@ -77,8 +74,8 @@ inline const MembraneCase centred_lattices[] = {
 };
 
 /// A block of the lattice and membrane of a case, with more keys of the material.
-inline std::string block(int nx, int ny, int nz, const MembraneCase& of,
-                         const std::string& more = "", const std::string& stages = "") {
+inline std::string block(int nx, int ny, int nz, const MembraneCase& of, const Keys& more = {},
+                         const Stages& stages = {}) {
   return block(nx, ny, nz, of.material + more, stages, of.lattice);
 }
 

@@ -12,6 +12,10 @@ namespace {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
+Stages actuation(const char* on, const Keys& keys) {
+  return stage("loads.actuation", Keys{{"on", on}} + keys);
+}
+
 /// Displacements of the affine motion x -> F x; F is given by its columns.
 std::vector<double> deformed(const Model& model, const Vec3 (&F)[3]) {
   std::vector<double> u;
@@ -23,10 +27,9 @@ std::vector<double> deformed(const Model& model, const Vec3 (&F)[3]) {
 }
 
 TEST(Actuation, AStrainOfAllSpringsMakesTheBodyThatMuchLonger) {
-  for (const char* boundary : {R"("boundary": "particles")", R"("boundary": "cells")"}) {
-    const auto plan = plan_of(
-        loaded_block(4, 3, 5, R"({ "type": "loads.actuation", "on": "all", "strain": 0.02 })", 1e10,
-                     R"("poisson": 0.25)", boundary));
+  for (const char* boundary : {"particles", "cells"}) {
+    const auto plan = plan_of(loaded_block(4, 3, 5, actuation("all", {{"strain", 0.02}}), 1e10,
+                                           {{"poisson", 0.25}}, {{"boundary", boundary}}));
     const Model& model = *plan->model;
     Simulation simulation(model, 1);
     simulation.set_damping(0.8);
@@ -42,8 +45,7 @@ TEST(Actuation, AStrainOfAllSpringsMakesTheBodyThatMuchLonger) {
 }
 
 TEST(Actuation, ADirectionFollowsTheTurningBody) {  // the forces turn with the body
-  const auto plan =
-      plan_of(loaded_block(4, 3, 6, R"({ "type": "loads.actuation", "on": "half", "force": 1 })"));
+  const auto plan = plan_of(loaded_block(4, 3, 6, actuation("half", {{"force", 1}})));
   const Model& model = *plan->model;
   const Vec3 turn[3] = {{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}};
   Simulation straight(model, 1), turned(model, 1);
@@ -60,8 +62,7 @@ TEST(Actuation, ADirectionFollowsTheTurningBody) {  // the forces turn with the 
 }
 
 TEST(Actuation, PressureFollowsFacesThatTurnAndStretch) {
-  const auto plan = plan_of(loaded_block(
-      4, 5, 6, R"({ "type": "loads.actuation", "on": "z_max", "pressure": 3e3 })", 1e-3));
+  const auto plan = plan_of(loaded_block(4, 5, 6, actuation("z_max", {{"pressure", 3e3}}), 1e-3));
   const Model& model = *plan->model;
   const Vec3 F[3] = {{0, 1.2, 0}, {-0.9, 0.1, 0}, {0.3, 0, 1.1}};
   Simulation simulation(model, 2);
@@ -71,33 +72,27 @@ TEST(Actuation, PressureFollowsFacesThatTurnAndStretch) {
   const Vec3 force = (2 / step) * sums(model, simulation).momentum,
              expected = (-3e3 * 20e-6) * cross(F[0], F[1]);  // cof(F) A of the whole face
   EXPECT_LT(norm(force - expected), 1e-6 * norm(expected));
-  EXPECT_NE(faults_of(box_lattice(4, 4, 1) + "," + elastic() +
-                      R"(, { "type": "loads.actuation", "on": "z_max", "pressure": 1 })")
+  EXPECT_NE(faults_of(box_lattice(4, 4, 1) + elastic() + actuation("z_max", {{"pressure", 1}}))
                 .find("two particles thick"),
             std::string::npos);
 }
 
 TEST(Actuation, RefusesWhatItCannotDo) {
-  const std::string box = box_lattice(3, 3, 3) + ",";
-  const std::string breakable =
-      elastic(R"("poisson": 0.25, "failure": { "type": "failures.elongation", "limit": 1e-3 })");
-  EXPECT_NE(
-      faults_of(box + breakable + R"(, { "type": "loads.actuation", "on": "all", "force": 1 })")
-          .find("do not break"),
-      std::string::npos);
-  EXPECT_NE(
-      faults_of(
-          box + elastic() +
-          R"(, { "type": "loads.actuation", "on": { "box": { "low": [0, 0, 0], "high": [1, 1, 1] } }, "force": 1 })")
-          .find("no spring has both"),
-      std::string::npos);
-  EXPECT_NE(faults_of(box + elastic() +
-                      R"(, { "type": "loads.actuation", "on": "all", "force": 1, "strain": 1 })")
+  const Stages body = box_lattice(3, 3, 3);
+  const Stages breakable =
+      elastic({{"poisson", 0.25}, {"failure", {{"type", "failures.elongation"}, {"limit", 1e-3}}}});
+  EXPECT_NE(faults_of(body + breakable + actuation("all", {{"force", 1}})).find("do not break"),
+            std::string::npos);
+  EXPECT_NE(faults_of(body + elastic() +
+                      stage("loads.actuation", {{"on", box({}, {1, 1, 1})}, {"force", 1}}))
+                .find("no spring has both"),
+            std::string::npos);
+  EXPECT_NE(faults_of(body + elastic() + actuation("all", {{"force", 1}, {"strain", 1}}))
                 .find("exactly one of"),
             std::string::npos);
-  const std::string sentence = faults_of(
-      box + elastic() +
-      R"(, { "type": "loads.expression", "on": "all", "force": 1, "expression": "sin(t" })");
+  const std::string sentence =
+      faults_of(body + elastic() +
+                stage("loads.expression", {{"on", "all"}, {"force", 1}, {"expression", "sin(t"}}));
   EXPECT_NE(sentence.find("an expression of t, not"), std::string::npos) << sentence;
 }
 
@@ -109,9 +104,8 @@ TEST(Actuation, AStrainOfAllSpringsGrowsAFreeBodyByTheRatioOfBulkModuli) {
                                            {R"("membrane": "I-m", "poisson": 0.1)", 0.7576},
                                            {R"("membrane": "I-m", "poisson": -0.1)", 0.30864},
                                            {R"("membrane": "III", "lambda": 2)", 0.44118}}) {
-    const auto plan = plan_of(
-        loaded_block(4, 3, 5, R"({ "type": "loads.actuation", "on": "all", "strain": 1e-8 })", 1e10,
-                     material, R"("boundary": "cells")"));
+    const auto plan = plan_of(loaded_block(4, 3, 5, actuation("all", {{"strain", 1e-8}}), 1e10,
+                                           material, {{"boundary", "cells"}}));
     const Model& model = *plan->model;
     const MaterialConstants& m = model.materials[0].constants;
     const double kb = m.cross_ratio[0], kg = m.cross_ratio[1], C3 = m.alpha_ratio + 3 * kb + 4 * kg,
@@ -141,11 +135,11 @@ TEST(Actuation, AStrainOfAllSpringsGrowsAFreeBodyByTheRatioOfBulkModuli) {
 }
 
 TEST(Expression, IsTheFormThatItWrites) {
-  const char* sine =
-      R"({ "type": "loads.actuation", "on": "half", "strain": 0.01, "form": "harmonic", "frequency": 3e5, "phase": 0.5 })";
-  const char* written =
-      R"({ "type": "loads.expression", "on": "half", "strain": 0.01, "expression": "sin(2 * pi * 3e5 * t + 0.5) + 0"
-})";
+  const Stages sine = actuation(
+      "half", {{"strain", 0.01}, {"form", "harmonic"}, {"frequency", 3e5}, {"phase", 0.5}});
+  const Stages written =
+      stage("loads.expression",
+            {{"on", "half"}, {"strain", 0.01}, {"expression", "sin(2 * pi * 3e5 * t + 0.5) + 0"}});
   const auto a = plan_of(loaded_block(4, 3, 6, sine)), b = plan_of(loaded_block(4, 3, 6, written));
   Simulation one(*a->model, 1), other(*b->model, 1);
   for (int n = 0; n < 100; ++n) {
@@ -157,14 +151,13 @@ TEST(Expression, IsTheFormThatItWrites) {
 }
 
 TEST(TimeFunctions, HaveTheShapesThatTheyName) {
-  const auto load = [](const std::string& form) {
-    return build(box_lattice(2, 2, 2) + "," + elastic() +
-                 R"(, { "type": "loads.actuation", "on": "all", "force": 1, )" + form + " }");
+  const auto pipeline = [](const std::string& form) {
+    return box_lattice(2, 2, 2) + elastic() + actuation("all", Keys{{"force", 1}} + form);
   };
   const auto values = [&](const std::string& form,
                           const std::vector<std::pair<double, double>>& expected,
                           std::vector<double> corners) {
-    const BuiltScene built = load(form);
+    const BuiltScene built = build(pipeline(form));
     for (const auto& [time, value] : expected)
       EXPECT_NEAR(built->loads[0].factor(time), value, 1e-12) << form << " at " << time;
     ASSERT_EQ(built->corners.size(), corners.size()) << form;
@@ -189,11 +182,7 @@ TEST(TimeFunctions, HaveTheShapesThatTheyName) {
         {R"("form": "table", "times": [2, 1], "values": [0, 0])", "times that ascend"},
         {R"("form": "table", "times": [1, 2], "values": [0])", "as many as there are times"},
         {R"("form": "triangle", "rise": 1, "fall": 1, "pulses": 3)", "period"}})
-    EXPECT_NE(faults_of(box_lattice(2, 2, 2) + "," + elastic() +
-                        R"(, { "type": "loads.actuation", "on": "all", "force": 1, )" + form + " }")
-                  .find(sentence),
-              std::string::npos)
-        << form;
+    EXPECT_NE(faults_of(pipeline(form)).find(sentence), std::string::npos) << form;
 }
 
 }  // namespace

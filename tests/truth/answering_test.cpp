@@ -13,29 +13,35 @@ namespace {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
-const char* const membrane = R"("membrane": "I-m", "poisson": 0.1)";
+const Keys membrane = {{"membrane", "I-m"}, {"poisson", 0.1}};
 
 struct Case {
   const char* name;
-  const char* loads;
+  Stages loads;
 };
 const Case inner[] = {
     {"force",
-     R"({ "type": "loads.actuation", "on": "half", "force": 20, "form": "triangle", "rise": 1e-6, "fall": 1e-6 })"},
+     stage("loads.actuation",
+           {{"on", "half"}, {"force", 20}, {"form", "triangle"}, {"rise", 1e-6}, {"fall", 1e-6}})},
     {"strain",
-     R"({ "type": "loads.actuation", "on": "half", "strain": -0.02, "form": "half_sine", "duration": 2e-6 })"},
+     stage("loads.actuation",
+           {{"on", "half"}, {"strain", -0.02}, {"form", "half_sine"}, {"duration", 2e-6}})},
     {"expression",
-     R"({ "type": "loads.expression", "on": "half", "force": 20, "expression": "1 * sin(2 * pi * 4e5 * t) + 0" })"},
+     stage("loads.expression",
+           {{"on", "half"}, {"force", 20}, {"expression", "1 * sin(2 * pi * 4e5 * t) + 0"}})},
 };
 const Case outer[] = {
-    {"pressure", R"({ "type": "loads.actuation", "on": "z_max", "pressure": 1e8, "rise": 1e-6 })"},
+    {"pressure", stage("loads.actuation", {{"on", "z_max"}, {"pressure", 1e8}, {"rise", 1e-6}})},
     {"drag",
-     R"({ "type": "loads.drag", "density": 1000, "stream": [30, 0, 10], "top_speed": 100, "linear_along": 1e5 })"},
-    {"floor",
-     R"({ "type": "loads.floor", "friction": 0.5, "point": [0, 0, 0.0001] }, { "type": "loads.start_velocity", "linear": [5, 0, -10] })"},
+     stage(
+         "loads.drag",
+         {{"density", 1000}, {"stream", {30, 0, 10}}, {"top_speed", 100}, {"linear_along", 1e5}})},
+    {"floor", stage("loads.floor", {{"friction", 0.5}, {"point", {0, 0, 0.0001}}}) +
+                  stage("loads.start_velocity", {{"linear", {5, 0, -10}}})},
     {"slow_floor",
-     R"({ "type": "loads.floor", "friction": 0.5, "friction_back": 0.1, "forward": [1, 1, 0], "damping": 0 },
-                      { "type": "loads.gravity", "acceleration": [1e6, 0, -4e6] })"},
+     stage("loads.floor",
+           {{"friction", 0.5}, {"friction_back", 0.1}, {"forward", {1, 1, 0}}, {"damping", 0}}) +
+         stage("loads.gravity", {{"acceleration", {1e6, 0, -4e6}}})},
 };
 
 class Inner : public testing::TestWithParam<Case> {};
@@ -46,8 +52,9 @@ INSTANTIATE_TEST_SUITE_P(Inner, Answering, testing::ValuesIn(inner), name_of);
 INSTANTIATE_TEST_SUITE_P(Outer, Answering, testing::ValuesIn(outer), name_of);
 
 TEST_P(Inner, KeepsMomentumAndSpin) {
-  for (const char* boundary : {R"("boundary": "particles")", R"("boundary": "cells")"}) {
-    const auto plan = plan_of(loaded_block(5, 4, 8, GetParam().loads, 1e10, membrane, boundary));
+  for (const char* boundary : {"particles", "cells"}) {
+    const auto plan =
+        plan_of(loaded_block(5, 4, 8, GetParam().loads, 1e10, membrane, {{"boundary", boundary}}));
     const Model& model = *plan->model;
     Simulation simulation(model, 2);
     for (int n = 0; n < 300; ++n) simulation.step(0.5 * model.critical_time_step);
@@ -59,7 +66,7 @@ TEST_P(Inner, KeepsMomentumAndSpin) {
 }
 
 TEST_P(Answering, TheBalanceClosesToTheSquareOfTheStep) {
-  for (const char* material : {R"("poisson": 0.25)", membrane}) {
+  for (const Keys& material : {Keys{{"poisson", 0.25}}, membrane}) {
     const auto plan = plan_of(loaded_block(5, 4, 6, GetParam().loads, 1e10, material));
     const Books at_two_fifths = keep_books(*plan->model, 0.4),
                 at_a_fifth = keep_books(*plan->model, 0.2);
@@ -91,16 +98,11 @@ TEST_P(Answering, TheSameBitsForAnyNumberOfThreads) {
 
 // The block is soft and gravity is strong, so that the block slides far in few steps.
 constexpr double heavy = 500;  // m/s2
-std::string sliding(const std::string& floor, Vec3 gravity, Vec3 start) {
-  const auto text = [](Vec3 v) {
-    return "[" + std::to_string(v.x) + ", " + std::to_string(v.y) + ", " + std::to_string(v.z) +
-           "]";
-  };
+std::string sliding(const Keys& floor, Vec3 gravity, Vec3 start) {
   return loaded_block(5, 5, 3,
-                      R"({ "type": "loads.floor", )" + floor +
-                          R"( }, { "type": "loads.gravity", "acceleration": )" + text(gravity) +
-                          R"( }, { "type": "loads.start_velocity", "linear": )" + text(start) +
-                          " }",
+                      stage("loads.floor", floor) +
+                          stage("loads.gravity", {{"acceleration", gravity}}) +
+                          stage("loads.start_velocity", {{"linear", start}}),
                       1e7);
 }
 /// The mean position and velocity of the body at that time.
@@ -121,7 +123,7 @@ std::pair<Vec3, Vec3> mean_motion(const Plan& plan, double time) {
 }
 
 TEST(Floor, CarriesTheWeightAndStopsASlidingBlock) {
-  const auto plan = plan_of(sliding(R"("friction": 0.4)", {0, 0, -heavy}, {2, 0, 0}));
+  const auto plan = plan_of(sliding({{"friction", 0.4}}, {0, 0, -heavy}, {2, 0, 0}));
   const auto [place, speed] = mean_motion(*plan, 20e-3);  // the block stops after 10 ms
   EXPECT_NEAR(place.x, 4 / (2 * 0.4 * heavy), 0.03 * place.x);
   EXPECT_LT(std::abs(speed.x), 0.01);
@@ -130,7 +132,7 @@ TEST(Floor, CarriesTheWeightAndStopsASlidingBlock) {
 }
 
 TEST(Floor, HasAnotherFrictionBackwards) {
-  const char* floor = R"("friction": 0.2, "friction_back": 0.6, "forward": [1, 0, 0])";
+  const Keys floor = {{"friction", 0.2}, {"friction_back", 0.6}, {"forward", {1, 0, 0}}};
   const double forward =
       mean_motion(*plan_of(sliding(floor, {0, 0, -heavy}, {1, 0, 0})), 15e-3).first.x;
   const double back =
@@ -143,7 +145,7 @@ TEST(Floor, AnInclineHoldsABlockUpToItsFriction) {
   for (const double slope : {0.2, 0.4}) {  // tangent of the slope; the friction is 0.3
     const double down = heavy / std::hypot(1, slope);
     const auto [place, speed] =
-        mean_motion(*plan_of(sliding(R"("friction": 0.3)", {slope * down, 0, -down}, {})), 10e-3);
+        mean_motion(*plan_of(sliding({{"friction", 0.3}}, {slope * down, 0, -down}, {})), 10e-3);
     if (slope < 0.3)
       EXPECT_LT(speed.x, 0.01);
     else
@@ -155,20 +157,18 @@ TEST(Drag, LinearSlowsExponentiallyAndQuadraticHyperbolically) {
   // A cube of edge h moves along x. Its front and back have the drag across, two of its sides the
   // drag along.
   const double h = 4e-3, mass = 2500 * h * h * h;
-  const auto drag = [](const std::string& across, const std::string& along, const char* speed) {
-    std::string loads =
-        R"({ "type": "loads.start_velocity", "linear": [)" + std::string(speed) + ", 0, 0] }";
+  const auto drag = [](const Keys& across, const Keys& along, double speed) {
+    Stages loads = stage("loads.start_velocity", {{"linear", Vec3{speed, 0, 0}}});
     for (const char* face : {"x_min", "x_max", "y_min", "y_max"})
-      loads += R"(, { "type": "loads.drag", "on": ")" + std::string(face) + "\", " +
-               (face[0] == 'x' ? across : along) + " }";
+      loads = loads + stage("loads.drag", Keys{{"on", face}} + (face[0] == 'x' ? across : along));
     return plan_of(loaded_block(4, 4, 4, loads));
   };
   const double linear = (2 * 3e3 + 2 * 1e3) * h * h / mass;
-  const auto first = drag(R"("linear_across": 3e3)", R"("linear_along": 1e3)", "1");
+  const auto first = drag({{"linear_across", 3e3}}, {{"linear_along", 1e3}}, 1);
   EXPECT_NEAR(mean_motion(*first, 1e-3).second.x, std::exp(-linear * 1e-3), 0.01);
   const double quadratic = 0.5 * 1000 * (2 * 1.5 + 2 * 0.5) * h * h / mass;
-  const auto second = drag(R"("density": 1000, "across": 1.5, "top_speed": 20)",
-                           R"("density": 1000, "along": 0.5, "top_speed": 20)", "10");
+  const auto second = drag({{"density", 1000}, {"across", 1.5}, {"top_speed", 20}},
+                           {{"density", 1000}, {"along", 0.5}, {"top_speed", 20}}, 10);
   EXPECT_NEAR(mean_motion(*second, 1e-3).second.x, 10 / (1 + 10 * quadratic * 1e-3), 0.05);
 }
 
@@ -182,18 +182,19 @@ bool is_bounded(const Model& model, double fraction) {
 
 TEST(CriticalStep, KnowsHowStiffAContactIsAndHowViscous) {
   const auto free =
-      plan_of(loaded_block(4, 4, 4, R"({ "type": "loads.gravity", "acceleration": [0, 0, 0] })"));
+      plan_of(loaded_block(4, 4, 4, stage("loads.gravity", {{"acceleration", {0, 0, 0}}})));
   const double mass = 2500e-9, alone = free->model->critical_time_step;
   // The contact is far stiffer than the body, so that a particle oscillates on its contact alone.
   // The floor stands above the lowest particles, so that all of z_min always touches it.
   const auto stiff = plan_of(loaded_block(
       4, 4, 4,
-      R"({ "type": "loads.floor", "on": "z_min", "stiffness": 1e9, "damping": 0, "point": [0, 0, 1e-5] })"));
+      stage("loads.floor",
+            {{"on", "z_min"}, {"stiffness", 1e9}, {"damping", 0}, {"point", {0, 0, 1e-5}}})));
   EXPECT_NEAR(stiff->model->critical_time_step, 2 / std::sqrt(4 / (alone * alone) + 1e9 / mass),
               1e-12 * alone);
   EXPECT_NE(stiff->model->critical_because.find("loads.floor (/pipeline/2)"), std::string::npos);
-  const auto viscous = plan_of(loaded_block(
-      4, 4, 4, R"({ "type": "loads.drag", "linear_across": 1e9, "linear_along": 1e9 })"));
+  const auto viscous = plan_of(
+      loaded_block(4, 4, 4, stage("loads.drag", {{"linear_across", 1e9}, {"linear_along", 1e9}})));
   const double rate = 1e9 * std::sqrt(3.0) * 1e-6 / mass;  // rate of a corner particle
   EXPECT_NEAR(viscous->model->critical_time_step,
               2 / (rate / 2 + std::sqrt(rate * rate / 4 + 4 / (alone * alone))), 1e-9 * alone);
@@ -202,7 +203,7 @@ TEST(CriticalStep, KnowsHowStiffAContactIsAndHowViscous) {
 }
 
 TEST(AnsweringLoads, StaticSolversRefuseSuchLoads) {
-  std::string text = loaded_block(3, 3, 3, R"({ "type": "loads.floor" })");
+  std::string text = loaded_block(3, 3, 3, stage("loads.floor"));
   text.replace(text.find("solvers.explicit"), 16, "solvers.static");
   try {
     plan_of(text);

@@ -19,24 +19,33 @@ double confined(double young) {
   return young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson));
 }
 
-std::string material(double young, const std::string& more = "") {
-  return elastic(young, R"("poisson": 0.25)" + more);
+/// A bar of two materials, the second beyond a corner, with held sides and a load.
+AtRest two_part_bar(double spacing, Vec3 size, const Keys& membrane, Vec3 border,
+                    const Stages& load) {
+  const Keys stiff = {{"name", "stiff"}, {"region", box(border, {1, 1, 1})}};
+  return AtRest(SceneBuilder{}
+                    .lattice("lattices.cubic", spacing, box({}, size), {{"boundary", "cells"}})
+                    .stages(elastic(soft, membrane))
+                    .stages(elastic(contrast * soft, membrane + stiff))
+                    .load("loads.fixed", {{"on", "x_min"}, {"axes", "x"}})
+                    .load("loads.fixed", {{"name", "sides"}, {"on", "all"}, {"axes", "yz"}})
+                    .stages(load)
+                    .stages(to_rest)
+                    .text());
 }
-std::string stiff_beyond(Vec3 low) {
-  return material(contrast * soft, R"(, "name": "stiff", "region": )" + box(low, {1, 1, 1}));
+Stages pressure(double value) {
+  return stage("loads.pressure", {{"on", "x_max"}, {"pressure", value}});
 }
 
-const char* const held_sides =
-    R"({ "type": "loads.fixed", "on": "x_min", "axes": "x" }, { "type": "loads.fixed", "name": "sides", "on": "all", "axes": "yz" },)";
+/// The second of two materials of a body, beyond an oblique plane.
+const Keys beyond_plane = {
+    {"region", {{"half_space", {{"point", {2.5e-3, 0, 0}}, {"normal", {-1, 0.3, 0.2}}}}}}};
 
 TEST(CellMaterials, ABarOfTwoHalvesInARowIsExact) {
   constexpr double length = 0.16, border = 0.048, width = 0.016, pull = 1e-3;
   for (const double spacing : {4e-3, 2e-3}) {
-    const AtRest bar(scene(R"("boundary": "cells", "spacing": )" + number(spacing) +
-                               R"(, "shape": )" + box({}, {length, width, width}),
-                           material(soft) + stiff_beyond({border, -1, -1}) + held_sides +
-                               R"({ "type": "loads.pressure", "on": "x_max", "pressure": )" +
-                               number(-pull) + " }, " + to_rest));
+    const AtRest bar = two_part_bar(spacing, {length, width, width}, {{"poisson", poisson}},
+                                    {border, -1, -1}, pressure(-pull));
     const std::int32_t end = bar.model().body.high.i,
                        at_border = static_cast<std::int32_t>(std::lround(border / spacing));
     const double of_soft = pull / confined(soft) * border,
@@ -54,17 +63,9 @@ TEST(CellMaterials, AFreeMembraneErrsAtABorderByATenthOfACell) {
   constexpr double nu = 0.1, modulus = soft * (1 - nu) / ((1 + nu) * (1 - 2 * nu)), border = 0.048,
                    width = 0.008, pull = 1e-3;
   for (const double spacing : {4e-3, 2e-3}) {
-    const auto of = [](double young, const std::string& more) {
-      return elastic(young, R"("membrane": "I-m", "poisson": 0.1)" + more);
-    };
-    const AtRest bar(
-        scene(R"("boundary": "cells", "spacing": )" + number(spacing) + R"(, "shape": )" +
-                  box({}, {0.16, width, width}),
-              of(soft, "") +
-                  of(contrast * soft,
-                     R"(, "name": "stiff", "region": )" + box({border, -1, -1}, {1, 1, 1})) +
-                  held_sides + R"({ "type": "loads.pressure", "on": "x_max", "pressure": )" +
-                  number(-pull) + " }, " + to_rest));
+    const AtRest bar =
+        two_part_bar(spacing, {0.16, width, width}, {{"membrane", "I-m"}, {"poisson", nu}},
+                     {border, -1, -1}, pressure(-pull));
     const std::int32_t end = bar.model().body.high.i;
     const double exact = pull / modulus * (border + (0.16 - border) / contrast);
     EXPECT_NEAR((1 - bar.mean(0, [&](Site s) { return s.i == end; }) / exact) * border / spacing,
@@ -75,24 +76,20 @@ TEST(CellMaterials, AFreeMembraneErrsAtABorderByATenthOfACell) {
 
 TEST(CellMaterials, ABarOfTwoHalvesSideBySideHasTheMeanModulus) {
   constexpr double stretch = 1e-9;
-  const AtRest bar(
-      scene(R"("boundary": "cells", "spacing": 1e-3, "shape": )" + box({}, {8e-3, 4e-3, 6e-3}),
-            material(soft) + stiff_beyond({-1, 1e-3, -1}) + held_sides +
-                R"({ "type": "loads.displacement", "on": "x_max", "axes": "x", "value": [)" +
-                number(stretch) + R"(, 0, 0], "rise": 1e-9 }, )" + to_rest));
+  const AtRest bar = two_part_bar(
+      1e-3, {8e-3, 4e-3, 6e-3}, {{"poisson", poisson}}, {-1, 1e-3, -1},
+      stage("loads.displacement",
+            {{"on", "x_max"}, {"axes", "x"}, {"value", Vec3{stretch, 0, 0}}, {"rise", 1e-9}}));
   const double force = -bar.simulation->force_on_load().at(2).x,
                mean = (confined(soft) + 3 * confined(contrast * soft)) / 4;
   EXPECT_NEAR(force / (mean * 24e-6 * stretch / 8e-3), 1, 1e-6);
 }
 
 /// Two materials of different density with an oblique border.
-std::string two(const std::string& first = "", const std::string& second = "",
-                const std::string& stages = "") {
-  return scene_of_cells(
-      box_text({0, 0, 0}, {6, 5, 4}), R"("membrane": "I-m", "poisson": 0.2)" + first,
-      R"({ "type": "materials.elastic", "young": 4e10, "density": 7000, "membrane": "I-m", "poisson": 0.1,
-                             "region": { "half_space": { "point": [2.5e-3, 0, 0], "normal": [-1, 0.3, 0.2] } })" +
-          second + " }" + (stages.empty() ? "" : "," + stages));
+std::string two(const Keys& first = {}, const Keys& second = {}, const Stages& stages = {}) {
+  const Keys other = {{"young", 4e10}, {"density", 7000}, {"membrane", "I-m"}, {"poisson", 0.1}};
+  return scene_of_cells(box_mm(6, 5, 4), Keys{{"membrane", "I-m"}, {"poisson", 0.2}} + first,
+                        stage("materials.elastic", other + beyond_plane + second) + stages);
 }
 bool is_second(const CellIndex& cell) {
   return -(cell[0] + 0.5 - 2.5) + 0.3 * (cell[1] + 0.5) + 0.2 * (cell[2] + 0.5) <= 0;
@@ -129,17 +126,17 @@ TEST(CellMaterials, MassesAndSpringsAreTheMeansOfTheirCells) {
 }
 
 TEST(CellMaterials, StaticsAndStepsHaveTheSameSprings) {
-  const AtRest body(scene(
-      R"("boundary": "cells", "spacing": 1e-3, "anchor": [0, 0, 0], "shape": )" +
-          box({}, {6e-3, 5e-3, 4e-3}),
-      elastic(1e10, R"("membrane": "I-m", "poisson": 0.2)") +
-          elastic(
-              4e10,
-              R"("membrane": "I-m", "poisson": 0.1, "region": { "half_space": { "point": [2.5e-3, 0, 0],
-                                                 "normal": [-1, 0.3, 0.2] } })") +
-          R"({ "type": "loads.fixed", "on": "x_min" },
-                                 { "type": "loads.displacement", "on": "x_max", "axes": "x", "value": [1e-6, 0, 0], "rise": 1e-9 },)" +
-          to_rest));
+  const AtRest body(
+      SceneBuilder{}
+          .lattice("lattices.cubic", 1e-3, box_mm(6, 5, 4),
+                   {{"boundary", "cells"}, {"anchor", {0, 0, 0}}})
+          .stages(elastic(1e10, {{"membrane", "I-m"}, {"poisson", 0.2}}))
+          .stages(elastic(4e10, Keys{{"membrane", "I-m"}, {"poisson", 0.1}} + beyond_plane))
+          .load("loads.fixed", {{"on", "x_min"}})
+          .load("loads.displacement",
+                {{"on", "x_max"}, {"axes", "x"}, {"value", {1e-6, 0, 0}}, {"rise", 1e-9}})
+          .stages(to_rest)
+          .text());
   const auto left = forces(body.model(), body.u, body.heights);
   double most = 0, least = 0;
   for (Particle p = 0; p < body.model().body.particles; ++p) {
@@ -155,7 +152,7 @@ TEST(CellMaterials, StaticsAndStepsHaveTheSameSprings) {
 
 TEST(CellMaterials, TheWeakestMaterialOfASpringBreaksIt) {
   const auto limit = [](double strain) {
-    return R"(, "failure": { "type": "failures.strain", "limit": )" + number(strain) + " }";
+    return Keys{{"failure", {{"type", "failures.strain"}, {"limit", strain}}}};
   };
   for (const bool first_is_weak : {true, false}) {
     const auto plan =
@@ -178,25 +175,25 @@ TEST(CellMaterials, TheWeakestMaterialOfASpringBreaksIt) {
 }
 
 TEST(CellMaterials, RegionsHoldCellsByTheirCentres) {
-  const auto faults = [](const std::string& region) {
+  const auto with_second = [](const Json& region) {
+    return plan_of(scene_of_cells(
+        box_mm(3, 3, 3), {{"poisson", 0.25}},
+        stage("materials.elastic", {{"young", 1e9}, {"density", 1}, {"region", region}})));
+  };
+  const auto faults = [&](const Json& region) {
     try {
-      plan_of(scene_of_cells(
-          box_text({0, 0, 0}, {3, 3, 3}), R"("poisson": 0.25)",
-          R"({ "type": "materials.elastic", "young": 1e9, "density": 1, "region": )" + region +
-              " }"));
+      with_second(region);
     } catch (const InputError& error) {
       return std::string(error.what());
     }
     return std::string();
   };
-  EXPECT_EQ(faults(box_text({2, 0, 0}, {3, 3, 3})), "");
-  EXPECT_EQ(faults(R"("x_max")"), "");
-  EXPECT_NE(faults(R"({ "sphere": { "radius": 0.4e-3 } })")
-                .find("holds the centre of none of the body's"),
-            std::string::npos);
-  const auto plan = plan_of(scene_of_cells(
-      box_text({0, 0, 0}, {3, 3, 3}), R"("poisson": 0.25)",
-      R"({ "type": "materials.elastic", "young": 1e9, "density": 1, "region": "x_max" })"));
+  EXPECT_EQ(faults(box_of_cells({2, 0, 0}, {3, 3, 3})), "");
+  EXPECT_EQ(faults("x_max"), "");
+  EXPECT_NE(
+      faults({{"sphere", {{"radius", 0.4e-3}}}}).find("holds the centre of none of the body's"),
+      std::string::npos);
+  const auto plan = with_second("x_max");
   double mass = 0;
   for (Particle p = 0; p < plan->model->body.particles; ++p) mass += plan->model->mass(p);
   EXPECT_NEAR(mass, (18 * 2500 + 9) * 1e-9, 1e-18);

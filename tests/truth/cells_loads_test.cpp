@@ -11,8 +11,8 @@ namespace {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
-std::unique_ptr<Plan> box_with(const std::string& loads) {
-  return plan_of(scene_of_cells(box_text({0, 0, 0}, {3, 4, 5}), R"("poisson": 0.25)", loads));
+std::unique_ptr<Plan> box_with(const Stages& loads) {
+  return plan_of(scene_of_cells(box_mm(3, 4, 5), {{"poisson", 0.25}}, loads));
 }
 
 Vec3 resultant(const Load& load) {
@@ -28,7 +28,7 @@ void expect_near(Vec3 found, Vec3 expected, double tolerance) {
 }
 
 TEST(CellLoads, PressureIsAQuarterOfAFaceOnEachOfItsCorners) {
-  const auto plan = box_with(R"({ "type": "loads.pressure", "on": "x_max", "pressure": 7e6 })");
+  const auto plan = box_with(stage("loads.pressure", {{"on", "x_max"}, {"pressure", 7e6}}));
   const Load& load = plan->model->loads[0];
   EXPECT_EQ(load.particles.size(), 30u);
   expect_near(resultant(load), {-7 * 20, 0, 0}, 1e-12);
@@ -40,8 +40,8 @@ TEST(CellLoads, PressureIsAQuarterOfAFaceOnEachOfItsCorners) {
 }
 
 TEST(CellLoads, AForceInTotalStressesAFaceEvenly) {
-  const auto plan = box_with(
-      R"({ "type": "loads.force", "on": "x_max", "total": [-140, 0, 0] }, { "type": "loads.pressure", "on": "x_max", "pressure": 7e6 })");
+  const auto plan = box_with(stage("loads.force", {{"on", "x_max"}, {"total", {-140, 0, 0}}}) +
+                             stage("loads.pressure", {{"on", "x_max"}, {"pressure", 7e6}}));
   const auto &force = plan->model->loads[0].particles, &pressure = plan->model->loads[1].particles;
   ASSERT_EQ(force.size(), pressure.size());
   for (std::size_t n = 0; n < force.size(); ++n)
@@ -50,9 +50,9 @@ TEST(CellLoads, AForceInTotalStressesAFaceEvenly) {
 
 TEST(CellLoads, BlastIsRadialAndHasTheTrueArea) {
   const auto plan = plan_of(scene_of_cells(
-      R"({ "hollow_sphere": { "inner_radius": 8e-3, "outer_radius": 15e-3 } })",
-      R"("poisson": 0.25)",
-      R"({ "type": "loads.blast", "on": "inner_surface", "peak": 2e6, "rise": 1e-6, "fall": 3e-6 })"));
+      {{"hollow_sphere", {{"inner_radius", 8e-3}, {"outer_radius", 15e-3}}}}, {{"poisson", 0.25}},
+      stage("loads.blast",
+            {{"on", "inner_surface"}, {"peak", 2e6}, {"rise", 1e-6}, {"fall", 3e-6}})));
   const Load& load = plan->model->loads[0];
   double radial = 0;
   for (const LoadedParticle& loaded : load.particles) {
@@ -67,7 +67,7 @@ TEST(CellLoads, BlastIsRadialAndHasTheTrueArea) {
 }
 
 TEST(CellLoads, GravityPullsTheMassOfTheVolume) {
-  const auto plan = box_with(R"({ "type": "loads.gravity", "acceleration": [0, 0, -10] })");
+  const auto plan = box_with(stage("loads.gravity", {{"acceleration", {0, 0, -10}}}));
   const std::size_t n = plan->model->body.particles;
   double sum = 0;
   for (const Force& force : forces(*plan->model, std::vector<double>(3 * n, 0), {}))
@@ -83,11 +83,9 @@ TEST_P(PressedCells, ShrinkEvenlyUnderTheSamePressureEverywhere) {
   for (const CellShape& shape : cell_shapes()) {
     constexpr double strain = 1e-20, l = 1e-3;  // linear to the last bit
     const auto scene = [&](double pressure) {
-      char load[100];
-      std::snprintf(load, sizeof load,
-                    R"({ "type": "loads.pressure", "on": "surface", "pressure": %.17g })",
-                    pressure);
-      return plan_of(scene_of_cells(shape.shape, GetParam().material, load));
+      return plan_of(
+          scene_of_cells(shape.shape, GetParam().material,
+                         stage("loads.pressure", {{"on", "surface"}, {"pressure", pressure}})));
     };
     const MaterialConstants m = scene(1)->model->materials[0].constants;
     const double kb = m.cross_ratio[0], kg = m.cross_ratio[1];

@@ -51,25 +51,19 @@ TEST_P(MovingCells, KeepTheirMomentumAndEnergy) {
 }
 
 TEST(Cells, BalanceTheirEnergy) {
-  constexpr const char* held = R"({ "type": "loads.fixed", "on": "z_min" }, )";
-  const std::tuple<const char*, std::string, double, double> flows[] = {
-      {"hanging",
-       std::string(held) + R"({ "type": "loads.gravity", "acceleration": [1, 2, -9.81] })", 0,
-       1e-10},
-      {"pulled",
-       std::string(held) + R"({ "type": "loads.force", "on": "z_max", "total": [5, 0, 20] })", 0,
-       2e-4},
-      {"damped",
-       std::string(held) + R"({ "type": "loads.force", "on": "z_max", "total": [5, 0, 20] })", 0.5,
-       1e-6},
+  const Stages held = stage("loads.fixed", {{"on", "z_min"}}),
+               force = stage("loads.force", {{"on", "z_max"}, {"total", {5, 0, 20}}});
+  const std::tuple<const char*, Stages, double, double> flows[] = {
+      {"hanging", held + stage("loads.gravity", {{"acceleration", {1, 2, -9.81}}}), 0, 1e-10},
+      {"pulled", held + force, 0, 2e-4},
+      {"damped", held + force, 0.5, 1e-6},
       {"driven",
-       std::string(held) +
-           R"({ "type": "loads.velocity", "on": "z_max", "axes": "z", "value": [0, 0, 1] })",
-       0, 2e-4},
+       held + stage("loads.velocity", {{"on", "z_max"}, {"axes", "z"}, {"value", {0, 0, 1}}}), 0,
+       2e-4},
   };
   for (const char* membrane : {R"("poisson": 0.25)", R"("membrane": "I-m", "poisson": 0.1)"})
     for (const auto& [name, loads, damping, tolerance] : flows) {
-      const auto plan = plan_of(scene_of_cells(box_text({0, 0, 0}, {5, 4, 7}), membrane, loads));
+      const auto plan = plan_of(scene_of_cells(box_mm(5, 4, 7), membrane, loads));
       const double coarse = keep_books(*plan->model, 0.4, damping).largest_error,
                    fine = keep_books(*plan->model, 0.1, damping).largest_error;
       EXPECT_LT(coarse, tolerance) << name << membrane;
@@ -80,15 +74,16 @@ TEST(Cells, BalanceTheirEnergy) {
 
 /// Two materials with breakable springs, pulled apart.
 std::unique_ptr<Plan> breaking(int threads = 1) {
-  const std::string failure = R"(, "failure": { "type": "failures.elongation", "limit": 1e-6 })";
+  const Keys failure = {{"failure", {{"type", "failures.elongation"}, {"limit", 1e-6}}}};
+  const Json part = {{"half_space", {{"point", {0, 2.1e-3, 0}}, {"normal", {0, 1, 0.3}}}}};
+  const Keys second = {
+      {"young", 3e10}, {"density", 7000}, {"membrane", "I-m"}, {"poisson", 0.1}, {"region", part}};
   return plan_of(
       scene_of_cells(
-          box_text({0, 0, 0}, {5, 6, 11}), R"("membrane": "I-m", "poisson": 0.2)" + failure,
-          R"({ "type": "materials.elastic", "young": 3e10, "density": 7000, "membrane": "I-m", "poisson": 0.1,
-                                     "region": { "half_space": { "point": [0, 2.1e-3, 0], "normal": [0, 1, 0.3] } })" +
-              failure + R"( },
-                                   { "type": "loads.velocity", "on": "z_max", "axes": "z", "value": [0, 0, 4] },
-                                   { "type": "loads.fixed", "on": "z_min" })"),
+          box_mm(5, 6, 11), Keys{{"membrane", "I-m"}, {"poisson", 0.2}} + failure,
+          stage("materials.elastic", second + failure) +
+              stage("loads.velocity", {{"on", "z_max"}, {"axes", "z"}, {"value", {0, 0, 4}}}) +
+              stage("loads.fixed", {{"on", "z_min"}})),
       threads);
 }
 

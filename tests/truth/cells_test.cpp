@@ -179,13 +179,13 @@ std::vector<Force> forces_by_cells(const CellShape& shape, const Model& model,
 TEST_P(CellsOfMembrane, LargeMotionsHaveTheForcesOfTheCellsTheirOwnSprings) {
   for (const bool two_materials : {false, true})
     for (const CellShape& shape : cell_shapes()) {
-      const std::string other =
-          R"({ "type": "materials.elastic", "young": 3e10, "density": 7000, "region": { "half_space": { "point": [2e-3, 0, 0],
-                                  "normal": [-1, 0.2, 0] } }, )" +
-          std::string(GetParam().material) + " }";
+      const Json part = {{"half_space", {{"point", {2e-3, 0, 0}}, {"normal", {-1, 0.2, 0}}}}};
+      const Stages other =
+          stage("materials.elastic",
+                Keys{{"young", 3e10}, {"density", 7000}, {"region", part}} + GetParam().material);
       if (two_materials && shape.cells().size() < 30) continue;
-      const auto plan =
-          plan_of(scene_of_cells(shape.shape, GetParam().material, two_materials ? other : ""));
+      const auto plan = plan_of(
+          scene_of_cells(shape.shape, GetParam().material, two_materials ? other : Stages{}));
       const Model& model = *plan->model;
       const auto u = noise(3 * model.body.particles, 0.1 * l, 5);
       const auto heights = model.degrees_of_freedom == 4 ? noise(model.body.particles, 0.1 * l, 6)
@@ -212,16 +212,16 @@ struct Uniaxial {
 
   Uniaxial(int n, const std::string& boundary, const char* membrane) {
     constexpr double strain = 1e-12;
-    const std::string size = std::to_string(n);
-    const auto plan = plan_of(R"({ "format": "hyperlattice/1", "pipeline": [
-      { "type": "lattices.cubic", "spacing": 1, "boundary": ")" +
-                              boundary + R"(", "shape": { "box": { "low": [0, 0, 0], "high": [)" +
-                              size + ", " + size + ", " + size + R"(] } } },
-      { "type": "materials.elastic", "young": 1, "density": 1, )" +
-                              membrane + R"( },
-      { "type": "loads.fixed", "on": "z_min", "axes": "z" },
-      { "type": "loads.displacement", "on": "z_max", "axes": "z", "value": [0, 0, 1e-12], "rise": 1e-9 },
-      { "type": "solvers.static", "tolerance": 1e-9 } ] })");
+    const double size = n;
+    const auto plan = plan_of(
+        SceneBuilder{}
+            .lattice("lattices.cubic", 1, box({}, {size, size, size}), {{"boundary", boundary}})
+            .material("materials.elastic", Keys{{"young", 1}, {"density", 1}} + membrane)
+            .load("loads.fixed", {{"on", "z_min"}, {"axes", "z"}})
+            .load("loads.displacement",
+                  {{"on", "z_max"}, {"axes", "z"}, {"value", {0, 0, strain}}, {"rise", 1e-9}})
+            .solver("solvers.static", {{"tolerance", 1e-9}})
+            .text());
     const Model& model = *plan->model;
     Simulation simulation(model, 1);
     std::vector<double> u(3 * model.body.particles);
@@ -290,8 +290,7 @@ TEST_P(UniaxialTest, WholeParticlesAreSofter) {
 TEST(Cells, EquationFifteenIsTheBulkStiffness) {
   const auto stiffness = [](const char* kind) {
     return plan_of(scene_of_cells(cell_shapes()[5].shape,
-                                  R"("membrane": "I-m", "poisson": 0.1, "stiffness": ")" +
-                                      std::string(kind) + "\""))
+                                  {{"membrane", "I-m"}, {"poisson", 0.1}, {"stiffness", kind}}))
         ->model->materials[0]
         .constants.base_stiffness;
   };

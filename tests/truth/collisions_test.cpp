@@ -12,16 +12,22 @@ using namespace hyperlattice;
 using namespace hyperlattice::test;
 
 /// Two bars of 30 x 3 x 3 cells, 2 mm between their last particles; the left bar moves at 10 m/s.
-std::unique_ptr<Plan> bars(const std::string& contact, int threads = 1) {
+std::unique_ptr<Plan> bars(const Stages& contact, int threads = 1) {
+  const Json both = {
+      {"union",
+       {box({}, {0.0299, 0.0029, 0.0029}), box({0.0311, 0, 0}, {0.0609, 0.0029, 0.0029})}}};
   return plan_of(
-      R"({ "format": "hyperlattice/1", "regions": { "left": { "box": { "low": [-1, -1, -1], "high": [0.0305, 1, 1] } } }, "pipeline": [
-    { "type": "lattices.cubic", "spacing": 1e-3, "anchor": [0, 0, 0], "shape": { "union": [ { "box": { "low": [0, 0, 0], "high": [0.0299, 0.0029, 0.0029] } },
-      { "box": { "low": [0.0311, 0, 0], "high": [0.0609, 0.0029, 0.0029] } } ] } },
-    { "type": "materials.elastic", "young": 1e10, "density": 2500, "membrane": "none" },
-    { "type": "loads.start_velocity", "on": "left", "linear": [10, 0, 0] },)" +
-          contact + R"({ "type": "solvers.explicit", "end_time": 3e-4 } ] })",
+      SceneBuilder{}
+          .region("left", box({-1, -1, -1}, {0.0305, 1, 1}))
+          .lattice("lattices.cubic", 1e-3, both, {{"anchor", {0, 0, 0}}})
+          .material("materials.elastic", {{"young", 1e10}, {"density", 2500}, {"membrane", "none"}})
+          .load("loads.start_velocity", {{"on", "left"}, {"linear", {10, 0, 0}}})
+          .stages(contact)
+          .solver("solvers.explicit", {{"end_time", 3e-4}})
+          .text(),
       threads);
 }
+Stages contacts(const Keys& keys = {}) { return stage("loads.contact", keys); }
 
 struct Met {
   double left = 0, right = 0;  ///< mean velocities along x, m/s
@@ -51,7 +57,7 @@ Met meet(const Plan& plan) {
 }
 
 TEST(Collisions, EqualBarsExchangeTheirVelocities) {
-  const Met met = meet(*bars(R"({ "type": "loads.contact" },)"));
+  const Met met = meet(*bars(contacts()));
   std::printf("after the impact: %.4f and %.4f m/s of 10; balance error %.1e\n", met.left,
               met.right, met.largest_error);
   EXPECT_NEAR(met.left, 0, 0.2);  // waves across the bars keep a small part
@@ -63,13 +69,13 @@ TEST(Collisions, EqualBarsExchangeTheirVelocities) {
 }
 
 TEST(Collisions, WithoutItBodiesGoThroughEachOther) {
-  const Met met = meet(*bars(""));
+  const Met met = meet(*bars({}));
   EXPECT_NEAR(met.left, 10, 1e-9);
   EXPECT_NEAR(met.right, 0, 1e-9);
 }
 
 TEST(Collisions, DampingTakesEnergyAndNoMomentum) {
-  const Met met = meet(*bars(R"({ "type": "loads.contact", "damping": 0.5, "friction": 0.3 },)"));
+  const Met met = meet(*bars(contacts({{"damping", 0.5}, {"friction", 0.3}})));
   EXPECT_NEAR(met.end.momentum.x / met.start.momentum.x, 1, 1e-12);
   EXPECT_LT(met.end.kinetic + met.end.stored, 0.999 * met.start.kinetic);
   EXPECT_GT(met.right, met.left);
@@ -77,9 +83,9 @@ TEST(Collisions, DampingTakesEnergyAndNoMomentum) {
 
 // The critical time step accounts for contacts of any stiffness and any damping.
 TEST(Collisions, StiffContactsStayStable) {
-  for (const char* more : {"", R"(, "damping": 1, "friction": 1, "grip": 2)"}) {
-    const Met met = meet(*bars(R"({ "type": "loads.contact", "stiffness": 1e8)" +
-                               std::string(more) + " },"));  // 30 times the stiffness of a spring
+  for (const Keys& more : {Keys{}, Keys{{"damping", 1}, {"friction", 1}, {"grip", 2}}}) {
+    // 30 times the stiffness of a spring
+    const Met met = meet(*bars(contacts(Keys{{"stiffness", 1e8}} + more)));
     std::printf("after the impact: %.4f and %.4f m/s of 10; balance error %.1e\n", met.left,
                 met.right, met.largest_error);
     EXPECT_NEAR(met.end.momentum.x / met.start.momentum.x, 1, 1e-11);
@@ -91,21 +97,20 @@ TEST(Collisions, StiffContactsStayStable) {
 
 // The stiffest springs of the bars are more than 1e4 times as stiff as these contacts.
 TEST(Collisions, TooSoftContactsAreWarnedOf) {
-  const auto warned = [](const std::string& contact) {
+  const auto warned = [](const Stages& contact) {
     const auto plan = bars(contact);
     return std::any_of(plan->model->warnings.begin(), plan->model->warnings.end(),
                        [](const std::string& text) {
                          return text.find("particles may pass through") != std::string::npos;
                        });
   };
-  EXPECT_TRUE(warned(R"({ "type": "loads.contact", "stiffness": 1 },)"));
-  EXPECT_TRUE(warned(R"({ "type": "loads.floor", "stiffness": 1, "point": [0, 0, -1] },)"));
-  EXPECT_FALSE(
-      warned(R"({ "type": "loads.contact" }, { "type": "loads.floor", "point": [0, 0, -1] },)"));
+  EXPECT_TRUE(warned(contacts({{"stiffness", 1}})));
+  EXPECT_TRUE(warned(stage("loads.floor", {{"stiffness", 1}, {"point", {0, 0, -1}}})));
+  EXPECT_FALSE(warned(contacts() + stage("loads.floor", {{"point", {0, 0, -1}}})));
 }
 
 TEST(Collisions, ResultsDoNotDependOnThreads) {
-  const char* contact = R"({ "type": "loads.contact", "damping": 0.1, "friction": 0.3 },)";
+  const Stages contact = contacts({{"damping", 0.1}, {"friction", 0.3}});
   EXPECT_EQ(meet(*bars(contact, 1)).hash, meet(*bars(contact, 3)).hash);
 }
 

@@ -20,21 +20,17 @@ struct Solid {
   const char* stiffness = "bulk";
 };
 
-std::string scene(const Solid& of, const std::string& loads = "") {
-  const auto number = [](double value) {
-    char text[40];
-    std::snprintf(text, sizeof text, "%.10g", value);
-    return std::string(text);
-  };
-  return R"({ "format": "hyperlattice/1", "pipeline": [ { "type": "lattices.cubic", "spacing": )" +
-         number(of.spacing) + R"(, "boundary": ")" + of.boundary +
-         R"(", "shape": { "box": { "low": [0, 0, 0], "high": [)" + number(of.size.x) + ", " +
-         number(of.size.y) + ", " + number(of.size.z) +
-         R"(] } } }, { "type": "materials.elastic", "membrane": "I-m", "stiffness": ")" +
-         of.stiffness + R"(", "young": )" + number(of.young) + R"(, "poisson": )" +
-         number(of.poisson) + R"(, "density": )" + number(of.density) + " }" +
-         (loads.empty() ? "" : ", " + loads) +
-         R"(, { "type": "solvers.explicit", "end_time": 1 } ] })";
+std::string scene(const Solid& of, const Stages& loads = {}) {
+  return SceneBuilder{}
+      .lattice("lattices.cubic", of.spacing, box({}, of.size), {{"boundary", of.boundary}})
+      .material("materials.elastic", {{"membrane", "I-m"},
+                                      {"stiffness", of.stiffness},
+                                      {"young", of.young},
+                                      {"poisson", of.poisson},
+                                      {"density", of.density}})
+      .stages(loads)
+      .solver("solvers.explicit", {{"end_time", 1}})
+      .text();
 }
 
 /// Frequency, Hz, of the oscillation after an initial velocity in the shape of a mode. The zeros of
@@ -76,7 +72,7 @@ TEST(Frequencies, OfACantilever) {
   double error[2];
   for (const int cells : {4, 8}) {
     const auto plan = plan_of(scene({{length, 0.02, 0.02}, 0.02 / cells, 10e9, 0.2, 2500},
-                                    R"({ "type": "loads.fixed", "on": "x_min" })"));
+                                    stage("loads.fixed", {{"on", "x_min"}})));
     const double f1 = frequency(*plan->model, bending, [&](Vec3 x) {
       return Vec3{0, std::pow(x.x / length, 2), 0};
     });
@@ -123,7 +119,7 @@ TEST(WaveSpeed, OfABar) {
   constexpr double length = 0.4, speed = 2000, stress = 1e4, expected = stress / (2500 * speed);
   const auto plan =
       plan_of(scene({{length, 0.04, 0.04}, 0.004, 10e9, 0.2, 2500},
-                    R"({ "type": "loads.pressure", "on": "x_min", "pressure": 1e4 })"));
+                    stage("loads.pressure", {{"on", "x_min"}, {"pressure", stress}})));
   const Model& model = *plan->model;
   Simulation simulation(model, 2);
   std::vector<double> v;
@@ -184,13 +180,9 @@ Vec3 spin(const Model& model, const Simulation& simulation, double step) {
 
 constexpr Vec3 block_size{0.1, 0.06, 0.04};
 std::string spinning(Vec3 omega, const char* boundary, const char* stiffness,
-                     const std::string& more = "") {
-  const auto text = [](Vec3 w) {
-    return "[" + std::to_string(w.x) + ", " + std::to_string(w.y) + ", " + std::to_string(w.z) +
-           "]";
-  };
+                     const Stages& more = {}) {
   return scene({block_size, 0.005, 1e9, 0.1, 1000, boundary, stiffness},
-               R"({ "type": "loads.start_velocity", "angular": )" + text(omega) + " }" + more);
+               stage("loads.start_velocity", {{"angular", omega}}) + more);
 }
 
 TEST(Spinning, StretchesABlockAsTheCentrifugalForceDoes) {
@@ -245,9 +237,8 @@ TEST(Spinning, StretchesABlockAsTheCentrifugalForceDoes) {
 TEST(Spinning, AboutAnyAxisAndFalling) {
   const Vec3 omega{300, -500, 400};
   const auto free = plan_of(spinning(omega, "particles", "bulk"));
-  const auto falling =
-      plan_of(spinning(omega, "particles", "bulk",
-                       R"(, { "type": "loads.gravity", "acceleration": [0, -9.81, 0] })"));
+  const auto falling = plan_of(spinning(omega, "particles", "bulk",
+                                        stage("loads.gravity", {{"acceleration", {0, -9.81, 0}}})));
   const double step = 0.5 * free->model->critical_time_step;
   Simulation one(*free->model, 1), other(*falling->model, 1);
   one.step(step);

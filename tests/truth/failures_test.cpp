@@ -14,8 +14,12 @@ namespace {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
-std::string breakable(const std::string& failure) {
-  return R"("poisson": 0.25, "failure": { "type": "failures.)" + failure + " }";
+/// The key of a criterion of failure.
+Keys failing(const std::string& criterion, const Keys& keys) {
+  return {{"failure", (Keys{{"type", "failures." + criterion}} + keys).json()}};
+}
+Keys breakable(const std::string& criterion, const Keys& keys) {
+  return Keys{{"poisson", 0.25}} + failing(criterion, keys);
 }
 
 /// Displacements (strain x + shear y, 0, 0).
@@ -61,14 +65,13 @@ void compare(const Plan& plan, double strain, double shear,
 constexpr double l = 1e-3, k = 0.4 * 1e10 * l;  // as in block(), nu = 1/4
 
 TEST(Failures, StrainCountsSpringsByTheirLength) {
-  const auto plan = plan_of(block(5, 4, 6, breakable(R"(strain", "limit": 0.008)")));
+  const auto plan = plan_of(block(5, 4, 6, breakable("strain", {{"limit", 0.008}})));
   compare(
       *plan, 0.01, 0.004,
       [](double rest, double elongation, Spring) { return elongation > 0.008 * rest; }, 50);
   const ListFiles files(5, 4, 6);
   const auto list = plan_of(listed_scene(
-      files.lattice(),
-      R"("membrane": "none", "failure": { "type": "failures.strain", "limit": 0.005 })"));
+      files.lattice(), Keys{{"membrane", "none"}} + failing("strain", {{"limit", 0.005}})));
   compare(
       *list, 0.01, 0,
       [](double rest, double elongation, Spring) { return elongation > 0.005 * rest; }, 50);
@@ -76,7 +79,7 @@ TEST(Failures, StrainCountsSpringsByTheirLength) {
 
 TEST(Failures, ForceCountsByTheStiffness) {
   // The limit is reached at 8.75 um.
-  const auto plan = plan_of(block(5, 4, 6, breakable(R"(force", "limit": 35)")));
+  const auto plan = plan_of(block(5, 4, 6, breakable("force", {{"limit", 35}})));
   compare(
       *plan, 0.01, 0.004, [](double, double elongation, Spring) { return k * elongation > 35; },
       50);
@@ -84,7 +87,7 @@ TEST(Failures, ForceCountsByTheStiffness) {
 
 TEST(Failures, EnergyCountsInTensionOnly) {
   // The limit is reached at 7.07 um.
-  const auto plan = plan_of(block(5, 4, 6, breakable(R"(energy", "limit": 1e-4)")));
+  const auto plan = plan_of(block(5, 4, 6, breakable("energy", {{"limit", 1e-4}})));
   compare(
       *plan, 0.01, 0.02,
       [](double, double elongation, Spring) {
@@ -95,7 +98,7 @@ TEST(Failures, EnergyCountsInTensionOnly) {
 
 TEST(Failures, FractureEnergyIsThatOfTheSpringsThroughAnArea) {
   const double crossings = (3 + 6 * std::sqrt(2.0)) / (2 * l * l);
-  const auto plan = plan_of(block(5, 4, 6, breakable(R"(energy", "fracture_energy": 500)")));
+  const auto plan = plan_of(block(5, 4, 6, breakable("energy", {{"fracture_energy", 500}})));
   EXPECT_NEAR(plan->model->crossings, crossings, 1e-12 * crossings);
   compare(
       *plan, 0.01, 0.004,
@@ -121,9 +124,10 @@ TEST(Failures, FractureEnergyIsThatOfTheSpringsThroughAnArea) {
 }
 
 TEST(Failures, RateHoldsMoreWhatIsPulledFaster) {
-  const auto plan = plan_of(block(
-      5, 4, 6,
-      R"("membrane": "I-m", "poisson": 0.1, "failure": { "type": "failures.rate", "limit": 0.006, "reference": 100, "exponent": 2 })"));
+  const auto plan =
+      plan_of(block(5, 4, 6,
+                    Keys{{"membrane", "I-m"}, {"poisson", 0.1}} +
+                        failing("rate", {{"limit", 0.006}, {"reference", 100}, {"exponent", 2}})));
   const Model& model = *plan->model;
   for (const double pull : {0.0, 60.0, 120.0, 700.0}) {  // strain rate, 1/s
     const std::vector<double> u = strained(model, 0.02, 0), v = strained(model, pull, 0);
@@ -146,15 +150,18 @@ TEST(Failures, RateHoldsMoreWhatIsPulledFaster) {
     std::printf("pulled by %g per second: %zu springs break\n", pull, expected);
   }
   const ListFiles files(3, 3, 3);
-  const char* law =
-      R"("membrane": "none", "failure": { "type": "failures.rate", "limit": 0.006, "reference": 100 })";
+  const Keys law =
+      Keys{{"membrane", "none"}} + failing("rate", {{"limit", 0.006}, {"reference", 100}});
   EXPECT_THROW(plan_of(listed_scene(files.lattice(), law)), InputError);
 }
 
 TEST(Failures, WeibullScattersAsItSays) {
-  const std::string law = R"(weibull", "scale": 0.01, "modulus": 3, "least": 0.2, "seed": )";
-  const auto plan = plan_of(block(20, 20, 20, breakable(law + "1"))),
-             other = plan_of(block(20, 20, 20, breakable(law + "2")));
+  const auto scattered = [](int seed) {
+    return plan_of(block(
+        20, 20, 20,
+        breakable("weibull", {{"scale", 0.01}, {"modulus", 3}, {"least", 0.2}, {"seed", seed}})));
+  };
+  const auto plan = scattered(1), other = scattered(2);
   const Model& model = *plan->model;
   std::vector<double> u;
   // The strain is the same in all directions, hence in all springs.

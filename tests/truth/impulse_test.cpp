@@ -40,24 +40,26 @@ Result run_stages(const Plan& plan, std::uint64_t look_every = 20) {
   return result;
 }
 
-std::string text(double value) {
-  char digits[40];
-  std::snprintf(digits, sizeof digits, "%.17g", value);
-  return digits;
-}
-
 /// A free or held block of 1 mm cells with loads and solver stages.
-std::string scene(const std::string& loads, const std::string& stages, int nx = 4, int ny = 4,
-                  int nz = 5, const std::string& material = R"("poisson": 0.25)") {
-  const auto mm = [](int n) { return std::to_string(n) + "e-3"; };
-  return R"({ "format": "hyperlattice/1", "pipeline": [ { "type": "lattices.cubic", "spacing": 1e-3, "shape": { "box": { "low": [0, 0, 0], "high": [)" +
-         mm(nx) + ", " + mm(ny) + ", " + mm(nz) +
-         R"(] } } }, { "type": "materials.elastic", "young": 1e10, "density": 2500, )" + material +
-         " }" + (loads.empty() ? "" : ", " + loads) + ", " + stages + " ] }";
+std::string scene(const Stages& loads, const Stages& solvers, int nx = 4, int ny = 4, int nz = 5,
+                  const Keys& material = {{"poisson", 0.25}}) {
+  return SceneBuilder{}
+      .lattice("lattices.cubic", 1e-3, box_mm(nx, ny, nz))
+      .material("materials.elastic", Keys{{"young", 1e10}, {"density", 2500}} + material)
+      .stages(loads)
+      .stages(solvers)
+      .text();
 }
-std::string explicit_to(double end, double step) {
-  return R"({ "type": "solvers.explicit", "end_time": )" + text(end) + R"(, "time_step": )" +
-         text(step) + " }";
+Stages explicit_to(double end) { return stage("solvers.explicit", {{"end_time", end}}); }
+Stages explicit_to(double end, double step) {
+  return stage("solvers.explicit", {{"end_time", end}, {"time_step", step}});
+}
+Stages fixed(const char* on) { return stage("loads.fixed", {{"on", on}}); }
+Stages force(const char* on, const Json& total, const Keys& more = {}) {
+  return stage("loads.force", Keys{{"on", on}, {"total", total}} + more);
+}
+Stages pressed(double pressure, const Keys& time_function) {
+  return stage("loads.actuation", Keys{{"on", "z_min"}, {"pressure", pressure}} + time_function);
 }
 
 struct Pulse {
@@ -94,9 +96,7 @@ TEST_P(Impulse, IsTheIntegralOfTheFactorForAnyStep) {
   constexpr double pressure = 1e-4, area = 16e-6;  // so small that faces keep their area to 1e-14
   for (const double step : {1e-7, 0.93e-7, 0.31e-7}) {
     const auto plan =
-        plan_of(scene(R"({ "type": "loads.actuation", "on": "z_min", "pressure": 1e-4, )" +
-                          std::string(GetParam().time_function) + " }",
-                      explicit_to(10e-6, step)));
+        plan_of(scene(pressed(pressure, GetParam().time_function), explicit_to(10e-6, step)));
     const Result result = run_stages(*plan);
     EXPECT_EQ(result.time, 10e-6);
     const double expected = pressure * area * GetParam().integral;
@@ -106,10 +106,12 @@ TEST_P(Impulse, IsTheIntegralOfTheFactorForAnyStep) {
 }
 
 TEST(Impulse, IsExactAtEveryStep) {  // also in the middle of a jump
-  const auto plan = plan_of(scene(
-      R"({ "type": "loads.expression", "on": "all", "total": [3, 0, 0], "expression": "t > 1.03e-6 ? 2 - abs(t - 2e-6) * 1e5 : 0",
-                                      "corners": [1.03e-6, 2e-6] })",
-      explicit_to(10e-6, 1e-7)));
+  const auto plan = plan_of(
+      scene(stage("loads.expression", {{"on", "all"},
+                                       {"total", {3, 0, 0}},
+                                       {"expression", "t > 1.03e-6 ? 2 - abs(t - 2e-6) * 1e5 : 0"},
+                                       {"corners", {1.03e-6, 2e-6}}}),
+            explicit_to(10e-6, 1e-7)));
   Simulation simulation(*plan->model, 1);
   const auto integral = [](double t) {
     const auto leg = [](double x) { return 2 * x - 1e5 * x * std::abs(x) / 2; };
@@ -125,9 +127,11 @@ TEST(Impulse, IsExactAtEveryStep) {  // also in the middle of a jump
 
 TEST(Mean, OfAFactorOverAnyLength) {
   const auto plan = plan_of(scene(
-      R"({ "type": "loads.actuation", "on": "z_min", "pressure": 1, "form": "harmonic", "frequency": 1e6 },
-                                     { "type": "loads.actuation", "on": "z_min", "pressure": 1, "form": "triangle", "rise": 1e-7, "fall": 3e-7,
-                                       "period": 1e-6, "pulses": 200 })",
+      pressed(1, {{"form", "harmonic"}, {"frequency", 1e6}}) + pressed(1, {{"form", "triangle"},
+                                                                           {"rise", 1e-7},
+                                                                           {"fall", 3e-7},
+                                                                           {"period", 1e-6},
+                                                                           {"pulses", 200}}),
       explicit_to(10e-6, 0.4e-7)));
   const Load &harmonic = plan->model->loads[0], &train = plan->model->loads[1];
   EXPECT_EQ(harmonic.frequency, 1e6);
@@ -151,16 +155,15 @@ TEST(Mean, OfAFactorOverAnyLength) {
 
 // Springs of an undamped bar push in pulses. If steps changed at the corners of the load, the
 // energy of the bar would grow without bound.
-const std::string train(const std::string& keys) {
-  return R"({ "type": "loads.fixed", "on": "z_max" }, { "type": "loads.actuation", "on": "all", "strain": 1e-4, "form": "triangle", )" +
-         keys + " }";
+Stages train(const Keys& keys) {
+  return fixed("z_max") + stage("loads.actuation",
+                                Keys{{"on", "all"}, {"strain", 1e-4}, {"form", "triangle"}} + keys);
 }
-const char* const membrane = R"("poisson": 0.2, "membrane": "I-m")";
+const Keys membrane = {{"poisson", 0.2}, {"membrane", "I-m"}};
 
 TEST(Trains, KeepTheirEnergy) {
-  const std::string loads = train(R"("rise": 1e-6, "fall": 1e-6, "period": 5e-6, "pulses": 400)");
-  const auto plan = plan_of(
-      scene(loads, R"({ "type": "solvers.explicit", "end_time": 2e-3 })", 6, 6, 12, membrane));
+  const Stages loads = train({{"rise", 1e-6}, {"fall", 1e-6}, {"period", 5e-6}, {"pulses", 400}});
+  const auto plan = plan_of(scene(loads, explicit_to(2e-3), 6, 6, 12, membrane));
   const Result result = run_stages(*plan, 100);
   std::printf("%llu steps, largest error of the balance %.1e of %.3g J\n",
               static_cast<unsigned long long>(result.steps), result.largest_error,
@@ -171,15 +174,14 @@ TEST(Trains, KeepTheirEnergy) {
 }
 
 TEST(Trains, OfPulsesShorterThanAStepKeepTheirEnergy) {
-  const std::string loads = train(R"("rise": 5e-8, "fall": 5e-8, "period": 1e-6, "pulses": 1000)");
-  const auto plan = plan_of(
-      scene(loads, R"({ "type": "solvers.explicit", "end_time": 1e-3 })", 6, 6, 12, membrane));
+  const Stages loads = train({{"rise", 5e-8}, {"fall", 5e-8}, {"period", 1e-6}, {"pulses", 1000}});
+  const auto plan = plan_of(scene(loads, explicit_to(1e-3), 6, 6, 12, membrane));
   const Result result = run_stages(*plan, 100);
   EXPECT_LT(result.largest_error, 1e-3);
 }
 
 TEST(Trains, StepsThatDivideTheStageAreTakenAsTheyAre) {
-  const auto plan = plan_of(scene("", explicit_to(1e-3, 50e-9), 2, 2, 2));
+  const auto plan = plan_of(scene({}, explicit_to(1e-3, 50e-9), 2, 2, 2));
   EXPECT_EQ(plan->steps(), 20000u);
   const Result result = run_stages(*plan, 1000);
   EXPECT_EQ(result.steps, 20000u);
@@ -190,9 +192,8 @@ TEST(Trains, StepsThatDivideTheStageAreTakenAsTheyAre) {
 /// different fractions of `unit`.
 std::vector<double> after_stages(double unit, double* largest_error = nullptr) {
   const auto plan = plan_of(scene(
-      R"({ "type": "loads.fixed", "on": "z_min" }, { "type": "loads.force", "on": "z_max", "total": [0, 1, 2], "rise": 5e-6 })",
-      explicit_to(2e-6, unit) + ", " + explicit_to(4e-6, 0.4 * unit) + ", " +
-          explicit_to(6e-6, 0.8 * unit)));
+      fixed("z_min") + force("z_max", {0, 1, 2}, {{"rise", 5e-6}}),
+      explicit_to(2e-6, unit) + explicit_to(4e-6, 0.4 * unit) + explicit_to(6e-6, 0.8 * unit)));
   Simulation simulation(*plan->model, 1);
   const double k = std::numbers::pi / 5e-3;
   std::vector<double> v;
@@ -225,18 +226,19 @@ TEST(Stages, OfUnlikeStepsAreOfSecondOrderAndLoseNothing) {
 
 /// Injected work and momentum after 3 us of driven motion. With `stage_before` the motion starts
 /// from a state of rest.
-std::pair<double, double> driven(double step, const std::string& load, bool stage_before) {
-  const std::string rest = stage_before ? R"({ "type": "solvers.static", "end_time": 0 }, )" : "";
+std::pair<double, double> driven(double step, const Stages& load, bool stage_before) {
+  const Stages rest = stage_before ? stage("solvers.static", {{"end_time", 0}}) : Stages{};
   const auto plan = plan_of(scene(load, rest + explicit_to(3e-6, step)));
   const Result result = run_stages(*plan, 1);
-  EXPECT_LT(result.largest_error, 1e-5) << load << stage_before;
+  EXPECT_LT(result.largest_error, 1e-5) << load.json() << stage_before;
   return {result.last.injected, result.last.momentum.z};
 }
 
 TEST(DrivenMotion, BeginsToSecondOrder) {
-  for (const char* load :
-       {R"({ "type": "loads.velocity", "on": "z_max", "value": [0, 0, 0.01], "rise": 2e-6 })",
-        R"({ "type": "loads.displacement", "on": "z_max", "value": [0, 0, 2e-8], "rise": 2e-6 })"})
+  const Keys driven_end = {{"on", "z_max"}, {"rise", 2e-6}};
+  for (const Stages& load :
+       {stage("loads.velocity", driven_end + Keys{{"value", {0, 0, 0.01}}}),
+        stage("loads.displacement", driven_end + Keys{{"value", {0, 0, 2e-8}}})})
     for (const bool stage_before : {false, true}) {
       const auto coarse = driven(2e-7, load, stage_before), half = driven(1e-7, load, stage_before),
                  quarter = driven(0.5e-7, load, stage_before);
@@ -253,42 +255,44 @@ TEST(DrivenMotion, BeginsToSecondOrder) {
 
 // A force acts on held particles before any particle moves.
 TEST(Balance, IsNotMeasuredAgainstRoundOff) {
-  const std::string loads =
-      R"({ "type": "loads.fixed", "on": "z_max" }, { "type": "loads.force", "on": "z_max", "total": [0, 0, -500] },
-    { "type": "loads.expression", "on": "z_min", "expression": "t > 10e-6 ? 1 : 0", "corners": [10e-6], "total": [0, 0, -100] })";
-  const auto plan = plan_of(
-      scene(loads, R"({ "type": "solvers.explicit", "end_time": 4e-5 })", 6, 6, 12, membrane));
+  const Stages loads = fixed("z_max") + force("z_max", {0, 0, -500}) +
+                       stage("loads.expression", {{"on", "z_min"},
+                                                  {"expression", "t > 10e-6 ? 1 : 0"},
+                                                  {"corners", {10e-6}},
+                                                  {"total", {0, 0, -100}}});
+  const auto plan = plan_of(scene(loads, explicit_to(4e-5), 6, 6, 12, membrane));
   EXPECT_LT(run_stages(*plan, 1).largest_error, 1e-4);
-  const auto at_rest = plan_of(
-      scene(loads, R"({ "type": "solvers.relaxation", "end_time": 9e-6 })", 6, 6, 12, membrane));
+  const auto at_rest =
+      plan_of(scene(loads, stage("solvers.relaxation", {{"end_time", 9e-6}}), 6, 6, 12, membrane));
   EXPECT_LT(run_stages(*at_rest, 1).largest_error, 1e-4);
 }
 
 TEST(Balance, IsNotMeasuredAgainstRoundOffOfWhatGravityDoesToHeldParticles) {
   for (const char* held : {R"("on": "all")", R"("on": "all", "axes": "z")"}) {
-    const auto plan = plan_of(scene(
-        R"({ "type": "loads.fixed", )" + std::string(held) + R"( }, { "type": "loads.gravity" })",
-        R"({ "type": "solvers.explicit", "end_time": 4e-5 })", 6, 6, 12, membrane));
+    const auto plan = plan_of(scene(stage("loads.fixed", held) + stage("loads.gravity"),
+                                    explicit_to(4e-5), 6, 6, 12, membrane));
     EXPECT_LT(run_stages(*plan, 1).largest_error, 1e-4) << held;
   }
 }
 
 TEST(ForceOnALoad, HoldsWhatOthersDoToItsParticles) {
-  const auto plan = plan_of(scene(
-      R"({ "type": "loads.fixed", "on": "z_max" }, { "type": "loads.force", "on": "z_max", "total": [0, 0, -500] })",
-      explicit_to(1e-6, 1e-7)));
+  const auto plan =
+      plan_of(scene(fixed("z_max") + force("z_max", {0, 0, -500}), explicit_to(1e-6, 1e-7)));
   Simulation simulation(*plan->model, 1);
   for (int n = 0; n < 3; ++n) simulation.step(1e-7);
   EXPECT_NEAR(simulation.force_on_load()[0].z, -500, 1e-9);
   for (const double work : simulation.injected_by_load()) EXPECT_EQ(work, 0);
 }
 
+Stages expression_load(const char* expression, const Keys& more = {}) {
+  return stage("loads.expression",
+               Keys{{"on", "z_min"}, {"total", {0, 0, 1}}, {"expression", expression}} + more);
+}
+
 TEST(LoadsThatAreNoNumbers, AreNamedWithTheirText) {
   for (const char* expression : {"sqrt(3e-7 - t)", "1 / t", "sqrt(-1)", "t > 4e-7 ? 1 / 0 : 1"}) {
-    const auto plan = plan_of(scene(R"({ "type": "loads.fixed", "on": "z_max" },
-      { "type": "loads.expression", "on": "z_min", "total": [0, 0, 1], "expression": ")" +
-                                        std::string(expression) + R"(" })",
-                                    explicit_to(1e-6, 1e-7)));
+    const auto plan =
+        plan_of(scene(fixed("z_max") + expression_load(expression), explicit_to(1e-6, 1e-7)));
     try {
       run_stages(*plan, 1);
       FAIL() << expression;
@@ -310,18 +314,15 @@ std::string faults_of_scene(const std::string& text) {
 }
 
 TEST(Resolution, OfExpressionsFasterThanTheStepIsToldByThePlan) {
-  const auto warnings = [](const std::string& expression, const std::string& more = "") {
-    return plan_of(
-               scene(
-                   R"({ "type": "loads.expression", "on": "z_min", "total": [0, 0, 1], "expression": ")" +
-                       expression + "\"" + more + " }",
-                   explicit_to(1e-5, 1e-7)))
+  const auto warnings = [](const char* expression, const Keys& more = {}) {
+    return plan_of(scene(expression_load(expression, more), explicit_to(1e-5, 1e-7)))
         ->model->warnings;
   };
   for (const char* slow : {"1", "t", "sin(1e6 * t)", "exp(-t / 1e-6)"})
     EXPECT_TRUE(warnings(slow).empty()) << slow;
-  EXPECT_TRUE(warnings("(t > 2.11e-6 && t < 2.12e-6) ? 1 : 0", R"(, "corners": [2.11e-6, 2.12e-6])")
-                  .size() <= 1);
+  EXPECT_TRUE(
+      warnings("(t > 2.11e-6 && t < 2.12e-6) ? 1 : 0", {{"corners", {2.11e-6, 2.12e-6}}}).size() <=
+      1);
   for (const char* fast :
        {"sin(1e9 * t)", "exp(-((t - 5.02e-6) / 4e-9)^2)", "(t > 2.11e-6 && t < 2.15e-6) ? 1 : 0"}) {
     const auto found = warnings(fast);
@@ -331,11 +332,10 @@ TEST(Resolution, OfExpressionsFasterThanTheStepIsToldByThePlan) {
 }
 
 TEST(Resolution, OfLoadsIsToldByThePlan) {
-  const auto with = [](const std::string& keys, double step) {
-    return scene(R"({ "type": "loads.actuation", "on": "z_min", "pressure": 1, )" + keys + " }",
-                 explicit_to(10e-6, step));
+  const auto with = [](const Keys& keys, double step) {
+    return scene(pressed(1, keys), explicit_to(10e-6, step));
   };
-  const auto warnings = [&](const std::string& keys) {
+  const auto warnings = [&](const Keys& keys) {
     return plan_of(with(keys, 1e-7))->model->warnings;
   };
   EXPECT_NE(faults_of_scene(with(R"("form": "harmonic", "frequency": 6e6)", 1e-7))
@@ -349,14 +349,12 @@ TEST(Resolution, OfLoadsIsToldByThePlan) {
   EXPECT_TRUE(
       warnings(R"("form": "triangle", "rise": 1e-6, "fall": 1e-6, "period": 2e-6, "pulses": 4)")
           .empty());
-  std::string times, values;  // the samples are closer than steps, and their shape varies slowly
+  Json times, values;  // the samples are closer than steps, and their shape varies slowly
   for (int n = 0; n <= 100; ++n) {
-    times += (n == 0 ? "" : ", ") + text(n * 5e-8);
-    values += (n == 0 ? "" : ", ") + text(std::sin(std::numbers::pi * n / 100));
+    times.push_back(n * 5e-8);
+    values.push_back(std::sin(std::numbers::pi * n / 100));
   }
-  EXPECT_TRUE(
-      warnings(R"("form": "table", "times": [)" + times + R"(], "values": [)" + values + "]")
-          .empty());
+  EXPECT_TRUE(warnings({{"form", "table"}, {"times", times}, {"values", values}}).empty());
   for (const char* keys :
        {R"("form": "harmonic", "frequency": 1e6)",
         R"("form": "triangle", "rise": 1e-7, "fall": 1e-6)",

@@ -21,16 +21,16 @@ struct ExactKernel {
 
 struct ShapeCase {
   const char* name;
-  const char* shape;  ///< lengths in spacings, here 1 m
+  Json shape;  ///< lengths in spacings, here 1 m
 };
+Json sphere(double radius) { return {{"sphere", {{"radius", radius}}}}; }
 const ShapeCase shapes[] = {
-    {"box", R"({ "box": { "low": [0, 0, 0], "high": [35, 5, 6] } })"},
-    {"whole_vectors", R"({ "box": { "low": [0, 0, 0], "high": [16, 4, 4] } })"},
-    {"column", R"({ "box": { "low": [0, 0, 0], "high": [1, 3, 9] } })"},
-    {"sheet", R"({ "box": { "low": [0, 0, 0], "high": [25, 1, 7] } })"},
-    {"hollow_sphere",
-     R"({ "difference": [{ "sphere": { "radius": 9.2 } }, { "sphere": { "radius": 4.1 } }] })"},
-    {"leaning", R"({ "cylinder": { "start": [0, 0, 0], "end": [20, 6, 9], "radius": 3.3 } })"},
+    {"box", box({}, {35, 5, 6})},
+    {"whole_vectors", box({}, {16, 4, 4})},
+    {"column", box({}, {1, 3, 9})},
+    {"sheet", box({}, {25, 1, 7})},
+    {"hollow_sphere", {{"difference", {sphere(9.2), sphere(4.1)}}}},
+    {"leaning", {{"cylinder", {{"start", {0, 0, 0}}, {"end", {20, 6, 9}}, {"radius", 3.3}}}}},
 };
 
 struct Variant {
@@ -57,14 +57,15 @@ class Kernels : public testing::TestWithParam<std::tuple<ShapeCase, Variant, con
   /// A plan of the case, spacing 1 m.
   std::unique_ptr<Plan> plan(const char* precision = "double") const {
     const auto& [shape, variant, boundary] = GetParam();
-    return plan_of(R"({ "format": "hyperlattice/1", "precision": ")" + std::string(precision) +
-                   R"(", "pipeline": [
-      { "type": "lattices.cubic", "boundary": ")" +
-                   std::string(boundary) + R"(", "spacing": 1, "anchor": [0, 0, 0], "shape": )" +
-                   shape.shape + R"( },
-      { "type": "materials.elastic", "young": 1e10, "density": 2500, )" +
-                   variant.material + " }" + variant.more +
-                   R"(, { "type": "solvers.explicit", "end_time": 1 } ] })");
+    return plan_of(SceneBuilder{}
+                       .key("precision", precision)
+                       .lattice("lattices.cubic", 1, shape.shape,
+                                {{"boundary", boundary}, {"anchor", {0, 0, 0}}})
+                       .material("materials.elastic",
+                                 Keys{{"young", 1e10}, {"density", 2500}} + variant.material)
+                       .stages(variant.more)
+                       .solver("solvers.explicit", {{"end_time", 1}})
+                       .text());
   }
 };
 INSTANTIATE_TEST_SUITE_P(All, Kernels,

@@ -19,16 +19,20 @@ const LawCase laws[] = {
      R"("type": "materials.softening", "strength": 3e6, "fracture_energy": 5, "membrane": "I-m", "poisson": 0.1)"},
 };
 
-std::string scene_of(const std::string& shape, const std::string& material,
-                     const std::string& stages, const std::string& boundary = "particles") {
-  return law_scene(R"({ "type": "lattices.cubic", "spacing": 1e-3, "boundary": ")" + boundary +
-                       R"(", "shape": )" + shape + " }",
-                   material, stages);
+std::string scene_of(const Json& shape, const Keys& material, const Stages& stages = {},
+                     const std::string& boundary = "particles") {
+  return law_scene(
+      stage("lattices.cubic", {{"spacing", 1e-3}, {"boundary", boundary}, {"shape", shape}}),
+      material, stages);
 }
-const std::string block_of_particles =
-    R"({ "box": { "low": [0, 0, 0], "high": [5e-3, 4e-3, 6e-3] } })";
-const std::string pair_of_particles =
-    R"({ "box": { "low": [0, 0, 0], "high": [1e-3, 1e-3, 2e-3] } })";
+const Json block_of_particles = box_mm(5, 4, 6), pair_of_particles = box_mm(1, 1, 2);
+
+/// Holds the lower end and moves the upper end along z.
+Stages drawn(double displacement, double rise) {
+  return stage("loads.fixed", {{"on", "z_min"}}) +
+         stage("loads.displacement",
+               {{"on", "z_max"}, {"value", Vec3{0, 0, displacement}}, {"rise", rise}});
+}
 
 /// k of the base springs in a lattice without a membrane, E = 10 GPa, spacing 1 mm.
 constexpr double stiffness = 0.4 * 1e10 * 1e-3;
@@ -37,7 +41,7 @@ constexpr double stiffness = 0.4 * 1e10 * 1e-3;
 
 TEST(Laws, ViscousPairOscillatesAsTheDampedOscillator) {
   const auto plan = plan_of(scene_of(
-      pair_of_particles, R"("type": "materials.viscous", "time": 1e-8, "membrane": "none")", ""));
+      pair_of_particles, {{"type", "materials.viscous"}, {"time", 1e-8}, {"membrane", "none"}}));
   Simulation simulation(*plan->model, 1);
   simulation.set_velocities({0, 0, -1, 0, 0, 1}, {});
   const double mass = 2500e-9, omega = std::sqrt(2 * stiffness / mass), ratio = omega * 1e-8 / 2,
@@ -63,8 +67,8 @@ TEST(Laws, ViscousPairOscillatesAsTheDampedOscillator) {
 TEST(Laws, RelaxingPairLosesItsForce) {
   const auto plan = plan_of(scene_of(
       pair_of_particles,
-      R"("type": "materials.relaxing", "time": 1e-6, "share": 0.6, "membrane": "none")",
-      R"(, { "type": "loads.fixed", "on": "z_min" }, { "type": "loads.displacement", "on": "z_max", "value": [0, 0, 1e-7], "rise": 1e-8 })"));
+      {{"type", "materials.relaxing"}, {"time", 1e-6}, {"share", 0.6}, {"membrane", "none"}},
+      drawn(1e-7, 1e-8)));
   Simulation simulation(*plan->model, 1);
   const double step = 1e-8;
   for (int n = 1; n <= 300; ++n) {
@@ -78,10 +82,12 @@ TEST(Laws, RelaxingPairLosesItsForce) {
 }
 
 TEST(Laws, SofteningLayersTakeTheFractureEnergyApart) {
-  const auto plan = plan_of(scene_of(
-      R"({ "box": { "low": [0, 0, 0], "high": [10e-3, 10e-3, 2e-3] } })",
-      R"("type": "materials.softening", "strength": 3e6, "fracture_energy": 2, "membrane": "none")",
-      R"(, { "type": "loads.fixed", "on": "z_min" }, { "type": "loads.displacement", "on": "z_max", "value": [0, 0, 1e-5], "rise": 1e-4 })"));
+  const auto plan = plan_of(scene_of(box_mm(10, 10, 2),
+                                     {{"type", "materials.softening"},
+                                      {"strength", 3e6},
+                                      {"fracture_energy", 2},
+                                      {"membrane", "none"}},
+                                     drawn(1e-5, 1e-4)));
   Simulation simulation(*plan->model, 1);
   for (int n = 0; n < 2000; ++n) simulation.step(5e-8);
   const EnergyBalance balance = simulation.balance();
@@ -100,12 +106,13 @@ TEST(Laws, PlasticBarYieldsAtTheStatedStress) {
   for (const char* membrane :
        {R"("membrane": "none")", R"("membrane": "I-m", "poisson": 0.1)",
         R"("membrane": "II", "poisson": 0.1)", R"("membrane": "IV", "poisson": 0.1)"}) {
-    const auto plan = plan_of(scene_of(
-        R"({ "box": { "low": [0, 0, 0], "high": [6e-3, 3e-3, 3e-3] } })",
-        R"("type": "materials.plastic", "yield": 2e6, )" + std::string(membrane),
-        R"(, { "type": "loads.displacement", "on": "x_min", "value": [0, 0, 0], "axes": "x", "rise": 1e-4 },
-                                        { "type": "loads.displacement", "on": "x_max", "value": [3.6e-6, 0, 0], "axes": "x", "rise": 4e-4 })",
-        "cells"));
+    const auto moved = [](const char* on, double by, double rise) {
+      return stage("loads.displacement",
+                   {{"on", on}, {"value", Vec3{by, 0, 0}}, {"axes", "x"}, {"rise", rise}});
+    };
+    const auto plan = plan_of(
+        scene_of(box_mm(6, 3, 3), Keys{{"type", "materials.plastic"}, {"yield", 2e6}} + membrane,
+                 moved("x_min", 0, 1e-4) + moved("x_max", 3.6e-6, 4e-4), "cells"));
     Simulation simulation(*plan->model, 1);
     simulation.set_damping(0.8);
     const double area = 9e-6, step = 0.5 * plan->model->critical_time_step,
@@ -132,7 +139,7 @@ INSTANTIATE_TEST_SUITE_P(All, MovingLaw, testing::ValuesIn(laws),
                          [](const auto& info) { return info.param.name; });
 
 TEST_P(MovingLaw, KeepsTheBooks) {
-  const auto plan = plan_of(scene_of(block_of_particles, GetParam().material, ""));
+  const auto plan = plan_of(scene_of(block_of_particles, GetParam().material));
   const Ended coarse = shaken(*plan, 0.4, 200, 1), fine = shaken(*plan, 0.1, 800, 1);
   EXPECT_GT(fine.balance.dissipated(), 0.02 * fine.balance.scale);
   EXPECT_LT(std::abs(fine.balance.relative_error()), 1e-4);
@@ -140,12 +147,12 @@ TEST_P(MovingLaw, KeepsTheBooks) {
 }
 
 TEST_P(MovingLaw, GivesTheSameBitsForAnyNumberOfThreads) {
-  for (const char* more : {"", law_failure}) {
+  for (const bool breaks : {false, true}) {
     const std::string scene =
-        scene_of(block_of_particles, std::string(GetParam().material) + more, "");
+        scene_of(block_of_particles, GetParam().material + (breaks ? law_failure : Keys{}));
     for (const auto& plan : {plan_of(scene), plan_of(in_floats(scene))}) {
       const Ended one = shaken(*plan, 0.4, 100, 1);
-      EXPECT_EQ(*more != '\0', one.broken > 0);
+      EXPECT_EQ(breaks, one.broken > 0);
       for (const int threads : {2, 3, 6})
         EXPECT_EQ(shaken(*plan, 0.4, 100, threads).hash, one.hash) << threads;
     }
@@ -153,8 +160,7 @@ TEST_P(MovingLaw, GivesTheSameBitsForAnyNumberOfThreads) {
 }
 
 TEST_P(MovingLaw, KeepsTheBooksWhileSpringsBreak) {
-  const std::string scene =
-      scene_of(block_of_particles, GetParam().material + std::string(law_failure), "");
+  const std::string scene = scene_of(block_of_particles, GetParam().material + law_failure);
   for (const auto& plan : {plan_of(scene), plan_of(in_floats(scene))}) {
     const Ended ended = shaken(*plan, 0.1, 400, 2);
     EXPECT_GT(ended.broken, 10u);
@@ -166,7 +172,7 @@ TEST_P(MovingLaw, KeepsTheBooksWhileSpringsBreak) {
 // forces, up to the rounding of the velocities.
 TEST_P(MovingLaw, GivesInFloatsTheForcesOfDoubles) {
   for (const char* boundary : {"particles", "cells"}) {
-    const std::string scene = scene_of(block_of_particles, GetParam().material, "", boundary);
+    const std::string scene = scene_of(block_of_particles, GetParam().material, {}, boundary);
     const auto doubles = plan_of(scene), floats = plan_of(in_floats(scene));
     LedBody exact(*doubles->model), rounded(*floats->model, 2);
     std::vector<double> u(3 * doubles->model->body.particles, 0.0);
@@ -180,7 +186,7 @@ TEST_P(MovingLaw, GivesInFloatsTheForcesOfDoubles) {
 }
 
 TEST_P(MovingLaw, KeepsTheBooksInFloats) {
-  const auto plan = plan_of(in_floats(scene_of(block_of_particles, GetParam().material, "")));
+  const auto plan = plan_of(in_floats(scene_of(block_of_particles, GetParam().material)));
   const Ended fine = shaken(*plan, 0.1, 800, 1);
   EXPECT_GT(fine.balance.dissipated(), 0.02 * fine.balance.scale);
   EXPECT_LT(std::abs(fine.balance.relative_error()), 1e-4);
@@ -197,7 +203,7 @@ Fault refused(const std::string& scene) {
 
 TEST(Laws, RefuseWhatTheyCannotDo) {
   const auto expected = [](const char* material) {
-    return refused(scene_of(block_of_particles, material, "")).expected;
+    return refused(scene_of(block_of_particles, material)).expected;
   };
   EXPECT_NE(
       expected(

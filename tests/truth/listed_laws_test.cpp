@@ -57,9 +57,10 @@ struct Pairs {
 TEST_P(ListedLaw, BothEndsOfASpringKeepTheSameBits) {
   const Pairs pairs;
   const ListFiles files(pairs.places, pairs.springs);
-  for (const char* failure : {"", law_failure})
+  for (const bool breaks : {false, true})
     for (const bool floats : {false, true}) {
-      std::string scene = law_scene(files.lattice(), std::string(GetParam().material) + failure);
+      const std::string scene =
+          law_scene(files.lattice(), GetParam().material + (breaks ? law_failure : Keys{}));
       const auto plan = plan_of(floats ? in_floats(scene) : scene);
       const Model& model = *plan->model;
       LedBody body(model, 3);
@@ -75,7 +76,7 @@ TEST_P(ListedLaw, BothEndsOfASpringKeepTheSameBits) {
             pulling += forces[3 * spring.a + c] != 0 ? 1 : 0;
           }
       }
-      EXPECT_EQ(removed_springs(body.simulation()) == 0, *failure == '\0');
+      EXPECT_EQ(removed_springs(body.simulation()) == 0, !breaks);
       EXPECT_GT(pulling, 3u * Pairs::number * 20);
     }
 }
@@ -85,9 +86,9 @@ TEST_P(ListedLaw, BothEndsOfASpringKeepTheSameBits) {
 TEST(ListedLaws, StiffnessScattersByTheNamesOfPoints) {
   const Pairs pairs;
   const ListFiles files(pairs.places, pairs.springs);
-  const auto plan = plan_of(
-      law_scene(files.lattice(),
-                R"("type": "materials.scattered", "modulus": 3, "seed": 7, "membrane": "none")"));
+  const auto plan = plan_of(law_scene(
+      files.lattice(),
+      {{"type", "materials.scattered"}, {"modulus", 3}, {"seed", 7}, {"membrane", "none"}}));
   const Model& model = *plan->model;
   const std::vector<double> u = noise(3 * model.body.particles, 1e-6, 1),
                             forces = LedBody(model, 2).forces(u);
@@ -112,7 +113,7 @@ TEST(ListedLaws, StiffnessScattersByTheNamesOfPoints) {
 TEST(ListedLaws, AViscousPairOscillatesAsTheDampedOscillator) {
   const ListFiles files({{0, 0, 0}, {0, 0.6, 0.8}}, {{0, 1}});
   const auto plan = plan_of(law_scene(
-      files.lattice(), R"("type": "materials.viscous", "time": 1e-8, "membrane": "none")"));
+      files.lattice(), {{"type", "materials.viscous"}, {"time", 1e-8}, {"membrane", "none"}}));
   const Model& model = *plan->model;
   const double stiffness = model.spring_properties(0, 1, 0).stiffness, mass = model.mass(0),
                omega = std::sqrt(2 * stiffness / mass), ratio = omega * 1e-8 / 2,
@@ -145,9 +146,9 @@ TEST(ListedLaws, AViscousPairOscillatesAsTheDampedOscillator) {
 // the force of one spring does.
 TEST(ListedLaws, AStrainedRandomBlockLosesItsForces) {
   for (const char* membrane : {R"("membrane": "none")", R"("membrane": "III", "lambda": 2)"}) {
-    const auto plan = plan_of(law_scene(
-        random_lattice(6, 5, 4),
-        R"("type": "materials.relaxing", "time": 1e-6, "share": 0.6, )" + std::string(membrane)));
+    const auto plan = plan_of(
+        law_scene(random_lattice(6, 5, 4),
+                  Keys{{"type", "materials.relaxing"}, {"time", 1e-6}, {"share", 0.6}} + membrane));
     LedBody body(*plan->model, 2);
     const std::vector<double> u = noise(3 * plan->model->body.particles, 1e-7, 1),
                               first = body.forces(u);
@@ -160,15 +161,15 @@ TEST(ListedLaws, AStrainedRandomBlockLosesItsForces) {
 
 // Two halves are drawn apart until no spring joins them.
 TEST(ListedLaws, ASofteningRandomBlockTakesTheFractureEnergyApart) {
-  const char* halves =
-      R"(, { "type": "loads.fixed", "on": { "box": { "low": [0, 0, 0], "high": [5e-3, 1, 1] } } },
-    { "type": "loads.displacement", "on": { "box": { "low": [5e-3, 0, 0], "high": [1, 1, 1] } }, "value": [1e-4, 0, 0], "rise": 1e-4 })";
+  const Stages halves =
+      stage("loads.fixed", {{"on", box({}, {5e-3, 1, 1})}}) +
+      stage("loads.displacement",
+            {{"on", box({5e-3, 0, 0}, {1, 1, 1})}, {"value", {1e-4, 0, 0}}, {"rise", 1e-4}});
   for (const char* membrane : {R"("membrane": "none")", R"("membrane": "III", "lambda": 2)"}) {
-    const auto plan = plan_of(
-        law_scene(random_lattice(10, 16, 16),
-                  R"("type": "materials.softening", "strength": 3e6, "fracture_energy": 5, )" +
-                      std::string(membrane),
-                  halves));
+    const auto plan = plan_of(law_scene(
+        random_lattice(10, 16, 16),
+        Keys{{"type", "materials.softening"}, {"strength", 3e6}, {"fracture_energy", 5}} + membrane,
+        halves));
     Simulation simulation(*plan->model, 2);
     for (int n = 0; n < 1000; ++n) simulation.step(1e-7);
     const double expected = 5 * 16e-3 * 16e-3;
@@ -183,42 +184,32 @@ TEST(ListedLaws, ASofteningRandomBlockTakesTheFractureEnergyApart) {
 
 // The grid.
 
-/// A number with all digits.
-std::string text(double number) {
-  char digits[32];
-  std::snprintf(digits, sizeof digits, "%.17g", number);
-  return digits;
-}
-
 /// A block of the cubic lattice as a grid and as a list.
 struct LawTwins {
   std::unique_ptr<Plan> grid, list;
   InGrid in_grid;
 
-  LawTwins(int nx, int ny, int nz, const std::string& law, const std::string& more) {
+  LawTwins(int nx, int ny, int nz, const std::string& law, const Keys& more) {
     const ListFiles files(nx, ny, nz);
-    const std::string shape = R"({ "box": { "low": [0, 0, 0], "high": [)" + std::to_string(nx) +
-                              "e-3, " + std::to_string(ny) + "e-3, " + std::to_string(nz) +
-                              "e-3] } }";
-    const auto scene = [&](const std::string& lattice, double scale, double fracture) {
-      const auto material = [&](double stiff, const std::string& where) {
-        std::string keys = R"({ "type": "materials.)" + law + R"(", "density": 2500, "young": )" +
-                           text(stiff * scale * 1e10) + where;
-        if (law == "viscous") keys += R"(, "time": )" + text(stiff) + "e-7";
-        if (law == "relaxing") keys += R"(, "time": 1e-6, "share": )" + text(0.4 * stiff);
+    const auto scene = [&](const Stages& lattice, double scale, double fracture) {
+      const auto material = [&](double stiff, const Keys& where) {
+        Keys keys;
+        if (law == "viscous") keys = {{"time", stiff * 1e-7}};
+        if (law == "relaxing") keys = {{"time", 1e-6}, {"share", 0.4 * stiff}};
         if (law == "softening")
-          keys += R"(, "strength": )" + text(stiff * scale * 3e6) + R"(, "fracture_energy": )" +
-                  text(stiff * fracture);
-        return keys + ", " + more + " }";
+          keys = {{"strength", stiff * scale * 3e6}, {"fracture_energy", stiff * fracture}};
+        return stage("materials." + law, Keys{{"density", 2500}, {"young", stiff * scale * 1e10}} +
+                                             where + keys + more);
       };
-      return R"({ "format": "hyperlattice/1", "pipeline": [ )" + lattice + ", " + material(1, "") +
-             ", " +
-             material(2, R"(, "region": { "box": { "low": [0, 0, 0], "high": [1, 1, 3e-3] } })") +
-             R"(, { "type": "solvers.explicit", "end_time": 1 } ] })";
+      return SceneBuilder{}
+          .stages(lattice)
+          .stages(material(1, {}) + material(2, {{"region", box({}, {1, 1, 3e-3})}}))
+          .solver("solvers.explicit", {{"end_time", 1}})
+          .text();
     };
     const auto opening = [](const Plan& plan) { return plan.model->springs[0].law[0][1]; };
     grid = plan_of(
-        scene(R"({ "type": "lattices.cubic", "spacing": 1e-3, "shape": )" + shape + " }", 1, 5));
+        scene(stage("lattices.cubic", {{"spacing", 1e-3}, {"shape", box_mm(nx, ny, nz)}}), 1, 5));
     list = plan_of(scene(files.lattice(), 1, 5));
     const double scale = grid->model->springs[0].stiffness / list->model->springs[0].stiffness;
     list = plan_of(scene(files.lattice(), scale,
@@ -254,7 +245,7 @@ TEST(ListedLaws, TheCubicLatticeAsAListMovesAsTheGrid) {
 
 // Bodies in motion.
 
-std::string random_scene(const std::string& material) {
+std::string random_scene(const Keys& material) {
   return law_scene(random_lattice(6, 5, 6), material);
 }
 
@@ -273,15 +264,14 @@ TEST_P(ListedLaw, KeepsMomentumAndTheBooks) {
 }
 
 TEST_P(ListedLaw, KeepsTheBooksWhileSpringsBreak) {
-  const auto plan = plan_of(random_scene(std::string(GetParam().material) + law_failure));
+  const auto plan = plan_of(random_scene(GetParam().material + law_failure));
   const Ended ended = shaken(*plan, 0.1, 400, 2);
   EXPECT_GT(ended.broken, 10u);
   EXPECT_LT(std::abs(ended.balance.relative_error()), 2e-3);
 }
 
 TEST_P(ListedLaw, GivesTheSameBitsForAnyNumberOfThreads) {
-  const std::string scene =
-      law_scene(random_lattice(9, 8, 7), std::string(GetParam().material) + law_failure);
+  const std::string scene = law_scene(random_lattice(9, 8, 7), GetParam().material + law_failure);
   for (const auto& plan : {plan_of(scene), plan_of(in_floats(scene))}) {
     const Ended one = shaken(*plan, 0.4, 100, 1);
     EXPECT_GT(one.broken, 10u);
@@ -297,7 +287,7 @@ TEST_P(ListedLaw, GivesTheSameBitsForAnyNumberOfThreads) {
 
 TEST(ListedLaws, PlasticSpringsOfAllDirectionsAreRefused) {
   try {
-    plan_of(random_scene(R"("type": "materials.plastic", "yield": 3e6, "membrane": "none")"));
+    plan_of(random_scene({{"type", "materials.plastic"}, {"yield", 3e6}, {"membrane", "none"}}));
     FAIL() << "it was planned";
   } catch (const InputError& error) {
     EXPECT_NE(error.faults().front().expected.find("structured lattice"), std::string::npos)

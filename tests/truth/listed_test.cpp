@@ -19,6 +19,18 @@ const MembraneCase with_one_ratio[] = {
 INSTANTIATE_TEST_SUITE_P(Membranes, ListedMembrane, testing::ValuesIn(with_one_ratio),
                          [](const auto& info) { return std::string(info.param.name); });
 
+Keys limit_of_elongation(double limit) {
+  return {{"failure", {{"type", "failures.elongation"}, {"limit", limit}}}};
+}
+Stages fixed(const char* on) { return stage("loads.fixed", {{"on", on}}); }
+Stages gravity(Vec3 acceleration) {
+  return stage("loads.gravity", {{"acceleration", acceleration}});
+}
+/// A force on the particles above z = 6 mm.
+Stages force_above(Vec3 total) {
+  return stage("loads.force", {{"on", box({0, 0, 6e-3}, {1, 1, 1})}, {"total", total}});
+}
+
 /// The keys without k_gamma, which lists do not have.
 std::string keys_for_list(const std::string& material) {
   const auto gamma = material.find(R"(, "k_gamma")"), poisson = material.find(R"("poisson": 0.25)");
@@ -31,8 +43,8 @@ struct Twins {
   std::unique_ptr<Plan> grid, list;
   InGrid in_grid;
 
-  Twins(int nx, int ny, int nz, const std::string& material, const std::string& failure = "",
-        const std::string& stages = "") {
+  Twins(int nx, int ny, int nz, const std::string& material, const Keys& failure = {},
+        const Stages& stages = {}) {
     const ListFiles files(nx, ny, nz);
     grid = plan_of(block(nx, ny, nz, material + failure, stages));
     const auto scene = [&](double young) {
@@ -67,9 +79,8 @@ TEST(ListedLoads, AnswerToAListAsToTheGrid) {
 }
 
 TEST_P(ListedMembrane, TheCubicLatticeAsAListMovesAsTheGrid) {
-  const Twins twins(5, 6, 7, GetParam().material, "",
-                    R"({ "type": "loads.gravity", "acceleration": [0, 0, -9.81] },
-    { "type": "loads.fixed", "on": "z_min" }, { "type": "loads.force", "on": { "box": { "low": [0, 0, 6e-3], "high": [1, 1, 1] } }, "total": [10, 0, 20] })");
+  const Twins twins(5, 6, 7, GetParam().material, {},
+                    gravity({0, 0, -9.81}) + fixed("z_min") + force_above({10, 0, 20}));
   const Model& model = *twins.grid->model;
   ASSERT_TRUE(twins.list->model->body.is_listed());
   ASSERT_EQ(twins.list->model->body.particles, model.body.particles);
@@ -96,8 +107,7 @@ TEST_P(ListedMembrane, TheCubicLatticeAsAListMovesAsTheGrid) {
 }
 
 TEST_P(ListedMembrane, TheSameSpringsBreakInAListAndInAGrid) {
-  const Twins twins(6, 5, 4, GetParam().material,
-                    R"(, "failure": { "type": "failures.elongation", "limit": 1.5e-6 })");
+  const Twins twins(6, 5, 4, GetParam().material, limit_of_elongation(1.5e-6));
   const Model& model = *twins.grid->model;
   Simulation grid(model, 2), list(*twins.list->model, 3);
   for (Simulation* simulation : {&grid, &list}) {
@@ -150,11 +160,9 @@ TEST_P(RandomBlock, KeepsMomentumAndTheSchemesEnergy) {
 }
 
 TEST_P(RandomBlock, HasTheSameBitsForAnyNumberOfThreads) {
-  const std::string scene = listed_scene(
-      random_lattice(9, 8, 7),
-      std::string(GetParam().material) +
-          R"(, "failure": { "type": "failures.elongation", "limit": 1.5e-6 })",
-      R"({ "type": "loads.gravity", "acceleration": [0, 0, -9.81] }, { "type": "loads.fixed", "on": "z_min" })");
+  const std::string scene =
+      listed_scene(random_lattice(9, 8, 7), GetParam().material + limit_of_elongation(1.5e-6),
+                   gravity({0, 0, -9.81}) + fixed("z_min"));
   for (const auto& plan : {plan_of(scene), plan_of(in_floats(scene))}) {
     std::vector<std::uint64_t> hashes;
     std::vector<double> energies;
@@ -179,12 +187,9 @@ TEST_P(RandomBlock, HasTheSameBitsForAnyNumberOfThreads) {
 }
 
 TEST_P(RandomBlock, FloatsGiveTheForcesAndTheEnergyOfDoubles) {
-  const std::string box = R"("low": [0, 0, 0], "high": [6e-3)",
-                    far_box = R"("low": [10, 0, 0], "high": [10.006)";
   // The body is far from the origin, which must not matter.
-  std::string lattice = random_lattice(6, 5, 4);
-  lattice.replace(lattice.find(box), box.size(), far_box);
-  const std::string scene = listed_scene(lattice, GetParam().material);
+  const Keys far_box = {{"shape", box({10, 0, 0}, {10.006, 5e-3, 4e-3})}};
+  const std::string scene = listed_scene(random_lattice(6, 5, 4, far_box), GetParam().material);
   const auto after_a_step = [](const Plan& plan, double size) {
     Simulation simulation(*plan.model, 1);
     std::vector<double> start = noise(3 * plan.model->body.particles, size, 1), found;
@@ -206,10 +211,8 @@ TEST_P(RandomBlock, FloatsGiveTheForcesAndTheEnergyOfDoubles) {
 }
 
 TEST_P(RandomBlock, TheSeriesGivesTheForcesOfTheRoot) {
-  const auto plan =
-      plan_of(listed_scene(random_lattice(6, 5, 4),
-                           std::string(GetParam().material) +
-                               R"(, "failure": { "type": "failures.elongation", "limit": 3e-4 })"));
+  const auto plan = plan_of(
+      listed_scene(random_lattice(6, 5, 4), GetParam().material + limit_of_elongation(3e-4)));
   const auto velocities = [&](double size) {
     Simulation simulation(*plan->model, 1);
     simulation.set_displacements(noise(3 * plan->model->body.particles, size, 1), {});
@@ -242,10 +245,8 @@ TEST_P(RandomBlock, IsStableUpToItsCriticalStep) {
 
 TEST_P(RandomBlock, EnergyBalancesWhenSpringsBreak) {
   const auto plan = plan_of(listed_scene(
-      random_lattice(8, 6, 6),
-      std::string(GetParam().material) +
-          R"(, "failure": { "type": "failures.elongation", "limit": 1e-6 })",
-      R"({ "type": "loads.velocity", "on": "x_max", "value": [1, 0, 0] }, { "type": "loads.fixed", "on": "x_min" })"));
+      random_lattice(8, 6, 6), GetParam().material + limit_of_elongation(1e-6),
+      stage("loads.velocity", {{"on", "x_max"}, {"value", {1, 0, 0}}}) + fixed("x_min")));
   Simulation simulation(*plan->model, 2);
   const double step = 0.1 * plan->model->critical_time_step;
   while (simulation.time() < 2e-5) simulation.step(step);
@@ -262,51 +263,51 @@ std::vector<double> at_rest(const Plan& plan, int threads = 1, RestReport* repor
   return displacements(simulation);
 }
 
-const char* const bent = R"({ "type": "loads.fixed", "on": "z_min" },
-  { "type": "loads.force", "on": { "box": { "low": [0, 0, 6e-3], "high": [1, 1, 1] } }, "total": [100, 0, 300] },)";
-
 TEST_P(ListedMembrane, TheCubicLatticeAsAListRestsAsTheGrid) {
-  for (const std::string preconditioner : {"whole", "incomplete", "multigrid"}) {
+  for (const char* preconditioner : {"whole", "incomplete", "multigrid"}) {
     const Twins twins(
-        5, 6, 7, GetParam().material, "",
-        bent +
-            std::string(R"({ "type": "solvers.static", "tolerance": 1e-9, "preconditioner": ")") +
-            preconditioner + R"(" })");
+        5, 6, 7, GetParam().material, {},
+        fixed("z_min") + force_above({100, 0, 300}) +
+            stage("solvers.static", {{"tolerance", 1e-9}, {"preconditioner", preconditioner}}));
     const std::vector<double> grid = at_rest(*twins.grid), list = at_rest(*twins.list);
     EXPECT_LT(distance(twins.in_grid.for_list(grid), list), 1e-7 * largest(grid))
         << preconditioner;  // tangents are in single precision
   }
 }
 
+/// Moves the particles of z_max along z.
+Stages moved_end(double by) {
+  return stage("loads.displacement",
+               {{"on", "z_max"}, {"axes", "z"}, {"value", Vec3{0, 0, by}}, {"rise", 1e-9}});
+}
+
 // Layers of equal springs share a pull evenly, so that the displacement is linear. This is the
 // patch test of a list.
 TEST(ListedStatics, UniaxialStrainIsUniform) {
   const ListFiles files(4, 4, 9);
-  const auto plan = plan_of(listed_scene(files.lattice(), R"("membrane": "none")",
-                                         R"({ "type": "loads.fixed", "on": "all", "axes": "xy" },
-    { "type": "loads.fixed", "on": "z_min", "axes": "z", "name": "end" }, { "type": "loads.displacement", "on": "z_max", "axes": "z", "value": [0, 0, 1e-5],
-      "rise": 1e-9 }, { "type": "solvers.static", "tolerance": 1e-10 })"));
+  const auto plan = plan_of(
+      listed_scene(files.lattice(), {{"membrane", "none"}},
+                   stage("loads.fixed", {{"on", "all"}, {"axes", "xy"}}) +
+                       stage("loads.fixed", {{"on", "z_min"}, {"axes", "z"}, {"name", "end"}}) +
+                       moved_end(1e-5) + stage("solvers.static", {{"tolerance", 1e-10}})));
   const std::vector<double> u = at_rest(*plan);
   for (Particle p = 0; p < plan->model->body.particles; ++p)
     EXPECT_NEAR(u[3 * p + 2], 1e-5 * (plan->model->body.position(p).z - 0.5e-3) / 8e-3, 1e-13);
 }
 
-std::string pulled_random_block(int n, const std::string& solver) {
-  return listed_scene(random_lattice(n, n, n), R"("membrane": "I", "poisson": 0.2)",
-                      R"({ "type": "loads.fixed", "on": "z_min" },
-    { "type": "loads.displacement", "on": "z_max", "axes": "z", "value": [0, 0, 1e-6], "rise": 1e-9 },)" +
-                          solver);
+std::string pulled_random_block(int n, const Stages& solver) {
+  return listed_scene(random_lattice(n, n, n), {{"membrane", "I"}, {"poisson", 0.2}},
+                      fixed("z_min") + moved_end(1e-6) + solver);
 }
 
 // The body also has particles on one or two springs, which no force drives.
 TEST(ListedStatics, RelaxationAgrees) {
   RestReport quick, slow;
   const auto found = at_rest(
-      *plan_of(pulled_random_block(7, R"({ "type": "solvers.static", "tolerance": 1e-9 })")), 1,
-      &quick);
+      *plan_of(pulled_random_block(7, stage("solvers.static", {{"tolerance", 1e-9}}))), 1, &quick);
   const auto relaxed = at_rest(
       *plan_of(pulled_random_block(
-          7, R"({ "type": "solvers.relaxation", "method": "accelerated", "tolerance": 1e-7 })")),
+          7, stage("solvers.relaxation", {{"method", "accelerated"}, {"tolerance", 1e-7}}))),
       1, &slow);
   EXPECT_LT(distance(found, relaxed), 1e-3 * largest(found));
   std::printf("%llu iterations, %llu steps, largest difference %.1e\n",
@@ -316,17 +317,14 @@ TEST(ListedStatics, RelaxationAgrees) {
 }
 
 TEST(ListedStatics, ResultsDoNotDependOnThreads) {
-  const std::string scene =
-      pulled_random_block(17, R"({ "type": "solvers.static", "tolerance": 1e-4 })");
+  const std::string scene = pulled_random_block(17, stage("solvers.static", {{"tolerance", 1e-4}}));
   EXPECT_EQ(at_rest(*plan_of(scene, 1), 1), at_rest(*plan_of(scene, 3), 3));
 }
 
 TEST(ListedStatics, ABodyThatNothingHoldsIsToldHowItMoves) {
   const ListFiles files(4, 4, 4);
-  const auto plan =
-      plan_of(listed_scene(files.lattice(), R"("membrane": "none")",
-                           R"({ "type": "loads.gravity", "acceleration": [0, -9.81, 0] },
-    { "type": "solvers.static" })"));
+  const auto plan = plan_of(listed_scene(files.lattice(), {{"membrane", "none"}},
+                                         gravity({0, -9.81, 0}) + stage("solvers.static")));
   try {
     at_rest(*plan);
     FAIL() << "it came to rest";

@@ -9,6 +9,23 @@ namespace {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
+/// A column of cells, 1 m each, held at its lower end, with more stages.
+std::string column(Vec3 size, const Stages& stages) {
+  return SceneBuilder{}
+      .lattice("lattices.cubic", 1, box({}, size), {{"boundary", "cells"}})
+      .stages(elastic(1e9, {{"membrane", "none"}}))
+      .load("loads.fixed", {{"on", "z_min"}})
+      .stages(stages)
+      .text();
+}
+Stages pressed(double pressure, const Keys& more = {}) {
+  return stage("loads.pressure",
+               Keys{{"on", "z_max"}, {"facing", "z_max"}, {"pressure", pressure}} + more);
+}
+Stages force(const char* on, Vec3 total, const Keys& more = {}) {
+  return stage("loads.force", Keys{{"on", on}, {"total", total}} + more);
+}
+
 struct Failure {
   std::string text;  ///< why the first solver finds no state of rest; "" if it finds one
   std::unique_ptr<Plan> plan;
@@ -55,12 +72,10 @@ double number_before(const std::string& text, const std::string& word) {
 TEST(NoRest, AColumnBucklesAtEulersLoad) {
   constexpr double young = 1e9, shear = young / 2.5, slenderness = 10, stress = 4e6;
   for (const int n : {4, 8}) {
-    const Failure failure = failing(
-        scene(R"("spacing": 1, "boundary": "cells", "shape": )" +
-                  box({}, {double(n), double(n), slenderness * n}),
-              elastic(young, R"("membrane": "none")") + R"({ "type": "loads.fixed", "on": "z_min" },
-          { "type": "loads.pressure", "on": "z_max", "facing": "z_max", "pressure": 4e6, "rise": 1 },
-          { "type": "solvers.static", "load_steps": 4, "most_cutbacks": 7 })"));
+    const Failure failure =
+        failing(column({double(n), double(n), slenderness * n},
+                       pressed(stress, {{"rise", 1}}) +
+                           stage("solvers.static", {{"load_steps", 4}, {"most_cutbacks", 7}})));
     const std::string& text = failure.text;
     const double area = n * n, euler = M_PI * M_PI * young * area * area / 12 /
                                        (4 * std::pow(slenderness * n, 2));
@@ -90,47 +105,39 @@ TEST(NoRest, AColumnBucklesAtEulersLoad) {
 
 // The option `stability` turns the check for buckling off.
 TEST(NoRest, AStraightColumnMayBeAskedToStayStraight) {
-  const AtRest column(
-      scene(R"("spacing": 1, "boundary": "cells", "shape": )" + box({}, {4, 4, 40}),
-            elastic(1e9, R"("membrane": "none")") + R"({ "type": "loads.fixed", "on": "z_min" },
-          { "type": "loads.pressure", "on": "z_max", "facing": "z_max", "pressure": 2.6e6 },
-          { "type": "solvers.static", "stability": false })"));
-  EXPECT_NEAR(column.mean(2, [](Site s) { return s.k == 40; }), -2.6e6 / 1e9 * 40, 0.01 * 0.104);
-  EXPECT_NEAR(column.mean(0, [](Site s) { return s.k == 40; }), 0, 1e-6);
+  const AtRest straight(
+      column({4, 4, 40}, pressed(2.6e6) + stage("solvers.static", {{"stability", false}})));
+  EXPECT_NEAR(straight.mean(2, [](Site s) { return s.k == 40; }), -2.6e6 / 1e9 * 40, 0.01 * 0.104);
+  EXPECT_NEAR(straight.mean(0, [](Site s) { return s.k == 40; }), 0, 1e-6);
 }
 
 // One load step bends the beam by more than a right angle. Full Newton steps fail there; steps
 // shortened by the line search succeed.
 TEST(NoRest, ShorterStepsFindWhatWholeOnesMiss) {
-  const auto bent = [](const std::string& solver) {
-    return AtRest(scene(R"("spacing": 1, "boundary": "cells", "shape": )" + box({}, {2, 2, 40}),
-                        elastic(1e9, R"("membrane": "none")") +
-                            R"({ "type": "loads.fixed", "on": "z_min" },
-                          { "type": "loads.force", "on": "z_max", "total": [1e7, 0, 0] },)" +
-                            solver))
+  const auto bent = [](const Keys& keys) {
+    return AtRest(column({2, 2, 40}, force("z_max", {1e7, 0, 0}) +
+                                         stage("solvers.static", keys + Keys{{"tolerance", 1e-9}})))
         .u;
   };
-  const auto at_once =
-      bent(R"({ "type": "solvers.static", "most_cutbacks": 0, "tolerance": 1e-9 })");
-  const auto in_steps =
-      bent(R"({ "type": "solvers.static", "load_steps": 25, "tolerance": 1e-9 })");
+  const auto at_once = bent({{"most_cutbacks", 0}});
+  const auto in_steps = bent({{"load_steps", 25}});
   EXPECT_GT(largest(at_once), 20);
   EXPECT_LT(distance(at_once, in_steps), 1e-6 * largest(in_steps));
 }
 
 TEST(NoRest, ABodyThatNothingHoldsIsToldHowItMoves) {
-  const auto pulled = [](const std::string& more) {
-    return scene(R"("spacing": 1, "shape": )" + box({}, {4, 4, 4}),
-                 elastic(1e9, R"("membrane": "I-m", "poisson": 0.1)") + more + to_rest);
+  const auto pulled = [](const Stages& more) {
+    return scene({{"spacing", 1}, {"shape", box({}, {4, 4, 4})}},
+                 elastic(1e9, {{"membrane", "I-m"}, {"poisson", 0.1}}) + more + to_rest);
   };
-  const std::string pull = R"({ "type": "loads.force", "on": "z_max", "total": [0, 0, 1e3] },)";
-  const std::string guided =
-      R"({ "type": "loads.fixed", "on": "x_min", "axes": "x" }, { "type": "loads.fixed", "on": "y_min", "axes": "y" },)";
-  for (const std::string& supports : {std::string(), guided})
+  const Stages pull = force("z_max", {0, 0, 1e3});
+  const Stages guided = stage("loads.fixed", {{"on", "x_min"}, {"axes", "x"}}) +
+                        stage("loads.fixed", {{"on", "y_min"}, {"axes", "y"}});
+  for (const Stages& supports : {Stages{}, guided})
     EXPECT_TRUE(says(failure_of(pulled(pull + supports)),
                      "the whole body can move as a rigid one: it slides along (0, 0, 1)"));
-  const std::string couple = R"({ "type": "loads.force", "on": "x_min", "total": [0, -1e3, 0] },
-                                { "type": "loads.force", "on": "x_max", "total": [0, 1e3, 0], "name": "other" },)";
+  const Stages couple =
+      force("x_min", {0, -1e3, 0}) + force("x_max", {0, 1e3, 0}, {{"name", "other"}});
   const Failure turns = failing(pulled(couple));
   EXPECT_TRUE(says(turns.text, "it turns about the axis (0, 0, 1) through (2, 2, 2) m"));
   const Body& body = turns.plan->model->body;
@@ -146,11 +153,14 @@ TEST(NoRest, ABodyThatNothingHoldsIsToldHowItMoves) {
 }
 
 std::string two_blocks(Vec3 low, Vec3 high) {
-  return scene(R"("spacing": 1e-3, "anchor": [0, 0, 0], "shape": { "union": [)" +
-                   box({}, {4e-3, 4e-3, 4e-3}) + ", " + box(low, high) + "] }",
-               elastic(1e9, R"("membrane": "none")") + R"({ "type": "loads.fixed", "on": "x_min" },
-                                    { "type": "loads.force", "on": "x_max", "total": [0, 0, 1] }, )" +
-                   R"({ "type": "solvers.static", "most_cutbacks": 2 })");
+  return SceneBuilder{}
+      .lattice("lattices.cubic", 1e-3, {{"union", {box_mm(4, 4, 4), box(low, high)}}},
+               {{"anchor", {0, 0, 0}}})
+      .stages(elastic(1e9, {{"membrane", "none"}}))
+      .load("loads.fixed", {{"on", "x_min"}})
+      .stages(force("x_max", {0, 0, 1}))
+      .solver("solvers.static", {{"most_cutbacks", 2}})
+      .text();
 }
 
 TEST(NoRest, ALoosePieceIsNamed) {

@@ -66,8 +66,8 @@ TEST(RandomLattice, FewNeighboursGiveMoreThanAQuarter) {  // paper, section 2.4
 
 TEST(RandomLattice, HasWhatItsOptionsSay) {
   const auto plan =
-      plan_of(listed_scene(random_lattice(8, 7, 9, R"("coordination": 10, "min_distance": 0.7)"),
-                           R"("membrane": "none")"));
+      plan_of(listed_scene(random_lattice(8, 7, 9, {{"coordination", 10}, {"min_distance", 0.7}}),
+                           {{"membrane", "none"}}));
   const Body& body = plan->model->body;
   EXPECT_EQ(body.particles, 8u * 7 * 9);
   EXPECT_EQ(body.listed.springs.size(), 5 * body.particles);
@@ -82,8 +82,9 @@ TEST(RandomLattice, HasWhatItsOptionsSay) {
 TEST(RandomLattice, WithTooFewSpringsToBeStiffIsWarnedOf) {
   const auto warnings = [](const std::string& coordination) {
     return plan_of(listed_scene(
-                       random_lattice(6, 6, 6, R"("sample": 8, "coordination": )" + coordination),
-                       R"("membrane": "none")"))
+                       random_lattice(6, 6, 6,
+                                      {{"sample", 8}, {"coordination", std::stod(coordination)}}),
+                       {{"membrane", "none"}}))
         ->model->warnings;
   };
   for (const char* none : {"5", "5.9"}) {  // the body has 216 particles
@@ -138,8 +139,8 @@ TEST(RandomLattice, PoissonRatiosThatNoOptionTakesAreNotOffered) {
 
 TEST(RandomLattice, AReachOfTooFewSpringsSaysWhy) {
   try {
-    plan_of(listed_scene(random_lattice(6, 6, 6, R"("sample": 8, "coordination": 6)"),
-                         R"("membrane": "none", "poisson": 0.1)"));
+    plan_of(listed_scene(random_lattice(6, 6, 6, {{"sample", 8}, {"coordination", 6}}),
+                         {{"membrane", "none"}, {"poisson", 0.1}}));
     FAIL() << "a Poisson ratio that the lattice has not";
   } catch (const InputError& error) {
     EXPECT_NE(
@@ -151,11 +152,10 @@ TEST(RandomLattice, AReachOfTooFewSpringsSaysWhy) {
 }
 
 TEST(RandomLattice, FillsAnyShapeAndOnlyIt) {
-  const std::string ball =
-      R"({ "type": "lattices.random", "spacing": "1 mm", "shape": { "hollow_sphere": { "inner_radius": "3 mm", "outer_radius": "7 mm" } } })";
-  const auto plan = plan_of(
-      listed_scene(ball, R"("membrane": "none")",
-                   R"({ "type": "loads.pressure", "on": "inner_surface", "pressure": 1e6 })"));
+  const Json ball = {{"hollow_sphere", {{"inner_radius", "3 mm"}, {"outer_radius", "7 mm"}}}};
+  const auto plan = plan_of(listed_scene(
+      stage("lattices.random", {{"spacing", "1 mm"}, {"shape", ball}}), {{"membrane", "none"}},
+      stage("loads.pressure", {{"on", "inner_surface"}, {"pressure", 1e6}})));
   const Body& body = plan->model->body;
   const double volume = 4.0 / 3 * 3.14159265358979 * (343 - 27);
   EXPECT_NEAR(static_cast<double>(body.particles), volume, 0.01 * volume);
@@ -171,8 +171,7 @@ TEST(RandomLattice, FillsAnyShapeAndOnlyIt) {
 
 TEST(RandomLattice, IsTheSameForTheSameSeedAndAnotherForAnother) {
   const auto positions = [](int seed) {
-    return plan_of(listed_scene(random_lattice(5, 5, 5, R"("seed": )" + std::to_string(seed)),
-                                R"("membrane": "none")"))
+    return plan_of(listed_scene(random_lattice(5, 5, 5, {{"seed", seed}}), {{"membrane", "none"}}))
         ->model->body.listed.positions;
   };
   EXPECT_EQ(positions(3), positions(3));
@@ -181,7 +180,7 @@ TEST(RandomLattice, IsTheSameForTheSameSeedAndAnotherForAnother) {
 
 TEST(RandomLattice, GetsTheYoungsModulusAndThePoissonRatioOfItsScene) {
   const auto plan =
-      plan_of(listed_scene(random_lattice(6, 6, 6), R"("membrane": "I", "poisson": 0.2)"));
+      plan_of(listed_scene(random_lattice(6, 6, 6), {{"membrane", "I"}, {"poisson", 0.2}}));
   const Model& model = *plan->model;
   const ElasticConstants own = homogenise(model.body.listed, 0, model.body.grid.membrane_distance,
                                           model.materials[0].constants);
@@ -191,8 +190,8 @@ TEST(RandomLattice, GetsTheYoungsModulusAndThePoissonRatioOfItsScene) {
 
 TEST(RandomLattice, PressureOnAFlatFaceHasTheRightTotal) {
   const auto plan =
-      plan_of(listed_scene(random_lattice(6, 5, 7), R"("membrane": "none")",
-                           R"({ "type": "loads.pressure", "on": "z_max", "pressure": 2e6 })"));
+      plan_of(listed_scene(random_lattice(6, 5, 7), {{"membrane", "none"}},
+                           stage("loads.pressure", {{"on", "z_max"}, {"pressure", 2e6}})));
   Vec3 total;
   for (const LoadedParticle& loaded : plan->model->loads[0].particles) total = total + loaded.force;
   EXPECT_NEAR(total.z, -2e6 * 30e-6, 1e-6 * 60);
@@ -203,9 +202,9 @@ TEST(RandomLattice, PressureOnAFlatFaceHasTheRightTotal) {
 TEST(RandomLattice, WavesTravelAsFastAsItsModuliSay) {
   // One end of a long bar with free sides is pushed. The front travels with sqrt(E / rho), a little
   // slower because the surface is softer.
-  const auto plan = plan_of(
-      listed_scene(random_lattice(14, 14, 60), R"("membrane": "I", "poisson": 0.2)",
-                   R"({ "type": "loads.velocity", "on": "z_min", "value": [0, 0, 1e-3] })"));
+  const auto plan =
+      plan_of(listed_scene(random_lattice(14, 14, 60), {{"membrane", "I"}, {"poisson", 0.2}},
+                           stage("loads.velocity", {{"on", "z_min"}, {"value", {0, 0, 1e-3}}})));
   Simulation simulation(*plan->model, 2);
   const double speed = std::sqrt(1e10 / 2500), time = 40e-3 / speed;
   while (simulation.time() < time) simulation.step(0.9 * plan->model->critical_time_step);
@@ -230,7 +229,7 @@ TEST(Points, RefusesWhatIsNoLattice) {
   const auto refusal = [&](const std::string& springs, const std::string& columns = "a,b") {
     std::ofstream(files.springs) << columns << "\n" << springs;
     try {
-      plan_of(listed_scene(files.lattice(), R"("membrane": "none")"));
+      plan_of(listed_scene(files.lattice(), {{"membrane", "none"}}));
     } catch (const InputError& error) {
       return std::string(error.what());
     }
@@ -268,7 +267,7 @@ TEST(Points, RefusesPointsThatCannotBeParticles) {
     std::ofstream(files.points) << points;
     std::ofstream(files.springs) << "a,b\n0,1\n1,2\n";
     try {
-      plan_of(listed_scene(files.lattice(), R"("membrane": "none")"));
+      plan_of(listed_scene(files.lattice(), {{"membrane", "none"}}));
     } catch (const InputError& error) {
       return std::string(error.what());
     }

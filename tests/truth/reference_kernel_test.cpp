@@ -123,16 +123,17 @@ TEST_P(ReferenceKernel, GivesTheForcesOfEveryKernel) {
              is_free = membrane.name == std::string("free");
   if (is_plastic && (is_random || (is_free && lattice.name == std::string("fcc"))))
     GTEST_SKIP() << "refused: springs would yield at unlike stresses";
-  const std::string second_class =
-      membrane.name == std::string("none") || is_random ? "" : R"(, "k_gamma": 0.3)";
+  const Keys second_class =
+      membrane.name == std::string("none") || is_random ? Keys{} : Keys{{"k_gamma", 0.3}};
+  const Keys filled = {{"spacing", 1e-3}, {"shape", box_mm(9, 4, 5)}},
+             solid = {{"young", 1e10}, {"density", 2500}};
   for (const char* precision : {"double", "float"}) {
-    const auto plan = plan_of(
-        R"({ "format": "hyperlattice/1", "precision": ")" + std::string(precision) +
-        R"(", "pipeline": [ { )" + lattice.keys +
-        R"(, "spacing": 1e-3, "shape": { "box": { "low": [0, 0, 0], "high": [9e-3, 4e-3, 5e-3] } } },
-                              { "young": 1e10, "density": 2500, )" +
-        law.keys + ", " + membrane.keys + second_class +
-        R"( }, { "type": "solvers.explicit", "end_time": "1 us" } ] })");
+    const auto plan = plan_of(SceneBuilder{}
+                                  .key("precision", precision)
+                                  .stages(lattice.keys + filled)
+                                  .stages(law.keys + solid + membrane.keys + second_class)
+                                  .solver("solvers.explicit", {{"end_time", "1 us"}})
+                                  .text());
     const Model& model = *plan->model;
     for (const double size : {1e-3, 0.05}) {  // displacements over the spacing
       const std::vector<double> u = noise(4 * model.body.particles, size * 1e-3, 7);

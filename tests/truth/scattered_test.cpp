@@ -13,15 +13,15 @@ constexpr double modulus = 3;
 const double mean = std::tgamma(1 + 1 / modulus),
              variance = std::tgamma(1 + 2 / modulus) / (mean * mean) - 1;
 
-std::string scattered(const std::string& keys, double m, int seed) {
-  return R"("type": "materials.scattered", "modulus": )" + std::to_string(m) + R"(, "seed": )" +
-         std::to_string(seed) + keys;
+const Keys no_membrane = {{"membrane", "none"}},
+           membrane_I_m = {{"membrane", "I-m"}, {"poisson", 0.1}};
+
+Keys scattered(const Keys& membrane, double m, int seed) {
+  return Keys{{"type", "materials.scattered"}, {"modulus", m}, {"seed", seed}} + membrane;
 }
-std::string cube(int n, const char* boundary) {
-  const std::string edge = std::to_string(n) + "e-3";
-  return R"({ "type": "lattices.cubic", "spacing": 1e-3, "boundary": ")" + std::string(boundary) +
-         R"(", "shape": { "box": { "low": [0, 0, 0], "high": [)" + edge + ", " + edge + ", " +
-         edge + "] } } }";
+Stages cube(int n, const char* boundary) {
+  return stage("lattices.cubic",
+               {{"spacing", 1e-3}, {"boundary", boundary}, {"shape", box_mm(n, n, n)}});
 }
 
 /// Stiffness of each base spring over the mean stiffness, from the force of this spring alone.
@@ -38,8 +38,7 @@ std::vector<double> shares(const Model& model) {
 }
 
 TEST(Scattered, SharesAreWeibulls) {
-  const auto plan =
-      plan_of(law_scene(cube(20, "particles"), scattered(R"(, "membrane": "none")", modulus, 1)));
+  const auto plan = plan_of(law_scene(cube(20, "particles"), scattered(no_membrane, modulus, 1)));
   std::vector<double> found = shares(*plan->model);
   std::sort(found.begin(), found.end());
   const auto number = static_cast<double>(found.size());
@@ -59,10 +58,12 @@ TEST(Scattered, SharesAreWeibulls) {
 /// The modulus of a bar over that of a bar with equal springs.
 double stiffness_of_bar(int seed, std::unique_ptr<Plan>& plan) {
   constexpr double strain = 1e-6;
-  plan = plan_of(law_scene(
-      cube(8, "cells"), scattered(R"(, "membrane": "none")", modulus, seed),
-      R"(, { "type": "loads.displacement", "on": "x_min", "value": [0, 0, 0], "axes": "x", "rise": 1e-6 },
-                               { "type": "loads.displacement", "on": "x_max", "value": [8e-9, 0, 0], "axes": "x", "rise": 4e-5 })"));
+  const auto moved = [](const char* on, double by, double rise) {
+    return stage("loads.displacement",
+                 {{"on", on}, {"value", Vec3{by, 0, 0}}, {"axes", "x"}, {"rise", rise}});
+  };
+  plan = plan_of(law_scene(cube(8, "cells"), scattered(no_membrane, modulus, seed),
+                           moved("x_min", 0, 1e-6) + moved("x_max", 8e-9, 4e-5)));
   Simulation simulation(*plan->model, 1);
   simulation.set_damping(0.7);
   while (simulation.time() < 1e-4) simulation.step(0.9 * plan->model->critical_time_step);
@@ -107,9 +108,8 @@ TEST(Scattered, BarsAreAsStiffAsTheoryHasIt) {
 // follow the order of the points in the file.
 TEST(Scattered, AnotherSeedIsAnotherBodyAndTheSameOneTheSame) {
   const auto hash = [](int seed, int threads) {
-    return shaken(*plan_of(law_scene(cube(7, "particles"),
-                                     scattered(R"(, "membrane": "I-m", "poisson": 0.1)", 8, seed))),
-                  0.4, 50, threads)
+    return shaken(*plan_of(law_scene(cube(7, "particles"), scattered(membrane_I_m, 8, seed))), 0.4,
+                  50, threads)
         .hash;
   };
   const std::uint64_t one = hash(1, 1);
@@ -118,8 +118,7 @@ TEST(Scattered, AnotherSeedIsAnotherBodyAndTheSameOneTheSame) {
 }
 
 TEST(Scattered, StaysStableUpToItsStep) {
-  const auto plan = plan_of(law_scene(
-      cube(6, "particles"), scattered(R"(, "membrane": "I-m", "poisson": 0.1)", modulus, 1)));
+  const auto plan = plan_of(law_scene(cube(6, "particles"), scattered(membrane_I_m, modulus, 1)));
   const Ended ended = shaken(*plan, 0.99, 3000, 1, 1e-6);
   EXPECT_LT(std::abs(ended.balance.relative_error()), 1e-6);
 }

@@ -12,14 +12,18 @@ constexpr double spacing = 1e-3, stiffness = 0.4 * 1e10 * spacing;
 
 /// Two particles joined by one spring; the upper one is moved by a static solver.
 std::string pair_of(double displacement) {
-  return scene(
-      R"("spacing": 1e-3, "shape": )" + box({}, {spacing, spacing, 2 * spacing}),
-      R"({ "type": "materials.softening", "young": 1e10, "density": 2500, "membrane": "none",
-                    "strength": 3e6, "fracture_energy": 5 },
-                  { "type": "loads.fixed", "on": "z_min" },
-                  { "type": "loads.displacement", "on": "z_max", "rise": "1 us", "value": [0, 0, )" +
-          number(displacement) + R"(] },
-                  { "type": "solvers.static", "load_steps": 400 })");
+  return SceneBuilder{}
+      .lattice("lattices.cubic", spacing, box({}, {spacing, spacing, 2 * spacing}))
+      .material("materials.softening", {{"young", 1e10},
+                                        {"density", 2500},
+                                        {"membrane", "none"},
+                                        {"strength", 3e6},
+                                        {"fracture_energy", 5}})
+      .load("loads.fixed", {{"on", "z_min"}})
+      .load("loads.displacement",
+            {{"on", "z_max"}, {"rise", "1 us"}, {"value", Vec3{0, 0, displacement}}})
+      .solver("solvers.static", {{"load_steps", 400}})
+      .text();
 }
 
 struct Strains {
@@ -74,10 +78,13 @@ TEST(Softening, DamageIsWhatTheIntegrityOfSpringsLacks) {
 // In time the same energy is lost, whichever way: kernels of grids and of lists, one law or
 // several.
 TEST(Softening, ABlockThatIsTornLosesEnergyOfFractureOnly) {
-  const auto plan = plan_of(law_scene(
-      R"({ "type": "lattices.cubic", "spacing": 1e-3, "shape": )" + box({}, {5e-3, 4e-3, 6e-3}) +
-          " }",
-      R"("type": "materials.softening", "strength": 3e6, "fracture_energy": 5, "membrane": "I-m", "poisson": 0.1)"));
+  const auto plan =
+      plan_of(law_scene(stage("lattices.cubic", {{"spacing", 1e-3}, {"shape", box_mm(5, 4, 6)}}),
+                        {{"type", "materials.softening"},
+                         {"strength", 3e6},
+                         {"fracture_energy", 5},
+                         {"membrane", "I-m"},
+                         {"poisson", 0.1}}));
   const Ended one = shaken(*plan, 0.4, 300, 1), three = shaken(*plan, 0.4, 300, 3);
   EXPECT_GT(one.balance.dissipated_failure, 0.1 * one.balance.scale);
   EXPECT_EQ(one.balance.dissipated_damping, 0);

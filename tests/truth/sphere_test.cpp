@@ -84,16 +84,24 @@ class Sphere : public testing::TestWithParam<Case> {
                          const std::string& boundary = "particles") const {
     const Case& c = GetParam();
     const double l = c.spacing_mm * 1e-3;
-    const auto plan =
-        plan_of(R"({ "format": "hyperlattice/1", "pipeline": [
-      { "type": "lattices.cubic", "spacing": ")" +
-                    std::to_string(c.spacing_mm) + R"( mm", "boundary": ")" + boundary + R"(",
-        "shape": { "hollow_sphere": { "inner_radius": "20 mm", "outer_radius": "50 mm" } } },
-      { "type": "materials.elastic", "young": "10 GPa", "density": 2500, "membrane": "I-m", "poisson": )" +
-                    c.poisson + R"(, "stiffness": ")" + stiffness + R"(" },
-      { "type": "loads.blast", "on": "inner_surface", "peak": "10 MPa", "rise": "10 us", "fall": "20 us" },
-      { "type": "solvers.explicit", "end_time": "120 us" } ] })",
-                2);
+    const auto plan = plan_of(
+        SceneBuilder{}
+            .stage("lattices.cubic",
+                   {{"spacing", std::to_string(c.spacing_mm) + " mm"},
+                    {"boundary", boundary},
+                    {"shape",
+                     {{"hollow_sphere", {{"inner_radius", "20 mm"}, {"outer_radius", "50 mm"}}}}}})
+            .material("materials.elastic", {{"young", "10 GPa"},
+                                            {"density", 2500},
+                                            {"membrane", "I-m"},
+                                            {"poisson", std::stod(c.poisson)},
+                                            {"stiffness", stiffness}})
+            .load(
+                "loads.blast",
+                {{"on", "inner_surface"}, {"peak", "10 MPa"}, {"rise", "10 us"}, {"fall", "20 us"}})
+            .solver("solvers.explicit", {{"end_time", "120 us"}})
+            .text(),
+        2);
     const Model& model = *plan->model;
     if (c.spacing_mm == 1 && boundary == "particles") {
       EXPECT_EQ(model.body.particles, 490432u);

@@ -9,6 +9,12 @@ namespace {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
+const Keys membrane_I_m = {{"membrane", "I-m"}, {"poisson", 0.1}};
+
+Stages statics(double tolerance, const Keys& more = {}) {
+  return stage("solvers.static", Keys{{"tolerance", tolerance}} + more);
+}
+
 // In uniaxial strain every layer of a bar has the same stress: u = sigma (L1 / M1 + L2 / M2) with
 // the confined moduli M1 and M2. A spring between two materials is half of each, so that the border
 // lies half a spacing from the last soft layer.
@@ -16,14 +22,18 @@ TEST(Statics, ABarOfTwoMaterialsIsASeriesOfSprings) {
   constexpr double l = 0.005, sigma = 1e4, young = 1e9, nu = 0.2,
                    confined = (1 - nu) / ((1 + nu) * (1 - 2 * nu));
   for (const double contrast : {1.0, 1e4, 1e6}) {
-    const AtRest bar(scene(
-        R"("spacing": 0.005, "boundary": "cells", "shape": )" + box({}, {2 * l, 2 * l, 40 * l}),
-        elastic(young, R"("poisson": 0.2, "membrane": "I-m")") +
-            elastic(young * contrast, R"("poisson": 0.2, "membrane": "I-m", "region": )" +
-                                          box({-1, -1, 19 * l}, {1, 1, 1})) +
-            R"({ "type": "loads.fixed", "on": "all", "axes": "xy" }, { "type": "loads.fixed", "on": "z_min", "axes": "z", "name": "end" },
-                               { "type": "loads.pressure", "on": "z_max", "facing": "z_max", "pressure": -1e4 },)" +
-            to_rest));
+    const Keys membrane = {{"poisson", 0.2}, {"membrane", "I-m"}};
+    const AtRest bar(
+        SceneBuilder{}
+            .lattice("lattices.cubic", l, box({}, {2 * l, 2 * l, 40 * l}), {{"boundary", "cells"}})
+            .stages(elastic(young, membrane))
+            .stages(elastic(young * contrast,
+                            membrane + Keys{{"region", box({-1, -1, 19 * l}, {1, 1, 1})}}))
+            .load("loads.fixed", {{"on", "all"}, {"axes", "xy"}})
+            .load("loads.fixed", {{"on", "z_min"}, {"axes", "z"}, {"name", "end"}})
+            .load("loads.pressure", {{"on", "z_max"}, {"facing", "z_max"}, {"pressure", -sigma}})
+            .stages(to_rest)
+            .text());
     const double expected = sigma / (young * confined) * (19 * l + 21 * l / contrast);
     EXPECT_NEAR(bar.mean(2, [](Site s) { return s.k == 40; }) / expected, 1, 0.01) << contrast;
     EXPECT_LT(bar.report.iterations, 200u) << contrast;
@@ -41,16 +51,18 @@ TEST(Statics, AnInclusionUpToAMillionTimesAsStiff) {
                                              {1e6, 4.0623971063233974e-05}};
   double before = HUGE_VAL, last_but_one = 0;
   for (const auto& [contrast, expected] : truth) {
-    const AtRest cube(scene(
-        R"("spacing": 0.005, "shape": )" + box({}, {0.1, 0.1, 0.1}),
-        elastic(1e9, R"("poisson": 0.2, "membrane": "I-m", "stiffness": "eq15")") +
-            elastic(1e9 * contrast,
-                    R"("poisson": 0.2, "membrane": "I-m", "stiffness": "eq15", "region": )" +
-                        box({0.03, 0.03, 0.03}, {0.07, 0.07, 0.07})) +
-            // No support holds the cube; the solver removes the rigid motions.
-            R"({ "type": "loads.pressure", "on": "x_min", "pressure": -1e6 }, { "type": "loads.pressure", "on": "x_max",
-                                   "pressure": -1e6, "name": "other" },)" +
-            to_rest));
+    const Keys membrane = {{"poisson", 0.2}, {"membrane", "I-m"}, {"stiffness", "eq15"}};
+    const Json inclusion = box({0.03, 0.03, 0.03}, {0.07, 0.07, 0.07});
+    // No support holds the cube; the solver removes the rigid motions.
+    const AtRest cube(
+        SceneBuilder{}
+            .lattice("lattices.cubic", 0.005, box({}, {0.1, 0.1, 0.1}))
+            .stages(elastic(1e9, membrane))
+            .stages(elastic(1e9 * contrast, membrane + Keys{{"region", inclusion}}))
+            .load("loads.pressure", {{"on", "x_min"}, {"pressure", -1e6}})
+            .load("loads.pressure", {{"on", "x_max"}, {"pressure", -1e6}, {"name", "other"}})
+            .stages(to_rest)
+            .text());
     const double grown = (cube.mean(0, [](Site s) { return s.i == 19; }) -
                           cube.mean(0, [](Site s) { return s.i == 0; })) /
                          2;
@@ -95,12 +107,16 @@ TEST(Statics, StretchedLikeTheEndlessLattice) {
     ASSERT_NE(row, rows.end()) << c.stretch;
     const bool has_height =
         row->size() > 4 && std::string(c.material).find("I-m") != std::string::npos;
-    const AtRest cube(scene(
-        R"("spacing": 1, "boundary": "cells", "shape": )" + box({}, {4, 4, 4}),
-        elastic(1e9, c.material) + R"({ "type": "loads.fixed", "on": "x_min", "axes": "x" },
-                              { "type": "loads.displacement", "on": "x_max", "axes": "x", "rise": 1, "value": [)" +
-            number(4 * (c.stretch - 1)) +
-            R"(, 0, 0] }, { "type": "solvers.static", "tolerance": 1e-11, "load_steps": 10 })"));
+    const AtRest cube(SceneBuilder{}
+                          .lattice("lattices.cubic", 1, box({}, {4, 4, 4}), {{"boundary", "cells"}})
+                          .stages(elastic(1e9, c.material))
+                          .load("loads.fixed", {{"on", "x_min"}, {"axes", "x"}})
+                          .load("loads.displacement", {{"on", "x_max"},
+                                                       {"axes", "x"},
+                                                       {"rise", 1},
+                                                       {"value", Vec3{4 * (c.stretch - 1), 0, 0}}})
+                          .stages(statics(1e-11, {{"load_steps", 10}}))
+                          .text());
     const double lateral = 1 + (cube.mean(1, [](Site s) { return s.j == 4; }) -
                                 cube.mean(1, [](Site s) { return s.j == 0; })) /
                                    4;
@@ -118,10 +134,13 @@ TEST(Statics, StretchedLikeTheEndlessLattice) {
 // 1) + 8 (1 - sqrt(2) / s) a], s^2 = a^2 + b^2.
 TEST(Statics, ABarOfTwoByTwoParticlesAtThreeTimesItsLength) {
   const AtRest bar(
-      scene(R"("spacing": 1, "shape": )" + box({}, {2, 2, 60}),
-            elastic(1e9, R"("membrane": "none")") + R"({ "type": "loads.fixed", "on": "z_min" },
-                           { "type": "loads.displacement", "on": "z_max", "value": [0, 0, 118], "rise": 1 },
-                           { "type": "solvers.static", "tolerance": 1e-10, "load_steps": 20 })"));
+      SceneBuilder{}
+          .lattice("lattices.cubic", 1, box({}, {2, 2, 60}))
+          .stages(elastic(1e9, {{"membrane", "none"}}))
+          .load("loads.fixed", {{"on", "z_min"}})
+          .load("loads.displacement", {{"on", "z_max"}, {"value", {0, 0, 118}}, {"rise", 1}})
+          .stages(statics(1e-10, {{"load_steps", 20}}))
+          .text());
   const auto level = [&](int k) { return bar.mean(2, [k](Site s) { return s.k == k; }); };
   const double a = 1 + (level(35) - level(25)) / 10;
   const double b = 1 + bar.mean(0, [](Site s) { return s.k == 30 && s.i == 1; }) -
@@ -139,13 +158,14 @@ TEST(Statics, ABarOfTwoByTwoParticlesAtThreeTimesItsLength) {
 std::vector<double> response(double force, double young, double from = 0) {
   const double l = 1e-3;
   const auto at = [&](double x, double y, double z) { return Vec3{from + x * l, y * l, z * l}; };
-  const AtRest body(scene(R"("spacing": 1e-3, "anchor": [)" + number(from) +
-                              R"(, 0, 0], "shape": { "union": [)" + box(at(0, 0, 0), at(10, 3, 3)) +
-                              ", " + box(at(0, 0, 0), at(3, 10, 3)) + "] }",
-                          elastic(young, R"("poisson": 0.1, "membrane": "I-m")") +
-                              R"({ "type": "loads.fixed", "on": "x_max" },
-                            { "type": "loads.force", "on": "y_max", "total": [)" +
-                              number(force) + ", 0, " + number(force) + "] }," + to_rest));
+  const Json shape = {{"union", {box(at(0, 0, 0), at(10, 3, 3)), box(at(0, 0, 0), at(3, 10, 3))}}};
+  const AtRest body(SceneBuilder{}
+                        .lattice("lattices.cubic", l, shape, {{"anchor", Vec3{from, 0, 0}}})
+                        .stages(elastic(young, membrane_I_m))
+                        .load("loads.fixed", {{"on", "x_max"}})
+                        .load("loads.force", {{"on", "y_max"}, {"total", Vec3{force, 0, force}}})
+                        .stages(to_rest)
+                        .text());
   std::vector<double> scaled = body.u;
   for (double& value : scaled) value *= young / force;
   return scaled;
@@ -160,35 +180,39 @@ TEST(Statics, TinyLoadsStiffBodiesAndFarOnesRespondAlike) {
 }
 
 TEST(Statics, NoLoadIsNoMotion) {
-  const AtRest body(scene(R"("spacing": 1, "shape": )" + box({}, {4, 4, 4}),
-                          elastic(1e9, R"("poisson": 0.1, "membrane": "I-m")") +
-                              R"({ "type": "loads.fixed", "on": "x_max" },)" + to_rest));
+  const AtRest body(SceneBuilder{}
+                        .lattice("lattices.cubic", 1, box({}, {4, 4, 4}))
+                        .stages(elastic(1e9, membrane_I_m))
+                        .load("loads.fixed", {{"on", "x_max"}})
+                        .stages(to_rest)
+                        .text());
   EXPECT_EQ(largest(body.u), 0);
 }
 
-std::string pulled_block(const std::string& solver, int n = 8) {
-  return block(n, n, 2 * n, R"("membrane": "I-m", "poisson": 0.1)",
-               R"({ "type": "loads.fixed", "on": "z_min" },
-    { "type": "loads.force", "on": "z_max", "total": [100, 0, 300] },)" +
-                   solver);
+std::string pulled_block(const Stages& solver, int n = 8) {
+  return block(n, n, 2 * n, membrane_I_m,
+               stage("loads.fixed", {{"on", "z_min"}}) +
+                   stage("loads.force", {{"on", "z_max"}, {"total", {100, 0, 300}}}) + solver);
 }
 
 // The coarse levels of multigrid store one block for all sites with equal springs. In a slightly
 // deformed body every site has its own block. Both must give the same levels, hence the same
 // iterations and displacements.
 TEST(Statics, SitesThatAreAlikeAreKeptOnce) {
-  const std::string region = R"("region": )" + box({0, 0, 0.009}, {1, 1, 0.014});
-  const auto plan = plan_of(
-      scene(
-          R"("spacing": 0.001, "shape": { "difference": [)" + box({}, {0.012, 0.013, 0.021}) +
-              ", " + box({0.004, 0, 0.005}, {0.008, 1, 0.009}) + "] }",
-          elastic(1e9, R"("membrane": "I-m", "poisson": 0.1)") +
-              elastic(1e11, R"("membrane": "I-m", "poisson": 0.1, )" + region) +
-              R"({ "type": "loads.fixed", "on": "z_min", "axes": "xz" }, { "type": "loads.fixed", "on": "x_min", "axes": "y" },
-                   { "type": "loads.force", "on": "z_max", "total": [1e-4, 0, 3e-4], "rise": 2 },
-                   { "type": "solvers.static", "tolerance": 1e-8, "stability": false, "end_time": 1 },
-                   { "type": "solvers.static", "tolerance": 1e-8, "stability": false, "end_time": 2 })"),
-      1);
+  const Json shape = {{"difference", {box_mm(12, 13, 21), box({4e-3, 0, 5e-3}, {8e-3, 1, 9e-3})}}};
+  const Json stiff_part = box({0, 0, 9e-3}, {1, 1, 14e-3});
+  const auto plan =
+      plan_of(SceneBuilder{}
+                  .lattice("lattices.cubic", 1e-3, shape)
+                  .stages(elastic(1e9, membrane_I_m))
+                  .stages(elastic(1e11, membrane_I_m + Keys{{"region", stiff_part}}))
+                  .load("loads.fixed", {{"on", "z_min"}, {"axes", "xz"}})
+                  .load("loads.fixed", {{"on", "x_min"}, {"axes", "y"}})
+                  .load("loads.force", {{"on", "z_max"}, {"total", {1e-4, 0, 3e-4}}, {"rise", 2}})
+                  .stages(statics(1e-8, {{"stability", false}, {"end_time", 1}}))
+                  .stages(statics(1e-8, {{"stability", false}, {"end_time", 2}}))
+                  .text(),
+              1);
   Simulation simulation(*plan->model, 1);
   std::vector<std::uint64_t> iterations;
   std::vector<std::vector<double>> u;
@@ -212,8 +236,7 @@ TEST(Statics, RelaxationAgrees) {
   const AtRest found(pulled_block(to_rest));
   for (const char* method : {"local_damping", "accelerated"}) {
     AtRest relaxed(
-        pulled_block(R"({ "type": "solvers.relaxation", "tolerance": 1e-7, "method": ")" +
-                     std::string(method) + R"(" })"));
+        pulled_block(stage("solvers.relaxation", {{"tolerance", 1e-7}, {"method", method}})));
     EXPECT_LT(distance(found.u, relaxed.u), 1e-4 * largest(found.u)) << method;
     std::printf("%s: %llu steps, largest error %.1e\n", method,
                 static_cast<unsigned long long>(relaxed.report.iterations),
@@ -222,39 +245,46 @@ TEST(Statics, RelaxationAgrees) {
   }
 }
 
-std::string small_block(const std::string& stages) {
-  return scene(R"("spacing": 0.001, "shape": )" + box({0, 0, 0}, {0.006, 0.004, 0.004}),
-               elastic(1e9, R"("membrane": "I-m", "poisson": 0.1)") +
-                   R"({ "type": "loads.fixed", "on": "x_min" },)" + stages);
+std::string small_block(const Stages& stages) {
+  return SceneBuilder{}
+      .lattice("lattices.cubic", 1e-3, box_mm(6, 4, 4))
+      .stages(elastic(1e9, membrane_I_m))
+      .load("loads.fixed", {{"on", "x_min"}})
+      .stages(stages)
+      .text();
 }
 
 // A driven particle ends where its motion leads at the end time, however many steps the solver
 // takes. At 1 mm/s for 1 ms this is 1 um, and half of it if the rise takes the whole time.
 TEST(Statics, WhatIsDrivenComesWhereItWouldHaveComeByThen) {
-  const auto driven = [](const std::string& load, const std::string& solver) {
-    return AtRest(
-        small_block(R"({ "type": "loads.velocity", "on": "x_max", "value": [1e-3, 0, 0])" + load +
-                    R"( }, { "type": "solvers.)" + solver + R"(, "end_time": "1 ms" })"));
+  const auto driven = [](const Keys& rise, const char* solver, const Keys& keys) {
+    const Keys load = {{"on", "x_max"}, {"value", {1e-3, 0, 0}}};
+    return AtRest(small_block(stage("loads.velocity", load + rise) +
+                              stage(solver, keys + Keys{{"end_time", "1 ms"}})));
   };
-  for (const auto& [rise, way] : {std::pair{"", 1e-6}, {R"(, "rise": "1 ms")", 0.5e-6}}) {
-    const AtRest found = driven(rise, R"(static", "tolerance": 1e-8)");
+  for (const auto& [rise, way] : {std::pair{"", 1e-6}, {R"("rise": "1 ms")", 0.5e-6}}) {
+    const AtRest found = driven(rise, "solvers.static", {{"tolerance", 1e-8}});
     EXPECT_NEAR(largest(found.u), way, 1e-12 * way) << rise;
     for (const char* method : {"local_damping", "accelerated"}) {
-      const AtRest relaxed = driven(
-          rise, R"(relaxation", "tolerance": 1e-6, "method": ")" + std::string(method) + '"');
+      const AtRest relaxed =
+          driven(rise, "solvers.relaxation", {{"tolerance", 1e-6}, {"method", method}});
       EXPECT_NEAR(largest(relaxed.u), way, 1e-12 * way) << rise << method;
       EXPECT_LT(distance(found.u, relaxed.u), 1e-3 * way) << rise << method;
     }
   }
 }
 
+/// A force on x_max whose factor is an expression of the time.
+Stages pull(const char* expression, const Keys& more = {}) {
+  return stage("loads.expression",
+               Keys{{"on", "x_max"}, {"total", {1, 0, 0}}, {"expression", expression}} + more);
+}
+
 // If a load jumps at the instant of the state of rest, the value after the jump counts.
 TEST(Statics, ALoadThatJumpsAtTheInstantOfRestHasJumped) {
-  for (const char* solver : {"static", "relaxation"}) {
-    const auto pulled = [&](const std::string& expression) {
-      return AtRest(small_block(R"({ "type": "loads.expression", "on": "x_max", "total": [1, 0, 0],
-                             "corners": ["10 us"], "expression": ")" +
-                                expression + R"(" }, { "type": "solvers.)" + solver + R"(" })"));
+  for (const char* solver : {"solvers.static", "solvers.relaxation"}) {
+    const auto pulled = [&](const char* expression) {
+      return AtRest(small_block(pull(expression, {{"corners", {"10 us"}}}) + stage(solver)));
     };
     const AtRest whole = pulled("1");
     EXPECT_GT(largest(whole.u), 0);
@@ -265,11 +295,9 @@ TEST(Statics, ALoadThatJumpsAtTheInstantOfRestHasJumped) {
 
 TEST(Statics, ALoadThatIsNoNumberIsNamed) {
   for (const char* expression : {"sqrt(0.5-t)", "exp(t*1500)"}) {
-    const std::string load =
-        R"({ "type": "loads.expression", "on": "x_max", "total": [1, 0, 0], "expression": ")" +
-        std::string(expression) + "\" },";
     try {
-      const AtRest found(small_block(load + R"({ "type": "solvers.static", "end_time": 1 })"));
+      const AtRest found(
+          small_block(pull(expression) + stage("solvers.static", {{"end_time", 1}})));
       FAIL() << expression;
     } catch (const RunError& error) {
       EXPECT_NE(std::string(error.what()).find(expression), std::string::npos) << error.what();
@@ -280,22 +308,20 @@ TEST(Statics, ALoadThatIsNoNumberIsNamed) {
 // The reported error must be right also where the residual is a poor measure: in the slender beam,
 // 1e-4 of the mean force is 3 % of the displacements.
 TEST(Statics, RelaxationKnowsItsError) {
-  const auto bent_beam = [](const std::string& solver) {
-    return block(
-        40, 4, 4, R"("membrane": "I-m", "poisson": 0.1)",
-        R"({ "type": "loads.fixed", "on": "x_min" }, { "type": "loads.force", "on": "x_max", "total": [0, 1e-3, 0] },)" +
-            solver);
+  const auto bent_beam = [](const Stages& solver) {
+    return block(40, 4, 4, membrane_I_m,
+                 stage("loads.fixed", {{"on", "x_min"}}) +
+                     stage("loads.force", {{"on", "x_max"}, {"total", {0, 1e-3, 0}}}) + solver);
   };
   for (const bool slender : {false, true}) {
-    const auto body = [&](const std::string& solver) {
+    const auto body = [&](const Stages& solver) {
       return slender ? bent_beam(solver) : pulled_block(solver);
     };
     const AtRest found(body(to_rest));
     for (const char* method : {"local_damping", "accelerated"})
       for (const char* asked : {R"("tolerance": 1e-3)", R"("tolerance": 1e-5)",
                                 R"("tolerance": 1, "displacement_error": 0.01)"}) {
-        const AtRest relaxed(body(R"({ "type": "solvers.relaxation", )" + std::string(asked) +
-                                  R"(, "method": ")" + method + R"(" })"));
+        const AtRest relaxed(body(stage("solvers.relaxation", asked + Keys{{"method", method}})));
         double wrong = 0, all = 0;
         for (std::size_t n = 0; n < found.u.size(); ++n) {
           wrong += std::pow(relaxed.u[n] - found.u[n], 2);
@@ -323,7 +349,7 @@ TEST(Statics, StepsInTimeFindTheBodyAtRest) {
 }
 
 TEST(Statics, WorkOfTheLoadsIsWhatIsStored) {
-  AtRest body(pulled_block(R"({ "type": "solvers.static", "tolerance": 1e-8, "load_steps": 8 })"));
+  AtRest body(pulled_block(statics(1e-8, {{"load_steps", 8}})));
   const EnergyBalance balance = body.simulation->balance();
   // The trapezoidal rule is of second order; a single step has an error of 4e-3.
   EXPECT_NEAR(balance.injected / balance.stored, 1, 1e-4);
@@ -331,7 +357,7 @@ TEST(Statics, WorkOfTheLoadsIsWhatIsStored) {
 }
 
 TEST(Statics, ResultsDoNotDependOnThreads) {
-  const std::string scene = pulled_block(R"({ "type": "solvers.static", "tolerance": 1e-5 })", 34);
+  const std::string scene = pulled_block(statics(1e-5), 34);
   const AtRest one(scene, 1), three(scene, 3);
   EXPECT_EQ(one.simulation->hash(), three.simulation->hash());
   EXPECT_EQ(one.report.iterations, three.report.iterations);
@@ -339,8 +365,7 @@ TEST(Statics, ResultsDoNotDependOnThreads) {
 
 TEST(Statics, IterationsDoNotGrowWithTheBody) {
   const auto iterations = [](int n) {
-    return AtRest(pulled_block(R"({ "type": "solvers.static", "tolerance": 1e-6 })", n))
-        .report.iterations;
+    return AtRest(pulled_block(statics(1e-6), n)).report.iterations;
   };
   const auto coarse = iterations(6);
   EXPECT_LE(iterations(24), coarse + 6);

@@ -17,21 +17,25 @@ constexpr double young = 10e9, poisson = 0.2, limit = 1e-3;
 /// `full`. Both arguments are pressures, Pa.
 double strength(double sideways, double full) {
   constexpr double end = 5e-4;
-  const auto number = [](double value) { return std::to_string(value); };
-  std::string scene = R"({ "format": "hyperlattice/1", "pipeline": [
-    { "type": "lattices.cubic", "spacing": 1e-3, "boundary": "cells", "shape": { "box": { "low": [0, 0, 0], "high": [4e-3, 4e-3, 4e-3] } } },
-    { "type": "materials.elastic", "young": 10e9, "poisson": 0.2, "density": 2500, "membrane": "I-m", "stiffness": "bulk",
-      "failure": { "type": "failures.strain", "limit": 1e-3 } },
-    { "type": "loads.pressure", "name": "top", "on": "z_max", "pressure": )" +
-                      number(full) + R"(, "rise": 5e-4 },)";
+  SceneBuilder scene;
+  scene.lattice("lattices.cubic", 1e-3, box_mm(4, 4, 4), {{"boundary", "cells"}})
+      .material("materials.elastic", {{"young", young},
+                                      {"poisson", poisson},
+                                      {"density", 2500},
+                                      {"membrane", "I-m"},
+                                      {"stiffness", "bulk"},
+                                      {"failure", {{"type", "failures.strain"}, {"limit", limit}}}})
+      .load("loads.pressure",
+            {{"name", "top"}, {"on", "z_max"}, {"pressure", full}, {"rise", end}});
   for (const std::string axis : {"x", "y", "z"}) {
-    scene += R"({ "type": "loads.fixed", "name": "wall_)" + axis + R"(", "on": ")" + axis +
-             R"(_min", "axes": ")" + axis + R"(" },)";
+    scene.load("loads.fixed", {{"name", "wall_" + axis}, {"on", axis + "_min"}, {"axes", axis}});
     if (axis != "z" && sideways > 0)
-      scene += R"({ "type": "loads.pressure", "name": "side_)" + axis + R"(", "on": ")" + axis +
-               R"(_max", "pressure": )" + number(sideways) + R"(, "rise": 5e-5 },)";
+      scene.load("loads.pressure", {{"name", "side_" + axis},
+                                    {"on", axis + "_max"},
+                                    {"pressure", sideways},
+                                    {"rise", 5e-5}});
   }
-  const auto plan = plan_of(scene + R"({ "type": "solvers.explicit", "end_time": 5e-4 } ] })");
+  const auto plan = plan_of(scene.solver("solvers.explicit", {{"end_time", end}}).text());
   Simulation simulation(*plan->model, 1);
   simulation.set_damping(0.8);
   const double step = 0.8 * plan->model->critical_time_step / std::sqrt(1.8);

@@ -47,11 +47,8 @@ LatticeGeometry geometry_of(const Crystal& crystal) {
   return load_lattice(host, crystal.name);
 }
 
-std::string box(const Crystal& crystal, Vec3 high, const std::string& more = "") {
-  return R"({ "type": ")" + std::string(crystal.name) +
-         R"(", "spacing": 1, "shape": { "box": { "low": [0, 0, 0], "high": [)" +
-         std::to_string(high.x) + ", " + std::to_string(high.y) + ", " + std::to_string(high.z) +
-         "] } }" + more + " }";
+Stages box(const Crystal& crystal, Vec3 high, const Keys& more = {}) {
+  return stage(crystal.name, Keys{{"spacing", 1}, {"shape", test::box({}, high)}} + more);
 }
 
 std::vector<Vec3> places(const Body& body) {
@@ -61,7 +58,7 @@ std::vector<Vec3> places(const Body& body) {
 }
 
 TEST_P(Centred, ABoxOfCellsHoldsAllTheirParticles) {
-  const BuiltScene built = build(box(GetParam(), {4, 3, 5}) + "," + elastic());
+  const BuiltScene built = build(box(GetParam(), {4, 3, 5}) + elastic());
   std::set<std::tuple<double, double, double>> found, expected;  // in quarters of a cell
   for (const Vec3 at : places(built->body))
     found.emplace(std::round(4 * at.x), std::round(4 * at.y), std::round(4 * at.z));
@@ -79,10 +76,10 @@ TEST_P(Centred, ABoxOfCellsHoldsAllTheirParticles) {
 TEST_P(Centred, AnyShapeIsFilledWithTheSitesInsideIt) {
   const Vec3 centre{0.3, -0.2, 0.1};
   for (const double radius : {1.3, 2.6}) {
-    const BuiltScene built = build(
-        R"({ "type": ")" + std::string(GetParam().name) + R"(", "spacing": 1, "anchor": [0.1, 0, 0],
-      "shape": { "sphere": { "radius": )" +
-        std::to_string(radius) + R"(, "centre": [0.3, -0.2, 0.1] } } }, )" + elastic());
+    const Json shape = {{"sphere", {{"radius", radius}, {"centre", centre}}}};
+    const BuiltScene built =
+        build(stage(GetParam().name, {{"spacing", 1}, {"anchor", {0.1, 0, 0}}, {"shape", shape}}) +
+              elastic());
     std::size_t expected = 0;
     for (int n = 0; n < 9 * 9 * 9; ++n)
       for (const Vec3 in : GetParam().cell) {
@@ -96,7 +93,7 @@ TEST_P(Centred, AnyShapeIsFilledWithTheSitesInsideIt) {
 }
 
 TEST_P(Centred, SpringsJoinFirstAndSecondNeighbours) {
-  const BuiltScene built = build(box(GetParam(), {3, 4, 3}) + "," + elastic());
+  const BuiltScene built = build(box(GetParam(), {3, 4, 3}) + elastic());
   const std::vector<Vec3> at = places(built->body);
   std::array<std::uint64_t, 2> pairs{};
   for (std::size_t a = 0; a < at.size(); ++a)
@@ -113,8 +110,8 @@ TEST_P(Centred, SpringsJoinFirstAndSecondNeighbours) {
 }
 
 TEST_P(Centred, FacesAreTheOutermostPlanes) {
-  const BuiltScene built = build(box(GetParam(), {3, 4, 5}) + "," + elastic() +
-                                 R"(, { "type": "loads.fixed", "on": "y_max", "axes": "y" })");
+  const BuiltScene built = build(box(GetParam(), {3, 4, 5}) + elastic() +
+                                 stage("loads.fixed", {{"on", "y_max"}, {"axes", "y"}}));
   const std::size_t in_a_plane = 3 * 5 * GetParam().cell.size() / 2;
   ASSERT_EQ(built->loads[0].particles.size(), in_a_plane);
   for (const LoadedParticle& loaded : built->loads[0].particles)
@@ -122,9 +119,9 @@ TEST_P(Centred, FacesAreTheOutermostPlanes) {
 }
 
 TEST_P(Centred, PressureOnAFaceHasTheRightTotal) {
-  const BuiltScene built = build(box(GetParam(), {3, 4, 5}) + "," + elastic() +
-                                 R"(, { "type": "loads.pressure", "on": "x_max", "pressure": 2 },
-    { "type": "loads.fixed", "on": "surface" })");
+  const BuiltScene built = build(box(GetParam(), {3, 4, 5}) + elastic() +
+                                 stage("loads.pressure", {{"on", "x_max"}, {"pressure", 2}}) +
+                                 stage("loads.fixed", {{"on", "surface"}}));
   Vec3 total;
   for (const LoadedParticle& loaded : built->loads[0].particles) total = total + loaded.force;
   EXPECT_NEAR(total.x, -2 * 4 * 5, 1e-9);
@@ -137,14 +134,13 @@ TEST_P(Centred, PressureOnAFaceHasTheRightTotal) {
 }
 
 TEST_P(Centred, SaysWhatItCannotDo) {
-  const std::string material = "," + elastic();
   const auto expect = [](const std::string& faults, const char* pointer, const char* part) {
     EXPECT_NE(faults.find(pointer), std::string::npos) << faults;
     EXPECT_NE(faults.find(part), std::string::npos) << faults;
   };
-  expect(faults_of(box(GetParam(), {3, 3, 3}, R"(, "boundary": "cells")") + material),
+  expect(faults_of(box(GetParam(), {3, 3, 3}, {{"boundary", "cells"}}) + elastic()),
          "/pipeline/0/boundary", "particles");
-  expect(faults_of(box(GetParam(), {0.1, 3, 3}) + material), "/pipeline/0", "is inside the shape");
+  expect(faults_of(box(GetParam(), {0.1, 3, 3}) + elastic()), "/pipeline/0", "is inside the shape");
 }
 
 /// C11, C12, C44 and the part of the height for one layer, k = 1. The sums run over all springs of
@@ -208,9 +204,8 @@ TEST_P(Centred, IsIsotropicAloneAndWithMembraneIm) {
 
 TEST_P(Centred, MaterialsGetTheModulusAndThePoissonRatioThatTheyAskFor) {
   for (const auto& [membrane, poisson] : {std::pair{"I-m", 0.1}, {"I", 0.15}, {"IV", 0.2}}) {
-    const BuiltScene built = build(box(GetParam(), {3, 3, 3}) + "," +
-                                   elastic(R"("membrane": ")" + std::string(membrane) +
-                                           R"(", "poisson": )" + std::to_string(poisson)));
+    const BuiltScene built =
+        build(box(GetParam(), {3, 3, 3}) + elastic({{"membrane", membrane}, {"poisson", poisson}}));
     const MaterialConstants& found = built->materials[0].constants;
     const Ratios r{found.alpha_ratio, found.cross_ratio[0], found.cross_ratio[1], found.clamped};
     const Sums sums(GetParam(), r);
@@ -224,37 +219,35 @@ TEST_P(Centred, MaterialsGetTheModulusAndThePoissonRatioThatTheyAskFor) {
 // In an infinite isotropic lattice of central springs, equation (15) is exact. A finite body has
 // fewer springs, so that the equation gives a larger k.
 TEST_P(Centred, EquationFifteenUsesTheSpringsThatExist) {
-  const auto stiffness = [&](const char* how) {
-    return build(box(GetParam(), {6, 6, 6}) + "," + elastic(how))
-        ->materials[0]
-        .constants.base_stiffness;
+  const auto stiffness = [&](const Keys& how) {
+    return build(box(GetParam(), {6, 6, 6}) + elastic(how))->materials[0].constants.base_stiffness;
   };
-  const BuiltScene built = build(box(GetParam(), {6, 6, 6}) + "," + elastic());
+  const BuiltScene built = build(box(GetParam(), {6, 6, 6}) + elastic());
   double squares = 0;
   for (std::size_t c = 0; c < 2; ++c)
     squares += GetParam().base_stiffness[c] * GetParam().squares[c] *
                static_cast<double>(built->body.springs[c]);
-  EXPECT_NEAR(stiffness(R"("stiffness": "eq15")"), 6 * 216 * 1e9 / squares, 1);
+  EXPECT_NEAR(stiffness({{"stiffness", "eq15"}}), 6 * 216 * 1e9 / squares, 1);
   // `whole` is the sum of l^2 over the springs per particle in a large body.
-  const double bulk = stiffness(R"("stiffness": "bulk")"),
+  const double bulk = stiffness({{"stiffness", "bulk"}}),
                whole = GetParam().cell.size() == 2 ? 3 + 2 : 3 + 0.75;
   EXPECT_NEAR(bulk, 6 * 1e9 / whole / static_cast<double>(GetParam().cell.size()), 1);
 }
 
 TEST_P(Centred, SaysWhichPoissonRatiosAMembraneReaches) {
-  const auto faults = [&](const char* material) {
-    return faults_of(box(GetParam(), {3, 3, 3}) + "," + elastic(material));
+  const auto faults = [&](const Keys& material) {
+    return faults_of(box(GetParam(), {3, 3, 3}) + elastic(material));
   };
-  const std::string beyond = faults(R"("membrane": "I-m", "poisson": 0.3)");
+  const std::string beyond = faults({{"membrane", "I-m"}, {"poisson", 0.3}});
   EXPECT_NE(beyond.find("/pipeline/1/poisson"), std::string::npos) << beyond;
   EXPECT_NE(beyond.find(", 0.25], the reach of membrane I-m; 0.3 is within the reach of"),
             std::string::npos)
       << beyond;
-  EXPECT_NE(faults(R"("poisson": 0.2)").find("0.25, or left out"), std::string::npos);
-  EXPECT_NE(faults(R"("membrane": "I-m", "poisson": 0.1, "parameters": "paper")")
+  EXPECT_NE(faults({{"poisson", 0.2}}).find("0.25, or left out"), std::string::npos);
+  EXPECT_NE(faults({{"membrane", "I-m"}, {"poisson", 0.1}, {"parameters", "paper"}})
                 .find("/pipeline/1/parameters"),
             std::string::npos);
-  EXPECT_NE(faults(R"("membrane": "I-m", "lambda": -1)").find("/pipeline/1/lambda"),
+  EXPECT_NE(faults({{"membrane", "I-m"}, {"lambda", -1}}).find("/pipeline/1/lambda"),
             std::string::npos);
 }
 

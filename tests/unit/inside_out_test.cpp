@@ -31,11 +31,9 @@ struct Watched {
   std::optional<CellWatch> watch;
 };
 
-std::string lattice(const std::string& type, const std::string& more = "") {
-  return listed_scene(
-      R"({ "type": ")" + type + R"(", "spacing": "1 mm", )" + more +
-          R"("shape": { "box": { "low": [0, 0, 0], "high": [6e-3, 5e-3, 4e-3] } } })",
-      R"("membrane": "none")");
+std::string lattice(const std::string& type, const Keys& more = {}) {
+  return listed_scene(stage(type, Keys{{"spacing", "1 mm"}, {"shape", box_mm(6, 5, 4)}} + more),
+                      {{"membrane", "none"}});
 }
 
 Vec3 same(Vec3 x) { return x; }
@@ -61,7 +59,7 @@ TEST(InsideOut, AnyLatticeMayBeTurnedAndStrainedButNotMirrored) {
 }
 
 TEST(InsideOut, OneParticleThatGoesThroughItsNeighboursTurnsItsCells) {
-  Watched body(lattice("lattices.cubic", R"("boundary": "cells", )"));
+  Watched body(lattice("lattices.cubic", {{"boundary", "cells"}}));
   const Vec3 inner{2e-3, 3e-3, 2e-3};
   const auto pushed = [&](double by) {
     return body.look([&](Vec3 x) { return norm(x - inner) < 1e-6 ? x + Vec3{by, 0, 0} : x; });
@@ -77,10 +75,10 @@ TEST(InsideOut, OneParticleThatGoesThroughItsNeighboursTurnsItsCells) {
 }
 
 TEST(InsideOut, AGapOrAHoleIsNoCell) {
-  Watched body(
-      listed_scene(R"({ "type": "lattices.cubic", "spacing": "1 mm", "shape": { "difference": [
-      { "box": { "low": [0, 0, 0], "high": [6e-3, 3e-3, 3e-3] } }, { "box": { "low": [2e-3, 1e-3, 1e-3], "high": [3e-3, 2e-3, 2e-3] } } ] } })",
-                   R"("membrane": "none")"));
+  const Json shape = {
+      {"difference", {box_mm(6, 3, 3), box({2e-3, 1e-3, 1e-3}, {3e-3, 2e-3, 2e-3})}}};
+  Watched body(listed_scene(stage("lattices.cubic", {{"spacing", "1 mm"}, {"shape", shape}}),
+                            {{"membrane", "none"}}));
   EXPECT_EQ(body.look(same).all, 5u * 2 * 2 - 8);
 }
 

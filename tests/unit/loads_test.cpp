@@ -11,17 +11,14 @@ using namespace hyperlattice::test;
 
 namespace {
 
-BuiltScene box_with(const std::string& loads) {
-  return build(box_lattice(3, 4, 5) + "," + elastic() + "," + loads);
-}
-std::string box_faults(const std::string& loads) {
-  return faults_of(box_lattice(3, 4, 5) + "," + elastic() + "," + loads);
+BuiltScene box_with(const Stages& loads) { return build(box_lattice(3, 4, 5) + elastic() + loads); }
+std::string box_faults(const Stages& loads) {
+  return faults_of(box_lattice(3, 4, 5) + elastic() + loads);
 }
 
-BuiltScene sphere_with(const std::string& load) {
-  return build(
-      R"({ "type": "lattices.cubic", "spacing": 1e-3, "shape": { "hollow_sphere": { "inner_radius": 8e-3, "outer_radius": 15e-3 } } },)" +
-      elastic() + "," + load);
+BuiltScene sphere_with(const Stages& load) {
+  const Json shape = {{"hollow_sphere", {{"inner_radius", 8e-3}, {"outer_radius", 15e-3}}}};
+  return build(stage("lattices.cubic", {{"spacing", 1e-3}, {"shape", shape}}) + elastic() + load);
 }
 
 Vec3 resultant(const Load& load) {
@@ -40,9 +37,8 @@ TEST(Loads, BlastIsRadialAndHasTheTrueArea) {
   for (const auto& [region, area, sign] :
        {std::tuple{"inner_surface", 4 * std::numbers::pi * 64e-6, 1.0},
         {"outer_surface", 4 * std::numbers::pi * 225e-6, -1.0}}) {
-    const BuiltScene built =
-        sphere_with(R"({ "type": "loads.blast", "on": ")" + std::string(region) +
-                    R"(", "peak": 2e6, "rise": 1e-6, "fall": 3e-6 })");
+    const BuiltScene built = sphere_with(
+        stage("loads.blast", {{"on", region}, {"peak", 2e6}, {"rise", 1e-6}, {"fall", 3e-6}}));
     const Load& load = built->loads.at(0);
     double radial = 0;
     for (const LoadedParticle& loaded : load.particles) {

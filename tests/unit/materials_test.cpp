@@ -13,12 +13,13 @@ namespace {
 
 using Membrane = KernelChoice::Membrane;
 
-std::string left_half(const std::string& more) {
-  return elastic(more +
-                 R"(, "region": { "half_space": { "point": [3, 0, 0], "normal": [1, 0, 0] } })");
-}
-std::string material_faults(const std::string& more) {
-  return faults_of(box_lattice(4, 4, 4) + "," + elastic(more));
+const Keys in_left_half = {
+    {"region", {{"half_space", {{"point", {3, 0, 0}}, {"normal", {1, 0, 0}}}}}}};
+const Keys lattice_I_m = {{"membrane", "I-m"}, {"poisson", 0.1}};
+
+Stages left_half(const Keys& more) { return elastic(more + in_left_half); }
+std::string material_faults(const Keys& more) {
+  return faults_of(box_lattice(4, 4, 4) + elastic(more));
 }
 
 void expect_in(const std::string& message, std::initializer_list<const char*> parts) {
@@ -27,24 +28,23 @@ void expect_in(const std::string& message, std::initializer_list<const char*> pa
 }
 
 TEST(Materials, MembraneDecidesTheDegreesOfFreedom) {
-  const auto choice = [](const char* more) {
-    return build(box_lattice(4, 4, 4) + "," + elastic(more))->choice.membrane;
+  const auto choice = [](const Keys& more) {
+    return build(box_lattice(4, 4, 4) + elastic(more))->choice.membrane;
   };
-  EXPECT_EQ(choice(R"("membrane": "none")"), Membrane::none);
-  EXPECT_EQ(choice(R"("membrane": "I-m", "poisson": 0.25)"), Membrane::none);
-  EXPECT_EQ(choice(R"("membrane": "I-m", "lambda": 0)"), Membrane::none);
-  EXPECT_EQ(choice(R"("membrane": "free", "k_alpha": 1)"), Membrane::none);
-  EXPECT_EQ(choice(R"("membrane": "III", "poisson": 0.2)"), Membrane::clamped);
-  EXPECT_EQ(choice(R"("membrane": "IV", "poisson": 0.3)"), Membrane::clamped);
-  EXPECT_EQ(choice(R"("membrane": "free", "k_alpha": "infinite", "k_gamma": 1)"),
+  EXPECT_EQ(choice({{"membrane", "none"}}), Membrane::none);
+  EXPECT_EQ(choice({{"membrane", "I-m"}, {"poisson", 0.25}}), Membrane::none);
+  EXPECT_EQ(choice({{"membrane", "I-m"}, {"lambda", 0}}), Membrane::none);
+  EXPECT_EQ(choice({{"membrane", "free"}, {"k_alpha", 1}}), Membrane::none);
+  EXPECT_EQ(choice({{"membrane", "III"}, {"poisson", 0.2}}), Membrane::clamped);
+  EXPECT_EQ(choice({{"membrane", "IV"}, {"poisson", 0.3}}), Membrane::clamped);
+  EXPECT_EQ(choice({{"membrane", "free"}, {"k_alpha", "infinite"}, {"k_gamma", 1}}),
             Membrane::clamped);
-  EXPECT_EQ(choice(R"("membrane": "I-m", "poisson": 0.1)"), Membrane::free);
-  EXPECT_EQ(choice(R"("membrane": "free", "k_beta": 1, "k_gamma": 0.75)"), Membrane::free);
+  EXPECT_EQ(choice({{"membrane", "I-m"}, {"poisson", 0.1}}), Membrane::free);
+  EXPECT_EQ(choice({{"membrane", "free"}, {"k_beta", 1}, {"k_gamma", 0.75}}), Membrane::free);
 }
 
 TEST(Materials, StiffnessMassAndStepOfLatticeIm) {
-  const BuiltScene built =
-      build(box_lattice(4, 4, 4) + "," + elastic(R"("membrane": "I-m", "poisson": 0.1)"));
+  const BuiltScene built = build(box_lattice(4, 4, 4) + elastic(lattice_I_m));
   const double k = 0.18939393939393939 * 1e9;  // values of figure 5
   EXPECT_NEAR(built->spring(0, 0, 0).stiffness, k, 1e-6 * k);
   EXPECT_NEAR(built->spring(0, 0, 0).cross_stiffness, 2.8 * k, 1e-6 * k);
@@ -58,14 +58,13 @@ TEST(Materials, StiffnessMassAndStepOfLatticeIm) {
 // this sum.
 TEST(Materials, EquationFifteenUsesTheSpringsThatExist) {
   const BuiltScene built =
-      build(box_lattice(4, 4, 4) + "," + elastic(R"("poisson": 0.25, "stiffness": "eq15")"));
+      build(box_lattice(4, 4, 4) + elastic({{"poisson", 0.25}, {"stiffness", "eq15"}}));
   EXPECT_NEAR(built->spring(0, 0, 0).stiffness, 6 * 64 * 1e9 / (3 * 16 * 3 + 12 * 4 * 9), 1);
 }
 
 TEST(Materials, PapersPolynomials) {
   const BuiltScene built =
-      build(box_lattice(4, 4, 4) + "," +
-            elastic(R"("membrane": "I-m", "poisson": 0.1, "parameters": "paper")"));
+      build(box_lattice(4, 4, 4) + elastic(lattice_I_m + Keys{{"parameters", "paper"}}));
   const double lambda = calibration::paper_lambda(0.1);
   EXPECT_NEAR(built->materials[0].constants.cross_ratio[0], lambda, 1e-12);
   EXPECT_NEAR(built->spring(0, 0, 0).stiffness, 0.4e9 / calibration::paper_modulus_ratio(lambda),
@@ -73,8 +72,8 @@ TEST(Materials, PapersPolynomials) {
 }
 
 TEST(Materials, LaterOnesTakeOver) {
-  const BuiltScene built = build(box_lattice(6, 4, 4) + "," + elastic() + "," +
-                                 left_half(R"("poisson": 0.25, "name": "left")"));
+  const BuiltScene built =
+      build(box_lattice(6, 4, 4) + elastic() + left_half({{"poisson", 0.25}, {"name", "left"}}));
   ASSERT_EQ(built->material_of.size(), 96u);
   for (Particle p = 0; p < 96; ++p)
     EXPECT_EQ(built->material_of[p], built->body.site(p).i < 3 ? 1 : 0);
@@ -82,11 +81,13 @@ TEST(Materials, LaterOnesTakeOver) {
 }
 
 TEST(Materials, SpringsBetweenMaterialsAreInSeries) {
-  const BuiltScene built = build(
-      box_lattice(6, 4, 4) + "," + elastic(R"("membrane": "I-m", "poisson": 0.1)") + "," +
-      R"({ "type": "materials.elastic", "young": 3e9, "density": 5000, "membrane": "I-m", "poisson": 0.2,
-                                      "region": { "half_space": { "point": [3, 0, 0], "normal": [1, 0, 0] } },
-                                      "failure": { "type": "failures.elongation", "limit": 0.01 } })");
+  const BuiltScene built =
+      build(box_lattice(6, 4, 4) + elastic(lattice_I_m) +
+            left_half({{"young", 3e9},
+                       {"density", 5000},
+                       {"membrane", "I-m"},
+                       {"poisson", 0.2},
+                       {"failure", {{"type", "failures.elongation"}, {"limit", 0.01}}}}));
   for (std::uint32_t c = 0; c < 2; ++c) {
     const SpringConstants &a = built->spring(0, 0, c), &b = built->spring(1, 1, c),
                           &ab = built->spring(0, 1, c), &ba = built->spring(1, 0, c);
@@ -160,13 +161,12 @@ double omega_square(const Model& model) {
 }
 
 TEST(Materials, CriticalStepOfSeveralIsSafeForTheBodyItself) {
-  const std::pair<const char*, const char*> cases[] = {
-      {R"("membrane": "I-m", "poisson": 0.1)", R"("poisson": 0.25)"},
-      {R"("membrane": "I-m", "poisson": 0.05)", R"("membrane": "I-m", "poisson": 0.22)"},
-      {R"("membrane": "II", "poisson": 0.0)", R"("membrane": "I", "poisson": 0.2)"}};
+  const std::pair<Keys, Keys> cases[] = {
+      {{{"membrane", "I-m"}, {"poisson", 0.1}}, {{"poisson", 0.25}}},
+      {{{"membrane", "I-m"}, {"poisson", 0.05}}, {{"membrane", "I-m"}, {"poisson", 0.22}}},
+      {{{"membrane", "II"}, {"poisson", 0.0}}, {{"membrane", "I"}, {"poisson", 0.2}}}};
   for (const auto& [right, left] : cases) {
-    const BuiltScene built =
-        build(box_lattice(8, 6, 6) + "," + elastic(right) + "," + left_half(left));
+    const BuiltScene built = build(box_lattice(8, 6, 6) + elastic(right) + left_half(left));
     const double bound = 4 / (built->critical_time_step * built->critical_time_step),
                  found = omega_square(*built);
     EXPECT_LE(found, bound);
@@ -176,8 +176,7 @@ TEST(Materials, CriticalStepOfSeveralIsSafeForTheBodyItself) {
 
 TEST(Materials, WithoutAMembraneBesideOneThatMovesHeightsAreHeld) {
   const BuiltScene built =
-      build(box_lattice(6, 4, 4) + "," + elastic(R"("membrane": "I-m", "poisson": 0.1)") + "," +
-            left_half(R"("poisson": 0.25)"));
+      build(box_lattice(6, 4, 4) + elastic(lattice_I_m) + left_half({{"poisson", 0.25}}));
   EXPECT_EQ(built->choice.membrane, Membrane::free);
   EXPECT_EQ(built->spring(0, 1, 0).cross_stiffness, 0);
   EXPECT_NEAR(built->materials[1].constants.alpha_ratio, 6, 1e-12);
@@ -186,53 +185,55 @@ TEST(Materials, WithoutAMembraneBesideOneThatMovesHeightsAreHeld) {
 }
 
 TEST(Materials, FaultsOfABodyOfSeveral) {
-  const std::string lattice = box_lattice(6, 4, 4) + ",";
-  expect_in(faults_of(lattice + left_half(R"("poisson": 0.25)")),
+  const Stages lattice = box_lattice(6, 4, 4);
+  expect_in(faults_of(lattice + left_half({{"poisson", 0.25}})),
             {"/pipeline: ", "48 have none", "(3.5, 0.5, 0.5)"});
-  expect_in(faults_of(lattice + left_half(R"("poisson": 0.25)") + "," + elastic()),
+  expect_in(faults_of(lattice + left_half({{"poisson", 0.25}}) + elastic()),
             {"/pipeline/1/region", "take all of this one's"});
-  expect_in(faults_of(lattice + elastic() + "," +
-                      elastic(R"("region": { "sphere": { "radius": 0.1 } })")),
+  expect_in(faults_of(lattice + elastic() + elastic({{"region", {{"sphere", {{"radius", 0.1}}}}}})),
             {"/pipeline/2/region", "a sphere", "holds none"});
-  expect_in(faults_of(lattice + elastic(R"("membrane": "I-m", "poisson": 0.1)") + "," +
-                      left_half(R"("membrane": "IV", "poisson": 0.3)")),
-            {"/pipeline/2", "clamped and free"});
+  expect_in(
+      faults_of(lattice + elastic(lattice_I_m) + left_half({{"membrane", "IV"}, {"poisson", 0.3}})),
+      {"/pipeline/2", "clamped and free"});
 }
 
 TEST(Elastic, SaysWhichPoissonRatiosAMembraneReaches) {
-  expect_in(material_faults(R"("membrane": "I-m", "poisson": 0.3)"),
+  expect_in(material_faults({{"membrane", "I-m"}, {"poisson", 0.3}}),
             {"/pipeline/1/poisson", "0.3", "(-0.2, 0.25]", "membrane I-m",
              "0.3 is within the reach of IV (not isotropic)"});
-  expect_in(material_faults(R"("membrane": "IV", "poisson": -0.3)"),
+  expect_in(material_faults({{"membrane", "IV"}, {"poisson", -0.3}}),
             {"/pipeline/1/poisson", "-0.3 is within the reach of II"});
-  expect_in(material_faults(R"("membrane": "I", "poisson": 0.4)"),
+  expect_in(material_faults({{"membrane", "I"}, {"poisson", 0.4}}),
             {"no membrane of this lattice reaches it"});
-  expect_in(material_faults(R"("poisson": 0.2)"), {"/pipeline/1/poisson", "0.25, or left out",
-                                                   "I-m, I (not isotropic), II (not isotropic)"});
-  expect_in(material_faults(R"("membrane": "I-m", "poisson": 0.02, "parameters": "paper")"),
+  expect_in(material_faults({{"poisson", 0.2}}), {"/pipeline/1/poisson", "0.25, or left out",
+                                                  "I-m, I (not isotropic), II (not isotropic)"});
+  expect_in(material_faults({{"membrane", "I-m"}, {"poisson", 0.02}, {"parameters", "paper"}}),
             {"/pipeline/1/poisson", "0.04 to 0.2464"});
 }
 
 TEST(Elastic, RefusesWhatDoesNotGoTogether) {
-  expect_in(material_faults(R"("membrane": "I-m")"), {"/pipeline/1/poisson", "lambda"});
-  expect_in(material_faults(R"("membrane": "I-m", "poisson": 0.1, "lambda": 1)"),
+  expect_in(material_faults({{"membrane", "I-m"}}), {"/pipeline/1/poisson", "lambda"});
+  expect_in(material_faults({{"membrane", "I-m"}, {"poisson", 0.1}, {"lambda", 1}}),
             {"/pipeline/1/lambda", "one of poisson and lambda"});
-  expect_in(material_faults(R"("lambda": 1)"), {"/pipeline/1/lambda"});
-  expect_in(material_faults(R"("membrane": "I", "poisson": 0.1, "k_beta": 1)"),
+  expect_in(material_faults({{"lambda", 1}}), {"/pipeline/1/lambda"});
+  expect_in(material_faults({{"membrane", "I"}, {"poisson", 0.1}, {"k_beta", 1}}),
             {"/pipeline/1/membrane", "free"});
-  expect_in(material_faults(R"("membrane": "IV", "lambda": -2)"),
+  expect_in(material_faults({{"membrane", "IV"}, {"lambda", -2}}),
             {"/pipeline/1/lambda", "above -2"});
-  expect_in(material_faults(R"("membrane": "II", "poisson": 0.1, "parameters": "paper")"),
+  expect_in(material_faults({{"membrane", "II"}, {"poisson", 0.1}, {"parameters", "paper"}}),
             {"/pipeline/1/parameters", "I-m"});
-  expect_in(material_faults(R"("membrane": "free", "k_beta": 1, "k_gamma": 0.75, "poisson": 0.2)"),
-            {"/pipeline/1", "leave poisson out"});
+  expect_in(
+      material_faults({{"membrane", "free"}, {"k_beta", 1}, {"k_gamma", 0.75}, {"poisson", 0.2}}),
+      {"/pipeline/1", "leave poisson out"});
 }
 
 TEST(Elastic, AnUnstableMembraneIsRefusedWithItsWave) {
-  expect_in(material_faults(R"("membrane": "free", "k_alpha": 3, "k_beta": -2.5, "k_gamma": 2)"),
-            {"/pipeline/1", "stable lattice", "the wave with vector", "grows"});
-  expect_in(material_faults(R"("membrane": "free", "k_beta": -1, "k_gamma": -0.2, "k_alpha": 0)"),
-            {"homogeneous deformation"});
+  expect_in(
+      material_faults({{"membrane", "free"}, {"k_alpha", 3}, {"k_beta", -2.5}, {"k_gamma", 2}}),
+      {"/pipeline/1", "stable lattice", "the wave with vector", "grows"});
+  expect_in(
+      material_faults({{"membrane", "free"}, {"k_beta", -1}, {"k_gamma", -0.2}, {"k_alpha", 0}}),
+      {"homogeneous deformation"});
 }
 
 }  // namespace
