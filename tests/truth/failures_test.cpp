@@ -48,7 +48,7 @@ void compare(const Plan& plan, double strain, double shear,
   for (const int threads : {1, 3}) {
     Simulation simulation(model, threads);
     simulation.set_displacements(u, {});
-    simulation.step(1e-3 * model.critical_time_step);
+    simulation.step(1e-3 * model.step_limit.time_step);
     found.clear();
     for (const Breakage& breakage : simulation.breakages())
       found.insert({std::min(breakage.a, breakage.b), std::max(breakage.a, breakage.b)});
@@ -96,7 +96,7 @@ TEST(Failures, EnergyCountsInTensionOnly) {
 TEST(Failures, FractureEnergyIsThatOfTheSpringsThroughAnArea) {
   const double crossings = (3 + 6 * std::sqrt(2.0)) / (2 * l * l);
   const auto plan = plan_of(block(5, 4, 6, breakable(R"(energy", "fracture_energy": 500)")));
-  EXPECT_NEAR(plan->model->crossings, crossings, 1e-12 * crossings);
+  EXPECT_NEAR(plan->model->springs.crossings, crossings, 1e-12 * crossings);
   compare(
       *plan, 0.01, 0.004,
       [&](double, double elongation, Spring) {
@@ -113,11 +113,12 @@ TEST(Failures, FractureEnergyIsThatOfTheSpringsThroughAnArea) {
                       std::sqrt(1 - z * z) * std::sin(angle), z};
     double crossing = 0;
     // In a unit of volume, one spring of each kind begins.
-    for (const NeighbourGeometry& to : body->neighbours) crossing += std::abs(dot(to.rest, normal));
+    for (const NeighbourGeometry& to : body->springs.neighbours)
+      crossing += std::abs(dot(to.rest, normal));
     mean += crossing;
     ++planes;
   }
-  EXPECT_NEAR(mean / planes, body->crossings, 0.002 * body->crossings);
+  EXPECT_NEAR(mean / planes, body->springs.crossings, 0.002 * body->springs.crossings);
 }
 
 TEST(Failures, RateHoldsMoreWhatIsPulledFaster) {
@@ -139,7 +140,7 @@ TEST(Failures, RateHoldsMoreWhatIsPulledFaster) {
       Simulation simulation(model, threads);
       simulation.set_displacements(u, std::vector<double>(model.body.particles, 0));
       simulation.set_velocities(v, std::vector<double>(model.body.particles, 0));
-      simulation.step(1e-3 * model.critical_time_step);
+      simulation.step(1e-3 * model.step_limit.time_step);
       EXPECT_EQ(simulation.breakages().size(), expected)
           << pull << " per second, " << threads << " threads";
     }
@@ -166,7 +167,7 @@ TEST(Failures, WeibullScattersAsItSays) {
     }
     Simulation simulation(*of.model, 2);
     simulation.set_displacements(u, {});
-    simulation.step(1e-3 * model.critical_time_step);
+    simulation.step(1e-3 * model.step_limit.time_step);
     std::set<Spring> found;
     for (const Breakage& breakage : simulation.breakages()) found.insert({breakage.a, breakage.b});
     return found;

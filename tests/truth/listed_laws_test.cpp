@@ -216,11 +216,14 @@ struct LawTwins {
              material(2, R"(, "region": { "box": { "low": [0, 0, 0], "high": [1, 1, 3e-3] } })") +
              R"(, { "type": "solvers.explicit", "end_time": 1 } ] })";
     };
-    const auto opening = [](const Plan& plan) { return plan.model->springs[0].law[0][1]; };
+    const auto opening = [](const Plan& plan) {
+      return plan.model->springs.constants[0].law[0][1];
+    };
     grid = plan_of(
         scene(R"({ "type": "lattices.cubic", "spacing": 1e-3, "shape": )" + shape + " }", 1, 5));
     list = plan_of(scene(files.lattice(), 1, 5));
-    const double scale = grid->model->springs[0].stiffness / list->model->springs[0].stiffness;
+    const double scale =
+        grid->model->springs.constants[0].stiffness / list->model->springs.constants[0].stiffness;
     list = plan_of(scene(files.lattice(), scale,
                          law == "softening" ? 5 * scale * opening(*grid) / opening(*list) : 5));
     in_grid = InGrid(nx, ny, nz, *list->model);
@@ -240,7 +243,7 @@ TEST(ListedLaws, TheCubicLatticeAsAListMovesAsTheGrid) {
       list.set_velocities(twins.in_grid.for_list(start), level);
       for (int n = 0; n < 100; ++n)
         for (Simulation* simulation : {&grid, &list})
-          simulation->step(0.4 * twins.grid->model->critical_time_step);
+          simulation->step(0.4 * twins.grid->model->step_limit.time_step);
       EXPECT_LT(distance(twins.in_grid.for_list(displacements(grid)), displacements(list)),
                 1e-10 * largest(displacements(grid)))
           << law << membrane;
