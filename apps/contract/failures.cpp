@@ -33,16 +33,16 @@ class Criterion {
 
   bool remembers() const { return functions_.memory > 0; }
   Pulling pulling() const {
-    return {remembers() ? 5 : 1, 1e-6 * model_.critical_time_step, model_.critical_time_step};
+    return {remembers() ? 5 : 1, 1e-6 * model_.step_limit.time_step, model_.step_limit.time_step};
   }
   /// Returns one entry for each class of base springs.
   std::vector<SpringFacts> springs() const {
     std::vector<SpringFacts> all;
-    for (const NeighbourGeometry& neighbour : model_.neighbours) {
+    for (const NeighbourGeometry& neighbour : model_.springs.neighbours) {
       const std::uint32_t spring_class = neighbour.site.spring_class;
       if (spring_class != all.size()) continue;
-      all.push_back({neighbour.rest_length, model_.spring(0, 0, spring_class).stiffness,
-                     model_.body.grid.spacing, spring_class, model_.crossings});
+      all.push_back({neighbour.rest_length, model_.springs.spring(0, 0, spring_class).stiffness,
+                     model_.body.grid.spacing, spring_class, model_.springs.crossings});
     }
     return all;
   }
@@ -205,7 +205,8 @@ Finding stays_broken(const Model& model, const Pulling& how, double threshold) {
 }
 
 Finding takes_its_energy(const Model& model, const Pulling& how, double threshold) {
-  const double stiffness = model.spring(0, 0, model.neighbours.front().site.spring_class).stiffness;
+  const double stiffness =
+      model.springs.spring(0, 0, model.springs.neighbours.front().site.spring_class).stiffness;
   const double expected = 0.5 * stiffness * threshold * threshold;
   Pair pair(model, how);
   pair.pull(threshold * (1 + 1e-9));
@@ -243,7 +244,7 @@ Finding memory_is_sound(const Criterion& criterion, double threshold) {
 }
 
 Finding same_bits(const Model& model, double threshold) {
-  RandomMotion motion{threshold / model.critical_time_step};  // moves by a threshold in a step
+  RandomMotion motion{threshold / model.step_limit.time_step};  // moves by a threshold in a step
   const MotionResult one = run_motion(model, motion);
   motion.threads = 3;
   const MotionResult three = run_motion(model, motion);
@@ -253,7 +254,7 @@ Finding same_bits(const Model& model, double threshold) {
 }
 
 Finding restart(const Model& model, double threshold) {
-  RandomMotion motion{threshold / model.critical_time_step};
+  RandomMotion motion{threshold / model.step_limit.time_step};
   const MotionResult whole = run_motion(model, motion);
   motion.cut_off = true;
   const MotionResult cut_off = run_motion(model, motion);

@@ -62,9 +62,10 @@ Finding patch(const Model& model) {
     ++springs[b];
     const Vec3 r = body.position(b) - body.position(a),
                d{u[3 * b] - u[3 * a], u[3 * b + 1] - u[3 * a + 1], u[3 * b + 2] - u[3 * a + 2]};
-    take_largest(strongest, model.spring(0, 0, spring_class).stiffness * dot(r, d) / norm(r));
+    take_largest(strongest,
+                 model.springs.spring(0, 0, spring_class).stiffness * dot(r, d) / norm(r));
   });
-  const std::vector<double> forces = DrivenBody(model).forces(u, 0.1 * model.critical_time_step);
+  const std::vector<double> forces = DrivenBody(model).forces(u, 0.1 * model.step_limit.time_step);
   double worst = 0;
   std::size_t inner = 0;
   for (Particle p = 0; p < body.particles; ++p) {

@@ -11,7 +11,7 @@ namespace hyperlattice::contract {
 namespace {
 
 Finding factor(const Model& model) {
-  const Load& load = model.loads.front();
+  const Load& load = model.loads[0];
   double least = infinity, most = -infinity;
   for (int n = 0; n <= 1000; ++n) {
     const double time = 1e-7 * n, now = load.factor(time);
@@ -28,7 +28,7 @@ Finding factor(const Model& model) {
 /// second order in the step; with loads that depend on velocities, of first order.
 Finding work(const Model& model) {
   const MotionResult coarse = run_motion(model, {0.5, 0.4}), fine = run_motion(model, {0.5, 0.1});
-  const double power = model.answering ? 2.5 : 8;
+  const double power = model.loads.answering ? 2.5 : 8;
   return passes_if(coarse.largest_error < 0.02 &&
                        fine.largest_error < std::max(1e-9, coarse.largest_error / power),
                    fmt::format("a block in motion gets {:.3g} J; relative error of the energy "

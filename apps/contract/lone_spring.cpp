@@ -8,27 +8,28 @@
 
 namespace hyperlattice::contract {
 
-LoneSpring::LoneSpring(const Model& model) : model_(&model), memory_(model.kernels().memory, 0.0) {
-  const NeighbourGeometry& neighbour = model.neighbours.front();
-  const SpringConstants& constants = model.spring(0, 0, neighbour.site.spring_class);
+LoneSpring::LoneSpring(const Model& model)
+    : model_(&model), memory_(model.springs.kernels().memory, 0.0) {
+  const NeighbourGeometry& neighbour = model.springs.neighbours.front();
+  const SpringConstants& constants = model.springs.spring(0, 0, neighbour.site.spring_class);
   spring_.stiffness = constants.stiffness;
   spring_.rest_length = neighbour.rest_length;
   spring_.law = constants.law[0];
-  start_spring(model.laws.front(), spring_.law, {0, 1}, memory_.data());
+  start_spring(model.springs.laws.front(), spring_.law, {0, 1}, memory_.data());
   period_ = std::sqrt(model.materials.front().mass / constants.stiffness);
 }
 
 SpringAnswer LoneSpring::move(double elongation, double time_step) {
   OneSpring spring = spring_;
   spring.elongation = elongation;
-  return take_spring(model_->laws.front(), spring, time_step, memory_.data());
+  return take_spring(model_->springs.laws.front(), spring, time_step, memory_.data());
 }
 
 double LoneSpring::energy(double elongation) const {
   OneSpring spring = spring_;
   spring.elongation = elongation;
   spring.memory = memory_.data();
-  return ask_spring(model_->laws.front(), spring).energy;
+  return ask_spring(model_->springs.laws.front(), spring).energy;
 }
 
 double LoneSpring::reach() const {

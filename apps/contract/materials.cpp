@@ -73,14 +73,15 @@ Finding dissipates(const LoneSpring& spring) {
 /// Checks the tangent that static solvers use: `axial` and `pull` of a row of one spring, see
 /// kernels/tangent.hpp. The memory is that of a new spring.
 Finding tangent(const Model& model, const LoneSpring& lone) {
-  const NeighbourGeometry& neighbour = model.neighbours.front();
+  const NeighbourGeometry& neighbour = model.springs.neighbours.front();
   const double length = neighbour.rest_length;
   const auto linearised = [&](double elongation) {
     constexpr int padded = lanes_of<float>;
     double zero[padded] = {}, there[padded] = {}, one[padded] = {1}, stiffness[padded] = {},
            cross[padded] = {}, results[4][padded] = {};
     there[0] = elongation;
-    std::fill_n(stiffness, padded, model.spring(0, 0, neighbour.site.spring_class).stiffness);
+    std::fill_n(stiffness, padded,
+                model.springs.spring(0, 0, neighbour.site.spring_class).stiffness);
     SpringRow row;
     row.count = 1;
     for (int c = 0; c < 4; ++c) {
@@ -89,7 +90,7 @@ Finding tangent(const Model& model, const LoneSpring& lone) {
     }
     row.stiffness = stiffness;
     row.cross_stiffness = cross;
-    const SpringConstants& constants = model.spring(0, 0, neighbour.site.spring_class);
+    const SpringConstants& constants = model.springs.spring(0, 0, neighbour.site.spring_class);
     for (std::size_t kind = 0; kind < 2; ++kind) {
       row.law[kind] = constants.law[kind];
       row.memory[kind] = lone.memory().data();
@@ -103,7 +104,7 @@ Finding tangent(const Model& model, const LoneSpring& lone) {
     row.axial = results[1];
     row.cross_pull = results[2];
     row.cross_axial = results[3];
-    linearise_springs(model.laws.front(), row);
+    linearise_springs(model.springs.laws.front(), row);
     const double now = length + elongation;
     struct Answer {
       double force, slope;
@@ -131,7 +132,7 @@ Finding tangent(const Model& model, const LoneSpring& lone) {
 /// Compares the forces of a body of two particles and one spring on the usual path with those of
 /// the spring alone.
 Finding kernels_follow_the_law(const Model& model, const LoneSpring& spring, double allowed) {
-  if (model.choice.membrane != KernelChoice::Membrane::none)
+  if (model.springs.choice.membrane != KernelChoice::Membrane::none)
     return not_applicable(
         "the example has springs in the fourth dimension beside each base spring");
   std::vector<double> elongations = path_through(usual_turns(spring.reach()), spring.reach() / 100);

@@ -71,7 +71,7 @@ class MovingBlock {
     outputs_->begin();
   }
   void show() { outputs_->show_now(); }
-  void move() { simulation_->step(0.5 * model_.critical_time_step); }
+  void move() { simulation_->step(0.5 * model_.step_limit.time_step); }
   void end() { outputs_->end(); }
 
   /// Imitates the end of the program and a resumed run.

@@ -106,7 +106,7 @@ MotionResult run_motion(const Model& model, const RandomMotion& motion) {
   for (int n = 0; n < steps; ++n) {
     if (motion.cut_off && n == steps / 2)
       simulation = restarted(*simulation, model, motion.threads);
-    simulation->step(motion.duration / steps * model.critical_time_step);
+    simulation->step(motion.duration / steps * model.step_limit.time_step);
     result.balance = simulation->balance();
     take_largest(result.largest_error, result.balance.relative_error());
   }

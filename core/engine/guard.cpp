@@ -36,7 +36,7 @@ void Guard::fail(const std::string& what, double time_step) const {
   bool finite = true;
   const Particle particle = simulation_.fastest(speed, finite);
   const Vec3 x = model_.body.position(particle);
-  const Material& material = model_.materials[model_.material(particle)];
+  const Material& material = model_.materials[model_.kinds.material(particle)];
   std::string law =
       fmt::format("{} ({})", material.stage->component->type(), material.stage->pointer);
   for (const Material::Criterion& criterion : material.failures)
@@ -48,7 +48,7 @@ void Guard::fail(const std::string& what, double time_step) const {
       simulation_.steps(), simulation_.time(), what,
       finite ? "The fastest is" : "The first bad one is", particle, x.x, x.y, x.z,
       finite ? fmt::format(" with {:.4g} m/s", speed) : std::string(), law, time_step,
-      time_step / model_.critical_time_step, model_.critical_time_step));
+      time_step / model_.step_limit.time_step, model_.step_limit.time_step));
 }
 
 }  // namespace hyperlattice

@@ -48,7 +48,7 @@ BodyFigures body_figures(const Model& model) {
   }
   figures.volume = particles * body.grid.site_volume;
   if (model.materials.size() == 1)
-    figures.mass = particles * model.masses.front();
+    figures.mass = particles * model.kinds.masses.front();
   else
     for (Particle particle = 0; particle < body.particles; ++particle)
       figures.mass += model.mass(particle);

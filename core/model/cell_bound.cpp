@@ -18,7 +18,7 @@ int number(Site s) { return s.i + 2 * s.j + 4 * s.k; }
 /// Returns omega^2, 1/s2, of the stiffest motion of one free cell, with its share of the springs
 /// and of the masses.
 double stiffest(const Model& model, std::uint8_t material) {
-  const int size = model.choice.membrane == Membrane::free ? 4 : 3;
+  const int size = model.springs.choice.membrane == Membrane::free ? 4 : 3;
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(corners * size, corners * size);
   Eigen::VectorXd mass(corners * size);
   const auto add = [&](int a, int b, double k, Vec3 r, double height, double length) {
@@ -29,22 +29,22 @@ double stiffest(const Model& model, std::uint8_t material) {
     if (size == 4) growth(size * a + 3) = growth(size * b + 3) = height / length;
     stiffness += k * growth * growth.transpose();
   };
-  for (const NeighbourGeometry& n : model.neighbours) {
+  for (const NeighbourGeometry& n : model.springs.neighbours) {
     int cells = 0;  // number of cells of a spring
     for_cells_of(n.site, [&](int, int, int) { ++cells; });
     for_cells_of(n.site, [&](int di, int dj, int dk) {
       const int a = number({-di, -dj, -dk}),
                 b = number({n.site.dx - di, n.site.dy - dj, n.site.dz - dk});
-      const SpringConstants& spring = model.spring(material, material, n.site.spring_class);
+      const SpringConstants& spring = model.springs.spring(material, material, n.site.spring_class);
       add(a, b, spring.stiffness / cells, n.rest, 0, n.rest_length);
-      if (model.choice.membrane != Membrane::none)
+      if (model.springs.choice.membrane != Membrane::none)
         add(a, b, spring.cross_stiffness / cells, n.rest, model.body.grid.membrane_distance,
             n.cross_rest_length);
     });
   }
-  mass.setConstant(model.masses[material] / corners);
+  mass.setConstant(model.kinds.masses[material] / corners);
   for (int n = 0; n < corners && size == 4; ++n)
-    stiffness(size * n + 3, size * n + 3) += 2 * model.alphas[material] / corners;
+    stiffness(size * n + 3, size * n + 3) += 2 * model.kinds.alphas[material] / corners;
   const Eigen::VectorXd root = mass.cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = root.asDiagonal() * stiffness * root.asDiagonal();
   return numerics::SymmetricEigen<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly)

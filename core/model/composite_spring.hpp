@@ -23,9 +23,9 @@ inline constexpr std::size_t max_spring_memory = max_spring_parts * (max_law_mem
 
 struct SpringPart {
   std::uint8_t material = 0;
-  std::uint32_t law = 0;    ///< index in Model::laws
-  double weight = 1;        ///< w_n, side by side
-  double stiffness[2] = {}; ///< of a whole base and cross spring of the material, N/m
+  std::uint32_t law = 0;     ///< index in SpringTable::laws
+  double weight = 1;         ///< w_n, side by side
+  double stiffness[2] = {};  ///< of a whole base and cross spring of the material, N/m
   const double* constants[2] = {};
 };
 

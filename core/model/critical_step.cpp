@@ -14,12 +14,12 @@ namespace {
 InfiniteLattice lattice_of(const Model& model, std::size_t material) {
   const std::size_t classes = model.body.grid.spring_classes;
   const MaterialConstants& constants = model.materials[material].constants;
-  return {model.neighbours,
-          std::span(model.springs)
+  return {model.springs.neighbours,
+          std::span(model.springs.constants)
               .subspan((material * model.materials.size() + material) * classes, classes),
           constants.alpha_ratio * constants.base_stiffness,
           model.body.grid.membrane_distance,
-          model.choice.membrane,
+          model.springs.choice.membrane,
           model.body.grid.spacing,
           model.body.grid.basis};
 }
@@ -38,14 +38,14 @@ double bound(const Model& model, const Environment& environment) {
   const std::uint8_t own = environment[0];
   const MaterialConstants& constants = model.materials[own].constants;
   StiffnessBound sum;
-  for (std::size_t n = 0; n < model.neighbours.size(); ++n)
+  for (std::size_t n = 0; n < model.springs.neighbours.size(); ++n)
     for (const int side : {1, -1}) {
-      const NeighbourGeometry& neighbour = model.neighbours[n];
+      const NeighbourGeometry& neighbour = model.springs.neighbours[n];
       const std::uint8_t other = environment[1 + 2 * n + (side < 0 ? 1 : 0)];
-      sum.add(neighbour, side, model.spring(own, other, neighbour.site.spring_class),
-              model.body.grid.membrane_distance, model.choice.membrane);
+      sum.add(neighbour, side, model.springs.spring(own, other, neighbour.site.spring_class),
+              model.body.grid.membrane_distance, model.springs.choice.membrane);
     }
-  if (model.choice.membrane == KernelChoice::Membrane::free)
+  if (model.springs.choice.membrane == KernelChoice::Membrane::free)
     sum.add_alpha(constants.alpha_ratio * constants.base_stiffness);
   return sum.value();
 }
@@ -60,15 +60,15 @@ std::map<Environment, Particle> environments(const Model& model) {
   for (const Run& run : model.body.runs)
     for (std::int32_t i = run.begin; i < run.end; ++i) {
       const Particle particle = run.first + static_cast<Particle>(i - run.begin);
-      Environment here = uniform(model.material_of[particle]);
+      Environment here = uniform(model.kinds.material_of[particle]);
       bool mixed = false;
-      for (std::size_t n = 0; n < model.neighbours.size(); ++n)
+      for (std::size_t n = 0; n < model.springs.neighbours.size(); ++n)
         for (const int side : {1, -1}) {
-          const Neighbour& step = model.neighbours[n].site;
+          const Neighbour& step = model.springs.neighbours[n].site;
           const Particle other =
               model.body.at({i + side * step.dx, run.j + side * step.dy, run.k + side * step.dz});
-          if (other == Body::no_particle || model.material_of[other] == here[0]) continue;
-          here[1 + 2 * n + (side < 0 ? 1 : 0)] = model.material_of[other];
+          if (other == Body::no_particle || model.kinds.material_of[other] == here[0]) continue;
+          here[1 + 2 * n + (side < 0 ? 1 : 0)] = model.kinds.material_of[other];
           mixed = true;
         }
       if (mixed) found.emplace(here, particle);
@@ -96,8 +96,8 @@ void find_critical_step_of_list(Model& model, Faults& faults) {
   const Vec3 at = model.body.position(bound.particle);
   for (Material& material : model.materials)
     material.critical_time_step = 2 / std::sqrt(bound.square);
-  model.critical_time_step = 2 / std::sqrt(bound.square);
-  model.critical_because = fmt::format(
+  model.step_limit.time_step = 2 / std::sqrt(bound.square);
+  model.step_limit.because = fmt::format(
       "a safe bound for a listed lattice: the springs of the particle at ({:.4g}, {:.4g}, {:.4g}) "
       "m",
       at.x, at.y, at.z);
@@ -115,18 +115,18 @@ void limit_step(Model& model, std::size_t n, const InfiniteLattice& lattice, boo
   const Wave wave = stiffest_wave(lattice);
   const char* which = unstable ? "the stiffest of all waves of the lattice that do not grow: "
                                : "the stiffest of all waves of the lattice: ";
-  model.critical_because = which + describe(wave);
+  model.step_limit.because = which + describe(wave);
   double stiffness = wave.stiffness;
   if (stiffness <= 0) {
     stiffness = bound(model, uniform(static_cast<std::uint8_t>(n)));
-    model.critical_because = "a safe bound: every wave of the lattice grows";
+    model.step_limit.because = "a safe bound: every wave of the lattice grows";
   }
-  model.critical_time_step = material.critical_time_step = step_of(stiffness, material.mass);
+  model.step_limit.time_step = material.critical_time_step = step_of(stiffness, material.mass);
 }
 
 /// Shortens the critical step to the stable step of laws that are not purely elastic.
 void limit_by_laws(Model& model) {
-  const double elastic = model.critical_time_step;
+  const double elastic = model.step_limit.time_step;
   for (const Material& material : model.materials) {
     const auto stable_step = material.stage->functions<MaterialFunctions>().stable_step;
     if (stable_step == nullptr) continue;
@@ -137,9 +137,9 @@ void limit_by_laws(Model& model) {
     if (!(step > 0))
       throw plugin_error(*material.stage, "stable_time_step",
                          fmt::format("it gives a time step of {} s", step));
-    if (!(step < model.critical_time_step)) continue;
-    model.critical_time_step = step;
-    model.critical_because +=
+    if (!(step < model.step_limit.time_step)) continue;
+    model.step_limit.time_step = step;
+    model.step_limit.because +=
         fmt::format("; of its {:.4g} s the law of {} ({}) leaves {:.4g} s", elastic,
                     material.stage->name, material.stage->pointer, step);
   }
@@ -163,28 +163,28 @@ void find_elastic_step(Model& model, Faults& faults) {
       model.warnings.push_back(fmt::format("the lattice of {} ({}) is unstable: {}",
                                            material.stage->name, material.stage->pointer,
                                            describe(*unstable)));
-    else if (model.two_layers_grow.empty() && has_negative_springs(lattice))
+    else if (model.step_limit.two_layers_grow.empty() && has_negative_springs(lattice))
       if (const auto opposed = find_instability(lattice, Sector::opposed))
-        model.two_layers_grow = describe(*opposed);
+        model.step_limit.two_layers_grow = describe(*opposed);
     limit_step(model, n, lattice, unstable.has_value());
   }
   if (faults.size() > before) return;
   if (!model.body.cells.empty()) {
-    model.critical_time_step = 2 / std::sqrt(cell_bound(model));
-    model.critical_because =
+    model.step_limit.time_step = 2 / std::sqrt(cell_bound(model));
+    model.step_limit.because =
         "a safe bound for a body of cells: the stiffest motion of a cell that moves alone";
     return;
   }
   if (model.materials.size() == 1) return;
 
-  model.critical_time_step = infinity;
+  model.step_limit.time_step = infinity;
   for (const auto& [environment, particle] : environments(model)) {
     const Material& own = model.materials[environment[0]];
     const double step = step_of(bound(model, environment), own.mass);
-    if (step >= model.critical_time_step) continue;
-    model.critical_time_step = step;
+    if (step >= model.step_limit.time_step) continue;
+    model.step_limit.time_step = step;
     const std::string where = particle == Body::no_particle ? "inside" : "at the border of";
-    model.critical_because =
+    model.step_limit.because =
         fmt::format("a safe bound for several materials: the springs of a particle {} {} ({})",
                     where, own.stage->name, own.stage->pointer);
   }

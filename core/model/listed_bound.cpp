@@ -20,13 +20,13 @@ ListedBound listed_bound(const Model& model) {
     found.all_positive &= properties.stiffness > 0 && properties.cross_stiffness >= 0;
     const SpringConstants constants{properties.stiffness, properties.cross_stiffness, infinity};
     sums[spring.a].add(geometry_of(properties), 1, constants, body.grid.membrane_distance,
-                       model.choice.membrane);
+                       model.springs.choice.membrane);
     sums[spring.b].add(geometry_of(properties), -1, constants, body.grid.membrane_distance,
-                       model.choice.membrane);
+                       model.springs.choice.membrane);
   }
   for (Particle p = 0; p < body.particles; ++p) {
-    const MaterialConstants& constants = model.materials[model.material(p)].constants;
-    if (model.choice.membrane == KernelChoice::Membrane::free) {
+    const MaterialConstants& constants = model.materials[model.kinds.material(p)].constants;
+    if (model.springs.choice.membrane == KernelChoice::Membrane::free) {
       sums[p].add_alpha(body.share(p) * constants.alpha_ratio * constants.base_stiffness);
       found.all_positive &= constants.alpha_ratio >= 0;
     }

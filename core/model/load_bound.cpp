@@ -38,11 +38,11 @@ void limit_step_by_loads(Model& model) {
     stiffer = std::max(stiffer, reaction.stiffness / model.mass(particle));
     rate = std::max(rate, reaction.viscosity / model.mass(particle));
   }
-  const double alone = model.critical_time_step, square = 4 / (alone * alone) + stiffer;
-  model.critical_time_step = 2 / (0.5 * rate + std::sqrt(0.25 * rate * rate + square));
-  model.critical_because +=
+  const double alone = model.step_limit.time_step, square = 4 / (alone * alone) + stiffer;
+  model.step_limit.time_step = 2 / (0.5 * rate + std::sqrt(0.25 * rate * rate + square));
+  model.step_limit.because +=
       fmt::format("; shortened to {:.3g} of that, a safe bound, for what {} answers",
-                  model.critical_time_step / alone, names);
+                  model.step_limit.time_step / alone, names);
 }
 
 }  // namespace hyperlattice

@@ -1,6 +1,6 @@
 // Means and integrals of a load factor over an interval. Corners cut the interval into pieces.
 // Inside a piece the factor is smooth; it is never evaluated at a corner itself, where it may jump.
-#include <model/model.hpp>
+#include <model/load.hpp>
 
 #include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/quadrature/gauss_kronrod.hpp>

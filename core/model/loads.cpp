@@ -63,7 +63,7 @@ struct View {
     seen.particle_mass = [](void* self, Particle particle) noexcept {
       return answer(self, 0.0, [&](View& view) {
         // Masses are missing only if the materials have faults; then nothing runs.
-        return view.model.masses.empty() ? 0 : view.model.mass(view.existing(particle));
+        return view.model.kinds.masses.empty() ? 0 : view.model.mass(view.existing(particle));
       });
     };
     seen.particle_share = [](void* self, Particle particle) noexcept {
@@ -86,7 +86,7 @@ struct View {
       return answer(self, std::span<const RestSpring>(),
                     [&](View& view) -> std::span<const RestSpring> {
                       const auto [found, fresh] = view.springs.try_emplace(region.index);
-                      view.springs_unknown |= view.model.springs.empty();
+                      view.springs_unknown |= view.model.springs.constants.empty();
                       if (fresh && !view.springs_unknown)
                         found->second = springs_at(view.model, view.particles(region));
                       return found->second;
@@ -267,7 +267,7 @@ void check_conflicts(Model& model, Faults& faults) {
                              [](const LoadedParticle& l, Particle p) { return l.particle < p; });
   };
   for (std::size_t later = 0; later < model.loads.size(); ++later)
-    for (LoadedParticle& loaded : model.loads[later].particles) {
+    for (LoadedParticle& loaded : model.loads.all[later].particles) {
       const Axes axes = loaded.displaced | loaded.driven;
       if (axes == 0) continue;
       std::array<std::size_t, 3>& owners = prescribed_by[loaded.particle];
@@ -302,28 +302,6 @@ void check_conflicts(Model& model, Faults& faults) {
 
 }  // namespace
 
-double Load::factor(double time) const {
-  double factor = 0;
-  call(*stage, "factor", [&](const Complaint& why) {
-    return stage->functions<LoadFunctions>().factor(component.get(), time, factor, why);
-  });
-  return factor;
-}
-
-void Load::prepare(const WatchedMotion& motion) const {
-  call(*stage, "prepare", [&](const Complaint& why) {
-    return stage->functions<LoadFunctions>().prepare(component.get(), motion, why);
-  });
-}
-
-Vec3 Load::answer(const WatchedMotion& motion, std::size_t n) const {
-  Vec3 force;
-  call(*stage, "answer", [&](const Complaint& why) {
-    return stage->functions<LoadFunctions>().answer(component.get(), motion, n, force, why);
-  });
-  return force;
-}
-
 void add_loads(Model& model, RegionIndex& regions, Faults& faults) {
   std::map<Particle, Vec3> start_velocities;
   for (const Stage* stage : model.scene->of(Family::loads)) try {
@@ -347,10 +325,10 @@ void add_loads(Model& model, RegionIndex& regions, Faults& faults) {
       if (!collector.watched.empty() && stage->functions<LoadFunctions>().answer == nullptr)
         throw refusal(*stage, "it watches particles but has no answer");
       load.watched = std::move(collector.watched);
-      model.answering |= !load.watched.empty();
+      model.loads.answering |= !load.watched.empty();
       load.particles = in_order(collector.particles);
       load.acceleration = collector.acceleration;
-      model.acceleration += load.acceleration;
+      model.loads.acceleration += load.acceleration;
       for (const auto& [particle, velocity] : collector.start_velocities)
         start_velocities[particle] += velocity;
       for (const std::string& warning : collector.warnings)
@@ -361,14 +339,15 @@ void add_loads(Model& model, RegionIndex& regions, Faults& faults) {
       load.corners = std::move(collector.corners);
       sort_once(load.corners);
       load.frequency = collector.frequency;
-      model.corners.insert(model.corners.end(), load.corners.begin(), load.corners.end());
-      model.loads.push_back(std::move(load));
+      model.loads.corners.insert(model.loads.corners.end(), load.corners.begin(),
+                                 load.corners.end());
+      model.loads.all.push_back(std::move(load));
     } catch (const InputError& error) {
       add_all(faults, error);
     }
   check_conflicts(model, faults);
-  model.start_velocities.assign(start_velocities.begin(), start_velocities.end());
-  sort_once(model.corners);
+  model.loads.start_velocities.assign(start_velocities.begin(), start_velocities.end());
+  sort_once(model.loads.corners);
 }
 
 }  // namespace hyperlattice

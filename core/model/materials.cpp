@@ -151,9 +151,9 @@ void assign(Model& model, RegionIndex& regions, Faults& faults) {
   }
   if (!faults.empty() || model.materials.size() == 1) return;
   if (of_cells)
-    model.mixtures = Mixtures(model.body, material_of, model.materials.size());
+    model.kinds.mixtures = Mixtures(model.body, material_of, model.materials.size());
   else
-    model.material_of = std::move(material_of);
+    model.kinds.material_of = std::move(material_of);
 }
 
 }  // namespace

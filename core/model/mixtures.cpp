@@ -62,7 +62,7 @@ SpringConstants mean_spring(const Model& model, const std::vector<std::uint8_t>&
   const double part = 1 / static_cast<double>(cells.size());
   SpringConstants mean;
   for (const std::uint8_t material : cells) {
-    const SpringConstants& own = model.spring(material, material, spring_class);
+    const SpringConstants& own = model.springs.spring(material, material, spring_class);
     mean.stiffness += part * own.stiffness;
     mean.cross_stiffness += part * own.cross_stiffness;
     mean.alarm = std::min(mean.alarm, own.alarm);
@@ -73,10 +73,9 @@ SpringConstants mean_spring(const Model& model, const std::vector<std::uint8_t>&
 /// Returns whether the cells' materials have one linear law without constants.
 bool is_one_spring(const Model& model, const std::vector<std::uint8_t>& cells) {
   const std::uint32_t law = model.materials[cells.front()].law;
-  return model.laws[law].kernels.linear &&
-         std::all_of(cells.begin(), cells.end(), [&](std::uint8_t material) {
-           return model.materials[material].law == law;
-         });
+  return model.springs.laws[law].kernels.linear &&
+         std::all_of(cells.begin(), cells.end(),
+                     [&](std::uint8_t material) { return model.materials[material].law == law; });
 }
 
 /// Returns the springs of the cells' materials, side by side. `cells` is sorted.
@@ -88,13 +87,13 @@ CompositeSpring side_by_side(const Model& model, const std::vector<std::uint8_t>
       parts.push_back(part_of(model, material, spring_class, 0));
     parts.back().weight += 1 / static_cast<double>(cells.size());
   }
-  return {model.laws, std::move(parts), CompositeSpring::Joined::side_by_side};
+  return {model.springs.laws, std::move(parts), CompositeSpring::Joined::side_by_side};
 }
 
 }  // namespace
 
 void add_mixtures(Model& model) {
-  const auto mixtures = static_cast<std::uint32_t>(model.mixtures.count()),
+  const auto mixtures = static_cast<std::uint32_t>(model.kinds.mixtures.count()),
              materials = static_cast<std::uint32_t>(model.materials.size());
   std::map<std::pair<std::uint32_t, std::vector<std::uint8_t>>, std::uint32_t>
       known;  // key: spring class and materials
@@ -102,35 +101,35 @@ void add_mixtures(Model& model) {
   for (std::uint32_t mixture = 0; mixture < mixtures; ++mixture) {
     for (const Neighbour& to : model.body.neighbours) {
       cells.clear();
-      model.mixtures.for_cells(mixture, to,
-                               [&](std::uint8_t material) { cells.push_back(material); });
+      model.kinds.mixtures.for_cells(mixture, to,
+                                     [&](std::uint8_t material) { cells.push_back(material); });
       std::sort(cells.begin(), cells.end());  // makes sums independent of the order of the cells
       const std::uint8_t first = cells.empty() ? std::uint8_t{0} : cells.front();
       std::uint32_t place =
           (first * materials + first) * model.body.grid.spring_classes + to.spring_class;
       if (!cells.empty() && cells.back() != first) {
         const auto [entry, is_new] = known.try_emplace(
-            {to.spring_class, cells}, static_cast<std::uint32_t>(model.springs.size()));
+            {to.spring_class, cells}, static_cast<std::uint32_t>(model.springs.constants.size()));
         if (is_new) {
-          model.springs.push_back(mean_spring(model, cells, to.spring_class));
+          model.springs.constants.push_back(mean_spring(model, cells, to.spring_class));
           if (!is_one_spring(model, cells))
-            model.add_composite(entry->second, side_by_side(model, cells, to.spring_class));
+            model.springs.add_composite(entry->second, side_by_side(model, cells, to.spring_class));
         }
         place = entry->second;
       }
-      model.mixture_springs.push_back(place);
+      model.springs.mixture_springs.push_back(place);
     }
     if (mixture < materials) continue;
     cells.clear();
-    model.mixtures.for_cells(mixture, {},
-                             [&](std::uint8_t material) { cells.push_back(material); });
+    model.kinds.mixtures.for_cells(mixture, {},
+                                   [&](std::uint8_t material) { cells.push_back(material); });
     double mass = 0, alpha = 0;
     for (const std::uint8_t material : cells) {
-      mass += model.masses[material];
-      alpha += model.alphas[material];
+      mass += model.kinds.masses[material];
+      alpha += model.kinds.alphas[material];
     }
-    model.masses.push_back(mass / static_cast<double>(cells.size()));
-    model.alphas.push_back(alpha / static_cast<double>(cells.size()));
+    model.kinds.masses.push_back(mass / static_cast<double>(cells.size()));
+    model.kinds.alphas.push_back(alpha / static_cast<double>(cells.size()));
   }
 }
 

@@ -1,6 +1,6 @@
 // Calls of the law of a spring of the body, of one law or composite. Each function throws
 // OutsideError with the name of the material's plugin if a law throws. `cross`: 0 base spring, 1
-// cross spring. `kept`: memory of the spring, Model::memory numbers.
+// cross spring. `kept`: memory of the spring, SpringTable::memory numbers.
 #pragma once
 
 #include <model/model.hpp>
@@ -20,9 +20,8 @@ inline CompositeSpring::Spring composite_spring(const SpringProperties& properti
 /// Sets the start values of a new spring's memory, which is all zero.
 inline void start_memory_of(const Model& model, const SpringProperties& properties,
                             std::size_t cross, const SpringIdentity& identity, double* kept) {
-  if (properties.composite != nullptr)
-    return properties.composite->start(identity, cross, kept);
-  start_spring(model.laws[properties.law], properties.constants[cross], identity, kept);
+  if (properties.composite != nullptr) return properties.composite->start(identity, cross, kept);
+  start_spring(model.springs.laws[properties.law], properties.constants[cross], identity, kept);
 }
 
 /// Advances a spring by a step of `time_step` seconds to an elongation, m.
@@ -32,7 +31,7 @@ inline CompositeAnswer take_spring(const Model& model, const SpringProperties& p
   if (properties.composite != nullptr)
     return properties.composite->take(composite_spring(properties, cross, elongation), time_step,
                                       kept);
-  const Law& law = model.laws[properties.law];
+  const Law& law = model.springs.laws[properties.law];
   const SpringAnswer answer =
       take_spring(law, one_spring(properties, cross, elongation), time_step, kept);
   return {answer.force, answer.energy, law.kernels.softens ? 0 : answer.dissipated,
@@ -46,7 +45,7 @@ inline CompositeAnswer ask_spring(const Model& model, const SpringProperties& pr
     return properties.composite->present(composite_spring(properties, cross, elongation), kept);
   OneSpring spring = one_spring(properties, cross, elongation);
   spring.memory = kept;
-  const SpringAnswer answer = ask_spring(model.laws[properties.law], spring);
+  const SpringAnswer answer = ask_spring(model.springs.laws[properties.law], spring);
   return {answer.force, answer.energy, 0, 0, answer.integrity};
 }
 

@@ -2,8 +2,8 @@
 // materials consists of two half springs in series. If both have the same linear law without
 // constants, these are one spring,
 //   k = 2 a b / (a + b),
-// and k = 0 if a or b is 0. Stiffnesses of opposite sign, which only some membranes have, are not in
-// series; they take the mean. All other pairs are composite springs (composite_spring.hpp). The
+// and k = 0 if a or b is 0. Stiffnesses of opposite sign, which only some membranes have, are not
+// in series; they take the mean. All other pairs are composite springs (composite_spring.hpp). The
 // scene may choose the softer or the stiffer material's spring instead.
 #include <model/build.hpp>
 
@@ -31,8 +31,9 @@ double rest_length(const Model& model, std::uint32_t spring_class) {
   const auto of_class = [spring_class](const NeighbourGeometry& n) {
     return n.site.spring_class == spring_class;
   };
-  const auto found = std::find_if(model.neighbours.begin(), model.neighbours.end(), of_class);
-  return found == model.neighbours.end() ? 0 : found->rest_length;
+  const auto found =
+      std::find_if(model.springs.neighbours.begin(), model.springs.neighbours.end(), of_class);
+  return found == model.springs.neighbours.end() ? 0 : found->rest_length;
 }
 
 /// Returns the kernels of a law. Throws OutsideError if they are not whole, and InputError if the
@@ -64,7 +65,8 @@ KernelSet kernels_of(const Stage& stage, const KernelChoice& choice) {
 /// Returns the material of the springs between two materials; nothing if they have parts of both.
 std::optional<std::uint8_t> chosen_material(const Model& model, std::uint8_t a, std::uint8_t b) {
   const InterfaceSprings rule = model.scene->interface_springs;
-  if (a == b || rule == InterfaceSprings::series || !model.mixtures.empty()) return std::nullopt;
+  if (a == b || rule == InterfaceSprings::series || !model.kinds.mixtures.empty())
+    return std::nullopt;
   const auto [first, second] = std::minmax(a, b);
   const bool first_is_softer = model.materials[first].constants.base_stiffness <=
                                model.materials[second].constants.base_stiffness;
@@ -79,7 +81,7 @@ SpringConstants spring_within(const Model& model, const Material& material,
   spring.stiffness = model.body.grid.class_stiffness[spring_class] * own.base_stiffness;
   spring.cross_stiffness = own.cross_ratio[spring_class] * own.base_stiffness;
   const SpringFacts facts{rest_length(model, spring_class), spring.stiffness,
-                          model.body.grid.spacing, spring_class, model.crossings};
+                          model.body.grid.spacing, spring_class, model.springs.crossings};
   spring.alarm = material.alarm(facts);
   for (int cross = 0; cross < 2; ++cross)
     std::copy_n(own.law[spring_class][cross], max_law_constants, spring.law[cross]);
@@ -104,9 +106,8 @@ SpringConstants spring_between(const Model& model, std::uint8_t a, std::uint8_t 
 
 /// Returns whether one spring of the kernels describes the springs between these materials.
 bool is_one_spring(const Model& model, std::uint8_t a, std::uint8_t b) {
-  return a == b ||
-         (model.materials[a].law == model.materials[b].law &&
-          model.laws[model.materials[a].law].kernels.linear);
+  return a == b || (model.materials[a].law == model.materials[b].law &&
+                    model.springs.laws[model.materials[a].law].kernels.linear);
 }
 
 /// Makes the parts of the springs between two materials whose laws or constants differ.
@@ -120,8 +121,8 @@ void join(Model& model, std::uint8_t a, std::uint8_t b, std::uint32_t spring_cla
     parts = {part_of(model, first, spring_class, 0.5), part_of(model, second, spring_class, 0.5)};
     joined = CompositeSpring::Joined::in_series;
   }
-  model.add_composite(model.spring_index(a, b, spring_class),
-                      CompositeSpring(model.laws, std::move(parts), joined));
+  model.springs.add_composite(model.springs.spring_index(a, b, spring_class),
+                              CompositeSpring(model.springs.laws, std::move(parts), joined));
 }
 
 /// Makes the springs between all pairs of materials.
@@ -131,8 +132,8 @@ void add_springs(Model& model) {
   for (std::uint8_t a = 0; a < materials; ++a)
     for (std::uint8_t b = 0; b < materials; ++b)
       for (std::uint32_t c = 0; c < classes; ++c)
-        model.springs.push_back(spring_between(model, a, b, c));
-  for (std::uint8_t a = 0; a < materials && model.mixtures.empty(); ++a)
+        model.springs.constants.push_back(spring_between(model, a, b, c));
+  for (std::uint8_t a = 0; a < materials && model.kinds.mixtures.empty(); ++a)
     for (std::uint8_t b = 0; b < materials; ++b)
       for (std::uint32_t c = 0; c < classes && !is_one_spring(model, a, b); ++c)
         join(model, a, b, c);
@@ -140,6 +141,7 @@ void add_springs(Model& model) {
 
 /// Finds the body's laws and their kernels.
 void find_laws(Model& model) {
+  SpringTable& springs = model.springs;
   for (Material& material : model.materials) {
     const Stage& stage = *material.stage;
     const auto has_law = [&](const Law& law) {
@@ -147,16 +149,16 @@ void find_laws(Model& model) {
              law.stage->functions<MaterialFunctions>().law ==
                  stage.functions<MaterialFunctions>().law;
     };
-    const auto found = std::find_if(model.laws.begin(), model.laws.end(), has_law);
-    material.law = static_cast<std::uint32_t>(found - model.laws.begin());
-    if (found != model.laws.end()) continue;
-    model.laws.push_back({&stage, kernels_of(stage, model.choice)});
-    KernelSet& kernels = model.laws.back().kernels;
-    model.memory = std::max(model.memory, kernels.memory);
-    model.softens = model.softens || kernels.softens;
-    KernelChoice row = model.choice;  // linearise takes listed springs as rows of one spring
+    const auto found = std::find_if(springs.laws.begin(), springs.laws.end(), has_law);
+    material.law = static_cast<std::uint32_t>(found - springs.laws.begin());
+    if (found != springs.laws.end()) continue;
+    springs.laws.push_back({&stage, kernels_of(stage, springs.choice)});
+    KernelSet& kernels = springs.laws.back().kernels;
+    springs.memory = std::max(springs.memory, kernels.memory);
+    springs.softens = springs.softens || kernels.softens;
+    KernelChoice row = springs.choice;  // linearise takes listed springs as rows of one spring
     row.listed = false;
-    if (model.choice.listed) kernels.linearise = kernels_of(stage, row).linearise;
+    if (springs.choice.listed) kernels.linearise = kernels_of(stage, row).linearise;
   }
 }
 
@@ -164,7 +166,8 @@ void find_laws(Model& model) {
 /// nearer than the spring's component along the normal, in the mean of all directions L / 2.
 double crossings(const Model& model) {
   double length = 0;  // total length of the springs of one particle
-  for (const NeighbourGeometry& neighbour : model.neighbours) length += neighbour.rest_length;
+  for (const NeighbourGeometry& neighbour : model.springs.neighbours)
+    length += neighbour.rest_length;
   const Listed& listed = model.body.listed;
   for (const ListedSpring& spring : listed.springs)
     length += norm(listed.positions[spring.b] - listed.positions[spring.a]) /
@@ -194,7 +197,7 @@ void hold_heights(Model& model) {
   for (Material& material : model.materials) {
     if (material.constants.has_cross_springs()) continue;
     double ratio = 0;
-    for (const NeighbourGeometry& n : model.neighbours)
+    for (const NeighbourGeometry& n : model.springs.neighbours)
       ratio += 2 * model.body.grid.class_stiffness[n.site.spring_class] * n.rest.x * n.rest.x /
                (n.rest_length * n.rest_length);
     if (model.body.is_listed())  // for a particle with the mean number of springs
@@ -209,27 +212,12 @@ void hold_heights(Model& model) {
 SpringPart part_of(const Model& model, std::uint8_t material, std::uint32_t spring_class,
                    double weight) {
   const Material& of = model.materials[material];
-  const SpringConstants& own = model.spring(material, material, spring_class);
-  return {material, of.law, weight, {own.stiffness, own.cross_stiffness},
+  const SpringConstants& own = model.springs.spring(material, material, spring_class);
+  return {material,
+          of.law,
+          weight,
+          {own.stiffness, own.cross_stiffness},
           {of.constants.law[spring_class][0], of.constants.law[spring_class][1]}};
-}
-
-double Material::Criterion::alarm(const SpringFacts& spring) const {
-  double alarm = 0;
-  call(*stage, "alarm", [&](const Complaint& why) {
-    return stage->functions<FailureFunctions>().alarm(component.get(), spring, alarm, why);
-  });
-  // Such a spring would never break, and nobody would notice.
-  if (std::isnan(alarm))
-    throw plugin_error(*stage, "alarm", "it gives an elongation that is no number (nan)");
-  return std::max(alarm,
-                  -spring.rest_length);  // no length is negative, so no elongation is below -L0
-}
-
-double Material::alarm(const SpringFacts& spring) const {
-  double lowest = infinity;
-  for (const Criterion& criterion : failures) lowest = std::min(lowest, criterion.alarm(spring));
-  return lowest;
 }
 
 SpringProperties Model::spring_properties(Particle a, Particle b, std::uint32_t neighbour) const {
@@ -241,41 +229,35 @@ SpringProperties Model::spring_properties(Particle a, Particle b, std::uint32_t 
     properties.cross_rest_length = std::hypot(properties.rest_length, body.grid.membrane_distance);
     stiffness = body.listed.springs[neighbour].stiffness;
   } else {
-    const NeighbourGeometry& to = neighbours[neighbour];
+    const NeighbourGeometry& to = springs.neighbours[neighbour];
     properties.rest = to.rest;
     properties.rest_length = to.rest_length;
     properties.cross_rest_length = to.cross_rest_length;
     properties.spring_class = to.site.spring_class;
     if (!body.cells.empty()) properties.share = body.share(body.site(a), to.site);
   }
-  const SpringConstants& constants = body.is_listed() ? spring(material(a), material(b), 0)
-                                                      : spring_to(neighbour, kind(a), kind(b));
+  const SpringConstants& constants = body.is_listed()
+                                         ? springs.spring(kinds.material(a), kinds.material(b), 0)
+                                         : springs.spring_to(neighbour, kinds.of(a), kinds.of(b));
   properties.stiffness = stiffness * constants.stiffness;
   properties.cross_stiffness = stiffness * constants.cross_stiffness;
-  properties.law = materials[material(a)].law;
-  properties.composite = composite(constants);
+  properties.law = materials[kinds.material(a)].law;
+  properties.composite = springs.composite(constants);
   properties.factor = stiffness;
   for (const std::size_t cross : {0U, 1U}) properties.constants[cross] = constants.law[cross];
   return properties;
 }
 
-void Model::add_composite(std::size_t spring, CompositeSpring composite) {
-  memory = std::max(memory, composite.memory());
-  composite_of.resize(std::max(composite_of.size(), springs.size()), -1);
-  composite_of[spring] = static_cast<std::int32_t>(composites.size());
-  composites.push_back(std::move(composite));
-}
-
 SpringMaterials Model::materials_of(Particle a, Particle b, std::uint32_t neighbour) const {
   SpringMaterials found;
-  if (const auto chosen = chosen_material(*this, material(a), material(b))) {
+  if (const auto chosen = chosen_material(*this, kinds.material(a), kinds.material(b))) {
     found.add(*chosen);
-  } else if (!mixtures.empty()) {
-    mixtures.for_cells(mixtures.of(a), body.neighbours[neighbour],
-                       [&](std::uint8_t material) { found.add(material); });
+  } else if (!kinds.mixtures.empty()) {
+    kinds.mixtures.for_cells(kinds.mixtures.of(a), body.neighbours[neighbour],
+                             [&](std::uint8_t material) { found.add(material); });
   } else {
-    found.add(material(a));
-    found.add(material(b));
+    found.add(kinds.material(a));
+    found.add(kinds.material(b));
   }
   return found;
 }
@@ -288,13 +270,13 @@ double Model::elongation_in(std::uint8_t material, const SpringProperties& prope
       if (parts[n].material == material)
         return properties.composite->elongation_of(n, elongation, kept);
   }
-  if (!mixtures.empty()) return elongation;
+  if (!kinds.mixtures.empty()) return elongation;
   return elongation * (properties.stiffness / facts(properties, material).stiffness);
 }
 
 double Model::own_alarm(std::uint8_t material, const SpringProperties& properties) const {
   if (body.is_listed()) return materials[material].alarm(facts(properties, material));
-  return spring(material, material, properties.spring_class).alarm;
+  return springs.spring(material, material, properties.spring_class).alarm;
 }
 
 double Model::alarm(Particle a, Particle b, std::uint32_t neighbour,
@@ -302,35 +284,29 @@ double Model::alarm(Particle a, Particle b, std::uint32_t neighbour,
   double lowest = infinity;
   for (const std::uint8_t material : materials_of(a, b, neighbour)) {
     const double scale =
-        mixtures.empty() ? facts(properties, material).stiffness / properties.stiffness : 1;
+        kinds.mixtures.empty() ? facts(properties, material).stiffness / properties.stiffness : 1;
     lowest = std::min(lowest, own_alarm(material, properties) * scale);
   }
   return lowest;
 }
 
-std::vector<NeighbourGeometry> geometry_of(const Grid& grid) {
-  std::vector<NeighbourGeometry> all;
-  for (const Neighbour& n : grid.neighbours) {
-    const Vec3 rest = grid.spacing * combined(grid.basis, n.dx, n.dy, n.dz);
-    all.push_back({n, rest, norm(rest), std::hypot(norm(rest), grid.membrane_distance)});
-  }
-  return all;
-}
-
 void set_springs(Model& model, Faults& faults) {
-  model.neighbours = geometry_of(model.body.grid);
-  model.crossings = crossings(model);
-  model.choice.membrane = membrane_of(model.materials, faults);
-  if (model.choice.membrane == Membrane::free) hold_heights(model);
-  model.degrees_of_freedom = model.choice.membrane == Membrane::free ? 4 : 3;
-  model.choice.mixed = model.materials.size() > 1;
-  model.choice.listed = model.body.is_listed();
-  model.choice.precision = model.scene->precision;
+  SpringTable& springs = model.springs;
+  springs.materials = model.materials.size();
+  springs.spring_classes = model.body.grid.spring_classes;
+  springs.neighbours = geometry_of(model.body.grid);
+  springs.crossings = crossings(model);
+  springs.choice.membrane = membrane_of(model.materials, faults);
+  if (springs.choice.membrane == Membrane::free) hold_heights(model);
+  model.degrees_of_freedom = springs.choice.membrane == Membrane::free ? 4 : 3;
+  springs.choice.mixed = model.materials.size() > 1;
+  springs.choice.listed = model.body.is_listed();
+  springs.choice.precision = model.scene->precision;
   for (const Material& material : model.materials)
     for (const Material::Criterion& criterion : material.failures) {
-      model.choice.breakable = true;
+      springs.choice.breakable = true;
       if (!criterion.stage->functions<FailureFunctions>().asks_rate) continue;
-      model.asks_rate = true;
+      springs.asks_rate = true;
       if (model.body.is_listed())
         faults.add(criterion.stage->pointer, criterion.stage->component->type(),
                    "a criterion that does not ask for the rate, for a listed lattice");
@@ -339,12 +315,12 @@ void set_springs(Model& model, Faults& faults) {
   add_springs(model);
   for (const Material& material : model.materials) {
     const MaterialConstants& constants = material.constants;
-    model.masses.push_back(material.mass);
-    model.alphas.push_back(constants.clamped ? 0
-                                             : constants.alpha_ratio * constants.base_stiffness);
+    model.kinds.masses.push_back(material.mass);
+    model.kinds.alphas.push_back(
+        constants.clamped ? 0 : constants.alpha_ratio * constants.base_stiffness);
   }
-  if (!model.mixtures.empty()) add_mixtures(model);
-  if (!model.composites.empty() && model.choice.precision == Precision::floats)
+  if (!model.kinds.mixtures.empty()) add_mixtures(model);
+  if (!springs.composites.empty() && springs.choice.precision == Precision::floats)
     faults.add("/precision", "float",
                "double: springs between materials with different laws, or different constants of "
                "a law, are computed in doubles");

@@ -22,9 +22,9 @@ double measure_step(const Plan& plan) {
   constexpr double spell = 0.05;  // s
   constexpr int spells = 5, most_steps = 200;
   Simulation simulation(*plan.model, plan.threads);
-  const double shortest =
-      1e-6 * plan.model->critical_time_step;  // so short that the body stays at rest under any load
-  simulation.step(shortest);                  // the first step also finds the energy at the start
+  // The step is so short that the body stays at rest under any load.
+  const double shortest = 1e-6 * plan.model->step_limit.time_step;
+  simulation.step(shortest);  // the first step also finds the energy at the start
   double least = infinity;
   for (int n = 0; n < spells; ++n) {
     const auto start = Clock::now();

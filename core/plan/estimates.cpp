@@ -56,11 +56,12 @@ double records_of(const PlannedStage& stage) {
 
 double model_bytes(const Model& model) {
   const std::size_t runs = model.body.runs.size() + model.body.cells.runs().size();
-  auto bytes = static_cast<double>(
-                   model.body.listed.springs.size() * sizeof(ListedSpring) +
-                   model.body.listed.positions.size() * sizeof(Vec3) + runs * sizeof(Run) +
-                   model.body.row_runs.size() * sizeof(std::size_t) + model.material_of.size()) +
-               model.mixtures.bytes();
+  auto bytes =
+      static_cast<double>(model.body.listed.springs.size() * sizeof(ListedSpring) +
+                          model.body.listed.positions.size() * sizeof(Vec3) + runs * sizeof(Run) +
+                          model.body.row_runs.size() * sizeof(std::size_t) +
+                          model.kinds.material_of.size()) +
+      model.kinds.mixtures.bytes();
   for (const Load& load : model.loads)
     bytes += static_cast<double>(load.particles.size() * sizeof(LoadedParticle) +
                                  load.watched.size() * sizeof(WatchedParticle));
@@ -133,7 +134,7 @@ double output_seconds(const Plan& plan, double sweep, bool measured) {
 double slowest(const Model& model) {
   // Measured on a sphere that a blast breaks and whose pieces collide.
   constexpr double breaking = 3, answering = 5;
-  return (model.choice.breakable ? breaking : 1) * (model.answering ? answering : 1);
+  return (model.springs.choice.breakable ? breaking : 1) * (model.loads.answering ? answering : 1);
 }
 
 void estimate_time(Plan& plan) {
@@ -141,12 +142,12 @@ void estimate_time(Plan& plan) {
   constexpr double fourth_dimension = 1.8, damped = 1.1, floats = 0.6, listed = 4,
                    second_thread = 0.6;
   const Model& model = *plan.model;
-  const std::string_view instructions = model.kernels().instructions;
+  const std::string_view instructions = model.springs.kernels().instructions;
   plan.expected_seconds = 0;
   double spring = instructions == "avx512" ? avx512 : instructions == "avx2" ? avx2 : baseline;
   if (model.degrees_of_freedom == 4) spring *= fourth_dimension;
   if (model.body.is_listed()) spring *= listed;
-  if (model.choice.precision == Precision::floats) spring *= floats;
+  if (model.springs.choice.precision == Precision::floats) spring *= floats;
   const double step = 1e-9 * spring * static_cast<double>(model.body.base_springs()) /
                       (1 + second_thread * (plan.threads - 1));
   for (const PlannedStage& stage : plan.stages)

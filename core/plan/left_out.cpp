@@ -23,40 +23,42 @@ bool criteria_remember(const Model& model) {
 void leave_out_kernel_parts(const Plan& plan, std::vector<LeftOut>& out) {
   const Model& model = *plan.model;
   using Membrane = KernelChoice::Membrane;
-  if (model.choice.membrane == Membrane::none)
+  if (model.springs.choice.membrane == Membrane::none)
     out.push_back(
         {"fourth dimension", "the membrane is none: no spring leaves the three dimensions"});
-  if (model.choice.membrane == Membrane::clamped)
+  if (model.springs.choice.membrane == Membrane::clamped)
     out.push_back(
         {"motion in the fourth dimension",
          "the membrane is clamped: its cross springs act, but each particle keeps its height"});
-  if (model.choice.membrane != Membrane::none)
-    out.push_back({"second layer of the membrane",
-                   "it mirrors the first exactly, so one layer is computed" +
-                       (model.two_layers_grow.empty()
-                            ? ""
-                            : "; two free ones would not stay so: " + model.two_layers_grow)});
-  if (!model.choice.breakable)
+  if (model.springs.choice.membrane != Membrane::none)
+    out.push_back(
+        {"second layer of the membrane",
+         "it mirrors the first exactly, so one layer is computed" +
+             (model.step_limit.two_layers_grow.empty()
+                  ? ""
+                  : "; two free ones would not stay so: " + model.step_limit.two_layers_grow)});
+  if (!model.springs.choice.breakable)
     out.push_back({"failure", "no material names a failure law: no spring is tested"});
-  if (model.choice.breakable && !criteria_remember(model))
+  if (model.springs.choice.breakable && !criteria_remember(model))
     out.push_back({"memory of failure laws", "none keeps one: springs break by what they are now"});
   const auto is_static = [](const PlannedStage& stage) {
     return stage.plan.at_rest && stage.plan.time_step == 0;
   };
-  if (model.choice.breakable && std::any_of(plan.stages.begin(), plan.stages.end(), is_static))
+  if (model.springs.choice.breakable &&
+      std::any_of(plan.stages.begin(), plan.stages.end(), is_static))
     out.push_back({"failure during static stages",
                    "springs beyond their limit break in the first step in time that follows"});
-  if (model.memory == 0)
+  if (model.springs.memory == 0)
     out.push_back({"memory of springs", "no law has one: a spring is where its ends are"});
-  if (model.composites.empty())
+  if (model.springs.composites.empty())
     out.push_back({"springs of several laws",
                    "no spring joins materials with different laws or different constants"});
-  if (!model.choice.mixed)
+  if (!model.springs.choice.mixed)
     out.push_back({"mixed materials", "there is one material: no particle stores which"});
   const auto is_damped = [](const PlannedStage& stage) { return stage.plan.damping > 0; };
   if (std::none_of(plan.stages.begin(), plan.stages.end(), is_damped))
     out.push_back({"local damping", "no solver stage asks for it"});
-  if (model.acceleration == Vec3{})
+  if (model.loads.acceleration == Vec3{})
     out.push_back({"body acceleration", "no load accelerates the whole body"});
   if (model.body.cells.empty() && model.body.listed.shares.empty())
     out.push_back({"weights at the surface",
@@ -67,14 +69,14 @@ void leave_out_kernel_parts(const Plan& plan, std::vector<LeftOut>& out) {
 }
 
 void leave_out_loads(const Plan& plan, std::vector<LeftOut>& out) {
-  bool any_force = plan.model->answering, any_motion = false;
+  bool any_force = plan.model->loads.answering, any_motion = false;
   for (const Load& load : plan.model->loads)
     for (const LoadedParticle& particle : load.particles) {
       if (!(particle.force == Vec3{})) any_force = true;
       if (particle.displaced != 0 || particle.driven != 0) any_motion = true;
     }
   if (!any_force) out.push_back({"external forces", "no load applies one"});
-  if (!plan.model->answering)
+  if (!plan.model->loads.answering)
     out.push_back({"forces that answer to the motion", "no load watches particles"});
   if (!any_motion) out.push_back({"prescribed motion", "no load prescribes any"});
 }

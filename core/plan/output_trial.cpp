@@ -173,7 +173,7 @@ class ParticleSample {
     values.assign(field.components * size(), 0.0);  // nothing is broken
     if (name == "material")
       std::transform(particles_.begin(), particles_.end(), values.begin(),
-                     [this](Particle particle) { return model_.material(particle); });
+                     [this](Particle particle) { return model_.kinds.material(particle); });
     else if (name == "source")
       std::transform(particles_.begin(), particles_.end(), values.begin(),
                      [this](Particle particle) { return model_.body.listed.source[particle]; });
@@ -196,7 +196,7 @@ class ParticleSample {
       const double value =
           size * (along - middle + roughness * std::ldexp(static_cast<double>(noise >> 11), -53));
       constexpr std::uint64_t left_out = (1U << 16) - 1;
-      values[n] = model_.choice.precision == Precision::floats
+      values[n] = model_.springs.choice.precision == Precision::floats
                       ? static_cast<double>(static_cast<float>(value))
                       : std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) & ~left_out);
     }

@@ -51,7 +51,7 @@ std::string membrane_name(const Model& model) {
       continue;
     names.push_back(*name);
   }
-  return names.empty() ? motion_name(model.choice.membrane)
+  return names.empty() ? motion_name(model.springs.choice.membrane)
                        : fmt::format("{}", fmt::join(names, ", "));
 }
 
@@ -100,19 +100,19 @@ nlohmann::json common_facts(const Plan& plan) {
           {"springs_per_particle", springs / particles},
           {"degrees_of_freedom", model.degrees_of_freedom},
           {"membrane", membrane_name(model)},
-          {"fourth_dimension", motion_name(model.choice.membrane)},
-          {"breakable", model.choice.breakable || model.softens},
+          {"fourth_dimension", motion_name(model.springs.choice.membrane)},
+          {"breakable", model.springs.choice.breakable || model.springs.softens},
           {"materials", model.materials.size()},
           {"loads", model.loads.size()},
-          {"precision", precision_names[static_cast<std::size_t>(model.choice.precision)]},
-          {"instructions", model.kernels().instructions},
+          {"precision", precision_names[static_cast<std::size_t>(model.springs.choice.precision)]},
+          {"instructions", model.springs.kernels().instructions},
           {"spring_arithmetic", spring_arithmetic()},
           {"threads", plan.threads},
           {"steps", plan.steps()},
           {"end_time", plan.end_time()},
           {"time_step", time_step},
-          {"critical_time_step", model.critical_time_step},
-          {"critical_because", model.critical_because},
+          {"critical_time_step", model.step_limit.time_step},
+          {"critical_because", model.step_limit.because},
           {"stages", stages},
           {"bytes_per_particle", plan.bytes_per_particle},
           {"memory_bytes", plan.memory_bytes},

@@ -14,15 +14,15 @@ namespace {
 /// particle of a rotating body moves by no more than the diameter of its circle.
 double started(const Model& model, double end) {
   const auto vector = [](Vec3 v) { return Eigen::Vector3d(v.x, v.y, v.z); };
-  const double count = static_cast<double>(model.start_velocities.size());
+  const double count = static_cast<double>(model.loads.start_velocities.size());
   Eigen::Vector3d centre = Eigen::Vector3d::Zero(), drift = centre, momentum = centre;
-  for (const auto& [particle, velocity] : model.start_velocities) {
+  for (const auto& [particle, velocity] : model.loads.start_velocities) {
     centre += vector(model.body.position(particle)) / count;
     drift += vector(velocity) / count;
   }
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   double radius = 0;
-  for (const auto& [particle, velocity] : model.start_velocities) {
+  for (const auto& [particle, velocity] : model.loads.start_velocities) {
     const Eigen::Vector3d arm = vector(model.body.position(particle)) - centre;
     momentum += arm.cross(vector(velocity));
     inertia += arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose();
@@ -30,7 +30,7 @@ double started(const Model& model, double end) {
   }
   const Eigen::Vector3d spin = inertia.completeOrthogonalDecomposition().solve(momentum);
   double travel = 0;
-  for (const auto& [particle, velocity] : model.start_velocities) {
+  for (const auto& [particle, velocity] : model.loads.start_velocities) {
     const Eigen::Vector3d turning = spin.cross(vector(model.body.position(particle)) - centre);
     const double other = (vector(velocity) - drift - turning).norm() + drift.norm();
     travel = std::max(travel, other * end + std::min(turning.norm() * end, 2 * radius));
@@ -46,7 +46,7 @@ double farthest(const Plan& plan) {
   double travel = 0;
   for (const Load& load : model.loads) {
     double factor = std::max(std::abs(load.factor(0)), std::abs(load.factor(end)));
-    for (const double corner : model.corners)
+    for (const double corner : model.loads.corners)
       factor = std::max(factor, std::abs(load.factor(corner)));
     for (const LoadedParticle& loaded : load.particles)
       travel = std::max(travel,
@@ -57,11 +57,12 @@ double farthest(const Plan& plan) {
 
 double least_breaking_strain(const Model& model) {
   double strain = infinity;
-  for (const NeighbourGeometry& to : model.neighbours)
+  for (const NeighbourGeometry& to : model.springs.neighbours)
     for (std::size_t n = 0; n < model.materials.size(); ++n) {
       const auto material = static_cast<std::uint8_t>(n);
-      strain = std::min(
-          strain, model.spring(material, material, to.site.spring_class).alarm / to.rest_length);
+      strain =
+          std::min(strain, model.springs.spring(material, material, to.site.spring_class).alarm /
+                               to.rest_length);
     }
   return strain;
 }
@@ -86,7 +87,7 @@ std::string precision_warning(const Model& model, double travel) {
 }
 
 void check_precision(const Plan& plan, Faults& faults) {
-  if (plan.model->choice.precision != Precision::floats) return;
+  if (plan.model->springs.choice.precision != Precision::floats) return;
   const double travel = farthest(plan), lost = rounding_strain(*plan.model, travel),
                breaking = least_breaking_strain(*plan.model);
   if (lost <= most_rounding(*plan.model)) return;

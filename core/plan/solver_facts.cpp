@@ -16,15 +16,15 @@ SolverFacts solver_facts(const Model& model, double start_time) {
     return static_cast<double>(to) - from;
   };
   SolverFacts facts{
-      start_time, model.critical_time_step, model.corners,
+      start_time, model.step_limit.time_step, model.loads.corners,
       count(std::max({sites(low.i, high.i), sites(low.j, high.j), sites(low.k, high.k)}))};
   facts.listed = model.body.is_listed();
   if (facts.listed) {
     const Vec3 size = model.body.highest - model.body.lowest;
     facts.sites_across = count(std::max({size.x, size.y, size.z}) / model.body.grid.spacing);
   }
-  facts.remembers = model.memory > 0;
-  facts.answering = model.answering;
+  facts.remembers = model.springs.memory > 0;
+  facts.answering = model.loads.answering;
   return facts;
 }
 

@@ -52,7 +52,7 @@ bool SnapshotSource::compute(std::string_view name, Values& values) {
   else if (name == "material") {
     values.numbers.resize(model_.body.particles);
     for (Particle particle = 0; particle < model_.body.particles; ++particle)
-      values.numbers[particle] = model_.material(particle);
+      values.numbers[particle] = model_.kinds.material(particle);
   } else if (name == "source")
     values.numbers.assign(model_.body.listed.source.begin(), model_.body.listed.source.end());
   else if (name == "broken_open")
@@ -91,7 +91,7 @@ void SnapshotSource::compute_damage(std::vector<double>& numbers) {
     numbers[breakage.a] += 1;
     numbers[breakage.b] += 1;
   }
-  if (model_.softens) simulation_.add_softening(numbers);
+  if (model_.springs.softens) simulation_.add_softening(numbers);
   for (Particle a = 0; a < body.particles; ++a)
     if (springs_of_[a] > 0) numbers[a] /= springs_of_[a];
 }

@@ -93,7 +93,7 @@ void StageSequence::note(Outcome& outcome) {
   outcome.injected_by_load = simulation_.injected_by_load();
   outcome.state_hash = simulation_.hash();
   recorder_.note(outcome);
-  if (plan_.model->choice.precision == Precision::doubles) return;
+  if (plan_.model->springs.choice.precision == Precision::doubles) return;
   if (std::string warning = precision_warning(*plan_.model, simulation_.farthest());
       !warning.empty())
     outcome.warnings.push_back(std::move(warning));

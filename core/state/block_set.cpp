@@ -52,7 +52,7 @@ BlockSet::BlockSet(const Model& model, int threads)
       team_(threads) {
   team_.for_own(blocks_.size(), [&](std::size_t b) { allocate(blocks_[b], b); });
   for (Block& block : blocks_) add_supports(block);
-  for (const auto& [particle, velocity] : model.start_velocities) {
+  for (const auto& [particle, velocity] : model.loads.start_velocities) {
     const auto [block, place] = at(particle);
     for (int c = 0; c < 3; ++c) block->velocity[c].set(place, velocity[c]);
   }
@@ -63,12 +63,12 @@ void BlockSet::allocate(Block& block, std::size_t number) const {
   block.number = number;
   block.rows = block.layout->rows;
   for (int c = 0; c < model_.degrees_of_freedom; ++c) {
-    block.displacement[c] = Numbers(model_.choice.precision, block.layout->sites);
-    block.velocity[c] = Numbers(model_.choice.precision, block.layout->sites);
+    block.displacement[c] = Numbers(model_.springs.choice.precision, block.layout->sites);
+    block.velocity[c] = Numbers(model_.springs.choice.precision, block.layout->sites);
   }
   block.scratch = AlignedArray<double>(layout_->scratch_numbers());
   block.damped_work.assign(block.rows.size(), 0);
-  if (model_.softens) block.fracture_work.assign(block.rows.size(), 0);
+  if (model_.springs.softens) block.fracture_work.assign(block.rows.size(), 0);
   const auto is_other = [](const Row& row) { return row.law != 0; };
   if (std::any_of(block.rows.begin(), block.rows.end(), is_other))
     block.other_sums.resize(block.rows.size());
@@ -136,8 +136,8 @@ void BlockSet::add_supports(Block& block) const {
 
 LawNumbers BlockSet::law_numbers(const Block& block, std::uint32_t row, std::uint32_t neighbour,
                                  std::int32_t site, bool cross) const {
-  if (model_.memory == 0) return {};
-  return read_numbers(layout_->memory(block, row, neighbour, site, cross), model_.memory);
+  if (model_.springs.memory == 0) return {};
+  return read_numbers(layout_->memory(block, row, neighbour, site, cross), model_.springs.memory);
 }
 
 void BlockSet::note_gone(Block& block, const AlarmRow& springs) const {

@@ -25,14 +25,15 @@ void Simulation::apply_equilibrium(const EquilibriumUpdate& to) {
   halt();  // finds the start of the balance; the work on the way from there is counted here
   count_work(state_->blocks, to);
   const Model& model = state_->blocks.model();
-  if (!(model.acceleration == Vec3{})) {
+  if (!(model.loads.acceleration == Vec3{})) {
     const double unused = 1 - 0.5 * (to.gravity_before + to.gravity);
     std::vector<double> before;
     displacements(before);
     for (Particle p = 0; p < model.body.particles; ++p) {
       const Vec3 moved{to.xyz[3 * p] - before[3 * p], to.xyz[3 * p + 1] - before[3 * p + 1],
                        to.xyz[3 * p + 2] - before[3 * p + 2]};
-      state_->energy.count_unused_gravity(unused * model.mass(p) * dot(model.acceleration, moved));
+      state_->energy.count_unused_gravity(unused * model.mass(p) *
+                                          dot(model.loads.acceleration, moved));
     }
   }
   state_->energy.count_halted(to.dissipated);

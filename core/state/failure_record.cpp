@@ -87,7 +87,7 @@ double FailureRecord::energy_of(std::size_t index, const Block& block, const Blo
                delta = model.body.grid.membrane_distance;
   double energy = lost(false, in_space + difference * difference,
                        rate_in_space + 2 * difference * (b.raised - a.raised));
-  if (model.choice.membrane != KernelChoice::Membrane::none)
+  if (model.springs.choice.membrane != KernelChoice::Membrane::none)
     energy += lost(true, in_space + total * (2 * delta + total),
                    rate_in_space + 2 * (delta + total) * (b.raised + a.raised));
   return energy * properties.share;

@@ -76,7 +76,7 @@ Layout::Memory Simulation::law_memory(Particle particle, std::uint32_t neighbour
 
 void Simulation::for_springs_of_list(const std::function<void(const SpringMemory&)>& visit) const {
   const BlockSet& blocks = state_->blocks;
-  const bool has_cross = blocks.model().choice.membrane != KernelChoice::Membrane::none;
+  const bool has_cross = blocks.model().springs.choice.membrane != KernelChoice::Membrane::none;
   for (const Block& block : blocks)
     blocks.layout().for_springs(block, [&](const SpringPlace& spring) {
       if (!spring.counts) return;

@@ -16,8 +16,8 @@ std::int32_t material_of_row(const Model& model, std::int32_t j, std::int32_t k)
   const auto look = [&](std::span<const Run> runs) {
     for (const Run& run : runs)
       for (std::int32_t i = run.begin; i < run.end; ++i) {
-        const auto kind =
-            static_cast<std::int32_t>(model.kind(run.first + static_cast<Particle>(i - run.begin)));
+        const auto kind = static_cast<std::int32_t>(
+            model.kinds.of(run.first + static_cast<Particle>(i - run.begin)));
         if (found != -2 && found != kind) return false;
         found = kind;
       }
@@ -25,7 +25,7 @@ std::int32_t material_of_row(const Model& model, std::int32_t j, std::int32_t k)
   };
   if (!look(model.body.row(j, k)) || found >= static_cast<std::int32_t>(model.materials.size()))
     return -1;
-  if (!model.mixtures.empty()) return found;
+  if (!model.kinds.mixtures.empty()) return found;
   for (const Neighbour& to : model.body.neighbours)
     if (!look(model.body.row(j + to.dy, k + to.dz))) return -1;
   return found;
@@ -94,22 +94,23 @@ GridLayout::GridLayout(const Model& model, int threads) : Layout(model) {
 
 /// Returns the law of all springs of a row, see Row::law.
 std::int32_t GridLayout::law_of_row(std::int32_t material, std::int32_t j, std::int32_t k) const {
-  if (model_.laws.size() == 1 && model_.composites.empty()) return 0;
+  if (model_.springs.laws.size() == 1 && model_.springs.composites.empty()) return 0;
   if (material >= 0)
     return static_cast<std::int32_t>(model_.materials[static_cast<std::size_t>(material)].law);
   Materials materials;
   const auto look = [&](std::span<const Run> runs) {
     for (const Run& run : runs)
       for (Particle p = run.first; p < run.first + static_cast<Particle>(run.end - run.begin); ++p)
-        if (model_.mixtures.empty())
-          materials.set(model_.material(p));
+        if (model_.kinds.mixtures.empty())
+          materials.set(model_.kinds.material(p));
         else
-          for (const std::uint8_t of_cell : model_.mixtures.around(model_.mixtures.of(p)))
+          for (const std::uint8_t of_cell :
+               model_.kinds.mixtures.around(model_.kinds.mixtures.of(p)))
             if (of_cell != Mixtures::no_cell) materials.set(of_cell);
   };
   look(model_.body.row(j, k));
   for (const Neighbour& to : model_.body.neighbours)
-    if (model_.mixtures.empty()) look(model_.body.row(j + to.dy, k + to.dz));
+    if (model_.kinds.mixtures.empty()) look(model_.body.row(j + to.dy, k + to.dz));
   return law_between(materials);
 }
 
@@ -145,7 +146,7 @@ BlockLayout GridLayout::make_block(Planes planes, std::uint64_t padding) {
 }
 
 std::uint64_t GridLayout::whole_vectors(std::int32_t sites) const {
-  const std::uint64_t vector = 64 / bytes_of(model_.choice.precision);
+  const std::uint64_t vector = 64 / bytes_of(model_.springs.choice.precision);
   return (static_cast<std::uint64_t>(sites) + vector - 1) / vector * vector;
 }
 
@@ -205,7 +206,7 @@ SpringEnds GridLayout::spring(const Block& block, std::uint32_t row, std::uint32
 Layout::Memory GridLayout::memory(const Block& block, std::uint32_t row, std::uint32_t neighbour,
                                   std::int32_t site, bool cross) const {
   const std::uint64_t sites = block.layout->sites,
-                      before = kept_numbers() * neighbour + (cross ? model_.memory : 0);
+                      before = kept_numbers() * neighbour + (cross ? model_.springs.memory : 0);
   const Row& of = block.rows[row];
   return {
       block.memory.get() + before * sites + of.start + static_cast<std::uint64_t>(site - of.begin),
@@ -244,8 +245,10 @@ void GridLayout::fill(Block& block) const {
   block.alive = AlignedArray<std::uint16_t>(block.layout->sites);
   block.memory =
       AlignedArray<double>(block.layout->sites * body.neighbours.size() * kept_numbers());
-  if (!model_.material_of.empty()) block.material = AlignedArray<std::uint8_t>(block.layout->sites);
-  if (!model_.mixtures.empty()) block.mixture = AlignedArray<std::uint32_t>(block.layout->sites);
+  if (!model_.kinds.material_of.empty())
+    block.material = AlignedArray<std::uint8_t>(block.layout->sites);
+  if (!model_.kinds.mixtures.empty())
+    block.mixture = AlignedArray<std::uint32_t>(block.layout->sites);
   for (std::uint32_t r = 0; r < block.rows.size(); ++r) {
     const Row& row = block.rows[r];
     if (row.begin == row.end) continue;
@@ -257,10 +260,10 @@ void GridLayout::fill(Block& block) const {
       const Particle particle = body.at(site);
       const std::uint64_t place = row.start + static_cast<std::uint64_t>(site.i - row.begin);
       if (particle == Body::no_particle) continue;
-      if (model_.mixtures.empty())
-        block.material[place] = model_.material_of[particle];
+      if (model_.kinds.mixtures.empty())
+        block.material[place] = model_.kinds.material_of[particle];
       else
-        block.mixture[place] = model_.mixtures.of(particle);
+        block.mixture[place] = model_.kinds.mixtures.of(particle);
     }
   }
 }
@@ -289,9 +292,9 @@ void GridLayout::exchange(const std::vector<Block>& all, Block& block) const {
       const std::uint64_t count = to.end - to.begin;
       for (int c = 0; c < model_.degrees_of_freedom; ++c)
         block.displacement[c].copy(owner.displacement[c], from, count, to.begin);
-      for (int c = 0; model_.asks_rate && c < model_.degrees_of_freedom; ++c)
+      for (int c = 0; model_.springs.asks_rate && c < model_.degrees_of_freedom; ++c)
         block.velocity[c].copy(owner.velocity[c], from, count, to.begin);
-      if (model_.choice.breakable && k < first)
+      if (model_.springs.choice.breakable && k < first)
         std::copy_n(owner.alive.get() + from, count, block.alive.get() + to.begin);
     }
 }
@@ -304,19 +307,19 @@ void GridLayout::describe(const Block& block, KernelRequest& request) const {
   request.weights = weights_.values();
   request.scratch_width = scratch_width_;
   request.mixture = block.mixture.get();
-  request.mixture_springs = model_.mixture_springs.data();
+  request.mixture_springs = model_.springs.mixture_springs.data();
   request.memory = block.memory.get();
-  request.memory_numbers = model_.memory;
+  request.memory_numbers = model_.springs.memory;
   request.memory_stride = block.layout->sites;
 }
 
 double GridLayout::state_bytes() const {
-  const auto number = static_cast<double>(bytes_of(model_.choice.precision));
+  const auto number = static_cast<double>(bytes_of(model_.springs.choice.precision));
   const auto memory =
       static_cast<double>(model_.body.neighbours.size() * kept_numbers() * sizeof(double));
   const double a_site = 2.0 * model_.degrees_of_freedom * number + sizeof(std::uint16_t) +
-                        (model_.material_of.empty() ? 0.0 : 1.0) +
-                        (model_.mixtures.empty() ? 0.0 : 4.0) + memory;
+                        (model_.kinds.material_of.empty() ? 0.0 : 1.0) +
+                        (model_.kinds.mixtures.empty() ? 0.0 : 4.0) + memory;
   double bytes = weights_.bytes();
   for (const BlockLayout& block : blocks)
     bytes += static_cast<double>(block.sites) * a_site +

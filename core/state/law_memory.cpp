@@ -24,8 +24,8 @@ double elongation_of(const Model& model, const SpringProperties& properties, std
 }  // namespace
 
 void LawMemory::advance(const EquilibriumUpdate& to) {
-  if (model_.memory == 0) return;
-  const std::size_t kinds = model_.choice.membrane == KernelChoice::Membrane::none ? 1 : 2;
+  if (model_.springs.memory == 0) return;
+  const std::size_t kinds = model_.springs.choice.membrane == KernelChoice::Membrane::none ? 1 : 2;
   for (Block& block : blocks_)
     blocks_.layout().for_springs(block, [&](const SpringPlace& spring) {
       const auto [a, b] = std::pair{spring.ends.a, spring.ends.b};
@@ -45,7 +45,8 @@ void LawMemory::advance(const EquilibriumUpdate& to) {
             take_spring(model_, properties, cross, elongation, 0, kept.data());
         const Layout::Memory memory =
             blocks_.layout().memory(block, spring.row, spring.neighbour, spring.site, cross != 0);
-        for (std::uint32_t n = 0; n < model_.memory; ++n) memory.first[n * memory.stride] = kept[n];
+        for (std::uint32_t n = 0; n < model_.springs.memory; ++n)
+          memory.first[n * memory.stride] = kept[n];
         if (!spring.counts) continue;
         energy_.count_halted(properties.share * answer.dissipated);
         energy_.count_softened(properties.share * answer.fractured);

@@ -13,7 +13,7 @@ std::unique_ptr<Layout> make_layout(const Model& model, int threads) {
 }
 
 bool Layout::starts_memory() const {
-  return std::any_of(model_.laws.begin(), model_.laws.end(),
+  return std::any_of(model_.springs.laws.begin(), model_.springs.laws.end(),
                      [](const Law& law) { return law.kernels.start != nullptr; });
 }
 
@@ -26,7 +26,7 @@ std::int32_t Layout::law_between(const Materials& materials) const {
     law = own;
   }
   const bool one_spring =
-      materials.count() <= 1 || model_.laws[static_cast<std::size_t>(law)].kernels.linear;
+      materials.count() <= 1 || model_.springs.laws[static_cast<std::size_t>(law)].kernels.linear;
   return one_spring ? law : -1;
 }
 
@@ -38,11 +38,12 @@ void Layout::start_memory(const Block& block, std::uint32_t row, std::uint32_t n
     b = model_.body.listed.source[b];
   }
   const SpringIdentity identity{std::min(a, b), std::max(a, b)};
-  for (std::size_t cross = 0; cross < kept_numbers() / model_.memory; ++cross) {
+  for (std::size_t cross = 0; cross < kept_numbers() / model_.springs.memory; ++cross) {
     std::array<double, max_spring_memory> kept{};
     start_memory_of(model_, properties, cross, identity, kept.data());
     const Memory memory = this->memory(block, row, neighbour, site, cross != 0);
-    for (std::uint32_t n = 0; n < model_.memory; ++n) memory.first[n * memory.stride] = kept[n];
+    for (std::uint32_t n = 0; n < model_.springs.memory; ++n)
+      memory.first[n * memory.stride] = kept[n];
   }
 }
 

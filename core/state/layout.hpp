@@ -112,12 +112,12 @@ class Layout {
   explicit Layout(const Model& model) : model_(model) {}
   /// Returns how many numbers laws keep for a base spring and its cross spring.
   std::size_t kept_numbers() const {
-    return (model_.choice.membrane == KernelChoice::Membrane::none ? 1 : 2) *
-           std::size_t{model_.memory};
+    return (model_.springs.choice.membrane == KernelChoice::Membrane::none ? 1 : 2) *
+           std::size_t{model_.springs.memory};
   }
 
-  /// Returns the law of springs between these materials, by its index in Model::laws; -1 if they
-  /// need several laws, or several sets of constants of one law.
+  /// Returns the law of springs between these materials, by its index in SpringTable::laws; -1 if
+  /// they need several laws, or several sets of constants of one law.
   std::int32_t law_between(const Materials& materials) const;
 
   /// Returns whether the memory of a law does not start at zero.

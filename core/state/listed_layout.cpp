@@ -9,7 +9,8 @@ namespace hyperlattice {
 
 ListedLayout::ListedLayout(const Model& model, int threads)
     : Layout(model),
-      width_(model.choice.precision == Precision::floats ? lanes_of<float> : lanes_of<double>),
+      width_(model.springs.choice.precision == Precision::floats ? lanes_of<float>
+                                                                 : lanes_of<double>),
       materials_of_rows_(materials_of_rows()) {
   const std::uint64_t particles = model.body.particles,
                       rows = (particles + row_length - 1) / row_length;
@@ -70,21 +71,21 @@ BlockLayout ListedLayout::make_block(const Part& part) const {
 }
 
 std::int32_t ListedLayout::material_of_row(Particle first, Particle last) const {
-  const std::uint8_t material = model_.material(first);
+  const std::uint8_t material = model_.kinds.material(first);
   for (Particle p = first; p < last; ++p)
-    if (model_.material(p) != material) return -1;
+    if (model_.kinds.material(p) != material) return -1;
   return material;
 }
 
 /// Finds the materials at both ends of the springs of each row of the body.
 std::vector<ListedLayout::Materials> ListedLayout::materials_of_rows() const {
   std::vector<Materials> found;
-  if (model_.laws.size() == 1 && model_.composites.empty()) return found;
+  if (model_.springs.laws.size() == 1 && model_.springs.composites.empty()) return found;
   found.resize((model_.body.particles + row_length - 1) / row_length);
   for (const ListedSpring& spring : model_.body.listed.springs)
     for (const Particle end : {spring.a, spring.b}) {
-      found[end / row_length].set(model_.material(spring.a));
-      found[end / row_length].set(model_.material(spring.b));
+      found[end / row_length].set(model_.kinds.material(spring.a));
+      found[end / row_length].set(model_.kinds.material(spring.b));
     }
   return found;
 }
@@ -100,7 +101,7 @@ std::int32_t ListedLayout::law_of_row(std::int32_t material, std::uint64_t row) 
 /// Returns whether springs differ in stiffness, so that each needs its own.
 bool ListedLayout::has_own_stiffness() const {
   const std::vector<ListedSpring>& springs = model_.body.listed.springs;
-  return model_.choice.mixed ||
+  return model_.springs.choice.mixed ||
          std::any_of(springs.begin(), springs.end(),
                      [](const ListedSpring& spring) { return spring.stiffness != 1; });
 }
@@ -151,7 +152,7 @@ SpringEnds ListedLayout::spring(const Block& block, std::uint32_t row, std::uint
 Layout::Memory ListedLayout::memory(const Block& block, std::uint32_t, std::uint32_t slot,
                                     std::int32_t site, bool cross) const {
   const std::size_t numbers =
-      std::size_t{slot} * kept_numbers() + (cross ? model_.memory : 0);
+      std::size_t{slot} * kept_numbers() + (cross ? model_.springs.memory : 0);
   return {block.memory.get() + numbers * width_ + static_cast<std::uint64_t>(site) % width_,
           width_};
 }
@@ -191,10 +192,10 @@ void ListedLayout::fill(Block& block) const {
   const std::uint64_t count = part.last - part.first;
   block.alive = AlignedArray<std::uint16_t>(block.layout->sites);
   std::fill_n(block.alive.get(), count, particle_bit);
-  if (!model_.material_of.empty()) {
+  if (!model_.kinds.material_of.empty()) {
     block.material = AlignedArray<std::uint8_t>(block.layout->sites);
     for (std::uint64_t n = 0; n < count; ++n)
-      block.material[n] = model_.material_of[part.first + n];
+      block.material[n] = model_.kinds.material_of[part.first + n];
   }
   if (!model_.body.listed.shares.empty()) {
     block.listed.shares = AlignedArray<double>(block.layout->sites);
@@ -208,8 +209,8 @@ void ListedLayout::fill(Block& block) const {
 
 void ListedLayout::fill_records(Block& block) const {
   const Part& part = parts_[block.number];
-  block.listed.records =
-      Numbers(model_.choice.precision, record_numbers * (block.layout->sites + part.ghosts.size()));
+  block.listed.records = Numbers(model_.springs.choice.precision,
+                                 record_numbers * (block.layout->sites + part.ghosts.size()));
   const std::vector<Vec3>& positions = model_.body.listed.positions;
   // The same for all blocks; positions relative to it keep their precision in floats.
   const Vec3 origin = positions[positions.size() / 2];
@@ -219,7 +220,7 @@ void ListedLayout::fill_records(Block& block) const {
     block.listed.records.set(record, x.x);
     block.listed.records.set(record + 1, x.y);
     block.listed.records.set(record + 2, x.z);
-    block.listed.records.set(record + record_material, model_.material(particle));
+    block.listed.records.set(record + record_material, model_.kinds.material(particle));
   };
   for (Particle particle = part.first; particle < part.last; ++particle) set(particle);
   for (const Particle ghost : part.ghosts) set(ghost);
@@ -232,9 +233,9 @@ void ListedLayout::fill_springs(Block& block) const {
   listed.first = AlignedArray<std::uint32_t>(part.first_slot.size());
   std::copy(part.first_slot.begin(), part.first_slot.end(), listed.first.get());
   listed.neighbour = AlignedArray<std::uint32_t>(neighbours(part));
-  const Precision precision = model_.choice.precision;
+  const Precision precision = model_.springs.choice.precision;
   if (has_own_stiffness()) listed.stiffness = Numbers(precision, 2 * slot_lanes(part));
-  if (model_.choice.breakable) listed.alarm = Numbers(precision, slot_lanes(part));
+  if (model_.springs.choice.breakable) listed.alarm = Numbers(precision, slot_lanes(part));
   block.memory = AlignedArray<double>(slot_lanes(part) * kept_numbers());
   for (std::size_t pack = 0; pack + 1 < part.first_slot.size(); ++pack)
     for (std::size_t n = part.first_slot[pack] * width_; n < part.first_slot[pack + 1] * width_;
@@ -261,8 +262,9 @@ void ListedLayout::fill_springs(Block& block) const {
     const ListedSpring& spring = model_.body.listed.springs[n];
     if (!part.holds(spring.a) && !part.holds(spring.b)) continue;
     const SpringProperties properties = model_.spring_properties(spring.a, spring.b, n);
-    const double alarm =
-        model_.choice.breakable ? model_.alarm(spring.a, spring.b, n, properties) : infinity;
+    const double alarm = model_.springs.choice.breakable
+                             ? model_.alarm(spring.a, spring.b, n, properties)
+                             : infinity;
     const double growth = precision == Precision::floats
                               ? squared_growth<float>(properties.rest_length, alarm)
                               : squared_growth(properties.rest_length, alarm);
@@ -293,18 +295,18 @@ void ListedLayout::describe(const Block& block, KernelRequest& request) const {
   request.listed = {block.listed.first.get(),     block.listed.neighbour.get(),
                     block.listed.stiffness.get(), block.listed.alarm.get(),
                     block.listed.records.get(),   block.memory.get()};
-  request.memory_numbers = model_.memory;
+  request.memory_numbers = model_.springs.memory;
 }
 
 double ListedLayout::state_bytes() const {
-  const double number =
-                   model_.choice.precision == Precision::floats ? sizeof(float) : sizeof(double),
+  const double number = model_.springs.choice.precision == Precision::floats ? sizeof(float)
+                                                                             : sizeof(double),
                record = record_numbers * number;
   const double state = 2.0 * model_.degrees_of_freedom * number + record +
                        (model_.body.listed.shares.empty() ? 0.0 : double{sizeof(double)}) +
-                       double{sizeof(std::uint16_t)} + (model_.material_of.empty() ? 0 : 1);
+                       double{sizeof(std::uint16_t)} + (model_.kinds.material_of.empty() ? 0 : 1);
   const double slot_lane =
-      ((has_own_stiffness() ? 2 : 0) + (model_.choice.breakable ? 1 : 0)) * number +
+      ((has_own_stiffness() ? 2 : 0) + (model_.springs.choice.breakable ? 1 : 0)) * number +
       static_cast<double>(kept_numbers() * sizeof(double));
   double bytes = 0;
   for (std::size_t n = 0; n < blocks.size(); ++n)

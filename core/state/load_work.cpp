@@ -69,18 +69,18 @@ std::vector<double> work_by_load(const BlockSet& blocks, double potential) {
       work[part.load] += support.reaction_work + support.reaction_now - held[part.support];
     }
   }
-  const double acceleration = norm(model.acceleration);
+  const double acceleration = norm(model.loads.acceleration);
   // Body accelerations share the work of the potential in proportion to their part of the whole.
   if (acceleration > 0)
     for (std::size_t l = 0; l < model.loads.size(); ++l)
-      work[l] += potential * dot(model.loads[l].acceleration, model.acceleration) /
+      work[l] += potential * dot(model.loads[l].acceleration, model.loads.acceleration) /
                  (acceleration * acceleration);
   return work;
 }
 
 double gross_work(const BlockSet& blocks, double potential, double step) {
   double sum = std::abs(potential);
-  const Vec3 gained = step * blocks.model().acceleration;
+  const Vec3 gained = step * blocks.model().loads.acceleration;
   for (const Block& block : blocks) {
     for (const Contribution& part : block.contributions)
       sum += std::abs(part.work +

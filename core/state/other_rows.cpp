@@ -14,8 +14,8 @@ class SeveralLaws {
       : model_(model),
         time_step_(2 * request.back),
         delta_(request.membrane_distance),
-        kinds_(model.choice.membrane == KernelChoice::Membrane::none ? 1 : 2),
-        free_(model.choice.membrane == KernelChoice::Membrane::free),
+        kinds_(model.springs.choice.membrane == KernelChoice::Membrane::none ? 1 : 2),
+        free_(model.springs.choice.membrane == KernelChoice::Membrane::free),
         measures_(measures) {}
 
   /// A spring between two particles: displacements and heights there less those here, and the sum
@@ -68,13 +68,13 @@ class SeveralLaws {
  private:
   CompositeAnswer advance(const SpringProperties& of, std::size_t cross, double elongation,
                           const Layout::Memory& memory, Result* result) const {
-    LawNumbers kept = read_numbers(memory, model_.memory);
-    const bool was_there = result != nullptr && model_.softens && !measures_ &&
+    LawNumbers kept = read_numbers(memory, model_.springs.memory);
+    const bool was_there = result != nullptr && model_.springs.softens && !measures_ &&
                            ask_spring(model_, of, cross, elongation, kept.data()).integrity > 0;
     const CompositeAnswer answer =
         take_spring(model_, of, cross, elongation, time_step_, kept.data());
     if (result != nullptr) result->gone = was_there && answer.integrity <= 0;
-    for (std::uint32_t n = 0; n < model_.memory && !measures_; ++n)
+    for (std::uint32_t n = 0; n < model_.springs.memory && !measures_; ++n)
       memory.first[n * memory.stride] = kept[n];
     return answer;
   }
@@ -100,7 +100,7 @@ SpringProperties properties_of(const Model& model, const SpringConstants& consta
   of.law = model.materials[material].law;
   of.constants[0] = constants.law[0];
   of.constants[1] = constants.law[1];
-  of.composite = model.composite(constants);
+  of.composite = model.springs.composite(constants);
   return of;
 }
 
@@ -111,7 +111,7 @@ void OtherRows::compute(Block& block, const KernelRequest& request, const RowPla
   const Row& row = request.rows[place.index];
   RowEnergies energies;
   if (row.law > 0) {
-    const Law& law = model_.laws[static_cast<std::size_t>(row.law)];
+    const Law& law = model_.springs.laws[static_cast<std::size_t>(row.law)];
     energies = call_row_kernel(law, measures ? law.kernels.measure_row : law.kernels.step_row,
                                request, place);
   } else {
@@ -134,7 +134,7 @@ bool OtherRows::reaches_alarm(const SpringProperties& properties, double alarm, 
                               const Layout::Memory& memory) const {
   if (properties.composite == nullptr || !properties.composite->in_series())
     return elongation > alarm;
-  const LawNumbers kept = read_numbers(memory, model_.memory);
+  const LawNumbers kept = read_numbers(memory, model_.springs.memory);
   const auto parts = properties.composite->parts();
   return std::any_of(parts.begin(), parts.end(), [&](const SpringPart& part) {
     return model_.elongation_in(part.material, properties, elongation, kept.data()) >
@@ -151,8 +151,8 @@ RowEnergies OtherRows::several_laws_of_grid(Block& block, const KernelRequest& r
   clear_own(scratch, components, sites);
   const SeveralLaws laws(model_, request, measures);
   RowEnergies energies;
-  for (std::uint32_t n = 0; n < model_.neighbours.size(); ++n) {
-    const NeighbourGeometry& neighbour = model_.neighbours[n];
+  for (std::uint32_t n = 0; n < model_.springs.neighbours.size(); ++n) {
+    const NeighbourGeometry& neighbour = model_.springs.neighbours[n];
     const Neighbour& to = neighbour.site;
     if ((row.neighbours >> n & 1U) == 0 || (!owned && place.k + to.dz < 0)) continue;
     const Row& other =
@@ -164,14 +164,14 @@ RowEnergies OtherRows::several_laws_of_grid(Block& block, const KernelRequest& r
       const std::uint64_t here = row.start + static_cast<std::uint64_t>(i - row.begin);
       if ((block.alive[here] >> n & 1U) == 0) continue;
       const std::uint64_t there = other.start + static_cast<std::uint64_t>(i + to.dx - other.begin);
-      const bool cells = !model_.mixtures.empty();
+      const bool cells = !model_.kinds.mixtures.empty();
       const std::uint32_t kind = cells ? block.mixture[here] : block.material[here];
       const SpringConstants& constants =
-          model_.spring_to(n, kind, cells ? 0 : block.material[there]);
+          model_.springs.spring_to(n, kind, cells ? 0 : block.material[there]);
       SeveralLaws::Spring spring;
-      spring.properties =
-          properties_of(model_, constants,
-                        cells ? model_.mixtures.commonest(kind) : static_cast<std::uint8_t>(kind));
+      spring.properties = properties_of(
+          model_, constants,
+          cells ? model_.kinds.mixtures.commonest(kind) : static_cast<std::uint8_t>(kind));
       spring.properties.rest = neighbour.rest;
       spring.properties.rest_length = neighbour.rest_length;
       spring.properties.cross_rest_length = neighbour.cross_rest_length;
@@ -186,7 +186,8 @@ RowEnergies OtherRows::several_laws_of_grid(Block& block, const KernelRequest& r
         spring.weight = request.weights[set + lanes * (std::uint64_t{n} + 1) + t % lanes];
       }
       for (const bool cross : {false, true})
-        if (model_.memory > 0 && (!cross || model_.choice.membrane != KernelChoice::Membrane::none))
+        if (model_.springs.memory > 0 &&
+            (!cross || model_.springs.choice.membrane != KernelChoice::Membrane::none))
           spring.memory[cross ? 1 : 0] = blocks_.layout().memory(block, place.index, n, i, cross);
       const SeveralLaws::Result result = laws.forces(spring, energies);
       for (int c = 0; c < components; ++c) {
@@ -196,7 +197,7 @@ RowEnergies OtherRows::several_laws_of_grid(Block& block, const KernelRequest& r
       }
       if (measures || !owned) continue;
       if (result.gone) blocks_.note_gone(block, {place.index, n, {&i, 1}, {&result.elongation, 1}});
-      if (!model_.choice.breakable ||
+      if (!model_.springs.choice.breakable ||
           !reaches_alarm(spring.properties, constants.alarm, result.elongation, spring.memory[0]))
         continue;
       rung.push_back(i);
@@ -244,7 +245,7 @@ RowEnergies OtherRows::several_laws_of_list(Block& block, const KernelRequest& r
       const double* other = record(there);
       const auto material = static_cast<std::uint8_t>(own[record_material]);
       const SpringConstants& constants =
-          model_.spring(material, static_cast<std::uint8_t>(other[record_material]), 0);
+          model_.springs.spring(material, static_cast<std::uint8_t>(other[record_material]), 0);
       SeveralLaws::Spring spring;
       SpringProperties& of = spring.properties = properties_of(model_, constants, material);
       of.rest = {other[0] - own[0], other[1] - own[1], other[2] - own[2]};
@@ -258,7 +259,8 @@ RowEnergies OtherRows::several_laws_of_list(Block& block, const KernelRequest& r
                                own[record_moved + static_cast<std::size_t>(c)];
       if (components == 4) spring.height_sum = other[record_moved + 3] + own[record_moved + 3];
       for (const bool cross : {false, true})
-        if (model_.memory > 0 && (!cross || model_.choice.membrane != KernelChoice::Membrane::none))
+        if (model_.springs.memory > 0 &&
+            (!cross || model_.springs.choice.membrane != KernelChoice::Membrane::none))
           spring.memory[cross ? 1 : 0] =
               blocks_.layout().memory(block, place.index, slot, t, cross);
       const SeveralLaws::Result result = laws.forces(spring, energies);
@@ -266,7 +268,7 @@ RowEnergies OtherRows::several_laws_of_list(Block& block, const KernelRequest& r
       if (measures) continue;
       if (result.gone)
         blocks_.note_gone(block, {place.index, slot, {&t, 1}, {&result.elongation, 1}});
-      if (!model_.choice.breakable) continue;
+      if (!model_.springs.choice.breakable) continue;
       const double growth =
           static_cast<const double*>(slots.alarm)[std::uint64_t{slot} * lanes + lane];
       const double alarm = std::sqrt(of.rest_length * of.rest_length + growth) - of.rest_length;

@@ -97,7 +97,7 @@ double SpringReview::rate_of(const Block& block, const AlarmRow& alarm, std::siz
   const std::uint64_t a = row.start + static_cast<std::uint64_t>(alarm.sites[n] - row.begin);
   const std::uint64_t b =
       blocks_.layout().other_end(block.number, alarm.row, alarm.neighbour, alarm.sites[n]);
-  const Vec3 rest = model_.neighbours[alarm.neighbour].rest;
+  const Vec3 rest = model_.springs.neighbours[alarm.neighbour].rest;
   double squared_length = 0, product = 0;
   for (int c = 0; c < model_.degrees_of_freedom; ++c) {
     const double apart =

@@ -23,8 +23,8 @@ void Sweeps::set_damping(double alpha, double rate) {
 void Sweeps::step(const Sweep& sweep) {
   loads_.prepare(sweep);
   loads_.check_factors();
-  const Kernel kernel =
-      damping_ != 0 || damping_rate_ != 0 ? model_.kernels().step_damped : model_.kernels().step;
+  const Kernel kernel = damping_ != 0 || damping_rate_ != 0 ? model_.springs.kernels().step_damped
+                                                            : model_.springs.kernels().step;
   read_motion();
   blocks_.team().for_each(blocks_.size(), [&](std::size_t b) {
     Block& block = blocks_[b];
@@ -40,7 +40,7 @@ RowSums Sweeps::measure(const Sweep& sweep) {
   read_motion();
   blocks_.team().for_each(blocks_.size(), [&](std::size_t b) {
     loads_.set_supports(blocks_[b], sweep);
-    run_kernel(model_.kernels().measure, blocks_[b], sweep.measured, 0, true);
+    run_kernel(model_.springs.kernels().measure, blocks_[b], sweep.measured, 0, true);
   });
   RowSums total;
   for (const Block& block : blocks_)
@@ -104,7 +104,7 @@ void Sweeps::run_kernel(Kernel kernel, Block& block, double back, double forward
       asked->sweeps->other_rows_.compute(*asked->block, asked->request, row, asked->measures);
     });
   };
-  call_kernel(model_.laws.front(), kernel, host.request);
+  call_kernel(model_.springs.laws.front(), kernel, host.request);
 }
 
 KernelRequest Sweeps::request_for(Block& block, double back, double forward) const {
@@ -117,10 +117,10 @@ KernelRequest Sweeps::request_for(Block& block, double back, double forward) con
   }
   request.alive = block.alive.get();
   request.material = block.material.get();
-  request.neighbours = model_.neighbours;
-  request.springs = model_.springs.data();
-  request.mass = model_.masses.data();
-  request.alpha = model_.alphas.data();
+  request.neighbours = model_.springs.neighbours;
+  request.springs = model_.springs.constants.data();
+  request.mass = model_.kinds.masses.data();
+  request.alpha = model_.kinds.alphas.data();
   request.materials = static_cast<std::uint32_t>(model_.materials.size());
   request.spring_classes = model_.body.grid.spring_classes;
   request.membrane_distance = model_.body.grid.membrane_distance;
@@ -129,7 +129,7 @@ KernelRequest Sweeps::request_for(Block& block, double back, double forward) con
   request.forward = forward;
   request.damping = damping_;
   request.damping_rate = damping_rate_;
-  request.acceleration = model_.acceleration;
+  request.acceleration = model_.loads.acceleration;
   request.boundary_particles = block.boundary_particles.data();
   request.scratch = block.scratch.get();
   request.damped_work = block.damped_work.data();

@@ -39,7 +39,7 @@ void Statics::make_grid() {
   grid.components = model_.degrees_of_freedom;
   grid.spacing = body.grid.spacing;
   grid.membrane_distance = body.grid.membrane_distance;
-  grid.neighbours = model_.neighbours;
+  grid.neighbours = model_.springs.neighbours;
 
   rows_.assign(static_cast<std::size_t>(grid.sites[1]) * static_cast<std::size_t>(grid.sites[2]),
                {});
@@ -74,7 +74,7 @@ void Statics::make_weights() {
       const auto place = static_cast<std::size_t>(
           problem_.grid.place(i - body.low.i, run.j - body.low.j, run.k - body.low.k));
       particle_weight_[place] = static_cast<float>(body.share(site));
-      if (!kind_.empty()) kind_[place] = model_.kind(particle);
+      if (!kind_.empty()) kind_[place] = model_.kinds.of(particle);
       for (std::size_t n = 0; n < body.neighbours.size(); ++n)
         if ((alive[particle] >> n & 1u) != 0)
           weight_[n * places + place] = static_cast<float>(body.share(site, body.neighbours[n]));

@@ -18,8 +18,8 @@ void Statics::make_list() {
   grid.free = free_.data();
   for (Particle p = 0; p < body.particles; ++p)
     particle_weight_.push_back(static_cast<float>(body.share(p)));
-  if (!model_.material_of.empty())
-    kind_.assign(model_.material_of.begin(), model_.material_of.end());
+  if (!model_.kinds.material_of.empty())
+    kind_.assign(model_.kinds.material_of.begin(), model_.kinds.material_of.end());
   for (std::uint32_t n = 0; n < body.listed.springs.size(); ++n) {
     const ListedSpring& spring = body.listed.springs[n];
     const SpringProperties properties = model_.spring_properties(spring.a, spring.b, n);
@@ -31,7 +31,7 @@ void Statics::make_list() {
   weight_.assign(springs_.size(), 1);
   for (const Breakage& broken : simulation_.breakages())
     if (!broken.softened) weight_[broken.neighbour] = 0;
-  if (model_.memory == 0) return;
+  if (model_.springs.memory == 0) return;
   spring_memory_.resize(springs_.size());
   simulation_.for_springs_of_list(
       [&](const Simulation::SpringMemory& spring) { spring_memory_[spring.index] = spring; });
@@ -56,7 +56,7 @@ double Statics::respond_list(const double* u, double* force, const SpringTangent
     for (std::size_t s = n * piece; s < std::min(springs, (n + 1) * piece); ++s) {
       const ListedSpring& ends = model_.body.listed.springs[s];
       const SpringConstants& constants =
-          model_.spring(model_.material(ends.a), model_.material(ends.b), 0);
+          model_.springs.spring(model_.kinds.material(ends.a), model_.kinds.material(ends.b), 0);
       const StaticSpring& spring = springs_[s];
       row.rest = spring.rest;
       row.rest_length = norm(spring.rest);
@@ -71,8 +71,8 @@ double Statics::respond_list(const double* u, double* force, const SpringTangent
       LawMemory memory;
       for (std::size_t cross = 0; cross < 2 && !spring_memory_.empty(); ++cross)
         memory[cross] = spring_memory_[s].of[cross];
-      energies[n] += linearise({constants, model_.material(ends.a), buffer.stiffness[0], memory},
-                               buffer);
+      energies[n] += linearise(
+          {constants, model_.kinds.material(ends.a), buffer.stiffness[0], memory}, buffer);
       add_forces(buffer, grid, 2, 1, pulls.data() + of_spring * s);
       if (tangents != nullptr) keep_tangents(buffer, grid.components == 4, s, *tangents);
     }

@@ -55,7 +55,7 @@ void Statics::make_loads() {
     }
   }
   for (const auto& [place, hold] : held) held_.push_back(hold);
-  if (!(model_.acceleration == Vec3{})) {
+  if (!(model_.loads.acceleration == Vec3{})) {
     mass_.assign(static_cast<std::size_t>(places), 0);
     for_runs([&](std::int64_t place, Particle particle, std::uint64_t count) {
       for (std::uint64_t n = 0; n < count; ++n)
@@ -96,7 +96,7 @@ void Statics::add_loads(double share, double* force) const {
   for (int c = 0; c < 3 && !mass_.empty(); ++c)
     for (std::size_t p = 0; p < mass_.size(); ++p)
       force[static_cast<std::size_t>(c * places) + p] +=
-          gravity * mass_[p] * model_.acceleration[c];
+          gravity * mass_[p] * model_.loads.acceleration[c];
 }
 
 void Statics::prescribe(double share, double* u) const {

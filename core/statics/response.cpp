@@ -93,12 +93,12 @@ double Statics::respond_plane(std::int32_t k, const double* u, double* force,
 }
 
 const SpringConstants& Statics::constants_of(std::size_t neighbour, std::int64_t first,
-                                             std::int64_t step, std::size_t t,
-                                             bool exists) const {
+                                             std::int64_t step, std::size_t t, bool exists) const {
   const auto kind = [&](std::int64_t place) {
     return !exists || kind_.empty() ? 0 : kind_[static_cast<std::size_t>(place) + t];
   };
-  return model_.spring_to(static_cast<std::uint32_t>(neighbour), kind(first), kind(first + step));
+  return model_.springs.spring_to(static_cast<std::uint32_t>(neighbour), kind(first),
+                                  kind(first + step));
 }
 
 /// Linearises the springs of a row, in runs of springs of one law and of one set of constants.
@@ -114,30 +114,30 @@ double Statics::linearise_row(std::size_t neighbour, std::int32_t begin, std::in
   };
   const auto memory = [&](std::size_t t) {
     LawMemory found;
-    if (model_.memory == 0) return found;
+    if (model_.springs.memory == 0) return found;
     const Site low = model_.body.low;
-    const Particle particle = model_.body.at(
-        {begin + static_cast<std::int32_t>(t) + low.i, j + low.j, k + low.k});
+    const Particle particle =
+        model_.body.at({begin + static_cast<std::int32_t>(t) + low.i, j + low.j, k + low.k});
     for (const bool cross : {false, true})
-      if (!cross || model_.choice.membrane != KernelChoice::Membrane::none)
-        found[cross ? 1 : 0] = simulation_.law_memory(
-            particle, static_cast<std::uint32_t>(neighbour), cross);
+      if (!cross || model_.springs.choice.membrane != KernelChoice::Membrane::none)
+        found[cross ? 1 : 0] =
+            simulation_.law_memory(particle, static_cast<std::uint32_t>(neighbour), cross);
     return found;
   };
   const auto material = [&](std::size_t t) {
     const std::uint32_t kind =
         kind_.empty() || buffer.weight[t] == 0 ? 0 : kind_[static_cast<std::size_t>(first) + t];
-    return model_.mixtures.empty() ? static_cast<std::uint8_t>(kind)
-                                   : model_.mixtures.commonest(kind);
+    return model_.kinds.mixtures.empty() ? static_cast<std::uint8_t>(kind)
+                                         : model_.kinds.mixtures.commonest(kind);
   };
-  const bool alike = model_.laws.size() == 1 && model_.composites.empty() &&
-                     (model_.materials.size() == 1 || model_.kernels().linear);
+  const bool alike = model_.springs.laws.size() == 1 && model_.springs.composites.empty() &&
+                     (model_.materials.size() == 1 || model_.springs.kernels().linear);
   if (alike) return linearise({constants(0), 0, 0, memory(0)}, buffer);
   double energy = 0;
   RowBuffers part(grid, grid.sites[0]);
   for (std::size_t start = 0, end; start < count; start = end) {
     const SpringConstants& own = constants(start);
-    const bool composite = model_.composite(own) != nullptr;
+    const bool composite = model_.springs.composite(own) != nullptr;
     end = start + 1;
     while (!composite && end < count && &constants(end) == &own) ++end;
     copy_row(buffer, start, end - start, grid.components, part);
@@ -150,14 +150,14 @@ double Statics::linearise_row(std::size_t neighbour, std::int32_t begin, std::in
 /// Linearises springs with the same constants; a composite spring alone. Returns their energy, J.
 double Statics::linearise(const AlikeSprings& alike, RowBuffers& buffer) const {
   SpringRow& row = buffer.springs;
-  const CompositeSpring* composite = model_.composite(alike.constants);
+  const CompositeSpring* composite = model_.springs.composite(alike.constants);
   if (composite != nullptr) return linearise_composite(*composite, alike, buffer);
   for (std::size_t cross = 0; cross < 2; ++cross) {
     row.law[cross] = alike.constants.law[cross];
     row.memory[cross] = alike.memory[cross].first;
     if (row.memory[cross] != nullptr) row.memory_stride = alike.memory[cross].stride;
   }
-  return linearise_springs(model_.laws[model_.materials[alike.material].law], row);
+  return linearise_springs(model_.springs.laws[model_.materials[alike.material].law], row);
 }
 
 double Statics::linearise_composite(const CompositeSpring& composite, const AlikeSprings& alike,
@@ -169,7 +169,7 @@ double Statics::linearise_composite(const CompositeSpring& composite, const Alik
   const Vec3 d{difference(0), difference(1), difference(2)};
   const double in_space = dot(d, 2 * row.rest + d);
   double energy = 0;
-  const std::size_t kinds = model_.choice.membrane == KernelChoice::Membrane::none ? 1 : 2;
+  const std::size_t kinds = model_.springs.choice.membrane == KernelChoice::Membrane::none ? 1 : 2;
   for (std::size_t cross = 0; cross < kinds; ++cross) {
     const double rise =
         row.here[3] == nullptr ? 0 : row.there[3][0] + (cross == 0 ? -1 : 1) * row.here[3][0];
@@ -180,7 +180,8 @@ double Statics::linearise_composite(const CompositeSpring& composite, const Alik
                                          rest_length, growth / (length + rest_length)};
     std::array<double, max_spring_memory> kept{};
     const Layout::Memory& memory = alike.memory[cross];
-    for (std::uint32_t n = 0; n < model_.memory; ++n) kept[n] = memory.first[n * memory.stride];
+    for (std::uint32_t n = 0; n < model_.springs.memory; ++n)
+      kept[n] = memory.first[n * memory.stride];
     const double tangent = composite.tangent(spring, kept.data());
     const CompositeAnswer answer = composite.take(spring, 0, kept.data());
     const double pull = answer.force / length;
@@ -201,7 +202,7 @@ double Statics::hold_heights(const double* u, double* force) const {
   for_runs([&](std::int64_t first, Particle, std::uint64_t count) {
     for (std::int64_t p = first; p < first + static_cast<std::int64_t>(count); ++p) {
       const auto place = static_cast<std::size_t>(p);
-      const double alpha = model_.alphas[kind_.empty() ? 0 : kind_[place]] *
+      const double alpha = model_.kinds.alphas[kind_.empty() ? 0 : kind_[place]] *
                            static_cast<double>(particle_weight_[place]);
       force[heights + p] -= 2 * alpha * u[heights + p];
       energy += alpha * u[heights + p] * u[heights + p];
@@ -212,8 +213,9 @@ double Statics::hold_heights(const double* u, double* force) const {
 
 void Statics::fill_alpha(const SpringTangents& tangents) const {
   for (std::size_t place = 0; place < particle_weight_.size(); ++place)
-    tangents.alpha[place] = static_cast<float>(2 * model_.alphas[kind_.empty() ? 0 : kind_[place]] *
-                                               static_cast<double>(particle_weight_[place]));
+    tangents.alpha[place] =
+        static_cast<float>(2 * model_.kinds.alphas[kind_.empty() ? 0 : kind_[place]] *
+                           static_cast<double>(particle_weight_[place]));
 }
 
 }  // namespace hyperlattice

@@ -94,7 +94,7 @@ class Statics {
   std::vector<double> spring_stiffness_, spring_cross_stiffness_;  ///< N/m
   std::vector<Simulation::SpringMemory> spring_memory_;  ///< of a listed body whose laws keep some
   std::vector<std::uint8_t> free_;
-  std::vector<std::uint32_t> kind_;  ///< Model::kind of each place; empty: one material
+  std::vector<std::uint32_t> kind_;  ///< ParticleKinds::of() of each place; empty: one material
   /// Fraction of each spring that counts, [n * places + place] or per listed spring; 0: no spring.
   std::vector<float, ArrayMemory<float>> weight_;
   std::vector<float> particle_weight_;  ///< fraction of a whole particle at each place

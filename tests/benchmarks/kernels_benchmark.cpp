@@ -126,14 +126,15 @@ void explicit_step(benchmark::State& state, const Variant& variant, int size, co
   const auto particles = static_cast<double>(plan->model->body.particles),
              springs = static_cast<double>(plan->model->body.base_springs());
   const double flops = springs * variant.flops_of_spring + particles * variant.flops_of_particle;
-  const double peak =
-      plan->model->choice.precision == Precision::floats ? peak_of_floats() : peak_of_doubles();
+  const double peak = plan->model->springs.choice.precision == Precision::floats
+                          ? peak_of_floats()
+                          : peak_of_doubles();
   using benchmark::Counter;
   state.counters["s/particle_step"] =
       Counter(particles, Counter::kIsIterationInvariantRate | Counter::kInvert);
   state.counters["springs/s"] = Counter(springs, Counter::kIsIterationInvariantRate);
   state.counters["of_peak"] = Counter(flops / (peak * threads), Counter::kIsIterationInvariantRate);
-  state.SetLabel(plan->model->kernels().instructions);
+  state.SetLabel(plan->model->springs.kernels().instructions);
 }
 
 void add(const Variant& variant, int size, const char* precision, int threads) {

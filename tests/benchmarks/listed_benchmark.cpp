@@ -116,7 +116,7 @@ void compare(benchmark::State& state, const Variant& variant, const std::string&
   const bool floats = precision == "float";
   const auto plan = test::plan_of(floats ? test::in_floats(scene) : scene);
   const Model& model = *plan->model;
-  const double amplitude = 1e-3 * model.body.grid.spacing, step = 0.5 * model.critical_time_step;
+  const double amplitude = 1e-3 * model.body.grid.spacing, step = 0.5 * model.step_limit.time_step;
   const std::vector<double> start = test::noise(3 * model.body.particles, amplitude);
   Simulation ours(model, 1);
   ScalarList scalar(model, start);
@@ -126,7 +126,7 @@ void compare(benchmark::State& state, const Variant& variant, const std::string&
   ours.step(step);
   scalar.step(step, step);
   const double exact = floats ? 1e-5 : 1e-9;
-  if (model.choice.membrane == KernelChoice::Membrane::none &&
+  if (model.springs.choice.membrane == KernelChoice::Membrane::none &&
       !(difference(model, ours, scalar) < exact * amplitude))
     return state.SkipWithError("the trajectories differ: nothing to compare");
 
@@ -150,7 +150,7 @@ void compare(benchmark::State& state, const Variant& variant, const std::string&
   state.counters["scalar_ns"] = scalar_nanoseconds;
   state.counters["of_scalar_list"] = median(ratios);
   state.counters["bytes"] = plan->bytes_per_particle;
-  state.SetLabel(model.kernels().instructions);
+  state.SetLabel(model.springs.kernels().instructions);
 }
 
 }  // namespace

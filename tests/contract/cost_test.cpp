@@ -113,7 +113,7 @@ Size size_of(const Model& model) {
   std::vector<double> springs(model.body.particles);
   model.body.for_springs(
       [&](Particle a, Particle b, std::uint32_t) { ++springs[a], ++springs[b]; });
-  const std::size_t pack = 64 / bytes_of(model.choice.precision);
+  const std::size_t pack = 64 / bytes_of(model.springs.choice.precision);
   for (std::size_t n = 0; n < springs.size(); n += pack)
     size.ends +=
         static_cast<double>(pack) *

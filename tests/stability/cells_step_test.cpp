@@ -20,7 +20,7 @@ double growth(const Model& model, double fraction) {
   simulation.set_displacements(
       noise(3 * model.body.particles, size, 1),
       model.degrees_of_freedom == 4 ? noise(model.body.particles, size, 2) : std::vector<double>{});
-  for (int n = 0; n < 600; ++n) simulation.step(fraction * model.critical_time_step);
+  for (int n = 0; n < 600; ++n) simulation.step(fraction * model.step_limit.time_step);
   return largest(displacements(simulation)) / size;
 }
 

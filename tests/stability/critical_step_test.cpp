@@ -27,7 +27,7 @@ double growth(const Model& model, double fraction, double damping) {
   simulation.set_displacements(
       noise(3 * model.body.particles, size, 1),
       model.degrees_of_freedom == 4 ? noise(model.body.particles, size, 2) : std::vector<double>{});
-  for (int n = 0; n < 600; ++n) simulation.step(fraction * model.critical_time_step);
+  for (int n = 0; n < 600; ++n) simulation.step(fraction * model.step_limit.time_step);
   return largest(displacements(simulation)) / size;
 }
 
@@ -51,7 +51,7 @@ TEST(CriticalStepOfSeveralMaterials, HoldsForCentredLattices) {
         stage("materials.elastic",
               Keys{{"young", 3e10}, {"density", 700}, {"region", part}} + of.material);
     const auto plan = plan_of(block(8, 6, 6, of, {}, other));
-    ASSERT_TRUE(plan->model->choice.mixed);
+    ASSERT_TRUE(plan->model->springs.choice.mixed);
     EXPECT_LT(growth(*plan->model, 0.99, 0), 100) << of.name;
     // The bound for several materials takes no advantage of negative springs.
     const bool negative = std::string(of.name).ends_with("negative");

@@ -39,7 +39,7 @@ std::string scene_of(const Bar& bar) {
 std::vector<double> response(const Bar& bar) {
   const auto plan = plan_of(scene_of(bar));
   Simulation simulation(*plan->model, 1);
-  for (int n = 0; n < 300; ++n) simulation.step(0.5 * plan->model->critical_time_step);
+  for (int n = 0; n < 300; ++n) simulation.step(0.5 * plan->model->step_limit.time_step);
   EXPECT_LT(std::abs(simulation.balance().relative_error()), 1e-4);
   auto u = displacements(simulation);
   for (double& value : u) value /= bar.force / (bar.young * bar.spacing);
@@ -67,7 +67,7 @@ TEST(Extreme, ABodyFarFromTheOriginMovesTheSame) {
 TEST(Extreme, NoLoadIsNoMotion) {
   const auto plan = plan_of(block(5, 5, 5, membrane));
   Simulation simulation(*plan->model, 1);
-  for (int n = 0; n < 100; ++n) simulation.step(0.9 * plan->model->critical_time_step);
+  for (int n = 0; n < 100; ++n) simulation.step(0.9 * plan->model->step_limit.time_step);
   EXPECT_EQ(largest(displacements(simulation)), 0);
 }
 
@@ -80,13 +80,14 @@ std::string two_materials(double young, double density) {
 
 TEST(Extreme, TwoMaterialsThatAreTheSameAreOne) {
   const auto one = plan_of(block(6, 6, 12, membrane)), two = plan_of(two_materials(1e10, 2500));
-  ASSERT_TRUE(two->model->choice.mixed);
+  ASSERT_TRUE(two->model->springs.choice.mixed);
   Simulation a(*one->model, 1), b(*two->model, 2);
   const auto start = noise(3 * one->model->body.particles, 1e-6);
   a.set_displacements(start, {});
   b.set_displacements(start, {});
   for (int n = 0; n < 300; ++n)
-    for (Simulation* simulation : {&a, &b}) simulation->step(0.5 * one->model->critical_time_step);
+    for (Simulation* simulation : {&a, &b})
+      simulation->step(0.5 * one->model->step_limit.time_step);
   EXPECT_LT(distance(displacements(a), displacements(b)), 1e-16);
   EXPECT_NEAR(a.balance().stored, b.balance().stored, 1e-9 * a.balance().stored);
 }
@@ -97,9 +98,9 @@ TEST(Extreme, ContrastsOfStiffnessAndDensityStayStable) {
     const auto plan = plan_of(two_materials(young, density));
     Simulation simulation(*plan->model, 2);
     simulation.set_displacements(noise(3 * plan->model->body.particles, 1e-10), {});
-    simulation.step(0.99 * plan->model->critical_time_step);
+    simulation.step(0.99 * plan->model->step_limit.time_step);
     const EnergyBalance start = simulation.balance();
-    for (int n = 0; n < 2000; ++n) simulation.step(0.99 * plan->model->critical_time_step);
+    for (int n = 0; n < 2000; ++n) simulation.step(0.99 * plan->model->step_limit.time_step);
     const EnergyBalance end = simulation.balance();
     EXPECT_NEAR((end.kinetic + end.stored) / (start.kinetic + start.stored), 1, 1e-5)
         << young << " Pa, " << density << " kg/m3";
@@ -119,7 +120,7 @@ TEST(Extreme, ABodyMayFallApartInOneStep) {
   }
   Simulation simulation(model, 2);
   simulation.set_displacements(larger, {});
-  for (int n = 0; n < 50; ++n) simulation.step(0.5 * model.critical_time_step);
+  for (int n = 0; n < 50; ++n) simulation.step(0.5 * model.step_limit.time_step);
   EXPECT_EQ(simulation.breakages().size(), model.body.base_springs());
   for (const Breakage& breakage : simulation.breakages()) ASSERT_EQ(breakage.step, 0u);
   EXPECT_LT(std::abs(simulation.balance().relative_error()), 1e-3);
@@ -131,7 +132,7 @@ TEST(Extreme, SmallBodies) {
     const auto plan = plan_of(block(x, y, z, membrane), 3);
     Simulation simulation(*plan->model, 3);
     simulation.set_displacements(noise(3 * plan->model->body.particles, 1e-7), {});
-    for (int n = 0; n < 200; ++n) simulation.step(0.9 * plan->model->critical_time_step);
+    for (int n = 0; n < 200; ++n) simulation.step(0.9 * plan->model->step_limit.time_step);
     EXPECT_LT(largest(displacements(simulation)), 1e-5) << x << " " << y << " " << z;
     EXPECT_LT(std::abs(simulation.balance().relative_error()), 1e-3) << x << " " << y << " " << z;
   }

@@ -72,8 +72,8 @@ TEST(Unstable, IsRefusedUnlessTheSceneAllowsIt) {
         << plan->model->warnings[0];
     EXPECT_EQ(plan_json(*plan).at("warnings").at(0), plan->model->warnings[0]);
     EXPECT_NE(plan_text(*plan).find(plan->model->warnings[0]), std::string::npos);
-    EXPECT_GT(plan->model->critical_time_step, 0);
-    EXPECT_TRUE(std::isfinite(plan->model->critical_time_step));
+    EXPECT_GT(plan->model->step_limit.time_step, 0);
+    EXPECT_TRUE(std::isfinite(plan->model->step_limit.time_step));
   }
 }
 
@@ -139,17 +139,17 @@ TEST(Unstable, GrowsAsTheWaveSays) {
     const auto plan = plan_of(scene(lambda));
     Simulation simulation(*plan->model, 2);
     simulation.set_displacements(noise(3 * plan->model->body.particles, size), {});
-    for (int n = 0; n < steps; ++n) simulation.step(0.9 * plan->model->critical_time_step);
+    for (int n = 0; n < steps; ++n) simulation.step(0.9 * plan->model->step_limit.time_step);
     return std::pair{largest(displacements(simulation)) / size,
-                     0.9 * steps * plan->model->critical_time_step};
+                     0.9 * steps * plan->model->step_limit.time_step};
   };
   // In membrane IV with k_beta = -3, springs along the axes act as k (1 - 3/2) in space. A grid
   // over the zone gives the softest wave, independently of the tested search.
   const auto plan = plan_of(scene(-3));
   const Model& model = *plan->model;
   const InfiniteLattice lattice{
-      model.neighbours,      model.springs,          0, model.body.grid.membrane_distance,
-      model.choice.membrane, model.body.grid.spacing};
+      model.springs.neighbours,          model.springs.constants,       0,
+      model.body.grid.membrane_distance, model.springs.choice.membrane, model.body.grid.spacing};
   double softest = 0;
   for (int i = 0; i <= 8; ++i)
     for (int j = 0; j <= 8; ++j)

@@ -19,7 +19,7 @@ struct Books {
 inline Books keep_books(const Model& model, double fraction, double damping = 0) {
   Simulation simulation(model, 2);
   simulation.set_damping(damping);
-  const int steps = static_cast<int>(std::ceil(4e-6 / (fraction * model.critical_time_step)));
+  const int steps = static_cast<int>(std::ceil(4e-6 / (fraction * model.step_limit.time_step)));
   Books books;
   simulation.balance();
   for (int n = 0; n < steps; ++n) {

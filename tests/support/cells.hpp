@@ -110,7 +110,7 @@ inline std::vector<Force> forces(const Model& model, const std::vector<double>& 
                                  const std::vector<double>& heights, int threads = 1) {
   Simulation simulation(model, threads);
   simulation.set_displacements(u, heights);
-  const double dt = model.critical_time_step;
+  const double dt = model.step_limit.time_step;
   simulation.step(dt);
   std::vector<double> velocity, rate;
   simulation.velocities(velocity);

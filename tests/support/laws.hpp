@@ -47,7 +47,7 @@ inline Ended shaken(const Plan& plan, double share, int steps, int threads, doub
                             plan.model->degrees_of_freedom == 4
                                 ? std::vector<double>(plan.model->body.particles, 0)
                                 : std::vector<double>{});
-  for (int n = 0; n < steps; ++n) simulation.step(share * plan.model->critical_time_step);
+  for (int n = 0; n < steps; ++n) simulation.step(share * plan.model->step_limit.time_step);
   return {simulation.balance(), simulation.hash(), removed_springs(simulation)};
 }
 

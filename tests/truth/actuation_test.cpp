@@ -33,7 +33,7 @@ TEST(Actuation, AStrainOfAllSpringsMakesTheBodyThatMuchLonger) {
     const Model& model = *plan->model;
     Simulation simulation(model, 1);
     simulation.set_damping(0.8);
-    for (int n = 0; n < 3000; ++n) simulation.step(0.5 * model.critical_time_step);
+    for (int n = 0; n < 3000; ++n) simulation.step(0.5 * model.step_limit.time_step);
     const std::vector<double> u = displacements(simulation);
     for (Particle p = 0; p < model.body.particles; ++p) {
       const Vec3 rest =
@@ -160,9 +160,9 @@ TEST(TimeFunctions, HaveTheShapesThatTheyName) {
     const BuiltScene built = build(pipeline(form));
     for (const auto& [time, value] : expected)
       EXPECT_NEAR(built->loads[0].factor(time), value, 1e-12) << form << " at " << time;
-    ASSERT_EQ(built->corners.size(), corners.size()) << form;
+    ASSERT_EQ(built->loads.corners.size(), corners.size()) << form;
     for (std::size_t n = 0; n < corners.size(); ++n)
-      EXPECT_NEAR(built->corners[n], corners[n], 1e-12);
+      EXPECT_NEAR(built->loads.corners[n], corners[n], 1e-12);
   };
   values(R"("form": "constant", "start": 1, "rise": 2, "duration": 5)",
          {{0.5, 0}, {2, 0.5}, {4, 1}, {6, 1}, {6.1, 0}}, {1, 3, 6});

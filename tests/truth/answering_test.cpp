@@ -57,7 +57,7 @@ TEST_P(Inner, KeepsMomentumAndSpin) {
         plan_of(loaded_block(5, 4, 8, GetParam().loads, 1e10, membrane, {{"boundary", boundary}}));
     const Model& model = *plan->model;
     Simulation simulation(model, 2);
-    for (int n = 0; n < 300; ++n) simulation.step(0.5 * model.critical_time_step);
+    for (int n = 0; n < 300; ++n) simulation.step(0.5 * model.step_limit.time_step);
     const Sums now = sums(model, simulation);
     EXPECT_GT(now.size, 0);
     EXPECT_LT(norm(now.momentum), 1e-13 * now.size) << boundary;
@@ -86,7 +86,7 @@ TEST_P(Answering, TheSameBitsForAnyNumberOfThreads) {
   std::vector<double> works;
   for (const int threads : {1, 2, 3, 7}) {
     Simulation simulation(*plan->model, threads);
-    for (int n = 0; n < 60; ++n) simulation.step(0.5 * plan->model->critical_time_step);
+    for (int n = 0; n < 60; ++n) simulation.step(0.5 * plan->model->step_limit.time_step);
     hashes.push_back(simulation.hash());
     works.push_back(simulation.balance().injected);
   }
@@ -109,7 +109,7 @@ std::string sliding(const Keys& floor, Vec3 gravity, Vec3 start) {
 std::pair<Vec3, Vec3> mean_motion(const Plan& plan, double time) {
   const Model& model = *plan.model;
   Simulation simulation(model, 2);
-  while (simulation.time() < time) simulation.step(0.5 * model.critical_time_step);
+  while (simulation.time() < time) simulation.step(0.5 * model.step_limit.time_step);
   std::vector<double> u, v;
   simulation.displacements(u);
   simulation.velocities(v);
@@ -176,27 +176,27 @@ TEST(Drag, LinearSlowsExponentiallyAndQuadraticHyperbolically) {
 bool is_bounded(const Model& model, double fraction) {
   Simulation simulation(model, 1);
   simulation.set_velocities(noise(3 * model.body.particles, 1e-6, 7), {});
-  for (int n = 0; n < 3000; ++n) simulation.step(fraction * model.critical_time_step);
+  for (int n = 0; n < 3000; ++n) simulation.step(fraction * model.step_limit.time_step);
   return largest(displacements(simulation)) < 1e-3;
 }
 
 TEST(CriticalStep, KnowsHowStiffAContactIsAndHowViscous) {
   const auto free =
       plan_of(loaded_block(4, 4, 4, stage("loads.gravity", {{"acceleration", {0, 0, 0}}})));
-  const double mass = 2500e-9, alone = free->model->critical_time_step;
+  const double mass = 2500e-9, alone = free->model->step_limit.time_step;
   // The contact is far stiffer than the body, so that a particle oscillates on its contact alone.
   // The floor stands above the lowest particles, so that all of z_min always touches it.
   const auto stiff = plan_of(loaded_block(
       4, 4, 4,
       stage("loads.floor",
             {{"on", "z_min"}, {"stiffness", 1e9}, {"damping", 0}, {"point", {0, 0, 1e-5}}})));
-  EXPECT_NEAR(stiff->model->critical_time_step, 2 / std::sqrt(4 / (alone * alone) + 1e9 / mass),
+  EXPECT_NEAR(stiff->model->step_limit.time_step, 2 / std::sqrt(4 / (alone * alone) + 1e9 / mass),
               1e-12 * alone);
   EXPECT_NE(stiff->model->critical_because.find("loads.floor (/pipeline/2)"), std::string::npos);
   const auto viscous = plan_of(
       loaded_block(4, 4, 4, stage("loads.drag", {{"linear_across", 1e9}, {"linear_along", 1e9}})));
   const double rate = 1e9 * std::sqrt(3.0) * 1e-6 / mass;  // rate of a corner particle
-  EXPECT_NEAR(viscous->model->critical_time_step,
+  EXPECT_NEAR(viscous->model->step_limit.time_step,
               2 / (rate / 2 + std::sqrt(rate * rate / 4 + 4 / (alone * alone))), 1e-9 * alone);
   EXPECT_TRUE(is_bounded(*viscous->model, 0.99));
   EXPECT_FALSE(is_bounded(*viscous->model, 1.1));

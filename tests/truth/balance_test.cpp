@@ -65,7 +65,7 @@ TEST(Breaking, TakesTheEnergyOfTheSpringsThatAreGone) {
   const auto run = [&](double fraction) {
     Simulation simulation(*plan->model, 2);
     const int steps =
-        static_cast<int>(std::ceil(8e-6 / (fraction * plan->model->critical_time_step)));
+        static_cast<int>(std::ceil(8e-6 / (fraction * plan->model->step_limit.time_step)));
     double worst = 0;
     for (int n = 0; n < steps; ++n) {
       simulation.step(8e-6 / steps);

@@ -166,8 +166,8 @@ TEST(CellMaterials, TheWeakestMaterialOfASpringBreaksIt) {
         for (const std::uint8_t m : model.materials_of(p, p, n))
           (((m == 0) == first_is_weak) ? weak : strong) = true;
         mixed += weak && strong ? 1 : 0;
-        const double strain =
-            model.spring_to(n, model.kind(p), 0).alarm / model.neighbours[n].rest_length;
+        const double strain = model.springs.spring_to(n, model.kinds.of(p), 0).alarm /
+                              model.springs.neighbours[n].rest_length;
         EXPECT_NEAR(strain, weak ? 1e-3 : 3e-3, 1e-12) << p << ' ' << n;
       }
     EXPECT_GT(mixed, 50u);

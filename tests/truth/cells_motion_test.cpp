@@ -22,7 +22,7 @@ void shake(Simulation& simulation, const Model& model, double amplitude) {
   const bool heights = model.degrees_of_freedom == 4;
   simulation.set_displacements(noise(3 * particles, amplitude, 1),
                                heights ? noise(particles, amplitude, 2) : std::vector<double>{});
-  simulation.set_velocities(noise(3 * particles, amplitude / model.critical_time_step, 3), {});
+  simulation.set_velocities(noise(3 * particles, amplitude / model.step_limit.time_step, 3), {});
 }
 
 class MovingCells : public testing::TestWithParam<MembraneCase> {};
@@ -35,12 +35,12 @@ TEST_P(MovingCells, KeepTheirMomentumAndEnergy) {
     const Model& model = *plan->model;
     Simulation simulation(model, 2);
     shake(simulation, model, 1e-11);
-    simulation.step(0.5 * model.critical_time_step);
+    simulation.step(0.5 * model.step_limit.time_step);
     const EnergyBalance start = simulation.balance();
     double mass = 0, worst = 0;
     for (Particle p = 0; p < model.body.particles; ++p) mass += model.mass(p);
     for (int n = 0; n < 500; ++n) {
-      simulation.step(0.5 * model.critical_time_step);
+      simulation.step(0.5 * model.step_limit.time_step);
       if (n % 50 == 49) worst = std::max(worst, std::abs(simulation.balance().relative_error()));
     }
     EXPECT_LT(norm(simulation.balance().momentum - start.momentum),
@@ -92,7 +92,7 @@ TEST(Cells, TakeTheEnergyOfTheSpringsThatAreGone) {
   const auto run = [&](double fraction) {
     Simulation simulation(*plan->model, 2);
     const int steps =
-        static_cast<int>(std::ceil(8e-6 / (fraction * plan->model->critical_time_step)));
+        static_cast<int>(std::ceil(8e-6 / (fraction * plan->model->step_limit.time_step)));
     double worst = 0;
     for (int n = 0; n < steps; ++n) {
       simulation.step(8e-6 / steps);
@@ -116,7 +116,7 @@ TEST(Cells, HaveTheSameBitsForAnyNumberOfThreads) {
     Simulation simulation(*plan->model, threads);
     simulation.set_damping(0.1);
     shake(simulation, *plan->model, 1e-7);
-    for (int n = 0; n < 100; ++n) simulation.step(0.8 * plan->model->critical_time_step);
+    for (int n = 0; n < 100; ++n) simulation.step(0.8 * plan->model->step_limit.time_step);
     const EnergyBalance balance = simulation.balance();
     return std::tuple{simulation.hash(), simulation.breakages().size(), balance.stored,
                       balance.kinetic, balance.dissipated_failure};

@@ -109,7 +109,7 @@ TEST_P(CellsOfMembrane, PatchTestIsExact) {
         const auto found = forces(model, u, heights);
         Elasticity::Tensor push{};
         if (model.degrees_of_freedom == 4)
-          push[a][b] = model.spring(0, 0, 1).cross_stiffness * strain[a][b];
+          push[a][b] = model.springs.spring(0, 0, 1).cross_stiffness * strain[a][b];
         auto expected = tractions(shape, elasticity.stress(strain), push);
         const double scale = model.materials[0].constants.base_stiffness * 1e-20 * l;
         double worst = 0;
@@ -157,7 +157,8 @@ std::vector<Force> forces_by_cells(const CellShape& shape, const Model& model,
         if (differing != 1 && differing != 2) continue;
         const Particle b = corner(n);
         const double share = differing == 1 ? 0.25 : 0.5, rest = std::sqrt(differing) * l;
-        const SpringConstants& spring = model.spring(material, material, differing == 1 ? 0 : 1);
+        const SpringConstants& spring =
+            model.springs.spring(material, material, differing == 1 ? 0 : 1);
         const auto from = place(a), to = place(b);
         const auto pull = [&](double k, double unstretched, double across, double lever) {
           double square = across * across;
@@ -167,7 +168,7 @@ std::vector<Force> forces_by_cells(const CellShape& shape, const Model& model,
           if (has_heights) all[a][3] += tension * lever;
         };
         pull(spring.stiffness, rest, to[3] - from[3], to[3] - from[3]);
-        if (model.choice.membrane != KernelChoice::Membrane::none)
+        if (model.springs.choice.membrane != KernelChoice::Membrane::none)
           pull(spring.cross_stiffness, std::sqrt(rest * rest + delta * delta), to[3] + from[3],
                -(to[3] + from[3]));
       }

@@ -39,7 +39,7 @@ Met meet(const Plan& plan) {
   Simulation simulation(*plan.model, plan.threads);
   Met met;
   met.start = simulation.balance();
-  const double step = 0.5 * plan.model->critical_time_step;
+  const double step = 0.5 * plan.model->step_limit.time_step;
   while (simulation.time() < 3e-4) {
     simulation.step(step);
     met.end = simulation.balance();

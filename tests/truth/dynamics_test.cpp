@@ -46,7 +46,7 @@ double frequency(const Model& model, double about, const Shape& shape) {
   std::vector<double> speeds = mode;
   for (double& speed : speeds) speed *= 1e-3;
   simulation.set_velocities(speeds, {});
-  const double step = 0.8 * model.critical_time_step;
+  const double step = 0.8 * model.step_limit.time_step;
   // The number of steps between two samples; about a hundred samples make a period.
   const int apart = std::max(1, static_cast<int>(1 / (about * step * 100)));
   double before = 0, first = -1, last = -1;
@@ -123,7 +123,7 @@ TEST(WaveSpeed, OfABar) {
   const Model& model = *plan->model;
   Simulation simulation(model, 2);
   std::vector<double> v;
-  const double step = 0.5 * model.critical_time_step;
+  const double step = 0.5 * model.step_limit.time_step;
   double before = 0, arrival = 0, settled = 0;
   int counted = 0;
   while (simulation.time() < 1.4 * length / speed) {
@@ -197,7 +197,7 @@ TEST(Spinning, StretchesABlockAsTheCentrifugalForceDoes) {
     const auto plan = plan_of(spinning({0, 0, 800}, way.boundary, way.stiffness));
     const Model& model = *plan->model;
     Simulation simulation(model, 2);
-    const double step = 0.5 * model.critical_time_step, end = 2e-3;  // ten periods along x
+    const double step = 0.5 * model.step_limit.time_step, end = 2e-3;  // ten periods along x
     const EnergyBalance start = simulation.balance();
     simulation.step(step);
     const Vec3 first = spin(model, simulation, step);
@@ -239,7 +239,7 @@ TEST(Spinning, AboutAnyAxisAndFalling) {
   const auto free = plan_of(spinning(omega, "particles", "bulk"));
   const auto falling = plan_of(spinning(omega, "particles", "bulk",
                                         stage("loads.gravity", {{"acceleration", {0, -9.81, 0}}})));
-  const double step = 0.5 * free->model->critical_time_step;
+  const double step = 0.5 * free->model->step_limit.time_step;
   Simulation one(*free->model, 1), other(*falling->model, 1);
   one.step(step);
   const Vec3 first = spin(*free->model, one, step);

@@ -115,7 +115,7 @@ void compare_held(const Plan& plan, double strain, double shear, double step, in
 
 TEST(FailureMemory, AConstantStrainBreaksAfterItsTime) {
   const auto plan = plan_of(block(5, 4, 6, breakable(tuler_butcher)));
-  const double step = 0.01 * plan->model->critical_time_step;
+  const double step = 0.01 * plan->model->step_limit.time_step;
   // Of the strain 0.01 along x after 0.25 us, of 0.005 along diagonals after 1.8 us.
   compare_held(*plan, 0.01, 0, step, static_cast<int>(3e-6 / step));
   compare_held(*plan, 0.01, 0.004, 3 * step, static_cast<int>(1e-6 / step));
@@ -125,7 +125,7 @@ TEST(FailureMemory, ListsOfSpringsKeepItToo) {
   const ListFiles files(5, 4, 6);
   const auto list =
       plan_of(listed_scene(files.lattice(), R"("membrane": "none", "failure": )" + tuler_butcher));
-  const double step = 0.02 * list->model->critical_time_step;
+  const double step = 0.02 * list->model->step_limit.time_step;
   compare_held(*list, 0.01, 0.004, step, static_cast<int>(2e-6 / step));
   const auto random = plan_of(
       listed_scene(random_lattice(6, 6, 6), R"("membrane": "none", "failure": )" + tuler_butcher));
@@ -198,7 +198,7 @@ TEST(FailureMemory, TimeThatIsHeldDoesNoDamage) {
   const auto plan = plan_of(block(3, 3, 3, breakable(tuler_butcher)));
   const Model& model = *plan->model;
   const std::vector<double> u = strained(model, 0.01);  // breaks after 0.25 us
-  const double step = 0.1 * model.critical_time_step;
+  const double step = 0.1 * model.step_limit.time_step;
   const auto needed = static_cast<std::uint64_t>(std::ceil(0.25e-6 / step));
   Simulation simulation(model, 2);
   simulation.hold_time(0);
@@ -220,7 +220,8 @@ TEST(FailureCriteria, TheFirstThatIsMetBreaksASpring) {
     const auto plan = plan_of(block(5, 4, 6, breakable(failure)));
     EXPECT_EQ(plan->model->materials.front().failures.size(), n < 2 ? 2u : 1u);
     Simulation simulation(*plan->model, 1 + n % 3);
-    lead(simulation, strained(*plan->model, 0.0095, 0.004), 1e-3 * plan->model->critical_time_step);
+    lead(simulation, strained(*plan->model, 0.0095, 0.004),
+         1e-3 * plan->model->step_limit.time_step);
     found[n++] = steps_of(simulation);
   }
   EXPECT_EQ(found[0], found[1]);
@@ -235,8 +236,8 @@ TEST(FailureCriteria, TheAlarmIsTheSmallestOfAll) {
   const auto plan =
       plan_of(block(3, 3, 3, breakable(both(limit("strain", "0.8 %"), tuler_butcher))));
   const Model& model = *plan->model;
-  for (const NeighbourGeometry& to : model.neighbours)
-    EXPECT_NEAR(model.spring(0, 0, to.site.spring_class).alarm, threshold * to.rest_length,
+  for (const NeighbourGeometry& to : model.springs.neighbours)
+    EXPECT_NEAR(model.springs.spring(0, 0, to.site.spring_class).alarm, threshold * to.rest_length,
                 1e-15 * to.rest_length);
 }
 
@@ -255,7 +256,7 @@ TEST(FailureCriteria, EachIsAskedAboveItsOwnAlarmOnly) {  // or else the fatigue
       for (const double strain : {0.0059, 0.01}) {
         Simulation simulation(model, 2);
         const std::vector<double> u = strained(model, strain);
-        lead(simulation, u, 1e-3 * model.critical_time_step);
+        lead(simulation, u, 1e-3 * model.step_limit.time_step);
         const std::map<Spring, std::uint64_t> found = steps_of(simulation);
         std::size_t above = 0, between = 0;
         for_strains(model, u, [&](Spring spring, double e) {
@@ -281,7 +282,7 @@ TEST(FailureCriteria, MemoryAndLimitTogetherInAnyOrder) {
        {both(of_strain, tuler_butcher), both(tuler_butcher, of_strain), tuler_butcher}) {
     const auto plan = plan_of(block(5, 4, 6, breakable(failure)));
     Simulation simulation(*plan->model, 3);
-    const double step = 0.05 * plan->model->critical_time_step;
+    const double step = 0.05 * plan->model->step_limit.time_step;
     while (simulation.time() < 3e-6) lead(simulation, strained(*plan->model, 0.01), step);
     found[n++] = steps_of(simulation);
   }
@@ -309,7 +310,7 @@ TEST(FailureCriteria, ASpringBetweenMaterialsKeepsAMemoryForEach) {
   const auto plan = plan_of(block(6, 1, 1, breakable(tuler_butcher), more));
   const Model& model = *plan->model;
   EXPECT_EQ(model.materials[1].failures.front().number, 1u);
-  const double step = 0.01 * model.critical_time_step;
+  const double step = 0.01 * model.step_limit.time_step;
   std::map<Spring, std::uint64_t> first;
   for (const bool cut_off : {false, true}) {
     auto simulation = std::make_unique<Simulation>(model, 1);
@@ -349,7 +350,7 @@ TEST(FailureMemory, ThreadsAndRestartsChangeNoBits) {
     const Model& model = *plan->model;
     const auto run = [&](int threads, bool cut_off) {
       // Strains springs by a few thresholds.
-      const double speed = 3 * threshold * model.body.grid.spacing / model.critical_time_step;
+      const double speed = 3 * threshold * model.body.grid.spacing / model.step_limit.time_step;
       auto simulation = std::make_unique<Simulation>(model, threads);
       simulation->set_velocities(
           noise(3 * model.body.particles, speed),
@@ -357,7 +358,7 @@ TEST(FailureMemory, ThreadsAndRestartsChangeNoBits) {
       const int steps = 150;
       for (int n = 0; n < steps; ++n) {
         if (cut_off && n % 29 == 28) simulation = contract::restarted(*simulation, model, threads);
-        simulation->step(0.4 * model.critical_time_step);
+        simulation->step(0.4 * model.step_limit.time_step);
       }
       std::vector<std::tuple<std::uint64_t, Particle, Particle, double>> log;
       for (const Breakage& one : simulation->breakages())
@@ -414,7 +415,8 @@ TEST(FailureMemory, FatigueCountsTheCyclesOfAnOscillator) {
         breakable(R"({ "type": "failures.fatigue", "limit": 0.001, "strict": true, "cycles": )" +
                   std::to_string(cycles) + " }"))));
     const Model& model = *plan->model;
-    const double k = model.spring(0, 0, model.neighbours.front().site.spring_class).stiffness,
+    const double k = model.springs.spring(0, 0, model.springs.neighbours.front().site.spring_class)
+                         .stiffness,
                  omega = std::sqrt(2 * k / model.mass(0)), amplitude = 2e-6, step = 1e-3 / omega;
     Simulation simulation(model, 1);
     const double v = amplitude * omega / 2;

@@ -52,7 +52,7 @@ void compare(const Plan& plan, double strain, double shear,
   for (const int threads : {1, 3}) {
     Simulation simulation(model, threads);
     simulation.set_displacements(u, {});
-    simulation.step(1e-3 * model.critical_time_step);
+    simulation.step(1e-3 * model.step_limit.time_step);
     found.clear();
     for (const Breakage& breakage : simulation.breakages())
       found.insert({std::min(breakage.a, breakage.b), std::max(breakage.a, breakage.b)});
@@ -116,11 +116,12 @@ TEST(Failures, FractureEnergyIsThatOfTheSpringsThroughAnArea) {
                       std::sqrt(1 - z * z) * std::sin(angle), z};
     double crossing = 0;
     // In a unit of volume, one spring of each kind begins.
-    for (const NeighbourGeometry& to : body->neighbours) crossing += std::abs(dot(to.rest, normal));
+    for (const NeighbourGeometry& to : body->springs.neighbours)
+      crossing += std::abs(dot(to.rest, normal));
     mean += crossing;
     ++planes;
   }
-  EXPECT_NEAR(mean / planes, body->crossings, 0.002 * body->crossings);
+  EXPECT_NEAR(mean / planes, body->springs.crossings, 0.002 * body->springs.crossings);
 }
 
 TEST(Failures, RateHoldsMoreWhatIsPulledFaster) {
@@ -143,7 +144,7 @@ TEST(Failures, RateHoldsMoreWhatIsPulledFaster) {
       Simulation simulation(model, threads);
       simulation.set_displacements(u, std::vector<double>(model.body.particles, 0));
       simulation.set_velocities(v, std::vector<double>(model.body.particles, 0));
-      simulation.step(1e-3 * model.critical_time_step);
+      simulation.step(1e-3 * model.step_limit.time_step);
       EXPECT_EQ(simulation.breakages().size(), expected)
           << pull << " per second, " << threads << " threads";
     }
@@ -173,7 +174,7 @@ TEST(Failures, WeibullScattersAsItSays) {
     }
     Simulation simulation(*of.model, 2);
     simulation.set_displacements(u, {});
-    simulation.step(1e-3 * model.critical_time_step);
+    simulation.step(1e-3 * model.step_limit.time_step);
     std::set<Spring> found;
     for (const Breakage& breakage : simulation.breakages()) found.insert({breakage.a, breakage.b});
     return found;

@@ -25,7 +25,7 @@ void shake(Simulation& simulation, const Model& model, double amplitude) {
   const bool heights = model.degrees_of_freedom == 4;
   simulation.set_displacements(noise(3 * particles, amplitude, 1),
                                heights ? noise(particles, amplitude, 2) : std::vector<double>{});
-  simulation.set_velocities(noise(3 * particles, amplitude / model.critical_time_step, 3), {});
+  simulation.set_velocities(noise(3 * particles, amplitude / model.step_limit.time_step, 3), {});
 }
 
 TEST_P(EveryMembrane, MomentumOfAFreeBodyIsKept) {
@@ -36,7 +36,7 @@ TEST_P(EveryMembrane, MomentumOfAFreeBodyIsKept) {
   const EnergyBalance start = simulation.balance();
   const double scale = std::sqrt(2 * start.kinetic_mean * model.materials[0].mass *
                                  static_cast<double>(model.body.particles));
-  for (int n = 0; n < 500; ++n) simulation.step(0.5 * model.critical_time_step);
+  for (int n = 0; n < 500; ++n) simulation.step(0.5 * model.step_limit.time_step);
   EXPECT_LT(norm(simulation.balance().momentum - start.momentum), 1e-13 * scale);
 }
 
@@ -46,7 +46,7 @@ TEST_P(EveryMembrane, ADragInProportionToMassTakesMomentumAtItsRate) {
   Simulation simulation(model, 1);
   shake(simulation, model, 1e-11);  // strains near 1e-8
   constexpr double x = 0.05;        // half of the share that the drag takes in one step
-  const double step = 0.5 * model.critical_time_step;
+  const double step = 0.5 * model.step_limit.time_step;
   simulation.set_damping(0, 2 * x / step);
   simulation.step(step);
   const EnergyBalance start = simulation.balance();
@@ -64,7 +64,7 @@ TEST_P(EveryMembrane, TheSchemesEnergyIsConstantForSmallStrains) {
   const auto plan = plan_of(block(5, 5, 5, GetParam()));
   Simulation simulation(*plan->model, 1);
   shake(simulation, *plan->model, 1e-11);  // strains near 1e-8
-  const double step = 0.5 * plan->model->critical_time_step;
+  const double step = 0.5 * plan->model->step_limit.time_step;
   simulation.step(step);
   const EnergyBalance start = simulation.balance();
   double worst = 0;
@@ -85,7 +85,7 @@ double plain_energy_departure(const Model& model, double fraction, int steps) {
   const double start = simulation.balance().kinetic_mean + simulation.balance().stored;
   double worst = 0;
   for (int n = 0; n < steps; ++n) {
-    simulation.step(fraction * model.critical_time_step);
+    simulation.step(fraction * model.step_limit.time_step);
     const EnergyBalance now = simulation.balance();
     worst = std::max(worst, std::abs((now.kinetic_mean + now.stored) / start - 1));
   }
@@ -103,7 +103,7 @@ TEST_P(EveryMembrane, ThePlainEnergyOscillatesWithTheSquareOfTheStep) {
 
 TEST_P(EveryMembrane, ThePlainEnergyDoesNotDrift) {
   const auto plan = plan_of(block(5, 5, 5, GetParam()));
-  const double step = 0.4 * plan->model->critical_time_step;
+  const double step = 0.4 * plan->model->step_limit.time_step;
   Simulation simulation(*plan->model, 1);
   shake(simulation, *plan->model, 1e-6);
   const auto mean_of_steps = [&](int steps) {
@@ -148,7 +148,7 @@ TEST_P(EveryMembrane, RotatingTheWholeBodyChangesNothing) {
   const Model& model = *plan->model;
   const std::size_t particles = model.body.particles;
   const auto start = noise(3 * particles, 1e-6, 5),
-             speeds = noise(3 * particles, 1e-6 / model.critical_time_step, 6);
+             speeds = noise(3 * particles, 1e-6 / model.step_limit.time_step, 6);
   const Vec3 axis{0.3, -0.8, 0.52};
   Simulation straight(model, 1), rotating(model, 1);
   straight.set_displacements(start, {});
@@ -156,8 +156,8 @@ TEST_P(EveryMembrane, RotatingTheWholeBodyChangesNothing) {
   rotating.set_displacements(turned(model, start, axis, 2.1, true), {});
   rotating.set_velocities(turned(model, speeds, axis, 2.1, false), {});
   for (int n = 0; n < 300; ++n) {
-    straight.step(0.5 * model.critical_time_step);
-    rotating.step(0.5 * model.critical_time_step);
+    straight.step(0.5 * model.step_limit.time_step);
+    rotating.step(0.5 * model.step_limit.time_step);
   }
   const auto expected = turned(model, displacements(straight), axis, 2.1, true);
   EXPECT_LT(distance(expected, displacements(rotating)),
@@ -189,7 +189,7 @@ TEST_P(EveryMembrane, TheSameBitsForAnyNumberOfThreads) {
     Simulation simulation(*plan->model, threads);
     simulation.set_damping(0.1, 1e4);
     shake(simulation, *plan->model, 1e-6);
-    for (int n = 0; n < 200; ++n) simulation.step(0.5 * plan->model->critical_time_step);
+    for (int n = 0; n < 200; ++n) simulation.step(0.5 * plan->model->step_limit.time_step);
     hashes.push_back(simulation.hash());
     const EnergyBalance balance = simulation.balance();
     energies.push_back(balance.kinetic + balance.stored + balance.dissipated() + balance.injected);

@@ -92,7 +92,7 @@ struct Moved {
 Moved moved(const Model& model, double size, int steps, int threads) {
   Simulation simulation(model, threads);
   disturb(simulation, model, size);
-  for (int n = 0; n < steps; ++n) simulation.step(0.3 * model.critical_time_step);
+  for (int n = 0; n < steps; ++n) simulation.step(0.3 * model.step_limit.time_step);
   Moved moved;
   simulation.velocities(moved.velocity);
   simulation.height_rates(moved.rate);

@@ -115,7 +115,7 @@ TEST(Laws, PlasticBarYieldsAtTheStatedStress) {
                  moved("x_min", 0, 1e-4) + moved("x_max", 3.6e-6, 4e-4), "cells"));
     Simulation simulation(*plan->model, 1);
     simulation.set_damping(0.8);
-    const double area = 9e-6, step = 0.5 * plan->model->critical_time_step,
+    const double area = 9e-6, step = 0.5 * plan->model->step_limit.time_step,
                  end = 4e-4;  // strain 6e-4 at the end, 2e-4 at yield
     double last = 0, worst = 0;
     while (simulation.time() < end) {

@@ -207,11 +207,14 @@ struct LawTwins {
           .solver("solvers.explicit", {{"end_time", 1}})
           .text();
     };
-    const auto opening = [](const Plan& plan) { return plan.model->springs[0].law[0][1]; };
+    const auto opening = [](const Plan& plan) {
+      return plan.model->springs.constants[0].law[0][1];
+    };
     grid = plan_of(
         scene(stage("lattices.cubic", {{"spacing", 1e-3}, {"shape", box_mm(nx, ny, nz)}}), 1, 5));
     list = plan_of(scene(files.lattice(), 1, 5));
-    const double scale = grid->model->springs[0].stiffness / list->model->springs[0].stiffness;
+    const double scale =
+        grid->model->springs.constants[0].stiffness / list->model->springs.constants[0].stiffness;
     list = plan_of(scene(files.lattice(), scale,
                          law == "softening" ? 5 * scale * opening(*grid) / opening(*list) : 5));
     in_grid = InGrid(nx, ny, nz, *list->model);
@@ -231,7 +234,7 @@ TEST(ListedLaws, TheCubicLatticeAsAListMovesAsTheGrid) {
       list.set_velocities(twins.in_grid.for_list(start), level);
       for (int n = 0; n < 100; ++n)
         for (Simulation* simulation : {&grid, &list})
-          simulation->step(0.4 * twins.grid->model->critical_time_step);
+          simulation->step(0.4 * twins.grid->model->step_limit.time_step);
       EXPECT_LT(distance(twins.in_grid.for_list(displacements(grid)), displacements(list)),
                 1e-10 * largest(displacements(grid)))
           << law << membrane;

@@ -74,7 +74,7 @@ TEST(ListedLoads, AnswerToAListAsToTheGrid) {
   Simulation grid(*twins.grid->model, 1), list(*twins.list->model, 3);
   for (int n = 0; n < 100; ++n)
     for (Simulation* simulation : {&grid, &list})
-      simulation->step(0.5 * twins.grid->model->critical_time_step);
+      simulation->step(0.5 * twins.grid->model->step_limit.time_step);
   expect_same_motion(twins, grid, list, 1e-6);
 }
 
@@ -99,7 +99,7 @@ TEST_P(ListedMembrane, TheCubicLatticeAsAListMovesAsTheGrid) {
         as_it_counts(noise(3 * particles, 1e-6, 1)),
         as_it_counts(heights ? noise(particles, 1e-6, 2) : std::vector<double>{}));
     for (int n = 0; n < 200; ++n) {
-      simulation->step(0.5 * model.critical_time_step);
+      simulation->step(0.5 * model.step_limit.time_step);
       if (n == 5) simulation->set_damping(0);
     }
   }
@@ -113,7 +113,7 @@ TEST_P(ListedMembrane, TheSameSpringsBreakInAListAndInAGrid) {
   for (Simulation* simulation : {&grid, &list}) {
     const std::vector<double> start = noise(3 * model.body.particles, 1e-6, 1);
     simulation->set_displacements(simulation == &list ? twins.in_grid.for_list(start) : start, {});
-    for (int n = 0; n < 100; ++n) simulation->step(0.5 * model.critical_time_step);
+    for (int n = 0; n < 100; ++n) simulation->step(0.5 * model.step_limit.time_step);
   }
   expect_same_motion(twins, grid, list, 1e-6);
   const auto broken = [&](const Simulation& simulation) {
@@ -146,9 +146,9 @@ TEST_P(RandomBlock, KeepsMomentumAndTheSchemesEnergy) {
   const Model& model = *plan->model;
   Simulation simulation(model, 2);
   simulation.set_displacements(noise(3 * model.body.particles, 1e-11, 1), {});
-  simulation.set_velocities(noise(3 * model.body.particles, 1e-11 / model.critical_time_step, 3),
+  simulation.set_velocities(noise(3 * model.body.particles, 1e-11 / model.step_limit.time_step, 3),
                             {});
-  const double step = 0.5 * model.critical_time_step;
+  const double step = 0.5 * model.step_limit.time_step;
   simulation.step(step);
   const EnergyBalance start = simulation.balance();
   const double scale = std::sqrt(2 * start.kinetic_mean * model.materials[0].mass *
@@ -170,7 +170,7 @@ TEST_P(RandomBlock, HasTheSameBitsForAnyNumberOfThreads) {
     for (const int threads : {1, 2, 3, 7}) {
       Simulation simulation(*plan->model, threads);
       simulation.set_displacements(noise(3 * plan->model->body.particles, 1e-6, 1), {});
-      for (int n = 0; n < 200; ++n) simulation.step(0.5 * plan->model->critical_time_step);
+      for (int n = 0; n < 200; ++n) simulation.step(0.5 * plan->model->step_limit.time_step);
       hashes.push_back(simulation.hash());
       const EnergyBalance balance = simulation.balance();
       energies.push_back(balance.kinetic + balance.stored + balance.dissipated() +
@@ -196,7 +196,7 @@ TEST_P(RandomBlock, FloatsGiveTheForcesAndTheEnergyOfDoubles) {
     for (double& u : start) u = static_cast<float>(u);
     simulation.set_displacements(start, {});
     const double stored = simulation.balance().stored;
-    simulation.step(0.3 * plan.model->critical_time_step);
+    simulation.step(0.3 * plan.model->step_limit.time_step);
     simulation.velocities(found);
     return std::pair(found, stored);
   };
@@ -216,7 +216,7 @@ TEST_P(RandomBlock, TheSeriesGivesTheForcesOfTheRoot) {
   const auto velocities = [&](double size) {
     Simulation simulation(*plan->model, 1);
     simulation.set_displacements(noise(3 * plan->model->body.particles, size, 1), {});
-    simulation.step(0.3 * plan->model->critical_time_step);
+    simulation.step(0.3 * plan->model->step_limit.time_step);
     std::vector<double> found;
     simulation.velocities(found);
     return std::pair(found, simulation.breakages().size());
@@ -235,11 +235,11 @@ TEST_P(RandomBlock, IsStableUpToItsCriticalStep) {
   const auto plan = plan_of(listed_scene(random_lattice(6, 6, 6), GetParam().material));
   Simulation simulation(*plan->model, 1);
   simulation.set_displacements(noise(3 * plan->model->body.particles, 1e-10, 1), {});
-  for (int n = 0; n < 3000; ++n) simulation.step(0.99 * plan->model->critical_time_step);
+  for (int n = 0; n < 3000; ++n) simulation.step(0.99 * plan->model->step_limit.time_step);
   EXPECT_LT(largest(displacements(simulation)), 1e-8);
   for (int n = 0; n < 3000; ++n)
     // The bound is safe, and still close.
-    simulation.step(1.6 * plan->model->critical_time_step);
+    simulation.step(1.6 * plan->model->step_limit.time_step);
   EXPECT_GT(largest(displacements(simulation)), 1e-3);
 }
 
@@ -248,7 +248,7 @@ TEST_P(RandomBlock, EnergyBalancesWhenSpringsBreak) {
       random_lattice(8, 6, 6), GetParam().material + limit_of_elongation(1e-6),
       stage("loads.velocity", {{"on", "x_max"}, {"value", {1, 0, 0}}}) + fixed("x_min")));
   Simulation simulation(*plan->model, 2);
-  const double step = 0.1 * plan->model->critical_time_step;
+  const double step = 0.1 * plan->model->step_limit.time_step;
   while (simulation.time() < 2e-5) simulation.step(step);
   const EnergyBalance balance = simulation.balance();
   EXPECT_GT(simulation.breakages().size(), 100u);

@@ -207,7 +207,7 @@ TEST(RandomLattice, WavesTravelAsFastAsItsModuliSay) {
                            stage("loads.velocity", {{"on", "z_min"}, {"value", {0, 0, 1e-3}}})));
   Simulation simulation(*plan->model, 2);
   const double speed = std::sqrt(1e10 / 2500), time = 40e-3 / speed;
-  while (simulation.time() < time) simulation.step(0.9 * plan->model->critical_time_step);
+  while (simulation.time() < time) simulation.step(0.9 * plan->model->step_limit.time_step);
   const std::vector<double> moved = displacements(simulation);
   const auto mean_at = [&](double low, double high) {
     double sum = 0, count = 0;

@@ -48,7 +48,7 @@ const LatticeCase lattices[] = {{"cubic", R"("type": "lattices.cubic")"},
 /// springs have no earlier motion in their memory.
 std::vector<FourVector> reference_forces(const Model& model, const std::vector<FourVector>& moved) {
   std::vector<FourVector> forces(moved.size());
-  const bool has_cross = model.choice.membrane != KernelChoice::Membrane::none;
+  const bool has_cross = model.springs.choice.membrane != KernelChoice::Membrane::none;
   const auto add = [&](Particle a, Particle b, std::uint32_t neighbour) {
     const SpringProperties properties = model.spring_properties(a, b, neighbour);
     const auto source = [&](Particle particle) {
@@ -77,7 +77,8 @@ std::vector<FourVector> reference_forces(const Model& model, const std::vector<F
       }
   if (model.degrees_of_freedom == 4)
     for (Particle p = 0; p < model.body.particles; ++p)
-      add_reference_alpha(model.body.share(p) * model.alphas[model.kind(p)], moved[p], forces[p]);
+      add_reference_alpha(model.body.share(p) * model.kinds.alphas[model.kinds.of(p)], moved[p],
+                          forces[p]);
   return forces;
 }
 
@@ -92,7 +93,7 @@ std::vector<FourVector> kernel_forces(const Model& model, const std::vector<Four
   }
   Simulation simulation(model, 2);
   simulation.set_displacements(xyz, heights);
-  const double step = 0.1 * model.critical_time_step;
+  const double step = 0.1 * model.step_limit.time_step;
   simulation.step(step);
   simulation.velocities(xyz);
   simulation.height_rates(heights);

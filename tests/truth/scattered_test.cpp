@@ -66,7 +66,7 @@ double stiffness_of_bar(int seed, std::unique_ptr<Plan>& plan) {
                            moved("x_min", 0, 1e-6) + moved("x_max", 8e-9, 4e-5)));
   Simulation simulation(*plan->model, 1);
   simulation.set_damping(0.7);
-  while (simulation.time() < 1e-4) simulation.step(0.9 * plan->model->critical_time_step);
+  while (simulation.time() < 1e-4) simulation.step(0.9 * plan->model->step_limit.time_step);
   return std::abs(simulation.force_on_load()[1].x) / 64e-6 / strain / 1e10;
 }
 

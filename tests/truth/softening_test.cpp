@@ -30,7 +30,7 @@ struct Strains {
   double strength, opening;
 };
 Strains strains_of(const Model& model) {
-  const double* constants = model.spring(0, 0, 0).law[0];
+  const double* constants = model.springs.spring(0, 0, 0).law[0];
   return {constants[0], constants[1]};
 }
 

@@ -120,7 +120,7 @@ class Sphere : public testing::TestWithParam<Case> {
 
     const Truth truth(c.poisson);
     Simulation simulation(model, 2);
-    const auto steps = static_cast<int>(std::ceil(120e-6 / (0.9 * model.critical_time_step)));
+    const auto steps = static_cast<int>(std::ceil(120e-6 / (0.9 * model.step_limit.time_step)));
     for (int n = 0; n < steps; ++n) {
       simulation.step(120e-6 / steps);
       const auto u = displacements(simulation);

@@ -341,7 +341,7 @@ TEST(Statics, StepsInTimeFindTheBodyAtRest) {
   AtRest body(pulled_block(to_rest));
   const double stored = body.simulation->balance().stored;
   body.simulation->set_damping(0);
-  for (int n = 0; n < 200; ++n) body.simulation->step(0.9 * body.model().critical_time_step);
+  for (int n = 0; n < 200; ++n) body.simulation->step(0.9 * body.model().step_limit.time_step);
   const EnergyBalance end = body.simulation->balance();
   EXPECT_LT(end.kinetic_mean, 1e-12 * stored);
   EXPECT_NEAR(end.stored / stored, 1, 1e-7);

@@ -38,7 +38,7 @@ double strength(double sideways, double full) {
   const auto plan = plan_of(scene.solver("solvers.explicit", {{"end_time", end}}).text());
   Simulation simulation(*plan->model, 1);
   simulation.set_damping(0.8);
-  const double step = 0.8 * plan->model->critical_time_step / std::sqrt(1.8);
+  const double step = 0.8 * plan->model->step_limit.time_step / std::sqrt(1.8);
   while (simulation.breakages().empty() && simulation.time() < end) simulation.step(step);
   return simulation.breakages().empty() ? HUGE_VAL : simulation.time() / end * full;
 }

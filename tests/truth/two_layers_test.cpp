@@ -104,7 +104,7 @@ TEST_P(MovingMembrane, OneMirroredLayerMovesAsTwoLayersDo) {
     }
   mirrored.set_displacements(u, heights);
 
-  const double step = 0.2 * model.critical_time_step;
+  const double step = 0.2 * model.step_limit.time_step;
   for (int s = 0; s < 500; ++s) {
     layers.step(s == 0 ? step / 2 : step, step);
     mirrored.step(step);

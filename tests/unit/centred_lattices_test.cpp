@@ -102,10 +102,10 @@ TEST_P(Centred, SpringsJoinFirstAndSecondNeighbours) {
         if (std::abs(dot(at[a] - at[b], at[a] - at[b]) - GetParam().squares[c]) < 1e-9) ++pairs[c];
   EXPECT_EQ(built->body.springs[0], pairs[0]);
   EXPECT_EQ(built->body.springs[1], pairs[1]);
-  for (const NeighbourGeometry& n : built->neighbours)
+  for (const NeighbourGeometry& n : built->springs.neighbours)
     EXPECT_NEAR(n.rest_length * n.rest_length, GetParam().squares[n.site.spring_class], 1e-12);
   for (std::uint32_t c = 0; c < 2; ++c)
-    EXPECT_NEAR(built->spring(0, 0, c).stiffness,
+    EXPECT_NEAR(built->springs.spring(0, 0, c).stiffness,
                 GetParam().base_stiffness[c] * built->materials[0].constants.base_stiffness, 1e-6);
 }
 

@@ -82,8 +82,8 @@ TEST(Loads, BlastIsATriangleInTime) {
                                        {1.0, 0.0}})
     EXPECT_NEAR(load.factor(time), expected, 1e-12) << time;
   const std::vector<double> corners{2e-6, 7e-6, 22e-6};
-  ASSERT_EQ(built->corners.size(), 3u);
-  for (std::size_t n = 0; n < 3; ++n) EXPECT_NEAR(built->corners[n], corners[n], 1e-18);
+  ASSERT_EQ(built->loads.corners.size(), 3u);
+  for (std::size_t n = 0; n < 3; ++n) EXPECT_NEAR(built->loads.corners[n], corners[n], 1e-18);
 }
 
 TEST(Loads, PressureOnAFaceHasTheExactResultant) {
@@ -95,7 +95,7 @@ TEST(Loads, PressureOnAFaceHasTheExactResultant) {
   EXPECT_EQ(built->loads[0].factor(1), 0.5);
   EXPECT_EQ(built->loads[0].factor(3), 1);
   EXPECT_EQ(built->loads[1].factor(0), 1);
-  EXPECT_EQ(built->corners, std::vector<double>{2});
+  EXPECT_EQ(built->loads.corners, std::vector<double>{2});
   EXPECT_NE(
       box_faults(
           R"({ "type": "loads.pressure", "on": { "box": { "low": [1, 1, 1], "high": [2, 3, 4] } }, "pressure": 1 })")
@@ -117,7 +117,7 @@ TEST(Loads, ForceInTotalOrOnEach) {
 TEST(Loads, GravityIsTheSumOfAll) {
   const BuiltScene built = box_with(
       R"({ "type": "loads.gravity" }, { "type": "loads.gravity", "acceleration": [1, 0, 0] })");
-  expect_near(built->acceleration, {1, 0, -9.80665}, 1e-12);
+  expect_near(built->loads.acceleration, {1, 0, -9.80665}, 1e-12);
   EXPECT_TRUE(built->loads[0].particles.empty());
 }
 
@@ -133,14 +133,14 @@ TEST(Loads, PrescribedMotionKnowsItsAxes) {
   expect_near(moved.displacement, {2e-3, 0, 0}, 1e-15);
   EXPECT_EQ(driven.driven, 2u);
   expect_near(driven.velocity, {0, 3, 0}, 1e-15);
-  EXPECT_EQ(built->corners, (std::vector<double>{0.5, 4}));
+  EXPECT_EQ(built->loads.corners, (std::vector<double>{0.5, 4}));
 }
 
 TEST(Loads, StartVelocityTranslatesAndSpins) {
   const BuiltScene built = box_with(
       R"({ "type": "loads.start_velocity", "linear": [1, 2, 3], "angular": [0, 0, 2] }, { "type": "loads.start_velocity", "on": "x_min", "linear": [10, 0, 0] })");
-  ASSERT_EQ(built->start_velocities.size(), built->body.particles);
-  for (const auto& [particle, velocity] : built->start_velocities) {
+  ASSERT_EQ(built->loads.start_velocities.size(), built->body.particles);
+  for (const auto& [particle, velocity] : built->loads.start_velocities) {
     const Vec3 arm = built->body.position(particle) - Vec3{1.5, 2, 2.5};
     expect_near(velocity,
                 {1 - 2 * arm.y + (built->body.site(particle).i == 0 ? 10 : 0), 2 + 2 * arm.x, 3},

@@ -46,11 +46,11 @@ TEST(Materials, MembraneDecidesTheDegreesOfFreedom) {
 TEST(Materials, StiffnessMassAndStepOfLatticeIm) {
   const BuiltScene built = build(box_lattice(4, 4, 4) + elastic(lattice_I_m));
   const double k = 0.18939393939393939 * 1e9;  // values of figure 5
-  EXPECT_NEAR(built->spring(0, 0, 0).stiffness, k, 1e-6 * k);
-  EXPECT_NEAR(built->spring(0, 0, 0).cross_stiffness, 2.8 * k, 1e-6 * k);
-  EXPECT_NEAR(built->spring(0, 0, 1).cross_stiffness, 2.1 * k, 1e-6 * k);
+  EXPECT_NEAR(built->springs.spring(0, 0, 0).stiffness, k, 1e-6 * k);
+  EXPECT_NEAR(built->springs.spring(0, 0, 0).cross_stiffness, 2.8 * k, 1e-6 * k);
+  EXPECT_NEAR(built->springs.spring(0, 0, 1).cross_stiffness, 2.1 * k, 1e-6 * k);
   EXPECT_EQ(built->mass(0), 1000);
-  EXPECT_NEAR(built->critical_time_step, 2 / std::sqrt(39.2 * k / 1000), 1e-9);
+  EXPECT_NEAR(built->step_limit.time_step, 2 / std::sqrt(39.2 * k / 1000), 1e-9);
   EXPECT_EQ(built->degrees_of_freedom, 4);
 }
 
@@ -67,8 +67,8 @@ TEST(Materials, PapersPolynomials) {
       build(box_lattice(4, 4, 4) + elastic(lattice_I_m + Keys{{"parameters", "paper"}}));
   const double lambda = calibration::paper_lambda(0.1);
   EXPECT_NEAR(built->materials[0].constants.cross_ratio[0], lambda, 1e-12);
-  EXPECT_NEAR(built->spring(0, 0, 0).stiffness, 0.4e9 / calibration::paper_modulus_ratio(lambda),
-              1e-3);
+  EXPECT_NEAR(built->springs.spring(0, 0, 0).stiffness,
+              0.4e9 / calibration::paper_modulus_ratio(lambda), 1e-3);
 }
 
 TEST(Materials, LaterOnesTakeOver) {
@@ -76,8 +76,8 @@ TEST(Materials, LaterOnesTakeOver) {
       build(box_lattice(6, 4, 4) + elastic() + left_half({{"poisson", 0.25}, {"name", "left"}}));
   ASSERT_EQ(built->material_of.size(), 96u);
   for (Particle p = 0; p < 96; ++p)
-    EXPECT_EQ(built->material_of[p], built->body.site(p).i < 3 ? 1 : 0);
-  EXPECT_TRUE(built->choice.mixed);
+    EXPECT_EQ(built->kinds.material_of[p], built->body.site(p).i < 3 ? 1 : 0);
+  EXPECT_TRUE(built->springs.choice.mixed);
 }
 
 TEST(Materials, SpringsBetweenMaterialsAreInSeries) {
@@ -89,8 +89,9 @@ TEST(Materials, SpringsBetweenMaterialsAreInSeries) {
                        {"poisson", 0.2},
                        {"failure", {{"type", "failures.elongation"}, {"limit", 0.01}}}}));
   for (std::uint32_t c = 0; c < 2; ++c) {
-    const SpringConstants &a = built->spring(0, 0, c), &b = built->spring(1, 1, c),
-                          &ab = built->spring(0, 1, c), &ba = built->spring(1, 0, c);
+    const SpringConstants &a = built->springs.spring(0, 0, c), &b = built->springs.spring(1, 1, c),
+                          &ab = built->springs.spring(0, 1, c),
+                          &ba = built->springs.spring(1, 0, c);
     EXPECT_NEAR(1 / ab.stiffness, (1 / a.stiffness + 1 / b.stiffness) / 2, 1e-20);
     EXPECT_NEAR(1 / ab.cross_stiffness, (1 / a.cross_stiffness + 1 / b.cross_stiffness) / 2, 1e-20);
     EXPECT_EQ(ab.stiffness, ba.stiffness);
@@ -98,13 +99,13 @@ TEST(Materials, SpringsBetweenMaterialsAreInSeries) {
     // The half spring of b has the elongation of a whole one with the same force.
     EXPECT_NEAR(ab.stiffness * ab.alarm, b.stiffness * 0.01, 1e-9 * b.stiffness);
   }
-  EXPECT_TRUE(built->choice.breakable);
+  EXPECT_TRUE(built->springs.choice.breakable);
   // The bound is safe and close: at most the smaller critical step of the two materials, and at
   // least 0.9 of it.
   const double smaller =
       std::min(built->materials[0].critical_time_step, built->materials[1].critical_time_step);
-  EXPECT_LE(built->critical_time_step, smaller * (1 + 1e-12));
-  EXPECT_GE(built->critical_time_step, 0.9 * smaller);
+  EXPECT_LE(built->step_limit.time_step, smaller * (1 + 1e-12));
+  EXPECT_GE(built->step_limit.time_step, 0.9 * smaller);
 }
 
 /// Largest omega^2 of a body by power iteration over its springs, with the height as the fourth
@@ -119,16 +120,16 @@ double omega_square(const Model& model) {
   for (int iteration = 0; iteration < 400; ++iteration) {
     std::vector<std::array<double, 4>> f(n);
     for (std::size_t p = 0; p < n; ++p) {
-      const std::uint8_t own = model.material_of[p];
+      const std::uint8_t own = model.kinds.material_of[p];
       f[p][3] += 2 * model.materials[own].constants.alpha_ratio *
                  model.materials[own].constants.base_stiffness * u[p][3];
       const Site site = model.body.site(p);
-      for (const NeighbourGeometry& g : model.neighbours) {
+      for (const NeighbourGeometry& g : model.springs.neighbours) {
         const Particle q =
             model.body.at({site.i + g.site.dx, site.j + g.site.dy, site.k + g.site.dz});
         if (q == Body::no_particle) continue;
         const SpringConstants& spring =
-            model.spring(own, model.material_of[q], g.site.spring_class);
+            model.springs.spring(own, model.kinds.material_of[q], g.site.spring_class);
         for (const auto& [k, length, delta] :
              {std::tuple{spring.stiffness, g.rest_length, 0.0},
               {spring.cross_stiffness, g.cross_rest_length, model.body.grid.membrane_distance}}) {
@@ -167,7 +168,7 @@ TEST(Materials, CriticalStepOfSeveralIsSafeForTheBodyItself) {
       {{{"membrane", "II"}, {"poisson", 0.0}}, {{"membrane", "I"}, {"poisson", 0.2}}}};
   for (const auto& [right, left] : cases) {
     const BuiltScene built = build(box_lattice(8, 6, 6) + elastic(right) + left_half(left));
-    const double bound = 4 / (built->critical_time_step * built->critical_time_step),
+    const double bound = 4 / (built->step_limit.time_step * built->step_limit.time_step),
                  found = omega_square(*built);
     EXPECT_LE(found, bound);
     EXPECT_GE(found, 0.8 * bound);
@@ -177,7 +178,7 @@ TEST(Materials, CriticalStepOfSeveralIsSafeForTheBodyItself) {
 TEST(Materials, WithoutAMembraneBesideOneThatMovesHeightsAreHeld) {
   const BuiltScene built =
       build(box_lattice(6, 4, 4) + elastic(lattice_I_m) + left_half({{"poisson", 0.25}}));
-  EXPECT_EQ(built->choice.membrane, Membrane::free);
+  EXPECT_EQ(built->springs.choice.membrane, Membrane::free);
   EXPECT_EQ(built->spring(0, 1, 0).cross_stiffness, 0);
   EXPECT_NEAR(built->materials[1].constants.alpha_ratio, 6, 1e-12);
   EXPECT_NEAR(built->materials[1].critical_time_step, 2 / std::sqrt(12 * 0.4e9 / 1000),

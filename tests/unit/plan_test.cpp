@@ -300,7 +300,7 @@ TEST(Plan, steps_are_safe_and_land_on_the_end) {
   scene["pipeline"][3]["damping"] = 0.8;
   const auto plan = plan_of(scene);
   const SolverPlan& solver = plan->stages.at(0).plan;
-  EXPECT_NEAR(solver.stable_time_step, plan->model->critical_time_step / std::sqrt(1.8),
+  EXPECT_NEAR(solver.stable_time_step, plan->model->step_limit.time_step / std::sqrt(1.8),
               1e-9 * solver.stable_time_step);
   EXPECT_LE(solver.time_step, 0.9 * solver.stable_time_step * (1 + 1e-12));
   EXPECT_GE(static_cast<double>(solver.steps) * solver.time_step, 10e-6 * (1 - 1e-9));

@@ -95,8 +95,9 @@ TEST(Voxels, APhaseIsTheRegionOfItsValue) {
   const BuiltScene of_image = two_phases(image.region(""), image.region()),
                    of_shape = two_phases(box, sphere());
   ASSERT_EQ(of_image->body.particles, 24u * 24u * 24u);
-  EXPECT_EQ(of_image->material_of, of_shape->material_of);
-  const auto inside = std::count(of_image->material_of.begin(), of_image->material_of.end(), 1);
+  EXPECT_EQ(of_image->kinds.material_of, of_shape->kinds.material_of);
+  const auto inside =
+      std::count(of_image->kinds.material_of.begin(), of_image->kinds.material_of.end(), 1);
   EXPECT_NEAR(static_cast<double>(inside) / static_cast<double>(of_image->body.particles),
               4 * std::numbers::pi / 3 * std::pow(radius / across, 3), 0.005);
 }
@@ -109,7 +110,7 @@ TEST(Voxels, CellsHaveThePhaseOfTheirOwnVoxel) {
   double mass = 0;
   for (Particle p = 0; p < built->body.particles; ++p) mass += built->mass(p);
   EXPECT_NEAR(mass, 24 * 24 * 24 * built->materials[0].mass, 1e-9 * mass);
-  EXPECT_GT(built->mixtures.count(), 2u);
+  EXPECT_GT(built->kinds.mixtures.count(), 2u);
 }
 
 TEST(Voxels, ValuesLeftOutAreAllButZero) {
