@@ -36,9 +36,8 @@ std::string limit(const std::string& type, const std::string& value) {
 }
 
 /// The same scene with the folder of the test's own plugins.
-std::string with_plugins(std::string scene) {
-  return scene.insert(scene.find('{') + 1,
-                      R"( "plugins": [")" HYPERLATTICE_BUILD R"(/tests/truth_plugins"],)");
+std::string with_plugins(const std::string& scene) {
+  return SceneBuilder(scene).key("plugins", {HYPERLATTICE_BUILD "/tests/truth_plugins"}).text();
 }
 
 /// Displacements x -> x + strain x + shear y along x.

@@ -336,20 +336,19 @@ TEST(Stl, FillsALattice) {
   const Facets box =
       prism({{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}}, {{0, 1, 2}, {0, 2, 3}}, 30);
   std::ofstream(folder.file("box.stl"), std::ios::binary) << binary_stl(box);
-  const auto plan = [&](const std::string& shape) {
+  const auto plan = [&](const Json& shape) {
     return test::plan_of(
-        R"({ "format": "hyperlattice/1", "pipeline": [ { "type": "lattices.cubic", "spacing": "1 mm", "shape": )" +
-        shape + R"( },
-      { "type": "materials.elastic", "young": 1e10, "poisson": 0.25, "density": 2500 }, { "type": "solvers.explicit", "end_time": 1e-6 } ] })");
+        test::SceneBuilder{}
+            .stage("lattices.cubic", {{"spacing", "1 mm"}, {"shape", shape}})
+            .material("materials.elastic", {{"young", 1e10}, {"poisson", 0.25}, {"density", 2500}})
+            .solver("solvers.explicit", {{"end_time", 1e-6}})
+            .text());
   };
-  const auto from_stl =
-      plan(R"({ "stl": { "file": ")" + folder.file("box.stl") + R"(", "scale": "1 mm" } })");
+  const auto from_stl = plan({{"stl", {{"file", folder.file("box.stl")}, {"scale", "1 mm"}}}});
   EXPECT_EQ(from_stl->model->body.particles, 3000u);
   EXPECT_EQ(from_stl->model->body.base_springs(),
-            plan(R"({ "box": { "low": [0, 0, 0], "high": [0.01, 0.01, 0.03] } })")
-                ->model->body.base_springs());
-  const std::string why =
-      refusal([&] { plan(R"({ "stl": { "file": ")" + folder.file("none.stl") + R"(" } })"); });
+            plan(test::box({}, {0.01, 0.01, 0.03}))->model->body.base_springs());
+  const std::string why = refusal([&] { plan({{"stl", {{"file", folder.file("none.stl")}}}}); });
   EXPECT_NE(why.find("/pipeline/0/shape/stl/file"), std::string::npos) << why;
   EXPECT_NE(why.find("there is no such file"), std::string::npos) << why;
 }
