@@ -192,7 +192,7 @@ TEST(CriticalStep, KnowsHowStiffAContactIsAndHowViscous) {
             {{"on", "z_min"}, {"stiffness", 1e9}, {"damping", 0}, {"point", {0, 0, 1e-5}}})));
   EXPECT_NEAR(stiff->model->step_limit.time_step, 2 / std::sqrt(4 / (alone * alone) + 1e9 / mass),
               1e-12 * alone);
-  EXPECT_NE(stiff->model->critical_because.find("loads.floor (/pipeline/2)"), std::string::npos);
+  EXPECT_NE(stiff->model->step_limit.because.find("loads.floor (/pipeline/2)"), std::string::npos);
   const auto viscous = plan_of(
       loaded_block(4, 4, 4, stage("loads.drag", {{"linear_across", 1e9}, {"linear_along", 1e9}})));
   const double rate = 1e9 * std::sqrt(3.0) * 1e-6 / mass;  // rate of a corner particle
