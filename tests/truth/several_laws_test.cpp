@@ -283,28 +283,30 @@ TEST(SeveralLaws, AListOfThreeLawsKeepsItsEnergy) {
 // elongation k_a / k limit L with k = 2 k_a k_b / (k_a + k_b).
 TEST(SeveralLaws, EachHalfOfASpringHasItsOwnStrength) {
   constexpr double limit = 1e-3, joined = 2 * 4.0 / (1 + 4.0);
-  const auto broken_at = [&](const std::string& upper, const std::string& rule, double strain) {
-    const auto plan = plan_of(
-        R"({ "format": "hyperlattice/1", "interface_springs": ")" + rule +
-        R"(", "pipeline": [ { "type": "lattices.cubic", "spacing": 1e-3, "shape": )" +
-        box({}, {spacing, spacing, 2 * spacing}) +
-        R"( }, { "type": "materials.elastic", "young": 1e10, "density": 2500, "membrane": "none",
-                 "failure": { "type": "failures.strain", "limit": 1e-3 } },
-               { "type": ")" +
-        upper + R"(", "young": 4e10, "density": 2500, "membrane": "none", )" + from(1) +
-        R"( }, { "type": "solvers.explicit", "end_time": 1 } ] })");
+  const auto broken_at = [&](const Stages& upper, const std::string& rule, double strain) {
+    const Json criterion = {{"type", "failures.strain"}, {"limit", limit}};
+    const auto plan =
+        plan_of(SceneBuilder{}
+                    .key("interface_springs", rule)
+                    .lattice("lattices.cubic", spacing, box({}, {spacing, spacing, 2 * spacing}))
+                    .stages(material("elastic", {{"failure", criterion}}))
+                    .stages(upper)
+                    .solver("solvers.explicit", {{"end_time", 1}})
+                    .text());
     Simulation simulation(*plan->model, 1);
     simulation.set_displacements({0, 0, 0, 0, 0, strain * spacing}, {});
     simulation.step(1e-12);
     return simulation.breakages().size();
   };
-  for (const std::string upper : {"materials.elastic", R"(materials.viscous", "time": "1 ps)"}) {
+  const Keys stiff = Keys{{"young", 4e10}} + from(1);
+  for (const Stages& upper :
+       {material("elastic", stiff), material("viscous", Keys{{"time", "1 ps"}} + stiff)}) {
     const double strain = limit / joined;
-    EXPECT_EQ(broken_at(upper, "series", 0.999 * strain), 0u) << upper;
-    EXPECT_EQ(broken_at(upper, "series", 1.001 * strain), 1u) << upper;
-    EXPECT_EQ(broken_at(upper, "softer", 0.999 * limit), 0u) << upper;
-    EXPECT_EQ(broken_at(upper, "softer", 1.001 * limit), 1u) << upper;
-    EXPECT_EQ(broken_at(upper, "stiffer", 0.5), 0u) << upper;
+    EXPECT_EQ(broken_at(upper, "series", 0.999 * strain), 0u);
+    EXPECT_EQ(broken_at(upper, "series", 1.001 * strain), 1u);
+    EXPECT_EQ(broken_at(upper, "softer", 0.999 * limit), 0u);
+    EXPECT_EQ(broken_at(upper, "softer", 1.001 * limit), 1u);
+    EXPECT_EQ(broken_at(upper, "stiffer", 0.5), 0u);
   }
 }
 

@@ -39,7 +39,7 @@ TEST(Loads, BlastIsRadialAndHasTheTrueArea) {
         {"outer_surface", 4 * std::numbers::pi * 225e-6, -1.0}}) {
     const BuiltScene built = sphere_with(
         stage("loads.blast", {{"on", region}, {"peak", 2e6}, {"rise", 1e-6}, {"fall", 3e-6}}));
-    const Load& load = built->loads.at(0);
+    const Load& load = built->loads[0];
     double radial = 0;
     for (const LoadedParticle& loaded : load.particles) {
       const Vec3 at = built->body.position(loaded.particle);

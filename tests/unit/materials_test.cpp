@@ -29,7 +29,7 @@ void expect_in(const std::string& message, std::initializer_list<const char*> pa
 
 TEST(Materials, MembraneDecidesTheDegreesOfFreedom) {
   const auto choice = [](const Keys& more) {
-    return build(box_lattice(4, 4, 4) + elastic(more))->choice.membrane;
+    return build(box_lattice(4, 4, 4) + elastic(more))->springs.choice.membrane;
   };
   EXPECT_EQ(choice({{"membrane", "none"}}), Membrane::none);
   EXPECT_EQ(choice({{"membrane", "I-m"}, {"poisson", 0.25}}), Membrane::none);
@@ -59,7 +59,7 @@ TEST(Materials, StiffnessMassAndStepOfLatticeIm) {
 TEST(Materials, EquationFifteenUsesTheSpringsThatExist) {
   const BuiltScene built =
       build(box_lattice(4, 4, 4) + elastic({{"poisson", 0.25}, {"stiffness", "eq15"}}));
-  EXPECT_NEAR(built->spring(0, 0, 0).stiffness, 6 * 64 * 1e9 / (3 * 16 * 3 + 12 * 4 * 9), 1);
+  EXPECT_NEAR(built->springs.spring(0, 0, 0).stiffness, 6 * 64 * 1e9 / (3 * 16 * 3 + 12 * 4 * 9), 1);
 }
 
 TEST(Materials, PapersPolynomials) {
@@ -74,7 +74,7 @@ TEST(Materials, PapersPolynomials) {
 TEST(Materials, LaterOnesTakeOver) {
   const BuiltScene built =
       build(box_lattice(6, 4, 4) + elastic() + left_half({{"poisson", 0.25}, {"name", "left"}}));
-  ASSERT_EQ(built->material_of.size(), 96u);
+  ASSERT_EQ(built->kinds.material_of.size(), 96u);
   for (Particle p = 0; p < 96; ++p)
     EXPECT_EQ(built->kinds.material_of[p], built->body.site(p).i < 3 ? 1 : 0);
   EXPECT_TRUE(built->springs.choice.mixed);
@@ -179,7 +179,7 @@ TEST(Materials, WithoutAMembraneBesideOneThatMovesHeightsAreHeld) {
   const BuiltScene built =
       build(box_lattice(6, 4, 4) + elastic(lattice_I_m) + left_half({{"poisson", 0.25}}));
   EXPECT_EQ(built->springs.choice.membrane, Membrane::free);
-  EXPECT_EQ(built->spring(0, 1, 0).cross_stiffness, 0);
+  EXPECT_EQ(built->springs.spring(0, 1, 0).cross_stiffness, 0);
   EXPECT_NEAR(built->materials[1].constants.alpha_ratio, 6, 1e-12);
   EXPECT_NEAR(built->materials[1].critical_time_step, 2 / std::sqrt(12 * 0.4e9 / 1000),
               1e-9);  // as without a membrane
