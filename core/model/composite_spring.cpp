@@ -38,12 +38,10 @@ OneSpring CompositeSpring::one(const Spring& spring, std::size_t n, double elong
 
 SpringAnswer CompositeSpring::take_part(const Spring& spring, std::size_t n, double elongation,
                                         double time_step, double* kept) const {
-  return take_spring(laws_[parts_[n].law], one(spring, n, elongation), time_step,
-                     kept + first_[n]);
+  return take_spring(laws_[parts_[n].law], one(spring, n, elongation), time_step, kept + first_[n]);
 }
 
-void CompositeSpring::start(const SpringIdentity& identity, std::size_t cross,
-                            double* kept) const {
+void CompositeSpring::start(const SpringIdentity& identity, std::size_t cross, double* kept) const {
   for (std::size_t n = 0; n < parts_.size(); ++n)
     start_spring(laws_[parts_[n].law], parts_[n].constants[cross], identity, kept + first_[n]);
 }
@@ -88,8 +86,8 @@ CompositeAnswer CompositeSpring::present(const Spring& spring, const double* kep
   if (!series) sum.integrity = 0;
   for (std::size_t n = 0; n < parts_.size(); ++n) {
     const double weight = series ? 0.5 : parts_[n].weight;
-    OneSpring part = one(
-        spring, n, series ? elongation_of(n, spring.elongation, kept) : spring.elongation);
+    OneSpring part =
+        one(spring, n, series ? elongation_of(n, spring.elongation, kept) : spring.elongation);
     part.memory = kept + first_[n];
     const SpringAnswer answer = ask_spring(laws_[parts_[n].law], part);
     sum.force += weight * answer.force;
@@ -128,8 +126,7 @@ double CompositeSpring::solve(const Spring& spring, double time_step, const doub
     std::array<double, max_spring_memory> trial{};
     std::copy_n(kept, memory_, trial.begin());
     const double f_1 = take_part(spring, 0, first, time_step, trial.data()).force,
-                 f_2 = take_part(spring, 1, 2 * spring.elongation - first, time_step,
-                                 trial.data())
+                 f_2 = take_part(spring, 1, 2 * spring.elongation - first, time_step, trial.data())
                            .force;
     scale = std::max(std::abs(f_1), std::abs(f_2));
     return f_1 - f_2;

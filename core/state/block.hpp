@@ -65,7 +65,7 @@ struct Block {
   /// Of the last measurement, per row whose springs the kernel did not compute; empty if there are
   /// none.
   std::vector<RowEnergies> other_sums;
-  std::vector<RowSums> sums;        ///< per row
+  std::vector<RowSums> sums;  ///< per row
   /// In the order of the rows. Their forces have no component along prescribed axes.
   std::vector<BoundaryParticle> boundary_particles;
   /// External force along prescribed axes on each boundary particle, N.

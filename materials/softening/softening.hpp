@@ -18,8 +18,7 @@ struct SofteningLaw {
   };
 
   /// Returns 1 - D.
-  static double integrity(const hyperlattice::SpringState& s, const Constants& c,
-                          const Memory& m) {
+  static double integrity(const hyperlattice::SpringState& s, const Constants& c, const Memory& m) {
     const double largest = m.largest / s.rest_length;
     if (largest <= c.strength) return 1;
     if (largest >= c.opening) return 0;

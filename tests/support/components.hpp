@@ -8,11 +8,11 @@ namespace hyperlattice::test {
 
 /// The components that surround a component under test.
 inline const contract::OtherComponents around{.grid = "lattices.cubic",
-                                           .list = "lattices.random",
-                                           .material = "materials.elastic",
-                                           .failure = "failures.elongation",
-                                           .displacement = "loads.displacement",
-                                           .steps = "solvers.explicit"};
+                                              .list = "lattices.random",
+                                              .material = "materials.elastic",
+                                              .failure = "failures.elongation",
+                                              .displacement = "loads.displacement",
+                                              .steps = "solvers.explicit"};
 
 /// A virtual test with the elastic material and the static solver.
 inline VirtualTest virtual_test(Host& host, VirtualTest::Options options) {

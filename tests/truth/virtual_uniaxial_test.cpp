@@ -67,7 +67,7 @@ TEST(VirtualTest, ThreadsChangeNothing) {
   Host host;
   const calibration::Ratios ratios = calibration::ratios(calibration::Membrane::I_m, 1);
   const VirtualTestResult one = virtual_test(host, cube(8, 1e-3, 1)).measure(ratios),
-                 three = virtual_test(host, cube(8, 1e-3, 3)).measure(ratios);
+                          three = virtual_test(host, cube(8, 1e-3, 3)).measure(ratios);
   EXPECT_EQ(one.poisson, three.poisson);
   EXPECT_EQ(one.young, three.young);
   EXPECT_EQ(one.iterations, three.iterations);

@@ -59,7 +59,8 @@ TEST(Materials, StiffnessMassAndStepOfLatticeIm) {
 TEST(Materials, EquationFifteenUsesTheSpringsThatExist) {
   const BuiltScene built =
       build(box_lattice(4, 4, 4) + elastic({{"poisson", 0.25}, {"stiffness", "eq15"}}));
-  EXPECT_NEAR(built->springs.spring(0, 0, 0).stiffness, 6 * 64 * 1e9 / (3 * 16 * 3 + 12 * 4 * 9), 1);
+  EXPECT_NEAR(built->springs.spring(0, 0, 0).stiffness, 6 * 64 * 1e9 / (3 * 16 * 3 + 12 * 4 * 9),
+              1);
 }
 
 TEST(Materials, PapersPolynomials) {

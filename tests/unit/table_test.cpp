@@ -96,7 +96,8 @@ TEST(FailureLog, writes_each_breakage_once) {
   log.write_new(breakages);
   log.write_new(breakages);
   EXPECT_EQ(text_of(folder / "failures.csv"),
-            "step,time,particle_a,particle_b,elongation\n3,0.5,7,8,1e-06\n4,0.75,1,2,2e-06\n");
+            "step,time,particle_a,particle_b,elongation,softened\n"
+            "3,0.5,7,8,1e-06,0\n4,0.75,1,2,2e-06,0\n");
 }
 
 TEST(History, keeps_the_latest_record_and_the_largest_error) {

@@ -38,8 +38,10 @@ class Static {
         .restrictions(
             "Springs do not break during the stage; those beyond their limit at its end break in "
             "the first step in time that "
-            "follows. A law with a memory starts each load step with the memory of the last state of "
-            "rest; the memory advances when the step is accepted, and no time passes for the law. A "
+            "follows. A law with a memory starts each load step with the memory of the last state "
+            "of "
+            "rest; the memory advances when the step is accepted, and no time passes for the law. "
+            "A "
             "body that is a mechanism under its loads, or buckles, is an error that "
             "says where it moves. Energy is booked along the load "
             "steps by the trapezoidal rule: with large deformations in few steps the balance of "

@@ -94,8 +94,8 @@ struct AlarmRow {
 
 /// A row in a block.
 struct RowPlace {
-  std::uint32_t index = 0;     ///< in KernelRequest::rows
-  std::int32_t j = 0, k = 0;   ///< line and plane in the block; k < 0: a ghost plane
+  std::uint32_t index = 0;    ///< in KernelRequest::rows
+  std::int32_t j = 0, k = 0;  ///< line and plane in the block; k < 0: a ghost plane
 };
 
 /// Energies of the springs of one row, J.
@@ -171,7 +171,7 @@ struct KernelRequest {
   /// a membrane.
   double* memory = nullptr;
   std::uint32_t memory_numbers = 0;  ///< numbers of each spring; a law may use fewer
-  std::uint64_t memory_stride = 0;  ///< number of sites in `memory`
+  std::uint64_t memory_stride = 0;   ///< number of sites in `memory`
   /// For each vector of sites of a row with weights: the place of its set in `weights`. A set has
   /// `lanes` fractions of a whole particle (for mass and alpha), then for each neighbour `lanes`
   /// fractions of a whole spring (for force and energy, of cross springs too). Sites without a
