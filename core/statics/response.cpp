@@ -92,15 +92,6 @@ double Statics::respond_plane(std::int32_t k, const double* u, double* force,
   return energy;
 }
 
-const SpringConstants& Statics::constants_of(std::size_t neighbour, std::int64_t first,
-                                             std::int64_t step, std::size_t t, bool exists) const {
-  const auto kind = [&](std::int64_t place) {
-    return !exists || kind_.empty() ? 0 : kind_[static_cast<std::size_t>(place) + t];
-  };
-  return model_.springs.spring_to(static_cast<std::uint32_t>(neighbour), kind(first),
-                                  kind(first + step));
-}
-
 /// Linearises the springs of a row, in runs of springs of one law and of one set of constants.
 /// Returns their energy, J.
 double Statics::linearise_row(std::size_t neighbour, std::int32_t begin, std::int32_t j,

@@ -66,8 +66,17 @@ class Statics {
     double stiffness;
     LawMemory memory;
   };
+  /// Returns the constants of a row's spring number t to a neighbour. `first`: place of the row's
+  /// first particle; `step`: from a place to its neighbour; `exists`: whether there is such a
+  /// spring.
   const SpringConstants& constants_of(std::size_t neighbour, std::int64_t first, std::int64_t step,
-                                      std::size_t t, bool exists) const;
+                                      std::size_t t, bool exists) const {
+    const auto kind = [&](std::int64_t place) {
+      return !exists || kind_.empty() ? 0 : kind_[static_cast<std::size_t>(place) + t];
+    };
+    return model_.springs.spring_to(static_cast<std::uint32_t>(neighbour), kind(first),
+                                    kind(first + step));
+  }
   double linearise_row(std::size_t neighbour, std::int32_t begin, std::int32_t j, std::int32_t k,
                        RowBuffers& buffer) const;
   double linearise(const AlikeSprings& alike, RowBuffers& buffer) const;
