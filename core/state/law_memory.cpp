@@ -28,7 +28,7 @@ void LawMemory::advance(const EquilibriumUpdate& to) {
   const std::size_t kinds = model_.springs.choice.membrane == KernelChoice::Membrane::none ? 1 : 2;
   for (Block& block : blocks_)
     blocks_.layout().for_springs(block, [&](const SpringPlace& spring) {
-      const auto [a, b] = std::pair{spring.ends.a, spring.ends.b};
+      const Particle a = spring.ends.a, b = spring.ends.b;
       const SpringProperties properties = model_.spring_properties(a, b, spring.ends.neighbour);
       const auto way = [&](std::size_t c) { return to.xyz[3 * b + c] - to.xyz[3 * a + c]; };
       const Vec3 d{way(0), way(1), way(2)};
@@ -75,7 +75,7 @@ void LawMemory::add_softening(std::vector<double>& lost) const {
     const Block& block = blocks_[n];
     blocks_.layout().for_springs(block, [&](const SpringPlace& spring) {
       if (!spring.counts) return;
-      const auto [a, b] = std::pair{spring.ends.a, spring.ends.b};
+      const Particle a = spring.ends.a, b = spring.ends.b;
       const auto [at_a, height_a] = place(a);
       const auto [at_b, height_b] = place(b);
       const SpringProperties properties = model_.spring_properties(a, b, spring.ends.neighbour);
