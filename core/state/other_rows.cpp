@@ -149,6 +149,9 @@ RowEnergies OtherRows::several_laws_of_grid(Block& block, const KernelRequest& r
   const bool owned = place.k >= 0;
   const ScratchRows<double> scratch(request, components);
   clear_own(scratch, components, sites);
+  const double* displacement[4] = {};  // the model refuses floats where there are several laws
+  for (int c = 0; c < components; ++c)
+    displacement[c] = static_cast<const double*>(request.displacement[c]);
   const SeveralLaws laws(model_, request, measures);
   RowEnergies energies;
   for (std::uint32_t n = 0; n < model_.springs.neighbours.size(); ++n) {
@@ -160,6 +163,8 @@ RowEnergies OtherRows::several_laws_of_grid(Block& block, const KernelRequest& r
             .rows[static_cast<std::int64_t>(place.index) + to.dz * request.rows_per_plane + to.dy];
     std::vector<std::int32_t> rung;
     std::vector<double> elongations;
+    SeveralLaws::Spring spring;
+    const SpringConstants* known = nullptr;  // of spring.properties
     for (std::int32_t i = row.begin; i < row.end; ++i) {
       const std::uint64_t here = row.start + static_cast<std::uint64_t>(i - row.begin);
       if ((block.alive[here] >> n & 1U) == 0) continue;
@@ -168,18 +173,19 @@ RowEnergies OtherRows::several_laws_of_grid(Block& block, const KernelRequest& r
       const std::uint32_t kind = cells ? block.mixture[here] : block.material[here];
       const SpringConstants& constants =
           model_.springs.spring_to(n, kind, cells ? 0 : block.material[there]);
-      SeveralLaws::Spring spring;
-      spring.properties = properties_of(
-          model_, constants,
-          cells ? model_.kinds.mixtures.commonest(kind) : static_cast<std::uint8_t>(kind));
-      spring.properties.rest = neighbour.rest;
-      spring.properties.rest_length = neighbour.rest_length;
-      spring.properties.cross_rest_length = neighbour.cross_rest_length;
-      spring.properties.spring_class = to.spring_class;
+      if (&constants != known) {
+        known = &constants;
+        spring.properties = properties_of(
+            model_, constants,
+            cells ? model_.kinds.mixtures.commonest(kind) : static_cast<std::uint8_t>(kind));
+        spring.properties.rest = neighbour.rest;
+        spring.properties.rest_length = neighbour.rest_length;
+        spring.properties.cross_rest_length = neighbour.cross_rest_length;
+        spring.properties.spring_class = to.spring_class;
+      }
       for (int c = 0; c < components; ++c)
-        spring.difference[c] = block.displacement[c][there] - block.displacement[c][here];
-      if (components == 4)
-        spring.height_sum = block.displacement[3][there] + block.displacement[3][here];
+        spring.difference[c] = displacement[c][there] - displacement[c][here];
+      if (components == 4) spring.height_sum = displacement[3][there] + displacement[3][here];
       if (row.weights != no_weights) {
         const auto t = static_cast<std::uint64_t>(i - row.begin);
         const std::uint32_t set = request.weight_sets[row.weights + t / lanes];

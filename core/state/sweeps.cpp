@@ -77,8 +77,8 @@ void Sweeps::read_motion() {
   loads_.prepare_answers();
 }
 
-void Sweeps::run_kernel(Kernel kernel, Block& block, double back, double forward,
-                        bool measures) const {
+inline void Sweeps::run_kernel(Kernel kernel, Block& block, double back, double forward,
+                               bool measures) const {
   struct Host {
     const Sweeps* sweeps;
     Block* block;

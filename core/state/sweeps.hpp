@@ -32,7 +32,8 @@ class Sweeps {
   void read_motion();
   /// Calls a kernel for a block. `back` and `forward`: durations of its kick before and after the
   /// present time, s.
-  void run_kernel(Kernel kernel, Block& block, double back, double forward, bool measures) const;
+  [[gnu::always_inline]] void run_kernel(Kernel kernel, Block& block, double back, double forward,
+                                         bool measures) const;
   KernelRequest request_for(Block& block, double back, double forward) const;
 
   BlockSet& blocks_;
