@@ -58,8 +58,8 @@ void Recorder::observe() {
   // In a static stage times are rarely round numbers: the times of outputs have a tolerance.
   const double near_enough = 1e-6 * (stage_->plan.end_time - stage_->start_time);
   stopwatch_.output([&] { outputs_.show(at_rest ? near_enough : time_step_); });
-  progress_->update(simulation_.steps(), simulation_.time(), time_step_,
-                    simulation_.breakages().size(), at_rest && rest_ ? rest_->residual : -1);
+  progress_->update(simulation_.steps(), simulation_.time(), time_step_, simulation_.broken(),
+                    at_rest && rest_ ? rest_->residual : -1);
 }
 
 void Recorder::observe_once() {
@@ -70,7 +70,7 @@ void Recorder::record() {
   if (history_.has(simulation_.steps())) return;
   const std::uint64_t open = simulation_.broken_open();
   const Record record{simulation_.time(), simulation_.steps(), simulation_.balance(), open,
-                      simulation_.breakages().size() - open};
+                      simulation_.broken() - open};
   if (record.step > 0) guard_.check_motion(time_step_);
   guard_.check_finite(record.balance, time_step_);
   history_.take(record);

@@ -70,7 +70,7 @@ void SnapshotSource::count_broken(std::vector<double>& numbers, bool open) {
   numbers.assign(model_.body.particles, 0.0);
   const std::vector<Breakage>& breakages = simulation_.breakages();
   for (std::size_t n = 0; n < breakages.size(); ++n) {
-    if ((simulation_.elongation_now(n) > 0) != open) continue;
+    if (breakages[n].again || (simulation_.elongation_now(n) > 0) != open) continue;
     numbers[breakages[n].a] += 1;
     numbers[breakages[n].b] += 1;
   }

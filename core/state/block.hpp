@@ -62,8 +62,8 @@ struct Block {
   ListedArrays listed;
   std::vector<double> damped_work;    ///< per row, J
   std::vector<double> fracture_work;  ///< per row, of laws that soften, J; empty if there are none
-  /// Of the last measurement, per row whose springs the kernel did not compute; empty if there are
-  /// none.
+  /// Energies of the rows whose springs the kernel did not compute, from the last measurement, per
+  /// row; empty if there are no such rows.
   std::vector<RowEnergies> other_sums;
   std::vector<RowSums> sums;  ///< per row
   /// In the order of the rows. Their forces have no component along prescribed axes.

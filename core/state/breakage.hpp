@@ -17,6 +17,8 @@ struct Breakage {
   /// false: a criterion removed the spring; true: its law softened until its integrity was 0, and
   /// the spring stays, because a closed crack may push
   bool softened = false;
+  /// A criterion removed a spring that had softened before: the spring counts once.
+  bool again = false;
 };
 
 }  // namespace hyperlattice

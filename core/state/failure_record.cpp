@@ -43,12 +43,20 @@ void FailureRecord::collect(double step) {
       breakage.neighbour = spring.neighbour;
       breakage.elongation = broken.elongation;
       breakage.softened = broken.softened;
+      breakage.again = !broken.softened && softened_.contains({breakage.a, breakage.neighbour});
       breakages_.push_back(breakage);
-      ends_.push_back(find_ends(breakage));
+      note(breakage);
       if (!broken.softened) energy_ += energy_of(breakages_.size() - 1, block, broken, step);
     }
     block.broken.clear();
   }
+}
+
+/// Adds what follows from the last breakage.
+void FailureRecord::note(const Breakage& breakage) {
+  ends_.push_back(find_ends(breakage));
+  if (breakage.softened) softened_.insert({breakage.a, breakage.neighbour});
+  if (breakage.again) ++again_;
 }
 
 FailureRecord::Ends FailureRecord::find_ends(const Breakage& breakage) const {
@@ -115,7 +123,7 @@ std::uint64_t FailureRecord::open() const {
   blocks_.team().for_each((all + piece - 1) / piece, [&](std::size_t number) {
     std::uint64_t here = 0;
     for (std::size_t n = number * piece; n < std::min(all, (number + 1) * piece); ++n)
-      here += elongation_now(n) > 0 ? 1 : 0;
+      here += !breakages_[n].again && elongation_now(n) > 0 ? 1 : 0;
     open += here;
   });
   return open;
@@ -126,7 +134,9 @@ void FailureRecord::archive(Archive& archive) {
   archive(energy_);
   if (!archive.restores()) return;
   ends_.clear();
-  for (const Breakage& breakage : breakages_) ends_.push_back(find_ends(breakage));
+  softened_.clear();
+  again_ = 0;
+  for (const Breakage& breakage : breakages_) note(breakage);
 }
 
 }  // namespace hyperlattice

@@ -5,6 +5,9 @@
 #include <state/breakage.hpp>
 #include <state/clock.hpp>
 
+#include <cstdint>
+#include <set>
+#include <utility>
 #include <vector>
 
 namespace hyperlattice {
@@ -24,7 +27,9 @@ class FailureRecord {
   double energy() const { return energy_; }
   /// Returns the present elongation, m, of a broken spring: above 0 if the failure is open.
   double elongation_now(std::size_t breakage) const;
-  /// Returns the number of open failures; all others are closed.
+  /// Returns the number of springs that failed.
+  std::uint64_t springs() const { return breakages_.size() - again_; }
+  /// Returns the number of springs whose failure is open; those of all others are closed.
   std::uint64_t open() const;
 
   void archive(Archive& archive);
@@ -36,6 +41,7 @@ class FailureRecord {
     std::uint64_t a, b;
   };
 
+  void note(const Breakage& breakage);
   Ends find_ends(const Breakage& breakage) const;
   double energy_of(std::size_t breakage, const Block& block, const Block::Broken& broken,
                    double step) const;
@@ -43,8 +49,10 @@ class FailureRecord {
   BlockSet& blocks_;
   const Clock& clock_;
   std::vector<Breakage> breakages_;
-  std::vector<Ends> ends_;  // of each breakage
-  double energy_ = 0;       // J
+  std::vector<Ends> ends_;                                 // of each breakage
+  std::set<std::pair<Particle, std::uint32_t>> softened_;  // first end and neighbour
+  std::uint64_t again_ = 0;  // breakages of springs that had softened before
+  double energy_ = 0;        // J
 };
 
 }  // namespace hyperlattice

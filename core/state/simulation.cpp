@@ -33,6 +33,7 @@ double Simulation::elongation_now(std::size_t breakage) const {
   return state_->failures.elongation_now(breakage);
 }
 std::uint64_t Simulation::broken_open() const { return state_->failures.open(); }
+std::uint64_t Simulation::broken() const { return state_->failures.springs(); }
 
 void Simulation::add_softening(std::vector<double>& lost) const {
   state_->law_memory.add_softening(lost);

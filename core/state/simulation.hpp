@@ -62,6 +62,8 @@ class Simulation {
   double elongation_now(std::size_t breakage) const;
   /// Returns the number of open failures; all others are closed.
   std::uint64_t broken_open() const;
+  /// Returns the number of springs that failed, open and closed.
+  std::uint64_t broken() const;
 
   /// Copy a quantity of all particles in the order z, y, x. Heights are empty without a membrane.
   void displacements(std::vector<double>& xyz) const;

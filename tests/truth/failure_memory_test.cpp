@@ -115,7 +115,8 @@ void compare_held(const Plan& plan, double strain, double shear, double step, in
 TEST(FailureMemory, AConstantStrainBreaksAfterItsTime) {
   const auto plan = plan_of(block(5, 4, 6, breakable(tuler_butcher)));
   const double step = 0.01 * plan->model->step_limit.time_step;
-  // Of the strain 0.01 along x after 0.25 us, of 0.005 along diagonals after 1.8 us.
+  // Springs along x have the strain 0.01 and break after 0.25 us; diagonal springs have 0.005 and
+  // break after 1.8 us.
   compare_held(*plan, 0.01, 0, step, static_cast<int>(3e-6 / step));
   compare_held(*plan, 0.01, 0.004, 3 * step, static_cast<int>(1e-6 / step));
 }

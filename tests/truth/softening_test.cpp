@@ -75,8 +75,32 @@ TEST(Softening, DamageIsWhatTheIntegrityOfSpringsLacks) {
   }
 }
 
-// In time the same energy is lost, whichever way: kernels of grids and of lists, one law or
-// several.
+// A spring that softens and is removed later by a criterion has two entries and counts once.
+TEST(Softening, ASpringThatIsRemovedAfterItSoftenedCountsOnce) {
+  const auto plan =
+      plan_of(SceneBuilder{}
+                  .lattice("lattices.cubic", spacing, box({}, {spacing, spacing, 2 * spacing}))
+                  .material("materials.softening",
+                            {{"young", 1e10},
+                             {"density", 2500},
+                             {"membrane", "none"},
+                             {"strength", 3e6},
+                             {"fracture_energy", 5},
+                             {"failure", {{"type", "failures.strain"}, {"limit", 0.2}}}})
+                  .solver("solvers.explicit", {{"end_time", 1}})
+                  .text());
+  Simulation simulation(*plan->model, 1);
+  simulation.set_velocities({0, 0, 0, 0, 0, 5}, {});
+  while (simulation.time() < 60e-6) simulation.step(1e-7);
+  std::vector<bool> softened;
+  for (const Breakage& breakage : simulation.breakages()) softened.push_back(breakage.softened);
+  EXPECT_EQ(softened, (std::vector<bool>{true, false}));
+  EXPECT_EQ(simulation.broken(), 1u);
+  EXPECT_EQ(simulation.broken_open(), 1u);
+}
+
+// In steps in time the energy that a block of one law loses is energy of fracture too, with the
+// same bits for any number of threads.
 TEST(Softening, ABlockThatIsTornLosesEnergyOfFractureOnly) {
   const auto plan =
       plan_of(law_scene(stage("lattices.cubic", {{"spacing", 1e-3}, {"shape", box_mm(5, 4, 6)}}),
