@@ -3,6 +3,7 @@
 
 #include <model/composite_spring.hpp>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -26,6 +27,17 @@ struct SpringProperties {
 
   double rest_length_of(std::size_t cross) const {
     return cross == 0 ? rest_length : cross_rest_length;
+  }
+  /// Returns the growth of the squared length, m2, of the base (cross 0) or cross spring (1): see
+  /// kernels/springs.hpp. `apart`: displacement of the second end less that of the first, m;
+  /// `rise`: difference of their heights for a base spring, their sum for a cross spring, m.
+  double growth(std::size_t cross, const Vec3& apart, double rise, double membrane_distance) const {
+    return dot(apart, 2 * rest + apart) + rise * (cross == 0 ? rise : 2 * membrane_distance + rise);
+  }
+  /// Returns the elongation, m, for a growth of the squared length, m2, without cancellation.
+  double elongation(std::size_t cross, double growth) const {
+    const double length = rest_length_of(cross);
+    return growth / (std::sqrt(length * length + growth) + length);
   }
   double stiffness_of(std::size_t cross) const { return cross == 0 ? stiffness : cross_stiffness; }
 };

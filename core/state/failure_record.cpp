@@ -79,25 +79,23 @@ double FailureRecord::energy_of(std::size_t index, const Block& block, const Blo
             b = end_of(*where.block_b, where.b, model.degrees_of_freedom, step);
 
   const Vec3 d = b.place - a.place, moved = b.moved - a.moved;
-  const double in_space = dot(d, 2 * properties.rest + d),
-               rate_in_space = 2 * dot(properties.rest + d, moved);
+  const double rate_in_space = 2 * dot(properties.rest + d, moved);
   // Growth and its rate are those of the squared length, as in kernels/springs.hpp.
-  const auto lost = [&](bool cross, double growth, double rate) {
-    const double rest_length = cross ? properties.cross_rest_length : properties.rest_length;
-    const double length = std::sqrt(rest_length * rest_length + growth);
+  const double delta = model.body.grid.membrane_distance;
+  const auto lost = [&](std::size_t cross, double rise, double rate) {
+    const double growth = properties.growth(cross, d, rise, delta),
+                 rest_length = properties.rest_length_of(cross),
+                 length = std::sqrt(rest_length * rest_length + growth);
     const LawNumbers memory =
-        blocks_.law_numbers(block, broken.row, broken.neighbour, broken.site, cross);
-    const CompositeAnswer answer = ask_spring(model, properties, cross ? 1 : 0,
-                                              growth / (length + rest_length), memory.data());
+        blocks_.law_numbers(block, broken.row, broken.neighbour, broken.site, cross != 0);
+    const CompositeAnswer answer =
+        ask_spring(model, properties, cross, properties.elongation(cross, growth), memory.data());
     return answer.stored + 0.5 * answer.force * rate / (2 * length);
   };
-  const double difference = b.height - a.height, total = b.height + a.height,
-               delta = model.body.grid.membrane_distance;
-  double energy = lost(false, in_space + difference * difference,
-                       rate_in_space + 2 * difference * (b.raised - a.raised));
+  const double difference = b.height - a.height, total = b.height + a.height;
+  double energy = lost(0, difference, rate_in_space + 2 * difference * (b.raised - a.raised));
   if (model.springs.choice.membrane != KernelChoice::Membrane::none)
-    energy += lost(true, in_space + total * (2 * delta + total),
-                   rate_in_space + 2 * (delta + total) * (b.raised + a.raised));
+    energy += lost(1, total, rate_in_space + 2 * (delta + total) * (b.raised + a.raised));
   return energy * properties.share;
 }
 
@@ -110,10 +108,8 @@ double FailureRecord::elongation_now(std::size_t index) const {
   const End a = end_of(*where.block_a, where.a, model.degrees_of_freedom, 0),
             b = end_of(*where.block_b, where.b, model.degrees_of_freedom, 0);
   const Vec3 d = b.place - a.place;
-  const double growth =
-      dot(d, 2 * properties.rest + d) + (b.height - a.height) * (b.height - a.height);
-  return growth / (std::sqrt(properties.rest_length * properties.rest_length + growth) +
-                   properties.rest_length);
+  return properties.elongation(
+      0, properties.growth(0, d, b.height - a.height, model.body.grid.membrane_distance));
 }
 
 std::uint64_t FailureRecord::open() const {

@@ -1,30 +1,13 @@
 #include <model/spring_calls.hpp>
 #include <state/law_memory.hpp>
 
-#include <algorithm>
-#include <cmath>
+#include <utility>
 
 namespace hyperlattice {
 
-namespace {
-
-/// Returns the elongation, m, of a spring, or of its cross spring. `d` and `height_difference`:
-/// displacement and height of the second end less those of the first, m; `height_sum`: the sum of
-/// their heights, m.
-double elongation_of(const Model& model, const SpringProperties& properties, std::size_t cross,
-                     const Vec3& d, double height_difference, double height_sum) {
-  const double rise = cross == 0 ? height_difference : height_sum,
-               delta = model.body.grid.membrane_distance,
-               growth =
-                   dot(d, 2 * properties.rest + d) + rise * (cross == 0 ? rise : 2 * delta + rise),
-               rest_length = properties.rest_length_of(cross);
-  return growth / (std::sqrt(rest_length * rest_length + growth) + rest_length);
-}
-
-}  // namespace
-
 void LawMemory::advance(const EquilibriumUpdate& to) {
   if (model_.springs.memory == 0) return;
+  const double delta = model_.body.grid.membrane_distance;
   const std::size_t kinds = model_.springs.choice.membrane == KernelChoice::Membrane::none ? 1 : 2;
   for (Block& block : blocks_)
     blocks_.layout().for_springs(block, [&](const SpringPlace& spring) {
@@ -34,9 +17,11 @@ void LawMemory::advance(const EquilibriumUpdate& to) {
       const Vec3 d{way(0), way(1), way(2)};
       const bool has_heights = !to.heights.empty();
       for (std::size_t cross = 0; cross < kinds; ++cross) {
-        const double elongation = elongation_of(model_, properties, cross, d,
-                                                has_heights ? to.heights[b] - to.heights[a] : 0,
-                                                has_heights ? to.heights[b] + to.heights[a] : 0);
+        const double rise = !has_heights ? 0
+                            : cross == 0 ? to.heights[b] - to.heights[a]
+                                         : to.heights[b] + to.heights[a];
+        const double elongation =
+            properties.elongation(cross, properties.growth(cross, d, rise, delta));
         LawNumbers kept =
             blocks_.law_numbers(block, spring.row, spring.neighbour, spring.site, cross != 0);
         const double before =
@@ -79,8 +64,9 @@ void LawMemory::add_softening(std::vector<double>& lost) const {
       const auto [at_a, height_a] = place(a);
       const auto [at_b, height_b] = place(b);
       const SpringProperties properties = model_.spring_properties(a, b, spring.ends.neighbour);
-      const double elongation = elongation_of(model_, properties, 0, at_b - at_a,
-                                              height_b - height_a, height_b + height_a);
+      const double elongation =
+          properties.elongation(0, properties.growth(0, at_b - at_a, height_b - height_a,
+                                                     model_.body.grid.membrane_distance));
       const LawNumbers kept =
           blocks_.law_numbers(block, spring.row, spring.neighbour, spring.site, false);
       const double integrity = ask_spring(model_, properties, 0, elongation, kept.data()).integrity;

@@ -39,11 +39,10 @@ class SeveralLaws {
     const SpringProperties& of = spring.properties;
     const Vec3 d{spring.difference[0], spring.difference[1], spring.difference[2]};
     const Vec3 r = of.rest + d;
-    const double in_space = dot(d, 2 * of.rest + d);
     Result result;
     for (std::size_t cross = 0; cross < kinds_; ++cross) {
       const double rise = cross == 0 ? spring.difference[3] : spring.height_sum,
-                   growth = in_space + rise * (cross == 0 ? rise : 2 * delta_ + rise),
+                   growth = of.growth(cross, d, rise, delta_),
                    rest_length = of.rest_length_of(cross),
                    length = std::sqrt(rest_length * rest_length + growth),
                    elongation = growth / (length + rest_length);
