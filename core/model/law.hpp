@@ -14,7 +14,7 @@ struct Law {
   KernelSet kernels;
 };
 
-/// Calls a kernel. `kernel`: one of step, step_damped and measure of the law's kernels.
+/// Calls a kernel. `kernel`: step or measure of the law's kernels.
 inline void call_kernel(const Law& law, decltype(KernelSet::step) kernel,
                         const KernelRequest& request) {
   call(*law.stage, "kernel", [&](const Complaint& why) { return kernel(request, why); });

@@ -31,6 +31,7 @@ struct SpringTable {
   KernelChoice choice;
   std::vector<Law> laws;     ///< each once; the first one's kernels move the particles
   std::uint32_t memory = 0;  ///< numbers that each base or cross spring keeps
+  bool breakable = false;    ///< whether a material has a failure criterion
   bool softens = false;      ///< whether a law softens
   bool asks_rate = false;    ///< whether a failure criterion needs the rate of elongation
 

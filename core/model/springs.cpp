@@ -49,8 +49,8 @@ KernelSet kernels_of(const Stage& stage, const KernelChoice& choice) {
     throw plugin_error(
         stage, "kernels",
         "it lacks the functions of one spring, or its springs keep more numbers than they may");
-  if (kernels.step == nullptr || kernels.step_damped == nullptr || kernels.measure == nullptr ||
-      (choice.mixed && (kernels.step_row == nullptr || kernels.measure_row == nullptr))) {
+  if (kernels.step == nullptr || kernels.measure == nullptr || kernels.step_row == nullptr ||
+      kernels.measure_row == nullptr) {
     if (choice.precision == Precision::floats)
       throw InputError(
           {{"/precision", "float",
@@ -299,12 +299,11 @@ void set_springs(Model& model, Faults& faults) {
   springs.choice.membrane = membrane_of(model.materials, faults);
   if (springs.choice.membrane == Membrane::free) hold_heights(model);
   model.degrees_of_freedom = springs.choice.membrane == Membrane::free ? 4 : 3;
-  springs.choice.mixed = model.materials.size() > 1;
   springs.choice.listed = model.body.is_listed();
   springs.choice.precision = model.scene->precision;
   for (const Material& material : model.materials)
     for (const Material::Criterion& criterion : material.failures) {
-      springs.choice.breakable = true;
+      springs.breakable = true;
       if (!criterion.stage->functions<FailureFunctions>().asks_rate) continue;
       springs.asks_rate = true;
       if (model.body.is_listed())

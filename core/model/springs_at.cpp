@@ -14,8 +14,7 @@ RestSpring rest_spring(const Model& model, Particle a, Particle b, std::uint32_t
   spring.stiffness = properties.share * properties.stiffness;
   spring.share = properties.share;
   spring.rest_length = properties.rest_length;
-  spring.breakable =
-      model.springs.choice.breakable && model.alarm(a, b, neighbour, properties) < infinity;
+  spring.breakable = model.springs.breakable && model.alarm(a, b, neighbour, properties) < infinity;
   return spring;
 }
 

@@ -134,7 +134,7 @@ double output_seconds(const Plan& plan, double sweep, bool measured) {
 double slowest(const Model& model) {
   // Measured on a sphere that a blast breaks and whose pieces collide.
   constexpr double breaking = 3, answering = 5;
-  return (model.springs.choice.breakable ? breaking : 1) * (model.loads.answering ? answering : 1);
+  return (model.springs.breakable ? breaking : 1) * (model.loads.answering ? answering : 1);
 }
 
 void estimate_time(Plan& plan) {

@@ -13,7 +13,7 @@ bool has_field(const Model& model, std::string_view name) {
   if (name == "source") return model.body.is_listed();
   if (name == "height") return model.degrees_of_freedom == 4;
   if (name == "broken_open" || name == "broken_closed" || name == "damage")
-    return model.springs.choice.breakable || model.springs.softens;
+    return model.springs.breakable || model.springs.softens;
   return false;
 }
 

@@ -37,15 +37,14 @@ void leave_out_kernel_parts(const Plan& plan, std::vector<LeftOut>& out) {
              (model.step_limit.two_layers_grow.empty()
                   ? ""
                   : "; two free ones would not stay so: " + model.step_limit.two_layers_grow)});
-  if (!model.springs.choice.breakable)
+  if (!model.springs.breakable)
     out.push_back({"failure", "no material names a failure law: no spring is tested"});
-  if (model.springs.choice.breakable && !criteria_remember(model))
+  if (model.springs.breakable && !criteria_remember(model))
     out.push_back({"memory of failure laws", "none keeps one: springs break by what they are now"});
   const auto is_static = [](const PlannedStage& stage) {
     return stage.plan.at_rest && stage.plan.time_step == 0;
   };
-  if (model.springs.choice.breakable &&
-      std::any_of(plan.stages.begin(), plan.stages.end(), is_static))
+  if (model.springs.breakable && std::any_of(plan.stages.begin(), plan.stages.end(), is_static))
     out.push_back({"failure during static stages",
                    "springs beyond their limit break in the first step in time that follows"});
   if (model.springs.memory == 0)
@@ -53,7 +52,7 @@ void leave_out_kernel_parts(const Plan& plan, std::vector<LeftOut>& out) {
   if (model.springs.composites.empty())
     out.push_back({"springs of several laws",
                    "no spring joins materials with different laws or different constants"});
-  if (!model.springs.choice.mixed)
+  if (model.materials.size() == 1)
     out.push_back({"mixed materials", "there is one material: no particle stores which"});
   const auto is_damped = [](const PlannedStage& stage) { return stage.plan.damping > 0; };
   if (std::none_of(plan.stages.begin(), plan.stages.end(), is_damped))

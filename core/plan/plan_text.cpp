@@ -40,10 +40,10 @@ std::string run_time_text(const Plan& plan) {
   const double most = plan.expected_seconds * slowest(*plan.model);
   if (duration_text(most) == duration_text(plan.expected_seconds)) return duration_text(most);
   return fmt::format("{} as long as nothing {}, up to {}", duration_text(plan.expected_seconds),
-                     plan.model->springs.choice.breakable && plan.model->loads.answering
+                     plan.model->springs.breakable && plan.model->loads.answering
                          ? "breaks or touches"
-                     : plan.model->springs.choice.breakable ? "breaks"
-                                                            : "touches",
+                     : plan.model->springs.breakable ? "breaks"
+                                                     : "touches",
                      duration_text(most));
 }
 

@@ -13,8 +13,7 @@ Recorder::Recorder(const Plan& plan, Simulation& simulation, RunFolder& folder,
       history_(folder),
       outputs_(*plan.model, simulation, folder, plan.end_time()),
       planned_steps_(plan.steps()) {
-  if (plan.model->springs.choice.breakable || plan.model->springs.softens)
-    failures_.emplace(folder);
+  if (plan.model->springs.breakable || plan.model->springs.softens) failures_.emplace(folder);
 }
 
 void Recorder::archive(Archive& archive) {

@@ -294,7 +294,7 @@ void GridLayout::exchange(const std::vector<Block>& all, Block& block) const {
         block.displacement[c].copy(owner.displacement[c], from, count, to.begin);
       for (int c = 0; model_.springs.asks_rate && c < model_.degrees_of_freedom; ++c)
         block.velocity[c].copy(owner.velocity[c], from, count, to.begin);
-      if (model_.springs.choice.breakable && k < first)
+      if (model_.springs.breakable && k < first)
         std::copy_n(owner.alive.get() + from, count, block.alive.get() + to.begin);
     }
 }

@@ -81,8 +81,8 @@ double CellWatch::bytes(const Model& model) {
   const double at_a_time = model.body.is_listed()
                                ? particles
                                : std::min(particles, std::max(slab_particles, two_planes));
-  double bytes = 3 * sizeof(double) * at_a_time;               // displacements
-  if (model.springs.choice.breakable) bytes += particles / 8;  // one bit: torn or not
+  double bytes = 3 * sizeof(double) * at_a_time;        // displacements
+  if (model.springs.breakable) bytes += particles / 8;  // one bit: torn or not
   if (!model.body.is_listed()) return bytes;
   bytes += sizeof(Triple) * particles;
   return bytes + Ends::bytes(particles, springs);

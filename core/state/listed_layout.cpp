@@ -101,7 +101,7 @@ std::int32_t ListedLayout::law_of_row(std::int32_t material, std::uint64_t row) 
 /// Returns whether springs differ in stiffness, so that each needs its own.
 bool ListedLayout::has_own_stiffness() const {
   const std::vector<ListedSpring>& springs = model_.body.listed.springs;
-  return model_.springs.choice.mixed ||
+  return model_.materials.size() > 1 ||
          std::any_of(springs.begin(), springs.end(),
                      [](const ListedSpring& spring) { return spring.stiffness != 1; });
 }
@@ -235,7 +235,7 @@ void ListedLayout::fill_springs(Block& block) const {
   listed.neighbour = AlignedArray<std::uint32_t>(neighbours(part));
   const Precision precision = model_.springs.choice.precision;
   if (has_own_stiffness()) listed.stiffness = Numbers(precision, 2 * slot_lanes(part));
-  if (model_.springs.choice.breakable) listed.alarm = Numbers(precision, slot_lanes(part));
+  if (model_.springs.breakable) listed.alarm = Numbers(precision, slot_lanes(part));
   block.memory = AlignedArray<double>(slot_lanes(part) * kept_numbers());
   for (std::size_t pack = 0; pack + 1 < part.first_slot.size(); ++pack)
     for (std::size_t n = part.first_slot[pack] * width_; n < part.first_slot[pack + 1] * width_;
@@ -262,9 +262,8 @@ void ListedLayout::fill_springs(Block& block) const {
     const ListedSpring& spring = model_.body.listed.springs[n];
     if (!part.holds(spring.a) && !part.holds(spring.b)) continue;
     const SpringProperties properties = model_.spring_properties(spring.a, spring.b, n);
-    const double alarm = model_.springs.choice.breakable
-                             ? model_.alarm(spring.a, spring.b, n, properties)
-                             : infinity;
+    const double alarm =
+        model_.springs.breakable ? model_.alarm(spring.a, spring.b, n, properties) : infinity;
     const double growth = precision == Precision::floats
                               ? squared_growth<float>(properties.rest_length, alarm)
                               : squared_growth(properties.rest_length, alarm);
@@ -306,7 +305,7 @@ double ListedLayout::state_bytes() const {
                        (model_.body.listed.shares.empty() ? 0.0 : double{sizeof(double)}) +
                        double{sizeof(std::uint16_t)} + (model_.kinds.material_of.empty() ? 0 : 1);
   const double slot_lane =
-      ((has_own_stiffness() ? 2 : 0) + (model_.springs.choice.breakable ? 1 : 0)) * number +
+      ((has_own_stiffness() ? 2 : 0) + (model_.springs.breakable ? 1 : 0)) * number +
       static_cast<double>(kept_numbers() * sizeof(double));
   double bytes = 0;
   for (std::size_t n = 0; n < blocks.size(); ++n)

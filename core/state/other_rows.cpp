@@ -202,7 +202,7 @@ RowEnergies OtherRows::several_laws_of_grid(Block& block, const KernelRequest& r
       }
       if (measures || !owned) continue;
       if (result.gone) blocks_.note_gone(block, {place.index, n, {&i, 1}, {&result.elongation, 1}});
-      if (!model_.springs.choice.breakable ||
+      if (!model_.springs.breakable ||
           !reaches_alarm(spring.properties, constants.alarm, result.elongation, spring.memory[0]))
         continue;
       rung.push_back(i);
@@ -273,7 +273,7 @@ RowEnergies OtherRows::several_laws_of_list(Block& block, const KernelRequest& r
       if (measures) continue;
       if (result.gone)
         blocks_.note_gone(block, {place.index, slot, {&t, 1}, {&result.elongation, 1}});
-      if (!model_.springs.choice.breakable) continue;
+      if (!model_.springs.breakable) continue;
       const double growth =
           static_cast<const double*>(slots.alarm)[std::uint64_t{slot} * lanes + lane];
       const double alarm = std::sqrt(of.rest_length * of.rest_length + growth) - of.rest_length;

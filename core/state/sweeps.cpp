@@ -23,13 +23,11 @@ void Sweeps::set_damping(double alpha, double rate) {
 void Sweeps::step(const Sweep& sweep) {
   loads_.prepare(sweep);
   loads_.check_factors();
-  const Kernel kernel = damping_ != 0 || damping_rate_ != 0 ? model_.springs.kernels().step_damped
-                                                            : model_.springs.kernels().step;
   read_motion();
   blocks_.team().for_each(blocks_.size(), [&](std::size_t b) {
     Block& block = blocks_[b];
     loads_.set_supports(block, sweep);
-    run_kernel(kernel, block, sweep.before, sweep.after, false);
+    run_kernel(model_.springs.kernels().step, block, sweep.before, sweep.after, false);
     count_work(block);
   });
   loads_.check_answers();
@@ -86,12 +84,13 @@ inline void Sweeps::run_kernel(Kernel kernel, Block& block, double back, double 
     bool measures;
   } host{this, &block, request_for(block, back, forward), measures};
   host.request.self = &host;
-  host.request.review = [](void* self, const AlarmRow& alarm) noexcept {
-    return PluginCall::answer(static_cast<const std::uint8_t*>(nullptr), [&] {
-      const auto* asked = static_cast<const Host*>(self);
-      return asked->sweeps->review_.review(*asked->block, alarm);
-    });
-  };
+  if (model_.springs.breakable)
+    host.request.review = [](void* self, const AlarmRow& alarm) noexcept {
+      return PluginCall::answer(static_cast<const std::uint8_t*>(nullptr), [&] {
+        const auto* asked = static_cast<const Host*>(self);
+        return asked->sweeps->review_.review(*asked->block, alarm);
+      });
+    };
   host.request.receive_gone = [](void* self, const AlarmRow& springs) noexcept {
     PluginCall::answer([&] {
       const auto* asked = static_cast<const Host*>(self);

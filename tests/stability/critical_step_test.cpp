@@ -51,7 +51,7 @@ TEST(CriticalStepOfSeveralMaterials, HoldsForCentredLattices) {
         stage("materials.elastic",
               Keys{{"young", 3e10}, {"density", 700}, {"region", part}} + of.material);
     const auto plan = plan_of(block(8, 6, 6, of, {}, other));
-    ASSERT_TRUE(plan->model->springs.choice.mixed);
+    ASSERT_GT(plan->model->materials.size(), 1U);
     EXPECT_LT(growth(*plan->model, 0.99, 0), 100) << of.name;
     // The bound for several materials takes no advantage of negative springs.
     const bool negative = std::string(of.name).ends_with("negative");

@@ -56,11 +56,11 @@
   CROSSES(ElasticConstants, C11, C12, C44)                                                                                                            \
   CROSSES(LatticeFacts, spacing, basis, site_volume, membrane_distance, neighbours, spring_classes, class_stiffness, particles, squared_lengths,      \
           lengths, cubed_lengths, allow_unstable, self, get_elastic_constants, get_stable)                                                            \
-  CROSSES(KernelChoice, membrane, breakable, mixed, listed, precision)                                                                                \
+  CROSSES(KernelChoice, membrane, listed, precision)                                                                                \
   CROSSES(SpringIdentity, a, b)                                                                                                                       \
   CROSSES(OneSpring, stiffness, rest_length, elongation, law, memory)                                                                                 \
   CROSSES(SpringAnswer, force, energy, dissipated, integrity)                                                                                                                \
-  CROSSES(KernelSet, step, step_damped, measure, step_row, measure_row, linearise, ask, take, start, memory, linear, softens, instructions)                                                   \
+  CROSSES(KernelSet, step, measure, step_row, measure_row, linearise, ask, take, start, memory, linear, softens, instructions)                                                   \
   CROSSES(MaterialFunctions, constants, kernels, law, stable_step)                                                                                    \
   CROSSES(SpringConstants, stiffness, cross_stiffness, alarm, law)                                                                                    \
   CROSSES(NeighbourGeometry, site, rest, rest_length, cross_rest_length)                                                                              \

@@ -199,8 +199,9 @@ struct KernelRequest {
   Vec3 acceleration;        ///< acceleration of every particle, m/s2
   BoundaryParticle* boundary_particles = nullptr;
   void* self = nullptr;
-  /// Asks the failure criterion about springs above their alarm. Returns one flag for each spring:
-  /// 1 removes it. Null: the criterion failed, and the run ends.
+  /// Asks the failure criterion about springs above their alarm. Null: springs have no alarm.
+  /// Returns one flag for each spring: 1 removes it. Returns null if the criterion failed; the run
+  /// ends.
   const std::uint8_t* (*review)(void* self, const AlarmRow& springs) noexcept = nullptr;
   /// Receives springs whose integrity became 0 in the step. They stay: a closed crack may push.
   void (*receive_gone)(void* self, const AlarmRow& springs) noexcept = nullptr;

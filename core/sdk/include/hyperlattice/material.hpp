@@ -106,8 +106,6 @@ constexpr std::size_t bytes_of(Precision precision) {
 struct KernelChoice {
   enum class Membrane : std::uint32_t { none, clamped, free };
   Membrane membrane = Membrane::none;  ///< none, clamped: 3 degrees of freedom; free: 4
-  bool breakable = false;              ///< a failure criterion is present
-  bool mixed = false;                  ///< more than one material
   bool listed = false;                 ///< a list of particles and springs, not a grid
   Precision precision = Precision::doubles;
 };
@@ -128,11 +126,9 @@ struct SpringAnswer {
 /// has no such kernel.
 struct KernelSet {
   bool (*step)(const KernelRequest& request, const Complaint& why) noexcept = nullptr;
-  bool (*step_damped)(const KernelRequest& request, const Complaint& why) noexcept = nullptr;
   bool (*measure)(const KernelRequest& request, const Complaint& why) noexcept = nullptr;
   /// Computes the springs of one row of a structured body for the kernel of another law: sets the
   /// row's own forces, and adds to those of other rows. The kernel has written a list's records.
-  /// Null if there is one material.
   bool (*step_row)(const KernelRequest& request, const RowPlace& row, RowEnergies& energies,
                    const Complaint& why) noexcept = nullptr;
   bool (*measure_row)(const KernelRequest& request, const RowPlace& row, RowEnergies& energies,

@@ -18,7 +18,7 @@ class ListedForces {
   using Real = NumberOf<config.computed>;
   using Pack = PackOf<Real>;
   static constexpr Membrane membrane = config.membrane;
-  static constexpr bool measuring = config.measures(), Breakable = config.breakable;
+  static constexpr bool measuring = config.measures();
   static constexpr int components = config.components(), width = lanes_of<Real>,
                        slot_width = lanes_of<Stored>;
 
@@ -175,7 +175,7 @@ class ListedForces {
                   (reach.square + request_.membrane_distance * request_.membrane_distance);
         outside.look(cross_p, -range, range);
       }
-      if constexpr (Breakable) outside.look_above(reach.growth, load(alarms(slot)));
+      if (slots_.alarm != nullptr) outside.look_above(reach.growth, load(alarms(slot)));
       if (!outside && !request_.exact) [[likely]] {
         pulls.base = near_rest(stiffness, reach.square, p, constants.law[0]);
         if constexpr (membrane != Membrane::none)
@@ -219,7 +219,7 @@ class ListedForces {
       pulls.cross = where(there_is, cross.force_over_length);
       if constexpr (measuring) stored += where(there_is, cross.energy);
     }
-    if constexpr (Breakable && !measuring) review(reach, slot);
+    if (!measuring && slots_.alarm != nullptr) review(reach, slot);
     return pulls;
   }
 
@@ -255,8 +255,7 @@ class ListedForces {
     if constexpr (membrane != Membrane::none)
       pulls.cross = pull(1, reach.square + request_.membrane_distance * request_.membrane_distance,
                          reach.cross_growth, cross_stiffness);
-    if constexpr (Breakable && !measuring)
-      if (slots_.alarm != nullptr) review(reach, slot);
+    if (!measuring && slots_.alarm != nullptr) review(reach, slot);
     return pulls;
   }
 
@@ -313,7 +312,7 @@ class ListedSweep {
   static constexpr int components = config.components();
   using Real = NumberOf<config.computed>;
   using Pack = PackOf<Real>;
-  using Springs = ListedForces<Law, config.of_springs(false, false)>;
+  using Springs = ListedForces<Law, config>;
 
  public:
   static void run(const KernelRequest& request) {
@@ -324,9 +323,9 @@ class ListedSweep {
     for (std::uint32_t index = 0; index < static_cast<std::uint32_t>(request.rows_per_plane);
          ++index) {
       const Row& row = request.rows[index];
-      Motion<config.of_motion()> motion(request, row);
+      Motion<config> motion(request, row);
       Energies<Pack> energies;
-      if (config.mixed && row.law != 0) {
+      if (row.law != 0) {
         request.other_row(request.self, {index, static_cast<std::int32_t>(index), 0});
         if (motion.accelerated()) motion.add_body_force(forces, row.end);
       } else {

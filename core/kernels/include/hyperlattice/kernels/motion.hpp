@@ -35,17 +35,17 @@ inline PackOf<Real> load_weights(const double* weights, const std::uint32_t* pla
 }
 
 /// Values of a row's particles that depend on their materials and their fractions of a whole
-/// particle.
-template <bool Mixed, class Real>
+/// particle. OneMaterial: the row has one material.
+template <bool OneMaterial, class Real>
 class RowValues {
   using Pack = PackOf<Real>;
 
  public:
   RowValues(const KernelRequest& request, const Row& row)
-      : material_(Mixed && row.material < 0 && request.mixture == nullptr
+      : material_(!OneMaterial && row.material < 0 && request.mixture == nullptr
                       ? request.material + row.start
                       : nullptr),
-        mixture_(Mixed && row.material < 0 && request.mixture != nullptr
+        mixture_(!OneMaterial && row.material < 0 && request.mixture != nullptr
                      ? request.mixture + row.start
                      : nullptr),
         uniform_(row.material < 0 ? 0 : row.material),
@@ -56,8 +56,10 @@ class RowValues {
   /// then of each mixture.
   Pack at(const double* values, int t) const {
     Pack pack = values[uniform_];
-    if (material_ != nullptr) pack = of_lanes(values, material_ + t);
-    if (mixture_ != nullptr) pack = of_lanes(values, mixture_ + t);
+    if constexpr (!OneMaterial) {
+      if (material_ != nullptr) pack = of_lanes(values, material_ + t);
+      if (mixture_ != nullptr) pack = of_lanes(values, mixture_ + t);
+    }
     return weight_sets_ == nullptr
                ? pack
                : pack * load_weights<Real>(weights_, weight_sets_ + t / lanes, 0);
@@ -117,14 +119,13 @@ struct Kick {
 };
 
 /// Moves or measures a row. Call vectors() with the forces on all its particles, or vector() for
-/// each vector of particles; then finish().
-template <KernelConfig config>
+/// each vector of particles; then finish(). OneMaterial: the row has one material.
+template <KernelConfig config, bool OneMaterial = false>
 class Motion {
   using Stored = NumberOf<config.stored>;
   using Real = NumberOf<config.computed>;
   using Pack = PackOf<Real>;
   static constexpr Membrane membrane = config.membrane;
-  static constexpr Task task = config.task;
   static constexpr int components = config.components(), width = lanes_of<Real>;
   static constexpr bool measuring = config.measures();
 
@@ -136,6 +137,8 @@ class Motion {
         mass_(values_.at(request.mass, 0)),
         inverse_mass_(1.0 / mass_) {}
 
+  /// Returns whether particles have damping.
+  bool damped() const { return request_.damping != 0 || request_.damping_rate != 0; }
   /// Returns whether the body has an acceleration.
   bool accelerated() const {
     return request_.acceleration.x != 0 || request_.acceleration.y != 0 ||
@@ -167,16 +170,16 @@ class Motion {
   /// padded to whole vectors. Not inlined: all sweeps share it.
   [[gnu::noinline]] void vectors(Real* const (&force)[components]) {
     supports_before(force);
-    for (int t = 0; t < row_.end - row_.begin; t += width) {
-      Forces<components, Real> forces;
-      for (std::size_t c = 0; c < components; ++c) forces[c] = load(force[c] + t);
-      vector(t, forces);
-    }
+    if (!measuring && damped())
+      all_vectors<true>(force);
+    else
+      all_vectors<false>(force);
     if constexpr (!measuring) supports_after();
   }
 
   /// Moves or measures one vector of particles, given the total force on them. The first is element
-  /// t of the row.
+  /// t of the row. Damped: see damped(); a measurement takes damping into account anyway.
+  template <bool Damped>
   HYPERLATTICE_INLINE void vector(int t, Forces<components, Real>& forces) {
     const double kick = request_.back + request_.forward, drift = 2 * request_.forward;
     if (!values_.constant()) {
@@ -205,7 +208,7 @@ class Motion {
         momentum_[c] += mass_ * mean;
         potential_ += mass_ * acceleration[c] * displacement;
         damped_ += request_.back * kicked.drag * velocity;
-      } else if constexpr (task == Task::step_damped) {
+      } else if constexpr (Damped) {
         const Kick<Pack> kicked(request_, kick, force, velocity, mass_, inverse_mass_);
         store_as(v, kicked.after);
         store_as(u, displacement + drift * kicked.after);
@@ -223,9 +226,9 @@ class Motion {
   template <bool Dissipating = false>
   [[gnu::noinline]] void finish(std::uint32_t index, const Energies<Pack>& springs) {
     damped_ += springs.dissipated;
-    if constexpr (task == Task::step_damped || (task == Task::step && Dissipating))
+    if (!measuring && (Dissipating || damped()))
       request_.damped_work[index] += sum(damped_) - not_damped_;
-    if constexpr (task != Task::measure && Dissipating)
+    if constexpr (!measuring && Dissipating)
       if (request_.fracture_work != nullptr)
         request_.fracture_work[index] += sum(springs.fractured);
     if constexpr (measuring) {
@@ -243,6 +246,15 @@ class Motion {
   }
 
  private:
+  template <bool Damped>
+  void all_vectors(Real* const (&force)[components]) {
+    for (int t = 0; t < row_.end - row_.begin; t += width) {
+      Forces<components, Real> forces;
+      for (std::size_t c = 0; c < components; ++c) forces[c] = load(force[c] + t);
+      vector<Damped>(t, forces);
+    }
+  }
+
   Stored* displacement(std::size_t c) const {
     return static_cast<Stored*>(request_.displacement[c]);
   }
@@ -274,7 +286,7 @@ class Motion {
         Stored& v = velocity(c)[support.index];
         const bool held = (support.axes >> c & 1u) != 0;
         if (held) {
-          if constexpr (task == Task::step_damped) {  // a prescribed component has no drag
+          if (damped()) {  // a prescribed component has no drag
             const Kick<double> free(request_, kick, support.sum[c], support.speed_before[c],
                                     support.mass, 1 / support.mass);
             not_damped_ += free.drag * (request_.back * support.speed_before[c] +
@@ -325,7 +337,7 @@ class Motion {
 
   const KernelRequest& request_;
   const Row& row_;
-  RowValues<config.mixed, Real> values_;
+  RowValues<OneMaterial, Real> values_;
   Pack mass_, inverse_mass_;
   Pack stored_ = 0, damped_ = 0, kinetic_ = 0, kinetic_mean_ = 0, momentum_[4] = {0, 0, 0, 0},
        potential_ = 0;

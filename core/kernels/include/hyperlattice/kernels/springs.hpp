@@ -30,10 +30,11 @@ struct RowPair {
   Real* own[components];       ///< forces on the row itself
   Real* received[components];  ///< forces on the neighbours' row
   const std::uint16_t* alive;
+  /// Of a row with several materials: materials of both ends, or mixtures of the row itself.
   const std::uint8_t *material_here, *material_there;
-  /// Mixtures of the row itself; null: springs depend on the materials of their ends.
   const std::uint32_t* mixture;
-  const std::uint32_t* weight_sets;  ///< of a row with weights: place of each vector's set
+  /// Place of each vector's set of weights; null: all weights are 1.
+  const std::uint32_t* weight_sets;
   const double* weights;  ///< weights of the neighbour in the first set, the base of these places
   double* memory;  ///< memory of the row's springs to the neighbour, [base, cross][number][site]
 };
@@ -65,6 +66,7 @@ class Springs {
     const double twice_delta = 2 * request.membrane_distance;
     Pack base_stiffness = constants.stiffness, cross_stiffness = constants.cross_stiffness;
     Pack alarm = squared_growth<Real>(neighbour.rest_length, constants.alarm);
+    const bool several = pair.material_here != nullptr || pair.mixture != nullptr;
     bool rung = false;
     const auto difference_of = [&](std::size_t c, int t) {
       return load_as<Real>(pair.there[c] + t) - load_as<Real>(pair.here[c] + t);
@@ -72,7 +74,7 @@ class Springs {
     for (int t = 0; t < count; t += width) {
       const LanesOf<Real> alive = lanes_with<Real>(load_bits<Real>(pair.alive + t), bit);
       const auto counted = [&](Pack whole) {
-        if constexpr (config.weighted)
+        if (pair.weight_sets != nullptr)
           whole *= load_weights<Real>(pair.weights, pair.weight_sets + t / lanes, 0);
         return where(alive, whole);
       };
@@ -98,7 +100,7 @@ class Springs {
           return counted(response.force_over_length);
         }
       };
-      if constexpr (config.mixed)
+      if (several)
         constants_of_lanes(request, pair, neighbour, t, base_stiffness, cross_stiffness, alarm);
       const Pack dx = difference_of(0, t), dy = difference_of(1, t), dz = difference_of(2, t);
       const Pack q = dx * (2 * rest.x + dx) + dy * (2 * rest.y + dy) + dz * (2 * rest.z + dz);
@@ -112,7 +114,7 @@ class Springs {
         base_q += difference * difference;
       }
       const Pack base_pull = pull_of(0, base_stiffness, neighbour.rest_length, base_q);
-      if constexpr (config.breakable) rung |= any(where(alive, base_q) > alarm);
+      if constexpr (!energy) rung |= any(where(alive, base_q) > alarm);
       Pack pull = base_pull;
 
       if constexpr (membrane != Membrane::none) {

@@ -72,13 +72,6 @@ class Stencil {
     last(carried);
     return rung_;
   }
-  /// Does the same, with the forces stored in one array for each component. Not inlined: all sweeps
-  /// that move their particles later share it.
-  [[gnu::noinline]] std::uint32_t run(Real* const (&forces)[components]) {
-    return run([&](int t, const Packs& sums) __attribute__((always_inline)) {
-      for (std::size_t c = 0; c < components; ++c) store(forces[c] + t, sums[c]);
-    });
-  }
 
  private:
   static constexpr bool leans_forward(std::size_t line) {
@@ -258,7 +251,7 @@ class Stencil {
       }
     });
     const std::uint32_t rung = Kind::template pull<answers>(kinds, q, pulls);
-    if (config.breakable && rung != 0) [[unlikely]]
+    if (rung != 0) [[unlikely]]
       for (std::size_t s = 0; s < number; ++s)
         if ((rung >> s & 1u) != 0) rung_ |= 1u << neighbour[s];
     each<number>([&]<std::size_t s>() __attribute__((always_inline)) {

@@ -22,8 +22,7 @@ class Sweep {
   using Pack = PackOf<Real>;
   using Pair = RowPair<config.of_rows()>;
   static constexpr int components = config.components(), width = lanes_of<Real>;
-  static constexpr bool measuring = config.measures(), Breakable = config.breakable,
-                        Mixed = config.mixed;
+  static constexpr bool measuring = config.measures();
 
  public:
   static void run(const KernelRequest& request) { Sweep(request).all_rows(); }
@@ -35,7 +34,7 @@ class Sweep {
     const int count = (row.end - row.begin + width - 1) / width * width;
     Energies<Pack> energies;
     if (sweep.fuses(row)) {
-      sweep.in_one(row, place.index, place.j, place.k, count);
+      sweep.in_one(row, place.index, place.j, place.k, count, false);
     } else {
       for (Real* own : sweep.own_)
         for (int t = 0; t < count; t += width) store(own + t, Pack(0));
@@ -45,9 +44,8 @@ class Sweep {
   }
 
  private:
-  template <bool Several, bool Weighted>
-  using OneByOne = Springs<Law, config.of_springs(Several, Weighted)>;
-  using Fused = Stencil<Law, config.of_springs(false, false), CubicList>;
+  using OneByOne = Springs<Law, config>;
+  using Fused = Stencil<Law, config, CubicList>;
   static constexpr bool can_fuse =
       !measuring && !LawWithMemory<Law> &&
       vectors <= 2;  // processors with shorter vectors have too few registers
@@ -55,7 +53,8 @@ class Sweep {
   explicit Sweep(const KernelRequest& request)
       : request_(request),
         scratch_(request, components),
-        fused_(can_fuse && !request.exact && CubicList::is(request.neighbours)) {
+        fused_(can_fuse && !request.exact && CubicList::is(request.neighbours)),
+        breakable_(!measuring && request.review != nullptr) {
     for (int c = 0; c < components; ++c) own_[c] = scratch_.own(c);
   }
 
@@ -74,23 +73,19 @@ class Sweep {
   }
 
   void one_row(const Row& row, std::uint32_t index, int j, int k) {
-    const bool owned = k >= 0, others = Mixed && row.law != 0;
+    const bool owned = k >= 0, others = row.law != 0, in_one_pass = !others && fuses(row);
     const int count = (row.end - row.begin + width - 1) / width * width;
-    Motion<config.of_motion()> motion(request_, row);
-    // Particles can move as soon as the forces on them are known, unless a criterion or a boundary
-    // particle must see the forces first.
-    constexpr bool may_move_at_once = can_fuse && !Breakable && !Mixed && !measuring;
+    // Particles can move as soon as the forces on them are known, unless a criterion, damping or a
+    // boundary particle must see the forces first.
+    Motion<config> motion(request_, row);
+    if (in_one_pass && owned && !breakable_ && !motion.damped() &&
+        row.first_boundary_particle == row.last_boundary_particle)
+      return in_one(row, index, j, k, count, true);
     Energies<Pack> energies;
-    if constexpr (may_move_at_once)
-      if (fused_ && owned && row.first_boundary_particle == row.last_boundary_particle) {
-        move_at_once(row, j, k, count, motion);
-        return motion.template finish<LawWithMemory<Law>>(index, energies);
-      }
-    const bool in_one_pass = !others && fuses(row);
     if (others) {
       request_.other_row(request_.self, {index, j, k});
     } else if (in_one_pass) {
-      in_one(row, index, j, k, count);
+      in_one(row, index, j, k, count, false);
     } else {
       motion.set_body_force(own_, count);
       one_by_one(row, index, j, k, count, energies);
@@ -101,33 +96,34 @@ class Sweep {
     motion.template finish<LawWithMemory<Law>>(index, energies);
   }
 
-  void move_at_once(const Row& row, int j, int k, int count, Motion<config.of_motion()>& motion) {
-    const bool accelerated = motion.accelerated();
-    const typename Fused::Rows rows = rows_of(row, j, k, count);
-    Fused(request_, rows)
-        .run([&](int t, Forces<components, Real>& forces) __attribute__((always_inline)) {
-          if (accelerated)
-            for (std::size_t c = 0; c < components; ++c)
-              forces[c] += motion.body_force(static_cast<int>(c), t);
-          motion.vector(t, forces);
-        });
-  }
-
   /// Returns whether all springs of the row can be computed in one pass.
-  bool fuses(const Row& row) const { return can_fuse && fused_ && (!Mixed || row.material >= 0); }
+  bool fuses(const Row& row) const { return can_fuse && fused_ && row.material >= 0; }
 
-  /// Sets the row's own forces to those of its springs and of earlier rows' springs.
-  void in_one(const Row& row, std::uint32_t index, int j, int k, int count) {
+  /// Computes the row's springs in one pass. moves_at_once: moves its particles too; otherwise sets
+  /// the row's own forces to those of its springs and of earlier rows' springs.
+  void in_one(const Row& row, std::uint32_t index, int j, int k, int count, bool moves_at_once) {
     if constexpr (can_fuse) {
+      Motion<config, true> motion(request_, row);
+      const bool accelerated = motion.accelerated();
       const typename Fused::Rows rows = rows_of(row, j, k, count);
-      const std::uint32_t rung = Fused(request_, rows).run(own_);
-      if (Breakable && k >= 0) review_all(row, index, j, k, rung);
+      const std::uint32_t rung =
+          Fused(request_, rows)
+              .run([&](int t, Forces<components, Real>& forces) __attribute__((always_inline)) {
+                if (moves_at_once) {
+                  if (accelerated)
+                    for (std::size_t c = 0; c < components; ++c)
+                      forces[c] += motion.body_force(static_cast<int>(c), t);
+                  motion.template vector<false>(t, forces);
+                } else {
+                  for (std::size_t c = 0; c < components; ++c) store(own_[c] + t, forces[c]);
+                }
+              });
+      if (breakable_ && k >= 0) review_all(row, index, j, k, rung);
     }
   }
 
   typename Fused::Rows rows_of(const Row& row, int j, int k, int count) {
-    if (const std::int32_t material = Mixed ? row.material : 0; material != kinds_of_)
-      set_kinds(material);
+    if (row.material != kinds_of_) set_kinds(row.material);
     typename Fused::Rows rows;
     for (std::size_t line = 0; line < CubicList::lines.size(); ++line) {
       const auto [dy, dz] = CubicList::lines[line];
@@ -150,9 +146,8 @@ class Sweep {
   void review_all(const Row& row, std::uint32_t index, int j, int k, std::uint32_t rung) {
     for (std::uint32_t n = 0; n < request_.neighbours.size(); ++n)
       if ((rung >> n & 1u) != 0)
-        OneByOne<Mixed, false>::review(request_, pair_of(row, request_.neighbours[n].site, j, k),
-                                       row, index, n,
-                                       constants_of(row, request_.neighbours[n].site.spring_class));
+        OneByOne::review(request_, pair_of(row, request_.neighbours[n].site, j, k), row, index, n,
+                         constants_of(row, request_.neighbours[n].site.spring_class));
   }
 
   /// Adds the forces of the row's springs, one neighbour after another, and those that it received
@@ -170,27 +165,16 @@ class Sweep {
             n * kinds_of(config.membrane) * request_.memory_numbers * request_.memory_stride +
             row.start;
       const auto bit = static_cast<std::uint16_t>(1u << n);
-      const bool uniform = !Mixed || row.material >= 0;
       const SpringConstants* constants = constants_of(row, neighbour.site.spring_class);
-      const auto add = [&]<bool Several, bool Weighted>() {
-        using Springs = OneByOne<Several, Weighted>;
-        const typename Springs::Place place{row, index, n};
-        return Springs::add(request_, pair, neighbour, bit, *constants, count, energies,
-                            !measuring && owned ? &place : nullptr);
-      };
-      bool rung;
-      if (row.weights == no_weights) {
-        rung = uniform ? add.template operator()<false, false>()
-                       : add.template operator()<Mixed, false>();
-      } else {
+      if (row.weights != no_weights) {
         pair.weight_sets = request_.weight_sets + row.weights;
         pair.weights = request_.weights + lanes * (n + 1);
-        rung = uniform ? add.template operator()<false, true>()
-                       : add.template operator()<Mixed, true>();
       }
-      if (Breakable && rung && owned && !measuring)
-        OneByOne<Mixed, false>::review(request_, pair, row, index, n,
-                                       uniform ? constants : nullptr);
+      const typename OneByOne::Place place{row, index, n};
+      const bool rung = OneByOne::add(request_, pair, neighbour, bit, *constants, count, energies,
+                                      !measuring && owned ? &place : nullptr);
+      if (breakable_ && rung && owned)
+        OneByOne::review(request_, pair, row, index, n, row.material >= 0 ? constants : nullptr);
     }
     join_received(row, j, k, count);
   }
@@ -209,7 +193,7 @@ class Sweep {
   // Constants of springs.
   const SpringConstants* constants_of(const Row& row, std::uint32_t spring_class) const {
     const SpringConstants* constants = request_.springs + spring_class;
-    if (Mixed && row.material >= 0)
+    if (row.material >= 0)
       constants += static_cast<std::uint32_t>(row.material) * (request_.materials + 1) *
                    request_.spring_classes;
     return constants;
@@ -223,7 +207,7 @@ class Sweep {
       const SpringConstants& constants = of_material[neighbour.site.spring_class];
       auto& kinds = kinds_[neighbour.site.spring_class];
       kinds.base = {constants.stiffness, neighbour.rest_length, constants.law[0],
-                    Breakable ? constants.alarm : infinity};
+                    breakable_ ? constants.alarm : infinity};
       kinds.cross = {constants.cross_stiffness, neighbour.cross_rest_length, constants.law[1],
                      infinity};
     }
@@ -246,9 +230,10 @@ class Sweep {
       pair.received[c] = scratch_.received(c, j + to.dy, k + to.dz) + row.begin + to.dx;
     }
     pair.alive = request_.alive + here;
-    if (Mixed && request_.mixture != nullptr) {
+    if (row.material >= 0) return pair;
+    if (request_.mixture != nullptr) {
       pair.mixture = request_.mixture + here;
-    } else if (Mixed) {
+    } else {
       pair.material_here = request_.material + here;
       pair.material_there = request_.material + there;
     }
@@ -258,6 +243,7 @@ class Sweep {
   const KernelRequest& request_;
   const ScratchRows<Real> scratch_;
   const bool fused_;
+  const bool breakable_;  ///< springs have alarms
   typename Fused::Kinds kinds_[max_spring_classes];
   std::int32_t kinds_of_ = -1;
   Real* own_[components];
@@ -326,58 +312,37 @@ class Kernels {
   static KernelSet of_membrane(const KernelChoice& choice) {
     switch (choice.membrane) {
       case Membrane::none:
-        return of_failure<Membrane::none>(choice);
+        return of_precision<Membrane::none>(choice);
       case Membrane::clamped:
-        return of_failure<Membrane::clamped>(choice);
+        return of_precision<Membrane::clamped>(choice);
       default:
-        return of_failure<Membrane::free>(choice);
+        return of_precision<Membrane::free>(choice);
     }
   }
   template <Membrane membrane>
-  static KernelSet of_failure(const KernelChoice& choice) {
-    if constexpr (LawWithMemory<Law>) return of_mixture<membrane, true>(choice);
-    return choice.breakable ? of_mixture<membrane, true>(choice)
-                            : of_mixture<membrane, false>(choice);
-  }
-  template <Membrane membrane, bool breakable>
-  static KernelSet of_mixture(const KernelChoice& choice) {
-    if constexpr (LawWithMemory<Law>)
-      return of_precision<membrane, breakable, true>(
-          choice);  // such laws run lane by lane, so fewer materials save nothing
-    return choice.mixed ? of_precision<membrane, breakable, true>(choice)
-                        : of_precision<membrane, breakable, false>(choice);
-  }
-  template <Membrane membrane, bool breakable, bool mixed>
   static KernelSet of_precision(const KernelChoice& choice) {
     return choice.precision == Precision::floats
-               ? of_topology<membrane, breakable, mixed, Precision::floats>(choice)
-               : of_topology<membrane, breakable, mixed, Precision::doubles>(choice);
+               ? of_topology<membrane, Precision::floats>(choice)
+               : of_topology<membrane, Precision::doubles>(choice);
   }
-  template <Membrane membrane, bool breakable, bool mixed, Precision stored>
+  template <Membrane membrane, Precision stored>
   static KernelSet of_topology(const KernelChoice& choice) {
-    constexpr auto config = [](Task task) {
-      return config_of<Law>(membrane, breakable && task != Task::measure, mixed, task, stored);
-    };
-    KernelSet set = choice.listed ? of_sweep<ListedSweep, config(Task::step),
-                                             config(Task::step_damped), config(Task::measure)>()
-                                  : of_sweep<Sweep, config(Task::step), config(Task::step_damped),
-                                             config(Task::measure)>();
+    constexpr KernelConfig step = config_of<Law>(membrane, stored, Task::step),
+                           measure = config_of<Law>(membrane, stored, Task::measure);
+    KernelSet set = choice.listed ? of_sweeps<ListedSweep<Law, step>, ListedSweep<Law, measure>>()
+                                  : of_sweeps<Sweep<Law, step>, Sweep<Law, measure>>();
     set.linearise = [](const SpringRow& row, double& energy, const Complaint& why) noexcept {
       return detail::guarded(why, [&] { energy = Tangent<Law, membrane>::run(row); });
     };
     return set;
   }
-  template <template <class, KernelConfig> class Of, KernelConfig step, KernelConfig step_damped,
-            KernelConfig measure>
-  static KernelSet of_sweep() {
+  template <class Step, class Measure>
+  static KernelSet of_sweeps() {
     KernelSet set;
-    set.step = &run<Of<Law, step>>;
-    set.step_damped = &run<Of<Law, step_damped>>;
-    set.measure = &run<Of<Law, measure>>;
-    if constexpr (step.mixed) {
-      set.step_row = &run_row<Of<Law, step>>;
-      set.measure_row = &run_row<Of<Law, measure>>;
-    }
+    set.step = &run<Step>;
+    set.measure = &run<Measure>;
+    set.step_row = &run_row<Step>;
+    set.measure_row = &run_row<Measure>;
     return set;
   }
 };
