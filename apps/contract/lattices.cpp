@@ -80,7 +80,7 @@ Finding patch(const Model& model) {
                   worst / strongest));
 }
 
-Finding books(const Model& model) {
+Finding energy_balance(const Model& model) {
   const MotionResult coarse = run_motion(model, {1, 0.4}), fine = run_motion(model, {1, 0.1});
   return passes_if(
       coarse.largest_error < 0.01 && fine.largest_error < std::max(1e-10, coarse.largest_error / 8),
@@ -100,7 +100,7 @@ void check_lattice(Trial& trial) {
   trial.check("calibration with a membrane",
               [&] { return calibration(trial.scenes, lattice, usual_membrane); });
   trial.check("patch test", [&] { return patch(model); });
-  trial.check("books of energy", [&] { return books(model); });
+  trial.check("energy balance", [&] { return energy_balance(model); });
   trial.check("same bits", [&] {
     const MotionResult one = run_motion(model, {1, 0.4, 40, 1}),
                        three = run_motion(model, {1, 0.4, 40, 3});

@@ -190,7 +190,7 @@ Finding objective(const Model& model, const LoneSpring& spring) {
                   error));
 }
 
-Finding books(const Model& model, const LoneSpring& spring) {
+Finding energy_balance(const Model& model, const LoneSpring& spring) {
   const double speed = spring.reach() / (2 * spring.period());
   const MotionResult coarse = run_motion(model, {speed, 0.4}),
                      fine = run_motion(model, {speed, 0.1});
@@ -218,7 +218,7 @@ Finding restart(const Model& model, const LoneSpring& spring) {
   const MotionResult cut_off = run_motion(model, motion);
   return passes_if(whole.is_finite() && cut_off.hash == whole.hash &&
                        cut_off.balance.error == whole.balance.error,
-                   "the same bits, and the same books, when it is cut off half-way and goes on");
+                   "the same bits, and the same energies, when it is cut off half-way and goes on");
 }
 
 /// Plans a scene with the material. Returns the first fault; empty if there is none.
@@ -247,7 +247,7 @@ Finding in_a_list(const Trial& trial, const LoneSpring& spring) {
           refusal_of(trial.scenes, {trial.scenes.listed_box(5, 4, 6), trial.example}, plan);
       !refused.empty())
     return not_applicable(std::move(refused));
-  const Finding kept = books(*plan->model, spring), same = same_bits(*plan->model, spring);
+  const Finding kept = energy_balance(*plan->model, spring), same = same_bits(*plan->model, spring);
   return passes_if(kept.verdict == Verdict::passed && same.verdict == Verdict::passed,
                    kept.detail + "; the same bits " + same.detail);
 }
@@ -320,7 +320,7 @@ void check_material(Trial& trial) {
   trial.check("in floats", [&] { return in_floats(trial, spring); });
   trial.check("objectivity", [&] { return objective(*cell->model, spring); });
   trial.check("fracture energy", [&] { return fracture_energy(scenes, trial.example); });
-  trial.check("books of energy", [&] { return books(*block->model, spring); });
+  trial.check("energy balance", [&] { return energy_balance(*block->model, spring); });
   trial.check("same bits", [&] { return same_bits(*block->model, spring); });
   trial.check("in a list", [&] { return in_a_list(trial, spring); });
   trial.check("restart", [&] { return restart(*block->model, spring); });

@@ -1,6 +1,6 @@
 // Loads that answer to the motion: their momentum and energy against closed forms, and their effect
 // on the critical time step.
-#include <support/books.hpp>
+#include <support/energy_balance.hpp>
 #include <support/loaded_block.hpp>
 #include <support/scenes.hpp>
 
@@ -68,9 +68,10 @@ TEST_P(Inner, KeepsMomentumAndSpin) {
 TEST_P(Answering, TheBalanceClosesToTheSquareOfTheStep) {
   for (const Keys& material : {Keys{{"poisson", 0.25}}, membrane}) {
     const auto plan = plan_of(loaded_block(5, 4, 6, GetParam().loads, 1e10, material));
-    const Books at_two_fifths = keep_books(*plan->model, 0.4),
-                at_a_fifth = keep_books(*plan->model, 0.2);
-    for (const Books* books : {&at_two_fifths, &at_a_fifth}) EXPECT_NE(books->last.injected, 0);
+    const WorstBalance at_two_fifths = worst_balance(*plan->model, 0.4),
+                       at_a_fifth = worst_balance(*plan->model, 0.2);
+    for (const WorstBalance* balance : {&at_two_fifths, &at_a_fifth})
+      EXPECT_NE(balance->last.injected, 0);
     const double coarse = at_two_fifths.largest_error, fine = at_a_fifth.largest_error;
     std::printf(
         "%s: largest relative error %.2e at 0.4 of the critical step, %.2e at 0.2: ratio %.2f\n",

@@ -1,6 +1,6 @@
 // The energy balance closes for every way in which energy enters and leaves: to round-off in linear
 // motions, otherwise with an error in proportion to the square of the step.
-#include <support/books.hpp>
+#include <support/energy_balance.hpp>
 #include <support/scenes.hpp>
 
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ TEST_P(Balanced, AtEveryStep) {
   for (const char* membrane : {R"("poisson": 0.25)", R"("membrane": "I-m", "poisson": 0.1)"}) {
     const auto plan = plan_of(block(6, 5, 8, membrane, GetParam().loads));
     const auto error = [&](double fraction) {
-      return keep_books(*plan->model, fraction, GetParam().damping).largest_error;
+      return worst_balance(*plan->model, fraction, GetParam().damping).largest_error;
     };
     const double coarse = error(0.4), fine = error(0.1);
     std::printf("%s: largest relative error %.1e at 0.4 of the critical step, %.1e at 0.1\n",

@@ -2,8 +2,8 @@
 // the scene puts them, at every spacing.
 #include <model/build.hpp>
 
-#include <support/books.hpp>
 #include <support/cells.hpp>
+#include <support/energy_balance.hpp>
 #include <support/rest.hpp>
 
 #include <gtest/gtest.h>

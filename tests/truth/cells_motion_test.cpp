@@ -1,7 +1,7 @@
 // Bodies of cells in motion keep momentum and energy, also while springs break, and their bits do
 // not depend on the number of threads.
-#include <support/books.hpp>
 #include <support/cells.hpp>
+#include <support/energy_balance.hpp>
 
 #include <gtest/gtest.h>
 
@@ -64,8 +64,8 @@ TEST(Cells, BalanceTheirEnergy) {
   for (const char* membrane : {R"("poisson": 0.25)", R"("membrane": "I-m", "poisson": 0.1)"})
     for (const auto& [name, loads, damping, tolerance] : flows) {
       const auto plan = plan_of(scene_of_cells(box_mm(5, 4, 7), membrane, loads));
-      const double coarse = keep_books(*plan->model, 0.4, damping).largest_error,
-                   fine = keep_books(*plan->model, 0.1, damping).largest_error;
+      const double coarse = worst_balance(*plan->model, 0.4, damping).largest_error,
+                   fine = worst_balance(*plan->model, 0.1, damping).largest_error;
       EXPECT_LT(coarse, tolerance) << name << membrane;
       EXPECT_LT(fine, std::max(1e-13, coarse / 10))
           << name << membrane << ": a quarter of the step, a sixteenth of the error";

@@ -33,7 +33,7 @@ class Contact {
             "critical step")
         .restrictions(
             "Springs that are compressed by more than a tenth are pushed too: not for laws of "
-            "large strains. The work of contacts is in the books as "
+            "large strains. The energy balance counts the work of contacts as "
             "that of a "
             "load: what they store counts as taken from the body, and comes back. Particles that "
             "are deeper than half a spacing mean a contact too "

@@ -10,25 +10,26 @@
 
 namespace hyperlattice::test {
 
-struct Books {
+struct WorstBalance {
   double largest_error = 0;  ///< largest relative error of the balance at any step
   EnergyBalance last;
 };
 
 /// Runs 4 us in equal steps, each about `fraction` of the critical time step.
-inline Books keep_books(const Model& model, double fraction, double damping = 0) {
+inline WorstBalance worst_balance(const Model& model, double fraction, double damping = 0) {
   Simulation simulation(model, 2);
   simulation.set_damping(damping);
   const int steps = static_cast<int>(std::ceil(4e-6 / (fraction * model.step_limit.time_step)));
-  Books books;
+  WorstBalance balance;
   simulation.balance();
   for (int n = 0; n < steps; ++n) {
     simulation.step(4e-6 / steps);
-    books.last = simulation.balance();
-    books.largest_error = std::max(books.largest_error, std::abs(books.last.relative_error()));
+    balance.last = simulation.balance();
+    balance.largest_error =
+        std::max(balance.largest_error, std::abs(balance.last.relative_error()));
   }
-  EXPECT_GT(books.last.scale, 0);
-  return books;
+  EXPECT_GT(balance.last.scale, 0);
+  return balance;
 }
 
 }  // namespace hyperlattice::test
