@@ -18,6 +18,10 @@ void Simulation::step(double time_step) { state_->step(time_step); }
 void Simulation::set_time(double time) { state_->clock.set(time); }
 double Simulation::time() const { return state_->clock.time(); }
 std::uint64_t Simulation::steps() const { return state_->clock.steps(); }
+double Simulation::last_step() const { return state_->clock.last_step(); }
+void Simulation::in_parallel(std::size_t size, const std::function<void(std::size_t)>& work) const {
+  state_->blocks.team().for_each(size, work);
+}
 
 double Simulation::kinetic() const { return state_->kinetic.now(); }
 EnergyBalance Simulation::balance() { return state_->energy.balance(); }

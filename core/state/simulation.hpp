@@ -44,6 +44,10 @@ class Simulation {
   /// Sets the present error of the balance to zero.
   void reset_energy_balance();
   std::uint64_t steps() const;
+  /// Returns the length of the last step, s; 0 if the next step starts from rest.
+  double last_step() const;
+  /// Calls work(n) for each n below `size` on the threads of the run, as Team::for_each does.
+  void in_parallel(std::size_t size, const std::function<void(std::size_t)>& work) const;
 
   /// Returns the kinetic energy, J, of the velocities v(n-1/2). Costs little.
   double kinetic() const;
