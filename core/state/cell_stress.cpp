@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace hyperlattice {
 
@@ -253,14 +252,12 @@ Tensor nominal_stress(const PresentCell& cell, double spacing) {
   return -1 / (2 * cell.share * spacing * spacing) * sum;
 }
 
-Symmetric cauchy_stress(const PresentCell& cell, double spacing) {
+std::optional<Tensor> cauchy_stress(const PresentCell& cell, double spacing) {
   const double J = cell.is_whole ? 1 + volume_change(cell.gradient) : 1;
-  Symmetric stress;
-  stress.fill(std::numeric_limits<double>::quiet_NaN());
-  if (!(J > 0)) return stress;
+  if (!(J > 0)) return std::nullopt;
   Tensor sum = cell.share * cube(spacing) * nominal_stress(cell, spacing);
   for (std::size_t n = 0; n < 8; ++n) sum += -1 * outer(cell.force[n], cell.moved[n]);
-  return symmetric_part(1 / (J * cell.share * cube(spacing)) * sum);
+  return 1 / (J * cell.share * cube(spacing)) * sum;
 }
 
 double energy_density(const PresentCell& cell, double spacing) {

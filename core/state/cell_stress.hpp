@@ -6,6 +6,8 @@
 #include <state/present_springs.hpp>
 #include <state/tensor.hpp>
 
+#include <optional>
+
 namespace hyperlattice {
 
 struct PresentCell {
@@ -59,9 +61,10 @@ void for_cells(const PresentSprings& springs, Asked asked, std::int32_t low, std
 /// Returns the nominal stress P, Pa: force, by its first index, on an area at rest, by its second.
 ///   P = -1/(phi l^3) sum f_a (x) X_a = (1/l^3) sum (share of spring) f (x) R + U' cof F
 Tensor nominal_stress(const PresentCell& cell, double spacing);
-/// Returns the Cauchy stress, Pa: -1/(phi J l^3) sum f_a (x) x_a. J is 1 for a cell that is not
-/// whole (the opening of a crack is no volume of the body). NaN if J <= 0.
-Symmetric cauchy_stress(const PresentCell& cell, double spacing);
+/// Returns the Cauchy stress, Pa: -1/(phi J l^3) sum f_a (x) x_a. It is symmetric but for
+/// round-off. J is 1 for a cell that is not whole, because the opening of a crack is no volume of
+/// the body. A cell that is inside out, J <= 0, has no stress.
+std::optional<Tensor> cauchy_stress(const PresentCell& cell, double spacing);
 /// Returns the energy per volume at rest, J/m3.
 double energy_density(const PresentCell& cell, double spacing);
 
