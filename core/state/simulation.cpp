@@ -32,6 +32,14 @@ std::vector<Vec3> Simulation::force_on_load() {
   return force_by_load(state_->blocks);
 }
 
+PresentLoads Simulation::present_loads() const {
+  const State& state = *state_;
+  const double last = state.clock.last_step();
+  state_->sweeps.set_loads(Sweep::present(last));
+  const bool at_rest = last == 0 && state.rest_step == state.clock.steps();
+  return hyperlattice::present_loads(state.blocks, last, at_rest ? &state.rest_loads : nullptr);
+}
+
 const std::vector<Breakage>& Simulation::breakages() const { return state_->failures.breakages(); }
 double Simulation::elongation_now(std::size_t breakage) const {
   return state_->failures.elongation_now(breakage);

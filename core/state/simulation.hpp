@@ -6,6 +6,7 @@
 #include <state/energy_balance.hpp>
 #include <state/equilibrium_update.hpp>
 #include <state/layout.hpp>
+#include <state/load_forces.hpp>
 
 #include <cstdint>
 #include <functional>
@@ -59,6 +60,8 @@ class Simulation {
   /// prescribes, in the present state. At rest it is the force with which the body pushes the load.
   /// Costs one extra sweep that changes nothing.
   std::vector<Vec3> force_on_load();
+  /// Returns what loads do to particles in the present state.
+  PresentLoads present_loads() const;
 
   /// Returns the failures in the order of their steps.
   const std::vector<Breakage>& breakages() const;
