@@ -3,6 +3,8 @@
 #include <report/pictures.hpp>
 #include <report/probe_curves.hpp>
 
+#include <hyperlattice/field_table.hpp>
+
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
@@ -15,11 +17,20 @@ namespace {
 
 constexpr std::size_t most_profiles = 5;
 
+/// Returns the field of a column: its name is the longest with which the column begins. Null: none.
+const FieldInfo* field_of(const std::string& column) {
+  const FieldInfo* found = nullptr;
+  for (const FieldInfo& field : field_table)
+    if (column.starts_with(field.name) &&
+        (found == nullptr || field.name.size() > found->name.size()))
+      found = &field;
+  return found;
+}
+
 std::string unit_of(const std::string& column) {
-  if (column.starts_with("displacement") || column.starts_with("height") ||
-      column.starts_with("radius"))
-    return "m";
-  return column.starts_with("velocity") ? "m/s" : "";
+  if (column.starts_with("radius")) return "m";
+  const FieldInfo* field = field_of(column);
+  return field == nullptr ? "" : std::string(field->unit);
 }
 
 bool ends_in(const std::string& name, std::initializer_list<const char*> endings) {
@@ -30,9 +41,10 @@ bool ends_in(const std::string& name, std::initializer_list<const char*> endings
 /// Returns the name of the plot of a column: the statistics of a number, or the components of a
 /// vector, share one plot.
 std::string quantity_of(const std::string& name) {
+  const std::size_t bar = name.rfind('_');
   const bool is_statistic = ends_in(name, {"_mean", "_min", "_max"});
-  return is_statistic || (!unit_of(name).empty() && ends_in(name, {"_x", "_y", "_z"}))
-             ? name.substr(0, name.rfind('_'))
+  return is_statistic || (find_field_part(name).field != nullptr && find_field(name) == nullptr)
+             ? name.substr(0, bar)
              : name;
 }
 

@@ -46,6 +46,8 @@ class CompositeSpring {
   std::span<const SpringPart> parts() const { return parts_; }
   bool in_series() const { return joined_ == Joined::in_series; }
   std::uint32_t memory() const { return memory_; }  ///< numbers that a spring keeps
+  /// Returns the place in this memory of the first number of part n.
+  std::uint32_t first_number(std::size_t n) const { return first_[n]; }
 
   /// One spring, base (cross 0) or cross (1). `factor`: its stiffness over that of its class.
   struct Spring {

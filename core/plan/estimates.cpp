@@ -14,8 +14,16 @@ namespace {
 double numbers_per_particle(const Plan& plan, const Stage& output) {
   double numbers = 0;
   for (const std::string& name : plan.asked_fields.at(&output))
-    numbers += name == "displacement" || name == "velocity" ? 3 : 1;
+    numbers += components_of(*find_field(name));
   return numbers;
+}
+
+/// Returns how many more numbers per particle are in memory while the fields of an output are
+/// computed: the displacements, and the tensors and weights from which fields follow.
+double working_numbers(const Plan& plan, const Stage& output) {
+  constexpr double numbers = 4 + 2 * 9 + 1;
+  const std::vector<std::string>& names = plan.asked_fields.at(&output);
+  return std::any_of(names.begin(), names.end(), is_measured) ? numbers : 0;
 }
 
 double particles_of(const Plan& plan) { return static_cast<double>(plan.model->body.particles); }
@@ -85,7 +93,8 @@ void estimate_memory(Plan& plan) {
   double output_numbers = 0;  // positions, and the fields of the output with the most numbers
   for (const Family family : {Family::writers, Family::probes})
     for (const Stage* stage : plan.scene->of(family))
-      output_numbers = std::max(output_numbers, 3 + numbers_per_particle(plan, *stage));
+      output_numbers = std::max(
+          output_numbers, 3 + numbers_per_particle(plan, *stage) + working_numbers(plan, *stage));
   double solver_bytes = 0;
   for (const PlannedStage& stage : plan.stages)
     solver_bytes = std::max(solver_bytes, stage.plan.bytes_per_site);

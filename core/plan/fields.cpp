@@ -9,12 +9,23 @@
 namespace hyperlattice {
 
 bool has_field(const Model& model, std::string_view name) {
-  if (name == "displacement" || name == "velocity" || name == "material") return true;
-  if (name == "source") return model.body.is_listed();
-  if (name == "height") return model.degrees_of_freedom == 4;
-  if (name == "broken_open" || name == "broken_closed" || name == "damage")
-    return model.springs.breakable || model.springs.softens;
-  return false;
+  const FieldInfo* field = find_field(name);
+  if (field == nullptr) return false;
+  switch (field->needs) {
+    case FieldNeeds::list:
+      return model.body.is_listed();
+    case FieldNeeds::free_membrane:
+      return model.degrees_of_freedom == 4;
+    case FieldNeeds::failure:
+      return model.springs.breakable || model.springs.softens;
+    default:
+      return true;
+  }
+}
+
+bool is_measured(std::string_view name) {
+  const FieldInfo* field = find_field(name);
+  return field != nullptr && field->is_measured;
 }
 
 namespace {
@@ -23,11 +34,9 @@ std::vector<std::string> asked_by(const Stage& output, const nlohmann::json& res
   std::vector<std::string> asked;
   const auto consider = [&](const nlohmann::json& value) {
     if (!value.is_string()) return;
-    const auto& name = value.get_ref<const std::string&>();
-    const bool is_field =
-        std::find(std::begin(field_names), std::end(field_names), name) != std::end(field_names);
-    if (is_field && std::find(asked.begin(), asked.end(), name) == asked.end())
-      asked.push_back(name);
+    const FieldInfo* field = find_field_part(value.get_ref<const std::string&>()).field;
+    if (field != nullptr && std::find(asked.begin(), asked.end(), field->name) == asked.end())
+      asked.emplace_back(field->name);
   };
   const auto& stage = resolved.at(nlohmann::json::json_pointer(output.pointer));
   for (const Option& option : output.component->info.options) {

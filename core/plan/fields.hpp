@@ -14,6 +14,9 @@ namespace hyperlattice {
 /// need a failure criterion, a source needs a listed body.
 bool has_field(const Model& model, std::string_view name);
 
+/// Returns whether a field is computed from the forces or the motion of all springs.
+bool is_measured(std::string_view name);
+
 /// For each writer and probe, the fields that any of its options names.
 using AskedFields = std::map<const Stage*, std::vector<std::string>>;
 AskedFields asked_fields(const Scene& scene);

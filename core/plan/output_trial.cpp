@@ -63,7 +63,6 @@ class BodyAtRest {
       const Vec3 x = model_.body.position(particle);
       positions_.insert(positions_.end(), {x.x, x.y, x.z});
     }
-    zeros_.assign(positions_.size(), 0.0);
     Snapshot snapshot;
     snapshot.particles = model_.body.particles;
     snapshot.spacing = model_.body.grid.spacing;
@@ -71,10 +70,13 @@ class BodyAtRest {
     snapshot.self = this;
     snapshot.get_field = [](void* self, std::string_view name, Field& field) noexcept {
       return PluginCall::answer(false, [&] {
-        const auto& rest = *static_cast<BodyAtRest*>(self);
-        field.components = name == "displacement" || name == "velocity" ? 3 : 1;
-        field.values = std::span(rest.zeros_).first(field.components * rest.model_.body.particles);
-        return has_field(rest.model_, name);
+        auto& rest = *static_cast<BodyAtRest*>(self);
+        if (!has_field(rest.model_, name)) return false;
+        field.components = components_of(*find_field(name));
+        std::vector<double>& zeros = rest.zeros_[field.components];
+        zeros.resize(field.components * rest.model_.body.particles);
+        field.values = zeros;
+        return true;
       });
     };
     return snapshot;
@@ -93,7 +95,8 @@ class BodyAtRest {
   RegionIndex regions_;
   std::vector<std::string_view> fields_;
   std::vector<RegionId> asked_;
-  std::vector<double> positions_, zeros_;
+  std::vector<double> positions_;
+  std::map<std::uint32_t, std::vector<double>> zeros_;  ///< by number of components
 };
 
 /// A few particles, spread over all that a writer shows, in a motion whose numbers have all digits.
@@ -169,7 +172,7 @@ class ParticleSample {
   bool field(std::string_view name, Field& field) {
     if (!has_field(model_, name)) return false;
     std::vector<double>& values = values_[std::string(name)];
-    field.components = name == "displacement" || name == "velocity" ? 3 : 1;
+    field.components = components_of(*find_field(name));
     values.assign(field.components * size(), 0.0);  // nothing is broken
     if (name == "material")
       std::transform(particles_.begin(), particles_.end(), values.begin(),
@@ -177,8 +180,10 @@ class ParticleSample {
     else if (name == "source")
       std::transform(particles_.begin(), particles_.end(), values.begin(),
                      [this](Particle particle) { return model_.body.listed.source[particle]; });
-    else if (name == "velocity" || name == "displacement" || name == "height")
-      fill(values, name == "velocity" ? 1.0 : 1e-3 * model_.body.grid.spacing);
+    else if (name == "displacement" || name == "height")
+      fill(values, 1e-3 * model_.body.grid.spacing);
+    else if (find_field(name)->needs != FieldNeeds::failure)
+      fill(values, 1.0);
     field.values = values;
     return true;
   }

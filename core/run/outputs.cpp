@@ -35,6 +35,7 @@ void Outputs::archive(Archive& archive) {
 
 void Outputs::begin() {
   for (Output& output : outputs_) begin(output);
+  source_.release();
 }
 
 void Outputs::begin(Output& output) {
@@ -92,16 +93,19 @@ void Outputs::announce(std::string_view file, bool rewritten) {
 void Outputs::show(double time_step) {
   for (Output& output : outputs_)
     if (output.schedule.due(simulation_.time(), time_step)) show_to(output);
+  source_.release();
 }
 
 void Outputs::show_now() {
   for (Output& output : outputs_)
     if (!has_seen_this(output)) show_to(output);
+  source_.release();
 }
 
 void Outputs::show_last() {
   for (Output& output : outputs_)
     if (output.stage->cadence.last && !has_seen_this(output)) show_to(output);
+  source_.release();
 }
 
 void Outputs::show_to(Output& output) {

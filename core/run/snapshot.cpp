@@ -1,10 +1,31 @@
 #include <host/plugin_call.hpp>
 #include <plan/fields.hpp>
 #include <run/snapshot.hpp>
+#include <state/particle_stress.hpp>
 
 #include <algorithm>
 
 namespace hyperlattice {
+
+namespace {
+
+/// Writes of each value the numbers that of(value, out) returns, `components` of them.
+template <class T, class Of>
+void fill(std::vector<double>& numbers, const std::vector<T>& values, std::size_t components,
+          const Of& of) {
+  numbers.resize(components * values.size());
+  for (std::size_t n = 0; n < values.size(); ++n) of(values[n], &numbers[components * n]);
+}
+
+void copy(const Symmetric& from, double* to) { std::copy(from.begin(), from.end(), to); }
+void copy(Vec3 from, double* to) {
+  for (std::size_t c = 0; c < 3; ++c) to[c] = from[c];
+}
+void copy(const Tensor& from, double* to) {
+  for (std::size_t row = 0; row < 3; ++row) copy(from[row], to + 3 * row);
+}
+
+}  // namespace
 
 SnapshotSource::SnapshotSource(const Model& model, const Simulation& simulation)
     : model_(model), simulation_(simulation) {
@@ -26,44 +47,159 @@ const Snapshot& SnapshotSource::take() {
     }
     snapshot_.positions = positions_;
   }
-  for (auto& [name, values] : fields_) values.current = false;
+  if (!measured_) measured_.emplace(model_, simulation_);
   snapshot_.time = simulation_.time();
   snapshot_.step = simulation_.steps();
   return snapshot_;
 }
 
+void SnapshotSource::release() {
+  for (auto& [name, values] : fields_) values.current = false;
+  measured_.reset();
+}
+
+SnapshotSource::Compute SnapshotSource::function_of(std::string_view name) {
+  static constexpr std::pair<std::string_view, Compute> functions[] = {
+      {"displacement", &SnapshotSource::displacement},
+      {"velocity", &SnapshotSource::velocity},
+      {"height", &SnapshotSource::height},
+      {"material", &SnapshotSource::material},
+      {"source", &SnapshotSource::source},
+      {"broken_open", &SnapshotSource::broken_open},
+      {"broken_closed", &SnapshotSource::broken_closed},
+      {"damage", &SnapshotSource::damage},
+      {"stress", &SnapshotSource::stress},
+      {"nominal_stress", &SnapshotSource::nominal_stress},
+      {"principal_stress", &SnapshotSource::principal_stress},
+      {"principal_direction_1", &SnapshotSource::principal_direction<0>},
+      {"principal_direction_2", &SnapshotSource::principal_direction<1>},
+      {"principal_direction_3", &SnapshotSource::principal_direction<2>},
+      {"von_mises", &SnapshotSource::von_mises},
+      {"pressure", &SnapshotSource::pressure},
+      {"strain", &SnapshotSource::strain},
+      {"hencky_strain", &SnapshotSource::hencky_strain},
+      {"strain_rate", &SnapshotSource::strain_rate},
+      {"energy_density", &SnapshotSource::energy_density},
+      {"kinetic_energy_density", &SnapshotSource::kinetic_energy_density},
+      {"internal_force", &SnapshotSource::internal_force},
+      {"external_force", &SnapshotSource::external_force},
+      {"acceleration", &SnapshotSource::acceleration}};
+  static_assert(std::size(functions) == std::size(field_table));
+  for (const auto& [field, function] : functions)
+    if (field == name) return function;
+  return nullptr;
+}
+
 bool SnapshotSource::field(std::string_view name, Field& out) {
-  if (!has_field(model_, name)) return false;
+  const Compute compute = function_of(name);
+  if (compute == nullptr || !has_field(model_, name)) return false;
   Values& values = fields_.try_emplace(std::string(name)).first->second;
-  if (!values.current && !compute(name, values)) return false;
+  if (!values.current) {
+    values.components = components_of(*find_field(name));
+    (this->*compute)(values.numbers);
+  }
   values.current = true;
   out = {values.components, values.numbers};
   return true;
 }
 
-bool SnapshotSource::compute(std::string_view name, Values& values) {
-  values.components = name == "displacement" || name == "velocity" ? 3 : 1;
-  if (name == "displacement")
-    simulation_.displacements(values.numbers);
-  else if (name == "velocity")
-    simulation_.velocities(values.numbers);
-  else if (name == "height")
-    simulation_.heights(values.numbers);
-  else if (name == "material") {
-    values.numbers.resize(model_.body.particles);
-    for (Particle particle = 0; particle < model_.body.particles; ++particle)
-      values.numbers[particle] = model_.kinds.material(particle);
-  } else if (name == "source")
-    values.numbers.assign(model_.body.listed.source.begin(), model_.body.listed.source.end());
-  else if (name == "broken_open")
-    count_broken(values.numbers, true);
-  else if (name == "broken_closed")
-    count_broken(values.numbers, false);
-  else if (name == "damage")
-    compute_damage(values.numbers);
-  else
-    return false;
-  return true;
+void SnapshotSource::displacement(std::vector<double>& numbers) {
+  simulation_.displacements(numbers);
+}
+void SnapshotSource::velocity(std::vector<double>& numbers) { simulation_.velocities(numbers); }
+void SnapshotSource::height(std::vector<double>& numbers) { simulation_.heights(numbers); }
+
+void SnapshotSource::material(std::vector<double>& numbers) {
+  numbers.resize(model_.body.particles);
+  for (Particle particle = 0; particle < model_.body.particles; ++particle)
+    numbers[particle] = model_.kinds.material(particle);
+}
+
+void SnapshotSource::source(std::vector<double>& numbers) {
+  numbers.assign(model_.body.listed.source.begin(), model_.body.listed.source.end());
+}
+
+void SnapshotSource::stress(std::vector<double>& numbers) {
+  fill(numbers, measured_->stresses(), 6, [](const Symmetric& of, double* out) { copy(of, out); });
+}
+
+void SnapshotSource::nominal_stress(std::vector<double>& numbers) {
+  fill(numbers, nominal_stresses(measured_->springs()), 9,
+       [](const Tensor& of, double* out) { copy(of, out); });
+}
+
+void SnapshotSource::principal_stress(std::vector<double>& numbers) {
+  fill(numbers, measured_->principals(), 3,
+       [](const Principal& of, double* out) { copy(of.values, out); });
+}
+
+template <std::size_t n>
+void SnapshotSource::principal_direction(std::vector<double>& numbers) {
+  fill(numbers, measured_->principals(), 3,
+       [](const Principal& of, double* out) { copy(of.directions[n], out); });
+}
+
+void SnapshotSource::von_mises(std::vector<double>& numbers) {
+  fill(numbers, measured_->stresses(), 1,
+       [](const Symmetric& of, double* out) { *out = hyperlattice::von_mises(of); });
+}
+
+void SnapshotSource::pressure(std::vector<double>& numbers) {
+  fill(numbers, measured_->stresses(), 1,
+       [](const Symmetric& of, double* out) { *out = hyperlattice::pressure(of); });
+}
+
+void SnapshotSource::strain(std::vector<double>& numbers) {
+  fill(numbers, measured_->gradients(), 6,
+       [](const Tensor& H, double* out) { copy(green_lagrange_strain(H), out); });
+}
+
+void SnapshotSource::hencky_strain(std::vector<double>& numbers) {
+  fill(numbers, measured_->gradients(), 6,
+       [](const Tensor& H, double* out) { copy(hyperlattice::hencky_strain(H), out); });
+}
+
+void SnapshotSource::strain_rate(std::vector<double>& numbers) {
+  std::vector<double> velocities;
+  simulation_.velocities(velocities);
+  const std::vector<Tensor>& H = measured_->gradients();
+  const std::vector<Tensor> rates = gradients(measured_->springs(), velocities);
+  numbers.resize(6 * H.size());
+  for (std::size_t n = 0; n < H.size(); ++n)
+    copy(hyperlattice::strain_rate(H[n], rates[n]), &numbers[6 * n]);
+}
+
+void SnapshotSource::energy_density(std::vector<double>& numbers) {
+  numbers = energy_densities(measured_->springs());
+}
+
+void SnapshotSource::kinetic_energy_density(std::vector<double>& numbers) {
+  std::vector<double> velocities, rates;
+  simulation_.velocities(velocities);
+  simulation_.height_rates(rates);
+  numbers.resize(model_.body.particles);
+  for (Particle p = 0; p < model_.body.particles; ++p) {
+    const Vec3 v{velocities[3 * p], velocities[3 * p + 1], velocities[3 * p + 2]};
+    const double rise = rates.empty() ? 0 : rates[p],
+                 density = model_.kinds.masses[model_.kinds.of(p)] / model_.body.grid.site_volume;
+    numbers[p] = density / 2 * (dot(v, v) + rise * rise);
+  }
+}
+
+void SnapshotSource::internal_force(std::vector<double>& numbers) {
+  fill(numbers, measured_->internal_forces(), 3, [](Vec3 of, double* out) { copy(of, out); });
+}
+
+void SnapshotSource::external_force(std::vector<double>& numbers) {
+  fill(numbers, measured_->external_forces(), 3, [](Vec3 of, double* out) { copy(of, out); });
+}
+
+void SnapshotSource::acceleration(std::vector<double>& numbers) {
+  const std::vector<Vec3>&inner = measured_->internal_forces(),
+        &outer_forces = measured_->external_forces();
+  numbers.resize(3 * inner.size());
+  for (Particle p = 0; p < inner.size(); ++p)
+    copy((inner[p] + outer_forces[p]) / model_.mass(p), &numbers[3 * p]);
 }
 
 void SnapshotSource::count_broken(std::vector<double>& numbers, bool open) {
@@ -76,7 +212,7 @@ void SnapshotSource::count_broken(std::vector<double>& numbers, bool open) {
   }
 }
 
-void SnapshotSource::compute_damage(std::vector<double>& numbers) {
+void SnapshotSource::damage(std::vector<double>& numbers) {
   const Body& body = model_.body;
   if (springs_of_.empty()) {
     springs_of_.assign(body.particles, 0);

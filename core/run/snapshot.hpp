@@ -1,12 +1,13 @@
 // The view of a running simulation that writers and probes get.
 #pragma once
 
-#include <state/simulation.hpp>
+#include <run/measured.hpp>
 
 #include <hyperlattice/output.hpp>
 
 #include <exception>
 #include <map>
+#include <optional>
 #include <string>
 
 namespace hyperlattice {
@@ -19,9 +20,12 @@ class SnapshotSource {
   SnapshotSource(const SnapshotSource&) = delete;
   SnapshotSource& operator=(const SnapshotSource&) = delete;
 
-  /// Returns the present state, valid until the next call or step. Use it in a PluginCall, which
-  /// keeps the exceptions of its fields.
+  /// Returns the present state, valid until the next call, step or release(). Use it in a
+  /// PluginCall, which keeps the exceptions of its fields. The fields of a state that was taken
+  /// before stay computed.
   const Snapshot& take();
+  /// Forgets what was computed of the present state.
+  void release();
 
  private:
   struct Values {
@@ -29,16 +33,41 @@ class SnapshotSource {
     bool current = false;
     std::vector<double> numbers;
   };
+  using Compute = void (SnapshotSource::*)(std::vector<double>& numbers);
+  static Compute function_of(std::string_view name);
+
   bool field(std::string_view name, Field& out);
-  bool compute(std::string_view name, Values& values);
+  void displacement(std::vector<double>& numbers);
+  void velocity(std::vector<double>& numbers);
+  void height(std::vector<double>& numbers);
+  void material(std::vector<double>& numbers);
+  void source(std::vector<double>& numbers);
+  void broken_open(std::vector<double>& numbers) { count_broken(numbers, true); }
+  void broken_closed(std::vector<double>& numbers) { count_broken(numbers, false); }
+  void damage(std::vector<double>& numbers);
+  void stress(std::vector<double>& numbers);
+  void nominal_stress(std::vector<double>& numbers);
+  void principal_stress(std::vector<double>& numbers);
+  template <std::size_t n>
+  void principal_direction(std::vector<double>& numbers);
+  void von_mises(std::vector<double>& numbers);
+  void pressure(std::vector<double>& numbers);
+  void strain(std::vector<double>& numbers);
+  void hencky_strain(std::vector<double>& numbers);
+  void strain_rate(std::vector<double>& numbers);
+  void energy_density(std::vector<double>& numbers);
+  void kinetic_energy_density(std::vector<double>& numbers);
+  void internal_force(std::vector<double>& numbers);
+  void external_force(std::vector<double>& numbers);
+  void acceleration(std::vector<double>& numbers);
   void count_broken(std::vector<double>& numbers, bool open);
-  void compute_damage(std::vector<double>& numbers);
 
   const Model& model_;
   const Simulation& simulation_;
   Snapshot snapshot_;
   std::vector<double> positions_;
   std::map<std::string, Values, std::less<>> fields_;
+  std::optional<Measured> measured_;
   /// Springs of each particle at the start; filled when damage is first asked for.
   std::vector<std::uint32_t> springs_of_;
 };

@@ -42,6 +42,8 @@ void Simulation::apply_equilibrium(const EquilibriumUpdate& to) {
   set({false, 0, 3}, to.xyz);
   if (!to.heights.empty()) set({false, 3, 1}, to.heights);
   state_->clock.jump(to.time);
+  state_->rest_loads = {to.factor, to.gravity};
+  state_->rest_step = state_->clock.steps();
 }
 
 }  // namespace hyperlattice

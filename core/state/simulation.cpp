@@ -18,6 +18,10 @@ void Simulation::step(double time_step) { state_->step(time_step); }
 void Simulation::set_time(double time) { state_->clock.set(time); }
 double Simulation::time() const { return state_->clock.time(); }
 std::uint64_t Simulation::steps() const { return state_->clock.steps(); }
+double Simulation::last_step() const { return state_->clock.last_step(); }
+void Simulation::in_parallel(std::size_t size, const std::function<void(std::size_t)>& work) const {
+  state_->blocks.team().for_each(size, work);
+}
 
 double Simulation::kinetic() const { return state_->kinetic.now(); }
 EnergyBalance Simulation::balance() { return state_->energy.balance(); }
@@ -26,6 +30,14 @@ std::vector<double> Simulation::injected_by_load() { return state_->energy.injec
 std::vector<Vec3> Simulation::force_on_load() {
   state_->sweeps.measure(Sweep::present(state_->clock.last_step()));
   return force_by_load(state_->blocks);
+}
+
+PresentLoads Simulation::present_loads() const {
+  const State& state = *state_;
+  const double last = state.clock.last_step();
+  state_->sweeps.set_loads(Sweep::present(last));
+  const bool at_rest = last == 0 && state.rest_step == state.clock.steps();
+  return hyperlattice::present_loads(state.blocks, last, at_rest ? &state.rest_loads : nullptr);
 }
 
 const std::vector<Breakage>& Simulation::breakages() const { return state_->failures.breakages(); }

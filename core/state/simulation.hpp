@@ -6,6 +6,7 @@
 #include <state/energy_balance.hpp>
 #include <state/equilibrium_update.hpp>
 #include <state/layout.hpp>
+#include <state/load_forces.hpp>
 
 #include <cstdint>
 #include <functional>
@@ -44,6 +45,10 @@ class Simulation {
   /// Sets the present error of the balance to zero.
   void reset_energy_balance();
   std::uint64_t steps() const;
+  /// Returns the length of the last step, s; 0 if the next step starts from rest.
+  double last_step() const;
+  /// Calls work(n) for each n below `size` on the threads of the run, as Team::for_each does.
+  void in_parallel(std::size_t size, const std::function<void(std::size_t)>& work) const;
 
   /// Returns the kinetic energy, J, of the velocities v(n-1/2). Costs little.
   double kinetic() const;
@@ -55,6 +60,8 @@ class Simulation {
   /// prescribes, in the present state. At rest it is the force with which the body pushes the load.
   /// Costs one extra sweep that changes nothing.
   std::vector<Vec3> force_on_load();
+  /// Returns what loads do to particles in the present state.
+  PresentLoads present_loads() const;
 
   /// Returns the failures in the order of their steps.
   const std::vector<Breakage>& breakages() const;

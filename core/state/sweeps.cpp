@@ -61,6 +61,13 @@ RowSums Sweeps::measure(const Sweep& sweep) {
   return total;
 }
 
+void Sweeps::set_loads(const Sweep& sweep) {
+  loads_.prepare(sweep);
+  read_motion();
+  blocks_.team().for_each(blocks_.size(),
+                          [&](std::size_t b) { loads_.set_supports(blocks_[b], sweep); });
+}
+
 void Sweeps::check_loads() const {
   loads_.check_factors();
   loads_.check_answers();

@@ -21,6 +21,8 @@ class Sweeps {
   /// Returns the sums of the present state, in the order of the rows for any number of blocks.
   /// Changes nothing but the results in rows and boundary particles.
   RowSums measure(const Sweep& sweep);
+  /// Sets the loads of the blocks' boundary particles as measure() does, and nothing else.
+  void set_loads(const Sweep& sweep);
   /// Throws RunError if a load was not a number in the last evaluation.
   void check_loads() const;
 

@@ -35,10 +35,8 @@ class Csv {
     std::vector<Field> fields;
     for (const std::string& name : options_.fields) {
       fields.push_back(require_field(snapshot, name));
-      if (fields.back().components == 1)
-        text += "," + name;
-      else
-        text += "," + name + "_x," + name + "_y," + name + "_z";
+      for (const std::string& column : Quantity({name, std::nullopt, {}}).names())
+        text += "," + column;
     }
     text += '\n';
 

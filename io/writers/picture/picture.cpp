@@ -8,6 +8,7 @@
 
 #include <hyperlattice/frames.hpp>
 
+#include <deque>
 #include <functional>
 #include <iterator>
 
@@ -17,10 +18,37 @@ namespace {
 using namespace picture;
 
 constexpr std::string_view failure = "failure";
-constexpr std::string_view colourings[] = {
-    failure,    "displacement", "displacement_x", "displacement_y", "displacement_z",
-    "velocity", "velocity_x",   "velocity_y",     "velocity_z",     "height",
-    "material", "broken_open",  "broken_closed",  "damage"};
+constexpr bool is_one_colour(const FieldInfo& field) {
+  return field.kind == FieldKind::number || field.kind == FieldKind::vector;
+}
+constexpr std::size_t count_of_colourings() {
+  std::size_t all = 1;
+  for (const FieldInfo& field : field_table) {
+    if (is_one_colour(field)) ++all;
+    if (field.kind != FieldKind::number) all += components_of(field);
+  }
+  return all;
+}
+/// "failure", all fields that have a number or a magnitude, and all components: "stress_xx".
+struct Colourings {
+  Colourings() {
+    std::size_t next = 0;
+    names[next++] = failure;
+    for (const FieldInfo& field : field_table) {
+      if (is_one_colour(field)) names[next++] = field.name;
+      if (field.kind != FieldKind::number)
+        for (const std::string_view part : parts_of(field.kind))
+          names[next++] = texts.emplace_back(std::string(field.name) + "_" + std::string(part));
+    }
+  }
+  std::deque<std::string> texts;
+  std::string_view names[count_of_colourings()];
+};
+const Colourings& colourings() {
+  static const Colourings all;
+  return all;
+}
+
 constexpr std::string_view forms[] = {"cubes", "spheres"};
 constexpr std::string_view cameras[] = {"orthographic", "perspective"};
 constexpr std::string_view fits[] = {"rest", "frame"};
@@ -30,12 +58,17 @@ enum class Projector : std::uint32_t { orthographic, perspective };
 /// Returns the quantity of a colouring: "displacement_y" is the component y of the field
 /// displacement, "displacement" its magnitude.
 QuantityOptions quantity_of(std::string_view colouring) {
-  for (const std::string_view field : {"displacement", "velocity"}) {
-    if (colouring == field) return {std::string(field), Projection::magnitude, {}};
-    if (colouring.starts_with(field))
-      return {std::string(field), static_cast<Projection>(colouring.back() - 'x'), {}};
-  }
-  return {std::string(colouring), std::nullopt, {}};
+  const FieldPart of = find_field_part(colouring);
+  if (of.field == nullptr) return {std::string(colouring), std::nullopt, {}};
+  const std::string field(of.field->name);
+  if (of.part.empty())
+    return {
+        field,
+        of.field->kind == FieldKind::vector ? std::optional(Projection::magnitude) : std::nullopt,
+        {}};
+  const auto* const found =
+      std::find(std::begin(projection_names), std::end(projection_names), of.part);
+  return {field, static_cast<Projection>(found - std::begin(projection_names)), {}};
 }
 
 std::string time_text(double time) {
@@ -79,7 +112,7 @@ class Picture {
                                   "failure (blue intact, red open, green closed) or a field; left "
                                   "out: failure if springs can break, "
                                   "else displacement")
-        .choices(colourings)
+        .choices(colourings().names)
         .add<&Options::range>(
             "range", "",
             "least and greatest value of the colours, SI; left out: those of each frame")
@@ -208,16 +241,23 @@ class Picture {
     std::vector<double> values(drawn_.size());
     for (std::size_t n = 0; n < drawn_.size(); ++n)
       quantity.evaluate(snapshot, field, drawn_[n], &values[n]);
-    const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
-    const double low = options_.range ? options_.range->front() : *least,
-                 high = options_.range ? options_.range->back() : *greatest;
+    double least = infinity, greatest = -infinity;
+    for (const double value : values)
+      if (std::isfinite(value)) {  // a particle may have no value
+        least = std::min(least, value);
+        greatest = std::max(greatest, value);
+      }
+    if (!(least <= greatest)) least = greatest = 0;
+    const double low = options_.range ? options_.range->front() : least,
+                 high = options_.range ? options_.range->back() : greatest;
     Colouring colouring;
     for (const double value : values)
       colouring.colours.push_back(viridis(high > low ? (value - low) / (high - low) : 0));
     std::string name = quantity.names().front();
     std::replace(name.begin(), name.end(), '_', ' ');
-    if (quantity.field() == "displacement" || quantity.field() == "height") name += " (m)";
-    if (quantity.field() == "velocity") name += " (m/s)";
+    const FieldInfo* field_info = find_field(quantity.field());
+    if (field_info != nullptr && !field_info->unit.empty())
+      name += " (" + std::string(field_info->unit) + ")";
     colouring.meaning = name + " from " + short_number(low) + " to " + short_number(high);
     colouring.draw_legend = [=](Image& image) {
       draw_scale(image, short_number(low, 4), short_number(high, 4), name);

@@ -88,7 +88,7 @@ class Vtu {
       const Field field = require_field(snapshot, name);
       const std::size_t offset =
           append(appended, bytes_of(selection_.of(field.values, field.components, buffer_)));
-      xml += data_array("Float64", name, components(field.components), offset);
+      xml += data_array("Float64", name, shape_of(name, field.components), offset);
     }
     xml += "</PointData>\n<Points>\n" + data_array("Float64", "Points", components(3), points) +
            "</Points>\n<Cells>\n";
@@ -112,6 +112,17 @@ class Vtu {
  private:
   static std::string components(std::uint32_t count) {
     return "NumberOfComponents=\"" + std::to_string(count) + "\"";
+  }
+
+  /// Returns the number and the names of a field's components, which ParaView shows.
+  static std::string shape_of(const std::string& name, std::uint32_t count) {
+    std::string text = components(count);
+    const FieldInfo* field = find_field(name);
+    if (field == nullptr || components_of(*field) != count || count == 1) return text;
+    for (std::size_t n = 0; n < count; ++n)
+      text += " ComponentName" + std::to_string(n) + "=\"" + std::string(parts_of(field->kind)[n]) +
+              "\"";
+    return text;
   }
 
   static std::string data_array(std::string_view type, std::string_view name,

@@ -52,8 +52,8 @@ class LineProbe {
 
   explicit LineProbe(const Options& options) : options_(options), quantity_(options) {}
 
-  void begin(const OutputContext&, const Snapshot& first, const ColumnSink& columns) {
-    require_field(first, quantity_.field());
+  void begin(const OutputContext& context, const Snapshot& first, const ColumnSink& columns) {
+    require_field(context, first, quantity_.field());
     const std::vector<Particle> near = near_line(first);
     for (std::int64_t n = 0; n < options_.points; ++n) {
       const double along = static_cast<double>(n) / static_cast<double>(options_.points - 1);
@@ -70,7 +70,7 @@ class LineProbe {
   void sample(const Snapshot& snapshot, double* row) const {
     const Field field = require_field(snapshot, quantity_.field());
     for (const Point& point : points_) {
-      double value[3] = {};
+      double value[max_field_components] = {};
       for (const line::Share& share : point.shares)
         for (std::size_t c = 0; c < field.components; ++c)
           value[c] += share.weight * field.values[share.particle * field.components + c];

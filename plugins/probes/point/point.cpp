@@ -22,8 +22,8 @@ class PointProbe {
 
   explicit PointProbe(const Options& options) : place_(options.position), quantity_(options) {}
 
-  void begin(const OutputContext&, const Snapshot& first, const ColumnSink& columns) {
-    require_field(first, quantity_.field());
+  void begin(const OutputContext& context, const Snapshot& first, const ColumnSink& columns) {
+    require_field(context, first, quantity_.field());
     particle_ = nearest_particle(first, place_);
     const Vec3 stands = position_of(first, particle_);
     if (norm(stands - place_) > 2 * first.spacing)

@@ -31,7 +31,7 @@ class RegionProbe {
         centre_(options.centre) {}
 
   void begin(const OutputContext& context, const Snapshot& first, const ColumnSink& columns) {
-    require_field(first, quantity_.field());
+    require_field(context, first, quantity_.field());
     const auto particles = context.particles(region_);
     particles_.assign(particles.begin(), particles.end());
     if (particles_.empty()) throw std::runtime_error("no particle lies in the region");
@@ -52,7 +52,7 @@ class RegionProbe {
       row[3 * n + 1] = infinity;
       row[3 * n + 2] = -infinity;
     }
-    double values[3] = {};
+    double values[max_field_components] = {};
     for (const Particle particle : particles_) {
       quantity_.evaluate(snapshot, field, particle, values);
       for (std::size_t n = 0; n < count; ++n) {

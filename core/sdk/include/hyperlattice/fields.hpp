@@ -52,13 +52,53 @@ inline Vec3 position_of(const Snapshot& snapshot, Particle particle) {
   return {x[0], x[1], x[2]};
 }
 
-inline bool is_vector_field(std::string_view name) {
-  return name == "displacement" || name == "velocity";
+/// Throws like the functions above. Asks the snapshot only if the run does not name its fields: the
+/// snapshot computes what it is asked for.
+inline void require_field(const OutputContext& context, const Snapshot& first,
+                          std::string_view name) {
+  if (context.fields.empty())
+    require_field(first, name);
+  else
+    require_field(context, name);
 }
 
-/// A number taken from a vector; radial: the component along the line from a centre, outwards.
-enum class Projection : std::uint32_t { x, y, z, magnitude, radial };
-inline constexpr std::string_view projection_names[] = {"x", "y", "z", "magnitude", "radial"};
+/// A number taken from a field: a component; the magnitude of a vector; radial: along the line from
+/// a centre, outwards, v . n of a vector and n . T n of a tensor.
+enum class Projection : std::uint32_t {
+  x,
+  y,
+  z,
+  magnitude,
+  radial,
+  xx,
+  yy,
+  zz,
+  xy,
+  yz,
+  xz,
+  yx,
+  zy,
+  zx,
+  first,
+  second,
+  third
+};
+inline constexpr std::string_view projection_names[] = {
+    "x",  "y",  "z",  "magnitude", "radial", "xx", "yy", "zz", "xy",
+    "yz", "xz", "yx", "zy",        "zx",     "1",  "2",  "3"};
+constexpr std::string_view name_of(Projection projection) {
+  return projection_names[static_cast<std::size_t>(projection)];
+}
+
+/// Returns what the option "component" may be for fields of a kind.
+inline std::vector<std::string_view> projections_of(FieldKind kind) {
+  if (kind == FieldKind::number) return {};
+  const auto parts = parts_of(kind);
+  std::vector<std::string_view> names(parts.begin(), parts.end());
+  if (kind == FieldKind::vector) names.push_back(name_of(Projection::magnitude));
+  if (kind != FieldKind::sorted) names.push_back(name_of(Projection::radial));
+  return names;
+}
 
 struct QuantityOptions {
   std::string field;
@@ -72,8 +112,8 @@ void add_quantity_options(Schema<Options>& schema) {
   schema.template add<&Options::field>("field", "", "what to record")
       .choices(field_names)
       .fallback("\"displacement\"")
-      .template add<&Options::component>("component", "",
-                                         "which number of a vector; left out: x, y and z")
+      .template add<&Options::component>(
+          "component", "", "which number of a vector or tensor; left out: all components")
       .choices(projection_names)
       .template add<&Options::centre>("centre", "m",
                                       "where the component \"radial\" points away from")
@@ -83,25 +123,35 @@ void add_quantity_options(Schema<Options>& schema) {
 /// Checks the options above against each other.
 template <class Options>
 void check_quantity_options(const Options& options, const FaultSink& faults) {
-  if (options.component && !is_vector_field(options.field))
+  const FieldInfo* field = find_field(options.field);
+  if (!options.component || field == nullptr) return;
+  const std::vector<std::string_view> allowed = projections_of(field->kind);
+  if (allowed.empty())
     faults.fault("component", "no component, because \"" + options.field + "\" is a single number");
+  else if (!is_one_of(allowed, name_of(*options.component)))
+    faults.fault("component", "a component of \"" + options.field + "\": " + joined(allowed));
 }
 
-/// One or three numbers of a particle: a field, or a component of it.
+/// The numbers of a particle that a probe or a picture shows: a field, or one number taken from it.
 class Quantity {
  public:
   Quantity() = default;
   explicit Quantity(QuantityOptions options) : options_(std::move(options)) {
-    if (!is_vector_field(options_.field))
+    if (const FieldInfo* field = find_field(options_.field)) kind_ = field->kind;
+    const auto parts = parts_of(kind_);
+    if (options_.component)
+      names_ = {options_.field + "_" + std::string(name_of(*options_.component))};
+    else if (kind_ == FieldKind::number)
       names_ = {options_.field};
-    else if (options_.component)
-      names_ = {options_.field + "_" +
-                std::string(projection_names[static_cast<std::size_t>(*options_.component)])};
     else
-      names_ = {options_.field + "_x", options_.field + "_y", options_.field + "_z"};
+      for (const std::string_view part : parts)
+        names_.push_back(options_.field + "_" + std::string(part));
+    if (options_.component)
+      part_ = static_cast<std::size_t>(
+          std::find(parts.begin(), parts.end(), name_of(*options_.component)) - parts.begin());
   }
 
-  /// Returns one name for each number: "displacement_x", ...
+  /// Returns one name for each number: "displacement_x", ...; at most max_field_components.
   const std::vector<std::string>& names() const { return names_; }
   const std::string& field() const { return options_.field; }
 
@@ -114,31 +164,33 @@ class Quantity {
 
   /// Does the same for the field's numbers `value` at a place of the body at rest.
   void project(const double* value, Vec3 place, double* out) const {
-    if (!options_.component || !is_vector_field(options_.field)) {
-      for (std::size_t n = 0; n < names_.size(); ++n) out[n] = value[n];
-      return;
-    }
-    const Vec3 v{value[0], value[1], value[2]};
-    switch (*options_.component) {
-      case Projection::magnitude:
-        *out = norm(v);
-        break;
-      case Projection::radial:
-        *out = radial(place, v);
-        break;
-      default:
-        *out = value[static_cast<std::size_t>(*options_.component)];
-    }
+    if (!options_.component)
+      std::copy_n(value, names_.size(), out);
+    else if (*options_.component == Projection::magnitude)
+      *out = norm({value[0], value[1], value[2]});
+    else if (*options_.component == Projection::radial)
+      *out = radial(place, value);
+    else
+      *out = value[part_];
   }
 
  private:
-  double radial(Vec3 place, Vec3 value) const {
+  double radial(Vec3 place, const double* v) const {
     const Vec3 outwards = place - options_.centre;
     const double distance = norm(outwards);
-    return distance > 0 ? dot(value, outwards) / distance : 0;
+    if (!(distance > 0)) return 0;
+    if (kind_ == FieldKind::vector) return dot({v[0], v[1], v[2]}, outwards) / distance;
+    const Vec3 n = (1 / distance) * outwards;
+    if (kind_ == FieldKind::symmetric)
+      return dot(n, {v[0] * n.x + v[3] * n.y + v[5] * n.z, v[3] * n.x + v[1] * n.y + v[4] * n.z,
+                     v[5] * n.x + v[4] * n.y + v[2] * n.z});
+    return dot(
+        n, {dot({v[0], v[1], v[2]}, n), dot({v[3], v[4], v[5]}, n), dot({v[6], v[7], v[8]}, n)});
   }
 
   QuantityOptions options_;
+  FieldKind kind_ = FieldKind::number;
+  std::size_t part_ = 0;  ///< place of the component in the field
   std::vector<std::string> names_;
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <hyperlattice/component.hpp>
+#include <hyperlattice/field_table.hpp>
 
 #include <stdexcept>
 
@@ -10,7 +11,7 @@ namespace hyperlattice {
 
 /// A quantity of every particle (or of selected ones), `components` numbers each.
 struct Field {
-  std::uint32_t components = 0;  ///< 1 or 3
+  std::uint32_t components = 0;  ///< 1, 3, 6 or 9
   std::span<const double> values;
 };
 
@@ -25,18 +26,10 @@ struct Snapshot {
   void* self = nullptr;
   bool (*get_field)(void* self, std::string_view name, Field& field) noexcept = nullptr;
 
-  /// Gets a field by name, with (components, unit): "displacement" (3, m), "velocity" (3, m/s),
-  /// "height" (1, m: displacement in the fourth dimension), "material" (1), "source" (1: of a
-  /// listed lattice, index of the particle in the lattice's own order, from 0), "broken_open",
-  /// "broken_closed" (1: number of the particle's broken springs that are open, closed), "damage"
-  /// (1: broken fraction of its springs). Returns false if this run has no such field.
+  /// Gets a field by its name in field_table. A field is computed when it is first asked for. NaN:
+  /// a particle has no such value. Returns false if this run has no such field.
   bool field(std::string_view name, Field& out) const { return get_field(self, name, out); }
 };
-
-/// Names that Snapshot::field knows, for options that list fields.
-inline constexpr std::string_view field_names[] = {"displacement",  "velocity", "height",
-                                                   "material",      "source",   "broken_open",
-                                                   "broken_closed", "damage"};
 
 /// A frame that the output folder already holds.
 struct FrameMark {
