@@ -1,12 +1,13 @@
 #include <host/plugin_call.hpp>
 #include <plan/fields.hpp>
 #include <run/snapshot.hpp>
+#include <state/force_sums.hpp>
 
 #include <algorithm>
 
 namespace hyperlattice {
 
-SnapshotSource::SnapshotSource(const Model& model, const Simulation& simulation)
+SnapshotSource::SnapshotSource(const Model& model, Simulation& simulation)
     : model_(model), simulation_(simulation) {
   snapshot_.particles = model.body.particles;
   snapshot_.spacing = model.body.grid.spacing;
@@ -15,6 +16,15 @@ SnapshotSource::SnapshotSource(const Model& model, const Simulation& simulation)
     return PluginCall::answer(false,
                               [&] { return static_cast<SnapshotSource*>(self)->field(name, out); });
   };
+  snapshot_.get_resultant = [](void* self, ForcesId forces, Vec3 about) noexcept {
+    return PluginCall::answer(
+        Resultant(), [&] { return static_cast<SnapshotSource*>(self)->resultant(forces, about); });
+  };
+}
+
+void SnapshotSource::renew() {
+  for (auto& [name, values] : fields_) values.current = false;
+  forces_current_ = false;
 }
 
 const Snapshot& SnapshotSource::take() {
@@ -26,7 +36,6 @@ const Snapshot& SnapshotSource::take() {
     }
     snapshot_.positions = positions_;
   }
-  for (auto& [name, values] : fields_) values.current = false;
   snapshot_.time = simulation_.time();
   snapshot_.step = simulation_.steps();
   return snapshot_;
@@ -64,6 +73,14 @@ bool SnapshotSource::compute(std::string_view name, Values& values) {
   else
     return false;
   return true;
+}
+
+Resultant SnapshotSource::resultant(ForcesId forces, Vec3 about) {
+  if (forces.index >= simulation_.force_sums().size())
+    throw PluginMistake("it asks for forces that it did not name in begin()");
+  if (!forces_current_) simulation_.force_sums().measure();
+  forces_current_ = true;
+  return simulation_.force_sums().sum(forces, about);
 }
 
 void SnapshotSource::count_broken(std::vector<double>& numbers, bool open) {

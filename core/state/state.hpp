@@ -6,6 +6,7 @@
 #include <state/clock.hpp>
 #include <state/energy_account.hpp>
 #include <state/failure_record.hpp>
+#include <state/force_sums.hpp>
 #include <state/kinetic_energy.hpp>
 #include <state/law_memory.hpp>
 #include <state/other_rows.hpp>
@@ -26,6 +27,7 @@ struct Simulation::State {
   EnergyAccount energy{blocks, clock, failures, sweeps};
   LawMemory law_memory{blocks, energy};
   KineticEnergy kinetic{blocks};
+  ForceSums force_sums{blocks, clock, loads, sweeps};
 
   State(const Model& model, int threads) : blocks(model, threads) {}
 
