@@ -16,10 +16,13 @@ namespace {
 constexpr std::size_t most_profiles = 5;
 
 std::string unit_of(const std::string& column) {
-  if (column.starts_with("displacement") || column.starts_with("height") ||
-      column.starts_with("radius"))
-    return "m";
-  return column.starts_with("velocity") ? "m/s" : "";
+  static constexpr std::pair<const char*, const char*> units[] = {
+      {"displacement", "m"}, {"height", "m"},     {"radius", "m"},
+      {"elongation", "m"},   {"velocity", "m/s"}, {"force", "N"},
+      {"moment", "N m"},     {"stress", "Pa"},    {"area", "m2"}};
+  for (const auto& [name, unit] : units)
+    if (column.starts_with(name)) return unit;
+  return "";
 }
 
 bool ends_in(const std::string& name, std::initializer_list<const char*> endings) {
