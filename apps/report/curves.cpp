@@ -1,5 +1,6 @@
 #include <report/curves.hpp>
 #include <report/probe_curves.hpp>
+#include <report/stress_strain.hpp>
 
 #include <spdlog/fmt/fmt.h>
 
@@ -62,6 +63,7 @@ std::vector<Plot> plots_of(const RunRecord& run) {
   for (const auto& [column, name] : broken)
     breakage.series.push_back(series_of(run, over_time, column, name));
   if (any_above_zero(breakage)) keep(plots, std::move(breakage));
+  keep(plots, stress_over_strain(run));
   for (const Probe& probe : run.probes)
     for (Plot& plot : plots_of(probe)) keep(plots, std::move(plot));
   return plots;
@@ -85,6 +87,13 @@ std::vector<Plot> plots_together(std::span<const RunRecord> runs) {
             together(fmt::format("Broken springs, {}", name), {"springs", "", true}, column);
         any_above_zero(plot))
       keep(plots, std::move(plot));
+  Plot stress{"Stress over strain", {"strain", ""}, {"stress", "Pa"}, {}};
+  for (const RunRecord& run : runs)
+    for (Series& series : stress_over_strain(run).series) {
+      series.label = fmt::format("{}: {}", run.label, series.label);
+      stress.series.push_back(std::move(series));
+    }
+  keep(plots, std::move(stress));
   for (Plot& plot : probes_together(runs)) keep(plots, std::move(plot));
   return plots;
 }

@@ -28,9 +28,12 @@ const FieldInfo* field_of(const std::string& column) {
 }
 
 std::string unit_of(const std::string& column) {
-  if (column.starts_with("radius")) return "m";
-  const FieldInfo* field = field_of(column);
-  return field == nullptr ? "" : std::string(field->unit);
+  if (const FieldInfo* field = field_of(column)) return std::string(field->unit);
+  static constexpr std::pair<const char*, const char*> units[] = {
+      {"radius", "m"}, {"elongation", "m"}, {"force", "N"}, {"moment", "N m"}, {"area", "m2"}};
+  for (const auto& [name, unit] : units)
+    if (column.starts_with(name)) return unit;
+  return "";
 }
 
 bool ends_in(const std::string& name, std::initializer_list<const char*> endings) {

@@ -54,6 +54,10 @@ struct Load {
   void prepare(const WatchedMotion& motion) const;
   /// Returns the force on the n-th watched particle, N.
   Vec3 answer(const WatchedMotion& motion, std::size_t n) const;
+
+  /// Returns the particles that the load pushes or moves, ascending; a body acceleration acts on
+  /// all `particles` of the body.
+  std::vector<Particle> acts_on(std::uint64_t particles) const;
 };
 
 /// All loads, in the order of the scene, and what they set together. It reads as a list of loads.

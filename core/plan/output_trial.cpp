@@ -1,6 +1,7 @@
 #include <base/errors.hpp>
 #include <base/figures.hpp>
-#include <model/region_index.hpp>
+#include <model/acted_particles.hpp>
+#include <model/section.hpp>
 #include <plan/columns.hpp>
 #include <plan/fields.hpp>
 #include <plan/output_trial.hpp>
@@ -31,7 +32,7 @@ namespace {
 class BodyAtRest {
  public:
   explicit BodyAtRest(const Model& model)
-      : model_(model), regions_(model.body, model.scene->regions) {
+      : model_(model), regions_(model.body, model.scene->regions), acted_(model, regions_) {
     for (const std::string_view name : field_names)
       if (has_field(model, name)) fields_.push_back(name);
   }
@@ -48,9 +49,24 @@ class BodyAtRest {
         return rest.regions_.particles(region);
       });
     };
+    context.acted_particles = [](void* self, LoadOrRegion of) noexcept {
+      return PluginCall::answer(std::span<const Particle>(), [&] {
+        return static_cast<BodyAtRest*>(self)->acted_.particles(of);
+      });
+    };
+    context.external_forces = [](void*, LoadOrRegion) noexcept { return ForcesId(); };
+    context.cut_section = [](void* self, Vec3 point, Vec3 normal, RegionId region) noexcept {
+      return PluginCall::answer(Section(), [&] {
+        auto& rest = *static_cast<BodyAtRest*>(self);
+        const PlaneSection section =
+            cut(rest.model_, point, normal, rest.regions_.particles(region));
+        return Section{{}, section.springs.size(), section.area};
+      });
+    };
     return context;
   }
 
+  std::span<const std::string_view> fields() const { return fields_; }
   std::span<const Particle> particles(RegionId region) { return regions_.particles(region); }
   /// Returns the regions that were asked for since the last call.
   std::vector<RegionId> take_asked() { return std::exchange(asked_, {}); }
@@ -93,6 +109,7 @@ class BodyAtRest {
 
   const Model& model_;
   RegionIndex regions_;
+  ActedParticles acted_;
   std::vector<std::string_view> fields_;
   std::vector<RegionId> asked_;
   std::vector<double> positions_;
@@ -130,7 +147,9 @@ class ParticleSample {
   std::size_t all() const { return all_; }
 
   OutputContext context(const std::string& directory) {
-    OutputContext context = rest_.context();
+    OutputContext context;  // without the functions for probes
+    context.title = model_.scene->title;
+    context.fields = rest_.fields();
     context.directory = directory;
     context.self = this;
     context.region_particles = [](void* self, RegionId region) noexcept {

@@ -12,11 +12,24 @@ void History::archive(Archive& archive) {
 }
 
 void History::begin() {
-  table_ =
-      &folder_.table("history.csv", {"time", "step", "kinetic", "kinetic_mean", "stored",
-                                     "dissipated", "dissipated_failure", "dissipated_damping",
-                                     "injected", "balance_error", "relative_error", "momentum_x",
-                                     "momentum_y", "momentum_z", "broken_open", "broken_closed"});
+  std::vector<std::string> columns{"time",
+                                   "step",
+                                   "kinetic",
+                                   "kinetic_mean",
+                                   "stored",
+                                   "dissipated",
+                                   "dissipated_failure",
+                                   "dissipated_damping",
+                                   "injected",
+                                   "balance_error",
+                                   "relative_error",
+                                   "momentum_x",
+                                   "momentum_y",
+                                   "momentum_z",
+                                   "broken_open",
+                                   "broken_closed"};
+  for (const Load& load : loads_) columns.push_back("work_" + load.stage->name);
+  table_ = &folder_.table("history.csv", columns);
 }
 
 void History::take(const Record& record) {
@@ -26,24 +39,25 @@ void History::take(const Record& record) {
       std::max(largest_relative_error_, std::abs(record.balance.relative_error()));
 }
 
-void History::write() {
+void History::write(const std::vector<double>& work) {
   const EnergyBalance& b = last_.balance;
-  const double values[] = {last_.time,
-                           static_cast<double>(last_.step),
-                           b.kinetic,
-                           b.kinetic_mean,
-                           b.stored,
-                           b.dissipated(),
-                           b.dissipated_failure,
-                           b.dissipated_damping,
-                           b.injected,
-                           b.error,
-                           b.relative_error(),
-                           b.momentum.x,
-                           b.momentum.y,
-                           b.momentum.z,
-                           static_cast<double>(last_.broken_open),
-                           static_cast<double>(last_.broken_closed)};
+  std::vector<double> values{last_.time,
+                             static_cast<double>(last_.step),
+                             b.kinetic,
+                             b.kinetic_mean,
+                             b.stored,
+                             b.dissipated(),
+                             b.dissipated_failure,
+                             b.dissipated_damping,
+                             b.injected,
+                             b.error,
+                             b.relative_error(),
+                             b.momentum.x,
+                             b.momentum.y,
+                             b.momentum.z,
+                             static_cast<double>(last_.broken_open),
+                             static_cast<double>(last_.broken_closed)};
+  values.insert(values.end(), work.begin(), work.end());
   table_->row(values);
 }
 

@@ -1,4 +1,5 @@
-// history.csv: the energy balance, the momentum and the number of broken springs at every record.
+// history.csv: the energy balance, the momentum, the number of broken springs and the work of each
+// load at every record.
 #pragma once
 
 #include <run/folder.hpp>
@@ -17,7 +18,7 @@ struct Record {
 
 class History {
  public:
-  explicit History(RunFolder& folder) : folder_(folder) {}
+  History(RunFolder& folder, const LoadSet& loads) : folder_(folder), loads_(loads) {}
   void archive(Archive& archive);
   /// Begins the table, or continues it. Throws OutsideError if the disk refuses.
   void begin();
@@ -26,8 +27,9 @@ class History {
   bool has(std::uint64_t step) const { return has_record_ && last_.step == step; }
   /// Makes this record the latest.
   void take(const Record& record);
-  /// Writes the latest record. Throws OutsideError if the disk refuses.
-  void write();
+  /// Writes the latest record, with the work of each load, J. Throws OutsideError if the disk
+  /// refuses.
+  void write(const std::vector<double>& work);
 
   const Record& last() const { return last_; }
   /// Returns the largest relative error of the energy balance in all records.
@@ -35,6 +37,7 @@ class History {
 
  private:
   RunFolder& folder_;
+  const LoadSet& loads_;
   Table* table_ = nullptr;
   Record last_;
   bool has_record_ = false;

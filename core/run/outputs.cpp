@@ -4,18 +4,19 @@
 #include <run/outputs.hpp>
 #include <scene/stage_call.hpp>
 #include <state/archive.hpp>
+#include <state/force_sums.hpp>
 
 #include <spdlog/fmt/fmt.h>
 
 namespace hyperlattice {
 
-Outputs::Outputs(const Model& model, const Simulation& simulation, RunFolder& folder,
-                 double end_time)
+Outputs::Outputs(const Model& model, Simulation& simulation, RunFolder& folder, double end_time)
     : model_(model),
       simulation_(simulation),
       source_(model, simulation),
       folder_(folder),
-      regions_(model.body, model.scene->regions) {
+      regions_(model.body, model.scene->regions),
+      acted_(model, regions_) {
   for (const std::string_view name : field_names)
     if (has_field(model, name)) fields_.push_back(name);
   for (const Family family : {Family::writers, Family::probes})
@@ -35,7 +36,7 @@ void Outputs::archive(Archive& archive) {
 
 void Outputs::begin() {
   for (Output& output : outputs_) begin(output);
-  source_.release();
+  source_.renew();
 }
 
 void Outputs::begin(Output& output) {
@@ -66,6 +67,7 @@ void Outputs::begin(Output& output) {
       return true;
     });
   };
+  offer_forces(context);
   if (!is_probe) {
     call(stage, "begin", [&](const Complaint& why) {
       return stage.functions<WriterFunctions>().begin(output.component.get(), context, why);
@@ -82,6 +84,32 @@ void Outputs::begin(Output& output) {
   output.table = &folder_.table("probes/" + stage.name + ".csv", columns);
 }
 
+/// Sets the functions by which a probe asks for forces.
+void Outputs::offer_forces(OutputContext& context) {
+  context.acted_particles = [](void* self, LoadOrRegion of) noexcept {
+    return PluginCall::answer(std::span<const Particle>(),
+                              [&] { return static_cast<Outputs*>(self)->acted_.particles(of); });
+  };
+  context.external_forces = [](void* self, LoadOrRegion of) noexcept {
+    return PluginCall::answer(ForcesId(), [&] {
+      auto& outputs = *static_cast<Outputs*>(self);
+      const std::span<const Particle> particles = outputs.acted_.particles(of);  // checks it
+      return of.is_load()
+                 ? outputs.simulation_.force_sums().follow(static_cast<std::size_t>(of.load))
+                 : outputs.simulation_.force_sums().follow(particles);
+    });
+  };
+  context.cut_section = [](void* self, Vec3 point, Vec3 normal, RegionId region) noexcept {
+    return PluginCall::answer(Section(), [&] {
+      auto& outputs = *static_cast<Outputs*>(self);
+      const PlaneSection section =
+          cut(outputs.model_, point, normal, outputs.regions_.particles(region));
+      return Section{outputs.simulation_.force_sums().follow(section), section.springs.size(),
+                     section.area};
+    });
+  };
+}
+
 void Outputs::announce(std::string_view file, bool rewritten) {
   if (writing_ == nullptr)
     throw PluginMistake("it announced a file when it was not asked to write");
@@ -93,19 +121,19 @@ void Outputs::announce(std::string_view file, bool rewritten) {
 void Outputs::show(double time_step) {
   for (Output& output : outputs_)
     if (output.schedule.due(simulation_.time(), time_step)) show_to(output);
-  source_.release();
+  source_.renew();
 }
 
 void Outputs::show_now() {
   for (Output& output : outputs_)
     if (!has_seen_this(output)) show_to(output);
-  source_.release();
+  source_.renew();
 }
 
 void Outputs::show_last() {
   for (Output& output : outputs_)
     if (output.stage->cadence.last && !has_seen_this(output)) show_to(output);
-  source_.release();
+  source_.renew();
 }
 
 void Outputs::show_to(Output& output) {

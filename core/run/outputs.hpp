@@ -1,7 +1,7 @@
 // The writers and probes of a run: made at the start, called when due, ended in order.
 #pragma once
 
-#include <model/region_index.hpp>
+#include <model/acted_particles.hpp>
 #include <run/folder.hpp>
 #include <run/schedule.hpp>
 #include <run/snapshot.hpp>
@@ -14,7 +14,7 @@ namespace hyperlattice {
 class Outputs {
  public:
   /// `end_time`, s, is the run's and sets the interval of outputs that have none.
-  Outputs(const Model& model, const Simulation& simulation, RunFolder& folder, double end_time);
+  Outputs(const Model& model, Simulation& simulation, RunFolder& folder, double end_time);
   void archive(Archive& archive);
   /// Makes and begins every writer and probe, or continues them.
   void begin();
@@ -40,6 +40,7 @@ class Outputs {
     std::vector<double> row;
   };
   void begin(Output& output);
+  static void offer_forces(OutputContext& context);
   void announce(std::string_view file, bool rewritten);
   bool has_seen_this(const Output& output) const {
     return !output.shown.empty() && output.shown.back().step == simulation_.steps();
@@ -47,13 +48,14 @@ class Outputs {
   void show_to(Output& output);
 
   const Model& model_;
-  const Simulation& simulation_;
+  Simulation& simulation_;
   SnapshotSource source_;
   RunFolder& folder_;
   const Output* writing_ = nullptr;       ///< the output that is at work
   std::vector<std::string_view> fields_;  ///< of this run
   std::list<Output> outputs_;
   RegionIndex regions_;
+  ActedParticles acted_;
 };
 
 }  // namespace hyperlattice

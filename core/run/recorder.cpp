@@ -10,7 +10,7 @@ Recorder::Recorder(const Plan& plan, Simulation& simulation, RunFolder& folder,
       stopwatch_(stopwatch),
       guard_(*plan.model, simulation),
       cells_(*plan.model),
-      history_(folder),
+      history_(folder, plan.model->loads),
       outputs_(*plan.model, simulation, folder, plan.end_time()),
       planned_steps_(plan.steps()) {
   if (plan.model->springs.breakable || plan.model->springs.softens) failures_.emplace(folder);
@@ -75,7 +75,7 @@ void Recorder::record() {
   history_.take(record);
   if (cells_.is_due(record.step)) look_at_cells();
   stopwatch_.output([&] {
-    history_.write();
+    history_.write(simulation_.work_of_loads());
     if (failures_) failures_->write_new(simulation_.breakages());
   });
   if (!stage_->plan.at_rest) guard_.check_balance(record.balance, time_step_);

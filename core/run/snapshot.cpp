@@ -1,6 +1,7 @@
 #include <host/plugin_call.hpp>
 #include <plan/fields.hpp>
 #include <run/snapshot.hpp>
+#include <state/force_sums.hpp>
 #include <state/particle_stress.hpp>
 
 #include <algorithm>
@@ -27,7 +28,7 @@ void copy(const Tensor& from, double* to) {
 
 }  // namespace
 
-SnapshotSource::SnapshotSource(const Model& model, const Simulation& simulation)
+SnapshotSource::SnapshotSource(const Model& model, Simulation& simulation)
     : model_(model), simulation_(simulation) {
   snapshot_.particles = model.body.particles;
   snapshot_.spacing = model.body.grid.spacing;
@@ -36,6 +37,16 @@ SnapshotSource::SnapshotSource(const Model& model, const Simulation& simulation)
     return PluginCall::answer(false,
                               [&] { return static_cast<SnapshotSource*>(self)->field(name, out); });
   };
+  snapshot_.get_resultant = [](void* self, ForcesId forces, Vec3 about) noexcept {
+    return PluginCall::answer(
+        Resultant(), [&] { return static_cast<SnapshotSource*>(self)->resultant(forces, about); });
+  };
+}
+
+void SnapshotSource::renew() {
+  for (auto& [name, values] : fields_) values.current = false;
+  forces_current_ = false;
+  measured_.reset();
 }
 
 const Snapshot& SnapshotSource::take() {
@@ -47,15 +58,9 @@ const Snapshot& SnapshotSource::take() {
     }
     snapshot_.positions = positions_;
   }
-  if (!measured_) measured_.emplace(model_, simulation_);
   snapshot_.time = simulation_.time();
   snapshot_.step = simulation_.steps();
   return snapshot_;
-}
-
-void SnapshotSource::release() {
-  for (auto& [name, values] : fields_) values.current = false;
-  measured_.reset();
 }
 
 SnapshotSource::Compute SnapshotSource::function_of(std::string_view name) {
@@ -200,6 +205,14 @@ void SnapshotSource::acceleration(std::vector<double>& numbers) {
   numbers.resize(3 * inner.size());
   for (Particle p = 0; p < inner.size(); ++p)
     copy((inner[p] + outer_forces[p]) / model_.mass(p), &numbers[3 * p]);
+}
+
+Resultant SnapshotSource::resultant(ForcesId forces, Vec3 about) {
+  if (forces.index >= simulation_.force_sums().size())
+    throw PluginMistake("it asks for forces that it did not name in begin()");
+  if (!forces_current_) simulation_.force_sums().measure();
+  forces_current_ = true;
+  return simulation_.force_sums().sum(forces, about);
 }
 
 void SnapshotSource::count_broken(std::vector<double>& numbers, bool open) {

@@ -12,20 +12,19 @@
 
 namespace hyperlattice {
 
-/// Makes snapshots of the present state. Computes a field only when an output asks for it, once for
-/// each state.
+/// Makes snapshots of the present state. Computes a field, or the forces of loads, only when an
+/// output asks for it, once for each state.
 class SnapshotSource {
  public:
-  SnapshotSource(const Model& model, const Simulation& simulation);
+  SnapshotSource(const Model& model, Simulation& simulation);
   SnapshotSource(const SnapshotSource&) = delete;
   SnapshotSource& operator=(const SnapshotSource&) = delete;
 
-  /// Returns the present state, valid until the next call, step or release(). Use it in a
-  /// PluginCall, which keeps the exceptions of its fields. The fields of a state that was taken
-  /// before stay computed.
+  /// Forgets what was computed of the present state, and frees it.
+  void renew();
+  /// Returns the present state, valid until the next call of renew() or step. Use it in a
+  /// PluginCall, which keeps the exceptions of its fields.
   const Snapshot& take();
-  /// Forgets what was computed of the present state.
-  void release();
 
  private:
   struct Values {
@@ -60,14 +59,17 @@ class SnapshotSource {
   void internal_force(std::vector<double>& numbers);
   void external_force(std::vector<double>& numbers);
   void acceleration(std::vector<double>& numbers);
+  bool compute(std::string_view name, Values& values);
+  Resultant resultant(ForcesId forces, Vec3 about);
   void count_broken(std::vector<double>& numbers, bool open);
 
   const Model& model_;
-  const Simulation& simulation_;
+  Simulation& simulation_;
   Snapshot snapshot_;
   std::vector<double> positions_;
   std::map<std::string, Values, std::less<>> fields_;
   std::optional<Measured> measured_;
+  bool forces_current_ = false;
   /// Springs of each particle at the start; filled when damage is first asked for.
   std::vector<std::uint32_t> springs_of_;
 };

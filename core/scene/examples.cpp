@@ -79,6 +79,7 @@ Json example_value(const Option& option, std::size_t axis) {
     case OptionKind::shape:
       return Json{{"sphere", {{"radius", "10 mm"}}}};
     case OptionKind::region:
+    case OptionKind::load_or_region:
       return "surface";
   }
   return nullptr;

@@ -43,6 +43,9 @@ std::string value_expectation(const Option& option) {
       return "a solid such as {\"sphere\": {\"radius\": \"1 mm\"}}";
     case OptionKind::region:
       return "a region such as \"surface\" or {\"sphere\": {\"radius\": \"1 mm\"}}";
+    case OptionKind::load_or_region:
+      return "the name of a load, or a region such as \"surface\" or {\"sphere\": {\"radius\": \"1 "
+             "mm\"}}";
     case OptionKind::number:
     case OptionKind::integer:
       break;

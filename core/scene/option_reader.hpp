@@ -14,6 +14,8 @@ struct Reading {
   Faults& faults;
   RegionReader& regions;
   std::deque<std::string>& texts;
+  /// Labels of the scene's loads, in their order.
+  std::span<const std::string> loads = {};
 };
 
 struct ReadValue;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kind_names[] = {"number", "integer", "boolean", "text",
                                            "choice", "vector",  "numbers", "texts",
-                                           "shape",  "region",  "file"};
+                                           "shape",  "region",  "file",    "load or region"};
 
 std::string fallback_text(const Option& option) {
   if (!option.fallback.empty()) return fmt::format("`{}`", option.fallback);

@@ -52,6 +52,16 @@ RegionReader::RegionReader(const Json& named, Regions& regions, Faults& faults,
   if (const auto all = regions_.find("all")) ids_.emplace("all", *all);
 }
 
+bool RegionReader::knows(const std::string& name) const {
+  return expressions_.contains(name) || built_in_region(name) != nullptr;
+}
+
+std::vector<std::string> RegionReader::names() const {
+  std::vector<std::string> all = built_in_region_names();
+  for (const auto& item : named_.items()) all.push_back(item.key());
+  return all;
+}
+
 void RegionReader::read_named(Json& resolved) {
   for (const auto& item : named_.items()) {
     const std::string& name = item.key();
@@ -69,9 +79,8 @@ std::shared_ptr<const Region> RegionReader::read_name(const std::string& name,
   if (const auto found = done_.find(name); found != done_.end()) return found->second;
   const auto expression = expressions_.find(name);
   if (expression == expressions_.end()) {
-    std::vector<std::string> candidates = built_in_region_names();
-    if (faults_.size() < most_suggestions)
-      for (const auto& item : named_.items()) candidates.push_back(item.key());
+    const std::vector<std::string> candidates =
+        faults_.size() < most_suggestions ? names() : built_in_region_names();
     faults_.add(pointer, shown(name), "the name of a region" + did_you_mean(name, candidates));
     return nullptr;
   }

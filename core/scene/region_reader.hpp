@@ -35,6 +35,11 @@ class RegionReader {
   /// share this map, since their file names are relative to the same folder.
   std::map<std::string, std::filesystem::path>& files() { return files_; }
 
+  /// Returns whether a region of this name is built in or in the scene.
+  bool knows(const std::string& name) const;
+  /// Returns the names of all regions, built in or in the scene.
+  std::vector<std::string> names() const;
+
   /// Reads all named regions. `resolved` gets the same expressions with SI numbers.
   void read_named(Json& resolved);
 

@@ -59,6 +59,7 @@ Json value_schema(const Option& option) {
     case OptionKind::shape:
       return reference("solid");
     case OptionKind::region:
+    case OptionKind::load_or_region:
       return reference("region");
   }
   return true;

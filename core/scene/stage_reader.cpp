@@ -43,6 +43,40 @@ std::string taken_key(const ComponentInfo& info) {
   return "";
 }
 
+/// The type of a stage and its label.
+struct Label {
+  std::string type, name;
+};
+
+/// Gives each stage without a label the last part of its type, with a number if the label is taken
+/// in its family.
+void complete(std::vector<Label>& labels) {
+  std::map<Family, std::set<std::string>> taken;
+  std::map<std::string, int> last_number;  // last number used, by type
+  for (const Label& label : labels)
+    if (!label.name.empty()) taken[*family_of(label.type)].insert(label.name);
+  for (Label& label : labels) {
+    if (!label.name.empty()) continue;
+    const std::string last_part = label.type.substr(label.type.rfind('.') + 1);
+    label.name = last_part;
+    for (int& number = last_number[label.type];
+         !taken[*family_of(label.type)].insert(label.name).second;)
+      label.name = fmt::format("{}_{}", last_part, number = std::max(number, 1) + 1);
+  }
+}
+
+/// Returns the labels that the loads of a pipeline will have. Options of other stages name them.
+std::vector<std::string> labels_of_loads(const Json& pipeline) {
+  std::vector<Label> labels;
+  for (const Json& stage : pipeline)
+    if (const std::string type = word_in(stage, "type"); family_of(type) == Family::loads)
+      labels.push_back({type, word_in(stage, "name")});
+  complete(labels);
+  std::vector<std::string> names;
+  for (Label& label : labels) names.push_back(std::move(label.name));
+  return names;
+}
+
 }  // namespace
 
 StageReader::StageReader(Reading reading, Catalogue& catalogue, std::vector<Fault>& refusals)
@@ -62,6 +96,8 @@ Json StageReader::read(const Json& scene, std::vector<Stage>& stages) {
         fmt::format("at most {} stages; there are {}", most_stages, pipeline->size()));
     return resolved;
   }
+  loads_ = labels_of_loads(*pipeline);
+  reading_.loads = loads_;
   std::vector<std::optional<Family>> families;
   for (std::size_t n = 0; n < pipeline->size(); ++n) {
     const Json& given = (*pipeline)[n];
@@ -235,25 +271,17 @@ void StageReader::check_order(const std::vector<std::optional<Family>>& families
 
 void StageReader::give_names(std::vector<Stage>& stages, Json& resolved) {
   std::map<Family, std::set<std::string>> taken;
-  std::map<std::string, int> last_number;  // last number used, by type
+  std::vector<Label> labels;
   for (const Stage& stage : stages) {
-    if (stage.name.empty()) continue;
-    if (!taken[stage.family()].insert(stage.name).second)
+    labels.push_back({stage.component->type(), stage.name});
+    if (!stage.name.empty() && !taken[stage.family()].insert(stage.name).second)
       reading_.faults.add(
           member(stage.pointer, "name"), shown(stage.name),
           fmt::format("a label of its own among the {}", family_name(stage.family())));
   }
-  for (std::size_t n = 0; n < stages.size(); ++n) {
-    Stage& stage = stages[n];
-    auto& names = taken[stage.family()];
-    const std::string type = stage.component->type(), label = type.substr(type.rfind('.') + 1);
-    if (stage.name.empty()) {
-      stage.name = label;
-      for (int& number = last_number[type]; !names.insert(stage.name).second;)
-        stage.name = fmt::format("{}_{}", label, number = std::max(number, 1) + 1);
-    }
-    resolved[n]["name"] = stage.name;
-  }
+  complete(labels);
+  for (std::size_t n = 0; n < stages.size(); ++n)
+    resolved[n]["name"] = stages[n].name = std::move(labels[n].name);
 }
 
 }  // namespace hyperlattice

@@ -27,6 +27,7 @@ class StageReader {
   void check_order(const std::vector<std::optional<Family>>& families);
   void give_names(std::vector<Stage>& stages, Json& resolved);
 
+  std::vector<std::string> loads_;  ///< their labels
   Reading reading_;
   Catalogue& catalogue_;
   std::vector<Fault>& refusals_;

@@ -94,6 +94,22 @@ bool read_texts(const Option& option, const Json& given, const std::string& poin
   return good;
 }
 
+/// Reads the label of a load. Returns false if the value is none.
+bool read_load(const Json& given, std::span<const std::string> loads, LoadOrRegion& value) {
+  if (!given.is_string()) return false;
+  const auto found = std::find(loads.begin(), loads.end(), given.get_ref<const std::string&>());
+  if (found == loads.end()) return false;
+  value.load = static_cast<std::int32_t>(found - loads.begin());
+  return true;
+}
+
+/// Returns a hint at the load or region whose name is nearest; empty if none is near.
+std::string nearest_name(const std::string& name, const Reading& reading) {
+  std::vector<std::string> candidates = reading.regions.names();
+  candidates.insert(candidates.end(), reading.loads.begin(), reading.loads.end());
+  return did_you_mean(name, candidates);
+}
+
 }  // namespace
 
 bool read_value(const Option& option, const Json& given, const std::string& pointer,
@@ -163,6 +179,14 @@ bool read_value(const Option& option, const Json& given, const std::string& poin
     case OptionKind::shape:
       plain.shape = reading.regions.read_shape(given, pointer, resolved);
       return plain.shape != nullptr;
+    case OptionKind::load_or_region: {
+      if (read_load(given, reading.loads, plain.load_or_region)) return true;
+      if (given.is_string() && !reading.regions.knows(given.get_ref<const std::string&>()))
+        return wrong(nearest_name(given.get_ref<const std::string&>(), reading));
+      const auto id = reading.regions.read_id(given, pointer, resolved);
+      plain.load_or_region.region = id.value_or(RegionId{});
+      return id.has_value();
+    }
     case OptionKind::region: {
       const auto id = reading.regions.read_id(given, pointer, resolved);
       plain.region = id.value_or(RegionId{});

@@ -34,7 +34,18 @@ ActingLoads::ActingLoads(BlockSet& blocks, const Clock& clock)
   }
 }
 
+void ActingLoads::rest(std::vector<double> factors, double gravity) {
+  rest_factors_ = std::move(factors);
+  gravity_ = gravity;
+}
+
+void ActingLoads::archive(Archive& archive) {
+  archive(rest_factors_);
+  archive(gravity_);
+}
+
 void ActingLoads::prepare(const Sweep& sweep) {
+  if (sweep.step > 0) leave_rest();
   const double time = clock_.time();
   for (std::size_t l = 0; l < acting_.size(); ++l) {
     Acting& now = acting_[l];
@@ -52,6 +63,7 @@ void ActingLoads::prepare(const Sweep& sweep) {
       if (now.moves && reach != 0 && (sweep.measured > 0 || clock_.last_step() == 0))
         now.now = load.limit(time, reach);
     }
+    if (!rest_factors_.empty()) now.mean = rest_factors_[l];
     now.motion = {time, now.mean, now.displacement, now.velocity};
   }
 }

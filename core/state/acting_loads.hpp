@@ -45,6 +45,15 @@ class ActingLoads {
   /// Sets the goals of driven particles: the places where they will be at `time`, s.
   void set_goals(double time);
 
+  /// Lets loads act with these factors, and body accelerations with this fraction, until the next
+  /// step: those of a state of rest on the way of a static stage.
+  void rest(std::vector<double> factors, double gravity);
+  /// Ends this; loads act by their own factors.
+  void leave_rest() { rest({}, 1); }
+  /// Returns the fraction with which body accelerations act in the present state.
+  double gravity() const { return gravity_; }
+  void archive(Archive& archive);
+
   /// Throws RunError if a load factor is not a number, at the present time or in the sweep.
   void check_factors() const;
   /// Throws RunError if a load's answer to a sound motion is not finite.
@@ -69,7 +78,9 @@ class ActingLoads {
   BlockSet& blocks_;
   const Model& model_;
   const Clock& clock_;
-  std::vector<Acting> acting_;  // one per load
+  std::vector<Acting> acting_;        // one per load
+  std::vector<double> rest_factors_;  // one per load in a state of rest, else empty
+  double gravity_ = 1;
 };
 
 }  // namespace hyperlattice

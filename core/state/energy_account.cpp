@@ -49,7 +49,8 @@ EnergyBalance EnergyAccount::balance() {
   balance.dissipated_damping = sums.damped;
   balance.dissipated_failure = failures_.energy() + sums.fractured;
   const double potential = sums.potential - start_potential_;
-  for (const double work : work_by_load(blocks_, potential)) balance.injected += work;
+  work_ = work_by_load(blocks_, potential);
+  for (const double work : work_) balance.injected += work;
   balance.error =
       balance.kinetic + balance.stored + balance.dissipated() - balance.injected - start_energy_;
   largest_energy_ =

@@ -21,6 +21,8 @@ class EnergyAccount {
   EnergyBalance balance();
   /// Returns the work of each load up to the present state, J.
   std::vector<double> injected_by_load();
+  /// Returns the work of each load in the last balance, J.
+  const std::vector<double>& work() const { return work_; }
 
   /// Finds the energy and the potential of the state at the start of the balance, if they are not
   /// known.
@@ -54,6 +56,7 @@ class EnergyAccount {
   double softened_energy_ = 0, halted_energy_ = 0, unused_gravity_ = 0;  // J
   bool start_known_ = false;
   double start_energy_ = 0, start_potential_ = 0, largest_energy_ = 0;  // J
+  std::vector<double> work_;  // of each load in the last balance, J
 };
 
 }  // namespace hyperlattice

@@ -7,6 +7,7 @@ namespace hyperlattice {
 
 void Simulation::hold_time(double time) {
   if (state_->clock.is_held()) return;
+  state_->loads.leave_rest();
   state_->loads.set_goals(time);
   state_->clock.hold(time);
 }
@@ -41,6 +42,7 @@ void Simulation::apply_equilibrium(const EquilibriumUpdate& to) {
   state_->failures.collect(0);
   set({false, 0, 3}, to.xyz);
   if (!to.heights.empty()) set({false, 3, 1}, to.heights);
+  state_->loads.rest(to.factor, to.gravity);
   state_->clock.jump(to.time);
   state_->rest_loads = {to.factor, to.gravity};
   state_->rest_step = state_->clock.steps();

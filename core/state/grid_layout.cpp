@@ -203,6 +203,16 @@ SpringEnds GridLayout::spring(const Block& block, std::uint32_t row, std::uint32
           neighbour, true};
 }
 
+std::optional<std::uint32_t> GridLayout::number_in_row(const Block& block, const Place& first,
+                                                       std::uint32_t neighbour) const {
+  if (!exists(block, first, neighbour)) return std::nullopt;
+  return neighbour;
+}
+
+bool GridLayout::exists(const Block& block, const Place& first, std::uint32_t number) const {
+  return (block.alive[first.index] >> number & 1U) != 0;
+}
+
 Layout::Memory GridLayout::memory(const Block& block, std::uint32_t row, std::uint32_t neighbour,
                                   std::int32_t site, bool cross) const {
   const std::uint64_t sites = block.layout->sites,

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace hyperlattice {
@@ -71,6 +72,12 @@ class Layout {
   /// Returns the two particles of an existing spring, given its place in a kernel's AlarmRow.
   virtual SpringEnds spring(const Block& block, std::uint32_t row, std::uint32_t neighbour,
                             std::int32_t site) const = 0;
+  /// Returns by which number a kernel names a spring (AlarmRow::neighbour), given its first end's
+  /// place and its number in the body (SpringEnds::neighbour); nothing if the spring is gone.
+  virtual std::optional<std::uint32_t> number_in_row(const Block& block, const Place& first,
+                                                     std::uint32_t neighbour) const = 0;
+  /// Returns whether a spring that a kernel names so still exists.
+  virtual bool exists(const Block& block, const Place& first, std::uint32_t number) const = 0;
   /// The memory of the law for one spring: its first number, and the distance to the next one.
   struct Memory {
     double* first = nullptr;

@@ -149,6 +149,21 @@ SpringEnds ListedLayout::spring(const Block& block, std::uint32_t row, std::uint
   return {a, b, static_cast<std::uint32_t>(found - springs.begin()), here == a};
 }
 
+std::optional<std::uint32_t> ListedLayout::number_in_row(const Block& block, const Place& first,
+                                                         std::uint32_t neighbour) const {
+  const std::vector<std::uint32_t>& slots = parts_[block.number].first_slot;
+  for (std::uint32_t slot = slots[first.index / width_]; slot < slots[first.index / width_ + 1];
+       ++slot)
+    if (exists(block, first, slot) &&
+        spring(block, first.row, slot, first.site).neighbour == neighbour)
+      return slot;
+  return std::nullopt;
+}
+
+bool ListedLayout::exists(const Block& block, const Place& first, std::uint32_t number) const {
+  return block.listed.neighbour[number * width_ + first.index % width_] != first.index;
+}
+
 Layout::Memory ListedLayout::memory(const Block& block, std::uint32_t, std::uint32_t slot,
                                     std::int32_t site, bool cross) const {
   const std::size_t numbers =

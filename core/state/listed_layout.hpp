@@ -15,6 +15,9 @@ class ListedLayout final : public Layout {
   void for_stretches(const std::function<void(const Stretch&)>& visit) const override;
   SpringEnds spring(const Block& block, std::uint32_t row, std::uint32_t neighbour,
                     std::int32_t site) const override;
+  std::optional<std::uint32_t> number_in_row(const Block& block, const Place& first,
+                                             std::uint32_t neighbour) const override;
+  bool exists(const Block& block, const Place& first, std::uint32_t number) const override;
   Memory memory(const Block& block, std::uint32_t row, std::uint32_t slot, std::int32_t site,
                 bool cross) const override;
   std::uint64_t other_end(std::size_t block, std::uint32_t row, std::uint32_t neighbour,

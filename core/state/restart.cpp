@@ -7,6 +7,7 @@ void Simulation::archive(Archive& archive) {
   state_->blocks.archive(archive);
   state_->sweeps.archive(archive);
   state_->clock.archive(archive);
+  state_->loads.archive(archive);
   state_->failures.archive(archive);
   state_->energy.archive(archive);
 }

@@ -16,6 +16,7 @@
 namespace hyperlattice {
 
 class Archive;
+class ForceSums;
 
 /// The moving body. Results have the same bits for any number of threads.
 class Simulation {
@@ -54,14 +55,18 @@ class Simulation {
   double kinetic() const;
   /// Returns the balance of the present state. Costs one extra sweep that changes nothing.
   EnergyBalance balance();
-  /// Returns the work of each load up to the present state, J.
+  /// Returns the work of each load up to the present state, J. Costs one extra sweep.
   std::vector<double> injected_by_load();
+  /// Returns the work of each load, J, that the last balance() has counted.
+  const std::vector<double>& work_of_loads() const;
   /// Returns for each load the force, N, on the particles that it moves, along the axes that it
   /// prescribes, in the present state. At rest it is the force with which the body pushes the load.
   /// Costs one extra sweep that changes nothing.
   std::vector<Vec3> force_on_load();
   /// Returns what loads do to particles in the present state.
   PresentLoads present_loads() const;
+  /// Returns the sums of forces that probes follow.
+  ForceSums& force_sums();
 
   /// Returns the failures in the order of their steps.
   const std::vector<Breakage>& breakages() const;

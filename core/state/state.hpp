@@ -6,6 +6,7 @@
 #include <state/clock.hpp>
 #include <state/energy_account.hpp>
 #include <state/failure_record.hpp>
+#include <state/force_sums.hpp>
 #include <state/kinetic_energy.hpp>
 #include <state/law_memory.hpp>
 #include <state/other_rows.hpp>
@@ -30,6 +31,7 @@ struct Simulation::State {
   /// 0: none yet. Not saved: only outputs read them.
   RestLoads rest_loads;
   std::uint64_t rest_step = 0;
+  ForceSums force_sums{blocks, clock, loads, sweeps};
 
   State(const Model& model, int threads) : blocks(model, threads) {}
 

@@ -127,6 +127,8 @@ class Plugin {
       for (std::size_t n = 0; n < option.choices.size(); ++n)
         if (option.choices[n] == out.text) out.integer = static_cast<std::int64_t>(n);
       if (option.kind == OptionKind::region) out.region.index = out.text == "all" ? 0 : 1;
+      if (option.kind == OptionKind::load_or_region)
+        out.load_or_region.region.index = out.text == "all" ? 0 : 1;
     }
     if (value.is_array() && option.kind == OptionKind::texts) {
       for (const auto& text : value) views.push_back(texts_.emplace_back(text.get<std::string>()));

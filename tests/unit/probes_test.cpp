@@ -200,5 +200,81 @@ TEST(RegionProbe, KnowsUniformExpansion) {
   EXPECT_EQ(all.begin_probe(body.context("."), body.at(0)).size(), 9u);
 }
 
+/// The mean place of a region's particles at rest, m.
+Vec3 mean_place(FakeBody& body, const std::vector<Particle>& particles) {
+  Vec3 sum;
+  for (const Particle p : particles)
+    for (const std::size_t axis : {0, 1, 2}) sum[axis] += body.positions()[3 * p + axis];
+  return sum / static_cast<double>(particles.size());
+}
+
+/// A gauge from the particles `some` to all, and the line between their mean places.
+struct Gauge {
+  FakeBody body{{4, 2, 2}};
+  Plugin probe;
+  Vec3 line;
+
+  explicit Gauge(nlohmann::json settings = {})
+      : probe("probes.gauge", [&] {
+          settings["from"] = "some";
+          settings["to"] = "all";
+          return settings;
+        }()) {
+    EXPECT_EQ(probe.begin_probe(body.context("."), body.at(0)),
+              (std::vector<std::string>{"elongation", "strain"}));
+    std::vector<Particle> all;
+    for (Particle p = 0; p < body.positions().size() / 3; ++p) all.push_back(p);
+    line = mean_place(body, all) - mean_place(body, body.some());
+  }
+  /// Moves every particle by move(place) and returns the elongation and the strain.
+  template <class Move>
+  std::vector<double> after(const Move& move) {
+    const Snapshot snapshot = body.at(0);
+    for (std::size_t n = 0; n < body.positions().size(); n += 3) {
+      const Vec3 u =
+          move(Vec3{body.positions()[n], body.positions()[n + 1], body.positions()[n + 2]});
+      for (const std::size_t axis : {0, 1, 2}) body.displacements[n + axis] = u[axis];
+    }
+    return probe.sample(snapshot, 2);
+  }
+};
+
+/// Turns a vector about the axis z.
+Vec3 turned(Vec3 v, double angle) {
+  return {std::cos(angle) * v.x - std::sin(angle) * v.y,
+          std::sin(angle) * v.x + std::cos(angle) * v.y, v.z};
+}
+
+TEST(GaugeProbe, MeasuresStretchAndNoRotation) {
+  Gauge gauge;
+  const double length = norm(gauge.line);
+  for (const double angle : {0.0, 1e-3, 1.0, 3.0})
+    for (const double strain : {0.0, 1e-9, 0.25}) {
+      const auto row = gauge.after([&](Vec3 x) {
+        return turned((1 + strain) * x, angle) - x + Vec3{1e-3, 0, -2e-3};
+      });
+      EXPECT_NEAR(row[0], strain * length, 1e-12 * length) << angle;
+      EXPECT_NEAR(row[1], strain, 1e-12) << angle;
+    }
+}
+
+TEST(GaugeProbe, MeasuresAlongADirection) {
+  Gauge gauge({{"direction", {0.0, 0.0, 2.0}}});
+  const double shear = 0.01;
+  const auto row = gauge.after([&](Vec3 x) { return Vec3{1e-3, 0, shear * x.x}; });
+  EXPECT_NEAR(row[0], shear * gauge.line.x, 1e-16);
+  EXPECT_NEAR(row[1], shear * gauge.line.x / norm(gauge.line), 1e-12);
+}
+
+TEST(GaugeProbe, RefusesAGaugeWithoutLength) {
+  FakeBody body({2, 2, 2});
+  Plugin none("probes.gauge", {{"from", "all"}, {"to", "all"}});
+  EXPECT_EQ(refusal(none, body), "both ends of the gauge have the same mean place");
+  EXPECT_EQ(
+      Plugin("probes.gauge", {{"from", "all"}, {"to", "some"}, {"direction", {0.0, 0.0, 0.0}}})
+          .faults(),
+      std::vector<std::string>{"direction: a vector that is not zero"});
+}
+
 }  // namespace
 }  // namespace hyperlattice::test

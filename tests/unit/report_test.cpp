@@ -7,6 +7,7 @@
 #include <report/curves.hpp>
 #include <report/differences.hpp>
 #include <report/html.hpp>
+#include <report/stress_strain.hpp>
 #include <report/thin.hpp>
 
 #include <gtest/gtest.h>
@@ -274,6 +275,20 @@ TEST(ProbePlots, StandWhereTheyBelong) {
   EXPECT_EQ(titles(plots_together(both)),
             (Labels{"Probe p: damage_mean over time: 2", "Probe p: radius over time: 2"}));
   EXPECT_TRUE(plots_together(mixed).empty());
+}
+
+TEST(StressOverStrain, PairsLoadCellsAndGauges) {
+  RunRecord run;
+  run.probes = {{"cell", {{"time", "force_x", "stress"}, {{0, 1, 2}, {0, 3, 6}, {0, 30, 60}}}},
+                {"gauge", {{"time", "elongation", "strain"}, {{0, 1}, {0, 0.1}, {0, 0.01}}}},
+                {"other", {{"time", "strain"}, {{0.5, 1}, {0, 0.2}}}}};
+  const Plot plot = stress_over_strain(run);
+  ASSERT_EQ(plot.series.size(), 1u);  // the other gauge has other times
+  EXPECT_EQ(plot.series[0].label, "cell over gauge");
+  EXPECT_EQ(plot.series[0].x, (std::vector<double>{0, 0.01}));
+  EXPECT_EQ(plot.series[0].y, (std::vector<double>{0, 30}));
+  run.probes.erase(run.probes.begin());
+  EXPECT_FALSE(has_points(stress_over_strain(run)));
 }
 
 }  // namespace

@@ -35,9 +35,10 @@
 #define HYPERLATTICE_BOUNDARY(CROSSES)                                                                                                                \
   CROSSES(Vec3, x, y, z)                                                                                                                              \
   CROSSES(RegionId, index)                                                                                                                            \
+  CROSSES(LoadOrRegion, region, load)                                                                                                                 \
   CROSSES(Shape, self, contains_point, low, high, anchor)                                                                                             \
   CROSSES(Complaint, self, receive)                                                                                                                   \
-  CROSSES(OptionValue, absent, boolean, integer, number, text, numbers, texts, shape, region)                                                         \
+  CROSSES(OptionValue, absent, boolean, integer, number, text, numbers, texts, shape, region, load_or_region)                                         \
   CROSSES(Option, name, unit, help, fallback, word, example, choices, low, high, low_open, high_open, optional, kind, set)                            \
   CROSSES(OldName, name, option, since)                                                                                                               \
   CROSSES(FaultSink, self, receive)                                                                                                                   \
@@ -99,9 +100,12 @@
   CROSSES(SolverHost, self, time, steps_done, take_step, show, open, take, measure_rest, stop_motion, set_damping_rate, show_rest, keep_motion)       \
   CROSSES(SolverFunctions, plan, run)                                                                                                                 \
   CROSSES(Field, components, values)                                                                                                                  \
-  CROSSES(Snapshot, time, step, particles, spacing, positions, self, get_field)                                                                       \
+  CROSSES(Resultant, force, moment)                                                                                                                   \
+  CROSSES(ForcesId, index)                                                                                                                            \
+  CROSSES(Section, forces, springs, area)                                                                                                             \
+  CROSSES(Snapshot, time, step, particles, spacing, positions, self, get_field, get_resultant)                                                        \
   CROSSES(FrameMark, step, time)                                                                                                                      \
-  CROSSES(OutputContext, directory, title, fields, earlier, self, region_particles, announce_file)                                                                   \
+  CROSSES(OutputContext, directory, title, fields, earlier, self, region_particles, announce_file, acted_particles, external_forces, cut_section)      \
   CROSSES(WriterFunctions, begin, frame, end)                                                                                                         \
   CROSSES(ColumnSink, self, receive)                                                                                                                  \
   CROSSES(ProbeFunctions, begin, sample)

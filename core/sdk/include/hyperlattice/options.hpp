@@ -32,7 +32,8 @@ enum class OptionKind : std::uint32_t {
   texts,
   shape,
   region,
-  file
+  file,
+  load_or_region
 };
 
 /// A validated value in SI units, which the core passes to an option's setter. Texts and shapes
@@ -47,6 +48,7 @@ struct OptionValue {
   std::span<const std::string_view> texts;
   const Shape* shape = nullptr;
   RegionId region;
+  LoadOrRegion load_or_region;
 };
 
 /// One declared option. Every pointer stays valid as long as the plugin is loaded, which is until
@@ -119,6 +121,8 @@ constexpr OptionKind kind_of() {
     return OptionKind::shape;
   else if constexpr (std::is_same_v<T, RegionId>)
     return OptionKind::region;
+  else if constexpr (std::is_same_v<T, LoadOrRegion>)
+    return OptionKind::load_or_region;
   else {
     static_assert(std::is_same_v<T, std::string>, "an option of this type cannot be declared");
     return OptionKind::text;
@@ -155,6 +159,8 @@ T convert(const OptionValue& value) {
     return value.shape;
   else if constexpr (std::is_same_v<T, RegionId>)
     return value.region;
+  else if constexpr (std::is_same_v<T, LoadOrRegion>)
+    return value.load_or_region;
   else
     return std::string(value.text);
 }

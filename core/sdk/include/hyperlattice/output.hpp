@@ -15,6 +15,24 @@ struct Field {
   std::span<const double> values;
 };
 
+/// The sum of forces, N, and the sum of their moments about a point, N m.
+struct Resultant {
+  Vec3 force, moment;
+};
+
+/// Forces that a probe asked for in begin(): see OutputContext.
+struct ForcesId {
+  std::uint32_t index = 0;
+};
+
+/// A plane section through a part of the body.
+struct Section {
+  /// Forces of the part beyond the plane, on the side of its normal, on the part before it.
+  ForcesId forces;
+  std::uint64_t springs = 0;  ///< how many springs the plane cuts at rest
+  double area = 0;            ///< of the section at rest, m2; see PlaneSection in core/model
+};
+
 /// The body at one time. Particles are in the order z, y, x. Valid during the call that receives
 /// it.
 struct Snapshot {
@@ -25,10 +43,17 @@ struct Snapshot {
   std::span<const double> positions;  ///< x y z of each particle at rest, m
   void* self = nullptr;
   bool (*get_field)(void* self, std::string_view name, Field& field) noexcept = nullptr;
+  Resultant (*get_resultant)(void* self, ForcesId forces, Vec3 about) noexcept = nullptr;
 
   /// Gets a field by its name in field_table. A field is computed when it is first asked for. NaN:
   /// a particle has no such value. Returns false if this run has no such field.
   bool field(std::string_view name, Field& out) const { return get_field(self, name, out); }
+
+  /// Returns the resultant of forces at this time. They act at the present places of the particles;
+  /// `about`, m, is the point of the moment.
+  Resultant resultant(ForcesId forces, Vec3 about) const {
+    return get_resultant(self, forces, about);
+  }
 };
 
 /// A frame that the output folder already holds.
@@ -54,9 +79,25 @@ struct OutputContext {
   /// must not be touched; the run then tells the user. FrameFiles calls it.
   bool (*announce_file)(void* self, std::string_view name, bool rewritten) noexcept = nullptr;
 
+  // The next three are for probes.
+  std::span<const Particle> (*acted_particles)(void* self, LoadOrRegion of) noexcept = nullptr;
+  ForcesId (*external_forces)(void* self, LoadOrRegion of) noexcept = nullptr;
+  Section (*cut_section)(void* self, Vec3 point, Vec3 normal, RegionId region) noexcept = nullptr;
+
   /// Returns the particles of the region in ascending order.
   std::span<const Particle> particles(RegionId region) const {
     return region_particles(self, region);
+  }
+  /// Returns the particles of the region, or those on which the load acts, in ascending order.
+  std::span<const Particle> particles(LoadOrRegion of) const { return acted_particles(self, of); }
+  /// Asks for the forces of a load on the body, or for those of all loads on the particles of a
+  /// region. The force of a prescribed motion is its reaction: mass times prescribed acceleration,
+  /// less all other forces on the particle. A body acceleration acts on every particle.
+  ForcesId forces_on(LoadOrRegion of) const { return external_forces(self, of); }
+  /// Cuts the region's part of the body by a plane through `point`, m. `normal` has any length.
+  /// Particles on the plane are before it.
+  Section section(Vec3 point, Vec3 normal, RegionId region) const {
+    return cut_section(self, point, normal, region);
   }
   /// Announces a file. Throws std::runtime_error if the file must not be touched.
   void announce(std::string_view name, bool rewritten = false) const {

@@ -55,6 +55,14 @@ struct RegionId {
   std::uint32_t index = 0;
 };
 
+/// A load or a region of the scene; the value of an option that takes the name of either.
+struct LoadOrRegion {
+  RegionId region;
+  std::int32_t load = -1;  ///< number among the loads, in the order of the scene; -1: the region
+
+  bool is_load() const { return load >= 0; }
+};
+
 /// A solid described by the scene. `anchor`, m, is the point where a lattice puts a corner of its
 /// cells: the centre of round shapes, the low corner of boxes, so that whole cells fill a box
 /// exactly.

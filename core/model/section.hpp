@@ -1,0 +1,37 @@
+// A plane section of the body at rest.
+#pragma once
+
+#include <model/model.hpp>
+
+#include <span>
+#include <vector>
+
+namespace hyperlattice {
+
+/// A base spring from particle a to particle b, a < b in the order of the lattice, that a plane
+/// cuts.
+struct CutSpring {
+  Particle a = 0, b = 0;
+  std::uint32_t neighbour = 0;  ///< see Model::spring_properties
+  bool a_is_before = true;      ///< whether a is the end before the plane
+};
+
+/// The springs that a plane cuts, and their area, m2. A plane of the area A, with the unit normal
+/// n, through an infinite lattice whose springs of class 0 have cubic symmetry, cuts springs of
+/// class 0 with
+///   sum share R = A m n,   m = (1 / 3V) sum share R^2,
+/// where R leads from the end before the plane to the end beyond it, and m is a sum over all
+/// springs of class 0 in the volume V. This gives the area: N l^2 for a plane normal to an axis
+/// that cuts N whole orthogonal springs of the cubic lattice, and the area of the cells if they
+/// have shares.
+struct PlaneSection {
+  std::vector<CutSpring> springs;
+  double area = 0;
+};
+
+/// Cuts the body of the particles `among`, which are ascending, by a plane through `point`, m, with
+/// a normal of any length. Particles on the plane are before it, up to 1e-9 of the spacing. The
+/// springs are in the order of their ends before the plane.
+PlaneSection cut(const Model& model, Vec3 point, Vec3 normal, std::span<const Particle> among);
+
+}  // namespace hyperlattice

@@ -1,0 +1,76 @@
+#include <model/spring_calls.hpp>
+#include <state/section_forces.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyperlattice {
+
+SectionForces::SectionForces(const BlockSet& blocks, const Clock& clock,
+                             const PlaneSection& section)
+    : blocks_(blocks), model_(blocks.model()), clock_(clock) {
+  for (const CutSpring& cut : section.springs) {
+    const Place place = blocks_.layout().place(cut.a);
+    const auto number = blocks_.layout().number_in_row(blocks_[place.block], place, cut.neighbour);
+    if (!number) continue;
+    springs_.push_back({end_of(cut.a), end_of(cut.b), place.row, *number, place.site, cut.neighbour,
+                        cut.a_is_before});
+  }
+}
+
+SectionForces::End SectionForces::end_of(Particle particle) const {
+  const auto [block, index] = blocks_.at(particle);
+  return {particle, block, index};
+}
+
+/// Adds the force of a spring on its end before the plane.
+void SectionForces::add(const Spring& spring, Vec3 about, Resultant& sum) const {
+  const auto moved = [](const End& end) {
+    const auto number = [&](int c) { return end.block->displacement[c][end.index]; };
+    return Vec3{number(0), number(1), number(2)};
+  };
+  const auto height = [this](const End& end) {
+    return model_.degrees_of_freedom == 4 ? end.block->displacement[3][end.index] : 0;
+  };
+  const SpringProperties of =
+      model_.spring_properties(spring.a.particle, spring.b.particle, spring.neighbour);
+  const Vec3 apart = moved(spring.b) - moved(spring.a);
+  const std::size_t kinds = model_.springs.choice.membrane == KernelChoice::Membrane::none ? 1 : 2;
+  double pull = 0;  // N/m: the force over the vector from a to b
+  for (std::size_t cross = 0; cross < kinds; ++cross) {
+    const double rise =
+        cross == 0 ? height(spring.b) - height(spring.a) : height(spring.b) + height(spring.a);
+    const double growth = of.growth(cross, apart, rise, model_.body.grid.membrane_distance),
+                 elongation = of.elongation(cross, growth);
+    LawNumbers kept =
+        blocks_.law_numbers(*spring.a.block, spring.row, spring.number, spring.site, cross != 0);
+    pull += take_spring(model_, of, cross, elongation, clock_.last_step(), kept.data()).force /
+            (of.rest_length_of(cross) + elongation);
+  }
+  const End& before = spring.a_is_before ? spring.a : spring.b;
+  const Vec3 force = ((spring.a_is_before ? of.share : -of.share) * pull) * (of.rest + apart);
+  sum.force += force;
+  sum.moment += cross(model_.body.position(before.particle) + moved(before) - about, force);
+}
+
+Resultant SectionForces::sum(Vec3 about) const {
+  constexpr std::size_t piece = 1024;  // springs, for any number of threads
+  const std::size_t all = springs_.size();
+  std::vector<Resultant> parts((all + piece - 1) / piece);
+  blocks_.team().for_each(parts.size(), [&](std::size_t n) {
+    for (std::size_t s = n * piece; s < std::min(all, (n + 1) * piece); ++s) {
+      const Spring& spring = springs_[s];
+      const Place first{spring.a.block->number, spring.row, spring.site, spring.a.index};
+      if (blocks_.layout().exists(*spring.a.block, first, spring.number))
+        add(spring, about, parts[n]);
+    }
+  });
+  Resultant total;
+  for (const Resultant& part : parts) {
+    total.force += part.force;
+    total.moment += part.moment;
+  }
+  return total;
+}
+
+}  // namespace hyperlattice

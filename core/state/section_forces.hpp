@@ -1,0 +1,50 @@
+// The force through a plane section: the sum over the springs that the plane cuts of their pull on
+// the end before the plane. It is what the part beyond does to the part before, exact to round-off,
+// because springs on one side of the plane cancel. The forces of other parts of the body that the
+// plane cuts, such as cells, add to the same sum: those on the particles before the plane.
+#pragma once
+
+#include <model/section.hpp>
+#include <state/block_set.hpp>
+#include <state/clock.hpp>
+
+#include <hyperlattice/output.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace hyperlattice {
+
+class SectionForces {
+ public:
+  /// Follows the springs of the section that still exist.
+  SectionForces(const BlockSet& blocks, const Clock& clock, const PlaneSection& section);
+
+  /// Returns the force in the present state, with the moment about a point, m. A law with a memory
+  /// gives the force that it has after a step to the present elongation, as a measurement does.
+  Resultant sum(Vec3 about) const;
+
+ private:
+  struct End {
+    Particle particle = 0;
+    const Block* block = nullptr;
+    std::uint64_t index = 0;
+  };
+  /// A spring, named as kernels of the block of its end a do.
+  struct Spring {
+    End a, b;
+    std::uint32_t row = 0, number = 0;
+    std::int32_t site = 0;
+    std::uint32_t neighbour = 0;  ///< see Model::spring_properties
+    bool a_is_before = true;
+  };
+  End end_of(Particle particle) const;
+  void add(const Spring& spring, Vec3 about, Resultant& sum) const;
+
+  const BlockSet& blocks_;
+  const Model& model_;
+  const Clock& clock_;
+  std::vector<Spring> springs_;
+};
+
+}  // namespace hyperlattice
