@@ -4,6 +4,8 @@
 #include <model/critical_step.hpp>
 #include <numerics/symmetric_eigen.hpp>
 
+#include <hyperlattice/volumetric_cell.hpp>
+
 #include <Eigen/Dense>
 
 namespace hyperlattice {
@@ -42,6 +44,13 @@ double stiffest(const Model& model, std::uint8_t material) {
             n.cross_rest_length);
     });
   }
+  Eigen::VectorXd growth = Eigen::VectorXd::Zero(corners * size);  // of the volume, times 4 l
+  for (std::size_t corner = 0; corner < corners; ++corner)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      growth(static_cast<Eigen::Index>(corner) * size + static_cast<Eigen::Index>(axis)) =
+          corner_sign(corner, axis);
+  stiffness += model.materials[material].constants.volumetric * model.body.grid.spacing / 16 *
+               growth * growth.transpose();
   mass.setConstant(model.kinds.masses[material] / corners);
   for (int n = 0; n < corners && size == 4; ++n)
     stiffness(size * n + 3, size * n + 3) += 2 * model.kinds.alphas[material] / corners;

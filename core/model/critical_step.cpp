@@ -21,7 +21,8 @@ InfiniteLattice lattice_of(const Model& model, std::size_t material) {
           model.body.grid.membrane_distance,
           model.springs.choice.membrane,
           model.body.grid.spacing,
-          model.body.grid.basis};
+          model.body.grid.basis,
+          constants.volumetric};
 }
 
 /// The material of a particle and those of its neighbours on both sides. Absent neighbours count as
@@ -47,7 +48,12 @@ double bound(const Model& model, const Environment& environment) {
     }
   if (model.springs.choice.membrane == KernelChoice::Membrane::free)
     sum.add_alpha(constants.alpha_ratio * constants.base_stiffness);
-  return sum.value();
+  // The matrix of a cell, K_v l / 16 s s^T with the signs s of its corners, is at most 24 times its
+  // diagonal blocks' part of s s^T; a particle has eight cells.
+  double volumetric = 0;
+  for (const std::uint8_t material : environment)
+    volumetric = std::max(volumetric, model.materials[material].constants.volumetric);
+  return sum.value() + 12 * volumetric * model.body.grid.spacing;
 }
 
 /// Returns every environment that occurs, each with one particle that has it. Most particles have
@@ -109,9 +115,11 @@ bool has_negative_springs(const InfiniteLattice& lattice) {
 }
 
 /// Sets the critical step of one material alone. Waves that grow do not limit the step. If all
-/// waves grow, a bound with the absolute stiffnesses replaces them.
-void limit_step(Model& model, std::size_t n, const InfiniteLattice& lattice, bool unstable) {
+/// waves grow, a bound with the absolute stiffnesses replaces them. A negative volumetric energy
+/// lowers every frequency; at the surface of a body it is missing, so it counts as zero.
+void limit_step(Model& model, std::size_t n, InfiniteLattice lattice, bool unstable) {
   Material& material = model.materials[n];
+  lattice.volumetric = std::max(0.0, lattice.volumetric);
   const Wave wave = stiffest_wave(lattice);
   const char* which = unstable ? "the stiffest of all waves of the lattice that do not grow: "
                                : "the stiffest of all waves of the lattice: ";
