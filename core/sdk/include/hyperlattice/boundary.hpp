@@ -91,8 +91,8 @@
   CROSSES(LoadFunctions, declare, factor, answer, prepare)                                                                                            \
   CROSSES(StaticRow, begin, end)                                                                                                                      \
   CROSSES(StaticSpring, a, b, rest)                                                                                                                   \
-  CROSSES(StaticGrid, sites, row, plane, origin, places, components, spacing, membrane_distance, neighbours, rows, listed, springs, free, threads)    \
-  CROSSES(SpringTangents, axial, pull, cross_axial, cross_pull, alpha)                                                                                \
+  CROSSES(StaticGrid, sites, row, plane, origin, places, components, spacing, membrane_distance, neighbours, rows, cells, listed, springs, free, threads)    \
+  CROSSES(SpringTangents, axial, pull, cross_axial, cross_pull, alpha, cell_stiffness, cell_pressure)                                                                                \
   CROSSES(StaticProblem, self, grid, state, respond_to, load_at, prescribe_at, scale_of, position_of)                                                 \
   CROSSES(RestReport, residual, displacement_error, iterations)                                                                                       \
   CROSSES(SolverFacts, start_time, critical_time_step, corners, sites_across, listed, remembers, answering)                                            \
