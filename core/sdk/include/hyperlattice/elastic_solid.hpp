@@ -215,8 +215,7 @@ struct Options {
     if (!lattice.has_cells) return;
     MaterialConstants constants = membranes::constants(lattice, choice.ratios);
     const ElasticConstants springs = lattice.elastic_constants(constants);
-    choice.volumetric = constants.volumetric =
-        (*poisson * (springs.C11 + springs.C12) - springs.C12) / (1 - 2 * *poisson);
+    choice.volumetric = constants.volumetric = membranes::volumetric(lattice, *poisson);
     const ElasticConstants own = lattice.elastic_constants(constants);
     choice.poisson = own.poisson();
     choice.modulus_ratio *= own.young() / springs.young();
