@@ -70,8 +70,9 @@ void check_stable(const CalibrationChoice& choice, const ChosenMembrane& chosen,
 
 }  // namespace
 
-ElasticPair elastic_pair(const LatticeGeometry& geometry, const calibration::Ratios& ratios) {
-  const LatticeElasticity own = elasticity(with_ratios(geometry, ratios));
+ElasticPair elastic_pair(const LatticeGeometry& geometry, const calibration::Ratios& ratios,
+                         double volumetric) {
+  const LatticeElasticity own = elasticity(with_ratios(geometry, ratios, volumetric));
   return {own.poisson_bulk(), own.young() / elasticity(with_ratios(geometry, {})).young()};
 }
 
@@ -108,13 +109,14 @@ Calibration calibrate(const CalibrationChoice& choice, const LatticeGeometry& ge
     }
   faults.throw_if_any();
 
-  found.pair = found.infinite = elastic_pair(geometry, found.chosen.ratios);
+  found.pair = found.infinite =
+      elastic_pair(geometry, found.chosen.ratios, found.chosen.volumetric);
   if (paper) {
     found.pair.poisson = choice.membrane.poisson ? *choice.membrane.poisson
                                                  : paper_fit::poisson(*found.chosen.lambda);
     found.pair.modulus_ratio = calibration::paper_modulus_ratio(*found.chosen.lambda);
   }
-  found.zener = elasticity(with_ratios(geometry, found.chosen.ratios)).zener();
+  found.zener = elasticity(lattice_of(found.chosen, geometry)).zener();
   found.young = choice.young;
   if (choice.young) {
     found.stiffness_per_spacing =

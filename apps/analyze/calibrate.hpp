@@ -32,8 +32,10 @@ struct Calibration {
 /// the value.
 Calibration calibrate(const CalibrationChoice& choice, const LatticeGeometry& geometry);
 
-/// Returns the constants of the infinite lattice with these stiffness ratios.
-ElasticPair elastic_pair(const LatticeGeometry& geometry, const calibration::Ratios& ratios);
+/// Returns the constants of the infinite lattice with these stiffness ratios. `volumetric`: K_v of
+/// the volumetric energy, k/l.
+ElasticPair elastic_pair(const LatticeGeometry& geometry, const calibration::Ratios& ratios,
+                         double volumetric = 0);
 
 /// Returns the same for a listed lattice under affine strain (all springs see the mean strain);
 /// nothing for a grid, where the strain is affine anyway.

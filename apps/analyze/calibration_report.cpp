@@ -43,6 +43,8 @@ std::string calibration_text(const Calibration& found) {
   line(text, "k_alpha, k_beta, k_gamma",
        fmt::format("{}, {:.6g}, {:.6g}  (k)",
                    r.clamped ? "infinite" : fmt::format("{:.6g}", r.alpha), r.beta, r.gamma));
+  if (found.chosen.volumetric != 0)
+    line(text, "volumetric energy K_v", fmt::format("{:.6g}  (k / l)", found.chosen.volumetric));
   line(text, "Poisson ratio", fmt::format("{:.6g}", found.pair.poisson));
   line(text, "modulus ratio eta", fmt::format("{:.6g}", found.pair.modulus_ratio));
   line(text, "Zener ratio A", fmt::format("{:.6g}", found.zener));

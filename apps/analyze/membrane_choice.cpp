@@ -102,7 +102,13 @@ ChosenMembrane resolve(const MembraneChoice& choice, const LatticeGeometry& geom
   }
   if (!with_lambda && choice.poisson && faults.empty()) {
     const double poisson = elasticity(with_ratios(geometry, chosen.ratios)).poisson_bulk();
-    if (std::abs(poisson - *choice.poisson) > 1e-4)
+    const bool differs = std::abs(poisson - *choice.poisson) > 1e-4;
+    const LatticeFacts facts = facts_of(geometry);
+    const bool reaches = *membrane == Membrane::none && facts.has_cells && *choice.poisson > -1 &&
+                         *choice.poisson < membranes::largest_poisson;
+    if (differs && reaches)
+      chosen.volumetric = geometry.spacing * membranes::volumetric(facts, *choice.poisson);
+    else if (differs)
       faults.add(
           "--poisson", fmt::format("{}", *choice.poisson),
           fmt::format("none, or {:.6g}: that is what these springs have along [100]", poisson));
@@ -111,12 +117,17 @@ ChosenMembrane resolve(const MembraneChoice& choice, const LatticeGeometry& geom
   return chosen;
 }
 
+SpringLattice lattice_of(const ChosenMembrane& chosen, const LatticeGeometry& geometry) {
+  return with_ratios(geometry, chosen.ratios, chosen.volumetric);
+}
+
 Json chosen_json(const ChosenMembrane& chosen) {
   Json json = {{"membrane", membrane_names[static_cast<std::size_t>(chosen.membrane)]}};
   if (chosen.lambda) json["lambda"] = *chosen.lambda;
   json["k_alpha"] = chosen.ratios.clamped ? Json("infinite") : Json(chosen.ratios.alpha);
   json["k_beta"] = chosen.ratios.beta;
   json["k_gamma"] = chosen.ratios.gamma;
+  if (chosen.volumetric != 0) json["volumetric"] = chosen.volumetric;
   return json;
 }
 

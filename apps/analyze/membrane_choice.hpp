@@ -19,12 +19,17 @@ struct ChosenMembrane {
   calibration::Membrane membrane = calibration::Membrane::none;
   std::optional<double> lambda;  ///< empty for membranes without a lambda
   calibration::Ratios ratios;
+  double volumetric = 0;  ///< K_v of the volumetric energy, k/l; only without a membrane
 };
+
+/// Returns the infinite lattice of a choice, with k = 1 N/m.
+SpringLattice lattice_of(const ChosenMembrane& chosen, const LatticeGeometry& geometry);
 
 /// Returns the membrane of this name; nothing, with a fault at --membrane, if there is none.
 std::optional<calibration::Membrane> membrane_named(const std::string& name, Faults& faults);
 
-/// Computes the stiffness ratios of a choice. Throws InputError with every fault. A lambda or
+/// Computes the stiffness ratios of a choice; without a membrane, the volumetric energy that its
+/// Poisson ratio needs. Throws InputError with every fault. A lambda or
 /// ratios of an unstable lattice are not a fault here: callers may want to analyse it.
 ChosenMembrane resolve(const MembraneChoice& choice, const LatticeGeometry& geometry);
 

@@ -4,8 +4,11 @@ namespace hyperlattice {
 
 using calibration::Membrane;
 
-SpringLattice with_ratios(const LatticeGeometry& geometry, const calibration::Ratios& ratios) {
-  return {geometry, membranes::constants(facts_of(geometry), ratios)};
+SpringLattice with_ratios(const LatticeGeometry& geometry, const calibration::Ratios& ratios,
+                          double volumetric) {
+  MaterialConstants constants = membranes::constants(facts_of(geometry), ratios);
+  constants.volumetric = volumetric * constants.base_stiffness / geometry.spacing;
+  return {geometry, constants};
 }
 
 calibration::Ratios ratios_of(const LatticeGeometry& geometry, Membrane membrane, double lambda) {

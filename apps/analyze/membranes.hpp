@@ -13,7 +13,9 @@ namespace hyperlattice {
 using membranes::has_lambda;
 
 /// Returns the lattice with base springs of k = 1 N/m and these ratios in the fourth dimension.
-SpringLattice with_ratios(const LatticeGeometry& geometry, const calibration::Ratios& ratios);
+/// `volumetric`: K_v of the volumetric energy, k/l.
+SpringLattice with_ratios(const LatticeGeometry& geometry, const calibration::Ratios& ratios,
+                          double volumetric = 0);
 
 /// Returns the ratios of a membrane; in I-m, k_gamma / k_beta is that of the lattice.
 calibration::Ratios ratios_of(const LatticeGeometry& geometry, calibration::Membrane membrane,

@@ -65,16 +65,23 @@ VirtualTest::VirtualTest(Host& host, Components components, Options options)
       components_(std::move(components)),
       options_(std::move(options)),
       length_(length_at_rest()),
-      base_young_(compress({}).young) {}
+      base_young_(compress({}, {}).young) {}
 
 /// Returns the scene of the cube, in units with spacing 1 m and E = 1 Pa.
-std::string VirtualTest::scene(const calibration::Ratios& ratios, double shortening) const {
+std::string VirtualTest::scene(const calibration::Ratios& ratios, std::optional<double> poisson,
+                               double shortening) const {
   const int n = options_.particles;
   Json material = {
       {"type", components_.material}, {"young", 1}, {"density", 1}, {"membrane", "free"}};
   material["k_alpha"] = ratios.clamped ? Json("infinite") : Json(ratios.alpha);
   material["k_beta"] = ratios.beta;
   material["k_gamma"] = ratios.gamma;
+  if (poisson)
+    material = {{"type", components_.material},
+                {"young", 1},
+                {"density", 1},
+                {"poisson", *poisson},
+                {"volumetric", true}};
   const auto platen = [&](const char* on, double displacement) {
     const double at_once = 1e-9;  // a rise shorter than any time step
     return Json{{"type", components_.displacement},
@@ -101,21 +108,23 @@ std::string VirtualTest::scene(const calibration::Ratios& ratios, double shorten
 }
 
 double VirtualTest::length_at_rest() const {
-  const auto read = read_scene_text(scene({}, 0), host_);
+  const auto read = read_scene_text(scene({}, {}, 0), host_);
   const auto model = build_model(*read);
   return model->body.highest.z - model->body.lowest.z;
 }
 
-VirtualTestResult VirtualTest::measure(const calibration::Ratios& ratios) {
-  VirtualTestResult measured = compress(ratios);
+VirtualTestResult VirtualTest::measure(const calibration::Ratios& ratios,
+                                       std::optional<double> poisson) {
+  VirtualTestResult measured = compress(ratios, poisson);
   measured.modulus_ratio = measured.young / base_young_;
   return measured;
 }
 
-VirtualTestResult VirtualTest::compress(const calibration::Ratios& ratios) {
+VirtualTestResult VirtualTest::compress(const calibration::Ratios& ratios,
+                                        std::optional<double> poisson) {
   const auto start = std::chrono::steady_clock::now();
-  const auto plan =
-      make_plan(read_scene_text(scene(ratios, options_.strain * length_), host_), options_.threads);
+  const auto plan = make_plan(
+      read_scene_text(scene(ratios, poisson, options_.strain * length_), host_), options_.threads);
   const Model& model = *plan->model;
   Simulation simulation(model, plan->threads);
   const Cube cube(model.body);

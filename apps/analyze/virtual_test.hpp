@@ -7,6 +7,7 @@
 
 #include <hyperlattice/calibration.hpp>
 
+#include <optional>
 #include <string>
 
 namespace hyperlattice {
@@ -35,7 +36,7 @@ class VirtualTest {
   /// The types of the components in the scene, besides the lattice.
   struct Components {
     std::string material;  ///< an elastic solid; options: young, density, membrane free with
-                           ///< k_alpha, k_beta, k_gamma
+                           ///< k_alpha, k_beta, k_gamma; membrane none with poisson, volumetric
     /// A load with a prescribed displacement; options: on, value, axes, rise.
     std::string displacement;
     std::string solver;  ///< finds a state of rest; options: tolerance, most_cutbacks, stability
@@ -54,14 +55,16 @@ class VirtualTest {
   /// build_model do; RunError if a cube finds no state of rest.
   VirtualTest(Host& host, Components components, Options options);
 
-  /// Measures the lattice with these stiffness ratios. Throws RunError if the cube finds no state
-  /// of rest.
-  VirtualTestResult measure(const calibration::Ratios& ratios);
+  /// Measures the lattice with these stiffness ratios. `poisson`: in place of ratios, the Poisson
+  /// ratio that the volumetric energy gives the lattice without a membrane. Throws RunError if the
+  /// cube finds no state of rest.
+  VirtualTestResult measure(const calibration::Ratios& ratios, std::optional<double> poisson = {});
 
  private:
-  std::string scene(const calibration::Ratios& ratios, double shortening) const;
+  std::string scene(const calibration::Ratios& ratios, std::optional<double> poisson,
+                    double shortening) const;
   double length_at_rest() const;
-  VirtualTestResult compress(const calibration::Ratios& ratios);
+  VirtualTestResult compress(const calibration::Ratios& ratios, std::optional<double> poisson);
 
   Host& host_;
   Components components_;

@@ -54,7 +54,7 @@ int analyze(const Arguments& arguments) {
     Host host;
     const LatticeGeometry geometry = load_lattice(host, arguments.lattice, arguments.options);
     const ChosenMembrane chosen = resolve(arguments.membrane, geometry);
-    const SpringLattice lattice = with_ratios(geometry, chosen.ratios);
+    const SpringLattice lattice = lattice_of(chosen, geometry);
     if (geometry.listed && !arguments.dispersion.empty())
       throw InputError({{"--dispersion", arguments.dispersion,
                          "none: waves of a listed lattice have no wave vector"}});

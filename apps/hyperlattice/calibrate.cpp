@@ -121,7 +121,10 @@ int calibrate(Arguments a) {
   if (a.measure) {
     const VirtualTest::Options options = a.virtual_test();
     const VirtualTestResult measured =
-        VirtualTest(host, bundled::virtual_test, options).measure(found.chosen.ratios);
+        VirtualTest(host, bundled::virtual_test, options)
+            .measure(found.chosen.ratios, found.chosen.volumetric != 0
+                                              ? std::optional(found.infinite.poisson)
+                                              : std::nullopt);
     json["measured"] = measured_json(measured, options);
     text += measured_text(measured, options, found.infinite);
   }

@@ -11,7 +11,9 @@ void LatticeArguments::declare(CLI::App& command) {
                      "may be repeated");
   command.add_option("--membrane", membrane.membrane,
                      "none, I, II, III, IV, I-m, or free with the ratios below");
-  command.add_option("--poisson", membrane.poisson, "Poisson ratio along [100]; gives lambda");
+  command.add_option("--poisson", membrane.poisson,
+                     "Poisson ratio along [100]; gives lambda, or without a membrane K_v of the "
+                     "volumetric energy");
   command.add_option("--lambda", membrane.lambda, "4D stiffness ratio, in place of --poisson");
   command.add_option("--k_alpha", membrane.k_alpha, "membrane free: k_alpha / k, or infinite");
   command.add_option("--k_beta", membrane.k_beta,

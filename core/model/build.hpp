@@ -31,6 +31,10 @@ void add_materials(Model& model, RegionIndex& regions, Faults& faults);
 /// kernels.
 void set_springs(Model& model, Faults& faults);
 
+/// Sets the volumetric energies of the cells. Adds a fault for each material whose K_v this lattice
+/// or the body's failure does not allow.
+void set_volumetric(Model& model, Faults& faults);
+
 /// Returns the part of a composite spring that has a material's own springs.
 SpringPart part_of(const Model& model, std::uint8_t material, std::uint32_t spring_class,
                    double weight);

@@ -1,8 +1,11 @@
 // The waves of the infinite lattice give no bound for a body of cells: at edges and corners a
 // particle has less mass, while the springs, which do not pull from all sides, support each other
-// less.
+// less. A single free cell gives a bound, and iteration over the cells the frequency itself.
 #include <model/critical_step.hpp>
 #include <numerics/symmetric_eigen.hpp>
+
+#include <hyperlattice/chance.hpp>
+#include <hyperlattice/volumetric_cell.hpp>
 
 #include <Eigen/Dense>
 
@@ -15,12 +18,13 @@ using Membrane = KernelChoice::Membrane;
 
 int number(Site s) { return s.i + 2 * s.j + 4 * s.k; }
 
-/// Returns omega^2, 1/s2, of the stiffest motion of one free cell, with its share of the springs
-/// and of the masses.
-double stiffest(const Model& model, std::uint8_t material) {
-  const int size = model.springs.choice.membrane == Membrane::free ? 4 : 3;
+int size_of(const Model& model) { return model.springs.choice.membrane == Membrane::free ? 4 : 3; }
+
+/// Returns the stiffness matrix of one cell, N/m, with its share of the springs; by corner, then by
+/// component.
+Eigen::MatrixXd stiffness_of_cell(const Model& model, std::uint8_t material) {
+  const int size = size_of(model);
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(corners * size, corners * size);
-  Eigen::VectorXd mass(corners * size);
   const auto add = [&](int a, int b, double k, Vec3 r, double height, double length) {
     // Derivatives of the spring's length by the displacements.
     Eigen::VectorXd growth = Eigen::VectorXd::Zero(corners * size);
@@ -42,15 +46,77 @@ double stiffest(const Model& model, std::uint8_t material) {
             n.cross_rest_length);
     });
   }
-  mass.setConstant(model.kinds.masses[material] / corners);
+  Eigen::VectorXd growth = Eigen::VectorXd::Zero(corners * size);  // of the volume, times 4 l
+  for (std::size_t corner = 0; corner < corners; ++corner)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      growth(static_cast<Eigen::Index>(corner) * size + static_cast<Eigen::Index>(axis)) =
+          corner_sign(corner, axis);
+  stiffness += model.materials[material].constants.volumetric * model.body.grid.spacing / 16 *
+               growth * growth.transpose();
   for (int n = 0; n < corners && size == 4; ++n)
     stiffness(size * n + 3, size * n + 3) += 2 * model.kinds.alphas[material] / corners;
-  const Eigen::VectorXd root = mass.cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd scaled = root.asDiagonal() * stiffness * root.asDiagonal();
-  return numerics::SymmetricEigen<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly)
+  return stiffness;
+}
+
+/// Returns omega^2, 1/s2, of the stiffest motion of one free cell, with its share of the springs
+/// and of the masses.
+double stiffest(const Model& model, std::uint8_t material) {
+  const Eigen::MatrixXd stiffness =
+      corners / model.kinds.masses[material] * stiffness_of_cell(model, material);
+  return numerics::SymmetricEigen<Eigen::MatrixXd>(stiffness, Eigen::EigenvaluesOnly)
       .eigenvalues()
       .maxCoeff();
 }
+
+/// The product of M^-1/2 K M^-1/2 of a body of cells and a vector, [particle][component].
+class ScaledStiffness {
+ public:
+  explicit ScaledStiffness(const Model& model) : model_(model), size_(size_of(model)) {
+    for (std::size_t n = 0; n < model.materials.size(); ++n)
+      of_material_.push_back(stiffness_of_cell(model, static_cast<std::uint8_t>(n)));
+    scale_.resize(numbers());
+    for (Particle p = 0; p < model.body.particles; ++p)
+      scale_.segment(first(p), size_).setConstant(1 / std::sqrt(model.mass(p)));
+  }
+  Eigen::Index numbers() const { return first(model_.body.particles); }
+
+  Eigen::VectorXd times(const Eigen::VectorXd& x) const {
+    const Eigen::VectorXd moved = scale_.cwiseProduct(x);
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(numbers());
+    Eigen::VectorXd of_cell(corners * size_), pull(corners * size_);
+    for (const Run& run : model_.body.cells.runs()) {
+      Particle row[4];  // the particles at the run's first cell; those of the next cells follow
+      for (std::int32_t n = 0; n < 4; ++n)
+        row[n] = model_.body.at({run.begin, run.j + (n & 1), run.k + (n >> 1)});
+      for (std::int32_t i = run.begin; i < run.end; ++i) {
+        const auto at = [&](int corner) {
+          return first(row[corner >> 1] + static_cast<Particle>(i - run.begin + (corner & 1)));
+        };
+        const std::uint8_t material =
+            model_.kinds.mixtures.empty()
+                ? std::uint8_t{0}
+                : model_.kinds.mixtures.cell_above(
+                      model_.kinds.mixtures.of(row[0] + static_cast<Particle>(i - run.begin)));
+        for (int n = 0; n < corners; ++n)
+          of_cell.segment(n * size_, size_) = moved.segment(at(n), size_);
+        pull.noalias() = of_material_[material] * of_cell;
+        for (int n = 0; n < corners; ++n)
+          force.segment(at(n), size_) += pull.segment(n * size_, size_);
+      }
+    }
+    return scale_.cwiseProduct(force);
+  }
+
+ private:
+  Eigen::Index first(Particle particle) const {
+    return static_cast<Eigen::Index>(particle) * size_;
+  }
+
+  const Model& model_;
+  int size_;
+  std::vector<Eigen::MatrixXd> of_material_;
+  Eigen::VectorXd scale_;  // M^-1/2
+};
 
 }  // namespace
 
@@ -59,6 +125,36 @@ double cell_bound(const Model& model) {
   for (std::size_t material = 0; material < model.materials.size(); ++material)
     largest = std::max(largest, stiffest(model, static_cast<std::uint8_t>(material)));
   return largest;
+}
+
+double iterated_frequency(const Model& model) {
+  constexpr int products = 25;
+  constexpr double margin = 1.02;
+  const ScaledStiffness stiffness(model);
+  Eigen::VectorXd now(stiffness.numbers()), before = Eigen::VectorXd::Zero(stiffness.numbers());
+  for (Eigen::Index n = 0; n < now.size(); ++n)
+    now[n] = chance(0, static_cast<std::uint64_t>(n), 0) - 0.5;
+  now.normalize();
+  Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(products), beside = diagonal;
+  int count = 0;
+  while (count < products) {
+    Eigen::VectorXd next = stiffness.times(now);
+    diagonal[count] = next.dot(now);
+    next -= diagonal[count] * now;
+    if (count > 0) next -= beside[count - 1] * before;
+    const double length = next.norm();
+    beside[count++] = length;
+    if (!(length > 1e-12 * std::abs(diagonal[0]))) break;  // these motions are all that there are
+    before = now;
+    now = next / length;
+  }
+  Eigen::MatrixXd small = Eigen::MatrixXd::Zero(count, count);
+  small.diagonal() = diagonal.head(count);
+  if (count > 1) small.diagonal(-1) = beside.head(count - 1);
+  const double square = numerics::SymmetricEigen<Eigen::MatrixXd>(small, Eigen::EigenvaluesOnly)
+                            .eigenvalues()
+                            .maxCoeff();
+  return margin * std::sqrt(square);
 }
 
 }  // namespace hyperlattice

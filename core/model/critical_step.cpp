@@ -21,7 +21,8 @@ InfiniteLattice lattice_of(const Model& model, std::size_t material) {
           model.body.grid.membrane_distance,
           model.springs.choice.membrane,
           model.body.grid.spacing,
-          model.body.grid.basis};
+          model.body.grid.basis,
+          constants.volumetric};
 }
 
 /// The material of a particle and those of its neighbours on both sides. Absent neighbours count as
@@ -48,6 +49,13 @@ double bound(const Model& model, const Environment& environment) {
   if (model.springs.choice.membrane == KernelChoice::Membrane::free)
     sum.add_alpha(constants.alpha_ratio * constants.base_stiffness);
   return sum.value();
+}
+
+/// Returns a bound of m omega^2, N/m, for the volumetric energies of all cells: that of the
+/// stiffest wave of an infinite lattice of such cells. A body lacks some of them, which only
+/// softens it.
+double volumetric_bound(const Model& model) {
+  return 4 * std::max(0.0, model.volumetric.largest()) * model.body.grid.spacing;
 }
 
 /// Returns every environment that occurs, each with one particle that has it. Most particles have
@@ -109,9 +117,11 @@ bool has_negative_springs(const InfiniteLattice& lattice) {
 }
 
 /// Sets the critical step of one material alone. Waves that grow do not limit the step. If all
-/// waves grow, a bound with the absolute stiffnesses replaces them.
-void limit_step(Model& model, std::size_t n, const InfiniteLattice& lattice, bool unstable) {
+/// waves grow, a bound with the absolute stiffnesses replaces them. A negative volumetric energy
+/// lowers every frequency; at the surface of a body it is missing, so it counts as zero.
+void limit_step(Model& model, std::size_t n, InfiniteLattice lattice, bool unstable) {
   Material& material = model.materials[n];
+  lattice.volumetric = std::max(0.0, lattice.volumetric);
   const Wave wave = stiffest_wave(lattice);
   const char* which = unstable ? "the stiffest of all waves of the lattice that do not grow: "
                                : "the stiffest of all waves of the lattice: ";
@@ -145,6 +155,22 @@ void limit_by_laws(Model& model) {
   }
 }
 
+/// Sets the critical step of a body of cells. The bound by one cell is up to 1.5 times too careful
+/// for a body with volumetric energies; where iteration costs little it replaces the bound.
+void limit_step_of_cells(Model& model) {
+  constexpr std::uint64_t most_cells = 500000;
+  const double bound = 2 / std::sqrt(cell_bound(model));
+  model.step_limit.time_step = bound;
+  model.step_limit.because =
+      "a safe bound for a body of cells: the stiffest motion of a cell that moves alone";
+  if (!(model.volumetric.largest() > 0) || model.body.cells.count() > most_cells) return;
+  const double step = 2 / iterated_frequency(model);
+  if (!(step > bound)) return;
+  model.step_limit.time_step = step;
+  model.step_limit.because =
+      "the stiffest motion of the body, found by iteration and increased by 2 %";
+}
+
 void find_elastic_step(Model& model, Faults& faults) {
   if (model.body.is_listed()) return find_critical_step_of_list(model, faults);
   const std::size_t before = faults.size();
@@ -169,18 +195,13 @@ void find_elastic_step(Model& model, Faults& faults) {
     limit_step(model, n, lattice, unstable.has_value());
   }
   if (faults.size() > before) return;
-  if (!model.body.cells.empty()) {
-    model.step_limit.time_step = 2 / std::sqrt(cell_bound(model));
-    model.step_limit.because =
-        "a safe bound for a body of cells: the stiffest motion of a cell that moves alone";
-    return;
-  }
+  if (!model.body.cells.empty()) return limit_step_of_cells(model);
   if (model.materials.size() == 1) return;
 
   model.step_limit.time_step = infinity;
   for (const auto& [environment, particle] : environments(model)) {
     const Material& own = model.materials[environment[0]];
-    const double step = step_of(bound(model, environment), own.mass);
+    const double step = step_of(bound(model, environment) + volumetric_bound(model), own.mass);
     if (step >= model.step_limit.time_step) continue;
     model.step_limit.time_step = step;
     const std::string where = particle == Body::no_particle ? "inside" : "at the border of";

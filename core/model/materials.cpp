@@ -55,14 +55,16 @@ void check_constants(const Stage& stage, const MaterialConstants& constants) {
         std::isfinite(constants.base_stiffness)))
     throw refusal(stage, "its density or its stiffness came out as not positive or not finite");
   bool good = constants.clamped || std::isfinite(constants.alpha_ratio);
+  good = good && std::isfinite(constants.volumetric);
   for (std::uint32_t c = 0; c < max_spring_classes; ++c) {
     good = good && std::isfinite(constants.cross_ratio[c]);
     for (const auto& of_law : constants.law[c])
       for (const double number : of_law) good = good && !std::isnan(number);
   }
   if (!good)
-    throw refusal(
-        stage, "the stiffness of its cross springs or a constant of its law came out as no number");
+    throw refusal(stage,
+                  "the stiffness of its cross springs, its K_v or a constant of its law came out "
+                  "as no number");
 }
 
 /// Returns an addition to the error about a Poisson ratio that a random body does not reach; empty

@@ -43,6 +43,8 @@ class Mixtures {
   /// the materials.
   std::uint32_t of(Particle particle) const { return of_particle_[particle]; }
   const Around& around(std::uint32_t mixture) const { return around_[mixture]; }
+  /// Returns the material of the cell of which a particle with this mixture is the lowest corner.
+  std::uint8_t cell_above(std::uint32_t mixture) const { return around_[mixture][place(0, 0, 0)]; }
   /// Returns the material of most cells of a mixture; among equals the one with the smallest index.
   std::uint8_t commonest(std::uint32_t mixture) const;
   double bytes() const;

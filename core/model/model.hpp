@@ -7,6 +7,7 @@
 #include <model/spring_properties.hpp>
 #include <model/spring_table.hpp>
 #include <model/step_limit.hpp>
+#include <model/volumetric.hpp>
 #include <scene/scene.hpp>
 
 #include <memory>
@@ -21,6 +22,7 @@ struct Model {
   std::vector<Material> materials;
   ParticleKinds kinds;
   SpringTable springs;
+  Volumetric volumetric;
   LoadSet loads;
   StepLimit step_limit;
   int degrees_of_freedom = 3;         ///< of a particle; 4 with a free membrane

@@ -60,8 +60,14 @@ SpringLattice::SpringLattice(LatticeGeometry geometry, const MaterialConstants& 
 }
 
 InfiniteLattice SpringLattice::endless() const {
-  return {geometry_.neighbours, springs_,       alpha_, geometry_.membrane_distance, membrane_,
-          geometry_.spacing,    geometry_.basis};
+  return {geometry_.neighbours,
+          springs_,
+          alpha_,
+          geometry_.membrane_distance,
+          membrane_,
+          geometry_.spacing,
+          geometry_.basis,
+          constants_.volumetric};
 }
 
 LatticeFacts facts_of(const LatticeGeometry& geometry) {
@@ -72,6 +78,9 @@ LatticeFacts facts_of(const LatticeGeometry& geometry) {
   facts.membrane_distance = geometry.membrane_distance;
   facts.spring_classes = geometry.spring_classes;
   facts.class_stiffness = geometry.class_stiffness;
+  // The bit of the cell is one of the bits of a site.
+  facts.has_cells = !geometry.listed && geometry.basis == cubic_basis &&
+                    geometry.neighbours.size() < max_neighbours;
   facts.self = const_cast<LatticeGeometry*>(&geometry);  // only read
   facts.get_elastic_constants = [](void* self, const MaterialConstants& constants) noexcept {
     return PluginCall::answer(ElasticConstants(), [&] {

@@ -1,6 +1,9 @@
 // A spring of direction n and length L has the energy K (L n.e.n)^2 / 2. One site of a layer has
-// all forward base springs, one cross spring beside each of them, and half of an alpha spring.
+// all forward base springs, one cross spring beside each of them, half of an alpha spring, and the
+// volumetric energy of a cell.
 #include <model/strain_energy.hpp>
+
+#include <cmath>
 
 namespace hyperlattice {
 
@@ -27,6 +30,8 @@ StrainEnergy strain_energy(const InfiniteLattice& lattice) {
     add(sum, spring.cross_stiffness / (n.cross_rest_length * n.cross_rest_length),
         {x * x, y * y, z * z, y * z, x * z, x * y, square});
   }
+  if (lattice.volumetric != 0)
+    add(sum, lattice.volumetric * std::pow(lattice.spacing, 3), {1, 1, 1, 0, 0, 0, 0});
   sum[ww][ww] += lattice.alpha * square / 2;
   return sum;
 }

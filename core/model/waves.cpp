@@ -5,7 +5,8 @@
 //   4 k_c w w^T,   mirrored: w = (r sin(theta/2), Delta cos(theta/2)) / sqrt(r^2 + Delta^2)
 //                  opposed:  w = (r cos(theta/2), Delta sin(theta/2)) / sqrt(r^2 + Delta^2)
 // (the height lags by a quarter of a period, which makes the Hermitian matrix real). The alpha
-// spring contributes 2 k_alpha to a mirrored height.
+// spring contributes 2 k_alpha to a mirrored height. The volumetric energy of cells contributes
+//   4 K_v l g g^T,   g_x = sin(q_x/2) cos(q_y/2) cos(q_z/2), and so on.
 #include <model/waves.hpp>
 #include <model/zone.hpp>
 #include <numerics/symmetric_eigen.hpp>
@@ -44,6 +45,12 @@ Matrix dynamical_matrix(const InfiniteLattice& lattice, Vec3 q, Sector sector) {
     sum += 4 * spring.cross_stiffness * cross * cross.transpose();
   }
   if (sector == Sector::mirrored) sum(3, 3) += 2 * lattice.alpha;
+  if (lattice.volumetric != 0) {
+    const Vec3 half = 0.5 * q, c{std::cos(half.x), std::cos(half.y), std::cos(half.z)};
+    const Eigen::Vector4d growth{std::sin(half.x) * c.y * c.z, c.x * std::sin(half.y) * c.z,
+                                 c.x * c.y * std::sin(half.z), 0};
+    sum += 4 * lattice.volumetric * lattice.spacing * growth * growth.transpose();
+  }
   const int size = lattice.membrane == Membrane::free ? 4 : 3;
   return sum.topLeftCorner(size, size);
 }

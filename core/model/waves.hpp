@@ -16,6 +16,7 @@ struct InfiniteLattice {
   KernelChoice::Membrane membrane = KernelChoice::Membrane::none;
   double spacing = 0;         ///< metres
   Basis basis = cubic_basis;  ///< in units of the spacing
+  double volumetric = 0;      ///< K_v of its cells, Pa
 };
 
 enum class Sector {

@@ -111,8 +111,9 @@ std::string plan_text(const Plan& plan) {
   page.line(
       "kernel",
       fmt::format(
-          "{} degrees of freedom, membrane {}, {}, {} precision, {} instructions, {} thread{}",
+          "{} degrees of freedom, membrane {}, {}{}, {} precision, {} instructions, {} thread{}",
           facts.at("degrees_of_freedom").get<int>(), word("membrane"),
+          facts.at("volumetric").get<bool>() ? "volumetric energy, " : "",
           facts.at("breakable").get<bool>() ? "breakable" : "unbreakable", word("precision"),
           word("instructions"), plan.threads, plan.threads == 1 ? "" : "s"));
   page.line("critical time step",

@@ -56,7 +56,8 @@ struct Block {
   AlignedArray<std::uint16_t> alive;
   AlignedArray<std::uint8_t> material;
   AlignedArray<std::uint32_t> mixture;
-  AlignedArray<double> memory;  ///< of laws, see KernelRequest
+  AlignedArray<double> cell_moduli;  ///< see VolumetricCells; empty if all are alike
+  AlignedArray<double> memory;       ///< of laws, see KernelRequest
   FailureMemory failure_memory;
   AlignedArray<double> scratch;
   ListedArrays listed;

@@ -39,9 +39,9 @@ void Simulation::apply_equilibrium(const EquilibriumUpdate& to) {
   }
   state_->energy.count_halted(to.dissipated);
   state_->law_memory.advance(to);
-  state_->failures.collect(0);
   set({false, 0, 3}, to.xyz);
   if (!to.heights.empty()) set({false, 3, 1}, to.heights);
+  state_->failures.collect(0);
   state_->loads.rest(to.factor, to.gravity);
   state_->clock.jump(to.time);
   state_->rest_loads = {to.factor, to.gravity};

@@ -1,5 +1,6 @@
 #include <model/spring_calls.hpp>
 #include <state/failure_record.hpp>
+#include <state/lost_cells.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -46,6 +47,7 @@ void FailureRecord::collect(double step) {
       breakage.again = !broken.softened && softened_.contains({breakage.a, breakage.neighbour});
       breakages_.push_back(breakage);
       note(breakage);
+      energy_ += lose_cells(blocks_, breakage.a, breakage.neighbour, step);
       if (!broken.softened) energy_ += energy_of(breakages_.size() - 1, block, broken, step);
     }
     block.broken.clear();

@@ -23,7 +23,8 @@ class FailureRecord {
 
   /// Returns the failures in the order of their steps.
   const std::vector<Breakage>& breakages() const { return breakages_; }
-  /// Returns the energy, J, that was lost with springs that criteria removed.
+  /// Returns the energy, J, that was lost with springs that criteria removed, and with cells that
+  /// lost a spring.
   double energy() const { return energy_; }
   /// Returns the present elongation, m, of a broken spring: above 0 if the failure is open.
   double elongation_now(std::size_t breakage) const;

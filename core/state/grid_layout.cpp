@@ -253,6 +253,8 @@ std::uint64_t GridLayout::alive_bits(const Block& block, std::uint64_t index) co
 void GridLayout::fill(Block& block) const {
   const Body& body = model_.body;
   block.alive = AlignedArray<std::uint16_t>(block.layout->sites);
+  if (!model_.volumetric.empty() && !model_.volumetric.uniform())
+    block.cell_moduli = AlignedArray<double>(block.layout->sites);
   block.memory =
       AlignedArray<double>(block.layout->sites * body.neighbours.size() * kept_numbers());
   if (!model_.kinds.material_of.empty())
@@ -264,6 +266,7 @@ void GridLayout::fill(Block& block) const {
     if (row.begin == row.end) continue;
     Site site = first_site_of_row(block.number, r);
     fill_alive(body, site.j, site.k, row, block.alive.get() + row.start);
+    fill_cells(block, row, site);
     if (starts_memory()) start_row(block, r, site);
     if (model_.materials.size() == 1) continue;
     for (; site.i < row.end; ++site.i) {
@@ -276,6 +279,19 @@ void GridLayout::fill(Block& block) const {
         block.mixture[place] = model_.kinds.mixtures.of(particle);
     }
   }
+}
+
+/// Marks the cells of a row that have a volumetric energy. `site`: the row's first.
+void GridLayout::fill_cells(const Block& block, const Row& row, Site site) const {
+  if (model_.volumetric.empty()) return;
+  for (const Range& range : model_.volumetric.row(site.j, site.k))
+    for (Site cell{range.begin, site.j, site.k}; cell.i < range.end; ++cell.i) {
+      const double modulus = model_.volumetric.modulus(cell);
+      if (modulus == 0) continue;
+      const std::uint64_t place = row.start + static_cast<std::uint64_t>(cell.i - row.begin);
+      block.alive[place] = static_cast<std::uint16_t>(block.alive[place] | cell_bit);
+      if (block.cell_moduli.size() > 0) block.cell_moduli[place] = modulus;
+    }
 }
 
 /// Initializes the law's memory for the springs of a row, also of a ghost row.
@@ -304,7 +320,7 @@ void GridLayout::exchange(const std::vector<Block>& all, Block& block) const {
         block.displacement[c].copy(owner.displacement[c], from, count, to.begin);
       for (int c = 0; model_.springs.asks_rate && c < model_.degrees_of_freedom; ++c)
         block.velocity[c].copy(owner.velocity[c], from, count, to.begin);
-      if (model_.springs.breakable && k < first)
+      if ((model_.springs.breakable || model_.springs.softens) && k < first)
         std::copy_n(owner.alive.get() + from, count, block.alive.get() + to.begin);
     }
 }
@@ -318,6 +334,11 @@ void GridLayout::describe(const Block& block, KernelRequest& request) const {
   request.scratch_width = scratch_width_;
   request.mixture = block.mixture.get();
   request.mixture_springs = model_.springs.mixture_springs.data();
+  if (!model_.volumetric.empty()) {
+    request.cells.spacing = model_.body.grid.spacing;
+    request.cells.modulus = model_.volumetric.largest();
+    request.cells.moduli = block.cell_moduli.get();
+  }
   request.memory = block.memory.get();
   request.memory_numbers = model_.springs.memory;
   request.memory_stride = block.layout->sites;
@@ -329,7 +350,8 @@ double GridLayout::state_bytes() const {
       static_cast<double>(model_.body.neighbours.size() * kept_numbers() * sizeof(double));
   const double a_site = 2.0 * model_.degrees_of_freedom * number + sizeof(std::uint16_t) +
                         (model_.kinds.material_of.empty() ? 0.0 : 1.0) +
-                        (model_.kinds.mixtures.empty() ? 0.0 : 4.0) + memory;
+                        (model_.kinds.mixtures.empty() ? 0.0 : 4.0) + memory +
+                        (model_.volumetric.empty() || model_.volumetric.uniform() ? 0.0 : 8.0);
   double bytes = weights_.bytes();
   for (const BlockLayout& block : blocks)
     bytes += static_cast<double>(block.sites) * a_site +

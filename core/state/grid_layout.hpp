@@ -49,6 +49,7 @@ class GridLayout final : public Layout {
   std::size_t block_of_plane(std::int32_t k) const;
   PlaneRange plane(std::size_t block, std::int32_t k) const;
   std::uint32_t row_of(std::size_t block, Site site) const;
+  void fill_cells(const Block& block, const Row& row, Site site) const;
   void start_row(const Block& block, std::uint32_t row, Site site) const;
   Site first_site_of_row(std::size_t block, std::uint32_t row) const;
 

@@ -67,6 +67,7 @@ void Statics::make_weights() {
   if (model_.materials.size() > 1) kind_.assign(places, 0);
   std::vector<std::uint16_t> alive;
   simulation_.alive(alive);
+  make_cells(alive);
   for (const Run& run : body.runs)
     for (std::int32_t i = run.begin; i < run.end; ++i) {
       const Site site{i, run.j, run.k};

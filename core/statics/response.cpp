@@ -1,6 +1,7 @@
-// Forces, energy and tangents of all springs, from the material's own kernels; on a grid by rows
-// and neighbours. The springs of a plane act on it and on planes after it. Planes that share none
-// of these are computed in parallel, so that sums have the same order for any number of threads.
+// Forces, energy and tangents of all springs and cells; of springs from the material's own kernels;
+// on a grid by rows and neighbours. The springs of a plane act on it and on planes after it. Planes
+// that share none of these are computed in parallel, so that sums have the same order for any
+// number of threads.
 #include <base/thread_errors.hpp>
 #include <model/law.hpp>
 #include <statics/spring_rows.hpp>
@@ -88,6 +89,7 @@ double Statics::respond_plane(std::int32_t k, const double* u, double* force,
       add_forces(buffer, grid, grid.places, step, force + first);
       if (tangents != nullptr) keep_tangents(buffer, grid.components == 4, at, *tangents);
     }
+    if (grid.cells) energy += respond_cells(first, count, u, force, tangents);
   }
   return energy;
 }

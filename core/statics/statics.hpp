@@ -1,6 +1,6 @@
 // Connects static solvers and the simulation: makes the StaticProblem of a model and a state, and
-// brings the result of a solver into the simulation. The functions are in grid.cpp, list.cpp,
-// response.cpp, load_path.cpp, rest.cpp and statics.cpp.
+// brings the result of a solver into the simulation. The functions are in grid.cpp, cells.cpp,
+// list.cpp, response.cpp, load_path.cpp, rest.cpp and statics.cpp.
 #pragma once
 
 #include <state/simulation.hpp>
@@ -54,6 +54,13 @@ class Statics {
   void make_list();
   double respond_list(const double* u, double* force, const SpringTangents* tangents) const;
 
+  // cells.cpp
+  void make_cells(const std::vector<std::uint16_t>& alive);
+  /// Adds the forces of `count` cells from the place `first` on, and writes their tangents. Returns
+  /// their energy, J.
+  double respond_cells(std::int64_t first, std::size_t count, const double* u, double* force,
+                       const SpringTangents* tangents) const;
+
   // response.cpp
   double respond_grid(const double* u, double* force, const SpringTangents* tangents) const;
   double respond(const double* u, double* force, const SpringTangents* tangents) const;
@@ -106,6 +113,7 @@ class Statics {
   std::vector<std::uint32_t> kind_;  ///< ParticleKinds::of() of each place; empty: one material
   /// Fraction of each spring that counts, [n * places + place] or per listed spring; 0: no spring.
   std::vector<float, ArrayMemory<float>> weight_;
+  Values cell_modulus_;                 ///< K_v of the cell of each place, Pa; empty: no cells
   std::vector<float> particle_weight_;  ///< fraction of a whole particle at each place
 
   Values state_;              ///< displacements, m

@@ -101,6 +101,19 @@ TEST(Analyze, NamesWhatGrows) {
 }
 
 TEST(Analyze, FreeRatiosAndNone) {
+  for (const auto& [nu, K] :
+       {std::pair{0.3, 0.5}, {0.4, 3.0}, {0.45, 8.0}, {0.49, 48.0}, {0.0, -1.0}, {-0.5, -1.5}}) {
+    const json volumetric = read({"--membrane", "none", "--poisson", std::to_string(nu)});
+    EXPECT_NEAR(volumetric.at("volumetric"), K, 1e-11) << nu;
+    EXPECT_NEAR(volumetric.at("C11"), 3 + K, 1e-11) << nu;
+    EXPECT_NEAR(volumetric.at("C12"), 1 + K, 1e-11) << nu;
+    EXPECT_NEAR(volumetric.at("C44"), 1, 1e-12) << nu;
+    EXPECT_NEAR(volumetric.at("poisson_bulk"), nu, 1e-12) << nu;
+    EXPECT_TRUE(volumetric.at("isotropic")) << nu;
+    EXPECT_TRUE(volumetric.at("stable").at("mirrored")) << nu;
+    if (K > 0)
+      EXPECT_NEAR(volumetric.at("critical_time_step"), 2 / std::sqrt(12 + 4 * K), 1e-9) << nu;
+  }
   const json none = read({"--membrane", "none"});
   EXPECT_NEAR(none.at("poisson_bulk"), 0.25, 1e-12);
   EXPECT_NEAR(none.at("critical_time_step"), 2 / std::sqrt(12.0), 1e-9);
@@ -141,7 +154,7 @@ TEST(Analyze, RefusesPoissonRatiosOutOfReach) {
                  {", 0.3333), the reach of membrane IV", "no membrane of this lattice reaches it"});
   expect_refused({"--membrane", "I-m", "--poisson", "-0.2"},
                  {"-0.2 is within the reach of I (not isotropic), II (not isotropic)"});
-  expect_refused({"--membrane", "none", "--poisson", "0.2"}, {"--poisson", "none, or 0.25"});
+  expect_refused({"--membrane", "none", "--poisson", "0.5"}, {"--poisson", "none, or 0.25"});
   expect_refused({"--membrane", "free", "--k_beta", "1", "--k_alpha", "1", "--poisson", "0.2"},
                  {"--poisson", "that is what these springs have"});
   EXPECT_EQ(analyze({"--membrane", "I-m", "--poisson", "0.25"}).exit_code, 0);

@@ -127,7 +127,9 @@ TEST(CalibrateCommand, RefusesWhatIsOutOfReach) {
       {", 0.2667), the reach of membrane III", "within the reach of IV (not isotropic)"});
   expect_refused({"--membrane", "IV", "--poisson", "0.34"},
                  {", 0.3333), the reach of membrane IV", "no membrane of this lattice reaches it"});
-  expect_refused({"--membrane", "none", "--poisson", "0.2"}, {"--poisson", "none, or 0.25"});
+  expect_refused({"--lattice", "lattices.fcc", "--membrane", "none", "--poisson", "0.2"},
+                 {"--poisson", "none, or 0.25"});
+  expect_refused({"--membrane", "none", "--poisson", "0.5"}, {"--poisson", "none, or 0.25"});
   for (const char* membrane : {"I-m", "I", "II"})
     expect_refused(
         {"--membrane", membrane, "--lambda", "-1"},

@@ -11,6 +11,10 @@ using namespace hyperlattice::test;
 class CellsStep : public testing::TestWithParam<MembraneCase> {};
 INSTANTIATE_TEST_SUITE_P(Membranes, CellsStep, testing::ValuesIn(membranes),
                          [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(Volumetric, CellsStep, testing::ValuesIn(volumetric),
+                         [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(VolumetricBelow, CellsStep, testing::ValuesIn(volumetric_below),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 /// Growth of the largest displacement over many steps. The initial noise is so small that the
 /// springs stay linear.

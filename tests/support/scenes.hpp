@@ -63,6 +63,17 @@ inline const MembraneCase membranes[] = {
     {"free", R"("membrane": "free", "k_alpha": 0.5, "k_beta": 1.5, "k_gamma": 0.4)"},
 };
 
+/// The same for the volumetric energy of cells, with K_v above zero and below.
+inline const MembraneCase volumetric[] = {
+    {"nu_0_3", R"("poisson": 0.3)"},
+    {"nu_0_45", R"("poisson": 0.45)"},
+    {"nu_0_49", R"("poisson": 0.49)"},
+};
+inline const MembraneCase volumetric_below[] = {
+    {"nu_0", R"("poisson": 0, "volumetric": true)"},
+    {"nu_minus_0_5", R"("poisson": -0.5, "volumetric": true)"},
+};
+
 /// The same for the other structured lattices.
 inline const MembraneCase centred_lattices[] = {
     {"bcc", R"("poisson": 0.25)", "lattices.bcc"},

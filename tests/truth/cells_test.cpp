@@ -1,6 +1,6 @@
 // A body of cells is exactly the union of its cells. Under a homogeneous strain, each surface needs
 // the tractions of the continuum, and no force acts inside. In large motions the forces are those
-// of the springs of each cell, summed cell by cell.
+// of the springs of each cell and of its volumetric energy, summed cell by cell.
 #include <engine/stage_calls.hpp>
 
 #include <support/cells.hpp>
@@ -28,8 +28,8 @@ struct Elasticity {
                  C4 = kb + 8 * kg / 3;
     if (model.degrees_of_freedom == 4) relaxation = C4 / C3;
     const double unit = m.base_stiffness / (2 * l), taken = relaxation * C4;
-    c11 = unit * (C1 - taken);
-    c12 = unit * (C2 - taken);
+    c11 = unit * (C1 - taken) + m.volumetric;
+    c12 = unit * (C2 - taken) + m.volumetric;
     c44 = unit * C2;
   }
   using Tensor = std::array<std::array<double, 3>, 3>;
@@ -81,6 +81,10 @@ std::map<CellIndex, Force> tractions(const CellShape& shape, const Elasticity::T
 class CellsOfMembrane : public testing::TestWithParam<MembraneCase> {};
 INSTANTIATE_TEST_SUITE_P(Membranes, CellsOfMembrane, testing::ValuesIn(membranes),
                          [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(Volumetric, CellsOfMembrane, testing::ValuesIn(volumetric),
+                         [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(VolumetricBelow, CellsOfMembrane, testing::ValuesIn(volumetric_below),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 TEST_P(CellsOfMembrane, PatchTestIsExact) {
   double worst_of_all = 0;
@@ -111,7 +115,8 @@ TEST_P(CellsOfMembrane, PatchTestIsExact) {
         if (model.degrees_of_freedom == 4)
           push[a][b] = model.springs.spring(0, 0, 1).cross_stiffness * strain[a][b];
         auto expected = tractions(shape, elasticity.stress(strain), push);
-        const double scale = model.materials[0].constants.base_stiffness * 1e-20 * l;
+        const double scale =
+            std::max(model.materials[0].constants.base_stiffness, elasticity.c12 * l) * 1e-20 * l;
         double worst = 0;
         for (Particle p = 0; p < model.body.particles; ++p) {
           const Force& outer = expected[corner_of(model, p)];
@@ -123,6 +128,31 @@ TEST_P(CellsOfMembrane, PatchTestIsExact) {
       }
   }
   std::printf("largest force without a traction: %.1e k eps l\n", worst_of_all);
+}
+
+/// Adds the forces of a cell's volumetric energy, from the places of its corners: with the columns
+/// F of the mean deformation gradient, p = 3 K_v (J^(-1/3) - J^(-2/3)) acts on their cross
+/// products.
+template <class Place>
+void add_volumetric(const CellIndex& cell, double K_v,
+                    const std::map<CellIndex, Particle>& particles, const Place& place,
+                    std::vector<Force>& all) {
+  if (K_v == 0) return;
+  const auto sign = [](int corner, int axis) { return (corner >> axis & 1) != 0 ? 1.0 : -1.0; };
+  Vec3 F[3];
+  Particle corners[8];
+  for (int n = 0; n < 8; ++n) {
+    corners[n] = particles.at({cell[0] + (n & 1), cell[1] + (n >> 1 & 1), cell[2] + (n >> 2)});
+    const auto at = place(corners[n]);
+    for (int d = 0; d < 3; ++d) F[d] += sign(n, d) / (4 * l) * Vec3{at[0], at[1], at[2]};
+  }
+  const double J = dot(F[0], cross(F[1], F[2])),
+               p = 3 * K_v * (std::pow(J, -1.0 / 3) - std::pow(J, -2.0 / 3));
+  const Vec3 faces[3] = {cross(F[1], F[2]), cross(F[2], F[0]), cross(F[0], F[1])};
+  for (int n = 0; n < 8; ++n)
+    for (int d = 0; d < 3; ++d)
+      for (std::size_t c = 0; c < 3; ++c)
+        all[corners[n]][c] -= p * l * l / 4 * sign(n, d) * faces[d][c];
 }
 
 /// Sums the forces cell by cell. Each cell has the springs of its own material, computed from
@@ -144,6 +174,7 @@ std::vector<Force> forces_by_cells(const CellShape& shape, const Model& model,
   };
   for (const CellIndex& cell : shape.cells()) {
     const std::uint8_t material = material_of(cell);
+    add_volumetric(cell, model.materials[material].constants.volumetric, particles, place, all);
     for (int m = 0; m < 8; ++m) {
       const auto corner = [&](int n) {
         return particles.at({cell[0] + (n & 1), cell[1] + (n >> 1 & 1), cell[2] + (n >> 2 & 1)});

@@ -15,6 +15,7 @@ const auto name_of = [](const testing::TestParamInfo<MembraneCase>& info) {
   return std::string(info.param.name);
 };
 INSTANTIATE_TEST_SUITE_P(Membranes, EveryMembrane, testing::ValuesIn(membranes), name_of);
+INSTANTIATE_TEST_SUITE_P(Volumetric, EveryMembrane, testing::ValuesIn(volumetric), name_of);
 INSTANTIATE_TEST_SUITE_P(CentredLattices, EveryMembrane, testing::ValuesIn(centred_lattices),
                          name_of);
 

@@ -1,5 +1,7 @@
 #include "galerkin.hpp"
 
+#include <hyperlattice/volumetric_cell.hpp>
+
 namespace hyperlattice::statics {
 
 namespace {
@@ -158,6 +160,43 @@ class Parts {
   std::vector<std::vector<CoarsePart>> of_;
 };
 
+/// Adds the tangent of a cell to the coarse blocks between the sites from which its corners are
+/// interpolated. `free`: bits of the corners' free components.
+void add_cell(StencilLevel& coarse, const TrilinearTransfer& transfer, const CellTangent& tangent,
+              std::int64_t i, std::int64_t j, std::int64_t k, const std::uint8_t (&free)[8]) {
+  struct Site {
+    Parent at;
+    CellMode mode;
+  };
+  Site sites[27];
+  int count = 0;
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    const auto bits = static_cast<std::int64_t>(corner);
+    const Family family(transfer, i + (bits & 1), j + (bits >> 1 & 1), k + (bits >> 2));
+    for (int p = 0; p < family.count; ++p) {
+      const Parent& parent = family.of[p];
+      int n = 0;
+      while (n < count &&
+             !(sites[n].at.i == parent.i && sites[n].at.j == parent.j && sites[n].at.k == parent.k))
+        ++n;
+      if (n == count) sites[count++] = {parent, {}};
+      for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t d = 0; d < 3; ++d)
+          if ((free[corner] >> c & 1U) != 0)
+            sites[n].mode.by[c][d] += corner_sign(corner, d) * parent.weight;
+    }
+  }
+  for (int p = 0; p < count; ++p)
+    for (int q = 0; q < count; ++q) {
+      const Parent &a = sites[p].at, &b = sites[q].at;
+      const int n = coarse.neighbour(b.i - a.i, b.j - a.j, b.k - a.k);
+      if (n < 0) continue;
+      if (double* block =
+              coarse.making(coarse.layout().place(a.i, a.j, a.k), static_cast<std::size_t>(n)))
+        tangent.add_block(sites[p].mode, sites[q].mode, block);
+    }
+}
+
 void add_alpha(StencilLevel& coarse, double alpha, const Family& family) {
   for (int p = 0; p < family.count; ++p)
     for (int q = 0; q < family.count; ++q) {
@@ -216,6 +255,13 @@ std::unique_ptr<StencilLevel> coarsen(const SpringLevel& fine, const TrilinearTr
               const int count = collect_ends(near, free_here, far, free_there, ends);
               kernels.add_spring(sums, own.data(), parts_of(*coarse, from, ends, count, own.data()),
                                  tangent.base, tangent.cross);
+            }
+            if (CellTangent cell; fine.cell(place, cell)) {
+              std::uint8_t free[8];
+              for (std::int64_t n = 0; n < 8; ++n)
+                free[n] =
+                    grid.free[place + (n & 1) + (n >> 1 & 1) * grid.row + (n >> 2) * grid.plane];
+              add_cell(*coarse, transfer, cell, i, j, k, free);
             }
             if (heights && (grid.free[place] >> 3 & 1u) != 0)
               add_alpha(*coarse, double(fine.alpha(place)), Family(transfer, i, j, k));

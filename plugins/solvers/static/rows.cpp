@@ -143,12 +143,14 @@ void add_block(double* block, double factor, const double* other) {
 
 }  // namespace
 
+void cells(const CellProduct& product);  // cells.cpp
 void diagonal(const RowOfSprings& springs, int components,
               const Triangles& blocks);  // diagonal.cpp
 void invert(std::int64_t count, int components, const std::uint8_t* free, const Triangles& blocks);
 void divide(const Division& division, int components);
 
 extern const RowKernels kernels;
-const RowKernels kernels{&springs, &diagonal, &invert, &divide, &stencil, &add_spring, &add_block};
+const RowKernels kernels{&springs, &cells,   &diagonal,   &invert,
+                         &divide,  &stencil, &add_spring, &add_block};
 
 }  // namespace hyperlattice::statics::HYPERLATTICE_INSTRUCTIONS

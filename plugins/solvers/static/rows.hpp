@@ -37,6 +37,17 @@ struct SpringProduct {
   double* out[4] = {};  ///< the product is added to these
 };
 
+/// The product of the tangents of the cells of one row (cell_tangent.hpp) and a field; pointers
+/// point to the row's first place.
+struct CellProduct {
+  std::int64_t count = 0, row = 0, plane = 0;  ///< cells; steps to the next row and plane
+  const float *stiffness = nullptr,
+              *pressure = nullptr;  ///< pressure is null in an undeformed body
+  const float* moved[3] = {};       ///< displacements in lattice constants
+  const double* in[3] = {};
+  double* out[3] = {};  ///< the product is added to these
+};
+
 /// The upper triangles of the symmetric blocks of some places, row by row, [number][place]: 10
 /// numbers with heights, else 6.
 inline constexpr int most_in_triangle = 10;
@@ -82,6 +93,9 @@ struct BlockSums {
 struct RowKernels {
   /// Adds K times a field. Reads and adds zeros up to seven places beyond the row.
   void (*springs)(const SpringProduct&, int components) = nullptr;
+  /// Adds the tangents of cells times a field. Reads and adds zeros up to seven places beyond the
+  /// row.
+  void (*cells)(const CellProduct&) = nullptr;
   /// Adds the contributions of springs to the diagonal blocks of both ends.
   void (*diagonal)(const RowOfSprings&, int components, const Triangles&) = nullptr;
   /// Replaces each block by its inverse, with zeros for components that are held (bit of `free` is

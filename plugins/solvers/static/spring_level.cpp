@@ -2,6 +2,8 @@
 
 #include "height_change.hpp"
 
+#include <hyperlattice/volumetric_cell.hpp>
+
 #include <bit>
 
 namespace hyperlattice::statics {
@@ -36,6 +38,10 @@ SpringLevel::SpringLevel(const StaticProblem& problem)
     cross_pull_.resize(springs);
     alpha_.resize(places);
   }
+  if (grid_.cells) {
+    cell_stiffness_.resize(places);
+    cell_pressure_.resize(places);
+  }
   moved_.resize(grid_.numbers());
   diagonal_.resize(static_cast<std::size_t>(grid_.components == 4 ? 10 : 6) * places);
   for (const NeighbourGeometry& n : grid_.neighbours)
@@ -52,6 +58,8 @@ double SpringLevel::linearise(const Field& displacement, Field& force) {
   if (grid_.components == 4)
     tangents = {axial_.data(), pull_.data(), cross_axial_.data(), cross_pull_.data(),
                 alpha_.data()};
+  tangents.cell_stiffness = cell_stiffness_.data();
+  tangents.cell_pressure = cell_pressure_.data();
   const double energy = problem_.respond(displacement.data(), force.data(), &tangents);
   deformed_ = largest(displacement) > 0;
   rows_.pack(grid_, tangents, deformed_);
@@ -65,7 +73,7 @@ double SpringLevel::linearise(const Field& displacement, Field& force) {
   new_ = moved_when_prepared_.empty() || largest_change() > little ||
          holds_heights_otherwise(largest_pull_ + pull_when_prepared_, softest_height_);
   if (new_)
-    largest_eigenvalue_ = deformed_ ? std::max(bound, power_iteration()) : bound;
+    largest_eigenvalue_ = deformed_ || grid_.cells ? std::max(bound, power_iteration()) : bound;
   else
     largest_eigenvalue_ = std::max(largest_eigenvalue_, slack * bound);
   return energy;
@@ -133,6 +141,16 @@ void SpringLevel::multiply(const double* x, double* y) const {
       product.out[c] = y + c * grid_.places + first;
     }
     row_kernels_->springs(product, grid_.components);
+    if (!grid_.cells) return;
+    CellProduct cells{.count = count, .row = grid_.row, .plane = grid_.plane};
+    cells.stiffness = cell_stiffness_.data() + first;
+    cells.pressure = deformed_ ? cell_pressure_.data() + first : nullptr;
+    for (int c = 0; c < 3; ++c) {
+      cells.moved[c] = moved_.data() + c * grid_.places + first;
+      cells.in[c] = product.in[c];
+      cells.out[c] = product.out[c];
+    }
+    row_kernels_->cells(cells);
   });
   mask(y);
 }
@@ -179,8 +197,50 @@ bool SpringLevel::tangent(std::size_t neighbour, std::int64_t place, SpringBlock
   return true;
 }
 
-/// Returns a signature of each site from the stiffness of its springs and its free components. In a
-/// deformed body each site has its own signature.
+bool SpringLevel::cell(std::int64_t place, CellTangent& tangent) const {
+  if (!grid_.cells || cell_stiffness_[static_cast<std::size_t>(place)] == 0) return false;
+  tangent.stiffness = double{cell_stiffness_[static_cast<std::size_t>(place)]};
+  tangent.pressure = double{cell_pressure_[static_cast<std::size_t>(place)]};
+  const std::int64_t steps[3] = {1, grid_.row, grid_.plane};
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t d = 0; d < 3; ++d) {
+      double sum = 0;
+      for (std::size_t corner = 0; deformed_ && corner < 8; ++corner) {
+        std::int64_t at = static_cast<std::int64_t>(c) * grid_.places + place;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          at += static_cast<std::int64_t>(corner >> axis & 1U) * steps[axis];
+        sum += corner_sign(corner, d) * double{moved_[static_cast<std::size_t>(at)]};
+      }
+      tangent.gradient[c][d] = sum / 4;
+    }
+  set_cofactors(tangent.gradient, tangent.cofactors);
+  for (std::size_t c = 0; c < 3; ++c) tangent.gradient[c][c] += 1;
+  return true;
+}
+
+void SpringLevel::add_cells_to_diagonal(std::int64_t first, std::int64_t count) {
+  CellTangent tangent;
+  for (std::int64_t place = first; place < first + count; ++place) {
+    if (!cell(place, tangent)) continue;
+    for (std::size_t corner = 0; corner < 8; ++corner) {
+      CellMode mode;
+      for (auto& of_component : mode.by)
+        for (std::size_t d = 0; d < 3; ++d) of_component[d] = corner_sign(corner, d);
+      double block[16] = {};
+      tangent.add_block(mode, mode, block);
+      const auto n = static_cast<std::int64_t>(corner);
+      const std::int64_t at = place + (n & 1) + (n >> 1 & 1) * grid_.row + (n >> 2) * grid_.plane;
+      std::int64_t number = 0;
+      for (std::int64_t a = 0; a < grid_.components; ++a)
+        for (std::int64_t b = a; b < grid_.components; ++b, ++number)
+          diagonal_[static_cast<std::size_t>(number * grid_.places + at)] +=
+              static_cast<float>(block[4 * a + b]);
+    }
+  }
+}
+
+/// Returns a signature of each site from the stiffness of its springs and its cell and from its
+/// free components. In a deformed body each site has its own signature.
 Signatures SpringLevel::signatures() const {
   Signatures all(static_cast<std::size_t>(grid_.sites[0]) *
                  static_cast<std::size_t>(grid_.sites[1]) *
@@ -197,6 +257,8 @@ Signatures SpringLevel::signatures() const {
       row[i] = deformed_ ? first + i
                          : std::uint64_t{grid_.free[first + i]} << 32 |
                                bits(alpha(static_cast<std::int64_t>(first + i)));
+    for (std::size_t i = 0; i < count && grid_.cells && !deformed_; ++i)
+      row[i] = signed_by(row[i], bits(cell_stiffness_[first + i]));
     for (std::size_t n = 0; n < grid_.neighbours.size() && !deformed_; ++n) {
       const std::size_t at = n * static_cast<std::size_t>(grid_.places) + first;
       for (std::size_t i = 0; i < count; ++i)
@@ -235,6 +297,7 @@ void SpringLevel::invert_diagonal() {
       }
       row_kernels_->diagonal(springs, grid_.components, diagonal(static_cast<std::size_t>(first)));
     }
+    if (grid_.cells) add_cells_to_diagonal(first, count);
   });
   softest_height_ = infinity;
   for (std::size_t p = 0; grid_.components == 4 && p < places; ++p)

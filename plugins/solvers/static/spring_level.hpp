@@ -1,6 +1,8 @@
-// The finest level of multigrid: the tangents of the lattice's springs, applied without assembly.
+// The finest level of multigrid: the tangents of the lattice's springs and cells, applied without
+// assembly.
 #pragma once
 
+#include "cell_tangent.hpp"
 #include "numerics.hpp"
 #include "rows.hpp"
 #include "signatures.hpp"
@@ -33,6 +35,9 @@ class SpringLevel : public GridLevel {
   /// Computes the tangent of the spring from a place to a neighbour. Returns false if there is no
   /// spring.
   bool tangent(std::size_t neighbour, std::int64_t place, SpringBlocks& blocks) const;
+  /// Computes the tangent of the cell of which a place is the lowest corner. Returns false if there
+  /// is no cell.
+  bool cell(std::int64_t place, CellTangent& tangent) const;
   bool has_spring(std::size_t neighbour, std::int64_t place) const;
   double stiffest() const;  ///< largest tangent of a spring, N/m
   /// Returns the least stiffness of a height, N/m; infinite if no height can move.
@@ -46,6 +51,7 @@ class SpringLevel : public GridLevel {
  private:
   template <class Visit>
   void for_rows(const Visit& visit) const;
+  void add_cells_to_diagonal(std::int64_t first, std::int64_t count);
   void invert_diagonal();
   float largest_change() const;
 
@@ -54,7 +60,7 @@ class SpringLevel : public GridLevel {
   const StaticGrid& grid_;
   std::vector<Direction> directions_;  ///< one for each neighbour
   TangentRows rows_;
-  Floats axial_, pull_, cross_axial_, cross_pull_, alpha_;
+  Floats axial_, pull_, cross_axial_, cross_pull_, alpha_, cell_stiffness_, cell_pressure_;
   Floats moved_,
       moved_when_prepared_;  ///< displacements in lattice constants, [component][place]
   double largest_pull_ = 0,

@@ -53,10 +53,10 @@
   CROSSES(PeriodicSample, particles, volume, springs)                                                                                                 \
   CROSSES(LatticeSink, self, for_analysis, receive_grid, receive_run, receive_points, receive_sample)                                                 \
   CROSSES(LatticeFunctions, build)                                                                                                                    \
-  CROSSES(MaterialConstants, density, base_stiffness, cross_ratio, alpha_ratio, clamped, law)                                                         \
+  CROSSES(MaterialConstants, density, base_stiffness, cross_ratio, alpha_ratio, clamped, law, volumetric)                                                         \
   CROSSES(ElasticConstants, C11, C12, C44)                                                                                                            \
   CROSSES(LatticeFacts, spacing, basis, site_volume, membrane_distance, neighbours, spring_classes, class_stiffness, particles, squared_lengths,      \
-          lengths, cubed_lengths, allow_unstable, self, get_elastic_constants, get_stable)                                                            \
+          lengths, cubed_lengths, allow_unstable, has_cells, self, get_elastic_constants, get_stable)                                                            \
   CROSSES(KernelChoice, membrane, listed, precision)                                                                                \
   CROSSES(SpringIdentity, a, b)                                                                                                                       \
   CROSSES(OneSpring, stiffness, rest_length, elongation, law, memory)                                                                                 \
@@ -72,8 +72,9 @@
   CROSSES(RowEnergies, stored, dissipated, fractured)                                                                                                 \
   CROSSES(RowSums, stored, kinetic, kinetic_mean, momentum, potential, damped, fractured)                                                                        \
   CROSSES(ListedSlots, first, neighbour, stiffness, alarm, records, memory)                                                                           \
+  CROSSES(VolumetricCells, spacing, modulus, moduli)                                                                                                  \
   CROSSES(KernelRequest, rows_per_plane, planes, reach, rows, displacement, velocity, alive, material, mixture, mixture_springs, memory, memory_numbers, memory_stride, weight_sets, weights, \
-          listed, neighbours, springs, mass, alpha, materials, spring_classes, membrane_distance, exact, back, forward, damping, damping_rate, acceleration, \
+          listed, neighbours, springs, mass, alpha, materials, spring_classes, membrane_distance, exact, cells, back, forward, damping, damping_rate, acceleration, \
           boundary_particles, self, review, receive_gone, other_row, scratch, scratch_width, damped_work, fracture_work, sums)                                                                          \
   CROSSES(SpringRow, count, here, there, stiffness, cross_stiffness, weight, law, memory, memory_stride, rest, rest_length, cross_rest_length, membrane_distance, spacing, pull,  \
           axial, cross_pull, cross_axial)                                                                                                             \
@@ -91,8 +92,8 @@
   CROSSES(LoadFunctions, declare, factor, answer, prepare)                                                                                            \
   CROSSES(StaticRow, begin, end)                                                                                                                      \
   CROSSES(StaticSpring, a, b, rest)                                                                                                                   \
-  CROSSES(StaticGrid, sites, row, plane, origin, places, components, spacing, membrane_distance, neighbours, rows, listed, springs, free, threads)    \
-  CROSSES(SpringTangents, axial, pull, cross_axial, cross_pull, alpha)                                                                                \
+  CROSSES(StaticGrid, sites, row, plane, origin, places, components, spacing, membrane_distance, neighbours, rows, cells, listed, springs, free, threads)    \
+  CROSSES(SpringTangents, axial, pull, cross_axial, cross_pull, alpha, cell_stiffness, cell_pressure)                                                                                \
   CROSSES(StaticProblem, self, grid, state, respond_to, load_at, prescribe_at, scale_of, position_of)                                                 \
   CROSSES(RestReport, residual, displacement_error, iterations)                                                                                       \
   CROSSES(SolverFacts, start_time, critical_time_step, corners, sites_across, listed, remembers, answering)                                            \
@@ -123,7 +124,7 @@ constexpr std::uint32_t boundary_hash() {
         std::uint64_t{max_law_constants}, std::uint64_t{max_law_memory},
         std::uint64_t{max_failure_memory}, std::uint64_t{lanes}, std::uint64_t{slots_ahead},
         std::uint64_t{record_numbers}, std::uint64_t{record_moved}, std::uint64_t{record_material},
-        std::uint64_t{particle_bit}, std::uint64_t{scratch_margin},
+        std::uint64_t{particle_bit}, std::uint64_t{cell_bit}, std::uint64_t{scratch_margin},
         std::uint64_t{std::size(family_names)}, std::uint64_t{std::size(field_names)}})
     hash.add(constant);
 #define HYPERLATTICE_ADD(Struct, ...) Layout<Struct>::add_to(hash);

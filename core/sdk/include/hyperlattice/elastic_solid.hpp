@@ -4,7 +4,11 @@
 // (calibration.hpp):
 //   I-m: lambda = 7 (1 - 4 nu) / (1 + 5 nu),  k = 0.4 E l / eta,
 //        eta = (18/5) (1 + nu) (1 - 2 nu) / (1 + 5 nu)
-// For other lattices it uses their computed elastic constants (membranes.hpp). E is the modulus of
+// For other lattices it uses their computed elastic constants (membranes.hpp). Without a membrane
+// the volumetric energy of the cells (volumetric_cell.hpp) gives every Poisson ratio above the
+// lattice's own, and with `volumetric` those below it:
+//   K_v = (nu (C11 + C12) - C12) / (1 - 2 nu) with C11, C12 of the springs; C (4 nu - 1) / (1 - 2
+//   nu) for the cubic lattice, C = k / l. E is the modulus of
 // one layer; every particle has the mass density * V, with V the volume of its site.
 #pragma once
 
@@ -40,6 +44,7 @@ inline bool is_cubic_of_18(const LatticeFacts& lattice) {
 struct Choice {
   calibration::Ratios ratios;
   double poisson = 0, modulus_ratio = 0;
+  double volumetric = 0;  ///< K_v, Pa
 };
 /// Options of a material that is elastic at small strain, and the constants that they give on a
 /// lattice. A material's own Options derive from them.
@@ -47,6 +52,7 @@ struct Options {
   double young = 0, density = 0;
   std::optional<double> poisson, lambda;
   Membrane membrane = Membrane::none;
+  bool volumetric = false;
   std::optional<double> k_alpha;  // absent: infinitely stiff
   double k_beta = 0, k_gamma = 0;
   Parameters parameters = Parameters::closed_form;
@@ -60,7 +66,10 @@ struct Options {
         .example("\"10 GPa\"")
         .template add<&Options::poisson>(
             "poisson", "",
-            "Poisson ratio; may be left out without a membrane, with lambda, and with free ratios")
+            "Poisson ratio; may be left out without a membrane, with lambda, and with free ratios. "
+            "Without a membrane, the volumetric energy of the cells gives a value above the "
+            "lattice's own (1/4 in the cubic lattice), exactly isotropic and with 3 degrees of "
+            "freedom")
         .above(-1)
         .below(0.5)
         .template add<&Options::density>("density", "kg/m3", "mass density")
@@ -70,6 +79,12 @@ struct Options {
             "which springs there are in the fourth dimension; free: k_alpha, k_beta, k_gamma")
         .choices(calibration::membrane_names)
         .fallback("\"none\"")
+        .template add<&Options::volumetric>(
+            "volumetric", "",
+            "without a membrane, the volumetric energy of the cells also gives Poisson ratios "
+            "below "
+            "the lattice's own, by K_v below zero; only in bodies without failure")
+        .fallback("false")
         .template add<&Options::lambda>("lambda", "", "4D stiffness ratio, in place of poisson")
         .template add<&Options::k_alpha>("k_alpha", "",
                                          "with membrane free: stiffness over k of the spring from "
@@ -107,7 +122,8 @@ struct Options {
     if (parameters == Parameters::paper && !cubic)
       throw std::invalid_argument(
           "parameters closed_form: the paper's polynomials are of the simple cubic lattice");
-    const Choice choice = cubic ? choose_in_closed_form(lattice) : choose(lattice);
+    Choice choice = cubic ? choose_in_closed_form(lattice) : choose(lattice);
+    if (needs_volumetric(choice.poisson)) add_volumetric(lattice, choice);
     if (!(choice.modulus_ratio > 0))
       throw std::invalid_argument("these ratios give a lattice without stiffness");
     check_poisson(lattice, choice.poisson);
@@ -115,6 +131,7 @@ struct Options {
     MaterialConstants constants = membranes::constants(lattice, choice.ratios);
     constants.density = density;
     constants.base_stiffness = base_stiffness(lattice, choice, cubic);
+    constants.volumetric = choice.volumetric * constants.base_stiffness;
     constants.clamped = choice.ratios.clamped && constants.has_cross_springs();
     return constants;
   }
@@ -124,6 +141,8 @@ struct Options {
     const bool has_ratios = k_beta != 0 || k_gamma != 0 || k_alpha != 0.0;
     if (membrane != Membrane::free && has_ratios)
       faults.fault("membrane", "free, because k_alpha, k_beta or k_gamma is given");
+    if (volumetric && membrane != Membrane::none)
+      faults.fault("volumetric", "false: only a solid without a membrane takes it");
     if (parameters == Parameters::paper && membrane != Membrane::I_m)
       faults.fault("parameters", "closed_form: the paper's polynomials are of membrane I-m");
     if (lambda && (membrane == Membrane::none || membrane == Membrane::free))
@@ -141,6 +160,9 @@ struct Options {
   }
 
  private:
+  /// Difference of Poisson ratios that counts as none.
+  static constexpr double tolerance = 1e-4;
+
   calibration::Ratios free_ratios() const {
     return {k_alpha.value_or(0), k_beta, k_gamma, !k_alpha.has_value()};
   }
@@ -182,6 +204,23 @@ struct Options {
     return choice;
   }
 
+  /// Returns whether the cells must have a volumetric energy. `own`: the springs' Poisson ratio.
+  bool needs_volumetric(double own) const {
+    return membrane == Membrane::none && poisson && std::abs(*poisson - own) > tolerance &&
+           (volumetric || *poisson > own);
+  }
+
+  /// Gives the choice the volumetric energy that its Poisson ratio needs.
+  void add_volumetric(const LatticeFacts& lattice, Choice& choice) const {
+    if (!lattice.has_cells) return;
+    MaterialConstants constants = membranes::constants(lattice, choice.ratios);
+    const ElasticConstants springs = lattice.elastic_constants(constants);
+    choice.volumetric = constants.volumetric = membranes::volumetric(lattice, *poisson);
+    const ElasticConstants own = lattice.elastic_constants(constants);
+    choice.poisson = own.poisson();
+    choice.modulus_ratio *= own.young() / springs.young();
+  }
+
   /// Checks the Poisson ratio for a membrane with a lambda: it must give a stable lattice, unless
   /// the scene accepts unstable ones.
   void check_reach(const LatticeFacts& lattice, double ratio) const {
@@ -195,19 +234,22 @@ struct Options {
 
   /// Checks that the Poisson ratio equals that of a membrane without a lambda, which is fixed.
   void check_poisson(const LatticeFacts& lattice, double own) const {
-    constexpr double tolerance = 1e-4;
     if (!poisson || has_lambda(membrane) || std::abs(*poisson - own) <= tolerance) return;
     if (own >= membranes::largest_poisson)
       throw std::invalid_argument(
           text("poisson left out: none is possible with this lattice and membrane ",
                membranes::name(membrane), ", which gives ", own, "; a Poisson ratio is below ",
                membranes::largest_poisson));
+    if (membrane == Membrane::free)
+      throw std::invalid_argument(
+          text("poisson ", own, " along [100], which these ratios give; or leave poisson out"));
     throw std::invalid_argument(
-        membrane == Membrane::none
-            ? text("poisson ", own,
-                   ", or left out: that is what the lattice without a membrane has; ",
-                   membranes::reached_by(lattice, membrane, *poisson))
-            : text("poisson ", own, " along [100], which these ratios give; or leave poisson out"));
+        text("poisson ", own, ", or left out: that is what the lattice without a membrane has; ",
+             membranes::reached_by(lattice, membrane, *poisson),
+             lattice.has_cells
+                 ? "; volumetric true reaches it too, in a body without failure"
+                 : "; other ratios need the volumetric energy of cubic cells, whose corners the "
+                   "particles of this lattice are not"));
   }
 
   double base_stiffness(const LatticeFacts& lattice, const Choice& choice, bool cubic) const {

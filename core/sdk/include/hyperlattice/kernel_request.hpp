@@ -9,6 +9,8 @@
 namespace hyperlattice {
 
 inline constexpr std::uint16_t particle_bit = 1u << 15;
+/// The cell from this site to the next ones has a volumetric energy and all its springs.
+inline constexpr std::uint16_t cell_bit = 1u << 14;
 template <class Real>
 /// Numbers in a pack of 64 bytes.
 inline constexpr int lanes_of = 64 / static_cast<int>(sizeof(Real));
@@ -145,6 +147,15 @@ inline constexpr std::size_t slots_ahead = 32;
 /// material. A kernel writes the displacements and heights of the block's own particles.
 inline constexpr std::size_t record_numbers = 8, record_moved = 3, record_material = 7;
 
+/// The volumetric energies of cells (volumetric_cell.hpp). The bit cell_bit of a site says whether
+/// the cell of which it is the lowest corner has one.
+struct VolumetricCells {
+  double spacing = 0;  ///< l, m; 0: no cell has a volumetric energy
+  double modulus = 0;  ///< K_v of every cell, Pa, if there are no moduli
+  /// K_v times the cell's share, Pa, by site; null if all are alike.
+  const double* moduli = nullptr;
+};
+
 /// A block of a body, and the step or measurement that a kernel makes of it.
 struct KernelRequest {
   // the block: its own planes, with `reach` ghost planes before and after them
@@ -156,7 +167,8 @@ struct KernelRequest {
   /// membrane.
   void* displacement[4] = {};
   void* velocity[4] = {};  ///< velocities of the same components, m/s, in the kernel's precision
-  /// Bits of each site, bit n: the spring to neighbour n exists; bit 15: the site holds a particle.
+  /// Bits of each site, bit n: the spring to neighbour n exists; cell_bit; particle_bit: the site
+  /// holds a particle.
   std::uint16_t* alive = nullptr;
   /// Material of each site, if springs depend on the materials of their ends; null: one material,
   /// or mixtures.
@@ -190,6 +202,7 @@ struct KernelRequest {
   std::uint32_t materials = 1, spring_classes = 1;
   double membrane_distance = 0;  ///< Delta, metres
   bool exact = false;  ///< use roots and divisions instead of series, one neighbour at a time
+  VolumetricCells cells;
 
   // the step: v(n+1/2) = v(n-1/2) + (back + forward) F(n) / m; u(n+1) = u(n) + 2 forward v(n+1/2)
   double back = 0;          ///< half of the last step, s; 0 at the start

@@ -92,6 +92,14 @@ inline double lambda(const LatticeFacts& lattice, Membrane membrane, double pois
   return infinity;
 }
 
+/// Returns K_v, Pa, of the volumetric energy (volumetric_cell.hpp) with which the lattice of k =
+/// 1 N/m without a membrane has this Poisson ratio: with C11 and C12 of the springs,
+///   K_v = (nu (C11 + C12) - C12) / (1 - 2 nu).
+inline double volumetric(const LatticeFacts& lattice, double poisson) {
+  const ElasticConstants springs = lattice.elastic_constants(constants(lattice, {}));
+  return (poisson * (springs.C11 + springs.C12) - springs.C12) / (1 - 2 * poisson);
+}
+
 /// Returns the Poisson ratio that the lattice approaches for lambda to infinity.
 inline double limit(const LatticeFacts& lattice, Membrane membrane) {
   const ElasticConstants one = elastic_constants(lattice, membrane, 1e3),

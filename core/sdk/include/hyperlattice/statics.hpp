@@ -35,6 +35,7 @@ struct StaticGrid {
   double membrane_distance = 0;  ///< Delta, metres
   std::span<const NeighbourGeometry> neighbours;
   std::span<const StaticRow> rows;        ///< [k * ny + j]
+  bool cells = false;                     ///< cells have volumetric energies
   bool listed = false;                    ///< sites, neighbours and rows are empty
   std::span<const StaticSpring> springs;  ///< springs of a listed lattice
   /// Bits of each place, bit c: the place has a particle that may move along c.
@@ -60,6 +61,10 @@ struct StaticGrid {
 struct SpringTangents {
   float *axial = nullptr, *pull = nullptr, *cross_axial = nullptr, *cross_pull = nullptr;
   float* alpha = nullptr;  ///< stiffness of the alpha spring of each place
+  /// Volumetric energy of the cell of which each place is the lowest corner, times its share: p' l
+  /// / 16 and p l / 16, with the pressure p and its derivative (volumetric_cell.hpp), N/m; 0 where
+  /// there is no cell. Only with StaticGrid::cells.
+  float *cell_stiffness = nullptr, *cell_pressure = nullptr;
 };
 
 /// A body in the form that a static solver needs.

@@ -9,6 +9,7 @@
 // threads.
 #pragma once
 
+#include <hyperlattice/kernels/cells.hpp>
 #include <hyperlattice/kernels/listed.hpp>
 #include <hyperlattice/kernels/stencil.hpp>
 #include <hyperlattice/kernels/tangent.hpp>
@@ -75,13 +76,14 @@ class Sweep {
   void one_row(const Row& row, std::uint32_t index, int j, int k) {
     const bool owned = k >= 0, others = row.law != 0, in_one_pass = !others && fuses(row);
     const int count = (row.end - row.begin + width - 1) / width * width;
+    Energies<Pack> energies;
+    if (request_.cells.spacing != 0) energies.stored += add_cells(row, j, k, count);
     // Particles can move as soon as the forces on them are known, unless a criterion, damping or a
     // boundary particle must see the forces first.
     Motion<config> motion(request_, row);
     if (in_one_pass && owned && !breakable_ && !motion.damped() &&
         row.first_boundary_particle == row.last_boundary_particle)
       return in_one(row, index, j, k, count, true);
-    Energies<Pack> energies;
     if (others) {
       request_.other_row(request_.self, {index, j, k});
     } else if (in_one_pass) {
@@ -94,6 +96,26 @@ class Sweep {
     if ((others || in_one_pass) && motion.accelerated()) motion.add_body_force(own_, count);
     motion.vectors(own_);
     motion.template finish<LawWithMemory<Law>>(index, energies);
+  }
+
+  /// Adds the forces of the row's cells to those that it and later rows receive. Returns the
+  /// energies of the cells.
+  Pack add_cells(const Row& row, int j, int k, int count) {
+    using Row4 = CellRow<Stored, Real, measuring>;
+    if (k + 1 < 0 || j + 1 == request_.rows_per_plane) return 0;
+    typename Row4::Rows rows;
+    for (int r = 0; r < 4; ++r) {
+      const int to_j = j + (r & 1), to_k = k + (r >> 1);
+      const Row& other = request_.rows[row_index(to_j, to_k)];
+      const auto there = static_cast<std::ptrdiff_t>(other.start) + (row.begin - other.begin);
+      for (int c = 0; c < 3; ++c) {
+        rows.displacement[r][c] = static_cast<const Stored*>(request_.displacement[c]) + there;
+        rows.received[r][c] = scratch_.received(c, to_j, to_k) + row.begin;
+      }
+    }
+    rows.alive = request_.alive + row.start;
+    rows.moduli = request_.cells.moduli == nullptr ? nullptr : request_.cells.moduli + row.start;
+    return Row4::add(request_.cells, rows, count);
   }
 
   /// Returns whether all springs of the row can be computed in one pass.

@@ -1,0 +1,101 @@
+#include <model/build.hpp>
+#include <model/spring_lattice.hpp>
+
+#include <algorithm>
+
+namespace hyperlattice {
+
+namespace {
+
+/// Returns the ranges where a row and the next site of the row both have particles.
+std::vector<Range> pairs(std::span<const Run> runs) {
+  std::vector<Range> found;
+  for (const Run& run : runs)
+    if (run.begin + 1 < run.end) found.push_back({run.begin, run.end - 1});
+  return found;
+}
+
+std::vector<Range> intersection(const std::vector<Range>& a, const std::vector<Range>& b) {
+  std::vector<Range> found;
+  for (auto x = a.begin(), y = b.begin(); x != a.end() && y != b.end();) {
+    const Range both{std::max(x->begin, y->begin), std::min(x->end, y->end)};
+    if (both.begin < both.end) found.push_back(both);
+    ++(x->end < y->end ? x : y);
+  }
+  return found;
+}
+
+}  // namespace
+
+Volumetric::Volumetric(const Body& body, const ParticleKinds& kinds,
+                       std::vector<double> of_materials)
+    : body_(&body), kinds_(&kinds) {
+  if (std::any_of(of_materials.begin(), of_materials.end(), [](double k) { return k != 0; }))
+    of_materials_ = std::move(of_materials);
+}
+
+double Volumetric::largest() const {
+  return empty() ? 0 : *std::max_element(of_materials_.begin(), of_materials_.end());
+}
+double Volumetric::least() const {
+  return empty() ? 0 : *std::min_element(of_materials_.begin(), of_materials_.end());
+}
+
+std::vector<Range> Volumetric::row(std::int32_t j, std::int32_t k) const {
+  if (!body_->cells.empty()) {
+    std::vector<Range> found;
+    for (const Run& run : body_->cells.row(j, k)) found.push_back({run.begin, run.end});
+    return found;
+  }
+  std::vector<Range> found = pairs(body_->row(j, k));
+  for (std::int32_t n = 1; n < 4 && !found.empty(); ++n)
+    found = intersection(found, pairs(body_->row(j + (n & 1), k + (n >> 1))));
+  return found;
+}
+
+double Volumetric::modulus(Site cell) const {
+  if (uniform()) return of_materials_.front();
+  if (!kinds_->mixtures.empty())
+    return of_materials_[kinds_->mixtures.cell_above(kinds_->mixtures.of(body_->at(cell)))];
+  double inverse = 0, mean = 0, least = infinity, largest = -infinity;
+  for (const Particle corner : corners(cell)) {
+    const double own = of_materials_[kinds_->material(corner)];
+    inverse += 1 / own / 8;
+    mean += own / 8;
+    least = std::min(least, own);
+    largest = std::max(largest, own);
+  }
+  if (least == largest) return least;
+  if (least == 0 || largest == 0) return 0;
+  return (least > 0) == (largest > 0) ? 1 / inverse : mean;
+}
+
+std::array<Particle, 8> Volumetric::corners(Site cell) const {
+  std::array<Particle, 8> found{};
+  for (std::int32_t n = 0; n < 8; ++n)
+    found[static_cast<std::size_t>(n)] =
+        body_->at({cell.i + (n & 1), cell.j + (n >> 1 & 1), cell.k + (n >> 2)});
+  return found;
+}
+
+void set_volumetric(Model& model, Faults& faults) {
+  const bool has_cells = facts_of(geometry_from(model.body)).has_cells;
+  std::vector<double> moduli;
+  for (const Material& material : model.materials) {
+    const double modulus = material.constants.volumetric;
+    moduli.push_back(modulus);
+    const auto refuse = [&](const char* expected) {
+      faults.add(material.stage->pointer, material.stage->component->type(), expected);
+    };
+    if (modulus != 0 && !has_cells)
+      refuse(
+          "no volumetric energy on this lattice: its particles are not the corners of cubic cells");
+    if (modulus < 0 && (model.springs.breakable || model.springs.softens))
+      refuse(
+          "no failure in the body: a volumetric energy with K_v below zero would give energy to "
+          "what breaks");
+  }
+  if (faults.empty()) model.volumetric = Volumetric(model.body, model.kinds, std::move(moduli));
+}
+
+}  // namespace hyperlattice

@@ -1,0 +1,53 @@
+// The volumetric energies of the cells of a body (<hyperlattice/volumetric_cell.hpp>): which cells
+// have one, and their K_v. A cell stands between the sites (i, j, k) and (i + 1, j + 1, k + 1).
+// With boundary "cells" it has one material. With boundary "particles" every cell counts whose
+// eight corners are particles, in full; between several materials its K_v is joined as the
+// stiffness of their springs is.
+#pragma once
+
+#include <model/body.hpp>
+#include <model/particle_kinds.hpp>
+
+#include <array>
+#include <vector>
+
+namespace hyperlattice {
+
+class Volumetric {
+ public:
+  /// The cells of a body in which none has a volumetric energy.
+  Volumetric() = default;
+  /// `of_materials`: K_v of each material, Pa. `body` and `kinds` must outlive the object.
+  Volumetric(const Body& body, const ParticleKinds& kinds, std::vector<double> of_materials);
+
+  /// Returns whether no cell has a volumetric energy.
+  bool empty() const { return of_materials_.empty(); }
+  /// Returns whether all cells have the same K_v.
+  bool uniform() const { return of_materials_.size() == 1; }
+  /// Returns the largest and least K_v of the materials, Pa.
+  double largest() const;
+  double least() const;
+
+  /// Returns the cells of row (j, k), ascending and disjoint, by the sites of their lowest corners.
+  std::vector<Range> row(std::int32_t j, std::int32_t k) const;
+  /// Returns K_v, Pa, of an existing cell.
+  double modulus(Site cell) const;
+  /// Calls visit(cell, K_v) for each cell of the body with a K_v.
+  template <class Visit>
+  void for_cells(const Visit& visit) const {
+    for (std::int32_t k = 0; !empty() && k < body_->grid.sites[2]; ++k)
+      for (std::int32_t j = 0; j < body_->grid.sites[1]; ++j)
+        for (const Range& range : row(j, k))
+          for (Site cell{range.begin, j, k}; cell.i < range.end; ++cell.i)
+            if (const double own = modulus(cell); own != 0) visit(cell, own);
+  }
+  /// Returns the corners of an existing cell, in the order of CellCorners.
+  std::array<Particle, 8> corners(Site cell) const;
+
+ private:
+  const Body* body_ = nullptr;
+  const ParticleKinds* kinds_ = nullptr;
+  std::vector<double> of_materials_;
+};
+
+}  // namespace hyperlattice
