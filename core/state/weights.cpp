@@ -45,8 +45,8 @@ std::uint32_t WeightSets::place(const Body& body, std::uint64_t cells) {
   const auto add = [&](const Neighbour& to) {
     Vector& shares = vectors_.emplace_back();
     for (int lane = 0; lane < lanes; ++lane)
-      shares.values[lane] = share_of_cells(to, [&](int di, int dj, int dk) {
-        return (cells >> (cells_of_row * row_of(dj, dk) + lane + di + 1) & 1u) != 0;
+      shares.values[lane] = mean_share(to, [&](int di, int dj, int dk) {
+        return (cells >> (cells_of_row * row_of(dj, dk) + lane + di + 1) & 1u) != 0 ? 1.0 : 0.0;
       });
   };
   add({});

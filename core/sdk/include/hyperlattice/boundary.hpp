@@ -35,7 +35,7 @@
 #define HYPERLATTICE_BOUNDARY(CROSSES)                                                                                                                \
   CROSSES(Vec3, x, y, z)                                                                                                                              \
   CROSSES(RegionId, index)                                                                                                                            \
-  CROSSES(Shape, self, contains_point, low, high, anchor)                                                                                             \
+  CROSSES(Shape, self, contains_point, low, high, anchor, share_of_cube)                                                                              \
   CROSSES(Complaint, self, receive)                                                                                                                   \
   CROSSES(OptionValue, absent, boolean, integer, number, text, numbers, texts, shape, region)                                                         \
   CROSSES(Option, name, unit, help, fallback, word, example, choices, low, high, low_open, high_open, optional, kind, set)                            \
@@ -50,7 +50,7 @@
   CROSSES(PointList, spacing, site_volume, membrane_distance, positions, volumes, springs, shape)                                                     \
   CROSSES(SampleSpring, a, b, rest, stiffness)                                                                                                        \
   CROSSES(PeriodicSample, particles, volume, springs)                                                                                                 \
-  CROSSES(LatticeSink, self, for_analysis, receive_grid, receive_run, receive_points, receive_sample)                                                 \
+  CROSSES(LatticeSink, self, for_analysis, receive_grid, receive_run, receive_points, receive_sample, receive_partial_run)                            \
   CROSSES(LatticeFunctions, build)                                                                                                                    \
   CROSSES(MaterialConstants, density, base_stiffness, cross_ratio, alpha_ratio, clamped, law)                                                         \
   CROSSES(ElasticConstants, C11, C12, C44)                                                                                                            \
