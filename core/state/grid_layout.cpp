@@ -90,6 +90,7 @@ GridLayout::GridLayout(const Model& model, int threads) : Layout(model) {
     blocks.push_back(make_block(planes_.back(), padding));
     first = next;
   }
+  weights_.finish();
 }
 
 /// Returns the law of all springs of a row, see Row::law.
