@@ -106,7 +106,7 @@ std::int32_t GridLayout::law_of_row(std::int32_t material, std::int32_t j, std::
           materials.set(model_.kinds.material(p));
         else
           for (const std::uint8_t of_cell :
-               model_.kinds.mixtures.around(model_.kinds.mixtures.of(p)))
+               model_.kinds.mixtures.around(model_.kinds.mixtures.of(p)).materials)
             if (of_cell != Mixtures::no_cell) materials.set(of_cell);
   };
   look(model_.body.row(j, k));

@@ -82,7 +82,7 @@
   CROSSES(OpenArea, particle, area)                                                                                                                   \
   CROSSES(RestSpring, a, b, stiffness, share, rest_length, breakable)                                                                                 \
   CROSSES(LoadBody, self, spacing, rim, region_particles, particle_position, particle_mass, particle_share, region_open_areas, region_true_area,      \
-          region_centre, region_springs)                                                                                                              \
+          region_centre, region_springs, particle_gap)                                                                                                \
   CROSSES(WatchedMotion, time, factor, displacement, velocity)                                                                                        \
   CROSSES(LoadStiffnessBound, stiffness, viscosity)                                                                                                             \
   CROSSES(LoadSink, self, receive_force, receive_displacement, receive_velocity, receive_acceleration, receive_start_velocity, receive_corner,        \
