@@ -13,6 +13,10 @@ Site beside(Site site, std::size_t face) {
   return {site.i + steps[face].i, site.j + steps[face].j, site.k + steps[face].k};
 }
 
+std::int32_t along(Site site, std::size_t axis) {
+  return axis == 0 ? site.i : axis == 1 ? site.j : site.k;
+}
+
 }  // namespace
 
 Surfaces::Surfaces(const Body& body)
@@ -113,18 +117,30 @@ OpenFaces Surfaces::outer_faces(Site cell) const {
   return open;
 }
 
+bool Surfaces::ends_within_cells(int direction) const {
+  auto& known = ends_within_[static_cast<std::size_t>(direction)];
+  if (known) return *known;
+  const auto axis = static_cast<std::size_t>(direction / 2);
+  const Site last =
+      direction % 2 == 0 ? body_.low : Site{body_.high.i - 1, body_.high.j - 1, body_.high.k - 1};
+  bool any_whole = false;
+  for (const Run& run : body_.cells.runs())
+    for (Site cell{run.begin, run.j, run.k}; cell.i < run.end; ++cell.i)
+      any_whole = any_whole || (along(cell, axis) == along(last, axis) && share(cell) == 1);
+  known = !any_whole;
+  return *known;
+}
+
 bool Surfaces::is_at_cut_end(Site site, int direction) const {
   if (!body_.cells.has_partial()) return false;
   const auto axis = static_cast<std::size_t>(direction / 2);
   const bool upwards = direction % 2 == 1;
-  const std::int32_t at[3] = {site.i, site.j, site.k};
-  const std::int32_t low[3] = {body_.low.i, body_.low.j, body_.low.k},
-                     high[3] = {body_.high.i, body_.high.j, body_.high.k};
-  if (at[axis] != (upwards ? high[axis] - 1 : low[axis] + 1)) return false;
+  if (along(site, axis) != (upwards ? along(body_.high, axis) - 1 : along(body_.low, axis) + 1) ||
+      !ends_within_cells(direction))
+    return false;
   bool found = false;
   for_cells_of({}, [&](int di, int dj, int dk) {
-    const int offset[3] = {di, dj, dk};
-    if ((offset[axis] == 0) != upwards) return;  // the outermost layer of cells only
+    if ((along({di, dj, dk}, axis) == 0) != upwards) return;  // the outermost layer only
     const Site end{site.i + di, site.j + dj, site.k + dk},
         behind = beside(end, static_cast<std::size_t>(direction ^ 1));
     found = found || (share(end) > 0 && share(end) < share(behind));

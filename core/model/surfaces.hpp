@@ -10,6 +10,7 @@
 #include <hyperlattice/load.hpp>
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace hyperlattice {
@@ -29,20 +30,24 @@ class Surfaces {
   OpenFaces inner_faces(Site cell) const;  ///< faces open to cavities
   /// Returns the part of the cell's face that is open, 0 to 1. `direction`: as in face_normals.
   double open_part(Site cell, int direction) const;
-  /// Returns whether the site is at the second end of the layer of cells that is outermost in a
-  /// direction, and the surface cuts these cells, so that the site is at the end of the body too.
+  /// Returns whether the body ends within the layer of cells that is outermost in a direction, and
+  /// the site is at the inner end of this layer: then it is at the end of the body too. The body
+  /// ends within the layer if no cell of the layer is whole.
   bool is_at_cut_end(Site site, int direction) const;
 
  private:
   void flood() const;
   bool is_outside(Site cell) const;
   double share(Site cell) const;
+  bool ends_within_cells(int direction) const;
 
   const Body& body_;
   std::array<std::int64_t, 3> widened_;
   /// For each cell of the box widened by one cell: whether it, or the space in it, is outside the
   /// body. Computed on first use.
   mutable std::vector<bool> outside_;
+  /// For each direction: whether the body ends within cells. Computed on first use.
+  mutable std::array<std::optional<bool>, 6> ends_within_;
 };
 
 /// Returns the particles of a region, ascending. A solid holds the particles inside it; in a body
