@@ -40,18 +40,21 @@ InsideTest::InsideTest(TriangleMesh mesh)
   side_ = static_cast<std::size_t>(
       std::clamp(std::sqrt(static_cast<double>(mesh_.facets.size())), 1.0, finest));
   bins_.resize(side_ * side_);
-  const double slack = 1e-12 * std::max(high_.y - low_.y,
-                                        high_.z - low_.z);  // rounding error of a crossing
   for (std::uint32_t f = 0; f < mesh_.facets.size(); ++f) {
-    const Facet& facet = mesh_.facets[f];
-    const Vec3 a = mesh_.points[facet[0]], b = mesh_.points[facet[1]], c = mesh_.points[facet[2]];
-    const std::size_t last_row = row_of(std::max({a.z, b.z, c.z}) + slack),
-                      last_column = column_of(std::max({a.y, b.y, c.y}) + slack);
-    for (std::size_t row = row_of(std::min({a.z, b.z, c.z}) - slack); row <= last_row; ++row)
-      for (std::size_t column = column_of(std::min({a.y, b.y, c.y}) - slack); column <= last_column;
-           ++column)
+    const Bins bins = bins_of(mesh_.facets[f]);
+    for (std::size_t row = bins.first_row; row <= bins.last_row; ++row)
+      for (std::size_t column = bins.first_column; column <= bins.last_column; ++column)
         bins_[row * side_ + column].push_back(f);
   }
+}
+
+InsideTest::Bins InsideTest::bins_of(const Facet& facet) const {
+  const double slack = 1e-12 * std::max(high_.y - low_.y,
+                                        high_.z - low_.z);  // rounding error of a crossing
+  const Vec3 a = mesh_.points[facet[0]], b = mesh_.points[facet[1]], c = mesh_.points[facet[2]];
+  return {row_of(std::min({a.z, b.z, c.z}) - slack), row_of(std::max({a.z, b.z, c.z}) + slack),
+          column_of(std::min({a.y, b.y, c.y}) - slack),
+          column_of(std::max({a.y, b.y, c.y}) + slack)};
 }
 
 std::size_t InsideTest::column_of(double y) const {

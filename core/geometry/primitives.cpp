@@ -24,6 +24,16 @@ Region solid(Vec3 low, Vec3 high, Vec3 anchor, Vec3 centre, std::function<bool(V
   return region;
 }
 
+/// The planes of a box.
+std::vector<SolidSurface> sides_of(Vec3 low, Vec3 high) {
+  return {{low, {-1, 0, 0}}, {high, {1, 0, 0}}, {low, {0, -1, 0}},
+          {high, {0, 1, 0}}, {low, {0, 0, -1}}, {high, {0, 0, 1}}};
+}
+
+SolidSurface sphere_around(Vec3 centre, double radius, bool is_cavity = false) {
+  return {centre, {}, radius, is_cavity};
+}
+
 /// A box with edges along the axes, given by two corners or by centre and size.
 struct Box {
   struct Options {
@@ -57,6 +67,7 @@ struct Box {
       return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y && low.z <= p.z &&
              p.z <= high.z;
     });
+    region.surfaces = sides_of(low, high);
     const Vec3 edge = high - low;
     region.volume = edge.x * edge.y * edge.z;
     region.outer_area = 2 * (edge.x * edge.y + edge.y * edge.z + edge.z * edge.x);
@@ -81,6 +92,7 @@ struct Sphere {
     const double r = sphere.radius;
     Region region = solid(c - Vec3{r, r, r}, c + Vec3{r, r, r}, c, c,
                           [c, r](Vec3 p) { return dot(p - c, p - c) <= r * r; });
+    region.surfaces = {sphere_around(c, r)};
     region.volume = 4 * pi / 3 * r * r * r;
     region.outer_area = 4 * pi * r * r;
     return region;
@@ -112,6 +124,7 @@ struct HollowSphere {
       const double square = dot(p - c, p - c);
       return a * a <= square && square <= b * b;
     });
+    region.surfaces = {sphere_around(c, b), sphere_around(c, a, true)};
     region.volume = 4 * pi / 3 * (b * b * b - a * a * a);
     region.outer_area = 4 * pi * b * b;
     region.inner_area = 4 * pi * a * a;
@@ -154,6 +167,7 @@ struct Cylinder {
           const Vec3 across = p - start - along * d;
           return 0 <= along && along <= length && dot(across, across) <= r * r;
         });
+    region.surfaces = {{start, d, r}, {start, -d}, {cylinder.end, d}};
     region.volume = pi * r * r * length;
     return region;
   }
@@ -184,7 +198,10 @@ struct HalfSpace {
     if (n.y == 0 && n.z == 0) bound(n.x, point.x, low.x, high.x);
     if (n.z == 0 && n.x == 0) bound(n.y, point.y, low.y, high.y);
     if (n.x == 0 && n.y == 0) bound(n.z, point.z, low.z, high.z);
-    return solid(low, high, point, point, [point, n](Vec3 p) { return dot(p - point, n) <= 0; });
+    Region region =
+        solid(low, high, point, point, [point, n](Vec3 p) { return dot(p - point, n) <= 0; });
+    region.surfaces = {{point, n / norm(n)}};
+    return region;
   }
 };
 
@@ -218,6 +235,7 @@ struct Stl {
     const Vec3 low = inside->low(), high = inside->high();
     Region region =
         solid(low, high, low, 0.5 * (low + high), [inside](Vec3 p) { return (*inside)(p); });
+    region.facets = inside;
     region.outer_area = areas.outer;
     region.inner_area = areas.inner;
     return region;
@@ -272,8 +290,10 @@ struct Voxels {
         read_input_file(image.file, "", "a voxel image"),
         std::array{count(image.counts.x), count(image.counts.y), count(image.counts.z)}, image.type,
         image.values, image.low, image.voxel);
-    return solid(set->low(), set->high(), image.low, 0.5 * (set->low() + set->high()),
-                 [set](Vec3 p) { return set->contains(p); });
+    Region region = solid(set->low(), set->high(), image.low, 0.5 * (set->low() + set->high()),
+                          [set](Vec3 p) { return set->contains(p); });
+    region.facets = set;
+    return region;
   }
 };
 

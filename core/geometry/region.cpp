@@ -1,4 +1,5 @@
 #include <geometry/region.hpp>
+#include <geometry/volume_share.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -201,7 +202,12 @@ const Shape* Regions::shape(std::shared_ptr<const Region> region) {
                   [](const void* self, Vec3 point) noexcept {
                     return static_cast<const Region*>(self)->contains(point);
                   },
-                  solid.low, solid.high, solid.anchor};
+                  solid.low,
+                  solid.high,
+                  solid.anchor,
+                  [](const void* self, Vec3 low, double edge) noexcept {
+                    return volume_share(*static_cast<const Region*>(self), {low, edge});
+                  }};
   return &kept->second;
 }
 

@@ -2,6 +2,8 @@
 // core/model/ finds its particles.
 #pragma once
 
+#include <geometry/solid_surface.hpp>
+
 #include <hyperlattice/plain.hpp>
 
 #include <functional>
@@ -35,6 +37,9 @@ struct Region {
   Vec3 low, high;                    ///< bounding box; infinite for a half-space
   Vec3 anchor, centre;               ///< see Shape::anchor
   double volume = 0;                 ///< m3; 0 if unknown
+  /// The surfaces whose inner sides have the solid in common; empty for solids with `facets`.
+  std::vector<SolidSurface> surfaces;
+  std::shared_ptr<const FacetedSolid> facets;  ///< null for solids with `surfaces`
   /// exact areas of the outer surface and of the cavity's surface, m2; 0 if unknown
   double outer_area = 0, inner_area = 0;
 

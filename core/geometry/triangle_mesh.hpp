@@ -2,7 +2,7 @@
 // is inside.
 #pragma once
 
-#include <hyperlattice/plain.hpp>
+#include <geometry/solid_surface.hpp>
 
 #include <array>
 #include <cstdint>
@@ -44,7 +44,7 @@ SurfaceAreas surface_areas(const TriangleMesh& mesh);
 /// Tests whether a point is inside, by the winding number along a ray. Two facets with a common
 /// edge compute its crossing identically to the last bit, so no ray passes between them at an edge
 /// or a corner. Only points within rounding of the surface may get either answer.
-class InsideTest {
+class InsideTest final : public FacetedSolid {
  public:
   explicit InsideTest(TriangleMesh mesh);
   bool operator()(Vec3 point) const { return winding(point) != 0; }
@@ -54,10 +54,25 @@ class InsideTest {
   Vec3 low() const { return low_; }  ///< corner of the bounding box, m
   Vec3 high() const { return high_; }
 
+  // The next three are in mesh_in_cube.cpp. Parts that overlap count twice in volume_in().
+  Side side_of(const Cube& cube) const override;
+  double volume_in(const Cube& cube) const override;
+  std::vector<Plane> planes_in(const Cube& cube, std::size_t most) const override;
+
  private:
   using Facet = std::array<std::uint32_t, 3>;
+  /// A range of bins.
+  struct Bins {
+    std::size_t first_row, last_row, first_column, last_column;
+  };
   std::size_t column_of(double y) const;
   std::size_t row_of(double z) const;
+  /// Returns the bins that the facet's projection touches.
+  Bins bins_of(const Facet& facet) const;
+  /// Calls visit(a, b, c) for the corners of each facet, each once, that is beside the cube in
+  /// y and z, or touches it there.
+  template <class Visit>
+  void for_facets_beside(const Cube& cube, const Visit& visit) const;
 
   TriangleMesh mesh_;
   Vec3 low_, high_;

@@ -103,4 +103,52 @@ bool VoxelSet::contains(Vec3 point) const {
   return inside_[number(index)];
 }
 
+VoxelSet::Span VoxelSet::voxels_along(std::size_t axis, const Cube& cube) const {
+  constexpr double rounding = 1e-9;  // voxels; thinner overlaps do not count
+  const double begin = (cube.low[axis] - low_[axis]) / edge_,
+               end = (cube.high()[axis] - low_[axis]) / edge_,
+               most = static_cast<double>(counts_[axis]);
+  return {static_cast<std::int64_t>(std::floor(std::clamp(begin + rounding, 0.0, most))),
+          static_cast<std::int64_t>(std::ceil(std::clamp(end - rounding, 0.0, most)))};
+}
+
+double VoxelSet::overlap(std::size_t axis, std::int64_t voxel, const Cube& cube) const {
+  const double low = low_[axis] + edge_ * static_cast<double>(voxel);
+  return std::max(0.0, std::min(low + edge_, cube.high()[axis]) - std::max(low, cube.low[axis]));
+}
+
+double VoxelSet::volume_in(const Cube& cube) const {
+  const Span x = voxels_along(0, cube), y = voxels_along(1, cube), z = voxels_along(2, cube);
+  double volume = 0;
+  for (std::int64_t k = z.first; k < z.last; ++k)
+    for (std::int64_t j = y.first; j < y.last; ++j) {
+      double along = 0;
+      for (std::int64_t i = x.first; i < x.last; ++i)
+        if (inside_[number({i, j, k})]) along += overlap(0, i, cube);
+      volume += along * overlap(1, j, cube) * overlap(2, k, cube);
+    }
+  return volume;
+}
+
+Side VoxelSet::side_of(const Cube& cube) const {
+  constexpr double rounding = 1e-9;
+  const double share = volume_in(cube) / cube.volume();
+  return share <= rounding ? Side::outside : share >= 1 - rounding ? Side::inside : Side::cut;
+}
+
+std::vector<Plane> VoxelSet::planes_in(const Cube& cube, std::size_t most) const {
+  constexpr std::array<Vec3, 3> normals{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  std::vector<Plane> planes;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Span span = voxels_along(axis, cube);
+    for (std::int64_t border = span.first; border <= span.last; ++border) {
+      Vec3 point = cube.centre();
+      point[axis] = low_[axis] + edge_ * static_cast<double>(border);
+      planes.push_back({point, normals[axis]});
+      if (planes.size() > most) return planes;
+    }
+  }
+  return planes;
+}
+
 }  // namespace hyperlattice

@@ -1,7 +1,7 @@
 // Images of solids: a box of equal cubes (voxels), each with a value.
 #pragma once
 
-#include <hyperlattice/plain.hpp>
+#include <geometry/solid_surface.hpp>
 
 #include <array>
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace hyperlattice {
 enum class VoxelType : std::uint32_t { uint8, uint16 };
 
 /// The voxels of an image whose values are in a given set.
-class VoxelSet {
+class VoxelSet final : public FacetedSolid {
  public:
   /// Reads a raw image, x fastest, then y, then z. `values`: values of voxels inside; empty: all
   /// but 0. `low`: corner of the image, m; `edge`: edge of a voxel, m. Throws std::runtime_error
@@ -32,6 +32,10 @@ class VoxelSet {
     return corner({last_[0] + 1, last_[1] + 1, last_[2] + 1});
   }  ///< corner of the bounding box of the set, m
 
+  Side side_of(const Cube& cube) const override;
+  double volume_in(const Cube& cube) const override;
+  std::vector<Plane> planes_in(const Cube& cube, std::size_t most) const override;
+
  private:
   using Index = std::array<std::int64_t, 3>;
   Vec3 corner(const Index& index) const {
@@ -42,6 +46,13 @@ class VoxelSet {
     return static_cast<std::size_t>((index[2] * counts_[1] + index[1]) * counts_[0] + index[0]);
   }
   void find_box();
+  /// The voxels that a cube overlaps along one axis, from `first` up to `last`.
+  struct Span {
+    std::int64_t first, last;
+  };
+  Span voxels_along(std::size_t axis, const Cube& cube) const;
+  /// Returns the length, in voxels, that the cube has in a voxel along the axis.
+  double overlap(std::size_t axis, std::int64_t voxel, const Cube& cube) const;
 
   Index counts_, first_{}, last_{};
   Vec3 low_;

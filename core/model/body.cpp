@@ -30,6 +30,7 @@ bool is_size(double value) { return value > 0 && std::isfinite(value); }
 /// would break the order or leave the box.
 struct Builder {
   Body body;
+  std::vector<PartialCell> partial;
   bool has_grid = false;
 
   void grid(const Grid& grid) {
@@ -46,7 +47,7 @@ struct Builder {
       throw std::invalid_argument("the lattice's basis does not span space");
     if (!std::isfinite(grid.origin.x + grid.origin.y + grid.origin.z))
       throw std::invalid_argument("the lattice's origin is not finite");
-    if (grid.boundary == Boundary::cells && grid.basis != cubic_basis)
+    if (has_cells(grid.boundary) && grid.basis != cubic_basis)
       throw std::invalid_argument("the lattice has boundary cells and is not cubic");
     for (std::uint32_t c = 0; c < grid.spring_classes; ++c)
       if (!(grid.class_stiffness[c] > 0 && std::isfinite(grid.class_stiffness[c])))
@@ -57,7 +58,7 @@ struct Builder {
     for (const Neighbour& n : body.neighbours) {
       if (!is_forward(n) || n.spring_class >= grid.spring_classes)
         throw std::invalid_argument("the lattice has a neighbour that does not follow its site");
-      if (grid.boundary == Boundary::cells && std::max({std::abs(n.dx), std::abs(n.dy), n.dz}) > 1)
+      if (has_cells(grid.boundary) && std::max({std::abs(n.dx), std::abs(n.dy), n.dz}) > 1)
         throw std::invalid_argument(
             "the lattice has boundary cells and a spring that is longer than a cell");
       body.reach = std::max(body.reach, n.dz);
@@ -69,7 +70,7 @@ struct Builder {
   void run(std::int32_t j, std::int32_t k, std::int32_t begin, std::int32_t end) {
     if (!has_grid) throw std::invalid_argument("the lattice gave particles before its grid");
     const auto& [nx, ny, nz] = body.grid.sites;
-    const std::int32_t last = body.grid.boundary == Boundary::cells && body.cells.empty()
+    const std::int32_t last = has_cells(body.grid.boundary) && body.cells.empty()
                                   ? 1
                                   : 0;  // a cell ends at the next site
     if (j < 0 || j >= ny - last || k < 0 || k >= nz - last || begin < 0 || end > nx - last ||
@@ -87,6 +88,21 @@ struct Builder {
                       : Site{std::max(body.high.i, end - 1), std::max(body.high.j, j), k};
     body.runs.push_back({j, k, begin, end, body.particles});
     body.particles += static_cast<std::uint64_t>(end - begin);
+  }
+
+  void partial_run(std::int32_t j, std::int32_t k, std::int32_t begin,
+                   std::span<const double> shares) {
+    if (body.grid.boundary != Boundary::partial_cells)
+      throw std::invalid_argument("the lattice gave shares of cells and has no partial cells");
+    const Particle first = body.particles;
+    run(j, k, begin, begin + static_cast<std::int32_t>(shares.size()));
+    for (std::size_t n = 0; n < shares.size(); ++n) {
+      const double share = smallest_share * std::round(shares[n] / smallest_share);
+      if (!(share > 0 && share <= 1))
+        throw std::invalid_argument(
+            "the lattice gave a share of a cell that is not between 0 and 1");
+      if (share < 1) partial.push_back({first + n, static_cast<float>(share)});
+    }
   }
 
   void points(const PointList& points) {
@@ -110,7 +126,7 @@ struct Builder {
     if (body.particles == 0) throw std::invalid_argument("the lattice has no particles");
     if (!body.is_listed()) {
       end_rows();
-      if (body.grid.boundary == Boundary::cells) take_corners();
+      if (has_cells(body.grid.boundary)) take_corners();
       count_springs();
     }
     find_box();
@@ -145,8 +161,8 @@ struct Builder {
 
   /// Converts the runs of cells to runs of their corners, the particles.
   void take_corners() {
-    body.cells =
-        Cells(std::exchange(body.runs, {}), std::exchange(body.row_runs, {}), body.grid.sites[1]);
+    body.cells = Cells(std::exchange(body.runs, {}), std::exchange(body.row_runs, {}),
+                       body.grid.sites[1], std::move(partial));
     body.particles = 0;
     for (std::int32_t k = 0; k < body.grid.sites[2]; ++k)
       for (std::int32_t j = 0; j < body.grid.sites[1]; ++j)
@@ -216,6 +232,10 @@ Body build_body(const LatticeFunctions& functions, const void* lattice, bool for
       },
       [](void* self, const PeriodicSample& sample) noexcept {
         PluginCall::answer([&] { static_cast<Builder*>(self)->sample(sample); });
+      },
+      [](void* self, std::int32_t j, std::int32_t k, std::int32_t begin,
+         std::span<const double> shares) noexcept {
+        PluginCall::answer([&] { static_cast<Builder*>(self)->partial_run(j, k, begin, shares); });
       }};
   const bool named = component != nullptr;
   PluginCall call(named ? component->info.name : std::string_view(),

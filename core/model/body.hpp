@@ -24,7 +24,7 @@ struct Body {
   std::vector<Run> runs;  ///< in the order z, y, x
   /// [k * ny + j]: first run of a row; one more entry at the end
   std::vector<std::size_t> row_runs;
-  Cells cells;    ///< empty if the boundary is particles
+  Cells cells;    ///< empty if the boundary is particles; has the share of each cell
   Listed listed;  ///< empty if the body is structured
   std::uint64_t particles = 0;
   std::uint64_t springs[max_spring_classes] = {};

@@ -1,3 +1,4 @@
+#include <base/figures.hpp>
 #include <model/body_figures.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -39,13 +40,16 @@ BodyFigures body_figures(const Model& model) {
   figures.size = body.highest - body.lowest;
   figures.of_particles = body.is_listed();
   figures.is_centred = !body.is_listed() && !body.is_cubic();
+  figures.is_partial = body.grid.boundary == Boundary::partial_cells;
   if (!body.is_listed() && body.cells.empty()) figures.size += between_planes(body.grid);
   double particles =
-      static_cast<double>(body.cells.empty() ? body.particles : body.cells.count());  // whole ones
+      body.cells.empty() ? static_cast<double>(body.particles) : body.cells.volume();  // whole ones
   if (!body.listed.shares.empty()) {
     particles = 0;
     for (const double share : body.listed.shares) particles += share;
   }
+  figures.cells = body.cells.count();
+  figures.partial_cells = body.cells.partial().size();
   figures.volume = particles * body.grid.site_volume;
   if (model.materials.size() == 1)
     figures.mass = particles * model.kinds.masses.front();
@@ -57,7 +61,7 @@ BodyFigures body_figures(const Model& model) {
   const auto& shape = *static_cast<const Region*>(body.grid.shape->self);
   const SolidExtent extent = extent_of(shape);
   if (const Vec3 asked = extent.high - extent.low; std::isfinite(norm(asked)))
-    figures.asked_size = asked;
+    (figures.is_partial ? figures.size : figures.asked_size.emplace()) = asked;
   figures.asked_at_most = !extent.attained;
   if (shape.volume > 0) figures.asked_volume = shape.volume;
   if (shape.volume > 0 && model.materials.size() == 1)
@@ -68,13 +72,21 @@ BodyFigures body_figures(const Model& model) {
 std::vector<std::pair<std::string, std::string>> body_lines(const BodyFigures& figures) {
   std::vector<std::pair<std::string, std::string>> lines;
   const auto size = [](Vec3 v) { return fmt::format("{:.6g} x {:.6g} x {:.6g} m", v.x, v.y, v.z); };
-  const std::string_view of = figures.of_particles ? " between its outermost particles" : "";
+  const std::string_view of = figures.of_particles ? " between its outermost particles"
+                              : figures.is_partial
+                                  ? ", as its shape; particles stand up to one spacing outside"
+                                  : "";
   lines.emplace_back("size",
                      beside(figures.size, figures.asked_size, size, of, figures.asked_at_most));
   lines.emplace_back("volume", beside(figures.volume, figures.asked_volume,
                                       [](double v) { return fmt::format("{:.6g} m3", v); }));
   lines.emplace_back("mass", beside(figures.mass, figures.asked_mass,
                                     [](double m) { return fmt::format("{:.6g} kg", m); }));
+  if (figures.is_partial)
+    lines.emplace_back("cells",
+                       fmt::format("{}, of which {} count by the share of their volume "
+                                   "that lies inside the shape",
+                                   count_text(figures.cells), count_text(figures.partial_cells)));
   lines.emplace_back("bodies", figures.parts == 1
                                    ? "1: springs join all particles"
                                    : fmt::format("{}, which no spring joins", figures.parts));
@@ -99,13 +111,15 @@ std::vector<std::string> size_warnings(const BodyFigures& figures, double spacin
     compare('y', figures.size.y, figures.asked_size->y);
     compare('z', figures.size.z, figures.asked_size->z);
   }
-  if (!warnings.empty() || !figures.is_centred || !figures.asked_volume) return warnings;
+  if (!warnings.empty() || !(figures.is_centred || figures.is_partial) || !figures.asked_volume)
+    return warnings;
   if (const double error = figures.volume / *figures.asked_volume - 1;
       std::abs(error) > noticeable_volume)
-    warnings.push_back(
-        fmt::format("the body has {:.3g} % {} volume than its shape asks for: cells of {:.6g} m do "
-                    "not fill that evenly",
-                    100 * std::abs(error), error > 0 ? "more" : "less", spacing));
+    warnings.push_back(fmt::format(
+        "the body has {:.3g} % {} volume than its shape asks for: {}", 100 * std::abs(error),
+        error > 0 ? "more" : "less",
+        figures.is_partial ? "cells with less than least_share inside are left out"
+                           : fmt::format("cells of {:.6g} m do not fill that evenly", spacing)));
   return warnings;
 }
 

@@ -13,10 +13,14 @@ struct BodyFigures {
   Vec3 size;
   /// Whether the body is a list: its size is then the box around the outermost particles.
   bool of_particles = false;
+  /// Whether the body consists of partial cells, whose corners stand outside the shape: its size is
+  /// that of the shape.
+  bool is_partial = false;
   bool is_centred = false;  ///< whether a particle stands for less than a cube of the lattice
-  std::optional<Vec3> asked_size;  ///< edges of the box around the shape, m
-  bool asked_at_most = false;      ///< whether that box may be larger than the shape
-  double volume = 0, mass = 0;     ///< m3, kg
+  std::optional<Vec3> asked_size;              ///< edges of the box around the shape, m
+  bool asked_at_most = false;                  ///< whether that box may be larger than the shape
+  std::uint64_t cells = 0, partial_cells = 0;  ///< numbers of all cells, and of those not whole
+  double volume = 0, mass = 0;                 ///< m3, kg
   /// Volume, m3, and mass, kg, of the shape if its volume is known; the mass only for one material.
   std::optional<double> asked_volume, asked_mass;
   std::uint64_t parts = 0;  ///< number of bodies without a spring between them
@@ -30,8 +34,8 @@ std::vector<std::pair<std::string, std::string>> body_lines(const BodyFigures& f
 
 /// Returns a warning for each axis along which the body is more than 1 % wider or narrower than its
 /// shape; if there is none, for a volume that differs by more than 2 %, which can happen in
-/// lattices with particles between the planes of sites. A listed body gives no warning: its
-/// particles are inside the shape.
+/// lattices with particles between the planes of sites and in bodies of partial cells. A listed
+/// body gives no warning: its particles are inside the shape.
 std::vector<std::string> size_warnings(const BodyFigures& figures, double spacing);
 
 /// Returns the number of sets of particles that are connected by springs.

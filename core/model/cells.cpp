@@ -4,8 +4,12 @@
 
 namespace hyperlattice {
 
-Cells::Cells(std::vector<Run> runs, std::vector<std::size_t> row_runs, std::int32_t rows)
-    : runs_(std::move(runs)), row_runs_(std::move(row_runs)), rows_(rows) {
+Cells::Cells(std::vector<Run> runs, std::vector<std::size_t> row_runs, std::int32_t rows,
+             std::vector<PartialCell> partial)
+    : runs_(std::move(runs)),
+      row_runs_(std::move(row_runs)),
+      partial_(std::move(partial)),
+      rows_(rows) {
   for (const Run& run : runs_) count_ += static_cast<std::uint64_t>(run.end - run.begin);
 }
 
@@ -24,9 +28,27 @@ Particle Cells::at(Site cell) const {
   return ~Particle{0};
 }
 
+double Cells::share_of_cell(Particle cell) const {
+  const auto found =
+      std::lower_bound(partial_.begin(), partial_.end(), cell,
+                       [](const PartialCell& p, Particle wanted) { return p.cell < wanted; });
+  return found == partial_.end() || found->cell != cell ? 1 : double{found->share};
+}
+
+double Cells::share_of_cell(Site cell) const {
+  const Particle index = at(cell);
+  return index == ~Particle{0} ? 0 : share_of_cell(index);
+}
+
+double Cells::volume() const {
+  auto missing = 0.0;
+  for (const PartialCell& partial : partial_) missing += 1 - double{partial.share};
+  return static_cast<double>(count_) - missing;
+}
+
 double Cells::share(Site site, const Neighbour& to) const {
-  return share_of_cells(to, [&](int di, int dj, int dk) {
-    return holds({site.i + di, site.j + dj, site.k + dk});
+  return mean_share(to, [&](int di, int dj, int dk) {
+    return share_of_cell(Site{site.i + di, site.j + dj, site.k + dk});
   });
 }
 

@@ -20,6 +20,28 @@ bool is_finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std:
 
 std::string axis_names(Axes axes) { return std::string(axis_set_names[axes - 1]); }
 
+/// Returns the distance from a particle to the shape, see LoadBody::gap().
+double gap_to_shape(const Body& body, Particle particle, Vec3 direction) {
+  if (body.grid.boundary != Boundary::partial_cells || body.grid.shape == nullptr) return 0;
+  const Shape& shape = *body.grid.shape;
+  const Vec3 start = body.position(particle);
+  const double spacing = body.grid.spacing;
+  constexpr double rounding = 1e-6;
+  for (const Vec3 normal : face_normals)
+    if (shape.contains(start) || shape.contains(start + rounding * spacing * normal)) return 0;
+  constexpr int steps = 64, halvings = 20;
+  double outside = 0, inside = infinity;
+  for (int n = 1; n <= steps && inside == infinity; ++n) {
+    const double far = 2 * spacing * n / steps;
+    (shape.contains(start + far * direction) ? inside : outside) = far;
+  }
+  for (int n = 0; n < halvings && inside < infinity; ++n) {
+    const double middle = 0.5 * (outside + inside);
+    (shape.contains(start + middle * direction) ? inside : outside) = middle;
+  }
+  return inside;
+}
+
 /// The body as one load sees it. It stores the id of a region that turned out to be empty.
 struct View {
   const Model& model;
@@ -81,6 +103,11 @@ struct View {
     };
     seen.region_centre = [](void* self, RegionId region) noexcept {
       return answer(self, Vec3(), [&](View& view) { return view.regions.centre(region); });
+    };
+    seen.particle_gap = [](void* self, Particle particle, Vec3 direction) noexcept {
+      return answer(self, 0.0, [&](View& view) {
+        return gap_to_shape(view.model.body, view.existing(particle), direction);
+      });
     };
     seen.region_springs = [](void* self, RegionId region) noexcept {
       return answer(self, std::span<const RestSpring>(),

@@ -1,4 +1,5 @@
 // The particles, cells and faces of a region in a body on a cubic grid.
+#include <geometry/volume_share.hpp>
 #include <model/region_membership.hpp>
 #include <model/surfaces.hpp>
 
@@ -93,10 +94,13 @@ struct Sites {
     return false;
   }
 
-  bool is_outermost(Site site, int direction) const {
+  bool is_last(Site site, int direction) const {
     const Vec3 outward = face_normals[direction],
                farthest = direction % 2 == 0 ? body.lowest : body.highest;
     return dot(body.position(site) - farthest, outward) > -1e-6 * body.grid.spacing;
+  }
+  bool is_outermost(Site site, int direction) const {
+    return is_last(site, direction) || surfaces.is_at_cut_end(site, direction);
   }
 };
 
@@ -110,15 +114,21 @@ struct Centres {
   Vec3 centre(Site cell) const {
     return sites.body.position(cell) + 0.5 * sites.body.grid.spacing * Vec3{1, 1, 1};
   }
-  bool in_solid(const Region& region, Site cell) const { return region.inside(centre(cell)); }
+  bool in_solid(const Region& region, Site cell) const {
+    const double share = sites.body.cells.share_of_cell(cell);
+    return share == 1
+               ? region.inside(centre(cell))
+               : volume_share(region, {sites.body.position(cell), sites.body.grid.spacing}) >=
+                     0.5 * share;
+  }
   bool has_face(const Region& region, Site cell) const {
     for (int direction = 0; direction < 6; ++direction)
       if (sites.is_open(region, {cell, direction})) return true;
     return false;
   }
   bool is_outermost(Site cell, int direction) const {
-    return sites.is_outermost(direction % 2 == 0 ? cell : Site{cell.i + 1, cell.j + 1, cell.k + 1},
-                              direction);
+    return sites.is_last(direction % 2 == 0 ? cell : Site{cell.i + 1, cell.j + 1, cell.k + 1},
+                         direction);
   }
 };
 
@@ -160,9 +170,10 @@ std::vector<OpenArea> open_areas(const Body& body, const Surfaces& surfaces, con
       for (int direction = 0; direction < 6; ++direction) {
         if ((open >> direction & 1U) == 0 || !membership.holds_face(region, {cell, direction}))
           continue;
+        const double part = share * surfaces.open_part(cell, direction) * face_area;
         sites.for_points({cell, direction}, [&](Site particle) {
           Vec3& area = areas[body.at(particle)];
-          area += (share * face_area) * face_normals[direction];
+          area += part * face_normals[direction];
         });
       }
     }

@@ -1,6 +1,8 @@
 #include <model/build.hpp>
 
 #include <algorithm>
+#include <array>
+#include <compare>
 #include <map>
 #include <utility>
 
@@ -8,20 +10,24 @@ namespace hyperlattice {
 
 Mixtures::Mixtures(const Body& body, std::span<const std::uint8_t> material_of,
                    std::size_t materials) {
-  for (std::size_t material = 0; material < materials; ++material)
-    around_.emplace_back().fill(static_cast<std::uint8_t>(material));
+  for (std::size_t material = 0; material < materials; ++material) {
+    Around& whole = around_.emplace_back();
+    whole.materials.fill(static_cast<std::uint8_t>(material));
+    whole.shares.fill(1);
+  }
   std::map<Around, std::uint32_t> known;
   of_particle_.reserve(body.particles);
   for (const Run& run : body.runs)
     for (std::int32_t i = run.begin; i < run.end; ++i) {
       Around here;
-      here.fill(no_cell);
+      here.materials.fill(no_cell);
       std::uint8_t first = no_cell;
       bool alike = true;
       for_cells_of({}, [&](int di, int dj, int dk) {
         const Particle cell = body.cells.at({i + di, run.j + dj, run.k + dk});
         if (cell == Body::no_particle) return;
-        const std::uint8_t material = here[place(di, dj, dk)] = material_of[cell];
+        const std::uint8_t material = here.materials[place(di, dj, dk)] = material_of[cell];
+        here.shares[place(di, dj, dk)] = static_cast<float>(body.cells.share_of_cell(cell));
         alike = alike && (first == no_cell || first == material);
         first = material;
       });
@@ -37,15 +43,9 @@ Mixtures::Mixtures(const Body& body, std::span<const std::uint8_t> material_of,
 }
 
 std::uint8_t Mixtures::commonest(std::uint32_t mixture) const {
-  std::uint8_t found = 0;
-  std::ptrdiff_t most = 0;
-  for_cells(mixture, {}, [&](std::uint8_t material) {
-    const auto cells = std::count(around_[mixture].begin(), around_[mixture].end(), material);
-    if (cells < most || (cells == most && material >= found)) return;
-    found = material;
-    most = cells;
-  });
-  return found;
+  std::array<double, no_cell> shares{};
+  for_cells(mixture, {}, [&](std::uint8_t material, double share) { shares[material] += share; });
+  return static_cast<std::uint8_t>(std::max_element(shares.begin(), shares.end()) - shares.begin());
 }
 
 double Mixtures::bytes() const {
@@ -55,14 +55,28 @@ double Mixtures::bytes() const {
 
 namespace {
 
+/// A cell of a spring or a particle, by what it gives to their mean.
+struct Cell {
+  std::uint8_t material;
+  double share;
+  auto operator<=>(const Cell&) const = default;
+};
+
+double sum_of_shares(const std::vector<Cell>& cells) {
+  double sum = 0;
+  for (const Cell& cell : cells) sum += cell.share;
+  return sum;
+}
+
 /// Returns the mean stiffness of the springs of these cells' materials. The lowest alarm of them
 /// decides when the spring is checked for failure. Constants of laws have no mean.
-SpringConstants mean_spring(const Model& model, const std::vector<std::uint8_t>& cells,
+SpringConstants mean_spring(const Model& model, const std::vector<Cell>& cells,
                             std::uint32_t spring_class) {
-  const double part = 1 / static_cast<double>(cells.size());
+  const double whole = sum_of_shares(cells);
   SpringConstants mean;
-  for (const std::uint8_t material : cells) {
-    const SpringConstants& own = model.springs.spring(material, material, spring_class);
+  for (const Cell& cell : cells) {
+    const SpringConstants& own = model.springs.spring(cell.material, cell.material, spring_class);
+    const double part = cell.share / whole;
     mean.stiffness += part * own.stiffness;
     mean.cross_stiffness += part * own.cross_stiffness;
     mean.alarm = std::min(mean.alarm, own.alarm);
@@ -71,21 +85,22 @@ SpringConstants mean_spring(const Model& model, const std::vector<std::uint8_t>&
 }
 
 /// Returns whether the cells' materials have one linear law without constants.
-bool is_one_spring(const Model& model, const std::vector<std::uint8_t>& cells) {
-  const std::uint32_t law = model.materials[cells.front()].law;
+bool is_one_spring(const Model& model, const std::vector<Cell>& cells) {
+  const std::uint32_t law = model.materials[cells.front().material].law;
   return model.springs.laws[law].kernels.linear &&
          std::all_of(cells.begin(), cells.end(),
-                     [&](std::uint8_t material) { return model.materials[material].law == law; });
+                     [&](const Cell& cell) { return model.materials[cell.material].law == law; });
 }
 
 /// Returns the springs of the cells' materials, side by side. `cells` is sorted.
-CompositeSpring side_by_side(const Model& model, const std::vector<std::uint8_t>& cells,
+CompositeSpring side_by_side(const Model& model, const std::vector<Cell>& cells,
                              std::uint32_t spring_class) {
+  const double whole = sum_of_shares(cells);
   std::vector<SpringPart> parts;
-  for (const std::uint8_t material : cells) {
-    if (parts.empty() || parts.back().material != material)
-      parts.push_back(part_of(model, material, spring_class, 0));
-    parts.back().weight += 1 / static_cast<double>(cells.size());
+  for (const Cell& cell : cells) {
+    if (parts.empty() || parts.back().material != cell.material)
+      parts.push_back(part_of(model, cell.material, spring_class, 0));
+    parts.back().weight += cell.share / whole;
   }
   return {model.springs.laws, std::move(parts), CompositeSpring::Joined::side_by_side};
 }
@@ -95,19 +110,23 @@ CompositeSpring side_by_side(const Model& model, const std::vector<std::uint8_t>
 void add_mixtures(Model& model) {
   const auto mixtures = static_cast<std::uint32_t>(model.kinds.mixtures.count()),
              materials = static_cast<std::uint32_t>(model.materials.size());
-  std::map<std::pair<std::uint32_t, std::vector<std::uint8_t>>, std::uint32_t>
-      known;  // key: spring class and materials
-  std::vector<std::uint8_t> cells;
+  std::map<std::pair<std::uint32_t, std::vector<Cell>>, std::uint32_t>
+      known;  // key: spring class and cells
+  std::vector<Cell> cells;
+  const auto take = [&](std::uint32_t mixture, const Neighbour& to) {
+    cells.clear();
+    model.kinds.mixtures.for_cells(mixture, to, [&](std::uint8_t material, double share) {
+      cells.push_back({material, share});
+    });
+    std::sort(cells.begin(), cells.end());  // makes sums independent of the order of the cells
+  };
   for (std::uint32_t mixture = 0; mixture < mixtures; ++mixture) {
     for (const Neighbour& to : model.body.neighbours) {
-      cells.clear();
-      model.kinds.mixtures.for_cells(mixture, to,
-                                     [&](std::uint8_t material) { cells.push_back(material); });
-      std::sort(cells.begin(), cells.end());  // makes sums independent of the order of the cells
-      const std::uint8_t first = cells.empty() ? std::uint8_t{0} : cells.front();
+      take(mixture, to);
+      const std::uint8_t first = cells.empty() ? std::uint8_t{0} : cells.front().material;
       std::uint32_t place =
           (first * materials + first) * model.body.grid.spring_classes + to.spring_class;
-      if (!cells.empty() && cells.back() != first) {
+      if (!cells.empty() && cells.back().material != first) {
         const auto [entry, is_new] = known.try_emplace(
             {to.spring_class, cells}, static_cast<std::uint32_t>(model.springs.constants.size()));
         if (is_new) {
@@ -120,16 +139,14 @@ void add_mixtures(Model& model) {
       model.springs.mixture_springs.push_back(place);
     }
     if (mixture < materials) continue;
-    cells.clear();
-    model.kinds.mixtures.for_cells(mixture, {},
-                                   [&](std::uint8_t material) { cells.push_back(material); });
+    take(mixture, {});
     double mass = 0, alpha = 0;
-    for (const std::uint8_t material : cells) {
-      mass += model.kinds.masses[material];
-      alpha += model.kinds.alphas[material];
+    for (const Cell& cell : cells) {
+      mass += cell.share * model.kinds.masses[cell.material];
+      alpha += cell.share * model.kinds.alphas[cell.material];
     }
-    model.kinds.masses.push_back(mass / static_cast<double>(cells.size()));
-    model.kinds.alphas.push_back(alpha / static_cast<double>(cells.size()));
+    model.kinds.masses.push_back(mass / sum_of_shares(cells));
+    model.kinds.alphas.push_back(alpha / sum_of_shares(cells));
   }
 }
 

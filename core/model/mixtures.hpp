@@ -1,12 +1,13 @@
-// Bodies of cells of several materials. A cell has the material at its centre; a particle or spring
-// is the mean of its cells, so that the body is the sum of its cells. A mixture is the list of
-// materials of the cells around a particle. It sets the particle's mass and the constants of its
-// springs.
+// Bodies of cells of several materials. A cell has one material; a particle or spring is the mean
+// of its cells, weighted with their shares, so that the body is the sum of its cells. A mixture is
+// the list of materials and shares of the cells around a particle. It sets the particle's mass and
+// the constants of its springs.
 #pragma once
 
 #include <model/body.hpp>
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -30,8 +31,12 @@ class SpringMaterials {
 class Mixtures {
  public:
   static constexpr std::uint8_t no_cell = 255;
-  /// Materials of the cells around a particle, x fastest; no_cell where there is no cell.
-  using Around = std::array<std::uint8_t, 8>;
+  /// The cells around a particle, x fastest.
+  struct Around {
+    std::array<std::uint8_t, 8> materials{};  ///< no_cell where there is no cell
+    std::array<float, 8> shares{};            ///< 0 where there is no cell
+    auto operator<=>(const Around&) const = default;
+  };
 
   Mixtures() = default;
   /// `material_of`: the material of each cell, in the order of the body's runs of cells.
@@ -45,17 +50,19 @@ class Mixtures {
   const Around& around(std::uint32_t mixture) const { return around_[mixture]; }
   /// Returns the material of the cell of which a particle with this mixture is the lowest corner.
   std::uint8_t cell_above(std::uint32_t mixture) const { return around_[mixture][place(0, 0, 0)]; }
-  /// Returns the material of most cells of a mixture; among equals the one with the smallest index.
+  /// Returns the material with the largest sum of shares; among equals the one with the smallest
+  /// index.
   std::uint8_t commonest(std::uint32_t mixture) const;
   double bytes() const;
 
-  /// Calls visit(material) for each existing cell of the spring to a neighbour; with `to` {} for
-  /// each existing cell around the particle.
+  /// Calls visit(material, share) for each existing cell of the spring to a neighbour; with `to` {}
+  /// for each existing cell around the particle.
   template <class Visit>
   void for_cells(std::uint32_t mixture, const Neighbour& to, const Visit& visit) const {
     for_cells_of(to, [&](int di, int dj, int dk) {
-      if (const std::uint8_t material = around_[mixture][place(di, dj, dk)]; material != no_cell)
-        visit(material);
+      const std::size_t n = place(di, dj, dk);
+      const Around& around = around_[mixture];
+      if (around.materials[n] != no_cell) visit(around.materials[n], double{around.shares[n]});
     });
   }
 

@@ -254,7 +254,7 @@ SpringMaterials Model::materials_of(Particle a, Particle b, std::uint32_t neighb
     found.add(*chosen);
   } else if (!kinds.mixtures.empty()) {
     kinds.mixtures.for_cells(kinds.mixtures.of(a), body.neighbours[neighbour],
-                             [&](std::uint8_t material) { found.add(material); });
+                             [&](std::uint8_t material, double) { found.add(material); });
   } else {
     found.add(kinds.material(a));
     found.add(kinds.material(b));

@@ -68,6 +68,7 @@ double model_bytes(const Model& model) {
       static_cast<double>(model.body.listed.springs.size() * sizeof(ListedSpring) +
                           model.body.listed.positions.size() * sizeof(Vec3) + runs * sizeof(Run) +
                           model.body.row_runs.size() * sizeof(std::size_t) +
+                          model.body.cells.partial().size() * sizeof(PartialCell) +
                           model.kinds.material_of.size()) +
       model.kinds.mixtures.bytes();
   for (const Load& load : model.loads)

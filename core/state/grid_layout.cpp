@@ -90,6 +90,7 @@ GridLayout::GridLayout(const Model& model, int threads) : Layout(model) {
     blocks.push_back(make_block(planes_.back(), padding));
     first = next;
   }
+  weights_.finish();
 }
 
 /// Returns the law of all springs of a row, see Row::law.
@@ -105,7 +106,7 @@ std::int32_t GridLayout::law_of_row(std::int32_t material, std::int32_t j, std::
           materials.set(model_.kinds.material(p));
         else
           for (const std::uint8_t of_cell :
-               model_.kinds.mixtures.around(model_.kinds.mixtures.of(p)))
+               model_.kinds.mixtures.around(model_.kinds.mixtures.of(p)).materials)
             if (of_cell != Mixtures::no_cell) materials.set(of_cell);
   };
   look(model_.body.row(j, k));

@@ -57,7 +57,7 @@ class Bcc {
         .choices(boundaries)
         .fallback("\"particles\"")
         .check([](const Options& options, const FaultSink& faults) {
-          if (options.boundary == Boundary::cells)
+          if (has_cells(options.boundary))
             faults.fault("boundary",
                          "particles: a spring between the centres of two cubes belongs to no cell, "
                          "so that none could be shared out");

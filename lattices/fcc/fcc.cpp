@@ -59,7 +59,7 @@ class Fcc {
         .choices(boundaries)
         .fallback("\"particles\"")
         .check([](const Options& options, const FaultSink& faults) {
-          if (options.boundary == Boundary::cells)
+          if (has_cells(options.boundary))
             faults.fault("boundary",
                          "particles: its springs are not the edges and diagonals of one kind of "
                          "cell, so that none could be shared out");

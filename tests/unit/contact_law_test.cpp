@@ -30,6 +30,7 @@ struct Bodies {
     };
     body.particle_mass = [](void*, Particle) noexcept { return mass; };
     body.region_springs = [](void*, RegionId) noexcept { return std::span<const RestSpring>(); };
+    body.particle_gap = [](void*, Particle, Vec3) noexcept { return 0.0; };
     sink.receive_warning = [](void*, std::string_view) noexcept {};
     sink.receive_watched = [](void*, Particle, bool, const LoadStiffnessBound&) noexcept {};
   }

@@ -41,7 +41,8 @@ class Contact {
             "counts bodies). With one empty cell between them "
             "centres are two spacings apart. Contact begins when centres are `reach` spacings "
             "apart, so contact begins (1 - reach) spacings later "
-            "than the drawn faces would touch.")
+            "than the drawn faces would touch. In a body of partial cells, particles that stand "
+            "outside the shape meet no others.")
         .add<&Options::on>("on", "", "the particles that may meet each other")
         .fallback("\"all\"")
         .add<&Options::reach>("reach", "",
@@ -76,6 +77,7 @@ class Contact {
     reach_ = o_.reach * body.spacing;
     std::vector<Vec3> at_rest;
     for (const Particle particle : body.particles(o_.on)) {
+      if (body.gap(particle, {}) > 0) continue;
       at_rest.push_back(body.position(particle));
       mass_.push_back(body.mass(particle));
       // At most twelve particles can be that near, evenly around. The stiffness of a pair counts

@@ -1,5 +1,6 @@
-// A floor: a half-space that supports the body, with Coulomb friction. A particle whose rim is at
-// the depth d > 0 below the surface has the penalty forces
+// A floor: a half-space that supports the body, with Coulomb friction. A particle whose rim (in a
+// body of partial cells, for a particle outside the shape, the surface above it) is at the depth d
+// > 0 below the surface has the penalty forces
 //   N = max(0, c d - b v_n)  outwards,        b = damping 2 sqrt(c m)
 //   T = min(mu N, h |v_t|)   against v_t,     h = grip sqrt(c m)
 // with the velocities v_n out of the floor and v_t along it. Below the limit mu N, friction is
@@ -85,10 +86,12 @@ class Floor {
     const bool rubs = o_.friction > 0 || o_.friction_back.value_or(0) > 0;
     double deepest = 0;
     for (const Particle particle : body.particles(o_.on)) {
+      const double gap = body.gap(particle, normal_);
+      if (gap == infinity) continue;
       const PenaltyContact law(whole * body.share(particle), body.mass(particle), o_.damping,
                                o_.grip);
       sink.watch(particle, {law.stiffness, std::max(law.damping, rubs ? law.grip : 0)});
-      contacts_.push_back({dot(body.position(particle) - o_.point, normal_) - body.rim, law});
+      contacts_.push_back({dot(body.position(particle) - o_.point, normal_) + gap - body.rim, law});
       deepest = std::max(deepest, -contacts_.back().height);
     }
     constexpr double noticeable = 0.1;  // spacings

@@ -1,6 +1,7 @@
 // A pressure on the open faces of a region:
 //   F_i = - p(t) A_i,  A_i = sum of area times outward normal over the open faces of particle i
-// A face has the area l^2; in a body of cells, each of its four corner particles has l^2 / 4. With
+// A face has the area l^2; in a body of cells, each of its four corner particles has l^2 / 4; in a
+// body of partial cells, times the difference of the shares of the two cells at the face. With
 // `facing`, only the faces with one direction of the normal count.
 #include <hyperlattice/load.hpp>
 
@@ -27,7 +28,8 @@ class Pressure {
         .equation("F = -p(t) A n for each open face; p rises in a straight line and stays")
         .restrictions(
             "a surface that is not parallel to the axes is loaded as the staircase that its "
-            "particles make of it")
+            "particles make of it, but for partial cells, which have the areas of the shape. With "
+            "partial cells a region has to reach a spacing beyond the surface on both sides")
         .add<&Options::on>(
             "on", "", "the loaded surface; x_min and its like load only the faces of that side")
         .add<&Options::pressure>("pressure", "Pa", "positive pushes on the body, negative pulls")

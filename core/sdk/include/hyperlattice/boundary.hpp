@@ -36,7 +36,7 @@
   CROSSES(Vec3, x, y, z)                                                                                                                              \
   CROSSES(RegionId, index)                                                                                                                            \
   CROSSES(LoadOrRegion, region, load)                                                                                                                 \
-  CROSSES(Shape, self, contains_point, low, high, anchor)                                                                                             \
+  CROSSES(Shape, self, contains_point, low, high, anchor, share_of_cube)                                                                                             \
   CROSSES(Complaint, self, receive)                                                                                                                   \
   CROSSES(OptionValue, absent, boolean, integer, number, text, numbers, texts, shape, region, load_or_region)                                         \
   CROSSES(Option, name, unit, help, fallback, word, example, choices, low, high, low_open, high_open, optional, kind, set)                            \
@@ -51,7 +51,7 @@
   CROSSES(PointList, spacing, site_volume, membrane_distance, positions, volumes, springs, shape)                                                     \
   CROSSES(SampleSpring, a, b, rest, stiffness)                                                                                                        \
   CROSSES(PeriodicSample, particles, volume, springs)                                                                                                 \
-  CROSSES(LatticeSink, self, for_analysis, receive_grid, receive_run, receive_points, receive_sample)                                                 \
+  CROSSES(LatticeSink, self, for_analysis, receive_grid, receive_run, receive_points, receive_sample, receive_partial_run)                            \
   CROSSES(LatticeFunctions, build)                                                                                                                    \
   CROSSES(MaterialConstants, density, base_stiffness, cross_ratio, alpha_ratio, clamped, law, volumetric)                                                         \
   CROSSES(ElasticConstants, C11, C12, C44)                                                                                                            \
@@ -84,7 +84,7 @@
   CROSSES(OpenArea, particle, area)                                                                                                                   \
   CROSSES(RestSpring, a, b, stiffness, share, rest_length, breakable)                                                                                 \
   CROSSES(LoadBody, self, spacing, rim, region_particles, particle_position, particle_mass, particle_share, region_open_areas, region_true_area,      \
-          region_centre, region_springs)                                                                                                              \
+          region_centre, region_springs, particle_gap)                                                                                                \
   CROSSES(WatchedMotion, time, factor, displacement, velocity)                                                                                        \
   CROSSES(LoadStiffnessBound, stiffness, viscosity)                                                                                                             \
   CROSSES(LoadSink, self, receive_force, receive_displacement, receive_velocity, receive_acceleration, receive_start_velocity, receive_corner,        \

@@ -5,17 +5,19 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <vector>
 
 namespace hyperlattice {
 
 /// Sends the lattice with sites x = anchor + spacing (offset + i a1 + j a2 + k a3). Each site
-/// inside the shape gets a particle; with boundary cells, each cell whose centre is such a site.
+/// inside the shape gets a particle; with boundary cells, each cell whose centre is such a site;
+/// with partial cells, each cell that has at least the share `least_share` of its volume inside.
 /// The basis must have a1 along x and a2 in the plane z = 0.
 class Filling {
  public:
   /// `grid`: complete but for its origin and sites. The shape must outlive this object.
-  Filling(const Grid& grid, const Shape& shape, Vec3 anchor, Vec3 offset)
-      : grid_(grid), shape_(shape), anchor_(anchor), offset_(offset) {
+  Filling(const Grid& grid, const Shape& shape, Vec3 anchor, Vec3 offset, double least_share = 0)
+      : grid_(grid), shape_(shape), anchor_(anchor), offset_(offset), least_share_(least_share) {
     grid_.shape = &shape;
   }
 
@@ -34,8 +36,8 @@ class Filling {
  private:
   static constexpr double most_sites = 4e9;
   static constexpr const char* nothing_inside =
-      "no lattice site or cell's centre is inside the shape: expected a smaller spacing or a "
-      "larger shape";
+      "no lattice site or cell's centre is inside the shape, or no cell has enough of it: expected "
+      "a smaller spacing or a larger shape";
 
   /// Steps first .. last along one of the basis vectors.
   struct Span {
@@ -48,9 +50,11 @@ class Filling {
     }
   };
   static std::int32_t whole(double number) { return static_cast<std::int32_t>(number); }
+  bool is_partial() const { return grid_.boundary == Boundary::partial_cells; }
 
   /// Sends the runs of one row. Returns whether the row has any.
   bool send_row(const LatticeSink& sink, double j, double k) const {
+    if (is_partial()) return send_shares(sink, j, k);
     const auto inside = [&](double i) { return shape_.contains(place(i, j, k)); };
     const Span row = along_x(j, k);
     bool any = false;
@@ -66,6 +70,28 @@ class Filling {
     return any;
   }
 
+  bool send_shares(const LatticeSink& sink, double j, double k) const {
+    const Span row = along_x(j, k);
+    std::vector<double> shares;
+    bool any = false;
+    const auto send_before = [&](double i) {
+      if (shares.empty()) return;
+      sink.partial_run(whole(j - j_.first), whole(k - k_.first),
+                       whole(i - i_.first) - static_cast<std::int32_t>(shares.size()), shares);
+      shares.clear();
+      any = true;
+    };
+    for (double i = row.first; i <= row.last; ++i) {
+      const double share = shape_.share(place(i - 0.5, j - 0.5, k - 0.5), grid_.spacing);
+      if (share > 0 && share >= least_share_)
+        shares.push_back(share);
+      else
+        send_before(i);
+    }
+    send_before(row.last + 1);
+    return any;
+  }
+
   Vec3 place(double i, double j, double k) const {
     return anchor_ + grid_.spacing * (offset_ + combined(grid_.basis, i, j, k));
   }
@@ -78,8 +104,10 @@ class Filling {
           "the shape has no end: expected a bounded one, such as the intersection of a half-space "
           "with a box");
     constexpr double rounding = 1e-6, most_sites_along_an_axis = 2147483646.0;
-    const Span span{std::ceil((low / grid_.spacing - start) / step - rounding),
-                    std::floor((high / grid_.spacing - start) / step + rounding)};
+    // A partial cell may have its centre up to half a cell outside.
+    const double more = is_partial() ? 0.5 - rounding : rounding;
+    const Span span{std::ceil((low / grid_.spacing - start) / step - more),
+                    std::floor((high / grid_.spacing - start) / step + more)};
     if (span.count() > most_sites_along_an_axis)
       throw std::invalid_argument(
           "spacing is too small for this shape: more than 2^31 sites along an axis");
@@ -108,7 +136,7 @@ class Filling {
       throw std::invalid_argument(
           "spacing is too small for this shape: its box would hold more than 4e9 sites");
     if (i_.count() * j_.count() * k_.count() == 0) throw std::invalid_argument(nothing_inside);
-    const bool cells = grid_.boundary == Boundary::cells;  // sites are the corners of cells
+    const bool cells = has_cells(grid_.boundary);  // sites are the corners of cells
     const double corner = cells ? 0.5 : 0;
     grid_.origin = place(i_.first - corner, j_.first - corner, k_.first - corner);
     const std::int32_t more = cells ? 1 : 0;
@@ -125,6 +153,7 @@ class Filling {
   Grid grid_;
   const Shape& shape_;
   Vec3 anchor_, offset_;
+  double least_share_;
   Span i_, j_, k_;
 };
 

@@ -21,7 +21,7 @@ struct Grid {
   std::uint32_t spring_classes = 1;
   /// Stiffness of each class's base springs over k; the ratios make the lattice isotropic.
   std::array<double, max_spring_classes> class_stiffness{1, 1, 1, 1};
-  Boundary boundary = Boundary::particles;  ///< Boundary::cells needs the cubic basis
+  Boundary boundary = Boundary::particles;  ///< cells of any kind need the cubic basis
   const Shape* shape = nullptr;  ///< the filled solid, as received in the options; null: none
 };
 
@@ -58,8 +58,8 @@ struct PeriodicSample {
 };
 
 /// Receives a lattice. A structured lattice sends the grid once, then the runs of particles (with
-/// boundary cells: of cells) in the order z, y, x. A listed lattice sends its points once, and a
-/// sample if it has one.
+/// boundary cells: of cells; with partial cells: of cells and their shares) in the order z, y, x. A
+/// listed lattice sends its points once, and a sample if it has one.
 struct LatticeSink {
   void* self = nullptr;
   /// Only the elastic constants are needed: send the neighbours, or the sample, and the smallest
@@ -70,6 +70,8 @@ struct LatticeSink {
                       std::int32_t end) noexcept = nullptr;
   void (*receive_points)(void* self, const PointList& points) noexcept = nullptr;
   void (*receive_sample)(void* self, const PeriodicSample& sample) noexcept = nullptr;
+  void (*receive_partial_run)(void* self, std::int32_t j, std::int32_t k, std::int32_t begin,
+                              std::span<const double> shares) noexcept = nullptr;
 
   void grid(const Grid& g) const { receive_grid(self, g); }
   void points(const PointList& list) const { receive_points(self, list); }
@@ -78,6 +80,13 @@ struct LatticeSink {
   /// low corners are these sites.
   void run(std::int32_t j, std::int32_t k, std::int32_t begin, std::int32_t end) const {
     receive_run(self, j, k, begin, end);
+  }
+  /// Adds the cells whose low corners are the sites from `begin` on of row (j, k), one for each
+  /// share. A share, above 0 and at most 1, is the part of the cell's volume that counts. For
+  /// boundary partial_cells.
+  void partial_run(std::int32_t j, std::int32_t k, std::int32_t begin,
+                   std::span<const double> shares) const {
+    receive_partial_run(self, j, k, begin, shares);
   }
 };
 

@@ -45,6 +45,7 @@ struct LoadBody {
   double (*region_true_area)(void* self, RegionId region) noexcept = nullptr;
   Vec3 (*region_centre)(void* self, RegionId region) noexcept = nullptr;
   std::span<const RestSpring> (*region_springs)(void* self, RegionId region) noexcept = nullptr;
+  double (*particle_gap)(void* self, Particle particle, Vec3 direction) noexcept = nullptr;
 
   /// Returns the particles of the region in ascending order. The core itself reports an empty
   /// region as an error; the load may then return without declaring anything.
@@ -57,9 +58,10 @@ struct LoadBody {
   /// Returns the fraction of a whole particle, 0 to 1; below 1 at the surface of a body of cells.
   double share(Particle particle) const { return particle_share(self, particle); }
   /// Returns the open faces of the region, each particle once, in ascending order; empty if no face
-  /// is open. The region decides which faces count: those to the cavity for "inner_surface", to the
-  /// outside for "outer_surface", of one side for "x_min" and its like, all open faces for other
-  /// regions. The sum over the particles is exactly the area of the faces.
+  /// is open. In a body of partial cells the open part of a face is the difference of the shares
+  /// of its two cells. The region decides which faces count: those to the cavity for
+  /// "inner_surface", to the outside for "outer_surface", of one side for "x_min" and its like, all
+  /// open faces for other regions. The sum over the particles is exactly the area of the faces.
   std::span<const OpenArea> open_areas(RegionId region) const {
     return region_open_areas(self, region);
   }
@@ -71,6 +73,12 @@ struct LoadBody {
   /// Returns the base springs with one or both ends in the region, each once, sorted by a, then b.
   std::span<const RestSpring> springs(RegionId region) const {
     return region_springs(self, region);
+  }
+  /// Returns the distance, m, from a particle to the body's shape along a unit vector. 0 if the
+  /// particle stands inside the shape or on its surface, as all particles do but the outermost of a
+  /// body of partial cells; infinity if the line misses the shape for two spacings.
+  double gap(Particle particle, Vec3 direction) const {
+    return particle_gap(self, particle, direction);
   }
 };
 

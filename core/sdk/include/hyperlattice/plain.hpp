@@ -71,8 +71,12 @@ struct Shape {
   bool (*contains_point)(const void* self, Vec3 point) noexcept = nullptr;
   Vec3 low, high;  ///< bounding box, metres
   Vec3 anchor;
+  double (*share_of_cube)(const void* self, Vec3 low, double edge) noexcept = nullptr;
 
   bool contains(Vec3 point) const { return contains_point(self, point); }
+  /// Returns the part, 0 to 1, of a cube's volume that lies inside, correct to 1e-4. The cube has
+  /// its low corner at `low`, and edges of `edge` metres along the axes.
+  double share(Vec3 low_corner, double edge) const { return share_of_cube(self, low_corner, edge); }
 };
 
 /// Receives the error message of a function that was called across the boundary and failed.

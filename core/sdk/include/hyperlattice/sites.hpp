@@ -22,8 +22,12 @@ struct Neighbour {
 /// The rule for where a body ends. particles: at its last particles, which are whole, with whole
 /// springs. cells: the body is a union of cells, each from site (i, j, k) to (i + 1, j + 1, k + 1),
 /// with particles at their corners; a particle or spring at the surface counts by the fraction of
-/// its cells that exist.
-enum class Boundary : std::uint32_t { particles, cells };
+/// its cells that exist. partial_cells: as cells, but each cell counts by the share of its volume
+/// that lies inside the shape.
+enum class Boundary : std::uint32_t { particles, cells, partial_cells };
+
+/// Returns whether particles stand at the corners of cells.
+constexpr bool has_cells(Boundary boundary) { return boundary != Boundary::particles; }
 
 /// Three steps between sites, in units of the spacing; rows of sites run along the first.
 using Basis = std::array<Vec3, 3>;
