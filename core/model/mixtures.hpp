@@ -49,7 +49,9 @@ class Mixtures {
   std::uint32_t of(Particle particle) const { return of_particle_[particle]; }
   const Around& around(std::uint32_t mixture) const { return around_[mixture]; }
   /// Returns the material of the cell of which a particle with this mixture is the lowest corner.
-  std::uint8_t cell_above(std::uint32_t mixture) const { return around_[mixture][place(0, 0, 0)]; }
+  std::uint8_t cell_above(std::uint32_t mixture) const {
+    return around_[mixture].materials[place(0, 0, 0)];
+  }
   /// Returns the material with the largest sum of shares; among equals the one with the smallest
   /// index.
   std::uint8_t commonest(std::uint32_t mixture) const;

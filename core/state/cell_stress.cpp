@@ -119,9 +119,8 @@ class Layer {
 
   void fill(PresentCell& cell) const {
     const Mixtures& mixtures = model_.kinds.mixtures;
-    // The cell in which all coordinates grow is the last one around its first corner.
     cell.material = mixtures.empty() ? model_.kinds.material(cell.corners[0])
-                                     : mixtures.around(mixtures.of(cell.corners[0])).back();
+                                     : mixtures.cell_above(mixtures.of(cell.corners[0]));
     const Vec3 first = springs_.displacement(cell.corners[0]);
     for (std::size_t n = 0; n < 8; ++n)
       cell.moved[n] = springs_.displacement(cell.corners[n]) - first;
