@@ -199,7 +199,7 @@ TEST_F(Surroundings, ThreadsThatTheSystemRefusesAreExit4WithASummary) {
 TEST_F(Surroundings, LackOfMemoryIsExit4WhereverItIsMet) {
   json scene = small_sphere();
   scene["pipeline"][3]["end_time"] = "1 us";
-  scene["pipeline"].push_back({{"type", "writers.picture"}, {"width", 640}, {"height", 480}});
+  scene["pipeline"].push_back({{"type", "writers.picture"}, {"width", 800}, {"height", 600}});
   scene["pipeline"].push_back({{"type", "writers.vtu"}});
   scene["pipeline"].push_back({{"type", "probes.region"}, {"region", "inner_surface"}});
   std::ofstream(folder_.file("scene.json")) << scene.dump();
