@@ -95,7 +95,11 @@ void leave_out_outputs(const Plan& plan, std::vector<LeftOut>& out) {
     out.push_back({"writers", "the scene has none: only tables and the summary are written"});
   if (plan.scene->of(Family::probes).empty()) out.push_back({"probes", "the scene has none"});
   if (outputs == 0) return;
+  if (std::none_of(asked.begin(), asked.end(), is_measured))
+    out.push_back({"stress, strain and forces of particles",
+                   "no writer or probe names a field that is computed from all springs"});
   for (const std::string_view name : field_names) {
+    if (is_measured(name)) continue;
     if (!has_field(*plan.model, name))
       out.push_back({fmt::format("field {}", name), "this run has no such quantity"});
     else if (asked.find(name) == asked.end())

@@ -127,7 +127,7 @@ struct Elasticity {
 
 TEST(Stress, OfSmallStrainsIsThatOfTheElasticConstantsForEachMembrane) {
   for (const MembraneCase& membrane : membranes)
-    for (const CellShape& shape : shapes()) {
+    for (const CellShape& shape : {cell_shapes()[2], cell_shapes()[6], random_cells()}) {
       const auto plan = plan_of(scene_of_cells(shape.shape, membrane.material));
       const Model& model = *plan->model;
       const Elasticity of(model);
@@ -173,32 +173,25 @@ TEST(Stress, IsTheDerivativeOfTheEnergyOfACell) {
     const auto start = noise(24, 0.15 * l);
     const auto heights =
         model.degrees_of_freedom == 4 ? noise(8, 0.05 * l, 3) : std::vector<double>{};
-    const auto with_cell = [&](const Tensor& H, const auto& use) {
+    /// Returns the cell after a further motion H x.
+    const auto cell_at = [&](const Tensor& H) {
       std::vector<double> u = start;
       const auto more = linear(model.body, H);
       for (std::size_t n = 0; n < u.size(); ++n) u[n] += more[n];
       Simulation simulation(model, 1);
       simulation.set_displacements(u, heights);
-      const PresentSprings springs(model, simulation);
-      for_cells(springs, Asked::energies, [&](const PresentCell& cell) { use(cell, simulation); });
-    };
-    const auto energy = [&](const Tensor& H) {
-      double found = 0;
-      with_cell(H, [&](const PresentCell& cell, Simulation& simulation) {
-        found = energy_density(cell, l);
-        EXPECT_NEAR(found * l * l * l / simulation.balance().stored, 1, 1e-12);
-      });
+      PresentCell found;
+      for_cells(PresentSprings(model, simulation), Asked::energies,
+                [&](const PresentCell& cell) { found = cell; });
+      EXPECT_NEAR(found.energy / simulation.balance().stored, 1, 1e-12);
       return found;
     };
-    Tensor P, sigma, differences;
-    double J = 0;
-    Tensor F;
-    with_cell({}, [&](const PresentCell& cell, Simulation&) {
-      P = nominal_stress(cell, l);
-      sigma = *cauchy_stress(cell, l);
-      J = 1 + volume_change(cell.gradient);
-      F = identity + cell.gradient;
-    });
+    const auto energy = [&](const Tensor& H) { return energy_density(cell_at(H), l); };
+    const PresentCell cell = cell_at({});
+    const Tensor P = nominal_stress(cell, l), sigma = *cauchy_stress(cell, l);
+    const double J = 1 + volume_change(cell.gradient);
+    EXPECT_NEAR(J, determinant(identity + cell.gradient), 1e-12);
+    Tensor differences;
     constexpr double h = 1e-6;
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j) {
@@ -210,15 +203,11 @@ TEST(Stress, IsTheDerivativeOfTheEnergyOfACell) {
     for (std::size_t i = 0; i < 3; ++i) scale = std::max(scale, norm(P[i]));
     EXPECT_LT(largest_difference(P, differences), 1e-8 * scale) << material;
     EXPECT_LT(largest_difference(sigma, transposed(sigma)), 1e-13 * scale) << material;
-    // The Cauchy stress is the derivative with respect to a motion h x of the present places.
-    EXPECT_NEAR(J, determinant(F), 1e-12);
     Tensor of_places;
-    with_cell({}, [&](const PresentCell& cell, Simulation&) {
-      for (std::size_t n = 0; n < 8; ++n) {
-        const Vec3 X{corner_sign(n, 0), corner_sign(n, 1), corner_sign(n, 2)};
-        of_places += -1 / (J * l * l * l) * outer(cell.force[n], 0.5 * l * X + cell.moved[n]);
-      }
-    });
+    for (std::size_t n = 0; n < 8; ++n) {
+      const Vec3 X{corner_sign(n, 0), corner_sign(n, 1), corner_sign(n, 2)};
+      of_places += -1 / (J * l * l * l) * outer(cell.force[n], 0.5 * l * X + cell.moved[n]);
+    }
     EXPECT_LT(largest_difference(sigma, of_places), 1e-12 * scale) << material;
   }
 }
