@@ -108,7 +108,8 @@ void estimate_memory(Plan& plan) {
 }
 
 void estimate_output(Plan& plan) {
-  constexpr double bytes_per_text_number = 19, history_numbers = 16;
+  constexpr double bytes_per_text_number = 19;
+  const double history_numbers = 16 + static_cast<double>(plan.model->loads.size());
   constexpr double fraction_at_rest = 0.3;  // of the bytes of a frame in motion
   constexpr double own_files = 12e3,
                    listed_file =

@@ -65,6 +65,8 @@ Resultant SectionForces::sum(Vec3 about) const {
         add(spring, about, parts[n]);
     }
   });
+  // Other forces between particles of both sides, such as those of the cells that the plane cuts,
+  // belong here: their sum over the particles before the plane.
   Resultant total;
   for (const Resultant& part : parts) {
     total.force += part.force;

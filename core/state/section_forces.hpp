@@ -1,7 +1,6 @@
 // The force through a plane section: the sum over the springs that the plane cuts of their pull on
 // the end before the plane. It is what the part beyond does to the part before, exact to round-off,
-// because springs on one side of the plane cancel. The forces of other parts of the body that the
-// plane cuts, such as cells, add to the same sum: those on the particles before the plane.
+// because springs on one side of the plane cancel.
 #pragma once
 
 #include <model/section.hpp>

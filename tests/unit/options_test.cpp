@@ -29,8 +29,9 @@ std::string read(const Option& option, const std::string& given) {
   RegionReader region_reader(none, regions, faults, texts);
   ReadValue value;
   Json resolved;
+  const std::vector<std::string> loads{"pull", "fixed"};
   const bool good = read_value(option, Json::parse(given), "/option",
-                               {faults, region_reader, texts}, value, resolved);
+                               {faults, region_reader, texts, loads}, value, resolved);
   EXPECT_EQ(good, faults.empty()) << given;
   return good ? resolved.dump() : faults.all().at(0).pointer + ": " + faults.all().at(0).expected;
 }
@@ -151,6 +152,17 @@ TEST(Options, ShapesAndRegions) {
   EXPECT_EQ(read(make(OptionKind::region), "\"z_max\""), "\"z_max\"");
   EXPECT_EQ(read(make(OptionKind::region), R"({"union": ["x_min", {"box": {"size": [1, 1, 1]}}]})"),
             R"({"union":["x_min",{"box":{"size":[1.0,1.0,1.0]}}]})");
+}
+
+TEST(Options, LoadsOrRegions) {
+  const Option option = make(OptionKind::load_or_region);
+  EXPECT_EQ(read(option, "\"pull\""), "\"pull\"");
+  EXPECT_EQ(read(option, "\"z_max\""), "\"z_max\"");
+  EXPECT_EQ(read(option, R"({"sphere": {"radius": 1}})"),
+            R"({"sphere":{"centre":[0.0,0.0,0.0],"radius":1.0}})");
+  const std::string unknown = read(option, "\"pul\"");
+  EXPECT_EQ(unknown.find("/option: the name of a load, or a region such as"), 0u) << unknown;
+  EXPECT_NE(unknown.find("did you mean \"pull\""), std::string::npos) << unknown;
 }
 
 TEST(Options, EveryFaultOfAnObjectIsFound) {
