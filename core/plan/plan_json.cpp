@@ -62,6 +62,10 @@ nlohmann::json body_json(const BodyFigures& body) {
                          {"volume", body.volume},
                          {"mass", body.mass},
                          {"parts", body.parts}};
+  if (body.is_partial) {
+    json["cells"] = body.cells;
+    json["partial_cells"] = body.partial_cells;
+  }
   if (body.asked_size)
     json[body.asked_at_most ? "asked_size_at_most" : "asked_size"] = vector(*body.asked_size);
   if (body.asked_volume) json["asked_volume"] = *body.asked_volume;

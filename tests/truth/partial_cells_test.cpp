@@ -323,7 +323,7 @@ TEST(PartialCells, OfSeveralMaterialsHaveTheMassOfTheirCells) {
   const Model& model = *plan->model;
   double mass = 0, expected = 0;
   for (Particle p = 0; p < model.body.particles; ++p) mass += model.mass(p);
-  for (const Run& run : model.body.cells.runs())
+  for (const hyperlattice::Run& run : model.body.cells.runs())
     for (Site cell{run.begin, run.j, run.k}; cell.i < run.end; ++cell.i) {
       const double share = model.body.cells.share_of_cell(cell);
       const Vec3 x = model.body.position(cell) + 0.5 * l * Vec3{1, 1, 1};
