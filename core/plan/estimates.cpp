@@ -5,17 +5,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace hyperlattice {
 
 namespace {
 
-/// Returns how many numbers per particle the fields of an output have.
-double numbers_per_particle(const Plan& plan, const Stage& output) {
+/// Returns how many numbers per particle these fields have.
+double numbers_of(const auto& fields) {
   double numbers = 0;
-  for (const std::string& name : plan.asked_fields.at(&output))
+  for (const std::string& name : fields)
     numbers += name == "displacement" || name == "velocity" ? 3 : 1;
   return numbers;
+}
+
+/// Returns how many numbers per particle the fields of an output have.
+double numbers_per_particle(const Plan& plan, const Stage& output) {
+  return numbers_of(plan.asked_fields.at(&output));
+}
+
+/// Returns the fields of the frames that are written beside the steps.
+std::set<std::string> queued_fields(const Plan& plan) {
+  std::set<std::string> fields;
+  for (const auto& [writer, used] : plan.used_fields) fields.insert(used.begin(), used.end());
+  return fields;
 }
 
 double particles_of(const Plan& plan) { return static_cast<double>(plan.model->body.particles); }
@@ -86,6 +99,7 @@ void estimate_memory(Plan& plan) {
   for (const Family family : {Family::writers, Family::probes})
     for (const Stage* stage : plan.scene->of(family))
       output_numbers = std::max(output_numbers, 3 + numbers_per_particle(plan, *stage));
+  if (plan.threads > 1) output_numbers += queued_frames * numbers_of(queued_fields(plan));
   double solver_bytes = 0;
   for (const PlannedStage& stage : plan.stages)
     solver_bytes = std::max(solver_bytes, stage.plan.bytes_per_site);
@@ -118,12 +132,14 @@ void estimate_output(Plan& plan) {
 }
 
 double output_seconds(const Plan& plan, double sweep, bool measured) {
-  constexpr double write = 30e-9;  // s per number of a frame
+  constexpr double write = 5e-9;  // s per number of a frame
   double seconds = 0;
   for (const Stage* stage : plan.scene->of(Family::writers)) {
-    const auto cost = plan.frame_costs.find(stage);
-    const bool known = measured && cost != plan.frame_costs.end();
-    seconds += frames_of(plan, *stage) *
+    const auto cost = plan.frame_costs.find(stage), used = plan.used_fields.find(stage);
+    const bool known = measured && cost != plan.frame_costs.end(),
+               queued = used != plan.used_fields.end() && !used->second.empty();
+    // The thread of a queued frame takes time from those of the steps.
+    seconds += frames_of(plan, *stage) / (queued ? plan.threads : 1) *
                (known ? cost->second.seconds
                       : particles_of(plan) * (3 + numbers_per_particle(plan, *stage)) * write);
   }

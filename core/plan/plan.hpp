@@ -48,7 +48,8 @@ struct Plan {
   BodyFigures body;  ///< its size and mass as built
   std::vector<PlannedStage> stages;
   AskedFields asked_fields;
-  std::vector<PlannedTable> tables;               ///< in the order of the scene's probes
+  AskedFields used_fields;           ///< of each writer: fields that it names in begin()
+  std::vector<PlannedTable> tables;  ///< in the order of the scene's probes
   std::map<const Stage*, FrameCost> frame_costs;  ///< of the writers that could be tried
   int threads = 1;
   double bytes_per_particle = 0;  ///< of the state that the kernel works on

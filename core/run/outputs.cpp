@@ -1,28 +1,31 @@
 #include <plan/columns.hpp>
 #include <plan/fields.hpp>
-#include <plan/plan.hpp>
 #include <run/outputs.hpp>
 #include <scene/stage_call.hpp>
 #include <state/archive.hpp>
 
-#include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <system_error>
 
 namespace hyperlattice {
 
-Outputs::Outputs(const Model& model, const Simulation& simulation, RunFolder& folder,
-                 double end_time)
-    : model_(model),
+Outputs::Outputs(const Plan& plan, const Simulation& simulation, RunFolder& folder)
+    : model_(*plan.model),
+      threads_(plan.threads),
       simulation_(simulation),
-      source_(model, simulation),
+      source_(model_, simulation),
       folder_(folder),
-      regions_(model.body, model.scene->regions) {
+      regions_(model_.body, model_.scene->regions) {
   for (const std::string_view name : field_names)
-    if (has_field(model, name)) fields_.push_back(name);
+    if (has_field(model_, name)) fields_.push_back(name);
   for (const Family family : {Family::writers, Family::probes})
-    for (const Stage* stage : model.scene->of(family)) {
+    for (const Stage* stage : model_.scene->of(family)) {
       Output& output = outputs_.emplace_back();
+      output.owner = this;
       output.stage = stage;
-      output.schedule = Schedule(0, output_interval(*stage, end_time), stage->cadence.first);
+      output.schedule = Schedule(0, output_interval(*stage, plan.end_time()), stage->cadence.first);
     }
 }
 
@@ -35,6 +38,16 @@ void Outputs::archive(Archive& archive) {
 
 void Outputs::begin() {
   for (Output& output : outputs_) begin(output);
+  const bool any = std::any_of(outputs_.begin(), outputs_.end(),
+                               [](const Output& output) { return !output.fields.empty(); });
+  if (!any || threads_ == 1) return;
+  try {
+    queue_.emplace(model_, threads_);
+  } catch (const OutsideError& error) {
+    spdlog::info("frames are written between the steps: {}", error.what());
+  } catch (const std::system_error& error) {
+    spdlog::info("frames are written between the steps: {}", error.what());
+  }
 }
 
 void Outputs::begin(Output& output) {
@@ -48,23 +61,7 @@ void Outputs::begin(Output& output) {
   output.name = is_probe ? "probes" : is_labelled ? stage.name : "";
   output.directory =
       (output.name.empty() ? folder_.directory() : folder_.subfolder(output.name)).string();
-  OutputContext context;
-  context.directory = output.directory;
-  context.title = model_.scene->title;
-  context.fields = fields_;
-  context.earlier = output.shown;
-  context.self = this;
-  context.region_particles = [](void* self, RegionId region) noexcept {
-    return PluginCall::answer(std::span<const Particle>(), [&] {
-      return static_cast<Outputs*>(self)->regions_.particles(region);
-    });
-  };
-  context.announce_file = [](void* self, std::string_view file, bool rewritten) noexcept {
-    return PluginCall::answer(false, [&] {
-      static_cast<Outputs*>(self)->announce(file, rewritten);
-      return true;
-    });
-  };
+  const OutputContext context = context_of(output);
   if (!is_probe) {
     call(stage, "begin", [&](const Complaint& why) {
       return stage.functions<WriterFunctions>().begin(output.component.get(), context, why);
@@ -81,50 +78,112 @@ void Outputs::begin(Output& output) {
   output.table = &folder_.table("probes/" + stage.name + ".csv", columns);
 }
 
-void Outputs::announce(std::string_view file, bool rewritten) {
-  if (writing_ == nullptr)
-    throw PluginMistake("it announced a file when it was not asked to write");
-  folder_.claim(
-      writing_->name.empty() ? std::string(file) : fmt::format("{}/{}", writing_->name, file),
-      rewritten);
+OutputContext Outputs::context_of(Output& output) const {
+  OutputContext context;
+  context.directory = output.directory;
+  context.title = model_.scene->title;
+  context.fields = fields_;
+  context.earlier = output.shown;
+  context.self = &output;
+  context.region_particles = [](void* self, RegionId region) noexcept {
+    return PluginCall::answer(std::span<const Particle>(), [&] {
+      return static_cast<Output*>(self)->owner->regions_.particles(region);
+    });
+  };
+  context.announce_file = [](void* self, std::string_view file, bool rewritten) noexcept {
+    return PluginCall::answer(false, [&] {
+      const Output& writer = *static_cast<Output*>(self);
+      writer.owner->announce(writer, file, rewritten);
+      return true;
+    });
+  };
+  context.use_field = [](void* self, std::string_view name) noexcept {
+    PluginCall::answer([&] {
+      auto& writer = *static_cast<Output*>(self);
+      if (has_field(writer.owner->model_, name)) writer.fields.emplace(name);
+    });
+  };
+  return context;
+}
+
+void Outputs::announce(const Output& output, std::string_view file, bool rewritten) {
+  if (!output.is_writing) throw PluginMistake("it announced a file when it was not asked to write");
+  folder_.claim(output.name.empty() ? std::string(file) : fmt::format("{}/{}", output.name, file),
+                rewritten);
 }
 
 void Outputs::show(double time_step) {
+  if (queue_) queue_->check();
+  std::vector<Output*> due;
   for (Output& output : outputs_)
-    if (output.schedule.due(simulation_.time(), time_step)) show_to(output);
+    if (output.schedule.due(simulation_.time(), time_step)) due.push_back(&output);
+  show_to(due);
 }
 
 void Outputs::show_now() {
+  std::vector<Output*> due;
   for (Output& output : outputs_)
-    if (!has_seen_this(output)) show_to(output);
+    if (!has_seen_this(output)) due.push_back(&output);
+  show_to(due);
 }
 
 void Outputs::show_last() {
+  std::vector<Output*> due;
   for (Output& output : outputs_)
-    if (output.stage->cadence.last && !has_seen_this(output)) show_to(output);
+    if (output.stage->cadence.last && !has_seen_this(output)) due.push_back(&output);
+  show_to(due);
 }
 
-void Outputs::show_to(Output& output) {
+void Outputs::show_to(const std::vector<Output*>& due) {
+  if (due.empty()) return;
   const Snapshot& snapshot = source_.take();
-  const Stage& stage = *output.stage;
-  writing_ = &output;
-  call(stage, output.table != nullptr ? "sample" : "frame", [&](const Complaint& why) {
-    return output.table != nullptr
-               ? stage.functions<ProbeFunctions>().sample(output.component.get(), snapshot,
-                                                          output.row.data() + 1, why)
-               : stage.functions<WriterFunctions>().frame(output.component.get(), snapshot, why);
+  std::vector<Output*> queued;
+  FieldNames fields;
+  for (Output* output : due) {
+    if (output->table != nullptr) {
+      sample(*output, snapshot);
+      output->shown.clear();
+    } else if (!queue_ || output->fields.empty()) {
+      write(*output, snapshot);
+    } else {
+      queued.push_back(output);
+      fields.insert(output->fields.begin(), output->fields.end());
+      continue;
+    }
+    output->shown.push_back({snapshot.step, snapshot.time});
+  }
+  if (queued.empty()) return;
+  queue_->put(source_, fields, [queued](const Snapshot& copy) {
+    for (Output* output : queued) write(*output, copy);
   });
-  if (output.table != nullptr) output.shown.clear();
-  output.shown.push_back({snapshot.step, snapshot.time});
-  if (output.table == nullptr) return;
-  output.row[0] = snapshot.time;
-  output.table->row(output.row);
+  for (Output* output : queued) output->shown.push_back({snapshot.step, snapshot.time});
+}
+
+void Outputs::sample(Output& probe, const Snapshot& snapshot) {
+  call(*probe.stage, "sample", [&](const Complaint& why) {
+    return probe.stage->functions<ProbeFunctions>().sample(probe.component.get(), snapshot,
+                                                           probe.row.data() + 1, why);
+  });
+  probe.row[0] = snapshot.time;
+  probe.table->row(probe.row);
+}
+
+void Outputs::write(Output& writer, const Snapshot& snapshot) {
+  writer.is_writing = true;
+  call(*writer.stage, "frame", [&](const Complaint& why) {
+    return writer.stage->functions<WriterFunctions>().frame(writer.component.get(), snapshot, why);
+  });
+}
+
+void Outputs::drain() {
+  if (queue_) queue_->drain();
 }
 
 void Outputs::end() {
+  drain();
   for (Output& output : outputs_) {
     if (output.table != nullptr) continue;
-    writing_ = &output;
+    output.is_writing = true;
     call(*output.stage, "end", [&](const Complaint& why) {
       return output.stage->functions<WriterFunctions>().end(output.component.get(), why);
     });

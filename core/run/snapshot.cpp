@@ -34,14 +34,24 @@ const Snapshot& SnapshotSource::take() {
 
 bool SnapshotSource::field(std::string_view name, Field& out) {
   if (!has_field(model_, name)) return false;
-  Values& values = fields_.try_emplace(std::string(name)).first->second;
+  FieldValues& values = fields_.try_emplace(std::string(name)).first->second;
   if (!values.current && !compute(name, values)) return false;
   values.current = true;
   out = {values.components, values.numbers};
   return true;
 }
 
-bool SnapshotSource::compute(std::string_view name, Values& values) {
+void SnapshotSource::hand_over(std::string_view name, FieldValues& values) {
+  const auto own = fields_.find(name);
+  if (own != fields_.end() && own->second.current)
+    std::swap(values, own->second);  // a probe asked for it
+  else
+    compute(name, values);
+  if (own != fields_.end()) own->second.current = false;
+  values.current = true;
+}
+
+bool SnapshotSource::compute(std::string_view name, FieldValues& values) {
   values.components = name == "displacement" || name == "velocity" ? 3 : 1;
   if (name == "displacement")
     simulation_.displacements(values.numbers);

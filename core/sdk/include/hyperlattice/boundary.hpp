@@ -99,9 +99,9 @@
   CROSSES(SolverHost, self, time, steps_done, take_step, show, open, take, measure_rest, stop_motion, set_damping_rate, show_rest, keep_motion)       \
   CROSSES(SolverFunctions, plan, run)                                                                                                                 \
   CROSSES(Field, components, values)                                                                                                                  \
-  CROSSES(Snapshot, time, step, particles, spacing, positions, self, get_field)                                                                       \
+  CROSSES(Snapshot, time, step, particles, spacing, positions, self, get_field, run_tasks)                                                                     \
   CROSSES(FrameMark, step, time)                                                                                                                      \
-  CROSSES(OutputContext, directory, title, fields, earlier, self, region_particles, announce_file)                                                                   \
+  CROSSES(OutputContext, directory, title, fields, earlier, self, region_particles, announce_file, use_field)                                                                   \
   CROSSES(WriterFunctions, begin, frame, end)                                                                                                         \
   CROSSES(ColumnSink, self, receive)                                                                                                                  \
   CROSSES(ProbeFunctions, begin, sample)

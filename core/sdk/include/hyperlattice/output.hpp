@@ -4,6 +4,9 @@
 
 #include <hyperlattice/component.hpp>
 
+#include <exception>
+#include <limits>
+#include <mutex>
 #include <stdexcept>
 
 namespace hyperlattice {
@@ -24,6 +27,9 @@ struct Snapshot {
   std::span<const double> positions;  ///< x y z of each particle at rest, m
   void* self = nullptr;
   bool (*get_field)(void* self, std::string_view name, Field& field) noexcept = nullptr;
+  /// Calls task(work, n) for each n below `count`; null: the run has one thread for output.
+  void (*run_tasks)(void* self, std::uint64_t count, void* work,
+                    void (*task)(void* work, std::uint64_t n) noexcept) noexcept = nullptr;
 
   /// Gets a field by name, with (components, unit): "displacement" (3, m), "velocity" (3, m/s),
   /// "height" (1, m: displacement in the fourth dimension), "material" (1), "source" (1: of a
@@ -31,6 +37,11 @@ struct Snapshot {
   /// "broken_closed" (1: number of the particle's broken springs that are open, closed), "damage"
   /// (1: broken fraction of its springs). Returns false if this run has no such field.
   bool field(std::string_view name, Field& out) const { return get_field(self, name, out); }
+
+  /// Calls task(n) for each n below `count`, in any order and on all threads that the run has for
+  /// output. Rethrows the exception of the lowest n. A task asks for no field.
+  template <class Task>
+  void for_each(std::uint64_t count, const Task& task) const;
 };
 
 /// Names that Snapshot::field knows, for options that list fields.
@@ -61,9 +72,19 @@ struct OutputContext {
   /// must not be touched; the run then tells the user. FrameFiles calls it.
   bool (*announce_file)(void* self, std::string_view name, bool rewritten) noexcept = nullptr;
 
+  /// Receives the name of a field that the writer's frames will ask for; see use().
+  void (*use_field)(void* self, std::string_view name) noexcept = nullptr;
+
   /// Returns the particles of the region in ascending order.
   std::span<const Particle> particles(RegionId region) const {
     return region_particles(self, region);
+  }
+  /// Tells the run, in begin() of a writer, that frames will ask for this field. The frames of a
+  /// writer that names its fields are written beside the next steps, from copies of these fields;
+  /// such a writer may ask for no other one. A writer that names no field delays the run while it
+  /// writes. require_field() calls this function.
+  void use(std::string_view name) const {
+    if (use_field != nullptr) use_field(self, name);
   }
   /// Announces a file. Throws std::runtime_error if the file must not be touched.
   void announce(std::string_view name, bool rewritten = false) const {
@@ -80,7 +101,8 @@ struct WriterFunctions {
 };
 
 /// A writer class has begin(const OutputContext&), frame(const Snapshot&) and end(); each throws
-/// std::runtime_error if the disk refuses. begin() writes nothing: the plan calls it too, without a
+/// std::runtime_error if the disk refuses. They are called one after the other, frame() perhaps on
+/// another thread than the others. begin() writes nothing: the plan calls it too, without a
 /// directory, to find errors before a run starts. A writer writes under a temporary name and
 /// renames, so that no half-written file has a final name; after each frame the files on disk are
 /// complete. It announces each file to the context, as FrameFiles does: only announced files belong
@@ -119,6 +141,26 @@ concept ProbeComponent = requires(T& probe, const OutputContext& context, const 
 };
 
 namespace detail {
+
+/// The tasks of Snapshot::for_each, and the first exception of one of them.
+template <class Task>
+struct SharedTasks {
+  const Task& task;
+  std::mutex failing{};
+  std::uint64_t failed = std::numeric_limits<std::uint64_t>::max();
+  std::exception_ptr failure{};
+
+  void run(std::uint64_t n) noexcept {
+    try {
+      task(n);
+    } catch (...) {
+      const std::lock_guard lock(failing);
+      if (n < failed) failure = std::current_exception();
+      failed = n < failed ? n : failed;
+    }
+  }
+};
+
 template <WriterComponent T>
 struct FunctionsOf<T> {
   static constexpr Family family = Family::writers;
@@ -147,6 +189,20 @@ struct FunctionsOf<T> {
       }};
 };
 }  // namespace detail
+
+template <class Task>
+void Snapshot::for_each(std::uint64_t count, const Task& task) const {
+  if (run_tasks == nullptr) {
+    for (std::uint64_t n = 0; n < count; ++n) task(n);
+    return;
+  }
+  detail::SharedTasks<Task> tasks{task};
+  run_tasks(self, count, &tasks, [](void* work, std::uint64_t n) noexcept {
+    static_cast<detail::SharedTasks<Task>*>(work)->run(n);
+  });
+  if (tasks.failure) std::rethrow_exception(tasks.failure);
+}
+
 }  // namespace hyperlattice
 
 #include <hyperlattice/boundary.hpp>  // the gate needs all structs of the boundary
