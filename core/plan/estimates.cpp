@@ -135,7 +135,8 @@ double output_seconds(const Plan& plan, double sweep, bool measured) {
   constexpr double write = 5e-9;  // s per number of a frame
   double seconds = 0;
   for (const Stage* stage : plan.scene->of(Family::writers)) {
-    const auto cost = plan.frame_costs.find(stage), used = plan.used_fields.find(stage);
+    const auto cost = plan.frame_costs.find(stage);
+    const auto used = plan.used_fields.find(stage);
     const bool known = measured && cost != plan.frame_costs.end(),
                queued = used != plan.used_fields.end() && !used->second.empty();
     // The thread of a queued frame takes time from those of the steps.

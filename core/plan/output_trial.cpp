@@ -337,10 +337,11 @@ void try_outputs(Plan& plan, Faults& faults) {
     const auto refused = refusal_of(*stage, "begin", [&](const Complaint& why) {
       return stage->functions<WriterFunctions>().begin(writer.get(), context, why);
     });
-    if (refused)
+    if (refused) {
       faults.add(stage->pointer, stage->component->type(),
                  "an output that fits the body: " + *refused);
-    if (refused) continue;
+      continue;
+    }
     plan.used_fields[stage] = rest.take_used();
     if (const auto cost = frame_cost(*plan.model, rest, *stage, rest.take_asked()))
       plan.frame_costs[stage] = *cost;

@@ -38,8 +38,9 @@ void Outputs::archive(Archive& archive) {
 
 void Outputs::begin() {
   for (Output& output : outputs_) begin(output);
-  const bool any = std::any_of(outputs_.begin(), outputs_.end(),
-                               [](const Output& output) { return !output.fields.empty(); });
+  const bool any = std::any_of(outputs_.begin(), outputs_.end(), [](const Output& output) {
+    return output.table == nullptr && !output.fields.empty();
+  });
   if (!any || threads_ == 1) return;
   try {
     queue_.emplace(model_, threads_);
