@@ -1,5 +1,6 @@
 #include <plan/columns.hpp>
 #include <plan/fields.hpp>
+#include <plan/plan.hpp>
 #include <run/outputs.hpp>
 #include <scene/stage_call.hpp>
 #include <state/archive.hpp>
@@ -11,21 +12,22 @@
 
 namespace hyperlattice {
 
-Outputs::Outputs(const Plan& plan, const Simulation& simulation, RunFolder& folder)
-    : model_(*plan.model),
-      threads_(plan.threads),
+Outputs::Outputs(const Model& model, const Simulation& simulation, RunFolder& folder,
+                 double end_time, int threads)
+    : model_(model),
       simulation_(simulation),
-      source_(model_, simulation),
+      source_(model, simulation),
       folder_(folder),
-      regions_(model_.body, model_.scene->regions) {
+      threads_(threads),
+      regions_(model.body, model.scene->regions) {
   for (const std::string_view name : field_names)
-    if (has_field(model_, name)) fields_.push_back(name);
+    if (has_field(model, name)) fields_.push_back(name);
   for (const Family family : {Family::writers, Family::probes})
-    for (const Stage* stage : model_.scene->of(family)) {
+    for (const Stage* stage : model.scene->of(family)) {
       Output& output = outputs_.emplace_back();
       output.owner = this;
       output.stage = stage;
-      output.schedule = Schedule(0, output_interval(*stage, plan.end_time()), stage->cadence.first);
+      output.schedule = Schedule(0, output_interval(*stage, end_time), stage->cadence.first);
     }
 }
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <model/region_index.hpp>
-#include <plan/plan.hpp>
 #include <run/folder.hpp>
 #include <run/frame_queue.hpp>
 #include <run/schedule.hpp>
@@ -18,8 +17,10 @@ namespace hyperlattice {
 /// frame.
 class Outputs {
  public:
-  /// The end time of the plan sets the interval of outputs that have none.
-  Outputs(const Plan& plan, const Simulation& simulation, RunFolder& folder);
+  /// `end_time`, s, is the run's and sets the interval of outputs that have none. With more than
+  /// one of `threads`, frames are written by as many threads besides those of the simulation.
+  Outputs(const Model& model, const Simulation& simulation, RunFolder& folder, double end_time,
+          int threads);
   void archive(Archive& archive);
   /// Makes and begins every writer and probe, or continues them.
   void begin();
@@ -60,10 +61,10 @@ class Outputs {
   static void write(Output& writer, const Snapshot& snapshot);
 
   const Model& model_;
-  int threads_;
   const Simulation& simulation_;
   SnapshotSource source_;
   RunFolder& folder_;
+  int threads_;
   std::vector<std::string_view> fields_;  ///< of this run
   std::list<Output> outputs_;
   RegionIndex regions_;

@@ -11,7 +11,7 @@ Recorder::Recorder(const Plan& plan, Simulation& simulation, RunFolder& folder,
       guard_(*plan.model, simulation),
       cells_(*plan.model),
       history_(folder),
-      outputs_(plan, simulation, folder),
+      outputs_(*plan.model, simulation, folder, plan.end_time(), plan.threads),
       planned_steps_(plan.steps()) {
   if (plan.model->springs.breakable || plan.model->springs.softens) failures_.emplace(folder);
 }
