@@ -48,8 +48,7 @@ struct Plan {
   BodyFigures body;  ///< its size and mass as built
   std::vector<PlannedStage> stages;
   AskedFields asked_fields;
-  AskedFields used_fields;           ///< of each writer: fields that it names in begin()
-  std::vector<PlannedTable> tables;  ///< in the order of the scene's probes
+  std::vector<PlannedTable> tables;               ///< in the order of the scene's probes
   std::map<const Stage*, FrameCost> frame_costs;  ///< of the writers that could be tried
   int threads = 1;
   double bytes_per_particle = 0;  ///< of the state that the kernel works on
@@ -58,6 +57,7 @@ struct Plan {
   double setup_seconds = 0;       ///< spent on building the model
   double expected_seconds = 0;    ///< estimated from the kernel's cost on a common machine
   std::vector<LeftOut> left_out;
+  AskedFields used_fields;  ///< of each writer: fields that it names in begin()
 
   std::uint64_t steps() const;
   double end_time() const;

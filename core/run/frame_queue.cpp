@@ -21,9 +21,9 @@ void FrameQueue::put(SnapshotSource& source, const FieldNames& fields,
                      std::function<void(const Snapshot&)> write) {
   wait_for_at_most(queued_frames - 1);
   Slot& slot = slots_[next_];  // free, for the slots are used in turn
-  next_ = (next_ + 1) % queued_frames;
   slot.copy->take(source, fields);
   slot.write = std::move(write);
+  next_ = (next_ + 1) % queued_frames;
   {
     const std::lock_guard lock(mutex_);
     ++waiting_;
