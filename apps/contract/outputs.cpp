@@ -67,7 +67,8 @@ class MovingBlock {
     simulation_->set_velocities(noise(3 * particles, 1), std::vector<double>(particles, 0.0));
     run_folder_ = std::make_unique<RunFolder>(folder.path(), true);
     run_folder_->begin(false, {});
-    outputs_ = std::make_unique<Outputs>(model_, *simulation_, *run_folder_, end_time);
+    outputs_ =
+        std::make_unique<Outputs>(model_, *simulation_, *run_folder_, end_time, plan_.threads);
     outputs_->begin();
   }
   void show() { outputs_->show_now(); }
@@ -76,6 +77,7 @@ class MovingBlock {
 
   /// Imitates the end of the program and a resumed run.
   void restart() {
+    outputs_->drain();
     const std::string shown = saved([&](Archive& archive) { outputs_->archive(archive); });
     const auto marks = run_folder_->sync();
     outputs_.reset();
@@ -83,7 +85,8 @@ class MovingBlock {
     run_folder_ = std::make_unique<RunFolder>(folder_.path(), false);
     run_folder_->go_on(marks);
     simulation_ = restarted(*simulation_, model_, plan_.threads);
-    outputs_ = std::make_unique<Outputs>(model_, *simulation_, *run_folder_, end_time);
+    outputs_ =
+        std::make_unique<Outputs>(model_, *simulation_, *run_folder_, end_time, plan_.threads);
     restore(shown, [&](Archive& archive) { outputs_->archive(archive); });
     outputs_->begin();
   }

@@ -5,25 +5,36 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace hyperlattice {
 
 namespace {
 
-/// Returns how many numbers per particle the fields of an output have.
-double numbers_per_particle(const Plan& plan, const Stage& output) {
+/// Returns how many numbers per particle these fields have.
+double numbers_of(const auto& fields) {
   double numbers = 0;
-  for (const std::string& name : plan.asked_fields.at(&output))
-    numbers += components_of(*find_field(name));
+  for (const std::string_view name : fields) numbers += components_of(*find_field(name));
   return numbers;
 }
 
-/// Returns how many more numbers per particle are in memory while the fields of an output are
-/// computed: the displacements, and the tensors and weights from which fields follow.
-double working_numbers(const Plan& plan, const Stage& output) {
+/// Returns how many numbers per particle the fields of an output have.
+double numbers_per_particle(const Plan& plan, const Stage& output) {
+  return numbers_of(plan.asked_fields.at(&output));
+}
+
+/// Returns how many more numbers per particle are in memory while these fields are computed: the
+/// displacements, and the tensors and weights from which fields follow.
+double working_numbers(const auto& fields) {
   constexpr double numbers = 4 + 2 * 9 + 1;
-  const std::vector<std::string>& names = plan.asked_fields.at(&output);
-  return std::any_of(names.begin(), names.end(), is_measured) ? numbers : 0;
+  return std::any_of(fields.begin(), fields.end(), is_measured) ? numbers : 0;
+}
+
+/// Returns the fields of the frames that are written beside the steps.
+std::set<std::string> queued_fields(const Plan& plan) {
+  std::set<std::string> fields;
+  for (const auto& [writer, used] : plan.used_fields) fields.insert(used.begin(), used.end());
+  return fields;
 }
 
 double particles_of(const Plan& plan) { return static_cast<double>(plan.model->body.particles); }
@@ -94,8 +105,9 @@ void estimate_memory(Plan& plan) {
   double output_numbers = 0;  // positions, and the fields of the output with the most numbers
   for (const Family family : {Family::writers, Family::probes})
     for (const Stage* stage : plan.scene->of(family))
-      output_numbers = std::max(
-          output_numbers, 3 + numbers_per_particle(plan, *stage) + working_numbers(plan, *stage));
+      output_numbers = std::max(output_numbers, 3 + numbers_per_particle(plan, *stage) +
+                                                    working_numbers(plan.asked_fields.at(stage)));
+  if (plan.threads > 1) output_numbers += queued_frames * numbers_of(queued_fields(plan));
   double solver_bytes = 0;
   for (const PlannedStage& stage : plan.stages)
     solver_bytes = std::max(solver_bytes, stage.plan.bytes_per_site);
@@ -129,12 +141,15 @@ void estimate_output(Plan& plan) {
 }
 
 double output_seconds(const Plan& plan, double sweep, bool measured) {
-  constexpr double write = 30e-9;  // s per number of a frame
+  constexpr double write = 5e-9;  // s per number of a frame
   double seconds = 0;
   for (const Stage* stage : plan.scene->of(Family::writers)) {
     const auto cost = plan.frame_costs.find(stage);
-    const bool known = measured && cost != plan.frame_costs.end();
-    seconds += frames_of(plan, *stage) *
+    const auto used = plan.used_fields.find(stage);
+    const bool known = measured && cost != plan.frame_costs.end(),
+               queued = used != plan.used_fields.end() && !used->second.empty();
+    // The thread of a queued frame takes time from those of the steps.
+    seconds += frames_of(plan, *stage) / (queued ? plan.threads : 1) *
                (known ? cost->second.seconds
                       : particles_of(plan) * (3 + numbers_per_particle(plan, *stage)) * write);
   }

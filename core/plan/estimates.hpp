@@ -5,6 +5,10 @@
 
 namespace hyperlattice {
 
+/// The number of frames that a run with several threads copies at most, so that they can be written
+/// beside the next steps.
+inline constexpr std::size_t queued_frames = 2;
+
 /// Sets bytes_per_particle and memory_bytes of the plan.
 void estimate_memory(Plan& plan);
 /// Sets output_bytes of the plan.

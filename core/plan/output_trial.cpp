@@ -63,6 +63,12 @@ class BodyAtRest {
         return Section{{}, section.springs.size(), section.area};
       });
     };
+    context.use_field = [](void* self, std::string_view name) noexcept {
+      PluginCall::answer([&] {
+        auto& rest = *static_cast<BodyAtRest*>(self);
+        if (has_field(rest.model_, name)) rest.used_.emplace_back(name);
+      });
+    };
     return context;
   }
 
@@ -70,6 +76,8 @@ class BodyAtRest {
   std::span<const Particle> particles(RegionId region) { return regions_.particles(region); }
   /// Returns the regions that were asked for since the last call.
   std::vector<RegionId> take_asked() { return std::exchange(asked_, {}); }
+  /// Returns the fields that were named since the last call.
+  std::vector<std::string> take_used() { return std::exchange(used_, {}); }
 
   /// Returns the snapshot for probes; writers do not need it.
   Snapshot snapshot() {
@@ -112,6 +120,7 @@ class BodyAtRest {
   ActedParticles acted_;
   std::vector<std::string_view> fields_;
   std::vector<RegionId> asked_;
+  std::vector<std::string> used_;
   std::vector<double> positions_;
   std::map<std::uint32_t, std::vector<double>> zeros_;  ///< by number of components
 };
@@ -157,6 +166,7 @@ class ParticleSample {
         return static_cast<ParticleSample*>(self)->particles(region);
       });
     };
+    context.use_field = nullptr;
     return context;
   }
 
@@ -347,13 +357,17 @@ void try_outputs(Plan& plan, Faults& faults) {
   for (const Stage* stage : writers) {
     const ComponentPointer writer = make_component(*stage);
     rest.take_asked();
+    rest.take_used();
     const auto refused = refusal_of(*stage, "begin", [&](const Complaint& why) {
       return stage->functions<WriterFunctions>().begin(writer.get(), context, why);
     });
-    if (refused)
+    if (refused) {
       faults.add(stage->pointer, stage->component->type(),
                  "an output that fits the body: " + *refused);
-    else if (const auto cost = frame_cost(*plan.model, rest, *stage, rest.take_asked()))
+      continue;
+    }
+    plan.used_fields[stage] = rest.take_used();
+    if (const auto cost = frame_cost(*plan.model, rest, *stage, rest.take_asked()))
       plan.frame_costs[stage] = *cost;
   }
   if (probes.empty()) return;

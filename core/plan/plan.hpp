@@ -57,6 +57,7 @@ struct Plan {
   double setup_seconds = 0;       ///< spent on building the model
   double expected_seconds = 0;    ///< estimated from the kernel's cost on a common machine
   std::vector<LeftOut> left_out;
+  AskedFields used_fields;  ///< of each writer: fields that it names in begin()
 
   std::uint64_t steps() const;
   double end_time() const;

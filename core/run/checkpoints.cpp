@@ -3,6 +3,7 @@
 namespace hyperlattice {
 
 void Checkpoints::save(std::uint64_t steps) {
+  drain_();
   stopwatch_.lap();  // a run that continues from here counts this part too
   stopwatch_.output([&] {
     CheckpointHead head = checkpoint_head(plan_, steps == 0);

@@ -10,14 +10,15 @@ namespace hyperlattice {
 /// All members throw OutsideError or std::runtime_error if the disk refuses.
 class Checkpoints {
  public:
-  /// `seconds_between`: of save_if_due(); 0: it never saves. `state` passes all that the run needs
-  /// to an archive.
+  /// `seconds_between`: of save_if_due(); 0: it never saves. `drain` waits until all frames are
+  /// written. `state` passes all that the run needs to an archive.
   Checkpoints(const Plan& plan, RunFolder& folder, Stopwatch& stopwatch, double seconds_between,
-              Visit state)
+              std::function<void()> drain, Visit state)
       : plan_(plan),
         folder_(folder),
         stopwatch_(stopwatch),
         seconds_between_(seconds_between),
+        drain_(std::move(drain)),
         state_(std::move(state)) {}
 
   /// Saves the state after this number of steps of the run; before the first one nothing but the
@@ -31,6 +32,7 @@ class Checkpoints {
   RunFolder& folder_;
   Stopwatch& stopwatch_;
   double seconds_between_;
+  std::function<void()> drain_;
   Visit state_;
   std::chrono::steady_clock::time_point saved_ = std::chrono::steady_clock::now();
 };

@@ -332,6 +332,7 @@ void RunFolder::write(const std::string& name, std::string_view text) {
 void RunFolder::claim(const std::string& name, bool rewritten) {
   if (!is_own_name(name))
     throw OutsideError(fmt::format("\"{}\" cannot be the name of a file of the run", name));
+  const std::lock_guard lock(claiming_);
   const auto found = files_.find(name);
   if (found != files_.end() && !found->second.noted) {
     found->second.rewritten = rewritten;

@@ -9,6 +9,7 @@
 
 #include <list>
 #include <memory>
+#include <mutex>
 #include <set>
 
 namespace hyperlattice {
@@ -49,7 +50,8 @@ class RunFolder {
   /// Writes a whole file of the run's own.
   void write(const std::string& name, std::string_view text);
   /// Lists a file as the run's before it is written. `rewritten`: it may change after the next
-  /// checkpoint. Throws OutsideError if a file of that name exists that is not the run's.
+  /// checkpoint. Throws OutsideError if a file of that name exists that is not the run's. Two
+  /// threads may call it at once; while one calls it, no other member may be called.
   void claim(const std::string& name, bool rewritten);
 
   /// Waits until all written data is on the disk. Returns the extents of the tables and of the
@@ -78,6 +80,7 @@ class RunFolder {
   std::unique_ptr<Table> list_;  ///< open and locked
   std::list<std::pair<std::string, Table>> tables_;
   std::vector<TableMark> marks_;
+  std::mutex claiming_;
   std::map<std::string, ListedFile> files_;
   OwnFiles earlier_;  ///< content of the list when the folder was opened
   bool may_replace_ = false;

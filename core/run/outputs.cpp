@@ -6,15 +6,20 @@
 #include <state/archive.hpp>
 #include <state/force_sums.hpp>
 
-#include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <system_error>
 
 namespace hyperlattice {
 
-Outputs::Outputs(const Model& model, Simulation& simulation, RunFolder& folder, double end_time)
+Outputs::Outputs(const Model& model, Simulation& simulation, RunFolder& folder, double end_time,
+                 int threads)
     : model_(model),
       simulation_(simulation),
       source_(model, simulation),
       folder_(folder),
+      threads_(threads),
       regions_(model.body, model.scene->regions),
       acted_(model, regions_) {
   for (const std::string_view name : field_names)
@@ -22,6 +27,7 @@ Outputs::Outputs(const Model& model, Simulation& simulation, RunFolder& folder, 
   for (const Family family : {Family::writers, Family::probes})
     for (const Stage* stage : model.scene->of(family)) {
       Output& output = outputs_.emplace_back();
+      output.owner = this;
       output.stage = stage;
       output.schedule = Schedule(0, output_interval(*stage, end_time), stage->cadence.first);
     }
@@ -37,6 +43,17 @@ void Outputs::archive(Archive& archive) {
 void Outputs::begin() {
   for (Output& output : outputs_) begin(output);
   source_.renew();
+  const bool any = std::any_of(outputs_.begin(), outputs_.end(), [](const Output& output) {
+    return output.table == nullptr && !output.fields.empty();
+  });
+  if (!any || threads_ == 1) return;
+  try {
+    queue_.emplace(model_, threads_);
+  } catch (const OutsideError& error) {
+    spdlog::info("frames are written between the steps: {}", error.what());
+  } catch (const std::system_error& error) {
+    spdlog::info("frames are written between the steps: {}", error.what());
+  }
 }
 
 void Outputs::begin(Output& output) {
@@ -50,24 +67,7 @@ void Outputs::begin(Output& output) {
   output.name = is_probe ? "probes" : is_labelled ? stage.name : "";
   output.directory =
       (output.name.empty() ? folder_.directory() : folder_.subfolder(output.name)).string();
-  OutputContext context;
-  context.directory = output.directory;
-  context.title = model_.scene->title;
-  context.fields = fields_;
-  context.earlier = output.shown;
-  context.self = this;
-  context.region_particles = [](void* self, RegionId region) noexcept {
-    return PluginCall::answer(std::span<const Particle>(), [&] {
-      return static_cast<Outputs*>(self)->regions_.particles(region);
-    });
-  };
-  context.announce_file = [](void* self, std::string_view file, bool rewritten) noexcept {
-    return PluginCall::answer(false, [&] {
-      static_cast<Outputs*>(self)->announce(file, rewritten);
-      return true;
-    });
-  };
-  offer_forces(context);
+  const OutputContext context = context_of(output);
   if (!is_probe) {
     call(stage, "begin", [&](const Complaint& why) {
       return stage.functions<WriterFunctions>().begin(output.component.get(), context, why);
@@ -87,12 +87,13 @@ void Outputs::begin(Output& output) {
 /// Sets the functions by which a probe asks for forces.
 void Outputs::offer_forces(OutputContext& context) {
   context.acted_particles = [](void* self, LoadOrRegion of) noexcept {
-    return PluginCall::answer(std::span<const Particle>(),
-                              [&] { return static_cast<Outputs*>(self)->acted_.particles(of); });
+    return PluginCall::answer(std::span<const Particle>(), [&] {
+      return static_cast<Output*>(self)->owner->acted_.particles(of);
+    });
   };
   context.external_forces = [](void* self, LoadOrRegion of) noexcept {
     return PluginCall::answer(ForcesId(), [&] {
-      auto& outputs = *static_cast<Outputs*>(self);
+      auto& outputs = *static_cast<Output*>(self)->owner;
       const std::span<const Particle> particles = outputs.acted_.particles(of);  // checks it
       return of.is_load()
                  ? outputs.simulation_.force_sums().follow(static_cast<std::size_t>(of.load))
@@ -101,7 +102,7 @@ void Outputs::offer_forces(OutputContext& context) {
   };
   context.cut_section = [](void* self, Vec3 point, Vec3 normal, RegionId region) noexcept {
     return PluginCall::answer(Section(), [&] {
-      auto& outputs = *static_cast<Outputs*>(self);
+      auto& outputs = *static_cast<Output*>(self)->owner;
       const PlaneSection section =
           cut(outputs.model_, point, normal, outputs.regions_.particles(region));
       return Section{outputs.simulation_.force_sums().follow(section), section.springs.size(),
@@ -110,53 +111,114 @@ void Outputs::offer_forces(OutputContext& context) {
   };
 }
 
-void Outputs::announce(std::string_view file, bool rewritten) {
-  if (writing_ == nullptr)
-    throw PluginMistake("it announced a file when it was not asked to write");
-  folder_.claim(
-      writing_->name.empty() ? std::string(file) : fmt::format("{}/{}", writing_->name, file),
-      rewritten);
+OutputContext Outputs::context_of(Output& output) const {
+  OutputContext context;
+  context.directory = output.directory;
+  context.title = model_.scene->title;
+  context.fields = fields_;
+  context.earlier = output.shown;
+  context.self = &output;
+  context.region_particles = [](void* self, RegionId region) noexcept {
+    return PluginCall::answer(std::span<const Particle>(), [&] {
+      return static_cast<Output*>(self)->owner->regions_.particles(region);
+    });
+  };
+  context.announce_file = [](void* self, std::string_view file, bool rewritten) noexcept {
+    return PluginCall::answer(false, [&] {
+      const Output& writer = *static_cast<Output*>(self);
+      writer.owner->announce(writer, file, rewritten);
+      return true;
+    });
+  };
+  context.use_field = [](void* self, std::string_view name) noexcept {
+    PluginCall::answer([&] {
+      auto& writer = *static_cast<Output*>(self);
+      if (has_field(writer.owner->model_, name)) writer.fields.emplace(name);
+    });
+  };
+  offer_forces(context);
+  return context;
+}
+
+void Outputs::announce(const Output& output, std::string_view file, bool rewritten) {
+  if (!output.is_writing) throw PluginMistake("it announced a file when it was not asked to write");
+  folder_.claim(output.name.empty() ? std::string(file) : fmt::format("{}/{}", output.name, file),
+                rewritten);
 }
 
 void Outputs::show(double time_step) {
+  if (queue_) queue_->check();
+  std::vector<Output*> due;
   for (Output& output : outputs_)
-    if (output.schedule.due(simulation_.time(), time_step)) show_to(output);
-  source_.renew();
+    if (output.schedule.due(simulation_.time(), time_step)) due.push_back(&output);
+  show_to(due);
 }
 
 void Outputs::show_now() {
+  std::vector<Output*> due;
   for (Output& output : outputs_)
-    if (!has_seen_this(output)) show_to(output);
-  source_.renew();
+    if (!has_seen_this(output)) due.push_back(&output);
+  show_to(due);
 }
 
 void Outputs::show_last() {
+  std::vector<Output*> due;
   for (Output& output : outputs_)
-    if (output.stage->cadence.last && !has_seen_this(output)) show_to(output);
+    if (output.stage->cadence.last && !has_seen_this(output)) due.push_back(&output);
+  show_to(due);
+}
+
+void Outputs::show_to(const std::vector<Output*>& due) {
+  if (due.empty()) return;
+  const Snapshot& snapshot = source_.take();
+  std::vector<Output*> queued;
+  FieldNames fields;
+  for (Output* output : due) {
+    if (output->table != nullptr) {
+      sample(*output, snapshot);
+      output->shown.clear();
+    } else if (!queue_ || output->fields.empty()) {
+      write(*output, snapshot);
+    } else {
+      queued.push_back(output);
+      fields.insert(output->fields.begin(), output->fields.end());
+      continue;
+    }
+    output->shown.push_back({snapshot.step, snapshot.time});
+  }
+  if (queued.empty()) return source_.renew();
+  queue_->put(source_, fields, [queued](const Snapshot& copy) {
+    for (Output* output : queued) write(*output, copy);
+  });
+  for (Output* output : queued) output->shown.push_back({snapshot.step, snapshot.time});
   source_.renew();
 }
 
-void Outputs::show_to(Output& output) {
-  const Snapshot& snapshot = source_.take();
-  const Stage& stage = *output.stage;
-  writing_ = &output;
-  call(stage, output.table != nullptr ? "sample" : "frame", [&](const Complaint& why) {
-    return output.table != nullptr
-               ? stage.functions<ProbeFunctions>().sample(output.component.get(), snapshot,
-                                                          output.row.data() + 1, why)
-               : stage.functions<WriterFunctions>().frame(output.component.get(), snapshot, why);
+void Outputs::sample(Output& probe, const Snapshot& snapshot) {
+  call(*probe.stage, "sample", [&](const Complaint& why) {
+    return probe.stage->functions<ProbeFunctions>().sample(probe.component.get(), snapshot,
+                                                           probe.row.data() + 1, why);
   });
-  if (output.table != nullptr) output.shown.clear();
-  output.shown.push_back({snapshot.step, snapshot.time});
-  if (output.table == nullptr) return;
-  output.row[0] = snapshot.time;
-  output.table->row(output.row);
+  probe.row[0] = snapshot.time;
+  probe.table->row(probe.row);
+}
+
+void Outputs::write(Output& writer, const Snapshot& snapshot) {
+  writer.is_writing = true;
+  call(*writer.stage, "frame", [&](const Complaint& why) {
+    return writer.stage->functions<WriterFunctions>().frame(writer.component.get(), snapshot, why);
+  });
+}
+
+void Outputs::drain() {
+  if (queue_) queue_->drain();
 }
 
 void Outputs::end() {
+  drain();
   for (Output& output : outputs_) {
     if (output.table != nullptr) continue;
-    writing_ = &output;
+    output.is_writing = true;
     call(*output.stage, "end", [&](const Complaint& why) {
       return output.stage->functions<WriterFunctions>().end(output.component.get(), why);
     });

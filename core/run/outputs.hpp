@@ -1,20 +1,26 @@
-// The writers and probes of a run: made at the start, called when due, ended in order.
+// The writers and probes of a run: made at the start, called when due, ended in order. Frames of
+// writers that name their fields are written beside the steps that follow.
 #pragma once
 
 #include <model/acted_particles.hpp>
 #include <run/folder.hpp>
+#include <run/frame_queue.hpp>
 #include <run/schedule.hpp>
 #include <run/snapshot.hpp>
 
 #include <list>
+#include <optional>
 
 namespace hyperlattice {
 
-/// All members throw OutsideError when a writer, a probe or the disk refuses.
+/// All members throw OutsideError when a writer, a probe or the disk refuses, or refused an earlier
+/// frame.
 class Outputs {
  public:
-  /// `end_time`, s, is the run's and sets the interval of outputs that have none.
-  Outputs(const Model& model, Simulation& simulation, RunFolder& folder, double end_time);
+  /// `end_time`, s, is the run's and sets the interval of outputs that have none. With more than
+  /// one of `threads`, frames are written by as many threads besides those of the simulation.
+  Outputs(const Model& model, Simulation& simulation, RunFolder& folder, double end_time,
+          int threads);
   void archive(Archive& archive);
   /// Makes and begins every writer and probe, or continues them.
   void begin();
@@ -25,37 +31,46 @@ class Outputs {
   void show_now();
   /// Shows it to the outputs that want the last state and have not seen it.
   void show_last();
+  /// Waits until all frames so far are written.
+  void drain();
   /// Closes the writers.
   void end();
 
  private:
   struct Output {
+    Outputs* owner = nullptr;
     const Stage* stage = nullptr;
     ComponentPointer component;
     std::string name;       ///< of its folder in the run's; empty: the run's folder itself
     std::string directory;  ///< path of its files' folder
     Schedule schedule;
     std::vector<FrameMark> shown;  ///< all frames so far; of a probe, the latest
+    FieldNames fields;             ///< of a writer, as named in begin()
+    bool is_writing = false;       ///< it may announce files
     Table* table = nullptr;        ///< of a probe
     std::vector<double> row;
   };
   void begin(Output& output);
   static void offer_forces(OutputContext& context);
-  void announce(std::string_view file, bool rewritten);
+  OutputContext context_of(Output& output) const;
+  void announce(const Output& output, std::string_view file, bool rewritten);
   bool has_seen_this(const Output& output) const {
     return !output.shown.empty() && output.shown.back().step == simulation_.steps();
   }
-  void show_to(Output& output);
+  void show_to(const std::vector<Output*>& due);
+  static void sample(Output& probe, const Snapshot& snapshot);
+  static void write(Output& writer, const Snapshot& snapshot);
 
   const Model& model_;
   Simulation& simulation_;
   SnapshotSource source_;
   RunFolder& folder_;
-  const Output* writing_ = nullptr;       ///< the output that is at work
+  int threads_;
   std::vector<std::string_view> fields_;  ///< of this run
   std::list<Output> outputs_;
   RegionIndex regions_;
   ActedParticles acted_;
+  std::optional<FrameQueue> queue_;  ///< none: frames are written at once
 };
 
 }  // namespace hyperlattice

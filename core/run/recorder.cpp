@@ -11,7 +11,7 @@ Recorder::Recorder(const Plan& plan, Simulation& simulation, RunFolder& folder,
       guard_(*plan.model, simulation),
       cells_(*plan.model),
       history_(folder, plan.model->loads),
-      outputs_(*plan.model, simulation, folder, plan.end_time()),
+      outputs_(*plan.model, simulation, folder, plan.end_time(), plan.threads),
       planned_steps_(plan.steps()) {
   if (plan.model->springs.breakable || plan.model->springs.softens) failures_.emplace(folder);
 }
@@ -92,6 +92,10 @@ void Recorder::end_stage() {
   if (!stage_->plan.at_rest) return;
   look_at_cells();
   stopwatch_.output([&] { outputs_.show_now(); });
+}
+
+void Recorder::drain() {
+  stopwatch_.output([&] { outputs_.drain(); });
 }
 
 void Recorder::finish() {

@@ -37,6 +37,8 @@ class Recorder {
   void observe_once();
   /// Records the state at the end of the stage. At rest all outputs are due.
   void end_stage();
+  /// Waits until all frames so far are written.
+  void drain();
   /// Shows the last state to outputs, and ends them.
   void finish();
 

@@ -124,7 +124,9 @@ void solve(const Plan& plan, const RunOptions& options, RunFolder& folder,
     if (stop_requested() && may_be_short(plan, simulation->steps()))
       outcome.end("interrupted", exit_interrupted, "asked to stop by a signal");
   });
-  if (stages) attempt(plan, outcome, [&] { stages->note(outcome); });
+  if (!stages) return;
+  attempt(plan, outcome, [&] { stages->drain(); });  // a run that fails keeps its frames
+  attempt(plan, outcome, [&] { stages->note(outcome); });
 }
 
 /// Finishes the folder after the summary, which stays true if an error occurs here.

@@ -58,6 +58,7 @@ const Snapshot& SnapshotSource::take() {
     }
     snapshot_.positions = positions_;
   }
+  if (!measured_) measured_.emplace(model_, simulation_);
   snapshot_.time = simulation_.time();
   snapshot_.step = simulation_.steps();
   return snapshot_;
@@ -95,14 +96,15 @@ SnapshotSource::Compute SnapshotSource::function_of(std::string_view name) {
   return nullptr;
 }
 
+void SnapshotSource::compute(std::string_view name, FieldValues& values) {
+  values.components = components_of(*find_field(name));
+  (this->*function_of(name))(values.numbers);
+}
+
 bool SnapshotSource::field(std::string_view name, Field& out) {
-  const Compute compute = function_of(name);
-  if (compute == nullptr || !has_field(model_, name)) return false;
-  Values& values = fields_.try_emplace(std::string(name)).first->second;
-  if (!values.current) {
-    values.components = components_of(*find_field(name));
-    (this->*compute)(values.numbers);
-  }
+  if (function_of(name) == nullptr || !has_field(model_, name)) return false;
+  FieldValues& values = fields_.try_emplace(std::string(name)).first->second;
+  if (!values.current) compute(name, values);
   values.current = true;
   out = {values.components, values.numbers};
   return true;
@@ -213,6 +215,16 @@ Resultant SnapshotSource::resultant(ForcesId forces, Vec3 about) {
   if (!forces_current_) simulation_.force_sums().measure();
   forces_current_ = true;
   return simulation_.force_sums().sum(forces, about);
+}
+
+void SnapshotSource::hand_over(std::string_view name, FieldValues& values) {
+  const auto own = fields_.find(name);
+  if (own != fields_.end() && own->second.current)
+    std::swap(values, own->second);  // a probe asked for it
+  else
+    compute(name, values);
+  if (own != fields_.end()) own->second.current = false;
+  values.current = true;
 }
 
 void SnapshotSource::count_broken(std::vector<double>& numbers, bool open) {

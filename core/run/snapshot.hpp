@@ -12,6 +12,13 @@
 
 namespace hyperlattice {
 
+/// The numbers of a field at one time.
+struct FieldValues {
+  std::uint32_t components = 1;
+  bool current = false;  ///< they are those of the present state
+  std::vector<double> numbers;
+};
+
 /// Makes snapshots of the present state. Computes a field, or the forces of loads, only when an
 /// output asks for it, once for each state.
 class SnapshotSource {
@@ -25,17 +32,17 @@ class SnapshotSource {
   /// Returns the present state, valid until the next call of renew() or step. Use it in a
   /// PluginCall, which keeps the exceptions of its fields.
   const Snapshot& take();
+  /// Returns the state of the latest take().
+  const Snapshot& latest() const { return snapshot_; }
+  /// Puts a field of the present state, which is that of the latest take(), into `values`.
+  void hand_over(std::string_view name, FieldValues& values);
 
  private:
-  struct Values {
-    std::uint32_t components = 1;
-    bool current = false;
-    std::vector<double> numbers;
-  };
   using Compute = void (SnapshotSource::*)(std::vector<double>& numbers);
   static Compute function_of(std::string_view name);
 
   bool field(std::string_view name, Field& out);
+  void compute(std::string_view name, FieldValues& values);
   void displacement(std::vector<double>& numbers);
   void velocity(std::vector<double>& numbers);
   void height(std::vector<double>& numbers);
@@ -59,7 +66,6 @@ class SnapshotSource {
   void internal_force(std::vector<double>& numbers);
   void external_force(std::vector<double>& numbers);
   void acceleration(std::vector<double>& numbers);
-  bool compute(std::string_view name, Values& values);
   Resultant resultant(ForcesId forces, Vec3 about);
   void count_broken(std::vector<double>& numbers, bool open);
 
@@ -67,7 +73,7 @@ class SnapshotSource {
   Simulation& simulation_;
   Snapshot snapshot_;
   std::vector<double> positions_;
-  std::map<std::string, Values, std::less<>> fields_;
+  std::map<std::string, FieldValues, std::less<>> fields_;
   std::optional<Measured> measured_;
   bool forces_current_ = false;
   /// Springs of each particle at the start; filled when damage is first asked for.

@@ -15,8 +15,9 @@ StageSequence::StageSequence(const Plan& plan, const RunOptions& options, RunFol
       folder_(folder),
       simulation_(simulation),
       recorder_(plan, simulation, folder, stopwatch_),
-      checkpoints_(plan, folder, stopwatch_, options.checkpoint_every,
-                   [this](Archive& state) { archive(state); }) {}
+      checkpoints_(
+          plan, folder, stopwatch_, options.checkpoint_every, [this] { recorder_.drain(); },
+          [this](Archive& state) { archive(state); }) {}
 
 void StageSequence::archive(Archive& archive) {
   simulation_.archive(archive);

@@ -26,6 +26,8 @@ class StageSequence {
   /// Solves the stages until the last one ends, or until stop_requested(). Throws RunError if a
   /// solver or a check fails, and OutsideError or std::runtime_error if the disk refuses.
   void solve();
+  /// Waits until all frames so far are written. Throws OutsideError if one was not.
+  void drain() { recorder_.drain(); }
   /// Ends the outputs.
   void finish() { recorder_.finish(); }
 

@@ -6,13 +6,19 @@
 namespace hyperlattice {
 
 void Simulation::copy(const Quantity& quantity, std::vector<double>& values) const {
-  copy(quantity, 0, state_->blocks.model().body.particles, values);
+  const std::uint64_t all = state_->blocks.model().body.particles;
+  values.resize(all * static_cast<std::size_t>(quantity.components));
+  const auto parts = static_cast<std::uint64_t>(state_->blocks.team().count());
+  state_->blocks.team().for_each(parts, [&](std::uint64_t part) {
+    const Particle first = all * part / parts;
+    copy(quantity, first, all * (part + 1) / parts - first,
+         values.data() + first * static_cast<std::size_t>(quantity.components));
+  });
 }
 
 void Simulation::copy(const Quantity& quantity, Particle first, std::uint64_t count,
-                      std::vector<double>& values) const {
+                      double* values) const {
   const auto components = static_cast<std::size_t>(quantity.components);
-  values.resize(count * components);
   state_->blocks.for_runs(
       [&](const Block& block, std::uint64_t place, Particle start, std::uint64_t length) {
         const Particle from = std::max(start, first), to = std::min(start + length, first + count);
@@ -44,7 +50,8 @@ void Simulation::set(const Quantity& quantity, const std::vector<double>& values
 void Simulation::displacements(std::vector<double>& xyz) const { copy({false, 0, 3}, xyz); }
 void Simulation::displacements(std::vector<double>& xyz, Particle first,
                                std::uint64_t count) const {
-  copy({false, 0, 3}, first, count, xyz);
+  xyz.resize(3 * count);
+  copy({false, 0, 3}, first, count, xyz.data());
 }
 
 void Simulation::velocities(std::vector<double>& xyz) const { copy({true, 0, 3}, xyz); }

@@ -121,8 +121,7 @@ class Simulation {
     int first, components;
   };
   void copy(const Quantity& quantity, std::vector<double>& values) const;
-  void copy(const Quantity& quantity, Particle first, std::uint64_t count,
-            std::vector<double>& values) const;
+  void copy(const Quantity& quantity, Particle first, std::uint64_t count, double* values) const;
   void set(const Quantity& quantity, const std::vector<double>& values);
 
   std::unique_ptr<State> state_;

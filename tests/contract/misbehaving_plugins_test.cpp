@@ -1,6 +1,7 @@
 // Plugins that pass the gate, and then throw, crash, end the program, hang or return unusable data.
 // The last line names the plugin, the exit code is 4, and earlier results stay.
 #include <gtest/gtest.h>
+#include <spdlog/fmt/fmt.h>
 #include <sys/stat.h>
 #include <support/program.hpp>
 
@@ -117,6 +118,79 @@ INSTANTIATE_TEST_SUITE_P(
     name_of);
 TEST_P(MisbehavingFailure, IsNamedInTheLastLine) {
   expect_named(scene_with_failure(), GetParam(), "failures.misbehaving");
+}
+
+nlohmann::json scene_with_writer() {
+  nlohmann::json watched = scene();
+  const nlohmann::json load = {
+      {"type", "loads.displacement"}, {"on", "z_max"}, {"value", {0, 0, "1 um"}}, {"rise", "1 us"}};
+  watched["pipeline"].insert(watched["pipeline"].end() - 1, load);
+  watched["pipeline"].push_back({{"type", "writers.misbehaving"}, {"every", "0.5 us"}});
+  return watched;
+}
+
+/// Returns the frames that a run leaves, in order.
+std::vector<std::string> frames_in(const std::string& directory) {
+  std::vector<std::string> frames;
+  for (int n = 0; n < 100; ++n) {
+    const std::string file = fmt::format("{}/sum_{:06}.txt", directory, n);
+    if (std::filesystem::exists(file)) frames.push_back(contents(file));
+  }
+  return frames;
+}
+
+class MisbehavingWriter : public testing::TestWithParam<Fault> {};
+INSTANTIATE_TEST_SUITE_P(
+    All, MisbehavingWriter,
+    testing::Values(
+        Fault{"throw in frame", "failed in frame(): oops"},
+        Fault{"throw in tasks", "failed in frame(): oops in 41"},
+        Fault{"no memory in frame", "failed in frame(): not enough memory"},
+        Fault{"another field",
+              "failed in frame(): it asked for the field \"velocity\", which it did not name"},
+        Fault{"null pointer in task", "ended the program in frame(): segmentation fault", true}),
+    name_of);
+/// The frames are written on other threads than the steps; earlier ones stay.
+TEST_P(MisbehavingWriter, IsNamedInTheLastLineAndKeepsEarlierFrames) {
+  const Fault fault = GetParam();
+  if (sanitized && fault.signal) GTEST_SKIP() << "the sanitizer reports the signal";
+  const Folder here("misbehaving");
+  const std::string file = write_scene(here, scene_with_writer());
+  const Result whole = run_program({"run", file, "--threads", "2", "--out", here.file("whole")});
+  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  const auto expected = frames_in(here.file("whole"));
+  const Result result = run_program({"run", file, "--threads", "2", "--out", here.file("out")},
+                                    launch_with(fault.fault));
+  EXPECT_EQ(result.exit_code, 4) << result.err;
+  const std::string line = last_line(result.err);
+  EXPECT_NE(line.find(fault.says), std::string::npos) << result.err;
+  EXPECT_NE(line.find(folder + "/writers.misbehaving.so"), std::string::npos) << result.err;
+  const auto left = frames_in(here.file("out"));
+  ASSERT_GT(left.size(), 1U);
+  ASSERT_LT(left.size(), expected.size());
+  for (std::size_t n = 0; n < left.size(); ++n) {
+    EXPECT_EQ(left[n], expected[n]);
+    EXPECT_TRUE(left[n].starts_with("other thread"));
+  }
+}
+
+TEST(MisbehavingPlugins, ARunThatFailsWritesTheFramesThatWait) {
+  const Folder here("misbehaving");
+  nlohmann::json scene = scene_with_writer();
+  // The load fails after 1 us, while the slow writer is behind.
+  scene["pipeline"].insert(scene["pipeline"].begin() + 2,
+                           nlohmann::json{{"type", "loads.misbehaving"}, {"on", "z_max"}});
+  const std::string file = write_scene(here, scene);
+  const auto frames_of = [&](const char* threads) {
+    const std::string out = here.file(threads);
+    EXPECT_EQ(run_program({"run", file, "--threads", threads, "--out", out}, launch_with("throw"))
+                  .exit_code,
+              4);
+    return frames_in(out).size();
+  };
+  const std::size_t without_queue = frames_of("1");
+  EXPECT_GE(without_queue, 2U);
+  EXPECT_EQ(frames_of("2"), without_queue);
 }
 
 /// Unusable data of a load is refused as a fault of the scene, before the run writes any file.

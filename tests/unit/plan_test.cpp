@@ -48,6 +48,18 @@ TEST(Plan, warnings_of_the_scene_come_first) {
   EXPECT_EQ(plan->model->warnings.front(), "/pipeline/2/old: of the scene");
 }
 
+TEST(Plan, memory_counts_the_copies_of_frames_that_wait) {
+  nlohmann::json scene = small_sphere();
+  const double without = plan_of(scene, 2)->memory_bytes;
+  scene["pipeline"].push_back({{"type", "writers.vtu"}, {"fields", {"velocity", "height"}}});
+  const auto plan = plan_of(scene, 2);
+  const auto particles = static_cast<double>(plan->model->body.particles);
+  // Positions and the fields of the present state, and twice the fields.
+  EXPECT_DOUBLE_EQ(plan->memory_bytes - without, particles * 8 * (3 + 4 + 2 * 4));
+  EXPECT_DOUBLE_EQ(plan_of(scene, 1)->memory_bytes,
+                   plan_of(small_sphere(), 1)->memory_bytes + particles * 8 * (3 + 4));
+}
+
 TEST(Plan, small_bodies_take_few_threads_unless_a_number_is_asked_for) {
   EXPECT_EQ(Threads::up_to(8).of(432), 1);
   EXPECT_EQ(Threads::up_to(8).of(3 * 4096), 3);

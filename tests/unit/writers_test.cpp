@@ -6,6 +6,7 @@
 
 #include <charconv>
 #include <locale>
+#include <thread>
 
 namespace hyperlattice::test {
 namespace {
@@ -88,6 +89,84 @@ TEST(Csv, WritesOnlyTheRegionAndTheDeformedPlaces) {
       EXPECT_EQ(rows[n][axis],
                 body.positions()[3 * particle + axis] + body.displacements[3 * particle + axis]);
     EXPECT_EQ(rows[n][3], body.open[particle]);
+  }
+}
+
+/// Runs the tasks of a writer on four threads, the last task first.
+void run_on_four_threads(void*, std::uint64_t count, void* work,
+                         void (*task)(void* work, std::uint64_t n) noexcept) noexcept {
+  std::vector<std::thread> threads;
+  for (std::uint64_t first = 0; first < 4; ++first)
+    threads.emplace_back([=] {
+      for (std::uint64_t n = count; n-- > 0;)
+        if (n % 4 == first) task(work, n);
+    });
+  for (std::thread& thread : threads) thread.join();
+}
+
+/// Two frames of writers.vtu as one text. The body has several compressed blocks.
+std::string frames_of_vtu(const nlohmann::json& options, bool four_threads) {
+  Folder folder("threads");
+  FakeBody body({40, 40, 40});
+  Plugin writer("writers.vtu", options);
+  writer.begin(body.context(folder.path()));
+  for (const double time : {0.0, 1e-6}) {
+    Snapshot snapshot = body.at(time);
+    if (four_threads) snapshot.run_tasks = &run_on_four_threads;
+    writer.frame(snapshot);
+  }
+  std::string all;
+  for (const std::string& name : folder.names()) all += contents(folder.file(name));
+  return all;
+}
+
+TEST(Vtu, SameBytesForAnyNumberOfThreads) {
+  for (const char* codec : {"zlib", "lz4", "none"})
+    for (const char* precision : {"single", "double"}) {
+      const nlohmann::json options{{"codec", codec}, {"precision", precision}};
+      EXPECT_TRUE(frames_of_vtu(options, true) == frames_of_vtu(options, false))
+          << codec << " " << precision;
+    }
+}
+
+TEST(Vtu, AsksOnceForWhatIsConstantAndNamesItsFields) {
+  static std::vector<std::string> named, asked;
+  static const std::vector<double> materials(24, 1.0);
+  Folder folder("constant");
+  FakeBody body({4, 3, 2});
+  Plugin writer("writers.vtu", {{"fields", {"material", "velocity"}}, {"deformed", true}});
+  OutputContext context = body.context(folder.path());
+  context.use_field = [](void*, std::string_view name) noexcept { named.emplace_back(name); };
+  writer.begin(context);
+  for (const double time : {0.0, 1e-6}) {
+    Snapshot snapshot = body.at(time);
+    static const auto get_field = snapshot.get_field;
+    snapshot.get_field = [](void* self, std::string_view name, Field& field) noexcept {
+      asked.emplace_back(name);
+      if (name != "material") return get_field(self, name, field);
+      field = {1, materials};
+      return true;
+    };
+    writer.frame(snapshot);
+  }
+  EXPECT_EQ(named, (std::vector<std::string>{"material", "velocity", "displacement"}));
+  EXPECT_EQ(std::count(asked.begin(), asked.end(), "material"), 1);
+  EXPECT_EQ(std::count(asked.begin(), asked.end(), "velocity"), 2);
+}
+
+TEST(Snapshot, RethrowsTheExceptionOfTheFirstTask) {
+  FakeBody body({2, 2, 2});
+  for (const bool shared : {false, true}) {
+    Snapshot snapshot = body.at(0);
+    if (shared) snapshot.run_tasks = &run_on_four_threads;
+    try {
+      snapshot.for_each(100, [](std::uint64_t n) {
+        if (n % 7 == 5) throw std::runtime_error(std::to_string(n));
+      });
+      FAIL() << "no exception";
+    } catch (const std::runtime_error& error) {
+      EXPECT_STREQ(error.what(), "5");
+    }
   }
 }
 

@@ -21,7 +21,7 @@ class Csv {
   explicit Csv(const Options& options) : options_(options) {}
 
   void begin(const OutputContext& context) {
-    for (const std::string& name : options_.fields) require_field(context, name);
+    require_fields(context, options_);
     files_ = FrameFiles(context, options_.file, ".csv");
     selection_ = Selection(context.particles(options_.region));
     for (std::size_t n = 0; n < context.earlier.size(); ++n)

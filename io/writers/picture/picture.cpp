@@ -168,10 +168,12 @@ class Picture {
     }
     if (!options_.colour_by && !context.fields.empty())
       options_.colour_by = is_one_of(context.fields, "broken_open") ? failure : "displacement";
-    if (options_.colour_by)
-      require_field(context, *options_.colour_by == failure
-                                 ? "broken_open"
-                                 : quantity_of(*options_.colour_by).field);
+    if (!options_.colour_by) return;
+    if (options_.scale != 0) require_field(context, "displacement");
+    if (*options_.colour_by != failure)
+      return require_field(context, quantity_of(*options_.colour_by).field);
+    require_field(context, "broken_open");
+    require_field(context, "broken_closed");
   }
 
   void frame(const Snapshot& snapshot) {

@@ -1,52 +1,45 @@
 // A series of files for ParaView: one VTK unstructured grid per frame, in which each particle is a
 // vertex, and a collection file (.pvd) that gives the times. Arrays are appended as raw binary
-// data, optionally compressed block by block; sizes are unsigned 64-bit numbers:
-//   uncompressed: number of bytes; data
-//   compressed:   number of blocks, bytes of a block, bytes of the last block if it is shorter
-//                 (else 0), compressed bytes of each block; then the blocks
+// data. What does not change between frames is encoded once.
+#include "encoded_array.hpp"
+
 #include <hyperlattice/frames.hpp>
 
-#include <zlib.h>
 #include <bit>
-#include <cstring>
 #include <numeric>
 
 namespace hyperlattice {
 namespace {
 
-template <class T>
-std::string_view bytes_of(std::span<const T> values) {
-  return {reinterpret_cast<const char*>(values.data()), values.size_bytes()};
-}
+using namespace vtu;
 
-void append_sizes(std::string& out, std::span<const std::uint64_t> sizes) {
-  out.append(bytes_of(sizes));
-}
+enum class Digits : std::uint32_t { single_precision, double_precision };
+constexpr std::string_view precisions[] = {"single", "double"};
 
-void append_compressed(std::string& out, std::string_view data) {
-  constexpr std::size_t block_size =
-      1 << 18;  // larger than zlib's window, small enough to be unpacked block by block
-  const std::size_t blocks = (data.size() + block_size - 1) / block_size;
-  std::vector<std::uint64_t> sizes{blocks, block_size, data.size() % block_size};
-  std::vector<Bytef> packed(compressBound(block_size));
-  std::string body;
-  for (std::size_t start = 0; start < data.size(); start += block_size) {
-    const std::string_view block = data.substr(start, block_size);
-    uLongf size = packed.size();
-    if (compress2(packed.data(), &size, reinterpret_cast<const Bytef*>(block.data()), block.size(),
-                  Z_BEST_SPEED) != Z_OK)
-      throw std::runtime_error("zlib cannot compress a block");
-    sizes.push_back(size);
-    body.append(reinterpret_cast<const char*>(packed.data()), size);
+/// The arrays at the end of a file, in their order.
+class Appended {
+ public:
+  /// Adds an array and returns the text with which an element refers to it.
+  std::string add(const EncodedArray& array) {
+    const std::string text = " format=\"appended\" offset=\"" + std::to_string(size_) + "\"/>\n";
+    arrays_.push_back(&array);
+    size_ += array.size();
+    return text;
   }
-  append_sizes(out, sizes);
-  out += body;
-}
+  void write(AtomicFile& file) const {
+    for (const EncodedArray* array : arrays_) array->write(file);
+  }
+
+ private:
+  std::vector<const EncodedArray*> arrays_;
+  std::size_t size_ = 0;
+};
 
 class Vtu {
  public:
   struct Options : FrameOptions {
-    bool compress = true;
+    Codec codec = Codec::zlib;
+    Digits precision = Digits::single_precision;
   };
 
   static Schema<Options> schema() {
@@ -54,14 +47,24 @@ class Vtu {
         "writers.vtu",
         "Series of VTK unstructured grids for ParaView, with a .pvd file that gives the times");
     add_frame_options(schema);
-    schema.add<&Options::compress>("compress", "", "compress with zlib").fallback("true");
+    schema
+        .add<&Options::codec>("codec", "",
+                              "how arrays are packed; zlib: the smallest files, and by far the "
+                              "most time; lz4: almost as fast as none")
+        .choices(codecs)
+        .fallback("\"zlib\"")
+        .add<&Options::precision>("precision", "",
+                                  "of the numbers in the files: single has 7 digits, double has "
+                                  "all 16 and takes twice the space")
+        .choices(precisions)
+        .fallback("\"single\"");
     return schema.check(check_frame_options<Options>);
   }
 
-  explicit Vtu(const Options& options) : options_(options) {}
+  explicit Vtu(const Options& options) : options_(options), fields_(options.fields.size()) {}
 
   void begin(const OutputContext& context) {
-    for (const std::string& name : options_.fields) require_field(context, name);
+    require_fields(context, options_);
     files_ = FrameFiles(context, options_.file, ".vtu");
     selection_ = Selection(context.particles(options_.region));
     for (std::size_t n = 0; n < context.earlier.size(); ++n)
@@ -69,37 +72,12 @@ class Vtu {
   }
 
   void frame(const Snapshot& snapshot) {
-    std::string appended = encoded_cells();
-    const std::size_t points = append(
-        appended, bytes_of(selection_.positions(snapshot, options_.deformed ? 1 : 0, buffer_)));
-    const std::size_t time = append(appended, bytes_of(std::span(&snapshot.time, 1)));
-
-    std::string xml =
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"";
-    xml += std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
-    xml += "\" header_type=\"UInt64\"";
-    if (options_.compress) xml += " compressor=\"vtkZLibDataCompressor\"";
-    xml += ">\n<UnstructuredGrid>\n<FieldData>\n";
-    xml += data_array("Float64", "TimeValue", "NumberOfTuples=\"1\"", time) + "</FieldData>\n";
-    const std::string count = std::to_string(selection_.size());
-    xml +=
-        "<Piece NumberOfPoints=\"" + count + "\" NumberOfCells=\"" + count + "\">\n<PointData>\n";
-    for (const std::string& name : options_.fields) {
-      const Field field = require_field(snapshot, name);
-      const std::size_t offset =
-          append(appended, bytes_of(selection_.of(field.values, field.components, buffer_)));
-      xml += data_array("Float64", name, shape_of(name, field.components), offset);
-    }
-    xml += "</PointData>\n<Points>\n" + data_array("Float64", "Points", components(3), points) +
-           "</Points>\n<Cells>\n";
-    xml += data_array("Int64", "connectivity", "", 0) +
-           data_array("Int64", "offsets", "", cell_offsets_);
-    xml += data_array("UInt8", "types", "", cell_types_) +
-           "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
-
+    encode(snapshot);
+    Appended appended;
+    const std::string xml = description(appended);
     AtomicFile file(files_.path());
     file.write(xml);
-    file.write(appended);
+    appended.write(file);
     file.write("\n</AppendedData>\n</VTKFile>\n");
     file.commit();
     add_to_collection(files_.name(), snapshot.time);
@@ -110,8 +88,81 @@ class Vtu {
   void end() {}
 
  private:
+  void encode(const Snapshot& snapshot) {
+    if (types_.empty()) encode_cells(snapshot);
+    if (points_.empty() || options_.deformed)
+      encode(snapshot, selection_.positions(snapshot, options_.deformed ? 1 : 0, buffer_), points_);
+    time_.encode<double>(snapshot, options_.codec, std::span(&snapshot.time, 1));
+    for (std::size_t n = 0; n < fields_.size(); ++n) {
+      const std::string& name = options_.fields[n];
+      if (!fields_[n].array.empty() && is_constant_field(name)) continue;
+      const Field field = require_field(snapshot, name);
+      fields_[n].components = field.components;
+      encode(snapshot, selection_.of(field.values, field.components, buffer_), fields_[n].array);
+    }
+  }
+
+  void encode(const Snapshot& snapshot, std::span<const double> values, EncodedArray& array) const {
+    if (options_.precision == Digits::single_precision)
+      array.encode<float>(snapshot, options_.codec, values);
+    else
+      array.encode<double>(snapshot, options_.codec, values);
+  }
+
+  /// Encodes the cells: cell n is a vertex at point n, with connectivity 0, 1, ... and offsets 1,
+  /// 2, ...
+  void encode_cells(const Snapshot& snapshot) {
+    std::vector<std::int64_t> numbers(selection_.size());
+    const auto encode_from = [&](std::int64_t first, EncodedArray& array) {
+      std::iota(numbers.begin(), numbers.end(), first);
+      const std::span<const std::int64_t> all = numbers;
+      if (has_long_numbers())
+        array.encode<std::int64_t>(snapshot, options_.codec, all);
+      else
+        array.encode<std::int32_t>(snapshot, options_.codec, all);
+    };
+    encode_from(0, connectivity_);
+    encode_from(1, offsets_);
+    constexpr std::uint8_t vertex = 1;  // VTK_VERTEX
+    const std::vector<std::uint8_t> types(selection_.size(), vertex);
+    types_.encode<std::uint8_t>(snapshot, options_.codec, std::span(types));
+  }
+
+  bool has_long_numbers() const {
+    return selection_.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
+  }
+
+  /// Returns the text before the appended arrays.
+  std::string description(Appended& appended) const {
+    const std::string_view real = options_.precision == Digits::single_precision ? "Float32"
+                                                                                 : "Float64",
+                           whole = has_long_numbers() ? "Int64" : "Int32",
+                           compressor = compressor_of(options_.codec);
+    std::string xml =
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"";
+    xml += std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
+    xml += "\" header_type=\"UInt64\"";
+    if (!compressor.empty()) xml.append(" compressor=\"").append(compressor).append("\"");
+    xml += ">\n<UnstructuredGrid>\n<FieldData>\n";
+    xml += data_array("Float64", "TimeValue", " NumberOfTuples=\"1\"") + appended.add(time_) +
+           "</FieldData>\n";
+    const std::string count = std::to_string(selection_.size());
+    xml +=
+        "<Piece NumberOfPoints=\"" + count + "\" NumberOfCells=\"" + count + "\">\n<PointData>\n";
+    for (std::size_t n = 0; n < fields_.size(); ++n)
+      xml += data_array(real, options_.fields[n],
+                        shape_of(options_.fields[n], fields_[n].components)) +
+             appended.add(fields_[n].array);
+    xml += "</PointData>\n<Points>\n" + data_array(real, "Points", components(3)) +
+           appended.add(points_) + "</Points>\n<Cells>\n";
+    xml += data_array(whole, "connectivity", "") + appended.add(connectivity_);
+    xml += data_array(whole, "offsets", "") + appended.add(offsets_);
+    xml += data_array("UInt8", "types", "") + appended.add(types_);
+    return xml + "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
+  }
+
   static std::string components(std::uint32_t count) {
-    return "NumberOfComponents=\"" + std::to_string(count) + "\"";
+    return " NumberOfComponents=\"" + std::to_string(count) + "\"";
   }
 
   /// Returns the number and the names of a field's components, which ParaView shows.
@@ -126,38 +177,9 @@ class Vtu {
   }
 
   static std::string data_array(std::string_view type, std::string_view name,
-                                std::string_view shape, std::size_t offset) {
+                                std::string_view shape) {
     std::string text = "<DataArray type=\"";
-    text.append(type).append("\" Name=\"").append(name).append("\" ").append(shape);
-    return text + " format=\"appended\" offset=\"" + std::to_string(offset) + "\"/>\n";
-  }
-
-  /// Appends an array to `out` and returns its offset, bytes.
-  std::size_t append(std::string& out, std::string_view data) const {
-    const std::size_t offset = out.size();
-    if (options_.compress) {
-      append_compressed(out, data);
-    } else {
-      const std::uint64_t size = data.size();
-      append_sizes(out, std::span(&size, 1));
-      out += data;
-    }
-    return offset;
-  }
-
-  /// Returns the encoded cells: cell n is a vertex at point n, with connectivity 0, 1, ... and
-  /// offsets 1, 2, ... They are the same in every frame and are encoded once.
-  const std::string& encoded_cells() {
-    if (!cells_.empty()) return cells_;
-    std::vector<std::int64_t> numbers(selection_.size());
-    std::iota(numbers.begin(), numbers.end(), 0);
-    append(cells_, bytes_of<std::int64_t>(numbers));
-    std::iota(numbers.begin(), numbers.end(), 1);
-    cell_offsets_ = append(cells_, bytes_of<std::int64_t>(numbers));
-    constexpr std::uint8_t vertex = 1;  // VTK_VERTEX
-    const std::vector<std::uint8_t> types(selection_.size(), vertex);
-    cell_types_ = append(cells_, bytes_of<std::uint8_t>(types));
-    return cells_;
+    return text.append(type).append("\" Name=\"").append(name).append("\"").append(shape);
   }
 
   void add_to_collection(const std::string& file, double time) {
@@ -174,11 +196,17 @@ class Vtu {
             collection_ + "</Collection>\n</VTKFile>\n");
   }
 
+  struct EncodedField {
+    std::uint32_t components = 0;
+    EncodedArray array;
+  };
+
   Options options_;
   FrameFiles files_;
   Selection selection_;
-  std::string cells_, collection_;
-  std::size_t cell_offsets_ = 0, cell_types_ = 0;
+  std::string collection_;
+  EncodedArray time_, points_, connectivity_, offsets_, types_;
+  std::vector<EncodedField> fields_;  ///< in the order of the option
   std::vector<double> buffer_;
 };
 

@@ -23,8 +23,12 @@ class MyWriter {
 
   explicit MyWriter(const Options& options) : o_(options) {}
 
-  // Writes nothing yet: the plan calls it too.
-  void begin(const OutputContext& context) { files_ = FrameFiles(context, o_.file, ".xyz"); }
+  // Writes nothing yet: the plan calls it too. Names the fields of the frames, so that the run goes
+  // on while a frame is written.
+  void begin(const OutputContext& context) {
+    require_field(context, "displacement");
+    files_ = FrameFiles(context, o_.file, ".xyz");
+  }
 
   // Fields are computed when they are asked for. A file is written under another name and renamed
   // when it is whole.

@@ -21,7 +21,7 @@ scene = {
          "failure": {"type": "failures.elongation", "limit": "3 um"}},
         {"type": "loads.blast", "on": "inner_surface", "peak": "100 MPa", "rise": "2 us", "fall": "2 us"},
         {"type": "solvers.explicit", "end_time": "6 us", "energy_tolerance": 0},
-        {"type": "writers.vtu", **outputs},
+        {"type": "writers.vtu", "precision": "double", **outputs},
         {"type": "writers.csv", **outputs},
         {"type": "probes.point", "position": ["15 mm", "1 mm", "1 mm"], "field": "velocity", "every": "2 us"},
     ],

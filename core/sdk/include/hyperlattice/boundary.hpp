@@ -104,9 +104,10 @@
   CROSSES(Resultant, force, moment)                                                                                                                   \
   CROSSES(ForcesId, index)                                                                                                                            \
   CROSSES(Section, forces, springs, area)                                                                                                             \
-  CROSSES(Snapshot, time, step, particles, spacing, positions, self, get_field, get_resultant)                                                        \
+  CROSSES(Snapshot, time, step, particles, spacing, positions, self, get_field, get_resultant, run_tasks)                                             \
   CROSSES(FrameMark, step, time)                                                                                                                      \
-  CROSSES(OutputContext, directory, title, fields, earlier, self, region_particles, announce_file, acted_particles, external_forces, cut_section)      \
+  CROSSES(OutputContext, directory, title, fields, earlier, self, region_particles, announce_file, acted_particles, external_forces, cut_section,     \
+          use_field)                                                                                                                                  \
   CROSSES(WriterFunctions, begin, frame, end)                                                                                                         \
   CROSSES(ColumnSink, self, receive)                                                                                                                  \
   CROSSES(ProbeFunctions, begin, sample)

@@ -30,11 +30,13 @@ inline bool is_one_of(std::span<const std::string_view> names, std::string_view 
                            joined(present));
 }
 
-/// Throws std::runtime_error, with the names of the existing fields, if this run has no field
-/// `name`. For begin(), before anything is computed.
+/// Tells the run that the frames of a writer will ask for the field `name`. Throws
+/// std::runtime_error, with the names of the existing fields, if the run has no such field. For
+/// begin(), before anything is computed.
 inline void require_field(const OutputContext& context, std::string_view name) {
   if (!context.fields.empty() && !is_one_of(context.fields, name))
     refuse_field(name, context.fields);
+  context.use(name);
 }
 
 /// Returns the field at this time. Throws like the function above.
@@ -60,6 +62,11 @@ inline void require_field(const OutputContext& context, const Snapshot& first,
     require_field(first, name);
   else
     require_field(context, name);
+}
+
+/// Returns whether a field has the same values in all snapshots of a run.
+inline bool is_constant_field(std::string_view name) {
+  return name == "material" || name == "source";
 }
 
 /// A number taken from a field: a component; the magnitude of a vector; radial: along the line from

@@ -1,7 +1,7 @@
 // Common parts of writers with one file per frame: options for particles and fields, and file
 // names.
 //
-//   struct Options : FrameOptions { bool compress; };
+//   struct Options : FrameOptions { bool compact; };
 //   static Schema<Options> schema() {
 //     ... add_frame_options(schema); schema.check(check_frame_options<Options>); ...
 //   }
@@ -58,6 +58,13 @@ void check_frame_options(const Options& options, const FaultSink& faults) {
   for (auto name = options.fields.begin(); name != options.fields.end(); ++name)
     if (std::find(options.fields.begin(), name, *name) != name)
       faults.fault("fields", "each field once; \"" + *name + "\" is there twice");
+}
+
+/// Names the fields of these options to the run. Throws std::runtime_error if the run lacks one.
+/// For begin().
+inline void require_fields(const OutputContext& context, const FrameOptions& options) {
+  for (const std::string& name : options.fields) require_field(context, name);
+  if (options.deformed) require_field(context, "displacement");
 }
 
 /// The numbered files of one writer: `<directory>/<file>_000000<extension>` and so on. A caller

@@ -5,6 +5,9 @@
 #include <hyperlattice/component.hpp>
 #include <hyperlattice/field_table.hpp>
 
+#include <exception>
+#include <limits>
+#include <mutex>
 #include <stdexcept>
 
 namespace hyperlattice {
@@ -44,10 +47,18 @@ struct Snapshot {
   void* self = nullptr;
   bool (*get_field)(void* self, std::string_view name, Field& field) noexcept = nullptr;
   Resultant (*get_resultant)(void* self, ForcesId forces, Vec3 about) noexcept = nullptr;
+  /// Calls task(work, n) for each n below `count`; null: the run has one thread for output.
+  void (*run_tasks)(void* self, std::uint64_t count, void* work,
+                    void (*task)(void* work, std::uint64_t n) noexcept) noexcept = nullptr;
 
   /// Gets a field by its name in field_table. A field is computed when it is first asked for. NaN:
   /// a particle has no such value. Returns false if this run has no such field.
   bool field(std::string_view name, Field& out) const { return get_field(self, name, out); }
+
+  /// Calls task(n) for each n below `count`, in any order and on all threads that the run has for
+  /// output. Rethrows the exception of the lowest n. A task asks for no field.
+  template <class Task>
+  void for_each(std::uint64_t count, const Task& task) const;
 
   /// Returns the resultant of forces at this time. They act at the present places of the particles;
   /// `about`, m, is the point of the moment.
@@ -83,6 +94,8 @@ struct OutputContext {
   std::span<const Particle> (*acted_particles)(void* self, LoadOrRegion of) noexcept = nullptr;
   ForcesId (*external_forces)(void* self, LoadOrRegion of) noexcept = nullptr;
   Section (*cut_section)(void* self, Vec3 point, Vec3 normal, RegionId region) noexcept = nullptr;
+  /// Receives the name of a field that the writer's frames will ask for; see use().
+  void (*use_field)(void* self, std::string_view name) noexcept = nullptr;
 
   /// Returns the particles of the region in ascending order.
   std::span<const Particle> particles(RegionId region) const {
@@ -99,6 +112,13 @@ struct OutputContext {
   Section section(Vec3 point, Vec3 normal, RegionId region) const {
     return cut_section(self, point, normal, region);
   }
+  /// Tells the run, in begin() of a writer, that frames will ask for this field. The frames of a
+  /// writer that names its fields are written beside the next steps, from copies of these fields;
+  /// such a writer may ask for no other one. A writer that names no field delays the run while it
+  /// writes. require_field() calls this function.
+  void use(std::string_view name) const {
+    if (use_field != nullptr) use_field(self, name);
+  }
   /// Announces a file. Throws std::runtime_error if the file must not be touched.
   void announce(std::string_view name, bool rewritten = false) const {
     if (announce_file != nullptr && !announce_file(self, name, rewritten))
@@ -114,7 +134,8 @@ struct WriterFunctions {
 };
 
 /// A writer class has begin(const OutputContext&), frame(const Snapshot&) and end(); each throws
-/// std::runtime_error if the disk refuses. begin() writes nothing: the plan calls it too, without a
+/// std::runtime_error if the disk refuses. They are called one after the other, frame() perhaps on
+/// another thread than the others. begin() writes nothing: the plan calls it too, without a
 /// directory, to find errors before a run starts. A writer writes under a temporary name and
 /// renames, so that no half-written file has a final name; after each frame the files on disk are
 /// complete. It announces each file to the context, as FrameFiles does: only announced files belong
@@ -153,6 +174,26 @@ concept ProbeComponent = requires(T& probe, const OutputContext& context, const 
 };
 
 namespace detail {
+
+/// The tasks of Snapshot::for_each, and the first exception of one of them.
+template <class Task>
+struct SharedTasks {
+  const Task& task;
+  std::mutex failing{};
+  std::uint64_t failed = std::numeric_limits<std::uint64_t>::max();
+  std::exception_ptr failure{};
+
+  void run(std::uint64_t n) noexcept {
+    try {
+      task(n);
+    } catch (...) {
+      const std::lock_guard lock(failing);
+      if (n < failed) failure = std::current_exception();
+      failed = n < failed ? n : failed;
+    }
+  }
+};
+
 template <WriterComponent T>
 struct FunctionsOf<T> {
   static constexpr Family family = Family::writers;
@@ -181,6 +222,20 @@ struct FunctionsOf<T> {
       }};
 };
 }  // namespace detail
+
+template <class Task>
+void Snapshot::for_each(std::uint64_t count, const Task& task) const {
+  if (run_tasks == nullptr) {
+    for (std::uint64_t n = 0; n < count; ++n) task(n);
+    return;
+  }
+  detail::SharedTasks<Task> tasks{task};
+  run_tasks(self, count, &tasks, [](void* work, std::uint64_t n) noexcept {
+    static_cast<detail::SharedTasks<Task>*>(work)->run(n);
+  });
+  if (tasks.failure) std::rethrow_exception(tasks.failure);
+}
+
 }  // namespace hyperlattice
 
 #include <hyperlattice/boundary.hpp>  // the gate needs all structs of the boundary

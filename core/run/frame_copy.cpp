@@ -1,0 +1,52 @@
+#include <host/plugin_call.hpp>
+#include <plan/fields.hpp>
+#include <run/frame_copy.hpp>
+
+#include <hyperlattice/fields.hpp>
+
+#include <spdlog/fmt/fmt.h>
+
+namespace hyperlattice {
+
+FrameCopy::FrameCopy(const Model& model, Team& team) : model_(model), team_(team) {}
+
+void FrameCopy::take(SnapshotSource& source, const FieldNames& fields) {
+  snapshot_ = source.latest();
+  snapshot_.self = this;
+  snapshot_.get_field = [](void* self, std::string_view name, Field& out) noexcept {
+    return PluginCall::answer(false,
+                              [&] { return static_cast<FrameCopy*>(self)->field(name, out); });
+  };
+  snapshot_.run_tasks = [](void* self, std::uint64_t count, void* work,
+                           void (*task)(void* work, std::uint64_t n) noexcept) noexcept {
+    static_cast<FrameCopy*>(self)->run_tasks(count, work, task);
+  };
+  for (auto& [name, values] : fields_) values.current = is_constant_field(name);
+  for (const std::string& name : fields)
+    if (FieldValues& values = fields_[name]; !values.current) source.hand_over(name, values);
+}
+
+bool FrameCopy::field(std::string_view name, Field& out) const {
+  if (!has_field(model_, name)) return false;
+  const auto found = fields_.find(name);
+  if (found == fields_.end() || !found->second.current)
+    throw PluginMistake(
+        fmt::format("it asked for the field \"{}\", which it did not name in begin()", name));
+  out = {found->second.components, found->second.numbers};
+  return true;
+}
+
+/// Each thread counts as one that runs the plugin, so that a crash names it.
+void FrameCopy::run_tasks(std::uint64_t count, void* work,
+                          void (*task)(void* work, std::uint64_t n) noexcept) const {
+  const PluginCall* caller = PluginCall::running();
+  PluginCall::answer([&] {
+    team_.for_each(count, [&](std::size_t n) {
+      PluginCall part(caller->name(), caller->library(), caller->function());
+      task(work, n);
+      part.failure(true);
+    });
+  });
+}
+
+}  // namespace hyperlattice
