@@ -51,7 +51,8 @@ void add_volume_term(const Model& model, PresentCell& cell);
 /// Visits all cells whose corners are particles; in a body of cells those that fill the shape.
 /// Calls for cells with a common corner follow each other in an order that no number of threads
 /// changes; other calls, for cells of layers k that are not neighbours, may be at the same time. So
-/// a visitor may add to numbers of the corners, or of the layer cell.site.k.
+/// a visitor may add to numbers of the corners, or of the layer cell.site.k. It must not ask the
+/// simulation for parallel work, such as a measurement.
 void for_cells(const PresentSprings& springs, Asked asked,
                const std::function<void(const PresentCell&)>& visit);
 /// Visits the cells of the layers low <= k < high only.

@@ -59,7 +59,8 @@ class PresentSprings {
 
   /// Visits all springs that are not broken. Calls for springs that have a particle in common
   /// follow each other in an order that no number of threads changes; other calls may be at the
-  /// same time. So a visitor may add to numbers of both ends.
+  /// same time. So a visitor may add to numbers of both ends. It must not ask the simulation for
+  /// parallel work, such as a measurement.
   void for_springs(Asked asked, const std::function<void(const PresentSpring&)>& visit) const;
 
   /// Computes the springs that start in plane k of a structured body, to the neighbours whose bits

@@ -243,7 +243,8 @@ TEST(Stress, ThroughEachLayerGoesTheReaction) {
           .lattice("lattices.cubic", l, box_of_cells({0, 0, 0}, {4, 3, 8}), {{"boundary", "cells"}})
           .material("materials.elastic", {{"young", 1e10}, {"density", 2500}, {"poisson", 0.25}})
           .load("loads.fixed", {{"on", "z_min"}})
-          .load("loads.displacement", {{"on", "z_max"}, {"vector", Vec3{0, 0, 1e-4}}})
+          .load("loads.displacement",
+                {{"on", "z_max"}, {"value", Vec3{0, 0, 1e-4}}, {"rise", 1e-6}})
           .solver("solvers.static", {{"tolerance", 1e-12}})
           .text());
   std::vector<Vec3> through(8);
@@ -318,8 +319,11 @@ SceneBuilder bar(const Stages& materials, const Keys& lattice = {{"boundary", "c
       .lattice("lattices.cubic", l, box_of_cells({0, 0, 0}, {3, 3, 6}), lattice)
       .stages(materials)
       .load("loads.fixed", {{"on", "z_min"}, {"axes", "z"}, {"name", "foot"}})
-      .load("loads.displacement",
-            {{"on", "z_max"}, {"axes", "z"}, {"vector", Vec3{0, 0, 2e-5}}, {"name", "head"}})
+      .load("loads.displacement", {{"on", "z_max"},
+                                   {"axes", "z"},
+                                   {"value", Vec3{0, 0, 2e-5}},
+                                   {"rise", 1e-6},
+                                   {"name", "head"}})
       .solver("solvers.static", {{"tolerance", 1e-11}});
 }
 
