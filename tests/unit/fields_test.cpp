@@ -2,6 +2,7 @@
 // snapshot of a run gives for each field.
 #include <plan/fields.hpp>
 #include <run/snapshot.hpp>
+#include <support/laws.hpp>
 #include <support/rest.hpp>
 
 #include <hyperlattice/fields.hpp>
@@ -111,11 +112,31 @@ TEST(Snapshot, ForcesOfAColumnAtRest) {
   EXPECT_NEAR(foot, 0.9 * weight, 1e-9 * weight);  // half a layer of five stands on the ground
 }
 
+/// Bodies of each topology, and of laws with a memory, alone and in composite springs.
+std::vector<std::string> moving_bodies() {
+  const Keys none = {{"membrane", "none"}};
+  std::vector<std::string> all{
+      block(3, 4, 5, membranes[6]),
+      block(3, 4, 5, membranes[0], {}, stage("loads.fixed", {{"on", "z_min"}})),
+      block(5, 5, 5, none, {}, "lattices.random")};
+  const Keys viscous = {{"type", "materials.viscous"}, {"time", 1e-7}};
+  const Keys plastic = {{"type", "materials.plastic"},
+                        {"yield", 1e5},
+                        {"hardening", 0.1},
+                        {"region", box({0, 0, 2e-3}, {1, 1, 1})}};
+  for (const char* boundary : {"particles", "cells"})
+    all.push_back(law_scene(
+        stage("lattices.cubic",
+              {{"spacing", 1e-3}, {"shape", box_mm(3, 3, 4)}, {"boundary", boundary}}),
+        viscous + none, Stages(Keys{{"young", 2e10}, {"density", 3000}} + plastic + none)));
+  all.push_back(law_scene(stage("lattices.random", {{"spacing", 1e-3}, {"shape", box_mm(5, 5, 5)}}),
+                          viscous + none,
+                          Stages(Keys{{"young", 2e10}, {"density", 3000}} + plastic + none)));
+  return all;
+}
+
 TEST(Snapshot, HasEachFieldOfTheRunWithFiniteNumbers) {
-  for (const std::string& scene :
-       {block(3, 4, 5, membranes[6]),
-        block(3, 4, 5, membranes[0], {}, stage("loads.fixed", {{"on", "z_min"}})),
-        block(5, 5, 5, Keys(R"("membrane": "none")"), {}, "lattices.random")}) {
+  for (const std::string& scene : moving_bodies()) {
     const auto plan = plan_of(scene);
     const Model& model = *plan->model;
     Simulation simulation(model, 2);

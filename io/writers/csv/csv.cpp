@@ -35,8 +35,8 @@ class Csv {
     std::vector<Field> fields;
     for (const std::string& name : options_.fields) {
       fields.push_back(require_field(snapshot, name));
-      for (const std::string& column : Quantity({name, std::nullopt, {}}).names())
-        text += "," + column;
+      const Quantity all({name, std::nullopt, {}});
+      for (const std::string& column : all.names()) text += "," + column;
     }
     text += '\n';
 
