@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <concepts>
+#include <memory>
 #include <numeric>
 #include <span>
 
@@ -37,10 +38,11 @@ class EncodedArray {
       if constexpr (std::same_as<Number, Value>) {
         block.size = pack(codec, bytes_of(part), block.bytes);
       } else {
-        std::vector<Number> numbers(part.size());
-        std::transform(part.begin(), part.end(), numbers.begin(),
+        const auto numbers = std::make_unique_for_overwrite<Number[]>(part.size());
+        std::transform(part.begin(), part.end(), numbers.get(),
                        [](Value value) { return static_cast<Number>(value); });
-        block.size = pack(codec, bytes_of<Number>(numbers), block.bytes);
+        const std::span<const Number> converted(numbers.get(), part.size());
+        block.size = pack(codec, bytes_of(converted), block.bytes);
       }
     });
     make_header(codec, values.size() * sizeof(Number));
