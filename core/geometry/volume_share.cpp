@@ -1,8 +1,9 @@
 // A cube is cut by few of a solid's surfaces, mostly by none. One surface cuts off a part whose
 // volume has a closed form: planes exactly; a sphere or cylinder by its tangent plane and the
-// volume between the two, ∫ sag dA over the section of the plane. A mesh or an image knows its
-// volume. Several surfaces cut the cube into convex pieces, each inside or outside as a whole. A
-// cube is divided into eighths while a round surface in it bends too much for its tangent plane.
+// volume between the two, the integral of the sag over the section of the plane. A mesh or an image
+// knows its volume. Several surfaces cut the cube into convex pieces, each inside or outside as a
+// whole. A cube is divided into eighths while a round surface in it bends too much for its tangent
+// plane.
 #include <geometry/convex_polyhedron.hpp>
 #include <geometry/volume_share.hpp>
 

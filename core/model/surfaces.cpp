@@ -32,7 +32,7 @@ double Surfaces::share(Site cell) const {
 /// Two fills, each from a front of cells through their faces: the first finds the empty cells
 /// outside, the second carries outside and cavity layer by layer into the partial cells.
 void Surfaces::flood() const {
-  const auto [nx, ny, nz] = widened_;
+  const std::int64_t nx = widened_[0], ny = widened_[1], nz = widened_[2];
   const auto size = static_cast<std::size_t>(nx * ny * nz);
   std::vector<bool> blocked(size);  // an existing cell, or one that a fill has reached
   const auto place = [&](Site cell) {
