@@ -35,6 +35,7 @@ enum class OptionKind : std::uint32_t {
   file,
   load_or_region
 };
+inline constexpr OptionKind last_option_kind = OptionKind::load_or_region;
 
 /// A validated value in SI units, which the core passes to an option's setter. Texts and shapes
 /// outlive the component.
