@@ -76,7 +76,7 @@ std::string option_fault(const Option& option) {
   if (!is_identifier(option.name))
     return "its name must be small letters, digits and underscores, a letter first";
   if (option.name == "type" || option.name == "name") return "a stage has that key already";
-  if (option.kind > OptionKind::file || !option.set) return "it cannot be set";
+  if (option.kind > OptionKind::load_or_region || !option.set) return "it cannot be set";
   for (const std::string_view text : option.choices)
     if (!is_text(text) || !is_seen(text))
       return "one of its choices holds characters that nobody sees";
