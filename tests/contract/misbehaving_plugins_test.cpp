@@ -176,14 +176,15 @@ TEST_P(MisbehavingWriter, IsNamedInTheLastLineAndKeepsEarlierFrames) {
 
 TEST(MisbehavingPlugins, ARunThatFailsWritesTheFramesThatWait) {
   const Folder here("misbehaving");
-  nlohmann::json scene = scene_with_writer();
-  // The load fails after 1 us, while the slow writer is behind.
-  scene["pipeline"].insert(scene["pipeline"].begin() + 2,
-                           nlohmann::json{{"type", "loads.misbehaving"}, {"on", "z_max"}});
+  nlohmann::json scene = scene_with_failure();
+  scene["pipeline"][1]["failure"]["limit"] = 1e-4;  // strain; reached while the load rises
+  scene["pipeline"][3]["rise"] = "4 us";
+  scene["pipeline"].push_back({{"type", "writers.misbehaving"}, {"every", "0.5 us"}});
   const std::string file = write_scene(here, scene);
   const auto frames_of = [&](const char* threads) {
     const std::string out = here.file(threads);
-    EXPECT_EQ(run_program({"run", file, "--threads", threads, "--out", out}, launch_with("throw"))
+    EXPECT_EQ(run_program({"run", file, "--threads", threads, "--out", out},
+                          launch_with("throw in breaks"))
                   .exit_code,
               4);
     return frames_in(out).size();
