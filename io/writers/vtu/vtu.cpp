@@ -38,7 +38,7 @@ class Appended {
 class Vtu {
  public:
   struct Options : FrameOptions {
-    Codec codec = Codec::zlib;
+    Codec codec = Codec::lz4;
     Digits precision = Digits::single_precision;
   };
 
@@ -49,10 +49,10 @@ class Vtu {
     add_frame_options(schema);
     schema
         .add<&Options::codec>("codec", "",
-                              "how arrays are packed; zlib: the smallest files, and by far the "
-                              "most time; lz4: almost as fast as none")
+                              "how arrays are packed; lz4: almost as fast as none; zlib: the "
+                              "smallest files, and by far the most time")
         .choices(codecs)
-        .fallback("\"zlib\"")
+        .fallback("\"lz4\"")
         .add<&Options::precision>("precision", "",
                                   "of the numbers in the files: single has 7 digits, double has "
                                   "all 16 and takes twice the space")
