@@ -54,16 +54,24 @@ HYPERLATTICE_INLINE Pack turned(const Pack (&f)[3][3], const Pack (&g)[3][3], in
          (g[y][first] * f[z][second] - g[z][first] * f[y][second]);
 }
 
+/// Returns the tangents of a vector of cells from cell t on; 0 beyond the row, where the next row's
+/// cells follow.
+HYPERLATTICE_INLINE Pack tangents(const CellProduct& s, const float* of_row, std::int64_t t) {
+  if (t + lanes <= s.count) return load_as<double>(of_row + t);
+  float last[lanes] = {};
+  for (std::int64_t n = 0; n < s.count - t; ++n) last[n] = of_row[t + n];
+  return load_as<double>(last);
+}
+
 template <bool Deformed>
 void cells_of(const CellProduct& s) {
   for (std::int64_t t = 0; t < s.count; t += lanes) {
-    const float* stiffness = s.stiffness + t;
     bool any_cell = false;
-    for (int n = 0; n < lanes; ++n) any_cell |= stiffness[n] != 0;
+    for (std::int64_t n = t; n < t + lanes && n < s.count; ++n) any_cell |= s.stiffness[n] != 0;
     if (!any_cell) continue;
     Pack moved[3][3];
     for (int c = 0; c < 3; ++c) sum_over_corners(s, s.in[c] + t, moved[c]);
-    const Pack a = load_as<double>(stiffness);
+    const Pack a = tangents(s, s.stiffness, t);
     if constexpr (Deformed) {
       Pack gradient[3][3], cofactors[3][3];
       for (int c = 0; c < 3; ++c) {
@@ -76,7 +84,7 @@ void cells_of(const CellProduct& s) {
       for (int c = 0; c < 3; ++c)
         for (int d = 0; d < 3; ++d) growth += cofactors[c][d] * moved[c][d];
       growth *= a;
-      const Pack b = load_as<double>(s.pressure + t);
+      const Pack b = tangents(s, s.pressure, t);
       for (int c = 0; c < 3; ++c) {
         Pack stress[3];
         for (int d = 0; d < 3; ++d)
