@@ -150,7 +150,7 @@ bool ActingLoads::start_motion(double step) {
   check_factors();
   bool changed = false;
   for (Block& block : blocks_)
-    for (const Contribution& part : block.contributions) {
+    for (Contribution& part : block.contributions) {
       if ((part.displaced | part.driven) == 0) continue;
       BoundaryParticle& support = block.boundary_particles[part.support];
       for (int c = 0; c < 3; ++c) {
@@ -159,10 +159,13 @@ bool ActingLoads::start_motion(double step) {
                      now = prescribed_velocity(block, part, c, at_once);
         if (now == before) continue;
         block.velocity[c].set(support.index, now);
-        if (clock_.steps() == 0)
+        const double gained = 0.5 * support.mass * (now * now - before * before);
+        if (clock_.steps() == 0) {
           changed = true;
-        else
-          support.reaction_work += 0.5 * support.mass * (now * now - before * before);
+        } else {
+          part.reaction_work += gained;
+          support.reaction_work += gained;
+        }
       }
     }
   return changed;

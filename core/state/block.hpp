@@ -23,11 +23,10 @@ struct Contribution {
   std::uint32_t watched = not_watched;
   Vec3 force, displacement, velocity;  ///< amplitudes
   Axes displaced = 0, driven = 0;
-  Vec3 goal;          ///< displacement along driven axes while time is held, m
-  double factor = 0;  ///< load factor in the present step
-  double work = 0;    ///< of the force since the start, J
-  /// Part of `work`, J, along prescribed axes; the constraint of the particle takes it back.
-  double held_work = 0;
+  Vec3 goal;                 ///< displacement along driven axes while time is held, m
+  double factor = 0;         ///< load factor in the present step
+  double work = 0;           ///< of the force since the start, J
+  double reaction_work = 0;  ///< of the reaction to the prescribed motion since the start, J
 };
 
 /// Additional arrays of a block of a listed body; see ListedSlots.

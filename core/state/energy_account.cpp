@@ -29,12 +29,12 @@ void EnergyAccount::find_start() {
   const RowSums sums = measure();
   start_potential_ = sums.potential;
   start_energy_ = sums.kinetic + sums.stored + sums.damped + sums.fractured + failures_.energy();
-  for (const double work : work_by_load(blocks_, 0)) start_energy_ -= work;
+  for (const double work : work_by_load(blocks_, 0, clock_.last_step())) start_energy_ -= work;
 }
 
 std::vector<double> EnergyAccount::injected_by_load() {
   const RowSums sums = measure();
-  return work_by_load(blocks_, sums.potential - start_potential_);
+  return work_by_load(blocks_, sums.potential - start_potential_, clock_.last_step());
 }
 
 EnergyBalance EnergyAccount::balance() {
@@ -49,7 +49,7 @@ EnergyBalance EnergyAccount::balance() {
   balance.dissipated_damping = sums.damped;
   balance.dissipated_failure = failures_.energy() + sums.fractured;
   const double potential = sums.potential - start_potential_;
-  work_ = work_by_load(blocks_, potential);
+  work_ = work_by_load(blocks_, potential, clock_.last_step());
   for (const double work : work_) balance.injected += work;
   balance.error =
       balance.kinetic + balance.stored + balance.dissipated() - balance.injected - start_energy_;

@@ -1,4 +1,5 @@
 #include <state/external_forces.hpp>
+#include <state/load_work.hpp>
 
 #include <algorithm>
 
@@ -42,12 +43,9 @@ Vec3 ExternalForces::force_of(const Block& block, const Contribution& part) cons
   Vec3 force = part.factor * part.force;
   for (int c = 0; c < 3; ++c) {
     if (((part.displaced | part.driven) >> c & 1u) == 0) continue;
-    const double step = clock_.last_step(),
-                 acceleration =
-                     step > 0 ? (support.velocity[c] - support.speed_before[c]) / step : 0,
-                 not_acting = (1 - loads_.gravity()) * model_.loads.acceleration[c];
-    force[c] += support.mass * (acceleration + not_acting) - support.sum[c] -
-                block.held_force[part.support][c];
+    const double not_acting = (1 - loads_.gravity()) * model_.loads.acceleration[c];
+    force[c] += reaction(block, part, c, support.velocity[c], clock_.last_step()) +
+                support.mass * not_acting;
   }
   return force;
 }

@@ -10,65 +10,77 @@ Vec3 along(Axes axes, Vec3 v) {
   return {(axes & 1u) != 0 ? v.x : 0, (axes & 2u) != 0 ? v.y : 0, (axes & 4u) != 0 ? v.z : 0};
 }
 
+bool prescribes(const Contribution& part, int axis) {
+  return ((part.displaced | part.driven) >> axis & 1u) != 0;
+}
+
+/// Returns the work of the reactions of a load on a particle along the support's path, J. `speeds`:
+/// velocities after a kick of this duration, s.
+template <class Speeds>
+double reaction_work(const Block& block, const Contribution& part, const Speeds& speeds,
+                     double kick) {
+  double work = 0;
+  for (int c = 0; c < 3; ++c)
+    if (prescribes(part, c))
+      work += reaction(block, part, c, speeds(c), kick) *
+              block.boundary_particles[part.support].path[c];
+  return work;
+}
+
 }  // namespace
 
-void count_work(Block& block) {
+double reaction(const Block& block, const Contribution& part, int axis, double speed, double kick) {
+  const BoundaryParticle& support = block.boundary_particles[part.support];
+  const double acceleration = kick > 0 ? (speed - support.speed_before[axis]) / kick : 0;
+  return support.mass * acceleration - support.sum[axis] - block.held_force[part.support][axis];
+}
+
+void count_work(Block& block, double kick) {
   for (Contribution& part : block.contributions) {
     const BoundaryParticle& support = block.boundary_particles[part.support];
     part.work += part.factor * dot(part.force, support.path);
-    if (support.axes != 0)
-      part.held_work += part.factor * dot(part.force, along(support.axes, support.path));
+    part.reaction_work += reaction_work(
+        block, part, [&](int c) { return block.velocity[c][support.index]; }, kick);
   }
 }
 
 void count_work(BlockSet& blocks, const EquilibriumUpdate& to) {
   const Model& model = blocks.model();
-  const auto moved_of = [&](const Block& block, const BoundaryParticle& support,
-                            Particle particle) {
-    const auto way = [&](std::size_t c) {
-      return to.xyz[3 * particle + c] - block.displacement[c][support.index];
-    };
-    return Vec3{way(0), way(1), way(2)};
+  const auto mean_factor = [&](const Contribution& part) {
+    return 0.5 * (to.factor_before[part.load] + to.factor[part.load]);
   };
-  for (std::size_t l = 0; l < model.loads.size(); ++l) {
-    const double mean = 0.5 * (to.factor_before[l] + to.factor[l]);
-    for (Block& block : blocks)
-      for (Contribution& part : block.contributions) {
-        if (part.load != l) continue;
-        BoundaryParticle& support = block.boundary_particles[part.support];
-        const Particle particle = part.particle;
-        const Vec3 moved = moved_of(block, support, particle);
-        part.work += mean * dot(part.force, moved);
-        part.held_work += mean * dot(part.force, along(support.axes, moved));
-        for (int c = 0; c < 3; ++c) {
-          const std::size_t n = 3 * particle + static_cast<std::size_t>(c);
-          if (((part.displaced | part.driven) >> c & 1u) != 0)
-            support.reaction_work -= 0.5 * (to.force[n] + to.force_before[n]) * moved[c];
-        }
+  const Vec3 gravity = 0.5 * (to.gravity_before + to.gravity) * model.loads.acceleration;
+  for (Block& block : blocks) {
+    std::vector<Vec3> pushed(block.boundary_particles.size());  // mean force of all loads, N
+    for (const Contribution& part : block.contributions)
+      pushed[part.support] += mean_factor(part) * part.force;
+    for (Contribution& part : block.contributions) {
+      BoundaryParticle& support = block.boundary_particles[part.support];
+      for (int c = 0; c < 3; ++c) {
+        const std::size_t n = 3 * part.particle + static_cast<std::size_t>(c);
+        const double moved = to.xyz[n] - block.displacement[c][support.index];
+        part.work += mean_factor(part) * part.force[c] * moved;
+        if (!prescribes(part, c)) continue;
+        const double internal = 0.5 * (to.force[n] + to.force_before[n]);
+        part.reaction_work -=
+            (internal + support.mass * gravity[c] + pushed[part.support][c]) * moved;
+        support.reaction_work -= internal * moved;
       }
+    }
   }
 }
 
-std::vector<double> work_by_load(const BlockSet& blocks, double potential) {
+std::vector<double> work_by_load(const BlockSet& blocks, double potential, double last_step) {
   const Model& model = blocks.model();
   std::vector<double> work(model.loads.size(), 0);
-  for (const Block& block : blocks) {
-    std::vector<double> held(block.boundary_particles.size(), 0);
+  for (const Block& block : blocks)
     for (const Contribution& part : block.contributions) {
       const BoundaryParticle& support = block.boundary_particles[part.support];
-      work[part.load] += part.work + part.factor * dot(part.force, support.path);
-      if (support.axes != 0)
-        held[part.support] +=
-            part.held_work + part.factor * dot(part.force, along(support.axes, support.path));
+      work[part.load] += part.work + part.factor * dot(part.force, support.path) +
+                         part.reaction_work +
+                         reaction_work(
+                             block, part, [&](int c) { return support.velocity[c]; }, last_step);
     }
-    std::uint32_t counted = ~0u;
-    for (const Contribution& part : block.contributions) {
-      if ((part.displaced | part.driven) == 0 || part.support == counted) continue;
-      counted = part.support;
-      const BoundaryParticle& support = block.boundary_particles[part.support];
-      work[part.load] += support.reaction_work + support.reaction_now - held[part.support];
-    }
-  }
   const double acceleration = norm(model.loads.acceleration);
   // Body accelerations share the work of the potential in proportion to their part of the whole.
   if (acceleration > 0)

@@ -28,7 +28,7 @@ void Sweeps::step(const Sweep& sweep) {
     Block& block = blocks_[b];
     loads_.set_supports(block, sweep);
     run_kernel(model_.springs.kernels().step, block, sweep.before, sweep.after, false);
-    count_work(block);
+    count_work(block, sweep.before + sweep.after);
   });
   loads_.check_answers();
 }
