@@ -91,17 +91,18 @@ std::vector<double> work_by_load(const BlockSet& blocks, double potential, doubl
 }
 
 double gross_work(const BlockSet& blocks, double potential, double step) {
-  double sum = std::abs(potential);
+  // Two sums, each in the order of the particles for any number of blocks.
+  double of_forces = 0, of_reactions = 0;
   const Vec3 gained = step * blocks.model().loads.acceleration;
   for (const Block& block : blocks) {
     for (const Contribution& part : block.contributions)
-      sum += std::abs(part.work +
-                      part.factor * dot(part.force, block.boundary_particles[part.support].path));
+      of_forces += std::abs(
+          part.work + part.factor * dot(part.force, block.boundary_particles[part.support].path));
     for (const BoundaryParticle& support : block.boundary_particles)
-      sum += std::abs(support.reaction_work + support.reaction_now) +
-             (support.axes != 0 ? 0.5 * support.mass * dot(gained, gained) : 0);
+      of_reactions += std::abs(support.reaction_work + support.reaction_now) +
+                      (support.axes != 0 ? 0.5 * support.mass * dot(gained, gained) : 0);
   }
-  return sum;
+  return std::abs(potential) + of_forces + of_reactions;
 }
 
 std::vector<Vec3> force_by_load(const BlockSet& blocks) {
