@@ -12,9 +12,9 @@ namespace {
 
 /// The rest positions of a cube's particles, for its start displacements and its growth along an
 /// axis.
-class Cube {
+class TestCube {
  public:
-  explicit Cube(const Body& body) : places_(body.particles) {
+  explicit TestCube(const Body& body) : places_(body.particles) {
     for (Particle p = 0; p < body.particles; ++p) places_[p] = body.position(p);
   }
 
@@ -127,7 +127,7 @@ VirtualTestResult VirtualTest::compress(const calibration::Ratios& ratios,
       read_scene_text(scene(ratios, poisson, options_.strain * length_), host_), options_.threads);
   const Model& model = *plan->model;
   Simulation simulation(model, plan->threads);
-  const Cube cube(model.body);
+  const TestCube cube(model.body);
   simulation.set_displacements(cube.shortened(options_.strain), {});
   const RestReport rest = bring_to_rest(*plan, simulation);
 
