@@ -55,6 +55,21 @@ void cut_grid(const Model& model, const Division& plane, Particle before,
   }
 }
 
+std::vector<CutCell> cut_cells(const Model& model, const Division& plane) {
+  std::vector<CutCell> found;
+  model.volumetric.for_cells([&](Site site, double modulus) {
+    CutCell cell{model.volumetric.corners(site), modulus, 0};
+    if (!std::all_of(cell.corners.begin(), cell.corners.end(),
+                     [&](Particle corner) { return plane.has(corner); }))
+      return;
+    for (std::size_t n = 0; n < 8; ++n)
+      if (!plane.is_beyond(plane.height(cell.corners[n])))
+        cell.before = static_cast<std::uint8_t>(cell.before | 1U << n);
+    if (cell.before != 0 && cell.before != 0xff) found.push_back(cell);
+  });
+  return found;
+}
+
 /// Returns m of PlaneSection, 1/m.
 double crossing_factor(const Model& model) {
   const Body& body = model.body;
@@ -89,6 +104,7 @@ PlaneSection cut(const Model& model, Vec3 point, Vec3 normal, std::span<const Pa
         cut_grid(model, plane, particle, section.springs);
     }
   }
+  section.cells = cut_cells(model, plane);
   Vec3 sum;
   for (const CutSpring& spring : section.springs) {
     const SpringProperties of = model.spring_properties(spring.a, spring.b, spring.neighbour);

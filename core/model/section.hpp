@@ -3,6 +3,7 @@
 
 #include <model/model.hpp>
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -16,7 +17,14 @@ struct CutSpring {
   bool a_is_before = true;      ///< whether a is the end before the plane
 };
 
-/// The springs that a plane cuts, and their area, m2. A plane of the area A, with the unit normal
+/// A cell with a volumetric energy that a plane cuts.
+struct CutCell {
+  std::array<Particle, 8> corners{};  ///< in the order of CellCorners
+  double modulus = 0;                 ///< K_v, Pa
+  std::uint8_t before = 0;            ///< bit n: corner n is before the plane
+};
+
+/// The springs and cells that a plane cuts, and their area, m2. A plane of the area A, with the unit normal
 /// n, through an infinite lattice whose springs of class 0 have cubic symmetry, cuts springs of
 /// class 0 with
 ///   sum share R = A m n,   m = (1 / 3V) sum share R^2,
@@ -26,6 +34,7 @@ struct CutSpring {
 /// have shares.
 struct PlaneSection {
   std::vector<CutSpring> springs;
+  std::vector<CutCell> cells;
   double area = 0;
 };
 

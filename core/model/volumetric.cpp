@@ -90,6 +90,10 @@ void set_volumetric(Model& model, Faults& faults) {
     if (modulus != 0 && !has_cells)
       refuse(
           "no volumetric energy on this lattice: its particles are not the corners of cubic cells");
+    if (modulus != 0 && model.body.cells.has_partial())
+      refuse(
+          "no volumetric energy with boundary \"partial_cells\": the energy of a part of a cell is "
+          "not known yet; use \"cells\" or \"particles\"");
     if (modulus < 0 && (model.springs.breakable || model.springs.softens))
       refuse(
           "no failure in the body: a volumetric energy with K_v below zero would give energy to "

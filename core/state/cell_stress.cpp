@@ -121,6 +121,8 @@ class Layer {
     const Mixtures& mixtures = model_.kinds.mixtures;
     cell.material = mixtures.empty() ? model_.kinds.material(cell.corners[0])
                                      : mixtures.cell_above(mixtures.of(cell.corners[0]));
+    if (model_.body.cells.has_partial())
+      cell.share = model_.body.cells.share_of_cell(cell.site);
     const Vec3 first = springs_.displacement(cell.corners[0]);
     for (std::size_t n = 0; n < 8; ++n)
       cell.moved[n] = springs_.displacement(cell.corners[n]) - first;
@@ -133,7 +135,7 @@ class Layer {
     if (asked_ == Asked::motion) return;
     for (const CellSpring& of : springs_of_cell_) add_spring(of, cell);
     if (asked_ == Asked::energies) add_alpha(cell);
-    if (has_volume_term(model_)) add_volume_term(model_, cell);
+    add_volume_term(model_, cell);
   }
 
   void add_spring(const CellSpring& of, PresentCell& cell) const {
@@ -207,16 +209,12 @@ Tensor gradient_in(const PresentCell& cell, std::span<const double> xyz, double 
   return 1 / (4 * spacing) * sum;
 }
 
-bool has_volume_term(const Model&) { return false; }
-VolumeTerm volume_term(const Model&, const PresentCell&) { return {}; }
-
 void add_volume_term(const Model& model, PresentCell& cell) {
-  const double l = model.body.grid.spacing;
-  const VolumeTerm term = volume_term(model, cell);
-  const Tensor push = -cell.share * term.slope * l * l / 4 * cofactor(identity + cell.gradient);
-  for (std::size_t n = 0; n < 8; ++n)
-    cell.force[n] += push * Vec3{corner_sign(n, 0), corner_sign(n, 1), corner_sign(n, 2)};
-  cell.energy += cell.share * cube(l) * term.energy;
+  if (model.volumetric.empty() || !cell.is_whole) return;
+  const CellResponse own = cell_response(cell.moved, model.body.grid.spacing,
+                                         cell.share * model.volumetric.modulus(cell.site));
+  for (std::size_t n = 0; n < 8; ++n) cell.force[n] += own.force[n];
+  cell.energy += own.energy;
 }
 
 void for_cells(const PresentSprings& springs, Asked asked, std::int32_t low, std::int32_t high,

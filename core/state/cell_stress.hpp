@@ -6,6 +6,8 @@
 #include <state/present_springs.hpp>
 #include <state/tensor.hpp>
 
+#include <hyperlattice/volumetric_cell.hpp>
+
 #include <optional>
 
 namespace hyperlattice {
@@ -27,25 +29,13 @@ struct PresentCell {
   double energy = 0;  ///< J: its part of its springs and alpha springs; only if asked for
 };
 
-/// Returns the sign of a corner along an axis: -1 or 1.
-constexpr double corner_sign(std::size_t corner, std::size_t axis) {
-  return (corner >> axis & 1U) != 0 ? 1 : -1;
-}
 /// Returns H = 1/(4 l) sum v_a (x) s_a of a field with x y z of each particle, per metre.
 Tensor gradient_in(const PresentCell& cell, std::span<const double> xyz, double spacing);
 
 /// Returns whether the body has cells: a cubic lattice whose springs do not leave a cell.
 bool has_cells(const Body& body);
 
-/// The hook of a volumetric term: pressure p = U'(J), Pa, as the term pushes inwards if J < 1, and
-/// energy U, J/m3, per volume at rest. No model has such a term yet, so both are 0.
-struct VolumeTerm {
-  double slope = 0;   ///< dU/dJ, Pa
-  double energy = 0;  ///< U, J/m3
-};
-bool has_volume_term(const Model& model);
-VolumeTerm volume_term(const Model& model, const PresentCell& cell);
-/// Adds the term to the forces and the energy of a cell: f_a = -phi U'(J) l^2/4 cof(F) s_a.
+/// Adds the volumetric energy of a whole cell, and its forces on the corners, if the model has one.
 void add_volume_term(const Model& model, PresentCell& cell);
 
 /// Visits all cells whose corners are particles; in a body of cells those that fill the shape.

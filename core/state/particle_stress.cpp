@@ -105,7 +105,7 @@ std::vector<Vec3> internal_forces(const PresentSprings& springs) {
     forces[spring.a] += force;
     forces[spring.b] -= force;
   });
-  if (!has_volume_term(model)) return forces;
+  if (model.volumetric.empty()) return forces;
   for_cells(springs, Asked::motion, [&](PresentCell cell) {
     add_volume_term(model, cell);
     for (std::size_t n = 0; n < 8; ++n) forces[cell.corners[n]] += cell.force[n];

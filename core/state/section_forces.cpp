@@ -1,6 +1,8 @@
 #include <model/spring_calls.hpp>
 #include <state/section_forces.hpp>
 
+#include <hyperlattice/volumetric_cell.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -16,6 +18,11 @@ SectionForces::SectionForces(const BlockSet& blocks, const Clock& clock,
     springs_.push_back({end_of(cut.a), end_of(cut.b), place.row, *number, place.site, cut.neighbour,
                         cut.a_is_before});
   }
+  for (const CutCell& cut : section.cells) {
+    Cell cell{{}, cut.modulus, cut.before};
+    for (std::size_t n = 0; n < 8; ++n) cell.corners[n] = end_of(cut.corners[n]);
+    cells_.push_back(cell);
+  }
 }
 
 SectionForces::End SectionForces::end_of(Particle particle) const {
@@ -23,12 +30,28 @@ SectionForces::End SectionForces::end_of(Particle particle) const {
   return {particle, block, index};
 }
 
+Vec3 SectionForces::moved(const End& end) {
+  const auto number = [&](int c) { return end.block->displacement[c][end.index]; };
+  return {number(0), number(1), number(2)};
+}
+
+/// Adds the forces of a cell on its corners before the plane.
+void SectionForces::add(const Cell& cell, Vec3 about, Resultant& sum) const {
+  const End& lowest = cell.corners.front();
+  if ((lowest.block->alive[lowest.index] & cell_bit) == 0) return;
+  CellCorners displacement;
+  for (std::size_t n = 0; n < 8; ++n) displacement[n] = moved(cell.corners[n]);
+  const CellResponse own = cell_response(displacement, model_.body.grid.spacing, cell.modulus);
+  for (std::size_t n = 0; n < 8; ++n) {
+    if ((cell.before >> n & 1U) == 0) continue;
+    const Vec3 place = model_.body.position(cell.corners[n].particle) + displacement[n];
+    sum.force += own.force[n];
+    sum.moment += cross(place - about, own.force[n]);
+  }
+}
+
 /// Adds the force of a spring on its end before the plane.
 void SectionForces::add(const Spring& spring, Vec3 about, Resultant& sum) const {
-  const auto moved = [](const End& end) {
-    const auto number = [&](int c) { return end.block->displacement[c][end.index]; };
-    return Vec3{number(0), number(1), number(2)};
-  };
   const auto height = [this](const End& end) {
     return model_.degrees_of_freedom == 4 ? end.block->displacement[3][end.index] : 0;
   };
@@ -65,9 +88,8 @@ Resultant SectionForces::sum(Vec3 about) const {
         add(spring, about, parts[n]);
     }
   });
-  // Other forces between particles of both sides, such as those of the cells that the plane cuts,
-  // belong here: their sum over the particles before the plane.
   Resultant total;
+  for (const Cell& cell : cells_) add(cell, about, total);
   for (const Resultant& part : parts) {
     total.force += part.force;
     total.moment += part.moment;

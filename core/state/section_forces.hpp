@@ -1,6 +1,7 @@
 // The force through a plane section: the sum over the springs that the plane cuts of their pull on
-// the end before the plane. It is what the part beyond does to the part before, exact to round-off,
-// because springs on one side of the plane cancel.
+// the end before the plane, and over the cells with a volumetric energy of their forces on the
+// corners before the plane. It is what the part beyond does to the part before, exact to round-off,
+// because springs and cells on one side of the plane cancel.
 #pragma once
 
 #include <model/section.hpp>
@@ -9,6 +10,7 @@
 
 #include <hyperlattice/output.hpp>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -37,13 +39,22 @@ class SectionForces {
     std::uint32_t neighbour = 0;  ///< see Model::spring_properties
     bool a_is_before = true;
   };
+  /// A cell with a volumetric energy; the bit cell_bit of its first corner says whether it acts.
+  struct Cell {
+    std::array<End, 8> corners;
+    double modulus = 0;       ///< K_v, Pa
+    std::uint8_t before = 0;  ///< bit n: corner n is before the plane
+  };
   End end_of(Particle particle) const;
+  static Vec3 moved(const End& end);
+  void add(const Cell& cell, Vec3 about, Resultant& sum) const;
   void add(const Spring& spring, Vec3 about, Resultant& sum) const;
 
   const BlockSet& blocks_;
   const Model& model_;
   const Clock& clock_;
   std::vector<Spring> springs_;
+  std::vector<Cell> cells_;
 };
 
 }  // namespace hyperlattice
