@@ -133,7 +133,6 @@ TEST(Volumetric, GluedCubesDoNotLock) {
 /// After all springs through a plane are cut, nothing of the volumetric energy pulls across it: the
 /// two parts fly apart without forces between them.
 TEST(Volumetric, CellsWithoutASpringCarryNothing) {
-  const Json upper = {{"half_space", {{"point", {0, 0, 2.5e-3}}, {"normal", {0, 0, -1}}}}};
   const Keys failure = {{"failure", {{"type", "failures.strain"}, {"limit", 1e-4}}}};
   const auto plan = plan_of(scene_of_cells(box_mm(4, 4, 5), Keys{{"poisson", 0.45}} + failure));
   const Model& model = *plan->model;
