@@ -121,8 +121,7 @@ class Layer {
     const Mixtures& mixtures = model_.kinds.mixtures;
     cell.material = mixtures.empty() ? model_.kinds.material(cell.corners[0])
                                      : mixtures.cell_above(mixtures.of(cell.corners[0]));
-    if (model_.body.cells.has_partial())
-      cell.share = model_.body.cells.share_of_cell(cell.site);
+    if (model_.body.cells.has_partial()) cell.share = model_.body.cells.share_of_cell(cell.site);
     const Vec3 first = springs_.displacement(cell.corners[0]);
     for (std::size_t n = 0; n < 8; ++n)
       cell.moved[n] = springs_.displacement(cell.corners[n]) - first;
