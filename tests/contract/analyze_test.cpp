@@ -111,8 +111,9 @@ TEST(Analyze, FreeRatiosAndNone) {
     EXPECT_NEAR(volumetric.at("poisson_bulk"), nu, 1e-12) << nu;
     EXPECT_TRUE(volumetric.at("isotropic")) << nu;
     EXPECT_TRUE(volumetric.at("stable").at("mirrored")) << nu;
-    if (K > 0)
+    if (K > 0) {
       EXPECT_NEAR(volumetric.at("critical_time_step"), 2 / std::sqrt(12 + 4 * K), 1e-9) << nu;
+    }
   }
   const json none = read({"--membrane", "none"});
   EXPECT_NEAR(none.at("poisson_bulk"), 0.25, 1e-12);

@@ -72,10 +72,11 @@ TEST(Strain, OfLinearFieldsIsExact) {
     const bool thin = body.plan->model->body.grid.boundary == Boundary::particles &&
                       body.plan->model->body.is_cubic() &&
                       body.plan->model->body.low.k == body.plan->model->body.high.k;
-    if (thin)
+    if (thin) {
       EXPECT_EQ(missing, body.H.size());
-    else
+    } else {
       EXPECT_LT(missing, body.H.size() / 50 + 1) << scene;
+    }
   }
 }
 
