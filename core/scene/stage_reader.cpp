@@ -73,6 +73,7 @@ std::vector<std::string> labels_of_loads(const Json& pipeline) {
       labels.push_back({type, word_in(stage, "name")});
   complete(labels);
   std::vector<std::string> names;
+  names.reserve(labels.size());
   for (Label& label : labels) names.push_back(std::move(label.name));
   return names;
 }
