@@ -43,7 +43,7 @@ struct Fit {
     constexpr double flattest = 0.05;  // least eigenvalue of the spread over the largest
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(matrix(symmetric_part(spread)),
                                                                 Eigen::EigenvaluesOnly);
-    const Eigen::Vector3d values = solver.eigenvalues();
+    const Eigen::Vector3d& values = solver.eigenvalues();
     if (!(values[0] >= flattest * values[2] && values[2] > 0)) return no_tensor;
     const Tensor inverse = 1 / determinant(spread) * cofactor(spread);  // it is symmetric
     return differences * inverse;
