@@ -10,7 +10,8 @@ namespace {
 constexpr std::size_t cells_of_row = lanes + 1;
 
 constexpr std::size_t row_of(int dj, int dk) {
-  return static_cast<std::size_t>(2 * (dk + 1) + dj + 1);
+  const int row = 2 * (dk + 1) + dj + 1;
+  return static_cast<std::size_t>(row);
 }
 
 }  // namespace
@@ -36,7 +37,8 @@ void WeightSets::add_row(const Body& body, std::int32_t j, std::int32_t k, const
     for (const Run& run : body.cells.row(j + dj, k + dk))
       for (std::int32_t cell = std::max(run.begin, row.begin - 1);
            cell < std::min(run.end, row.end); ++cell) {
-        const auto t = static_cast<std::size_t>(cell - row.begin + 1);  // in the first vector
+        const std::int32_t ahead = cell - row.begin + 1;  // in the first vector
+        const auto t = static_cast<std::size_t>(ahead);
         const auto share = static_cast<float>(
             body.cells.share_of_cell(run.first + static_cast<Particle>(cell - run.begin)));
         const auto set = [&](std::size_t vector, std::size_t place) {
