@@ -2,8 +2,8 @@
 // second order on curved surfaces, and sound dynamics.
 #include <model/surfaces.hpp>
 
-#include <support/books.hpp>
 #include <support/cells.hpp>
+#include <support/energy_balance.hpp>
 #include <support/rest.hpp>
 
 #include <gtest/gtest.h>
@@ -264,8 +264,8 @@ TEST(PartialCells, BalanceTheirEnergy) {
   for (const Keys& material :
        {Keys{{"poisson", 0.25}}, Keys{{"membrane", "I-m"}, {"poisson", 0.1}}}) {
     const auto plan = plan_of(scene_of(solids()[1].shape, material, loads));
-    const double coarse = keep_books(*plan->model, 0.4).largest_error,
-                 fine = keep_books(*plan->model, 0.1).largest_error;
+    const double coarse = worst_balance(*plan->model, 0.4).largest_error,
+                 fine = worst_balance(*plan->model, 0.1).largest_error;
     EXPECT_LT(coarse, 1e-3);
     EXPECT_LT(fine, std::max(1e-13, coarse / 10));
   }

@@ -21,7 +21,7 @@ class Appended {
  public:
   /// Adds an array and returns the text with which an element refers to it.
   std::string add(const EncodedArray& array) {
-    const std::string text = " format=\"appended\" offset=\"" + std::to_string(size_) + "\"/>\n";
+    std::string text = " format=\"appended\" offset=\"" + std::to_string(size_) + "\"/>\n";
     arrays_.push_back(&array);
     size_ += array.size();
     return text;
