@@ -137,7 +137,7 @@ TEST(Snapshot, HasEachFieldOfTheRunWithFiniteNumbers) {
        {block(3, 4, 5, membranes[6]),
         block(3, 4, 5, membranes[0], {}, stage("loads.fixed", {{"on", "z_min"}})),
         block(5, 5, 5, none, {}, "lattices.random")}) {
-    const Shaken body(scene);
+    Shaken body(scene);
     const Model& model = body.model;
     SnapshotSource source(model, body.simulation);
     const Snapshot& snapshot = source.take();
