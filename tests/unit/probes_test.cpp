@@ -259,7 +259,7 @@ TEST(GaugeProbe, MeasuresStretchAndNoRotation) {
 }
 
 TEST(GaugeProbe, MeasuresAlongADirection) {
-  Gauge gauge({{"direction", {0.0, 0.0, 2.0}}});
+  Gauge gauge(nlohmann::json{{"direction", {0.0, 0.0, 2.0}}});
   const double shear = 0.01;
   const auto row = gauge.after([&](Vec3 x) { return Vec3{1e-3, 0, shear * x.x}; });
   EXPECT_NEAR(row[0], shear * gauge.line.x, 1e-16);

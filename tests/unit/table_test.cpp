@@ -104,7 +104,8 @@ TEST(History, keeps_the_latest_record_and_the_largest_error) {
   const auto folder = fresh_folder("history");
   RunFolder run(folder, true);
   run.begin(false, {});
-  History history(run);
+  const LoadSet no_loads;
+  History history(run, no_loads);
   history.begin();
   EXPECT_FALSE(history.has(0));
   for (const double error : {0.1, -0.3, 0.2}) {
@@ -113,7 +114,7 @@ TEST(History, keeps_the_latest_record_and_the_largest_error) {
     record.balance.error = error;
     record.balance.scale = 1;
     history.take(record);
-    history.write();
+    history.write({});
   }
   EXPECT_TRUE(history.has(3));
   EXPECT_FALSE(history.has(2));
