@@ -192,7 +192,7 @@ TEST_F(Run, full_disk_keeps_whole_lines) {
   EXPECT_EQ(text.back(), '\n');
   EXPECT_GT(text.size(), 6000u);
   const auto rows = history();
-  for (const std::string& row : rows) EXPECT_EQ(std::count(row.begin(), row.end(), ','), 15) << row;
+  for (const std::string& row : rows) EXPECT_EQ(std::count(row.begin(), row.end(), ','), 16) << row;
   EXPECT_EQ(summary()["status"], "failed");
 }
 

@@ -59,7 +59,7 @@ TEST_F(Surroundings, AClosedStreamIsNoFileOfTheRun) {
     ASSERT_EQ(shell(std::string("\\$hl run scene.json --out out ") + closed).exit_code, 0)
         << closed;
     for (const std::string& row : hyperlattice::test::table_rows(folder_.file("out/history.csv")))
-      EXPECT_EQ(std::count(row.begin(), row.end(), ','), 15) << closed << ": " << row;
+      EXPECT_EQ(std::count(row.begin(), row.end(), ','), 16) << closed << ": " << row;
   }
 }
 
