@@ -57,7 +57,7 @@ struct SolidSurface {
   Vec3 radial(Vec3 x) const { return (x - point) - dot(x - point, direction) * direction; }
 };
 
-/// A solid with very many faces, which finds its own volume: a mesh, or an image.
+/// A solid with very many faces, a mesh or an image, which computes its volume in a cube itself.
 class FacetedSolid {
  public:
   virtual ~FacetedSolid() = default;

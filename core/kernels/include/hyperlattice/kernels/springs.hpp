@@ -30,7 +30,7 @@ struct RowPair {
   Real* own[components];       ///< forces on the row itself
   Real* received[components];  ///< forces on the neighbours' row
   const std::uint16_t* alive;
-  /// Of a row with several materials: materials of both ends, or mixtures of the row itself.
+  /// Materials of both ends, or mixtures of the row itself; null if the row has one material.
   const std::uint8_t *material_here, *material_there;
   const std::uint32_t* mixture;
   /// Place of each vector's set of weights; null: all weights are 1.
