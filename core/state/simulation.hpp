@@ -6,7 +6,6 @@
 #include <state/energy_balance.hpp>
 #include <state/equilibrium_update.hpp>
 #include <state/layout.hpp>
-#include <state/load_forces.hpp>
 
 #include <cstdint>
 #include <functional>
@@ -63,8 +62,11 @@ class Simulation {
   /// prescribes, in the present state. At rest it is the force with which the body pushes the load.
   /// Costs one extra sweep that changes nothing.
   std::vector<Vec3> force_on_load();
-  /// Returns what loads do to particles in the present state.
-  PresentLoads present_loads() const;
+  /// Gives the force on every particle, N.
+  using ForcesOnAll = std::function<const std::vector<Vec3>&()>;
+  /// Returns the force of the loads on every particle, N, in the present state. `internal` gives
+  /// the forces of the springs; it is called only if a load prescribes motion.
+  std::vector<Vec3> external_forces(const ForcesOnAll& internal) const;
   /// Returns the sums of forces that probes follow.
   ForceSums& force_sums();
 
