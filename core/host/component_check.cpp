@@ -105,6 +105,9 @@ std::string old_name_fault(const OldName& old, const std::set<std::string_view>&
     return "no option has its present name";
   if (old.since.empty() || !is_text(old.since) || !is_seen(old.since))
     return "it has no version since when it is the former one";
+  for (const OldValue& value : old.values)
+    for (const std::string_view text : {value.before, value.now})
+      if (!is_text(text) || !nlohmann::json::accept(text)) return "one of its values is not JSON";
   return "";
 }
 

@@ -57,8 +57,11 @@ std::string range_column(const Option& option) {
 std::string meaning_column(const Option& option, std::span<const OldName> old_names) {
   std::string text(option.help);
   for (const OldName& old : old_names)
-    if (old.option == option.name)
+    if (old.option == option.name) {
       text += fmt::format("; named `{}` before version {}", old.name, old.since);
+      for (const OldValue& value : old.values)
+        text += fmt::format(", `{}` for `{}`", value.before, value.now);
+    }
   return text;
 }
 
@@ -90,8 +93,12 @@ Json option_json(const Option& option, std::span<const OldName> old_names) {
   if (!option.fallback.empty()) json["default"] = Json::parse(option.fallback);
   json["required"] = option.fallback.empty() && !option.optional;
   for (const OldName& old : old_names)
-    if (old.option == option.name)
-      json["formerly"].push_back(Json{{"name", old.name}, {"since", old.since}});
+    if (old.option == option.name) {
+      Json former{{"name", old.name}, {"since", old.since}};
+      for (const OldValue& value : old.values)
+        former["values"].push_back({Json::parse(value.before), Json::parse(value.now)});
+      json["formerly"].push_back(std::move(former));
+    }
   return json;
 }
 

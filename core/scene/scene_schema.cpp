@@ -82,7 +82,9 @@ bool declare_former(Json& object, const Option& option, std::span<const OldName>
   Json names = Json::array({has(option.name)});
   for (const OldName& old : old_names) {
     if (old.option != option.name) continue;
-    Json& former = object["properties"][std::string(old.name)] = option_schema(option);
+    Json& former = object["properties"][std::string(old.name)];
+    if (old.values.empty()) former = option_schema(option);
+    for (const OldValue& value : old.values) former["enum"].push_back(Json::parse(value.before));
     former["description"] = fmt::format("named \"{}\" since version {}", option.name, old.since);
     former["deprecated"] = true;
     names.push_back(has(old.name));

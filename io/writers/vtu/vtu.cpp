@@ -15,6 +15,7 @@ using namespace vtu;
 
 enum class Digits : std::uint32_t { single_precision, double_precision };
 constexpr std::string_view precisions[] = {"single", "double"};
+constexpr OldValue compressions[] = {{"true", "\"zlib\""}, {"false", "\"none\""}};
 
 /// The arrays at the end of a file, in their order.
 class Appended {
@@ -53,6 +54,7 @@ class Vtu {
                               "smallest files, and by far the most time")
         .choices(codecs)
         .fallback("\"lz4\"")
+        .formerly("compress", "0.2", compressions)
         .add<&Options::precision>("precision", "",
                                   "of the numbers in the files: single has 7 digits, double has "
                                   "all 16 and takes twice the space")

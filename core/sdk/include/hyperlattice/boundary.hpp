@@ -40,7 +40,8 @@
   CROSSES(Complaint, self, receive)                                                                                                                   \
   CROSSES(OptionValue, absent, boolean, integer, number, text, numbers, texts, shape, region, load_or_region)                                         \
   CROSSES(Option, name, unit, help, fallback, word, example, choices, low, high, low_open, high_open, optional, kind, set)                            \
-  CROSSES(OldName, name, option, since)                                                                                                               \
+  CROSSES(OldValue, before, now)                                                                                                                      \
+  CROSSES(OldName, name, option, since, values)                                                                                                       \
   CROSSES(FaultSink, self, receive)                                                                                                                   \
   CROSSES(ComponentInfo, family, name, summary, equation, source, restrictions, options, old_names, create_options, destroy_options, check_options,   \
           create, destroy, functions, functions_size)                                                                                                 \

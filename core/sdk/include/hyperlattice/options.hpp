@@ -70,11 +70,18 @@ struct Option {
   bool (*set)(void* options, const OptionValue& value, const Complaint& why) noexcept = nullptr;
 };
 
+/// A former value of an option and the present one of the same meaning, both as JSON text.
+struct OldValue {
+  std::string_view before, now;
+};
+
 /// A former name of an option. A scene may still use it, with a warning.
 struct OldName {
   std::string_view name;    ///< the former name, which no option has
   std::string_view option;  ///< the present name
   std::string_view since;   ///< version that introduced the present name: "0.9"
+  /// The only values that the former name takes; empty: it takes those of the present name.
+  std::span<const OldValue> values = {};
 };
 
 /// Receives the errors of a cross-field check: the option, and the expected value.
@@ -276,6 +283,12 @@ class Schema {
   /// present name.
   Schema& formerly(std::string_view name, std::string_view since) {
     old_names_.push_back({name, last().name, since});
+    return *this;
+  }
+  /// Does the same where the values were others too. The array must be static and has at least one.
+  template <std::size_t N>
+  Schema& formerly(std::string_view name, std::string_view since, const OldValue (&values)[N]) {
+    old_names_.push_back({name, last().name, since, values});
     return *this;
   }
   /// Makes the text the name of a file, relative to the scene's folder. The file must exist; the
