@@ -30,9 +30,10 @@ std::optional<std::string> refusal_of(const Stage& stage, const char* function, 
   }
 }
 
-/// Calls a function that must not fail. Throws OutsideError if it fails.
+/// Calls a function that must not fail. Throws OutsideError if it fails. It is only a wrapper, and
+/// has no frame of its own between a step and the law.
 template <class Code>
-void call(const Stage& stage, const char* function, Code&& code) {
+[[gnu::always_inline]] inline void call(const Stage& stage, const char* function, Code&& code) {
   if (const auto sentence = refusal_of(stage, function, code))
     throw plugin_error(stage, function, *sentence);
 }
