@@ -111,6 +111,21 @@ std::string old_name_fault(const OldName& old, const std::set<std::string_view>&
   return "";
 }
 
+/// `names`: the names of the component's fields before this one.
+std::string field_fault(const FieldInfo& field, Family family,
+                        const std::set<std::string_view>& names) {
+  if (family != Family::materials) return "only the laws of materials give fields";
+  if (!is_identifier(field.name))
+    return "its name must be small letters, digits and underscores, a letter first";
+  if (find_field_part(field.name).field != nullptr) return "the core has a field of that name";
+  if (names.count(field.name) != 0) return "it is declared twice";
+  for (const std::string_view text : {field.unit, field.help})
+    if (!is_text(text) || !is_seen(text)) return "one of its texts is no text";
+  if (field.help.empty()) return "it has no help";
+  if (field.kind != FieldKind::number) return "it must be one number";
+  return "";
+}
+
 }  // namespace
 
 bool is_type_name(std::string_view text) {
@@ -153,6 +168,14 @@ std::string component_fault(const ComponentInfo& info) {
       return "registers " + name + " with a bad former name '" + std::string(old.name) +
              "' of an option: " + fault;
     names.insert(old.name);
+  }
+  std::set<std::string_view> fields;
+  for (const FieldInfo& field : info.fields) {
+    if (field.name.size() > longest_name || !is_text(field.name))
+      return "registers " + name + " with a field whose name is no text";
+    if (std::string fault = field_fault(field, info.family, fields); !fault.empty())
+      return "registers " + name + " with a bad field '" + std::string(field.name) + "': " + fault;
+    fields.insert(field.name);
   }
   return "";
 }

@@ -12,15 +12,15 @@ namespace hyperlattice {
 namespace {
 
 /// Returns how many numbers per particle these fields have.
-double numbers_of(const auto& fields) {
+double numbers_of(const Plan& plan, const auto& fields) {
   double numbers = 0;
-  for (const std::string_view name : fields) numbers += components_of(*find_field(name));
+  for (const std::string_view name : fields) numbers += components_of(*field_of(*plan.model, name));
   return numbers;
 }
 
 /// Returns how many numbers per particle the fields of an output have.
 double numbers_per_particle(const Plan& plan, const Stage& output) {
-  return numbers_of(plan.asked_fields.at(&output));
+  return numbers_of(plan, plan.asked_fields.at(&output));
 }
 
 /// Returns how many more numbers per particle are in memory while these fields are computed: the
@@ -107,7 +107,7 @@ void estimate_memory(Plan& plan) {
     for (const Stage* stage : plan.scene->of(family))
       output_numbers = std::max(output_numbers, 3 + numbers_per_particle(plan, *stage) +
                                                     working_numbers(plan.asked_fields.at(stage)));
-  if (plan.threads > 1) output_numbers += queued_frames * numbers_of(queued_fields(plan));
+  if (plan.threads > 1) output_numbers += queued_frames * numbers_of(plan, queued_fields(plan));
   double solver_bytes = 0;
   for (const PlannedStage& stage : plan.stages)
     solver_bytes = std::max(solver_bytes, stage.plan.bytes_per_site);

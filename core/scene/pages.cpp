@@ -42,6 +42,7 @@ std::string range_column(const Option& option) {
     case OptionKind::texts:
       for (const std::string_view choice : option.choices)
         text += fmt::format("{}`\"{}\"`", text.empty() ? "" : ", ", choice);
+      if (option.plugin_fields) text += ", or a field of a material";
       if (option.kind == OptionKind::texts)
         text = text.empty() ? "list of texts" : "list of " + text;
       break;
@@ -102,6 +103,13 @@ Json option_json(const Option& option, std::span<const OldName> old_names) {
   return json;
 }
 
+Json fields_json(std::span<const FieldInfo> fields) {
+  Json json = Json::array();
+  for (const FieldInfo& field : fields)
+    json.push_back({{"name", field.name}, {"unit", field.unit}, {"help", field.help}});
+  return json;
+}
+
 Json options_json(std::span<const Option> options, std::span<const OldName> old_names) {
   Json json = Json::array();
   for (const Option& option : options) json.push_back(option_json(option, old_names));
@@ -131,6 +139,14 @@ std::string component_page(const Component& component) {
       page, "Example",
       fmt::format("```json\n{}\n```",
                   info.family == Family::failures ? "\"failure\": " + stage.dump() : stage.dump()));
+  std::string fields;
+  for (const FieldInfo& field : info.fields)
+    fields += fmt::format("\n| `{}` | {} | {} |", field.name, field.unit, field.help);
+  if (!fields.empty())
+    section(page, "Fields",
+            "Outputs may name these fields. A particle has one number of each.\n\n"
+            "| field | unit | meaning |\n|---|---|---|" +
+                fields);
   section(page, "Restrictions", info.restrictions);
   section(page, "Source", info.source);
   return page;
@@ -154,6 +170,7 @@ std::string component_json(const Component& component) {
                         {"path", component.path.string()},
                         {"options", options_json(info.options, info.old_names)},
                         {"common_options", std::move(common)},
+                        {"fields", fields_json(info.fields)},
                         {"example", example_stage(info)}});
 }
 

@@ -52,6 +52,10 @@ void Simulation::add_softening(std::vector<double>& lost) const {
   state_->law_memory.add_softening(lost);
 }
 
+void Simulation::law_field(std::string_view name, std::vector<double>& values) const {
+  state_->law_memory.field(name, values);
+}
+
 Particle Simulation::fastest(double& speed, bool& finite) const {
   double largest = -1;
   Particle found = 0;

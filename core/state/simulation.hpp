@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 namespace hyperlattice {
@@ -98,6 +99,9 @@ class Simulation {
   void for_springs_of_list(const std::function<void(const SpringMemory&)>& visit) const;
   /// Adds 1 - integrity of each spring that exists to the numbers of both of its ends.
   void add_softening(std::vector<double>& lost) const;
+  /// Computes a field that laws give: the mean over each particle's base springs, which count by
+  /// their share; not a number where no spring has the field.
+  void law_field(std::string_view name, std::vector<double>& values) const;
   /// Set the state of all particles, for tests and for stages that start from another state.
   void set_displacements(const std::vector<double>& xyz, const std::vector<double>& heights);
   void set_velocities(const std::vector<double>& xyz, const std::vector<double>& height_rates);

@@ -259,6 +259,37 @@ TEST(Options, AFormerNameMayHaveFormerValues) {
             "values is not JSON");
 }
 
+TEST(Options, AFieldBelongsToAMaterialAndHasANameOfItsOwn) {
+  static constexpr MaterialFunctions functions{
+      [](const void*, const LatticeFacts&, MaterialConstants&, const Complaint&) noexcept {
+        return true;
+      },
+      [](const KernelChoice&, KernelSet&, const Complaint&) noexcept { return true; }, "none",
+      nullptr};
+  ComponentInfo info = detail::describe<Renamed>();
+  const auto fault = [&](FieldInfo field) {
+    const FieldInfo fields[] = {field};
+    info.fields = fields;
+    return component_fault(info);
+  };
+  EXPECT_EQ(fault({"wear", FieldKind::number, "", "amount"}),
+            "registers 'failures.limit' with a bad field 'wear': only the laws of materials give "
+            "fields");
+  info.family = Family::materials;
+  info.name = "materials.limit";
+  info.functions = &functions;
+  info.functions_size = sizeof functions;
+  const std::string bad = "registers 'materials.limit' with a bad field ";
+  EXPECT_EQ(fault({"wear", FieldKind::number, "", "amount"}), "");
+  EXPECT_EQ(fault({"stress_xx", FieldKind::number, "", "amount"}),
+            bad + "'stress_xx': the core has a field of that name");
+  EXPECT_EQ(fault({"Wear", FieldKind::number, "", "amount"}),
+            bad + "'Wear': its name must be small letters, digits and underscores, a letter first");
+  EXPECT_EQ(fault({"wear", FieldKind::vector, "", "amount"}),
+            bad + "'wear': it must be one number");
+  EXPECT_EQ(fault({"wear", FieldKind::number, "", ""}), bad + "'wear': it has no help");
+}
+
 TEST(Options, RangesInWords) {
   Option option = make(OptionKind::number, "m");
   EXPECT_EQ(range_text(option), "");

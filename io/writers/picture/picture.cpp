@@ -113,6 +113,7 @@ class Picture {
                                   "out: failure if springs can break, "
                                   "else displacement")
         .choices(colourings().names)
+        .plugin_fields()
         .add<&Options::range>(
             "range", "",
             "least and greatest value of the colours, SI; left out: those of each frame")

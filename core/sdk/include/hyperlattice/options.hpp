@@ -11,6 +11,7 @@
 //   }
 #pragma once
 
+#include <hyperlattice/field_table.hpp>
 #include <hyperlattice/plain.hpp>
 
 #include <limits>
@@ -66,6 +67,7 @@ struct Option {
   double low = -infinity, high = infinity;
   bool low_open = false, high_open = false;  ///< the bound itself is not allowed
   bool optional = false;
+  bool plugin_fields = false;  ///< fields that materials of the scene declare are choices too
   OptionKind kind = OptionKind::number;
   bool (*set)(void* options, const OptionValue& value, const Complaint& why) noexcept = nullptr;
 };
@@ -214,6 +216,12 @@ class Schema {
     return *this;
   }
 
+  /// Declares a field that the material's law gives: a number of each particle, `unit` in SI. See
+  /// Fields in law.hpp, whose members have the order of these calls. Outputs name it as any field.
+  Schema& field(std::string_view name, std::string_view unit, std::string_view help) {
+    fields_.push_back({name, FieldKind::number, unit, help});
+    return *this;
+  }
   /// Declares the member as an option. A std::optional member may be left out of a scene; any other
   /// needs a fallback or is required.
   template <auto Member>
@@ -279,6 +287,12 @@ class Schema {
     last().choices = names;
     return *this;
   }
+  /// Lets the option also take the names of fields that materials of the scene declare. For choices
+  /// that are names of fields.
+  Schema& plugin_fields() {
+    last().plugin_fields = true;
+    return *this;
+  }
   /// Keeps a former name of the option valid. `since` is the version in which the option got its
   /// present name.
   Schema& formerly(std::string_view name, std::string_view since) {
@@ -310,6 +324,7 @@ class Schema {
   std::string_view restrictions() const { return restrictions_; }
   std::span<const Option> options() const { return options_; }
   std::span<const OldName> old_names() const { return old_names_; }
+  std::span<const FieldInfo> fields() const { return fields_; }
   auto cross_check() const { return check_; }
 
  private:
@@ -318,6 +333,7 @@ class Schema {
   std::string_view name_, summary_, equation_, source_, restrictions_;
   std::vector<Option> options_;
   std::vector<OldName> old_names_;
+  std::vector<FieldInfo> fields_;
   void (*check_)(const Options&, const FaultSink&) = nullptr;
 };
 

@@ -51,8 +51,9 @@ struct Snapshot {
   void (*run_tasks)(void* self, std::uint64_t count, void* work,
                     void (*task)(void* work, std::uint64_t n) noexcept) noexcept = nullptr;
 
-  /// Gets a field by its name in field_table. A field is computed when it is first asked for. NaN:
-  /// a particle has no such value. Returns false if this run has no such field.
+  /// Gets a field by its name, in field_table or declared by a material of the run. A field is
+  /// computed when it is first asked for. NaN: a particle has no such value. Returns false if this
+  /// run has no such field.
   bool field(std::string_view name, Field& out) const { return get_field(self, name, out); }
 
   /// Calls task(n) for each n below `count`, in any order and on all threads that the run has for
@@ -77,8 +78,8 @@ struct FrameMark {
 struct OutputContext {
   std::string_view directory;  ///< existing folder, without a slash at the end
   std::string_view title;
-  std::span<const std::string_view>
-      fields;  ///< fields of field_names that this run has; empty: known only to the snapshot
+  /// Names of the fields that this run has; empty: known only to the snapshot.
+  std::span<const std::string_view> fields;
   /// The frames of this writer that a resumed run already has, in order. The next frame follows
   /// them.
   std::span<const FrameMark> earlier;
