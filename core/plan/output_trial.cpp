@@ -367,6 +367,8 @@ void try_outputs(Plan& plan, Faults& faults) {
       continue;
     }
     plan.used_fields[stage] = rest.take_used();
+    if (const auto memory = stage->functions<WriterFunctions>().memory; memory != nullptr)
+      plan.writer_bytes[stage] = std::max(0.0, memory(writer.get()));
     if (const auto cost = frame_cost(*plan.model, rest, *stage, rest.take_asked()))
       plan.frame_costs[stage] = *cost;
   }

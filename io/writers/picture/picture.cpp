@@ -212,6 +212,14 @@ class Picture {
 
   void end() {}
 
+  /// Returns the bytes of the image and of its drawing, and of the particles' places and colours.
+  double memory_bytes() const noexcept {
+    const double pixels = static_cast<double>(options_.width) * options_.height,
+                 particles = static_cast<double>(drawn_.size());
+    return pixels * sizeof(Colour) + particles * (3 * sizeof(double) + sizeof(Colour)) +
+           render_bytes(pixels, particles);
+  }
+
  private:
   struct Colouring {
     std::vector<Colour> colours;  ///< one for each particle in the picture

@@ -89,6 +89,21 @@ class Vtu {
 
   void end() {}
 
+  /// Returns the bytes of the encoded arrays, and of displaced points before they are encoded.
+  double memory_bytes() const noexcept {
+    double numbers = 3;
+    for (const std::string& name : options_.fields) {
+      const FieldInfo* field = find_field(name);
+      numbers += field == nullptr ? 1 : components_of(*field);
+    }
+    const double real = options_.precision == Digits::single_precision ? sizeof(float)
+                                                                       : sizeof(double),
+                 cell = 2 * (has_long_numbers() ? sizeof(std::int64_t) : sizeof(std::int32_t)) +
+                        sizeof(std::uint8_t),
+                 moved = options_.deformed ? 3 * sizeof(double) : 0;
+    return static_cast<double>(selection_.size()) * (numbers * real + cell + moved);
+  }
+
  private:
   void encode(const Snapshot& snapshot) {
     if (types_.empty()) encode_cells(snapshot);

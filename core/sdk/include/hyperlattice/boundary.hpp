@@ -110,7 +110,7 @@
   CROSSES(FrameMark, step, time)                                                                                                                      \
   CROSSES(OutputContext, directory, title, fields, earlier, self, region_particles, announce_file, acted_particles, external_forces, cut_section,     \
           use_field)                                                                                                                                  \
-  CROSSES(WriterFunctions, begin, frame, end)                                                                                                         \
+  CROSSES(WriterFunctions, begin, frame, end, memory)                                                                                                 \
   CROSSES(ColumnSink, self, receive)                                                                                                                  \
   CROSSES(ProbeFunctions, begin, sample)
 // clang-format on

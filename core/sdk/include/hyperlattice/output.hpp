@@ -132,6 +132,8 @@ struct WriterFunctions {
   bool (*begin)(void* writer, const OutputContext& context, const Complaint& why) noexcept;
   bool (*frame)(void* writer, const Snapshot& snapshot, const Complaint& why) noexcept;
   bool (*end)(void* writer, const Complaint& why) noexcept;
+  /// Null: the writer states none.
+  double (*memory)(const void* writer) noexcept;
 };
 
 /// A writer class has begin(const OutputContext&), frame(const Snapshot&) and end(); each throws
@@ -140,7 +142,8 @@ struct WriterFunctions {
 /// directory, to find errors before a run starts. A writer writes under a temporary name and
 /// renames, so that no half-written file has a final name; after each frame the files on disk are
 /// complete. It announces each file to the context, as FrameFiles does: only announced files belong
-/// to the run.
+/// to the run. It may have double memory_bytes() const noexcept: the most memory that it allocates,
+/// known after begin(). The plan counts it.
 template <class T>
 concept WriterComponent = requires(T& writer, const OutputContext& context,
                                    const Snapshot& snapshot) {
@@ -176,6 +179,15 @@ concept ProbeComponent = requires(T& probe, const OutputContext& context, const 
 
 namespace detail {
 
+template <WriterComponent T>
+constexpr auto memory_function_of() -> decltype(WriterFunctions::memory) {
+  if constexpr (requires(const T& writer) { writer.memory_bytes(); })
+    return
+        [](const void* writer) noexcept { return static_cast<const T*>(writer)->memory_bytes(); };
+  else
+    return nullptr;
+}
+
 /// The tasks of Snapshot::for_each, and the first exception of one of them.
 template <class Task>
 struct SharedTasks {
@@ -207,7 +219,8 @@ struct FunctionsOf<T> {
       },
       [](void* writer, const Complaint& why) noexcept {
         return guarded(why, [&] { static_cast<T*>(writer)->end(); });
-      }};
+      },
+      memory_function_of<T>()};
 };
 
 template <ProbeComponent T>
