@@ -105,6 +105,24 @@ std::string old_name_fault(const OldName& old, const std::set<std::string_view>&
     return "no option has its present name";
   if (old.since.empty() || !is_text(old.since) || !is_seen(old.since))
     return "it has no version since when it is the former one";
+  for (const OldValue& value : old.values)
+    for (const std::string_view text : {value.before, value.now})
+      if (!is_text(text) || !nlohmann::json::accept(text)) return "one of its values is not JSON";
+  return "";
+}
+
+/// `names`: the names of the component's fields before this one.
+std::string field_fault(const FieldInfo& field, Family family,
+                        const std::set<std::string_view>& names) {
+  if (family != Family::materials) return "only the laws of materials give fields";
+  if (!is_identifier(field.name))
+    return "its name must be small letters, digits and underscores, a letter first";
+  if (find_field_part(field.name).field != nullptr) return "the core has a field of that name";
+  if (names.count(field.name) != 0) return "it is declared twice";
+  for (const std::string_view text : {field.unit, field.help})
+    if (!is_text(text) || !is_seen(text)) return "one of its texts is no text";
+  if (field.help.empty()) return "it has no help";
+  if (field.kind != FieldKind::number) return "it must be one number";
   return "";
 }
 
@@ -150,6 +168,14 @@ std::string component_fault(const ComponentInfo& info) {
       return "registers " + name + " with a bad former name '" + std::string(old.name) +
              "' of an option: " + fault;
     names.insert(old.name);
+  }
+  std::set<std::string_view> fields;
+  for (const FieldInfo& field : info.fields) {
+    if (field.name.size() > longest_name || !is_text(field.name))
+      return "registers " + name + " with a field whose name is no text";
+    if (std::string fault = field_fault(field, info.family, fields); !fault.empty())
+      return "registers " + name + " with a bad field '" + std::string(field.name) + "': " + fault;
+    fields.insert(field.name);
   }
   return "";
 }

@@ -84,17 +84,13 @@ CompositeAnswer CompositeSpring::present(const Spring& spring, const double* kep
   if (is_absent(spring.cross)) return sum;
   const bool series = in_series(spring.cross);
   if (!series) sum.integrity = 0;
-  for (std::size_t n = 0; n < parts_.size(); ++n) {
-    const double weight = series ? 0.5 : parts_[n].weight;
-    OneSpring part =
-        one(spring, n, series ? elongation_of(n, spring.elongation, kept) : spring.elongation);
-    part.memory = kept + first_[n];
-    const SpringAnswer answer = ask_spring(laws_[parts_[n].law], part);
+  for_parts(spring, kept, [&](const Law& law, const OneSpring& part, double weight) {
+    const SpringAnswer answer = ask_spring(law, part);
     sum.force += weight * answer.force;
     sum.stored += weight * answer.energy;
     sum.integrity = series ? std::min(sum.integrity, answer.integrity)
                            : sum.integrity + weight * answer.integrity;
-  }
+  });
   return sum;
 }
 

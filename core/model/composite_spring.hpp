@@ -61,6 +61,18 @@ class CompositeSpring {
   CompositeAnswer take(const Spring& spring, double time_step, double* kept) const;
   /// Returns the present answer without a step.
   CompositeAnswer present(const Spring& spring, const double* kept) const;
+  /// Calls visit(law, spring, weight) for each part in its present state.
+  template <class Visit>
+  void for_parts(const Spring& spring, const double* kept, const Visit& visit) const {
+    if (is_absent(spring.cross)) return;
+    const bool series = in_series(spring.cross);
+    for (std::size_t n = 0; n < parts_.size(); ++n) {
+      OneSpring part =
+          one(spring, n, series ? elongation_of(n, spring.elongation, kept) : spring.elongation);
+      part.memory = kept + first_[n];
+      visit(laws_[parts_[n].law], part, series ? 0.5 : parts_[n].weight);
+    }
+  }
   /// Returns the derivative of the force, N/m, after a load step without a duration that starts
   /// from the memory `kept`: a central difference.
   double tangent(const Spring& spring, const double* kept) const;

@@ -57,6 +57,12 @@ inline SpringAnswer take_spring(const Law& law, const OneSpring& spring, double 
   return answer;
 }
 
+/// Reads the fields that the law gives for one spring in its present state.
+inline void read_fields(const Law& law, const OneSpring& spring, double* values) {
+  call(*law.stage, "fields",
+       [&](const Complaint& why) { return law.kernels.read_fields(spring, values, why); });
+}
+
 /// Sets the start values of a spring's memory `kept`. `constants`: those of the law for the spring.
 inline void start_spring(const Law& law, const double* constants, const SpringIdentity& spring,
                          double* kept) {

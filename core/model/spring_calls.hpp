@@ -49,4 +49,17 @@ inline CompositeAnswer ask_spring(const Model& model, const SpringProperties& pr
   return {answer.force, answer.energy, 0, 0, answer.integrity};
 }
 
+/// Calls visit(law, spring, weight) for each part of a spring in its present state; a spring of one
+/// law is one part of the weight 1.
+template <class Visit>
+void for_parts(const Model& model, const SpringProperties& properties, std::size_t cross,
+               double elongation, const double* kept, const Visit& visit) {
+  if (properties.composite != nullptr)
+    return properties.composite->for_parts(composite_spring(properties, cross, elongation), kept,
+                                           visit);
+  OneSpring spring = one_spring(properties, cross, elongation);
+  spring.memory = kept;
+  visit(model.springs.laws[properties.law], spring, 1.0);
+}
+
 }  // namespace hyperlattice

@@ -151,9 +151,15 @@ void find_laws(Model& model) {
     };
     const auto found = std::find_if(springs.laws.begin(), springs.laws.end(), has_law);
     material.law = static_cast<std::uint32_t>(found - springs.laws.begin());
-    if (found != springs.laws.end()) continue;
-    springs.laws.push_back({&stage, kernels_of(stage, springs.choice)});
-    KernelSet& kernels = springs.laws.back().kernels;
+    const bool is_new = found == springs.laws.end();
+    if (is_new) springs.laws.push_back({&stage, kernels_of(stage, springs.choice)});
+    KernelSet& kernels = springs.laws[material.law].kernels;
+    if (const std::size_t declared = stage.component->info.fields.size();
+        declared != kernels.fields || (kernels.fields > 0 && kernels.read_fields == nullptr))
+      throw plugin_error(
+          stage, "kernels",
+          fmt::format("its law gives {} fields, and it declares {}", kernels.fields, declared));
+    if (!is_new) continue;
     springs.memory = std::max(springs.memory, kernels.memory);
     springs.softens = springs.softens || kernels.softens;
     KernelChoice row = springs.choice;  // linearise takes listed springs as rows of one spring

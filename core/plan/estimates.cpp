@@ -12,15 +12,15 @@ namespace hyperlattice {
 namespace {
 
 /// Returns how many numbers per particle these fields have.
-double numbers_of(const auto& fields) {
+double numbers_of(const Plan& plan, const auto& fields) {
   double numbers = 0;
-  for (const std::string_view name : fields) numbers += components_of(*find_field(name));
+  for (const std::string_view name : fields) numbers += components_of(*field_of(*plan.model, name));
   return numbers;
 }
 
 /// Returns how many numbers per particle the fields of an output have.
 double numbers_per_particle(const Plan& plan, const Stage& output) {
-  return numbers_of(plan.asked_fields.at(&output));
+  return numbers_of(plan, plan.asked_fields.at(&output));
 }
 
 /// Returns how many more numbers per particle are in memory while these fields are computed: the
@@ -107,7 +107,9 @@ void estimate_memory(Plan& plan) {
     for (const Stage* stage : plan.scene->of(family))
       output_numbers = std::max(output_numbers, 3 + numbers_per_particle(plan, *stage) +
                                                     working_numbers(plan.asked_fields.at(stage)));
-  if (plan.threads > 1) output_numbers += queued_frames * numbers_of(queued_fields(plan));
+  if (plan.threads > 1) output_numbers += queued_frames * numbers_of(plan, queued_fields(plan));
+  // Writers write one after the other, but may keep what they have allocated.
+  for (const auto& [writer, allocated] : plan.writer_bytes) bytes += allocated;
   double solver_bytes = 0;
   for (const PlannedStage& stage : plan.stages)
     solver_bytes = std::max(solver_bytes, stage.plan.bytes_per_site);
@@ -167,6 +169,7 @@ void estimate_time(Plan& plan) {
   constexpr double baseline = 4, avx2 = 1.4, avx512 = 0.9;  // ns per base spring and step
   constexpr double fourth_dimension = 1.8, damped = 1.1, floats = 0.6, listed = 4,
                    second_thread = 0.6;
+  constexpr double volumetric = 1.8;  // of a step, where cells have a volumetric energy
   const Model& model = *plan.model;
   const std::string_view instructions = model.springs.kernels().instructions;
   plan.expected_seconds = 0;
@@ -174,6 +177,7 @@ void estimate_time(Plan& plan) {
   if (model.degrees_of_freedom == 4) spring *= fourth_dimension;
   if (model.body.is_listed()) spring *= listed;
   if (model.springs.choice.precision == Precision::floats) spring *= floats;
+  if (!model.volumetric.empty()) spring *= volumetric;
   const double step = 1e-9 * spring * static_cast<double>(model.body.base_springs()) /
                       (1 + second_thread * (plan.threads - 1));
   for (const PlannedStage& stage : plan.stages)

@@ -8,8 +8,36 @@
 
 namespace hyperlattice {
 
+namespace {
+
+const FieldInfo* find_in(std::span<const FieldInfo> fields, std::string_view name) {
+  const auto found = std::find_if(fields.begin(), fields.end(),
+                                  [&](const FieldInfo& field) { return field.name == name; });
+  return found == fields.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+const FieldInfo* field_of(const Model& model, std::string_view name) {
+  if (const FieldInfo* field = find_field(name)) return field;
+  for (const Law& law : model.springs.laws)
+    if (const FieldInfo* field = find_in(law.stage->component->info.fields, name)) return field;
+  return nullptr;
+}
+
+std::vector<std::string_view> fields_of(const Model& model) {
+  std::vector<std::string_view> names;
+  for (const std::string_view name : field_names)
+    if (has_field(model, name)) names.push_back(name);
+  for (const Law& law : model.springs.laws)
+    for (const FieldInfo& field : law.stage->component->info.fields)
+      if (std::find(names.begin(), names.end(), field.name) == names.end())
+        names.push_back(field.name);
+  return names;
+}
+
 bool has_field(const Model& model, std::string_view name) {
-  const FieldInfo* field = find_field(name);
+  const FieldInfo* field = field_of(model, name);
   if (field == nullptr) return false;
   switch (field->needs) {
     case FieldNeeds::list:
@@ -30,11 +58,20 @@ bool is_measured(std::string_view name) {
 
 namespace {
 
-std::vector<std::string> asked_by(const Stage& output, const nlohmann::json& resolved) {
+/// Returns the field that an option names, alone or with one of its components; null if it names
+/// none.
+const FieldInfo* named_field(const Scene& scene, std::string_view name) {
+  for (const Stage* material : scene.of(Family::materials))
+    if (const FieldInfo* field = find_in(material->component->info.fields, name)) return field;
+  return find_field_part(name).field;
+}
+
+std::vector<std::string> asked_by(const Scene& scene, const Stage& output,
+                                  const nlohmann::json& resolved) {
   std::vector<std::string> asked;
   const auto consider = [&](const nlohmann::json& value) {
     if (!value.is_string()) return;
-    const FieldInfo* field = find_field_part(value.get_ref<const std::string&>()).field;
+    const FieldInfo* field = named_field(scene, value.get_ref<const std::string&>());
     if (field != nullptr && std::find(asked.begin(), asked.end(), field->name) == asked.end())
       asked.emplace_back(field->name);
   };
@@ -59,7 +96,7 @@ AskedFields asked_fields(const Scene& scene) {
   AskedFields asked;
   const auto resolved = nlohmann::json::parse(scene.resolved);
   for (const Family family : {Family::writers, Family::probes})
-    for (const Stage* output : scene.of(family)) asked[output] = asked_by(*output, resolved);
+    for (const Stage* output : scene.of(family)) asked[output] = asked_by(scene, *output, resolved);
   return asked;
 }
 

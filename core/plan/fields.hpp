@@ -3,12 +3,19 @@
 
 #include <model/model.hpp>
 
+#include <hyperlattice/field_table.hpp>
+
 #include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace hyperlattice {
+
+/// Returns a field of field_table or one that a law of the body gives; null if there is none.
+const FieldInfo* field_of(const Model& model, std::string_view name);
+/// Returns the names of all fields that a run has.
+std::vector<std::string_view> fields_of(const Model& model);
 
 /// Returns whether a run has the field: heights need a free membrane, broken springs and damage
 /// need a failure criterion, a source needs a listed body.

@@ -98,7 +98,10 @@ void leave_out_outputs(const Plan& plan, std::vector<LeftOut>& out) {
   if (std::none_of(asked.begin(), asked.end(), is_measured))
     out.push_back({"stress, strain and forces of particles",
                    "no writer or probe names a field that is computed from all springs"});
-  for (const std::string_view name : field_names) {
+  std::vector<std::string_view> names(std::begin(field_names), std::end(field_names));
+  for (const std::string_view name : fields_of(*plan.model))
+    if (find_field(name) == nullptr) names.push_back(name);
+  for (const std::string_view name : names) {
     if (is_measured(name)) continue;
     if (!has_field(*plan.model, name))
       out.push_back({fmt::format("field {}", name), "this run has no such quantity"});

@@ -32,10 +32,10 @@ namespace {
 class BodyAtRest {
  public:
   explicit BodyAtRest(const Model& model)
-      : model_(model), regions_(model.body, model.scene->regions), acted_(model, regions_) {
-    for (const std::string_view name : field_names)
-      if (has_field(model, name)) fields_.push_back(name);
-  }
+      : model_(model),
+        regions_(model.body, model.scene->regions),
+        acted_(model, regions_),
+        fields_(fields_of(model)) {}
 
   OutputContext context() {
     OutputContext context;
@@ -96,7 +96,7 @@ class BodyAtRest {
       return PluginCall::answer(false, [&] {
         auto& rest = *static_cast<BodyAtRest*>(self);
         if (!has_field(rest.model_, name)) return false;
-        field.components = components_of(*find_field(name));
+        field.components = components_of(*field_of(rest.model_, name));
         std::vector<double>& zeros = rest.zeros_[field.components];
         zeros.resize(field.components * rest.model_.body.particles);
         field.values = zeros;
@@ -201,7 +201,7 @@ class ParticleSample {
   bool field(std::string_view name, Field& field) {
     if (!has_field(model_, name)) return false;
     std::vector<double>& values = values_[std::string(name)];
-    field.components = components_of(*find_field(name));
+    field.components = components_of(*field_of(model_, name));
     values.assign(field.components * size(), 0.0);  // nothing is broken
     if (name == "material")
       std::transform(particles_.begin(), particles_.end(), values.begin(),
@@ -211,7 +211,7 @@ class ParticleSample {
                      [this](Particle particle) { return model_.body.listed.source[particle]; });
     else if (name == "displacement" || name == "height")
       fill(values, 1e-3 * model_.body.grid.spacing);
-    else if (find_field(name)->needs != FieldNeeds::failure)
+    else if (field_of(model_, name)->needs != FieldNeeds::failure)
       fill(values, 1.0);
     field.values = values;
     return true;
@@ -367,6 +367,8 @@ void try_outputs(Plan& plan, Faults& faults) {
       continue;
     }
     plan.used_fields[stage] = rest.take_used();
+    if (const auto memory = stage->functions<WriterFunctions>().memory; memory != nullptr)
+      plan.writer_bytes[stage] = std::max(0.0, memory(writer.get()));
     if (const auto cost = frame_cost(*plan.model, rest, *stage, rest.take_asked()))
       plan.frame_costs[stage] = *cost;
   }

@@ -69,9 +69,7 @@ void plan_stages(Plan& plan, Faults& faults) {
 
 /// Adds a fault for each output of a field that the run does not have.
 void check_fields(const Plan& plan, Faults& faults) {
-  std::vector<std::string_view> present;
-  for (const std::string_view name : field_names)
-    if (has_field(*plan.model, name)) present.push_back(name);
+  const std::vector<std::string_view> present = fields_of(*plan.model);
   for (const auto& [stage, names] : plan.asked_fields)
     for (const std::string& name : names)
       if (!has_field(*plan.model, name))

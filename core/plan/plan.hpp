@@ -50,6 +50,7 @@ struct Plan {
   AskedFields asked_fields;
   std::vector<PlannedTable> tables;               ///< in the order of the scene's probes
   std::map<const Stage*, FrameCost> frame_costs;  ///< of the writers that could be tried
+  std::map<const Stage*, double> writer_bytes;    ///< of memory, of the writers that state it
   int threads = 1;
   double bytes_per_particle = 0;  ///< of the state that the kernel works on
   double memory_bytes = 0;        ///< of the state, the model and the scratch

@@ -47,23 +47,10 @@ const std::vector<Vec3>& Measured::internal_forces() {
   return once(internal_, [&] { return hyperlattice::internal_forces(springs()); });
 }
 
-/// Along a prescribed axis the loads and the reaction give the mass its prescribed acceleration.
 const std::vector<Vec3>& Measured::external_forces() {
   return once(external_, [&] {
-    const PresentLoads loads = simulation_.present_loads();
-    std::vector<Vec3> forces(model_.body.particles);
-    if (!(loads.acceleration == Vec3{}))
-      for (Particle p = 0; p < model_.body.particles; ++p)
-        forces[p] = model_.mass(p) * loads.acceleration;
-    for (const LoadOnParticle& on : loads.particles) {
-      Vec3& force = forces[on.particle];
-      force += on.force;
-      for (int c = 0; c < 3; ++c)
-        if ((on.prescribed >> c & 1U) != 0)
-          force[c] =
-              model_.mass(on.particle) * on.acceleration[c] - internal_forces()[on.particle][c];
-    }
-    return forces;
+    return simulation_.external_forces(
+        [&]() -> const std::vector<Vec3>& { return internal_forces(); });
   });
 }
 

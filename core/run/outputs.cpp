@@ -20,10 +20,9 @@ Outputs::Outputs(const Model& model, Simulation& simulation, RunFolder& folder, 
       source_(model, simulation),
       folder_(folder),
       threads_(threads),
+      fields_(fields_of(model)),
       regions_(model.body, model.scene->regions),
       acted_(model, regions_) {
-  for (const std::string_view name : field_names)
-    if (has_field(model, name)) fields_.push_back(name);
   for (const Family family : {Family::writers, Family::probes})
     for (const Stage* stage : model.scene->of(family)) {
       Output& output = outputs_.emplace_back();

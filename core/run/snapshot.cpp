@@ -97,12 +97,15 @@ SnapshotSource::Compute SnapshotSource::function_of(std::string_view name) {
 }
 
 void SnapshotSource::compute(std::string_view name, FieldValues& values) {
-  values.components = components_of(*find_field(name));
-  (this->*function_of(name))(values.numbers);
+  values.components = components_of(*field_of(model_, name));
+  if (const Compute function = function_of(name); function != nullptr)
+    (this->*function)(values.numbers);
+  else
+    simulation_.law_field(name, values.numbers);
 }
 
 bool SnapshotSource::field(std::string_view name, Field& out) {
-  if (function_of(name) == nullptr || !has_field(model_, name)) return false;
+  if (!has_field(model_, name)) return false;
   FieldValues& values = fields_.try_emplace(std::string(name)).first->second;
   if (!values.current) compute(name, values);
   values.current = true;

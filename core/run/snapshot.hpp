@@ -39,6 +39,7 @@ class SnapshotSource {
 
  private:
   using Compute = void (SnapshotSource::*)(std::vector<double>& numbers);
+  /// Returns the function of a field of field_table; null if laws give the field.
   static Compute function_of(std::string_view name);
 
   bool field(std::string_view name, Field& out);

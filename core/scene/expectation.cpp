@@ -21,6 +21,7 @@ std::string names(const Option& option) {
   std::string text;
   for (const std::string_view choice : option.choices)
     text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", choice);
+  if (option.plugin_fields) text += ", or a field that a material of the scene declares";
   return text;
 }
 

@@ -34,6 +34,22 @@ void move_files(std::map<std::string, std::filesystem::path>& files, const std::
   }
 }
 
+/// Returns the former value that the scene gives; null if there is none like it.
+const OldValue* former_value(const OldName& old, const Json& given) {
+  const auto found = std::find_if(old.values.begin(), old.values.end(), [&](const OldValue& value) {
+    return Json::parse(value.before) == given;
+  });
+  return found == old.values.end() ? nullptr : &*found;
+}
+
+/// Returns the former values in words: "true or false".
+std::string former_values(const OldName& old) {
+  std::vector<std::string_view> values;
+  values.reserve(old.values.size());
+  for (const OldValue& value : old.values) values.push_back(value.before);
+  return fmt::format("{}", fmt::join(values, " or "));
+}
+
 }  // namespace
 
 OptionReader::OptionReader(const Json& object, std::string pointer, Reading reading,
@@ -83,6 +99,7 @@ bool OptionReader::fill_one(const OptionSet& set, const Option& option, void* op
 bool OptionReader::read_given(const Option& option, const std::string& key, ReadValue& value,
                               Json& resolved) {
   const std::string pointer = member(pointer_, key);
+  Json now;  // the present value, if the former name has values of its own
   bool good = true;
   for (const OldName& old : old_names_) {
     if (old.option != option.name || !object_.contains(std::string(old.name))) continue;
@@ -92,13 +109,26 @@ bool OptionReader::read_given(const Option& option, const std::string& key, Read
           at, shown(object_[name]),
           fmt::format("\"{}\" alone; \"{}\" is its name before version {}", key, name, old.since));
       good = false;
-    } else {
+    } else if (old.values.empty()) {
       reading_.faults.warn(
           at, fmt::format("\"{}\" is named \"{}\" since version {}; the old name will go", name,
                           option.name, old.since));
+    } else if (const OldValue* former = former_value(old, object_[name])) {
+      now = Json::parse(former->now);
+      reading_.faults.warn(at,
+                           fmt::format("\"{}\": {} is \"{}\": {} since version {}; the old name "
+                                       "will go",
+                                       name, former->before, option.name, former->now, old.since));
+    } else {
+      reading_.faults.add(at, shown(object_[name]),
+                          fmt::format("{}; since version {} use \"{}\"", former_values(old),
+                                      old.since, option.name));
+      return false;
     }
   }
-  good = read_value(option, object_[key], pointer, reading_, value, resolved) && good;
+  good =
+      read_value(option, now.is_null() ? object_[key] : now, pointer, reading_, value, resolved) &&
+      good;
   // in the resolved scene, where files are looked up, the option has its present name
   if (key != option.name)
     move_files(reading_.regions.files(), pointer, member(pointer_, option.name));

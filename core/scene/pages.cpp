@@ -42,6 +42,7 @@ std::string range_column(const Option& option) {
     case OptionKind::texts:
       for (const std::string_view choice : option.choices)
         text += fmt::format("{}`\"{}\"`", text.empty() ? "" : ", ", choice);
+      if (option.plugin_fields) text += ", or a field of a material";
       if (option.kind == OptionKind::texts)
         text = text.empty() ? "list of texts" : "list of " + text;
       break;
@@ -57,8 +58,11 @@ std::string range_column(const Option& option) {
 std::string meaning_column(const Option& option, std::span<const OldName> old_names) {
   std::string text(option.help);
   for (const OldName& old : old_names)
-    if (old.option == option.name)
+    if (old.option == option.name) {
       text += fmt::format("; named `{}` before version {}", old.name, old.since);
+      for (const OldValue& value : old.values)
+        text += fmt::format(", `{}` for `{}`", value.before, value.now);
+    }
   return text;
 }
 
@@ -90,8 +94,19 @@ Json option_json(const Option& option, std::span<const OldName> old_names) {
   if (!option.fallback.empty()) json["default"] = Json::parse(option.fallback);
   json["required"] = option.fallback.empty() && !option.optional;
   for (const OldName& old : old_names)
-    if (old.option == option.name)
-      json["formerly"].push_back(Json{{"name", old.name}, {"since", old.since}});
+    if (old.option == option.name) {
+      Json former{{"name", old.name}, {"since", old.since}};
+      for (const OldValue& value : old.values)
+        former["values"].push_back({Json::parse(value.before), Json::parse(value.now)});
+      json["formerly"].push_back(std::move(former));
+    }
+  return json;
+}
+
+Json fields_json(std::span<const FieldInfo> fields) {
+  Json json = Json::array();
+  for (const FieldInfo& field : fields)
+    json.push_back({{"name", field.name}, {"unit", field.unit}, {"help", field.help}});
   return json;
 }
 
@@ -124,6 +139,14 @@ std::string component_page(const Component& component) {
       page, "Example",
       fmt::format("```json\n{}\n```",
                   info.family == Family::failures ? "\"failure\": " + stage.dump() : stage.dump()));
+  std::string fields;
+  for (const FieldInfo& field : info.fields)
+    fields += fmt::format("\n| `{}` | {} | {} |", field.name, field.unit, field.help);
+  if (!fields.empty())
+    section(page, "Fields",
+            "Outputs may name these fields. A particle has one number of each.\n\n"
+            "| field | unit | meaning |\n|---|---|---|" +
+                fields);
   section(page, "Restrictions", info.restrictions);
   section(page, "Source", info.source);
   return page;
@@ -147,6 +170,7 @@ std::string component_json(const Component& component) {
                         {"path", component.path.string()},
                         {"options", options_json(info.options, info.old_names)},
                         {"common_options", std::move(common)},
+                        {"fields", fields_json(info.fields)},
                         {"example", example_stage(info)}});
 }
 

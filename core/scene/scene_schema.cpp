@@ -7,6 +7,8 @@
 #include <spdlog/fmt/fmt.h>
 #include <nlohmann/json.hpp>
 
+#include <set>
+
 namespace hyperlattice {
 
 namespace {
@@ -33,7 +35,17 @@ Json quantity(const Option& option) {
 }
 
 Json choices(const Option& option) {
-  return {{"enum", std::vector<std::string>(option.choices.begin(), option.choices.end())}};
+  const Json own{{"enum", std::vector<std::string>(option.choices.begin(), option.choices.end())}};
+  if (!option.plugin_fields) return own;
+  return {{"anyOf", {own, reference("plugin_field")}}};
+}
+
+/// Returns the schema of a name of a field that a material declares.
+Json plugin_field(const std::vector<const Component*>& components) {
+  std::set<std::string> names;
+  for (const Component* component : components)
+    for (const FieldInfo& field : component->info.fields) names.emplace(field.name);
+  return names.empty() ? Json(false) : Json{{"enum", names}};
 }
 
 Json value_schema(const Option& option) {
@@ -82,7 +94,9 @@ bool declare_former(Json& object, const Option& option, std::span<const OldName>
   Json names = Json::array({has(option.name)});
   for (const OldName& old : old_names) {
     if (old.option != option.name) continue;
-    Json& former = object["properties"][std::string(old.name)] = option_schema(option);
+    Json& former = object["properties"][std::string(old.name)];
+    if (old.values.empty()) former = option_schema(option);
+    for (const OldValue& value : old.values) former["enum"].push_back(Json::parse(value.before));
     former["description"] = fmt::format("named \"{}\" since version {}", option.name, old.since);
     former["deprecated"] = true;
     names.push_back(has(old.name));
@@ -181,6 +195,7 @@ std::string scene_schema(const std::vector<const Component*>& components) {
       later.push_back(component->type());
   }
   const auto types = [&](Family family) { return of_family[static_cast<std::size_t>(family)]; };
+  definitions["plugin_field"] = plugin_field(components);
   definitions["criterion"] = one_of(types(Family::failures));
   definitions["failure"] = {
       {"anyOf",

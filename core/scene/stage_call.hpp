@@ -17,9 +17,11 @@ inline OutsideError plugin_error(const Stage& stage, const std::string& function
 
 /// Calls a function that may refuse. `code` gets the Complaint and returns true after success.
 /// Returns the sentence of a refusal. Throws OutsideError if the component got no memory or called
-/// the host wrongly.
+/// the host wrongly. It is only a wrapper, and has no frame of its own between a step and the law.
 template <class Code>
-std::optional<std::string> refusal_of(const Stage& stage, const char* function, Code&& code) {
+[[gnu::always_inline]] inline std::optional<std::string> refusal_of(const Stage& stage,
+                                                                    const char* function,
+                                                                    Code&& code) {
   PluginCall call(stage.component->info.name, stage.component->path.c_str(), function,
                   stage.pointer);
   try {
@@ -30,9 +32,9 @@ std::optional<std::string> refusal_of(const Stage& stage, const char* function, 
   }
 }
 
-/// Calls a function that must not fail. Throws OutsideError if it fails.
+/// Calls a function that must not fail, also without a frame. Throws OutsideError if it fails.
 template <class Code>
-void call(const Stage& stage, const char* function, Code&& code) {
+[[gnu::always_inline]] inline void call(const Stage& stage, const char* function, Code&& code) {
   if (const auto sentence = refusal_of(stage, function, code))
     throw plugin_error(stage, function, *sentence);
 }

@@ -99,6 +99,8 @@ Json StageReader::read(const Json& scene, std::vector<Stage>& stages) {
   }
   loads_ = labels_of_loads(*pipeline);
   reading_.loads = loads_;
+  find_fields(*pipeline);
+  reading_.fields = fields_;
   std::vector<std::optional<Family>> families;
   for (std::size_t n = 0; n < pipeline->size(); ++n) {
     const Json& given = (*pipeline)[n];
@@ -114,6 +116,31 @@ Json StageReader::read(const Json& scene, std::vector<Stage>& stages) {
   check_order(families);
   if (stages.size() == pipeline->size()) give_names(stages, resolved);
   return resolved;
+}
+
+/// Finds the fields that the pipeline's materials declare. A name has one meaning.
+void StageReader::find_fields(const Json& pipeline) {
+  std::vector<std::pair<const ComponentInfo*, const FieldInfo*>> found;
+  for (std::size_t n = 0; n < pipeline.size(); ++n) {
+    const std::string type = word_in(pipeline[n], "type");
+    if (family_of(type) != Family::materials) continue;
+    const Component* component = catalogue_.find(type);
+    if (component == nullptr) continue;  // read_stage() says why
+    for (const FieldInfo& field : component->info.fields) {
+      const auto other = std::find_if(found.begin(), found.end(), [&](const auto& earlier) {
+        return earlier.second->name == field.name;
+      });
+      if (other == found.end()) {
+        found.emplace_back(&component->info, &field);
+        fields_.push_back(field.name);
+      } else if (other->second->unit != field.unit || other->second->help != field.help) {
+        reading_.faults.add(
+            member(member("/pipeline", n), "type"), shown(pipeline[n]["type"]),
+            fmt::format("a material whose field \"{}\" means the same as that of {}, \"{}\"",
+                        field.name, other->first->name, other->second->help));
+      }
+    }
+  }
 }
 
 /// Returns the family of a stage's type; nothing after a fault.

@@ -24,10 +24,12 @@ class StageReader {
   std::optional<Stage> read_failure(const Json& given, const std::string& pointer, Json& resolved);
   const Component* find(const Json& given, const std::string& pointer, Family family);
   std::optional<Family> read_family(const Json& given, const std::string& pointer);
+  void find_fields(const Json& pipeline);
   void check_order(const std::vector<std::optional<Family>>& families);
   void give_names(std::vector<Stage>& stages, Json& resolved);
 
-  std::vector<std::string> loads_;  ///< their labels
+  std::vector<std::string> loads_;        ///< their labels
+  std::vector<std::string_view> fields_;  ///< that materials declare, each once
   Reading reading_;
   Catalogue& catalogue_;
   std::vector<Fault>& refusals_;

@@ -48,8 +48,17 @@ bool read_integer(const Json& given, std::int64_t& integer) {
   return true;
 }
 
-std::vector<std::string> names_of(const Option& option) {
-  return {option.choices.begin(), option.choices.end()};
+std::vector<std::string> names_of(const Option& option, const Reading& reading) {
+  std::vector<std::string> names(option.choices.begin(), option.choices.end());
+  if (option.plugin_fields) names.insert(names.end(), reading.fields.begin(), reading.fields.end());
+  return names;
+}
+
+/// Returns whether the option takes the name of this field, which a material of the scene declares.
+bool is_field(const Option& option, const Json& given, const Reading& reading) {
+  return option.plugin_fields && given.is_string() &&
+         std::find(reading.fields.begin(), reading.fields.end(),
+                   given.get_ref<const std::string&>()) != reading.fields.end();
 }
 
 /// Returns the index of a text among the option's choices, or -1.
@@ -80,10 +89,11 @@ bool read_texts(const Option& option, const Json& given, const std::string& poin
   bool good = true;
   for (std::size_t n = 0; n < given.size(); ++n) {
     const Json& entry = given[n];
-    if (!entry.is_string() || (!option.choices.empty() && choice_of(option, entry) < 0)) {
-      const std::string near =
-          entry.is_string() ? did_you_mean(entry.get_ref<const std::string&>(), names_of(option))
-                            : "";
+    if (!entry.is_string() || (!option.choices.empty() && choice_of(option, entry) < 0 &&
+                               !is_field(option, entry, reading))) {
+      const std::string near = entry.is_string() ? did_you_mean(entry.get_ref<const std::string&>(),
+                                                                names_of(option, reading))
+                                                 : "";
       reading.faults.add(member(pointer, n), shown(entry), entry_expectation(option) + near);
       good = false;
     } else {
@@ -161,10 +171,14 @@ bool read_value(const Option& option, const Json& given, const std::string& poin
     }
     case OptionKind::choice:
       plain.integer = choice_of(option, given);
+      if (is_field(option, given, reading)) {
+        plain.text = reading.texts.emplace_back(given.get<std::string>());
+        return true;
+      }
       if (plain.integer < 0)
-        return wrong(given.is_string()
-                         ? did_you_mean(given.get_ref<const std::string&>(), names_of(option))
-                         : "");
+        return wrong(given.is_string() ? did_you_mean(given.get_ref<const std::string&>(),
+                                                      names_of(option, reading))
+                                       : "");
       plain.text = option.choices[static_cast<std::size_t>(plain.integer)];
       return true;
     case OptionKind::vector:

@@ -44,8 +44,6 @@ void Simulation::apply_equilibrium(const EquilibriumUpdate& to) {
   state_->failures.collect(0);
   state_->loads.rest(to.factor, to.gravity);
   state_->clock.jump(to.time);
-  state_->rest_loads = {to.factor, to.gravity};
-  state_->rest_step = state_->clock.steps();
 }
 
 }  // namespace hyperlattice

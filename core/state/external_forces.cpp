@@ -5,6 +5,33 @@
 
 namespace hyperlattice {
 
+std::vector<Vec3> external_forces(const BlockSet& blocks, const Clock& clock,
+                                  const ActingLoads& loads,
+                                  const Simulation::ForcesOnAll& internal) {
+  const Model& model = blocks.model();
+  std::vector<Vec3> forces(model.body.particles);
+  const Vec3 gravity = loads.gravity() * model.loads.acceleration;
+  if (!(gravity == Vec3{}))
+    for (Particle p = 0; p < forces.size(); ++p) forces[p] = model.mass(p) * gravity;
+  for (const Block& block : blocks) {
+    std::uint32_t next = 0;  // support, so that each is visited once
+    for (const Contribution& part : block.contributions) {
+      if (part.support != next) continue;
+      const BoundaryParticle& support = block.boundary_particles[next++];
+      Vec3& force = forces[part.particle];
+      force += support.force;
+      for (int c = 0; c < 3; ++c)
+        if ((support.axes >> c & 1U) != 0)
+          // A measurement's velocity is that after a kick of the length of the last step.
+          force[c] =
+              support.mass * acceleration_in(clock.last_step(), block.velocity[c][support.index],
+                                             support.velocity[c]) -
+              internal()[part.particle][c];
+    }
+  }
+  return forces;
+}
+
 ExternalForces::ExternalForces(const BlockSet& blocks, const Clock& clock, const ActingLoads& loads,
                                std::size_t load)
     : blocks_(blocks),

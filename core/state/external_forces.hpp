@@ -9,6 +9,7 @@
 #include <state/acting_loads.hpp>
 #include <state/block_set.hpp>
 #include <state/clock.hpp>
+#include <state/simulation.hpp>
 
 #include <hyperlattice/output.hpp>
 
@@ -17,6 +18,13 @@
 #include <vector>
 
 namespace hyperlattice {
+
+/// Returns the force of all loads on every particle, N, once Sweeps::set_loads() has set the loads
+/// of the present state. Along a prescribed axis it is m a less the internal force. `internal`
+/// gives the internal forces, N; it is called only if a load prescribes motion.
+std::vector<Vec3> external_forces(const BlockSet& blocks, const Clock& clock,
+                                  const ActingLoads& loads,
+                                  const Simulation::ForcesOnAll& internal);
 
 class ExternalForces {
  public:

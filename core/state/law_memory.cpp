@@ -1,6 +1,8 @@
 #include <model/spring_calls.hpp>
 #include <state/law_memory.hpp>
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace hyperlattice {
@@ -42,12 +44,10 @@ void LawMemory::advance(const EquilibriumUpdate& to) {
     });
 }
 
-void LawMemory::add_softening(std::vector<double>& lost) const {
-  struct Lost {
-    Particle a, b;
-    double integrity;
-  };
-  std::vector<std::vector<Lost>> found(blocks_.size());
+/// Calls visit(spring, properties, elongation, memory) for the base springs of the block, each
+/// once.
+template <class Visit>
+void LawMemory::for_base_springs(const Block& block, const Visit& visit) const {
   const auto place = [&](Particle particle) {
     const auto [block, index] = blocks_.at(particle);
     const auto number = [&, &of = *block, n = index](std::size_t c) {
@@ -56,26 +56,68 @@ void LawMemory::add_softening(std::vector<double>& lost) const {
     return std::pair{Vec3{number(0), number(1), number(2)},
                      model_.degrees_of_freedom == 4 ? number(3) : 0.0};
   };
+  blocks_.layout().for_springs(block, [&](const SpringPlace& spring) {
+    if (!spring.counts) return;
+    const Particle a = spring.ends.a, b = spring.ends.b;
+    const auto [at_a, height_a] = place(a);
+    const auto [at_b, height_b] = place(b);
+    const SpringProperties properties = model_.spring_properties(a, b, spring.ends.neighbour);
+    const double elongation = properties.elongation(
+        0,
+        properties.growth(0, at_b - at_a, height_b - height_a, model_.body.grid.membrane_distance));
+    const LawNumbers kept =
+        blocks_.law_numbers(block, spring.row, spring.neighbour, spring.site, false);
+    visit(spring.ends, properties, elongation, kept);
+  });
+}
+
+void LawMemory::add_softening(std::vector<double>& lost) const {
+  struct Lost {
+    Particle a, b;
+    double integrity;
+  };
+  std::vector<std::vector<Lost>> found(blocks_.size());
   blocks_.team().for_each(blocks_.size(), [&](std::size_t n) {
-    const Block& block = blocks_[n];
-    blocks_.layout().for_springs(block, [&](const SpringPlace& spring) {
-      if (!spring.counts) return;
-      const Particle a = spring.ends.a, b = spring.ends.b;
-      const auto [at_a, height_a] = place(a);
-      const auto [at_b, height_b] = place(b);
-      const SpringProperties properties = model_.spring_properties(a, b, spring.ends.neighbour);
-      const double elongation =
-          properties.elongation(0, properties.growth(0, at_b - at_a, height_b - height_a,
-                                                     model_.body.grid.membrane_distance));
-      const LawNumbers kept =
-          blocks_.law_numbers(block, spring.row, spring.neighbour, spring.site, false);
+    for_base_springs(blocks_[n], [&](const SpringEnds& ends, const SpringProperties& properties,
+                                     double elongation, const LawNumbers& kept) {
       const double integrity = ask_spring(model_, properties, 0, elongation, kept.data()).integrity;
-      if (integrity < 1) found[n].push_back({a, b, integrity});
+      if (integrity < 1) found[n].push_back({ends.a, ends.b, integrity});
     });
   });
   for (const std::vector<Lost>& of_block : found)
     for (const Lost& spring : of_block)
       for (const Particle end : {spring.a, spring.b}) lost[end] += 1 - spring.integrity;
+}
+
+void LawMemory::field(std::string_view name, std::vector<double>& values) const {
+  std::vector<std::size_t> place;  // of the field among those of each law
+  for (const Law& law : model_.springs.laws) {
+    const auto& fields = law.stage->component->info.fields;
+    place.push_back(static_cast<std::size_t>(
+        std::find_if(fields.begin(), fields.end(),
+                     [&](const FieldInfo& field) { return field.name == name; }) -
+        fields.begin()));
+  }
+  std::vector<double> weights(model_.body.particles, 0);
+  values.assign(model_.body.particles, 0);
+  for (const Block& block : blocks_)
+    for_base_springs(block, [&](const SpringEnds& ends, const SpringProperties& properties,
+                                double elongation, const LawNumbers& kept) {
+      for_parts(model_, properties, 0, elongation, kept.data(),
+                [&](const Law& law, const OneSpring& spring, double weight) {
+                  const std::size_t n =
+                      place[static_cast<std::size_t>(&law - model_.springs.laws.data())];
+                  if (n >= law.kernels.fields) return;
+                  std::array<double, max_law_fields> numbers{};
+                  read_fields(law, spring, numbers.data());
+                  for (const Particle end : {ends.a, ends.b}) {
+                    values[end] += properties.share * weight * numbers[n];
+                    weights[end] += properties.share * weight;
+                  }
+                });
+    });
+  for (Particle p = 0; p < values.size(); ++p)
+    values[p] = weights[p] > 0 ? values[p] / weights[p] : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace hyperlattice

@@ -6,6 +6,7 @@
 #include <state/energy_account.hpp>
 #include <state/equilibrium_update.hpp>
 
+#include <string_view>
 #include <vector>
 
 namespace hyperlattice {
@@ -21,8 +22,14 @@ class LawMemory {
   void advance(const EquilibriumUpdate& to);
   /// Adds 1 - integrity of each spring that exists to the numbers of both of its ends.
   void add_softening(std::vector<double>& lost) const;
+  /// Computes a field that laws give: the mean over each particle's base springs, which count by
+  /// their share; not a number where no spring has the field.
+  void field(std::string_view name, std::vector<double>& values) const;
 
  private:
+  template <class Visit>
+  void for_base_springs(const Block& block, const Visit& visit) const;
+
   BlockSet& blocks_;
   const Model& model_;
   EnergyAccount& energy_;

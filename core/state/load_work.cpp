@@ -31,7 +31,7 @@ double reaction_work(const Block& block, const Contribution& part, const Speeds&
 
 double reaction(const Block& block, const Contribution& part, int axis, double speed, double kick) {
   const BoundaryParticle& support = block.boundary_particles[part.support];
-  const double acceleration = kick > 0 ? (speed - support.speed_before[axis]) / kick : 0;
+  const double acceleration = acceleration_in(kick, support.speed_before[axis], speed);
   return support.mass * acceleration - support.sum[axis] - block.held_force[part.support][axis];
 }
 

@@ -8,6 +8,12 @@
 
 namespace hyperlattice {
 
+/// Returns the acceleration, m/s2, that takes the speed from `before` to `after`, m/s, in a kick of
+/// this duration, s; at rest, where the kick has none, 0.
+inline double acceleration_in(double kick, double before, double after) {
+  return kick > 0 ? (after - before) / kick : 0;
+}
+
 /// Returns the force, N, with which a load prescribes the motion of a particle along an axis: mass
 /// times acceleration, less all other forces in the last evaluation. `speed`: m/s, after a kick of
 /// the duration `kick`, s; 0: at rest.

@@ -1,5 +1,6 @@
 // What a simulation tells about its body as a whole. Its other functions are in fields.cpp,
 // equilibrium.cpp and restart.cpp.
+#include <state/external_forces.hpp>
 #include <state/load_work.hpp>
 #include <state/state.hpp>
 
@@ -34,12 +35,10 @@ std::vector<Vec3> Simulation::force_on_load() {
   return force_by_load(state_->blocks);
 }
 
-PresentLoads Simulation::present_loads() const {
+std::vector<Vec3> Simulation::external_forces(const ForcesOnAll& internal) const {
   const State& state = *state_;
-  const double last = state.clock.last_step();
-  state_->sweeps.set_loads(Sweep::present(last));
-  const bool at_rest = last == 0 && state.rest_step == state.clock.steps();
-  return hyperlattice::present_loads(state.blocks, last, at_rest ? &state.rest_loads : nullptr);
+  state_->sweeps.set_loads(Sweep::present(state.clock.last_step()));
+  return hyperlattice::external_forces(state.blocks, state.clock, state.loads, internal);
 }
 
 const std::vector<Breakage>& Simulation::breakages() const { return state_->failures.breakages(); }
@@ -51,6 +50,10 @@ std::uint64_t Simulation::broken() const { return state_->failures.springs(); }
 
 void Simulation::add_softening(std::vector<double>& lost) const {
   state_->law_memory.add_softening(lost);
+}
+
+void Simulation::law_field(std::string_view name, std::vector<double>& values) const {
+  state_->law_memory.field(name, values);
 }
 
 Particle Simulation::fastest(double& speed, bool& finite) const {

@@ -6,11 +6,11 @@
 #include <state/energy_balance.hpp>
 #include <state/equilibrium_update.hpp>
 #include <state/layout.hpp>
-#include <state/load_forces.hpp>
 
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 namespace hyperlattice {
@@ -63,8 +63,11 @@ class Simulation {
   /// prescribes, in the present state. At rest it is the force with which the body pushes the load.
   /// Costs one extra sweep that changes nothing.
   std::vector<Vec3> force_on_load();
-  /// Returns what loads do to particles in the present state.
-  PresentLoads present_loads() const;
+  /// Gives the force on every particle, N.
+  using ForcesOnAll = std::function<const std::vector<Vec3>&()>;
+  /// Returns the force of the loads on every particle, N, in the present state. `internal` gives
+  /// the forces of the springs; it is called only if a load prescribes motion.
+  std::vector<Vec3> external_forces(const ForcesOnAll& internal) const;
   /// Returns the sums of forces that probes follow.
   ForceSums& force_sums();
 
@@ -96,6 +99,9 @@ class Simulation {
   void for_springs_of_list(const std::function<void(const SpringMemory&)>& visit) const;
   /// Adds 1 - integrity of each spring that exists to the numbers of both of its ends.
   void add_softening(std::vector<double>& lost) const;
+  /// Computes a field that laws give: the mean over each particle's base springs, which count by
+  /// their share; not a number where no spring has the field.
+  void law_field(std::string_view name, std::vector<double>& values) const;
   /// Set the state of all particles, for tests and for stages that start from another state.
   void set_displacements(const std::vector<double>& xyz, const std::vector<double>& heights);
   void set_velocities(const std::vector<double>& xyz, const std::vector<double>& height_rates);

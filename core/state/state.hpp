@@ -27,10 +27,6 @@ struct Simulation::State {
   EnergyAccount energy{blocks, clock, failures, sweeps};
   LawMemory law_memory{blocks, energy};
   KineticEnergy kinetic{blocks};
-  /// The loads of the last state of rest that a static solver found, and the number of steps then;
-  /// 0: none yet. Not saved: only outputs read them.
-  RestLoads rest_loads;
-  std::uint64_t rest_step = 0;
   ForceSums force_sums{blocks, clock, loads, sweeps};
 
   State(const Model& model, int threads) : blocks(model, threads) {}

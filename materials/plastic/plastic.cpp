@@ -98,6 +98,10 @@ class Plastic {
         .restrictions(
             "structured lattices; springs of positive stiffness, of which those across a bar carry "
             "less than those along it")
+        .field("plastic_strain", "",
+               "mean over the particle's springs of plastic elongation over length at rest")
+        .field("equivalent_plastic_strain", "",
+               "the same of the accumulated amount of plastic elongation")
         .add<&Options::yield>("yield", "Pa",
                               "stress along [100] at which a bar leaves the elastic line")
         .example("\"10 MPa\"")

@@ -18,6 +18,11 @@ struct PlasticLaw {
     double summed;  ///< accumulated plastic elongation p, m
   };
 
+  struct Fields {
+    double plastic_strain;
+    double equivalent_plastic_strain;
+  };
+
   static void update(const hyperlattice::SpringState& s, const Constants& c, Memory& m) {
     const double force = s.stiffness * (s.elongation - m.flowed),
                  excess = std::abs(force) - (c.limit + c.hardening * m.summed);
@@ -35,6 +40,9 @@ struct PlasticLaw {
     const double force = s.stiffness * (s.elongation - m.flowed);
     if (std::abs(force) <= c.limit + c.hardening * m.summed) return s.stiffness;
     return s.stiffness * c.hardening / (std::abs(s.stiffness) + c.hardening);
+  }
+  static Fields fields(const hyperlattice::SpringState& s, const Constants&, const Memory& m) {
+    return {m.flowed / s.rest_length, m.summed / s.rest_length};
   }
   static double energy(const hyperlattice::SpringState& s, const Constants&, const Memory& m) {
     const double elastic = s.elongation - m.flowed;

@@ -58,6 +58,40 @@ struct Renamed : fakes::Limit {
   bool breaks(const SpringFacts&, double) const { return false; }
 };
 
+/// Had a switch where it has a choice now.
+struct Switched {
+  enum class Pace { slow, fast };
+  struct Options {
+    Pace pace = Pace::slow;
+  };
+  static Schema<Options> schema() {
+    static constexpr std::string_view paces[] = {"slow", "fast"};
+    static constexpr OldValue before[] = {{"true", "\"fast\""}, {"false", "\"slow\""}};
+    return Schema<Options>("probes.switched", "Of no effect")
+        .add<&Options::pace>("pace", "", "how fast")
+        .choices(paces)
+        .fallback("\"slow\"")
+        .formerly("hurry", "0.9", before);
+  }
+};
+
+/// Returns the resolved options with the warning, or the fault.
+std::string read_switched(const char* text) {
+  Faults faults;
+  std::deque<std::string> texts;
+  Regions regions;
+  const Json none = Json::object(), given = Json::parse(text);
+  RegionReader region_reader(none, regions, faults, texts);
+  OptionReader reader(given, "", {faults, region_reader, texts});
+  Json resolved;
+  const auto options = reader.fill(option_set<Switched>(), resolved);
+  reader.reject_unknown();
+  std::string all = options ? resolved.dump() : "";
+  for (const Fault& fault : faults.all()) all += fault.pointer + ": " + fault.expected;
+  for (const std::string& warning : faults.warnings()) all += ' ' + warning;
+  return all;
+}
+
 }  // namespace
 
 TEST(Options, IntegersStayWithinTheirType) {
@@ -203,6 +237,57 @@ TEST(Options, AFormerNameBelongsToOneOptionAndHasAVersion) {
             refusal("threshold", "no option has its present name"));
   EXPECT_EQ(fault({"threshold", "limit", ""}),
             refusal("threshold", "it has no version since when it is the former one"));
+}
+
+TEST(Options, AFormerNameMayHaveFormerValues) {
+  EXPECT_EQ(read_switched(R"({"hurry": true})"),
+            R"({"pace":"fast"} /hurry: "hurry": true is "pace": "fast" since version 0.9; the old )"
+            "name will go");
+  EXPECT_EQ(read_switched(R"({"hurry": false})").find(R"({"pace":"slow"} )"), 0u);
+  EXPECT_EQ(read_switched(R"({"hurry": "fast"})"),
+            R"(/hurry: true or false; since version 0.9 use "pace")");
+  EXPECT_EQ(read_switched(R"({"pace": "fast"})"), R"({"pace":"fast"})");
+  EXPECT_EQ(read_switched(R"({"pace": "fast", "hurry": true})"),
+            R"(/hurry: "pace" alone; "hurry" is its name before version 0.9)");
+
+  ComponentInfo info = detail::describe<Renamed>();
+  const OldValue no_json[] = {{"true", "fast"}};
+  const OldName old[] = {{"hurry", "limit", "0.9", no_json}};
+  info.old_names = old;
+  EXPECT_EQ(component_fault(info),
+            "registers 'failures.limit' with a bad former name 'hurry' of an option: one of its "
+            "values is not JSON");
+}
+
+TEST(Options, AFieldBelongsToAMaterialAndHasANameOfItsOwn) {
+  static constexpr MaterialFunctions functions{
+      [](const void*, const LatticeFacts&, MaterialConstants&, const Complaint&) noexcept {
+        return true;
+      },
+      [](const KernelChoice&, KernelSet&, const Complaint&) noexcept { return true; }, "none",
+      nullptr};
+  ComponentInfo info = detail::describe<Renamed>();
+  const auto fault = [&](FieldInfo field) {
+    const FieldInfo fields[] = {field};
+    info.fields = fields;
+    return component_fault(info);
+  };
+  EXPECT_EQ(fault({"wear", FieldKind::number, "", "amount"}),
+            "registers 'failures.limit' with a bad field 'wear': only the laws of materials give "
+            "fields");
+  info.family = Family::materials;
+  info.name = "materials.limit";
+  info.functions = &functions;
+  info.functions_size = sizeof functions;
+  const std::string bad = "registers 'materials.limit' with a bad field ";
+  EXPECT_EQ(fault({"wear", FieldKind::number, "", "amount"}), "");
+  EXPECT_EQ(fault({"stress_xx", FieldKind::number, "", "amount"}),
+            bad + "'stress_xx': the core has a field of that name");
+  EXPECT_EQ(fault({"Wear", FieldKind::number, "", "amount"}),
+            bad + "'Wear': its name must be small letters, digits and underscores, a letter first");
+  EXPECT_EQ(fault({"wear", FieldKind::vector, "", "amount"}),
+            bad + "'wear': it must be one number");
+  EXPECT_EQ(fault({"wear", FieldKind::number, "", ""}), bad + "'wear': it has no help");
 }
 
 TEST(Options, RangesInWords) {

@@ -54,10 +54,23 @@ TEST(Plan, memory_counts_the_copies_of_frames_that_wait) {
   scene["pipeline"].push_back({{"type", "writers.vtu"}, {"fields", {"velocity", "height"}}});
   const auto plan = plan_of(scene, 2);
   const auto particles = static_cast<double>(plan->model->body.particles);
+  // The writer's own arrays: points and fields in single precision, and cells.
+  const double encoded = particles * (4 * (3 + 4) + 4 + 4 + 1);
   // Positions and the fields of the present state, and twice the fields.
-  EXPECT_NEAR(plan->memory_bytes - without, particles * 8 * (3 + 4 + 2 * 4), 1);
+  EXPECT_NEAR(plan->memory_bytes - without, particles * 8 * (3 + 4 + 2 * 4) + encoded, 1);
   EXPECT_NEAR(plan_of(scene, 1)->memory_bytes - plan_of(small_sphere(), 1)->memory_bytes,
-              particles * 8 * (3 + 4), 1);
+              particles * 8 * (3 + 4) + encoded, 1);
+}
+
+TEST(Plan, memory_counts_the_pixels_of_pictures) {
+  const auto bytes = [](int width, int height) {
+    nlohmann::json scene = small_sphere();
+    scene["pipeline"].push_back(
+        {{"type", "writers.picture"}, {"width", width}, {"height", height}});
+    return plan_of(scene, 1)->memory_bytes;
+  };
+  // Each pixel has three bytes of colour, and four fine pixels of a depth and a particle.
+  EXPECT_NEAR(bytes(1600, 1200) - bytes(64, 64), (1600.0 * 1200 - 64 * 64) * (3 + 4 * (4 + 4)), 1);
 }
 
 TEST(Plan, small_bodies_take_few_threads_unless_a_number_is_asked_for) {

@@ -113,6 +113,7 @@ class Picture {
                                   "out: failure if springs can break, "
                                   "else displacement")
         .choices(colourings().names)
+        .plugin_fields()
         .add<&Options::range>(
             "range", "",
             "least and greatest value of the colours, SI; left out: those of each frame")
@@ -210,6 +211,14 @@ class Picture {
   }
 
   void end() {}
+
+  /// Returns the bytes of the image and of its drawing, and of the particles' places and colours.
+  double memory_bytes() const noexcept {
+    const double pixels = static_cast<double>(options_.width) * options_.height,
+                 particles = static_cast<double>(drawn_.size());
+    return pixels * sizeof(Colour) + particles * (3 * sizeof(double) + sizeof(Colour)) +
+           render_bytes(pixels, particles);
+  }
 
  private:
   struct Colouring {

@@ -262,6 +262,11 @@ void render_as(const Particles& particles, const Camera& camera, Image& image) {
 
 }  // namespace
 
+double render_bytes(double pixels, double particles) {
+  return pixels * fineness * fineness * (sizeof(float) + sizeof(std::uint32_t)) +
+         particles * (sizeof(Vec3f) + sizeof(std::uint32_t));
+}
+
 void render(const Particles& particles, const Camera& camera, Image& image) {
   if (particles.colours.empty()) return;
   if (particles.form == Form::cubes)

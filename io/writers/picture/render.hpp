@@ -20,4 +20,7 @@ struct Particles {
 /// Draws the particles as the camera sees them; pixels without a particle become white.
 void render(const Particles& particles, const Camera& camera, Image& image);
 
+/// Returns the bytes that render() allocates for a picture of so many pixels and particles.
+double render_bytes(double pixels, double particles);
+
 }  // namespace hyperlattice::picture

@@ -15,6 +15,7 @@ using namespace vtu;
 
 enum class Digits : std::uint32_t { single_precision, double_precision };
 constexpr std::string_view precisions[] = {"single", "double"};
+constexpr OldValue compressions[] = {{"true", "\"zlib\""}, {"false", "\"none\""}};
 
 /// The arrays at the end of a file, in their order.
 class Appended {
@@ -53,6 +54,7 @@ class Vtu {
                               "smallest files, and by far the most time")
         .choices(codecs)
         .fallback("\"lz4\"")
+        .formerly("compress", "0.2", compressions)
         .add<&Options::precision>("precision", "",
                                   "of the numbers in the files: single has 7 digits, double has "
                                   "all 16 and takes twice the space")
@@ -86,6 +88,21 @@ class Vtu {
   }
 
   void end() {}
+
+  /// Returns the bytes of the encoded arrays, and of displaced points before they are encoded.
+  double memory_bytes() const noexcept {
+    double numbers = 3;
+    for (const std::string& name : options_.fields) {
+      const FieldInfo* field = find_field(name);
+      numbers += field == nullptr ? 1 : components_of(*field);
+    }
+    const double real = options_.precision == Digits::single_precision ? sizeof(float)
+                                                                       : sizeof(double),
+                 cell = 2 * (has_long_numbers() ? sizeof(std::int64_t) : sizeof(std::int32_t)) +
+                        sizeof(std::uint8_t),
+                 moved = options_.deformed ? 3 * sizeof(double) : 0;
+    return static_cast<double>(selection_.size()) * (numbers * real + cell + moved);
+  }
 
  private:
   void encode(const Snapshot& snapshot) {

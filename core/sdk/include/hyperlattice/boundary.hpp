@@ -39,10 +39,12 @@
   CROSSES(Shape, self, contains_point, low, high, anchor, share_of_cube)                                                                                             \
   CROSSES(Complaint, self, receive)                                                                                                                   \
   CROSSES(OptionValue, absent, boolean, integer, number, text, numbers, texts, shape, region, load_or_region)                                         \
-  CROSSES(Option, name, unit, help, fallback, word, example, choices, low, high, low_open, high_open, optional, kind, set)                            \
-  CROSSES(OldName, name, option, since)                                                                                                               \
+  CROSSES(Option, name, unit, help, fallback, word, example, choices, low, high, low_open, high_open, optional, plugin_fields, kind, set)                            \
+  CROSSES(OldValue, before, now)                                                                                                                      \
+  CROSSES(OldName, name, option, since, values)                                                                                                       \
+  CROSSES(FieldInfo, name, kind, unit, help, needs, is_measured)                                                                                      \
   CROSSES(FaultSink, self, receive)                                                                                                                   \
-  CROSSES(ComponentInfo, family, name, summary, equation, source, restrictions, options, old_names, create_options, destroy_options, check_options,   \
+  CROSSES(ComponentInfo, family, name, summary, equation, source, restrictions, options, old_names, fields, create_options, destroy_options, check_options,   \
           create, destroy, functions, functions_size)                                                                                                 \
   CROSSES(PluginInfo, version, register_components)                                                                                                   \
   CROSSES(Neighbour, dx, dy, dz, spring_class)                                                                                                        \
@@ -61,7 +63,7 @@
   CROSSES(SpringIdentity, a, b)                                                                                                                       \
   CROSSES(OneSpring, stiffness, rest_length, elongation, law, memory)                                                                                 \
   CROSSES(SpringAnswer, force, energy, dissipated, integrity)                                                                                                                \
-  CROSSES(KernelSet, step, measure, step_row, measure_row, linearise, ask, take, start, memory, linear, softens, instructions)                                                   \
+  CROSSES(KernelSet, step, measure, step_row, measure_row, linearise, ask, take, start, read_fields, memory, fields, linear, softens, instructions)                                                   \
   CROSSES(MaterialFunctions, constants, kernels, law, stable_step)                                                                                    \
   CROSSES(SpringConstants, stiffness, cross_stiffness, alarm, law)                                                                                    \
   CROSSES(NeighbourGeometry, site, rest, rest_length, cross_rest_length)                                                                              \
@@ -108,7 +110,7 @@
   CROSSES(FrameMark, step, time)                                                                                                                      \
   CROSSES(OutputContext, directory, title, fields, earlier, self, region_particles, announce_file, acted_particles, external_forces, cut_section,     \
           use_field)                                                                                                                                  \
-  CROSSES(WriterFunctions, begin, frame, end)                                                                                                         \
+  CROSSES(WriterFunctions, begin, frame, end, memory)                                                                                                 \
   CROSSES(ColumnSink, self, receive)                                                                                                                  \
   CROSSES(ProbeFunctions, begin, sample)
 // clang-format on
@@ -123,7 +125,7 @@ constexpr std::uint32_t boundary_hash() {
   for (const std::uint64_t constant :
        {std::uint64_t{max_spring_classes}, std::uint64_t{max_neighbours},
         std::uint64_t{max_law_constants}, std::uint64_t{max_law_memory},
-        std::uint64_t{max_failure_memory}, std::uint64_t{lanes}, std::uint64_t{slots_ahead},
+        std::uint64_t{max_failure_memory}, std::uint64_t{max_law_fields}, std::uint64_t{lanes}, std::uint64_t{slots_ahead},
         std::uint64_t{record_numbers}, std::uint64_t{record_moved}, std::uint64_t{record_material},
         std::uint64_t{particle_bit}, std::uint64_t{cell_bit}, std::uint64_t{scratch_margin},
         std::uint64_t{std::size(family_names)}, std::uint64_t{std::size(field_names)}})

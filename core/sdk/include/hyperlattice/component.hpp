@@ -36,6 +36,7 @@ struct ComponentInfo {
   std::string_view summary, equation, source, restrictions;
   std::span<const Option> options;
   std::span<const OldName> old_names;
+  std::span<const FieldInfo> fields;  ///< that a material's law gives, besides those of field_table
   /// Null result: failed; `why` has the reason.
   void* (*create_options)(const Complaint& why) noexcept = nullptr;
   void (*destroy_options)(void* options) noexcept = nullptr;
@@ -98,6 +99,7 @@ ComponentInfo describe() {
   info.restrictions = schema.restrictions();
   info.options = schema.options();
   info.old_names = schema.old_names();
+  info.fields = schema.fields();
   info.create_options = &make_options<Options>;
   info.destroy_options = [](void* options) noexcept { delete static_cast<Options*>(options); };
   if (schema.cross_check() != nullptr)

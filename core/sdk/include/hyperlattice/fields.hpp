@@ -118,6 +118,7 @@ template <class Options>
 void add_quantity_options(Schema<Options>& schema) {
   schema.template add<&Options::field>("field", "", "what to record")
       .choices(field_names)
+      .plugin_fields()
       .fallback("\"displacement\"")
       .template add<&Options::component>(
           "component", "", "which number of a vector or tensor; left out: all components")
@@ -131,8 +132,9 @@ void add_quantity_options(Schema<Options>& schema) {
 template <class Options>
 void check_quantity_options(const Options& options, const FaultSink& faults) {
   const FieldInfo* field = find_field(options.field);
-  if (!options.component || field == nullptr) return;
-  const std::vector<std::string_view> allowed = projections_of(field->kind);
+  if (!options.component) return;
+  const std::vector<std::string_view> allowed =
+      projections_of(field == nullptr ? FieldKind::number : field->kind);
   if (allowed.empty())
     faults.fault("component", "no component, because \"" + options.field + "\" is a single number");
   else if (!is_one_of(allowed, name_of(*options.component)))

@@ -26,6 +26,7 @@ template <class Options>
 void add_frame_options(Schema<Options>& schema) {
   schema.template add<&Options::fields>("fields", "", "fields to write")
       .choices(field_names)
+      .plugin_fields()
       .fallback(R"(["displacement", "velocity"])")
       .template add<&Options::file>("file", "", "base name of the files")
       .fallback("\"frames\"")

@@ -37,6 +37,13 @@
 //        static double integrity(const SpringState& s, const Constants& c, const Memory& m);
 //      };
 //
+//    Such a law may give fields, numbers of a spring that outputs show. A particle has the mean
+//    over its base springs of the law, each by its share. The material's schema names them, in the
+//    same order: .field("slipped", "m", "amount of slip").
+//
+//        struct Fields { double slipped; };  // doubles only
+//        static Fields fields(const SpringState& s, const Constants& c, const Memory& m);
+//
 //    A law without constants leaves out the argument `c`. The core computes the dissipated energy:
 //    the work of the force less the change of the energy.
 //
@@ -74,7 +81,7 @@ struct SpringIdentity {
   std::uint64_t a = 0, b = 0;
 };
 
-inline constexpr std::size_t max_law_constants = 8, max_law_memory = 6;
+inline constexpr std::size_t max_law_constants = 8, max_law_memory = 6, max_law_fields = 6;
 
 template <class Law>
 concept LawWithConstants = requires {
@@ -172,6 +179,17 @@ constexpr bool has_start = requires {
   &Law::start;
 };
 
+/// Returns how many fields a law gives.
+template <class Law>
+constexpr std::size_t field_count() {
+  if constexpr (LawWithMemory<Law> && requires { typename Law::Fields; }) {
+    static_assert(numbers_in<typename Law::Fields>() <= max_law_fields);
+    return numbers_in<typename Law::Fields>();
+  } else {
+    return 0;
+  }
+}
+
 /// Returns how many numbers each spring keeps: the law's own, then the last elongation and force,
 /// from which rate and work follow. A law that needs only the rate has an empty Memory.
 template <class Law>
@@ -246,6 +264,13 @@ class SpringWithMemory {
     step.energy = energy(state, kept);
     step.integrity = integrity(state, kept);
     return step;
+  }
+
+  /// Writes the spring's fields, field_count<Law>() numbers.
+  void read_fields(const SpringState& state, const double* memory, double* values) const {
+    const typename Law::Fields fields = law_.call(
+        [](const auto&... all) { return Law::fields(all...); }, state, struct_of<Memory>(memory));
+    std::memcpy(values, &fields, sizeof fields);
   }
 
   /// Returns the derivative, N/m, of the force after a load step without a duration that starts

@@ -149,7 +149,11 @@ struct KernelSet {
   /// Sets the initial memory of a spring, whose numbers are all zero. Null: zeros are right.
   bool (*start)(const double* law, const SpringIdentity& spring, double* kept,
                 const Complaint& why) noexcept = nullptr;
+  /// Writes the fields of a spring in its present state. Null: the law gives none.
+  bool (*read_fields)(const OneSpring& spring, double* values,
+                      const Complaint& why) noexcept = nullptr;
   std::uint32_t memory = 0;  ///< numbers in the memory of each spring, base or cross
+  std::uint32_t fields = 0;  ///< how many fields the law gives
   /// Two half springs in series are one spring of the law: it is linear and has no constants.
   bool linear = false;
   bool softens = false;           ///< the law has an integrity

@@ -11,6 +11,7 @@
 //   }
 #pragma once
 
+#include <hyperlattice/field_table.hpp>
 #include <hyperlattice/plain.hpp>
 
 #include <limits>
@@ -66,8 +67,14 @@ struct Option {
   double low = -infinity, high = infinity;
   bool low_open = false, high_open = false;  ///< the bound itself is not allowed
   bool optional = false;
+  bool plugin_fields = false;  ///< fields that materials of the scene declare are choices too
   OptionKind kind = OptionKind::number;
   bool (*set)(void* options, const OptionValue& value, const Complaint& why) noexcept = nullptr;
+};
+
+/// A former value of an option and the present one of the same meaning, both as JSON text.
+struct OldValue {
+  std::string_view before, now;
 };
 
 /// A former name of an option. A scene may still use it, with a warning.
@@ -75,6 +82,8 @@ struct OldName {
   std::string_view name;    ///< the former name, which no option has
   std::string_view option;  ///< the present name
   std::string_view since;   ///< version that introduced the present name: "0.9"
+  /// The only values that the former name takes; empty: it takes those of the present name.
+  std::span<const OldValue> values = {};
 };
 
 /// Receives the errors of a cross-field check: the option, and the expected value.
@@ -207,6 +216,12 @@ class Schema {
     return *this;
   }
 
+  /// Declares a field that the material's law gives: a number of each particle, `unit` in SI. See
+  /// Fields in law.hpp, whose members have the order of these calls. Outputs name it as any field.
+  Schema& field(std::string_view name, std::string_view unit, std::string_view help) {
+    fields_.push_back({name, FieldKind::number, unit, help});
+    return *this;
+  }
   /// Declares the member as an option. A std::optional member may be left out of a scene; any other
   /// needs a fallback or is required.
   template <auto Member>
@@ -272,10 +287,22 @@ class Schema {
     last().choices = names;
     return *this;
   }
+  /// Lets the option also take the names of fields that materials of the scene declare. For choices
+  /// that are names of fields.
+  Schema& plugin_fields() {
+    last().plugin_fields = true;
+    return *this;
+  }
   /// Keeps a former name of the option valid. `since` is the version in which the option got its
   /// present name.
   Schema& formerly(std::string_view name, std::string_view since) {
     old_names_.push_back({name, last().name, since});
+    return *this;
+  }
+  /// Does the same where the values were others too. The array must be static and has at least one.
+  template <std::size_t N>
+  Schema& formerly(std::string_view name, std::string_view since, const OldValue (&values)[N]) {
+    old_names_.push_back({name, last().name, since, values});
     return *this;
   }
   /// Makes the text the name of a file, relative to the scene's folder. The file must exist; the
@@ -297,6 +324,7 @@ class Schema {
   std::string_view restrictions() const { return restrictions_; }
   std::span<const Option> options() const { return options_; }
   std::span<const OldName> old_names() const { return old_names_; }
+  std::span<const FieldInfo> fields() const { return fields_; }
   auto cross_check() const { return check_; }
 
  private:
@@ -305,6 +333,7 @@ class Schema {
   std::string_view name_, summary_, equation_, source_, restrictions_;
   std::vector<Option> options_;
   std::vector<OldName> old_names_;
+  std::vector<FieldInfo> fields_;
   void (*check_)(const Options&, const FaultSink&) = nullptr;
 };
 

@@ -51,8 +51,9 @@ struct Snapshot {
   void (*run_tasks)(void* self, std::uint64_t count, void* work,
                     void (*task)(void* work, std::uint64_t n) noexcept) noexcept = nullptr;
 
-  /// Gets a field by its name in field_table. A field is computed when it is first asked for. NaN:
-  /// a particle has no such value. Returns false if this run has no such field.
+  /// Gets a field by its name, in field_table or declared by a material of the run. A field is
+  /// computed when it is first asked for. NaN: a particle has no such value. Returns false if this
+  /// run has no such field.
   bool field(std::string_view name, Field& out) const { return get_field(self, name, out); }
 
   /// Calls task(n) for each n below `count`, in any order and on all threads that the run has for
@@ -77,8 +78,8 @@ struct FrameMark {
 struct OutputContext {
   std::string_view directory;  ///< existing folder, without a slash at the end
   std::string_view title;
-  std::span<const std::string_view>
-      fields;  ///< fields of field_names that this run has; empty: known only to the snapshot
+  /// Names of the fields that this run has; empty: known only to the snapshot.
+  std::span<const std::string_view> fields;
   /// The frames of this writer that a resumed run already has, in order. The next frame follows
   /// them.
   std::span<const FrameMark> earlier;
@@ -131,6 +132,8 @@ struct WriterFunctions {
   bool (*begin)(void* writer, const OutputContext& context, const Complaint& why) noexcept;
   bool (*frame)(void* writer, const Snapshot& snapshot, const Complaint& why) noexcept;
   bool (*end)(void* writer, const Complaint& why) noexcept;
+  /// Null: the writer states none.
+  double (*memory)(const void* writer) noexcept;
 };
 
 /// A writer class has begin(const OutputContext&), frame(const Snapshot&) and end(); each throws
@@ -139,7 +142,8 @@ struct WriterFunctions {
 /// directory, to find errors before a run starts. A writer writes under a temporary name and
 /// renames, so that no half-written file has a final name; after each frame the files on disk are
 /// complete. It announces each file to the context, as FrameFiles does: only announced files belong
-/// to the run.
+/// to the run. It may have double memory_bytes() const noexcept: the most memory that it allocates,
+/// known after begin(). The plan counts it.
 template <class T>
 concept WriterComponent = requires(T& writer, const OutputContext& context,
                                    const Snapshot& snapshot) {
@@ -175,6 +179,15 @@ concept ProbeComponent = requires(T& probe, const OutputContext& context, const 
 
 namespace detail {
 
+template <WriterComponent T>
+constexpr auto memory_function_of() -> decltype(WriterFunctions::memory) {
+  if constexpr (requires(const T& writer) { writer.memory_bytes(); })
+    return
+        [](const void* writer) noexcept { return static_cast<const T*>(writer)->memory_bytes(); };
+  else
+    return nullptr;
+}
+
 /// The tasks of Snapshot::for_each, and the first exception of one of them.
 template <class Task>
 struct SharedTasks {
@@ -206,7 +219,8 @@ struct FunctionsOf<T> {
       },
       [](void* writer, const Complaint& why) noexcept {
         return guarded(why, [&] { static_cast<T*>(writer)->end(); });
-      }};
+      },
+      memory_function_of<T>()};
 };
 
 template <ProbeComponent T>

@@ -292,25 +292,31 @@ class Kernels {
                   const Complaint& why) noexcept {
       return detail::guarded(why, [&] { answer = taken(spring, time_step, kept); });
     };
+    set.fields = field_count<Law>();
+    if constexpr (field_count<Law>() > 0)
+      set.read_fields = [](const OneSpring& spring, double* values, const Complaint& why) noexcept {
+        return detail::guarded(why, [&] {
+          SpringWithMemory<Law>(spring.law).read_fields(state_of(spring), spring.memory, values);
+        });
+      };
     set.instructions = instructions;
     return set;
   }
 
  private:
+  static SpringState state_of(const OneSpring& spring, double time_step = 0) {
+    return {spring.stiffness, spring.rest_length, spring.elongation, 0, time_step};
+  }
   static SpringAnswer asked(const OneSpring& spring) {
     if constexpr (LawWithMemory<Law>)
-      return answer_of(SpringWithMemory<Law>(spring.law)
-                           .present({spring.stiffness, spring.rest_length, spring.elongation, 0, 0},
-                                    spring.memory));
+      return answer_of(SpringWithMemory<Law>(spring.law).present(state_of(spring), spring.memory));
     else
       return taken(spring, 0, nullptr);
   }
 
   static SpringAnswer taken(const OneSpring& spring, double time_step, double* kept) {
     if constexpr (LawWithMemory<Law>) {
-      return answer_of(
-          SpringWithMemory<Law>(spring.law)
-              .take({spring.stiffness, spring.rest_length, spring.elongation, 0, time_step}, kept));
+      return answer_of(SpringWithMemory<Law>(spring.law).take(state_of(spring, time_step), kept));
     } else {
       const SpringOf<double> of{spring.stiffness, spring.rest_length, spring.elongation};
       return {force_of<Law>(of, spring.law), energy_of<Law>(of, spring.law)};
