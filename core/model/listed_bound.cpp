@@ -1,4 +1,5 @@
 #include <model/critical_step.hpp>
+#include <model/nodal_volumes.hpp>
 
 namespace hyperlattice {
 
@@ -6,6 +7,19 @@ namespace {
 
 NeighbourGeometry geometry_of(const SpringProperties& properties) {
   return {{}, properties.rest, properties.rest_length, properties.cross_rest_length};
+}
+
+void add_volumes(const NodalVolumes& volumes, std::vector<StiffnessBound>& sums) {
+  for (Particle p = 0; p < sums.size(); ++p) {
+    if (volumes.modulus(p) == 0) continue;
+    const std::vector<VolumeDerivative> derivatives = volumes.derivatives(p);
+    double size = 0;
+    for (const VolumeDerivative& of : derivatives) size += norm(of.gradient);
+    for (const VolumeDerivative& of : derivatives)
+      if (const double own = norm(of.gradient); own > 0)
+        sums[of.particle].add_part(volumes.modulus(p) / volumes.rest_volume(p) * size * own,
+                                   of.gradient);
+  }
 }
 
 }  // namespace
@@ -24,6 +38,7 @@ ListedBound listed_bound(const Model& model) {
     sums[spring.b].add(geometry_of(properties), -1, constants, body.grid.membrane_distance,
                        model.springs.choice.membrane);
   }
+  if (model.nodal_volumes) add_volumes(*model.nodal_volumes, sums);
   for (Particle p = 0; p < body.particles; ++p) {
     const MaterialConstants& constants = model.materials[model.kinds.material(p)].constants;
     if (model.springs.choice.membrane == KernelChoice::Membrane::free) {

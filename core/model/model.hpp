@@ -16,6 +16,8 @@
 
 namespace hyperlattice {
 
+class NodalVolumes;
+
 struct Model {
   const Scene* scene = nullptr;
   Body body;
@@ -23,6 +25,8 @@ struct Model {
   ParticleKinds kinds;
   SpringTable springs;
   Volumetric volumetric;
+  /// The volumetric energies of a listed body; null if no material has one.
+  std::shared_ptr<const NodalVolumes> nodal_volumes;
   LoadSet loads;
   StepLimit step_limit;
   int degrees_of_freedom = 3;         ///< of a particle; 4 with a free membrane
