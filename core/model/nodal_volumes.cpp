@@ -66,21 +66,21 @@ NodalVolumes::Response NodalVolumes::response(std::size_t particle,
           moduli_[particle] * volumes_[particle] * of.energy};
 }
 
-std::array<Vec3, 4> NodalVolumes::forces(std::size_t tetrahedron, std::span<const Vec3> moved,
-                                         std::span<const double> pressures) const {
+std::array<Vec3, 4> NodalVolumes::gradients(std::size_t tetrahedron,
+                                            std::span<const Vec3> moved) const {
+  return volume_gradients(edges(tetrahedra_[tetrahedron], moved));
+}
+
+double NodalVolumes::pressure(std::size_t tetrahedron, std::span<const double> pressures) const {
   const Corners& of = tetrahedra_[tetrahedron];
-  const double mean =
-      0.25 * ((pressures[of[0]] + pressures[of[1]]) + (pressures[of[2]] + pressures[of[3]]));
-  std::array<Vec3, 4> forces = volume_gradients(edges(of, moved));
-  for (Vec3& force : forces) force = -mean * force;
-  return forces;
+  return 0.25 * ((pressures[of[0]] + pressures[of[1]]) + (pressures[of[2]] + pressures[of[3]]));
 }
 
 Vec3 NodalVolumes::force(std::size_t particle, std::span<const Vec3> moved,
                          std::span<const double> pressures) const {
   Vec3 sum;
   for (const Tetrahedra::Use use : tetrahedra_.of(particle))
-    sum += forces(use.tetrahedron, moved, pressures)[use.corner];
+    sum -= pressure(use.tetrahedron, pressures) * gradients(use.tetrahedron, moved)[use.corner];
   return sum;
 }
 

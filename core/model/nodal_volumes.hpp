@@ -101,9 +101,10 @@ class NodalVolumes {
   /// Returns the force on a particle, N. `pressures`: of all particles, Pa.
   Vec3 force(std::size_t particle, std::span<const Vec3> moved,
              std::span<const double> pressures) const;
-  /// Returns the same of one tetrahedron on all its corners.
-  std::array<Vec3, 4> forces(std::size_t tetrahedron, std::span<const Vec3> moved,
-                             std::span<const double> pressures) const;
+  /// Returns the derivatives of the volume of a tetrahedron by the places of its corners, m2.
+  std::array<Vec3, 4> gradients(std::size_t tetrahedron, std::span<const Vec3> moved) const;
+  /// Returns the mean pressure over the corners of a tetrahedron, Pa.
+  double pressure(std::size_t tetrahedron, std::span<const double> pressures) const;
 
   /// Calls visit(particle) for each corner of the tetrahedra with the edge from a to b.
   template <class Visit>
