@@ -79,6 +79,7 @@ class NodalVolumes {
 
   const Tetrahedra& tetrahedra() const { return tetrahedra_; }
   double bytes() const;
+  std::size_t particles() const { return volumes_.size(); }
   /// Returns V_i0, m3; 0: the particle has no tetrahedron.
   double rest_volume(std::size_t particle) const { return volumes_[particle]; }
   /// Returns K_v, Pa; 0 of a particle without a volume.

@@ -18,6 +18,12 @@ NodalPressures::NodalPressures(const BlockSet& blocks)
   energies_.resize(particles);
 }
 
+double NodalPressures::bytes(const NodalVolumes& volumes) {
+  return static_cast<double>(volumes.tetrahedra().size() * sizeof(double) +
+                             volumes.particles() *
+                                 (sizeof(std::uint8_t) + sizeof(Vec3) + 2 * sizeof(double)));
+}
+
 /// Calls work(n) for all n below `size` on the threads of the run.
 template <class Work>
 void NodalPressures::for_pieces(std::size_t size, const Work& work) const {

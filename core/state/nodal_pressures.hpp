@@ -15,6 +15,9 @@ class NodalPressures {
  public:
   explicit NodalPressures(const BlockSet& blocks);
 
+  /// Returns the memory of the object, bytes.
+  static double bytes(const NodalVolumes& volumes);
+
   /// Returns whether no particle has a volumetric energy. All other functions need one.
   bool empty() const { return volumes_ == nullptr; }
   /// Finds the pressures of the present displacements. The sums have the same order for any number
