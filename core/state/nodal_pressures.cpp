@@ -50,6 +50,13 @@ void NodalPressures::update() {
   });
 }
 
+std::array<Vec3, 4> NodalPressures::forces(std::size_t tetrahedron) const {
+  std::array<Vec3, 4> forces = volumes_->gradients(tetrahedron, moved_);
+  const double pressure = volumes_->pressure(tetrahedron, pressures_);
+  for (Vec3& force : forces) force = -pressure * force;
+  return forces;
+}
+
 double NodalPressures::lose(Particle a, Particle b, double step) {
   double energy = 0;
   volumes_->for_corners_at_edge(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b),

@@ -25,6 +25,8 @@ class NodalPressures {
   void update();
   /// Returns the force on a particle in the state of the last update, N.
   Vec3 force(Particle particle) const { return volumes_->force(particle, moved_, pressures_); }
+  /// Returns the forces of a tetrahedron on its corners in that state, N.
+  std::array<Vec3, 4> forces(std::size_t tetrahedron) const;
   /// Returns the energy of a particle, J, in that state.
   double energy(Particle particle) const { return energies_[particle]; }
   /// Returns the particle at the start of a row of a block.

@@ -33,7 +33,7 @@ struct Simulation::State {
   /// 0: none yet. Not saved: only outputs read them.
   RestLoads rest_loads;
   std::uint64_t rest_step = 0;
-  ForceSums force_sums{blocks, clock, loads, sweeps};
+  ForceSums force_sums{blocks, clock, loads, pressures, sweeps};
 
   State(const Model& model, int threads) : blocks(model, threads) {}
 
