@@ -327,7 +327,7 @@ class Triangulation {
 }  // namespace
 
 std::vector<Tetrahedron> delaunay(std::span<const Vec3> points) {
-  constexpr std::size_t most = std::size_t{1} << 29;
+  constexpr std::size_t most = std::size_t{1} << 27;
   if (points.size() > most) throw std::invalid_argument("too many points to triangulate");
   return Triangulation(points).take();
 }

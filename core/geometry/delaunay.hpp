@@ -20,7 +20,7 @@ struct Tetrahedron {
   std::array<std::uint32_t, 4> neighbours{};
 };
 
-/// Returns the Delaunay triangulation of at most 2^29 points. The result depends on the points
+/// Returns the Delaunay triangulation of at most 2^27 points. The result depends on the points
 /// only, in their order. Points are rounded to 2^-32 of the longest edge of their box. Points on
 /// one sphere or plane, or at one place, are moved by up to about 1e-6 of that edge where this is
 /// needed, so tetrahedra may be flat. Tetrahedra at the convex hull with circumscribed spheres
