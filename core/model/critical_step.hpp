@@ -44,6 +44,9 @@ struct ListedBound {
   bool all_positive = true;  ///< no spring has a negative stiffness: the body is stable
 };
 ListedBound listed_bound(const Model& model);
+/// Returns the largest frequency omega, 1/s, of a listed body with volumetric energies and without
+/// a membrane, as iterated_frequency() does for cells. The bound is about twice as large.
+double iterated_frequency_of_list(const Model& model);
 
 /// Sets the model's critical time step and the sentence about what limits it: exact for one
 /// material and whole particles, a safe bound otherwise. Adds a fault for each unstable material,
