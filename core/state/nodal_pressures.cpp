@@ -74,8 +74,8 @@ double NodalPressures::lose(Particle a, Particle b, double step) {
 double NodalPressures::energy_before(Particle particle, double step) const {
   const auto moved = [&](Particle p) {
     const auto [block, index] = blocks_.at(p);
-    const auto number = [&](int c) { return step * block->velocity[c][index]; };
-    return Vec3{number(0), number(1), number(2)};
+    return step *
+           Vec3{block->velocity[0][index], block->velocity[1][index], block->velocity[2][index]};
   };
   // Only the volume of this particle works: a quarter of each of its tetrahedra.
   double growth = 0;
