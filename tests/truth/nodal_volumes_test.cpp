@@ -116,8 +116,9 @@ TEST(NodalVolumes, AUniformPressurePullsOnNoParticleInside) {
     largest = std::max(largest, norm(here.force[p]));
   for (Particle p = 0; p < model.body.particles; ++p) {
     const Vec3 x = model.body.position(p) / mm_in_m;
-    if (model.nodal_volumes->rest_volume(p) > 0)
+    if (model.nodal_volumes->rest_volume(p) > 0) {
       EXPECT_NEAR(here.volumes.pressure(p) / pressure, 1, 1e-12);
+    }
     if (std::min({x.x, x.y, x.z}) < 2 || std::max({x.x, x.y, x.z}) > 6) continue;
     ++inside;
     ASSERT_LT(norm(here.force[p]), 1e-12 * largest) << p;
@@ -176,7 +177,9 @@ TEST(NodalVolumes, AFreeBodyKeepsItsEnergy) {
     EXPECT_GT(balance.stored, 0.2 * balance.scale);
     EXPECT_LT(norm(balance.momentum - momentum), 1e-12 * std::sqrt(balance.scale));
     EXPECT_LT(worst, 2e-3);
-    if (before > 0) EXPECT_LT(worst, 0.35 * before);
+    if (before > 0) {
+      EXPECT_LT(worst, 0.35 * before);
+    }
     before = worst;
   }
 }
@@ -251,7 +254,9 @@ TEST(NodalVolumes, FailureReleasesEnergy) {
     }
     EXPECT_GT(simulation.broken(), 100U);
     EXPECT_LT(worst, 1e-2);
-    if (before > 0) EXPECT_LT(worst, 0.5 * before);
+    if (before > 0) {
+      EXPECT_LT(worst, 0.5 * before);
+    }
     before = worst;
   }
 }
@@ -287,9 +292,10 @@ TEST(NodalVolumes, EachParticleHasTheModulusOfItsMaterial) {
   const Model& model = *plan->model;
   ASSERT_EQ(model.materials.size(), 2U);
   for (Particle p = 0; p < model.body.particles; ++p)
-    if (model.nodal_volumes->rest_volume(p) > 0)
+    if (model.nodal_volumes->rest_volume(p) > 0) {
       EXPECT_EQ(model.nodal_volumes->modulus(p),
                 model.materials[model.kinds.material(p)].constants.volumetric);
+    }
   Simulation simulation(model, 1);
   simulation.set_velocities(noise(3 * model.body.particles, 3), {});
   for (int n = 0; n < 100; ++n) simulation.step(0.5 * model.step_limit.time_step);
