@@ -104,8 +104,9 @@ ChosenMembrane resolve(const MembraneChoice& choice, const LatticeGeometry& geom
     const double poisson = elasticity(with_ratios(geometry, chosen.ratios)).poisson_bulk();
     const bool differs = std::abs(poisson - *choice.poisson) > 1e-4;
     const LatticeFacts facts = facts_of(geometry);
-    const bool reaches = *membrane == Membrane::none && facts.has_cells && *choice.poisson > -1 &&
-                         *choice.poisson < membranes::largest_poisson;
+    const double lowest = geometry.listed ? poisson : -1;  // a list has no K_v below zero
+    const bool reaches = *membrane == Membrane::none && facts.has_cells &&
+                         *choice.poisson > lowest && *choice.poisson < membranes::largest_poisson;
     if (differs && reaches)
       chosen.volumetric = geometry.spacing * membranes::volumetric(facts, *choice.poisson);
     else if (differs)

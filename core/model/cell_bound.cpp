@@ -2,9 +2,9 @@
 // particle has less mass, while the springs, which do not pull from all sides, support each other
 // less. A single free cell gives a bound, and iteration over the cells the frequency itself.
 #include <model/critical_step.hpp>
+#include <model/iterated_frequency.hpp>
 #include <numerics/symmetric_eigen.hpp>
 
-#include <hyperlattice/chance.hpp>
 #include <hyperlattice/volumetric_cell.hpp>
 
 #include <Eigen/Dense>
@@ -128,33 +128,9 @@ double cell_bound(const Model& model) {
 }
 
 double iterated_frequency(const Model& model) {
-  constexpr int products = 25;
-  constexpr double margin = 1.02;
   const ScaledStiffness stiffness(model);
-  Eigen::VectorXd now(stiffness.numbers()), before = Eigen::VectorXd::Zero(stiffness.numbers());
-  for (Eigen::Index n = 0; n < now.size(); ++n)
-    now[n] = chance(0, static_cast<std::uint64_t>(n), 0) - 0.5;
-  now.normalize();
-  Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(products), beside = diagonal;
-  int count = 0;
-  while (count < products) {
-    Eigen::VectorXd next = stiffness.times(now);
-    diagonal[count] = next.dot(now);
-    next -= diagonal[count] * now;
-    if (count > 0) next -= beside[count - 1] * before;
-    const double length = next.norm();
-    beside[count++] = length;
-    if (!(length > 1e-12 * std::abs(diagonal[0]))) break;  // these motions are all that there are
-    before = now;
-    now = next / length;
-  }
-  Eigen::MatrixXd small = Eigen::MatrixXd::Zero(count, count);
-  small.diagonal() = diagonal.head(count);
-  if (count > 1) small.diagonal(-1) = beside.head(count - 1);
-  const double square = numerics::SymmetricEigen<Eigen::MatrixXd>(small, Eigen::EigenvaluesOnly)
-                            .eigenvalues()
-                            .maxCoeff();
-  return margin * std::sqrt(square);
+  return frequency_by_iteration(stiffness.numbers(),
+                                [&](const Eigen::VectorXd& x) { return stiffness.times(x); });
 }
 
 }  // namespace hyperlattice

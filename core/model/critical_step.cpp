@@ -86,6 +86,15 @@ std::map<Environment, Particle> environments(const Model& model) {
 
 double step_of(double stiffness, double mass) { return 2 / std::sqrt(stiffness / mass); }
 
+/// Takes the frequency found by iteration in place of the bound that the step has.
+void limit_step_by_iteration(Model& model, double (*frequency)(const Model&)) {
+  const double step = 2 / frequency(model);
+  if (!(step > model.step_limit.time_step)) return;
+  model.step_limit.time_step = step;
+  model.step_limit.because =
+      "the stiffest motion of the body, found by iteration and increased by 2 %";
+}
+
 /// Sets the critical step of a listed body. A list has no plane waves, so the springs of each
 /// particle give a bound.
 void find_critical_step_of_list(Model& model, Faults& faults) {
@@ -102,13 +111,17 @@ void find_critical_step_of_list(Model& model, Faults& faults) {
     return faults.add("/pipeline", "",
                       "a lattice with springs; this one's particles are all alone");
   const Vec3 at = model.body.position(bound.particle);
-  for (Material& material : model.materials)
-    material.critical_time_step = 2 / std::sqrt(bound.square);
   model.step_limit.time_step = 2 / std::sqrt(bound.square);
   model.step_limit.because = fmt::format(
       "a safe bound for a listed lattice: the springs of the particle at ({:.4g}, {:.4g}, {:.4g}) "
       "m",
       at.x, at.y, at.z);
+  constexpr std::uint64_t most = 200000;  // particles
+  if (model.nodal_volumes && model.body.particles <= most &&
+      model.springs.choice.membrane == KernelChoice::Membrane::none)
+    limit_step_by_iteration(model, iterated_frequency_of_list);
+  for (Material& material : model.materials)
+    material.critical_time_step = model.step_limit.time_step;
 }
 
 bool has_negative_springs(const InfiniteLattice& lattice) {
@@ -164,11 +177,7 @@ void limit_step_of_cells(Model& model) {
   model.step_limit.because =
       "a safe bound for a body of cells: the stiffest motion of a cell that moves alone";
   if (!(model.volumetric.largest() > 0) || model.body.cells.count() > most_cells) return;
-  const double step = 2 / iterated_frequency(model);
-  if (!(step > bound)) return;
-  model.step_limit.time_step = step;
-  model.step_limit.because =
-      "the stiffest motion of the body, found by iteration and increased by 2 %";
+  limit_step_by_iteration(model, iterated_frequency);
 }
 
 void find_elastic_step(Model& model, Faults& faults) {

@@ -4,7 +4,10 @@
 //   V e.C.e / 2 = e.A.e / 2 - f(e).u + u.K.u / 2
 // has its minimum where K u = f(e). Conjugate gradients solve this for six strains; then
 //   C = (A - f.u) / V.
+// The volumetric energy of a particle is K_v / (2 V_i) (V_i tr e + sum g.u)^2, with the gradients g
+// of its volume V_i by the places of the particles around it.
 #include <model/homogenise.hpp>
+#include <model/nodal_volumes.hpp>
 
 #include <Eigen/Dense>
 
@@ -30,6 +33,12 @@ struct Growth {
   double by_b[4] = {};
 };
 
+/// The growth of the volume of one particle: volume (e_xx + e_yy + e_zz) + sum g.u.
+struct VolumeGrowth {
+  double modulus = 0, volume = 0;  ///< K_v, Pa; m3
+  std::vector<VolumeDerivative> derivatives;
+};
+
 class Sample {
  public:
   Sample(std::uint32_t particles, bool free) : particles_(particles), components_(free ? 4 : 3) {}
@@ -39,6 +48,11 @@ class Sample {
     affine_ += growth.stiffness * growth.by_strain * growth.by_strain.transpose();
     common_load_ += growth.stiffness * 2 * growth.by_b[3] * growth.by_strain;
     common_stiffness_ += growth.stiffness * 4 * growth.by_b[3] * growth.by_b[3];
+  }
+  void add(VolumeGrowth growth) {
+    const Strains by_strain = trace();
+    affine_ += growth.modulus * growth.volume * by_strain * by_strain.transpose();
+    volumes_.push_back(std::move(growth));
   }
   void set_alpha(double alpha) {
     alpha_ = alpha;
@@ -105,8 +119,22 @@ class Sample {
       field.row(at(growth.a) + c) += by_a * pull;
     }
   }
+  static Strains trace() {
+    Strains trace = Strains::Zero();
+    trace.head<3>().setOnes();
+    return trace;
+  }
+  static Eigen::RowVector3d row_of(Vec3 v) { return {v.x, v.y, v.z}; }
+  /// Adds the forces of a pressure for each strain on the particles of a volume.
+  void press(Field& field, const VolumeGrowth& growth,
+             const Eigen::Matrix<double, 1, strains>& pressure) const {
+    for (const VolumeDerivative& of : growth.derivatives)
+      field.middleRows<3>(at(of.particle)) += row_of(of.gradient).transpose() * pressure;
+  }
   Field load() const {
     Field load = Field::Zero(at(particles_), strains);
+    for (const VolumeGrowth& growth : volumes_)
+      press(load, growth, -growth.modulus * trace().transpose());
     for (const Growth& growth : springs_)
       spread(load, growth, -growth.stiffness * growth.by_strain.transpose());
     return load;
@@ -122,6 +150,12 @@ class Sample {
                                                              moved.row(at(growth.a) + c)));
       spread(forces, growth, growth.stiffness * grown);
     }
+    for (const VolumeGrowth& growth : volumes_) {
+      Eigen::Matrix<double, 1, strains> grown = Eigen::Matrix<double, 1, strains>::Zero();
+      for (const VolumeDerivative& of : growth.derivatives)
+        grown += row_of(of.gradient) * moved.middleRows<3>(at(of.particle));
+      press(forces, growth, growth.modulus / growth.volume * grown);
+    }
     for (std::uint32_t p = 0; components_ == 4 && p < particles_; ++p)
       forces.row(at(p) + 3) += 2 * alpha_ * moved.row(at(p) + 3);
     return forces;
@@ -132,6 +166,11 @@ class Sample {
       for (int c = 0; c < components_; ++c)
         for (const std::uint32_t end : {growth.a, growth.b})
           sum(at(end) + c) += growth.stiffness * growth.by_b[c] * growth.by_b[c];
+    for (const VolumeGrowth& growth : volumes_)
+      for (const VolumeDerivative& of : growth.derivatives)
+        for (int c = 0; c < 3; ++c)
+          sum(at(of.particle) + c) +=
+              growth.modulus / growth.volume * of.gradient[c] * of.gradient[c];
     for (std::uint32_t p = 0; components_ == 4 && p < particles_; ++p) sum(at(p) + 3) += 2 * alpha_;
     for (double& value : sum)
       if (value == 0) value = 1;  // a degree of freedom that no spring holds
@@ -141,6 +180,7 @@ class Sample {
   std::uint32_t particles_;
   int components_;
   std::vector<Growth> springs_;
+  std::vector<VolumeGrowth> volumes_;
   double alpha_ = 0;
   Stiffness affine_ = Stiffness::Zero();
   Strains common_load_ = Strains::Zero();
@@ -164,7 +204,17 @@ ElasticConstants isotropic(const Stiffness& c) {
   return {bulk + 4 * shear / 3, bulk - 2 * shear / 3, shear};
 }
 
-Sample sample_of(const Listed& listed, double membrane_distance,
+/// Adds the volumetric energies. The particles of a body without a sample are strained alike, so
+/// that only the sum of their volumes counts.
+void add_volumes(const Listed& listed, double modulus, double volume, Sample& sample) {
+  if (modulus == 0) return;
+  if (listed.sample_particles == 0) return sample.add(VolumeGrowth{modulus, volume, {}});
+  SampleVolumes volumes = volumes_of_sample(listed);
+  for (std::size_t p = 0; p < volumes.volumes.size(); ++p)
+    sample.add(VolumeGrowth{modulus, volumes.volumes[p], std::move(volumes.derivatives[p])});
+}
+
+Sample sample_of(const Listed& listed, double volume, double membrane_distance,
                  const MaterialConstants& constants) {
   const bool cross = constants.has_cross_springs(), free = cross && !constants.clamped;
   Sample sample(listed.sample_particles > 0 ? listed.sample_particles
@@ -183,6 +233,7 @@ Sample sample_of(const Listed& listed, double membrane_distance,
     for (const ListedSpring& spring : listed.springs)
       add(spring.a, spring.b, listed.positions[spring.b] - listed.positions[spring.a],
           spring.stiffness);
+  add_volumes(listed, constants.volumetric, volume, sample);
   if (free) sample.set_alpha(constants.alpha_ratio * constants.base_stiffness);
   return sample;
 }
@@ -193,13 +244,13 @@ ElasticConstants homogenise(const Listed& listed, double volume, double membrane
                             const MaterialConstants& constants) {
   if (listed.sample_particles == 0)
     return strained_alike(listed, volume, membrane_distance, constants);
-  return isotropic(sample_of(listed, membrane_distance, constants).relaxed() /
+  return isotropic(sample_of(listed, volume, membrane_distance, constants).relaxed() /
                    listed.sample_volume);
 }
 
 ElasticConstants strained_alike(const Listed& listed, double volume, double membrane_distance,
                                 const MaterialConstants& constants) {
-  return isotropic(sample_of(listed, membrane_distance, constants).strained_alike() /
+  return isotropic(sample_of(listed, volume, membrane_distance, constants).strained_alike() /
                    (listed.sample_particles > 0 ? listed.sample_volume : volume));
 }
 

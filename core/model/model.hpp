@@ -16,6 +16,8 @@
 
 namespace hyperlattice {
 
+class NodalVolumes;
+
 struct Model {
   const Scene* scene = nullptr;
   Body body;
@@ -27,6 +29,8 @@ struct Model {
   StepLimit step_limit;
   int degrees_of_freedom = 3;         ///< of a particle; 4 with a free membrane
   std::vector<std::string> warnings;  ///< about settings that are allowed but not sound
+  /// The volumetric energies of a listed body; null if no material has one.
+  std::shared_ptr<const NodalVolumes> nodal_volumes;
 
   /// Returns the mass of a particle, kg.
   double mass(Particle particle) const {

@@ -1,3 +1,4 @@
+#include <model/nodal_volumes.hpp>
 #include <model/section.hpp>
 
 #include <algorithm>
@@ -70,6 +71,23 @@ std::vector<CutCell> cut_cells(const Model& model, const Division& plane) {
   return found;
 }
 
+std::vector<CutTetrahedron> cut_tetrahedra(const Model& model, const Division& plane) {
+  std::vector<CutTetrahedron> found;
+  if (!model.nodal_volumes) return found;
+  const Tetrahedra& all = model.nodal_volumes->tetrahedra();
+  for (std::uint32_t t = 0; t < all.size(); ++t) {
+    CutTetrahedron cut{t, 0};
+    for (std::size_t n = 0; n < 4; ++n)
+      if (!plane.is_beyond(plane.height(all[t][n])))
+        cut.before = static_cast<std::uint8_t>(cut.before | 1U << n);
+    if (cut.before != 0 && cut.before != 0xf &&
+        std::all_of(all[t].begin(), all[t].end(),
+                    [&](Particle corner) { return plane.has(corner); }))
+      found.push_back(cut);
+  }
+  return found;
+}
+
 /// Returns m of PlaneSection, 1/m.
 double crossing_factor(const Model& model) {
   const Body& body = model.body;
@@ -105,6 +123,7 @@ PlaneSection cut(const Model& model, Vec3 point, Vec3 normal, std::span<const Pa
     }
   }
   section.cells = cut_cells(model, plane);
+  section.tetrahedra = cut_tetrahedra(model, plane);
   Vec3 sum;
   for (const CutSpring& spring : section.springs) {
     const SpringProperties of = model.spring_properties(spring.a, spring.b, spring.neighbour);

@@ -24,9 +24,15 @@ struct CutCell {
   std::uint8_t before = 0;            ///< bit n: corner n is before the plane
 };
 
-/// The springs and cells that a plane cuts, and their area, m2. A plane of the area A, with the
-/// unit normal n, through an infinite lattice whose springs of class 0 have cubic symmetry, cuts
-/// springs of class 0 with
+/// A tetrahedron of nodal volumes that a plane cuts.
+struct CutTetrahedron {
+  std::uint32_t number = 0;  ///< in NodalVolumes::tetrahedra()
+  std::uint8_t before = 0;   ///< bit n: corner n is before the plane
+};
+
+/// The springs, cells and tetrahedra that a plane cuts, and their area, m2. A plane of the area A,
+/// with the unit normal n, through an infinite lattice whose springs of class 0 have cubic
+/// symmetry, cuts springs of class 0 with
 ///   sum share R = A m n,   m = (1 / 3V) sum share R^2,
 /// where R leads from the end before the plane to the end beyond it, and m is a sum over all
 /// springs of class 0 in the volume V. This gives the area: N l^2 for a plane normal to an axis
@@ -35,6 +41,7 @@ struct CutCell {
 struct PlaneSection {
   std::vector<CutSpring> springs;
   std::vector<CutCell> cells;
+  std::vector<CutTetrahedron> tetrahedra;
   double area = 0;
 };
 

@@ -78,9 +78,9 @@ LatticeFacts facts_of(const LatticeGeometry& geometry) {
   facts.membrane_distance = geometry.membrane_distance;
   facts.spring_classes = geometry.spring_classes;
   facts.class_stiffness = geometry.class_stiffness;
-  // The bit of the cell is one of the bits of a site.
-  facts.has_cells = !geometry.listed && geometry.basis == cubic_basis &&
-                    geometry.neighbours.size() < max_neighbours;
+  // The bit of the cell is one of the bits of a site. A list has tetrahedra.
+  facts.has_cells = geometry.listed ||
+                    (geometry.basis == cubic_basis && geometry.neighbours.size() < max_neighbours);
   facts.self = const_cast<LatticeGeometry*>(&geometry);  // only read
   facts.get_elastic_constants = [](void* self, const MaterialConstants& constants) noexcept {
     return PluginCall::answer(ElasticConstants(), [&] {

@@ -23,6 +23,12 @@ void StiffnessBound::add(const NeighbourGeometry& neighbour, int side,
 
 void StiffnessBound::add_alpha(double alpha) { sum_[9] += std::abs(alpha); }
 
+void StiffnessBound::add_part(double stiffness, Vec3 vector) {
+  const Vec3 n = vector / norm(vector);
+  const double entries[] = {n.x * n.x, n.y * n.x, n.y * n.y, n.z * n.x, n.z * n.y, n.z * n.z};
+  for (std::size_t at = 0; at < std::size(entries); ++at) sum_[at] += 0.5 * stiffness * entries[at];
+}
+
 double StiffnessBound::value() const {
   Eigen::Matrix4d sum;
   for (int row = 0, at = 0; row < 4; ++row)

@@ -79,6 +79,7 @@ std::array<Particle, 8> Volumetric::corners(Site cell) const {
 }
 
 void set_volumetric(Model& model, Faults& faults) {
+  if (model.body.is_listed()) return set_nodal_volumes(model, faults);
   const bool has_cells = facts_of(geometry_from(model.body)).has_cells;
   std::vector<double> moduli;
   for (const Material& material : model.materials) {

@@ -1,7 +1,9 @@
+#include <model/nodal_volumes.hpp>
 #include <plan/estimates.hpp>
 #include <plan/fields.hpp>
 #include <state/inside_out.hpp>
 #include <state/layout.hpp>
+#include <state/nodal_pressures.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -82,6 +84,8 @@ double model_bytes(const Model& model) {
                           model.body.cells.partial().size() * sizeof(PartialCell) +
                           model.kinds.material_of.size()) +
       model.kinds.mixtures.bytes();
+  if (model.nodal_volumes)
+    bytes += model.nodal_volumes->bytes() + NodalPressures::bytes(*model.nodal_volumes);
   for (const Load& load : model.loads)
     bytes += static_cast<double>(load.particles.size() * sizeof(LoadedParticle) +
                                  load.watched.size() * sizeof(WatchedParticle));

@@ -37,7 +37,7 @@ void leave_out_kernel_parts(const Plan& plan, std::vector<LeftOut>& out) {
              (model.step_limit.two_layers_grow.empty()
                   ? ""
                   : "; two free ones would not stay so: " + model.step_limit.two_layers_grow)});
-  if (model.volumetric.empty())
+  if (model.volumetric.empty() && !model.nodal_volumes)
     out.push_back({"volumetric energy", "no material needs it for its Poisson ratio"});
   if (!model.springs.breakable)
     out.push_back({"failure", "no material names a failure law: no spring is tested"});

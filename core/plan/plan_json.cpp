@@ -105,7 +105,7 @@ nlohmann::json common_facts(const Plan& plan) {
           {"degrees_of_freedom", model.degrees_of_freedom},
           {"membrane", membrane_name(model)},
           {"fourth_dimension", motion_name(model.springs.choice.membrane)},
-          {"volumetric", !model.volumetric.empty()},
+          {"volumetric", !model.volumetric.empty() || model.nodal_volumes},
           {"breakable", model.springs.breakable || model.springs.softens},
           {"materials", model.materials.size()},
           {"loads", model.loads.size()},

@@ -48,6 +48,7 @@ void FailureRecord::collect(double step) {
       breakages_.push_back(breakage);
       note(breakage);
       energy_ += lose_cells(blocks_, breakage.a, breakage.neighbour, step);
+      if (!pressures_.empty()) energy_ += pressures_.lose(breakage.a, breakage.b, step);
       if (!broken.softened) energy_ += energy_of(breakages_.size() - 1, block, broken, step);
     }
     block.broken.clear();
@@ -134,7 +135,10 @@ void FailureRecord::archive(Archive& archive) {
   ends_.clear();
   softened_.clear();
   again_ = 0;
-  for (const Breakage& breakage : breakages_) note(breakage);
+  for (const Breakage& breakage : breakages_) {
+    note(breakage);
+    if (!pressures_.empty()) pressures_.lose(breakage.a, breakage.b, 0);
+  }
 }
 
 }  // namespace hyperlattice

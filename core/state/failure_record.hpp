@@ -4,6 +4,7 @@
 #include <state/block_set.hpp>
 #include <state/breakage.hpp>
 #include <state/clock.hpp>
+#include <state/nodal_pressures.hpp>
 
 #include <cstdint>
 #include <set>
@@ -14,7 +15,8 @@ namespace hyperlattice {
 
 class FailureRecord {
  public:
-  FailureRecord(BlockSet& blocks, const Clock& clock) : blocks_(blocks), clock_(clock) {}
+  FailureRecord(BlockSet& blocks, const Clock& clock, NodalPressures& pressures)
+      : blocks_(blocks), clock_(clock), pressures_(pressures) {}
 
   /// Takes the breakages of a step of length `step`, s, from the blocks. The record does not depend
   /// on the number of threads: blocks are in the order of their particles, and each block's list is
@@ -23,8 +25,8 @@ class FailureRecord {
 
   /// Returns the failures in the order of their steps.
   const std::vector<Breakage>& breakages() const { return breakages_; }
-  /// Returns the energy, J, that was lost with springs that criteria removed, and with cells that
-  /// lost a spring.
+  /// Returns the energy, J, that was lost with springs that criteria removed, and with cells and
+  /// nodal volumes that lost a spring.
   double energy() const { return energy_; }
   /// Returns the present elongation, m, of a broken spring: above 0 if the failure is open.
   double elongation_now(std::size_t breakage) const;
@@ -49,6 +51,7 @@ class FailureRecord {
 
   BlockSet& blocks_;
   const Clock& clock_;
+  NodalPressures& pressures_;
   std::vector<Breakage> breakages_;
   std::vector<Ends> ends_;                                 // of each breakage
   std::set<std::pair<Particle, std::uint32_t>> softened_;  // first end and neighbour

@@ -10,7 +10,7 @@ ForcesId ForceSums::add(Followed followed) {
 }
 
 ForcesId ForceSums::follow(const PlaneSection& section) {
-  return add(SectionForces(blocks_, clock_, section));
+  return add(SectionForces(blocks_, clock_, pressures_, section));
 }
 ForcesId ForceSums::follow(std::size_t load) {
   return add(ExternalForces(blocks_, clock_, loads_, load));
@@ -24,6 +24,11 @@ void ForceSums::measure() {
         return std::holds_alternative<ExternalForces>(followed);
       }))
     sweeps_.measure(Sweep::present(clock_.last_step()));
+  else if (std::any_of(all_.begin(), all_.end(), [](const Followed& followed) {
+             const auto* section = std::get_if<SectionForces>(&followed);
+             return section != nullptr && section->asks_pressures();
+           }))
+    pressures_.update();  // a measurement does this too
 }
 
 Resultant ForceSums::sum(ForcesId forces, Vec3 about) const {

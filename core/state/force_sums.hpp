@@ -15,8 +15,9 @@ namespace hyperlattice {
 /// Nothing of it is saved in a checkpoint: a resumed run asks for its sums again.
 class ForceSums {
  public:
-  ForceSums(const BlockSet& blocks, const Clock& clock, const ActingLoads& loads, Sweeps& sweeps)
-      : blocks_(blocks), clock_(clock), loads_(loads), sweeps_(sweeps) {}
+  ForceSums(const BlockSet& blocks, const Clock& clock, const ActingLoads& loads,
+            NodalPressures& pressures, Sweeps& sweeps)
+      : blocks_(blocks), clock_(clock), loads_(loads), pressures_(pressures), sweeps_(sweeps) {}
 
   /// Begins to follow the force through a section.
   ForcesId follow(const PlaneSection& section);
@@ -40,6 +41,7 @@ class ForceSums {
   const BlockSet& blocks_;
   const Clock& clock_;
   const ActingLoads& loads_;
+  NodalPressures& pressures_;
   Sweeps& sweeps_;
   std::vector<Followed> all_;
 };

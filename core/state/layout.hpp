@@ -58,6 +58,10 @@ struct SpringPlace {
   bool counts = true;  ///< false for copies: in ghost rows, or from the second end
 };
 
+/// Row::law of rows whose springs have the first law, and whose particles have volumetric energies
+/// (nodal_pressures.hpp).
+inline constexpr std::int32_t first_law_and_volumes = -2;
+
 class Layout {
  public:
   virtual ~Layout() = default;

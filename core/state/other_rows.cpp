@@ -109,13 +109,21 @@ void OtherRows::compute(Block& block, const KernelRequest& request, const RowPla
                         bool measures) const {
   const Row& row = request.rows[place.index];
   RowEnergies energies;
-  if (row.law > 0) {
-    const Law& law = model_.springs.laws[static_cast<std::size_t>(row.law)];
+  const std::int32_t number = row.law == first_law_and_volumes ? 0 : row.law;
+  if (number >= 0) {
+    const Law& law = model_.springs.laws[static_cast<std::size_t>(number)];
     energies = call_row_kernel(law, measures ? law.kernels.measure_row : law.kernels.step_row,
                                request, place);
   } else {
     energies = model_.body.is_listed() ? several_laws_of_list(block, request, place, measures)
                                        : several_laws_of_grid(block, request, place, measures);
+  }
+  if (!pressures_.empty()) {
+    // Kernels measure in doubles, and so do laws with a memory step.
+    const bool in_floats = model_.springs.choice.precision == Precision::floats && !measures &&
+                           model_.springs.kernels().memory == 0;
+    energies.stored += in_floats ? add_volumes<float>(block, request, row)
+                                 : add_volumes<double>(block, request, row);
   }
   const bool owned = place.index >= block.layout->first_own;
   if (!owned) return;
@@ -125,6 +133,22 @@ void OtherRows::compute(Block& block, const KernelRequest& request, const RowPla
   }
   block.damped_work[place.index] += energies.dissipated;
   if (!block.fracture_work.empty()) block.fracture_work[place.index] += energies.fractured;
+}
+
+/// Adds the forces of nodal volumes to those on the row. Returns their energy, J.
+template <class Real>
+double OtherRows::add_volumes(const Block& block, const KernelRequest& request,
+                              const Row& row) const {
+  const ScratchRows<Real> scratch(request, model_.degrees_of_freedom);
+  const Particle first = pressures_.first_of(block, row);
+  double energy = 0;
+  for (std::int32_t t = 0; t < row.end; ++t) {
+    const Particle particle = first + static_cast<Particle>(t);
+    const Vec3 force = pressures_.force(particle);
+    for (int c = 0; c < 3; ++c) scratch.own(c)[t] += static_cast<Real>(force[c]);
+    energy += pressures_.energy(particle);
+  }
+  return energy;
 }
 
 /// Returns whether a criterion must be asked about a spring. `alarm`: elongation, m, from which it

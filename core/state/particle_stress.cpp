@@ -1,9 +1,11 @@
 #include <state/cell_stress.hpp>
 #include <state/corner_means.hpp>
 #include <state/particle_stress.hpp>
+#include <state/present_volumes.hpp>
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace hyperlattice {
 
@@ -29,6 +31,16 @@ std::vector<Tensor> virials(const PresentSprings& springs, const Arm& arm) {
   });
   for (Particle p = 0; p < body.particles; ++p) sums[p] = 1 / (2 * volume_of(body, p)) * sums[p];
   return sums;
+}
+
+/// Returns the volumetric energies of a listed body, if it has them.
+std::optional<PresentVolumes> volumes_of(const PresentSprings& springs) {
+  const Model& model = springs.model();
+  if (!model.nodal_volumes) return std::nullopt;
+  std::vector<Vec3> moved(model.body.particles);
+  for (Particle p = 0; p < model.body.particles; ++p) moved[p] = springs.displacement(p);
+  return std::make_optional<PresentVolumes>(*model.nodal_volumes, std::move(moved),
+                                            springs.simulation().breakages());
 }
 
 /// Returns a cell's or particle's value for all particles.
@@ -59,9 +71,12 @@ std::vector<Symmetric> cauchy_stresses(const PresentSprings& springs) {
                             virial = virials(springs, [](const PresentSpring&spring) {
                               return spring.rest + spring.apart;
                             });
+  const auto volumes = volumes_of(springs);
   for (Particle p = 0; p < body.particles; ++p) {
     const double J = 1 + volume_change(H[p]);
     stresses[p] = symmetric_part(1 / (J > 0 ? J : 1) * virial[p]);
+    if (volumes)
+      for (std::size_t c = 0; c < 3; ++c) stresses[p][c] += volumes->pressure(p);
   }
   return stresses;
 }
@@ -72,7 +87,15 @@ std::vector<Tensor> nominal_stresses(const PresentSprings& springs) {
                                   [](const PresentCell& cell, double spacing) {
                                     return std::optional(nominal_stress(cell, spacing));
                                   });
-  return virials(springs, [](const PresentSpring& spring) { return spring.rest; });
+  std::vector<Tensor> stresses =
+      virials(springs, [](const PresentSpring& spring) { return spring.rest; });
+  if (const auto volumes = volumes_of(springs)) {
+    const std::vector<Tensor> H = gradients(springs, springs.displacements());
+    for (Particle p = 0; p < stresses.size(); ++p)
+      stresses[p] +=
+          volumes->pressure(p) * cofactor(std::isfinite(trace(H[p])) ? identity + H[p] : identity);
+  }
+  return stresses;
 }
 
 std::vector<double> energy_densities(const PresentSprings& springs) {
@@ -88,7 +111,9 @@ std::vector<double> energy_densities(const PresentSprings& springs) {
     for (const Particle end : {spring.a, spring.b})
       energies[end] += 0.5 * spring.share * spring.energy;
   });
+  const auto volumes = volumes_of(springs);
   for (Particle p = 0; p < body.particles; ++p) {
+    if (volumes) energies[p] += volumes->energy(p);
     const double height = springs.height(p);
     if (height != 0)
       energies[p] += body.share(p) * model.kinds.alphas[model.kinds.of(p)] * height * height;
@@ -105,6 +130,8 @@ std::vector<Vec3> internal_forces(const PresentSprings& springs) {
     forces[spring.a] += force;
     forces[spring.b] -= force;
   });
+  if (const auto volumes = volumes_of(springs))
+    for (Particle p = 0; p < model.body.particles; ++p) forces[p] += volumes->force(p);
   if (model.volumetric.empty()) return forces;
   for_cells(springs, Asked::motion, [&](PresentCell cell) {
     add_volume_term(model, cell);

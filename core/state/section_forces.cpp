@@ -9,8 +9,12 @@
 namespace hyperlattice {
 
 SectionForces::SectionForces(const BlockSet& blocks, const Clock& clock,
-                             const PlaneSection& section)
-    : blocks_(blocks), model_(blocks.model()), clock_(clock) {
+                             const NodalPressures& pressures, const PlaneSection& section)
+    : blocks_(blocks),
+      model_(blocks.model()),
+      clock_(clock),
+      pressures_(pressures),
+      tetrahedra_(section.tetrahedra) {
   for (const CutSpring& cut : section.springs) {
     const Place place = blocks_.layout().place(cut.a);
     const auto number = blocks_.layout().number_in_row(blocks_[place.block], place, cut.neighbour);
@@ -47,6 +51,18 @@ void SectionForces::add(const Cell& cell, Vec3 about, Resultant& sum) const {
     const Vec3 place = model_.body.position(cell.corners[n].particle) + displacement[n];
     sum.force += own.force[n];
     sum.moment += cross(place - about, own.force[n]);
+  }
+}
+
+/// Adds the forces of a tetrahedron on its corners before the plane.
+void SectionForces::add(const CutTetrahedron& cut, Vec3 about, Resultant& sum) const {
+  const Corners& corners = model_.nodal_volumes->tetrahedra()[cut.number];
+  const std::array<Vec3, 4> forces = pressures_.forces(cut.number);
+  for (std::size_t n = 0; n < 4; ++n) {
+    if ((cut.before >> n & 1U) == 0) continue;
+    const Vec3 place = model_.body.position(corners[n]) + moved(end_of(corners[n]));
+    sum.force += forces[n];
+    sum.moment += cross(place - about, forces[n]);
   }
 }
 
@@ -90,6 +106,7 @@ Resultant SectionForces::sum(Vec3 about) const {
   });
   Resultant total;
   for (const Cell& cell : cells_) add(cell, about, total);
+  for (const CutTetrahedron& cut : tetrahedra_) add(cut, about, total);
   for (const Resultant& part : parts) {
     total.force += part.force;
     total.moment += part.moment;

@@ -1,12 +1,13 @@
 // The force through a plane section: the sum over the springs that the plane cuts of their pull on
-// the end before the plane, and over the cells with a volumetric energy of their forces on the
-// corners before the plane. It is what the part beyond does to the part before, exact to round-off,
-// because springs and cells on one side of the plane cancel.
+// the end before the plane, and over the cells and tetrahedra with a volumetric energy of their
+// forces on the corners before the plane. It is what the part beyond does to the part before, exact
+// to round-off, because springs and cells on one side of the plane cancel.
 #pragma once
 
 #include <model/section.hpp>
 #include <state/block_set.hpp>
 #include <state/clock.hpp>
+#include <state/nodal_pressures.hpp>
 
 #include <hyperlattice/output.hpp>
 
@@ -19,8 +20,11 @@ namespace hyperlattice {
 class SectionForces {
  public:
   /// Follows the springs of the section that still exist.
-  SectionForces(const BlockSet& blocks, const Clock& clock, const PlaneSection& section);
+  SectionForces(const BlockSet& blocks, const Clock& clock, const NodalPressures& pressures,
+                const PlaneSection& section);
 
+  /// Whether the pressures must be updated before sum() for the present state.
+  bool asks_pressures() const { return !tetrahedra_.empty(); }
   /// Returns the force in the present state, with the moment about a point, m. A law with a memory
   /// gives the force that it has after a step to the present elongation, as a measurement does.
   Resultant sum(Vec3 about) const;
@@ -49,12 +53,15 @@ class SectionForces {
   static Vec3 moved(const End& end);
   void add(const Cell& cell, Vec3 about, Resultant& sum) const;
   void add(const Spring& spring, Vec3 about, Resultant& sum) const;
+  void add(const CutTetrahedron& cut, Vec3 about, Resultant& sum) const;
 
   const BlockSet& blocks_;
   const Model& model_;
   const Clock& clock_;
+  const NodalPressures& pressures_;
   std::vector<Spring> springs_;
   std::vector<Cell> cells_;
+  std::vector<CutTetrahedron> tetrahedra_;
 };
 
 }  // namespace hyperlattice

@@ -9,6 +9,7 @@
 #include <state/force_sums.hpp>
 #include <state/kinetic_energy.hpp>
 #include <state/law_memory.hpp>
+#include <state/nodal_pressures.hpp>
 #include <state/other_rows.hpp>
 #include <state/simulation.hpp>
 #include <state/spring_review.hpp>
@@ -21,13 +22,14 @@ struct Simulation::State {
   Clock clock;
   ActingLoads loads{blocks, clock};
   SpringReview review{blocks, clock};
-  OtherRows other_rows{blocks, review};
-  Sweeps sweeps{blocks, loads, review, other_rows};
-  FailureRecord failures{blocks, clock};
+  NodalPressures pressures{blocks};
+  OtherRows other_rows{blocks, review, pressures};
+  Sweeps sweeps{blocks, loads, review, pressures, other_rows};
+  FailureRecord failures{blocks, clock, pressures};
   EnergyAccount energy{blocks, clock, failures, sweeps};
   LawMemory law_memory{blocks, energy};
   KineticEnergy kinetic{blocks};
-  ForceSums force_sums{blocks, clock, loads, sweeps};
+  ForceSums force_sums{blocks, clock, loads, pressures, sweeps};
 
   State(const Model& model, int threads) : blocks(model, threads) {}
 

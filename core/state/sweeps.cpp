@@ -7,11 +7,12 @@
 namespace hyperlattice {
 
 Sweeps::Sweeps(BlockSet& blocks, ActingLoads& loads, const SpringReview& review,
-               const OtherRows& other_rows)
+               NodalPressures& pressures, const OtherRows& other_rows)
     : blocks_(blocks),
       model_(blocks.model()),
       loads_(loads),
       review_(review),
+      pressures_(pressures),
       other_rows_(other_rows),
       exact_(asked_for_exact_springs()) {}
 
@@ -24,6 +25,7 @@ void Sweeps::step(const Sweep& sweep) {
   loads_.prepare(sweep);
   loads_.check_factors();
   read_motion();
+  if (!pressures_.empty()) pressures_.update();
   blocks_.team().for_each(blocks_.size(), [&](std::size_t b) {
     Block& block = blocks_[b];
     loads_.set_supports(block, sweep);
@@ -36,6 +38,7 @@ void Sweeps::step(const Sweep& sweep) {
 RowSums Sweeps::measure(const Sweep& sweep) {
   loads_.prepare(sweep);
   read_motion();
+  if (!pressures_.empty()) pressures_.update();
   blocks_.team().for_each(blocks_.size(), [&](std::size_t b) {
     loads_.set_supports(blocks_[b], sweep);
     run_kernel(model_.springs.kernels().measure, blocks_[b], sweep.measured, 0, true);

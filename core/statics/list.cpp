@@ -2,6 +2,7 @@
 // added in the order of the list, so that sums have the same order for any number of threads.
 #include <base/thread_errors.hpp>
 #include <scene/stage_call.hpp>
+#include <state/present_volumes.hpp>
 #include <statics/spring_rows.hpp>
 #include <statics/statics.hpp>
 
@@ -35,6 +36,22 @@ void Statics::make_list() {
   spring_memory_.resize(springs_.size());
   simulation_.for_springs_of_list(
       [&](const Simulation::SpringMemory& spring) { spring_memory_[spring.index] = spring; });
+}
+
+/// Adds the forces of nodal volumes; returns their energy, J. They have no tangent.
+double Statics::respond_volumes(const double* u, double* force) const {
+  if (!model_.nodal_volumes) return 0;
+  const auto places = static_cast<std::size_t>(problem_.grid.places);
+  std::vector<Vec3> moved(places);
+  for (std::size_t p = 0; p < places; ++p) moved[p] = {u[p], u[places + p], u[2 * places + p]};
+  const PresentVolumes volumes(*model_.nodal_volumes, std::move(moved), simulation_.breakages());
+  double energy = 0;
+  for (std::size_t p = 0; p < places; ++p) {
+    const Vec3 own = volumes.force(p);
+    for (std::size_t c = 0; c < 3; ++c) force[c * places + p] += own[c];
+    energy += volumes.energy(p);
+  }
+  return energy;
 }
 
 double Statics::respond_list(const double* u, double* force, const SpringTangents* tangents) const {
@@ -89,7 +106,7 @@ double Statics::respond_list(const double* u, double* force, const SpringTangent
     }
   double energy = 0;
   for (const double of_piece : energies) energy += of_piece;
-  return energy;
+  return energy + respond_volumes(u, force);
 }
 
 }  // namespace hyperlattice

@@ -5,8 +5,8 @@
 //   I-m: lambda = 7 (1 - 4 nu) / (1 + 5 nu),  k = 0.4 E l / eta,
 //        eta = (18/5) (1 + nu) (1 - 2 nu) / (1 + 5 nu)
 // For other lattices it uses their computed elastic constants (membranes.hpp). Without a membrane
-// the volumetric energy of the cells (volumetric_cell.hpp) gives every Poisson ratio above the
-// lattice's own, and with `volumetric` those below it:
+// the volumetric energy of the cells, or of the nodal volumes of a list, (volumetric_cell.hpp)
+// gives every Poisson ratio above the lattice's own, and with `volumetric` those below it:
 //   K_v = (nu (C11 + C12) - C12) / (1 - 2 nu) with C11, C12 of the springs; C (4 nu - 1) / (1 - 2
 //   nu) for the cubic lattice, C = k / l. E is the modulus of
 // one layer; every particle has the mass density * V, with V the volume of its site.
@@ -67,9 +67,9 @@ struct Options {
         .template add<&Options::poisson>(
             "poisson", "",
             "Poisson ratio; may be left out without a membrane, with lambda, and with free ratios. "
-            "Without a membrane, the volumetric energy of the cells gives a value above the "
-            "lattice's own (1/4 in the cubic lattice), exactly isotropic and with 3 degrees of "
-            "freedom")
+            "Without a membrane, the volumetric energy of cubic cells, or of the nodal volumes of "
+            "a list, gives a value above the lattice's own (1/4 in the cubic lattice), exactly "
+            "isotropic for cells, and with 3 degrees of freedom")
         .above(-1)
         .below(0.5)
         .template add<&Options::density>("density", "kg/m3", "mass density")
@@ -216,6 +216,11 @@ struct Options {
     MaterialConstants constants = membranes::constants(lattice, choice.ratios);
     const ElasticConstants springs = lattice.elastic_constants(constants);
     choice.volumetric = constants.volumetric = membranes::volumetric(lattice, *poisson);
+    if (!std::isfinite(choice.volumetric))
+      throw std::invalid_argument(text("poisson ", choice.poisson,
+                                       ", or left out: the sample of this lattice gives no "
+                                       "volumetric energy for ",
+                                       *poisson));
     const ElasticConstants own = lattice.elastic_constants(constants);
     choice.poisson = own.poisson();
     choice.modulus_ratio *= own.young() / springs.young();
@@ -246,7 +251,8 @@ struct Options {
     throw std::invalid_argument(
         text("poisson ", own, ", or left out: that is what the lattice without a membrane has; ",
              membranes::reached_by(lattice, membrane, *poisson),
-             lattice.has_cells
+             lattice.lengths > 0 ? "; a list of springs reaches only larger ones otherwise"
+             : lattice.has_cells
                  ? "; volumetric true reaches it too, in a body without failure"
                  : "; other ratios need the volumetric energy of cubic cells, whose corners the "
                    "particles of this lattice are not"));

@@ -28,8 +28,9 @@ struct MaterialConstants {
   bool clamped = false;  ///< k_alpha infinite: no motion in the fourth dimension (III, IV)
   /// Law::Constants of each class's base and cross springs; unused if the law has none.
   double law[max_spring_classes][2][max_law_constants] = {};
-  /// K_v of the volumetric energy of the cells, Pa (volumetric_cell.hpp). Not 0 only on a lattice
-  /// with LatticeFacts::has_cells; below 0 only without failure.
+  /// K_v of the volumetric energy of the cells, or of the nodal volumes of a list, Pa
+  /// (volumetric_cell.hpp). Not 0 only on a lattice with LatticeFacts::has_cells; below 0 only
+  /// without failure and not on a list.
   double volumetric = 0;
 
   /// Sets the law's constants of one class's base springs (cross 0) or cross springs (1).
@@ -80,7 +81,8 @@ struct LatticeFacts {
   double lengths = 0, cubed_lengths = 0;
   /// The scene accepts unstable lattices: a material must not refuse them.
   bool allow_unstable = false;
-  /// Sites are the corners of cubic cells, which can have a volumetric energy.
+  /// The lattice can have volumetric energies: its sites are the corners of cubic cells, or it is a
+  /// list, whose particles are the corners of tetrahedra.
   bool has_cells = false;
 
   void* self = nullptr;

@@ -93,11 +93,32 @@ inline double lambda(const LatticeFacts& lattice, Membrane membrane, double pois
 }
 
 /// Returns K_v, Pa, of the volumetric energy (volumetric_cell.hpp) with which the lattice of k =
-/// 1 N/m without a membrane has this Poisson ratio: with C11 and C12 of the springs,
-///   K_v = (nu (C11 + C12) - C12) / (1 - 2 nu).
+/// 1 N/m without a membrane has this Poisson ratio; infinity if there is none. With C11 and C12 of
+/// the springs, K_v = (nu (C11 + C12) - C12) / (1 - 2 nu) for structured lattices. The particles of
+/// a list do not follow a uniform strain, so that its springs do not stay alike; secants start
+/// there.
 inline double volumetric(const LatticeFacts& lattice, double poisson) {
-  const ElasticConstants springs = lattice.elastic_constants(constants(lattice, {}));
-  return (poisson * (springs.C11 + springs.C12) - springs.C12) / (1 - 2 * poisson);
+  MaterialConstants springs = constants(lattice, {});
+  const auto miss = [poisson](const ElasticConstants& c) {
+    return poisson * (c.C11 + c.C12) - c.C12;
+  };
+  const double without = miss(lattice.elastic_constants(springs)), slope = 1 - 2 * poisson;
+  double now = without / slope, before = 0, miss_before = without;
+  const bool is_listed = lattice.lengths > 0;
+  if (!is_listed) return now;
+  constexpr double exact = 1e-6;
+  constexpr int most = 30;
+  for (int n = 0; n < most; ++n) {
+    springs.volumetric = now;
+    const ElasticConstants here = lattice.elastic_constants(springs);
+    const double miss_now = miss(here);
+    if (std::abs(miss_now) < exact * std::abs(here.C11 - here.C12)) return now;
+    const double next = now - miss_now * (now - before) / (miss_now - miss_before);
+    before = now;
+    miss_before = miss_now;
+    now = next;
+  }
+  return infinity;
 }
 
 /// Returns the Poisson ratio that the lattice approaches for lambda to infinity.

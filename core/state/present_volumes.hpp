@@ -1,0 +1,32 @@
+// The volumetric energies of the particles of a listed body (model/nodal_volumes.hpp) at given
+// displacements, for outputs and for the distance from rest.
+#pragma once
+
+#include <model/nodal_volumes.hpp>
+#include <state/breakage.hpp>
+
+#include <span>
+#include <vector>
+
+namespace hyperlattice {
+
+class PresentVolumes {
+ public:
+  /// `moved`: displacements of all particles, m. `breakages`: of the body so far. `volumes` must
+  /// outlive the object.
+  PresentVolumes(const NodalVolumes& volumes, std::vector<Vec3> moved,
+                 std::span<const Breakage> breakages);
+
+  double pressure(std::size_t particle) const { return pressures_[particle]; }  ///< Pa
+  double energy(std::size_t particle) const { return energies_[particle]; }     ///< J
+  Vec3 force(std::size_t particle) const {
+    return volumes_.force(particle, moved_, pressures_);
+  }  ///< N
+
+ private:
+  const NodalVolumes& volumes_;
+  std::vector<Vec3> moved_;
+  std::vector<double> pressures_, energies_;
+};
+
+}  // namespace hyperlattice
