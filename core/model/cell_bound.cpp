@@ -84,6 +84,7 @@ class ScaledStiffness {
     const Eigen::VectorXd moved = scale_.cwiseProduct(x);
     Eigen::VectorXd force = Eigen::VectorXd::Zero(numbers());
     Eigen::VectorXd of_cell(corners * size_), pull(corners * size_);
+    auto partial = model_.body.cells.partial().begin();  // the next one
     for (const Run& run : model_.body.cells.runs()) {
       Particle row[4];  // the particles at the run's first cell; those of the next cells follow
       for (std::int32_t n = 0; n < 4; ++n)
@@ -100,6 +101,9 @@ class ScaledStiffness {
         for (int n = 0; n < corners; ++n)
           of_cell.segment(n * size_, size_) = moved.segment(at(n), size_);
         pull.noalias() = of_material_[material] * of_cell;
+        if (partial != model_.body.cells.partial().end() &&
+            partial->cell == run.first + static_cast<Particle>(i - run.begin))
+          pull *= double{(partial++)->share};
         for (int n = 0; n < corners; ++n)
           force.segment(at(n), size_) += pull.segment(n * size_, size_);
       }

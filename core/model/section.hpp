@@ -20,7 +20,7 @@ struct CutSpring {
 /// A cell with a volumetric energy that a plane cuts.
 struct CutCell {
   std::array<Particle, 8> corners{};  ///< in the order of CellCorners
-  double modulus = 0;                 ///< K_v, Pa
+  double modulus = 0;                 ///< K_v times the cell's share, Pa
   std::uint8_t before = 0;            ///< bit n: corner n is before the plane
 };
 

@@ -62,4 +62,38 @@ void for_parts(const Model& model, const SpringProperties& properties, std::size
   visit(model.springs.laws[properties.law], spring, 1.0);
 }
 
+/// Where the ends a and b of a spring are: the displacement of b less that of a, and heights, m.
+struct SpringMotion {
+  Vec3 apart;
+  double height_a = 0, height_b = 0;
+};
+
+/// Force over length, N/m, and energy, J, of a whole base spring with its cross springs.
+struct SpringPull {
+  double pull = 0, energy = 0;
+};
+
+/// Returns the pull of a spring in its present motion. A law with a memory gives the force that it
+/// has after a step of `time_step` seconds to this motion. `memory(cross)` returns a copy of what
+/// the laws keep, in a container with data().
+template <class Memory>
+SpringPull pull_of(const Model& model, const SpringProperties& properties,
+                   const SpringMotion& motion, double time_step, const Memory& memory) {
+  const std::size_t kinds = model.springs.choice.membrane == KernelChoice::Membrane::none ? 1 : 2;
+  SpringPull sum;
+  for (std::size_t cross = 0; cross < kinds; ++cross) {
+    const double rise = cross == 0 ? motion.height_b - motion.height_a
+                                   : motion.height_b + motion.height_a,
+                 rest_length = properties.rest_length_of(cross),
+                 growth = properties.growth(cross, motion.apart, rise,
+                                            model.body.grid.membrane_distance);
+    auto kept = memory(cross);
+    const CompositeAnswer answer = take_spring(
+        model, properties, cross, properties.elongation(cross, growth), time_step, kept.data());
+    sum.pull += answer.force / std::sqrt(rest_length * rest_length + growth);
+    sum.energy += answer.stored;
+  }
+  return sum;
+}
+
 }  // namespace hyperlattice

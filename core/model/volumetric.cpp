@@ -55,6 +55,12 @@ std::vector<Range> Volumetric::row(std::int32_t j, std::int32_t k) const {
 
 double Volumetric::modulus(Site cell) const {
   if (uniform()) return of_materials_.front();
+  return body_->cells.has_partial() ? body_->cells.share_of_cell(cell) * whole_modulus(cell)
+                                    : whole_modulus(cell);
+}
+
+double Volumetric::whole_modulus(Site cell) const {
+  if (of_materials_.size() == 1) return of_materials_.front();
   if (!kinds_->mixtures.empty())
     return of_materials_[kinds_->mixtures.cell_above(kinds_->mixtures.of(body_->at(cell)))];
   double inverse = 0, mean = 0, least = infinity, largest = -infinity;
@@ -91,10 +97,6 @@ void set_volumetric(Model& model, Faults& faults) {
     if (modulus != 0 && !has_cells)
       refuse(
           "no volumetric energy on this lattice: its particles are not the corners of cubic cells");
-    if (modulus != 0 && model.body.cells.has_partial())
-      refuse(
-          "no volumetric energy with boundary \"partial_cells\": the energy of a part of a cell is "
-          "not known yet; use \"cells\" or \"particles\"");
     if (modulus < 0 && (model.springs.breakable || model.springs.softens))
       refuse(
           "no failure in the body: a volumetric energy with K_v below zero would give energy to "

@@ -1,8 +1,8 @@
 // The volumetric energies of the cells of a body (<hyperlattice/volumetric_cell.hpp>): which cells
 // have one, and their K_v. A cell stands between the sites (i, j, k) and (i + 1, j + 1, k + 1).
-// With boundary "cells" it has one material. With boundary "particles" every cell counts whose
-// eight corners are particles, in full; between several materials its K_v is joined as the
-// stiffness of their springs is.
+// In a body of cells it has one material, and a partial cell counts by its share. With boundary
+// "particles" every cell counts whose eight corners are particles, in full; between several
+// materials its K_v is joined as the stiffness of their springs is.
 #pragma once
 
 #include <model/body.hpp>
@@ -22,17 +22,17 @@ class Volumetric {
 
   /// Returns whether no cell has a volumetric energy.
   bool empty() const { return of_materials_.empty(); }
-  /// Returns whether all cells have the same K_v.
-  bool uniform() const { return of_materials_.size() == 1; }
+  /// Returns whether all cells have the same modulus().
+  bool uniform() const { return of_materials_.size() == 1 && !body_->cells.has_partial(); }
   /// Returns the largest and least K_v of the materials, Pa.
   double largest() const;
   double least() const;
 
   /// Returns the cells of row (j, k), ascending and disjoint, by the sites of their lowest corners.
   std::vector<Range> row(std::int32_t j, std::int32_t k) const;
-  /// Returns K_v, Pa, of an existing cell.
+  /// Returns K_v times the cell's share, Pa, of an existing cell.
   double modulus(Site cell) const;
-  /// Calls visit(cell, K_v) for each cell of the body with a K_v.
+  /// Calls visit(cell, modulus) for each cell of the body whose modulus is not 0.
   template <class Visit>
   void for_cells(const Visit& visit) const {
     for (std::int32_t k = 0; !empty() && k < body_->grid.sites[2]; ++k)
@@ -45,6 +45,9 @@ class Volumetric {
   std::array<Particle, 8> corners(Site cell) const;
 
  private:
+  /// Returns K_v of an existing cell, Pa.
+  double whole_modulus(Site cell) const;
+
   const Body* body_ = nullptr;
   const ParticleKinds* kinds_ = nullptr;
   std::vector<double> of_materials_;

@@ -129,20 +129,20 @@ class Layer {
     cell.is_whole = std::all_of(
         springs_of_cell_.begin(), springs_of_cell_.end(),
         [&](const CellSpring& of) { return springs_.lives(cell.corners[of.a], of.neighbour); });
+    cell.has_volumetric_energy = springs_.has_volumetric_energy(cell.corners[0]);
     cell.force = {};
     cell.energy = 0;
     if (asked_ == Asked::motion) return;
     for (const CellSpring& of : springs_of_cell_) add_spring(of, cell);
     if (asked_ == Asked::energies) add_alpha(cell);
-    add_volume_term(model_, cell);
+    add_volumetric_energy(model_, cell);
   }
 
   void add_spring(const CellSpring& of, PresentCell& cell) const {
     const Particle a = cell.corners[of.a];
     const PlaneSprings& plane = planes_[of.a >> 2];
     const std::size_t at = plane.index(of.neighbour, a);
-    PresentSprings::Answer whole{plane.pull[at],
-                                 asked_ == Asked::energies ? plane.energy[at] : 0.0};
+    SpringPull whole{plane.pull[at], asked_ == Asked::energies ? plane.energy[at] : 0.0};
     if (is_mixed(a, of.neighbour, cell.material))
       whole = springs_.part_of(a, cell.corners[of.b], of.neighbour, cell.material);
     const double part = cell.share * of.share;
@@ -208,10 +208,10 @@ Tensor gradient_in(const PresentCell& cell, std::span<const double> xyz, double 
   return 1 / (4 * spacing) * sum;
 }
 
-void add_volume_term(const Model& model, PresentCell& cell) {
-  if (model.volumetric.empty() || !cell.is_whole) return;
-  const CellResponse own = cell_response(cell.moved, model.body.grid.spacing,
-                                         cell.share * model.volumetric.modulus(cell.site));
+void add_volumetric_energy(const Model& model, PresentCell& cell) {
+  if (!cell.has_volumetric_energy) return;
+  const CellResponse own =
+      cell_response(cell.moved, model.body.grid.spacing, model.volumetric.modulus(cell.site));
   for (std::size_t n = 0; n < 8; ++n) cell.force[n] += own.force[n];
   cell.energy += own.energy;
 }

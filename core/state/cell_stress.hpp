@@ -19,11 +19,12 @@ struct PresentCell {
   double share = 1;           ///< part of the cell that counts, phi
   std::uint8_t material = 0;  ///< in a body of cells of several materials; else of the first corner
   bool is_whole = true;       ///< whether all its springs are there
+  bool has_volumetric_energy = false;
   /// Mean displacement gradient H of the trilinear field between the corners; F = I + H.
   Tensor gradient;
   std::array<Vec3, 8> moved{};  ///< displacements of the corners less that of the first one, m
-  /// The cell's own force on each corner, N: its part of its springs, and its volumetric term. The
-  /// forces of all cells around a particle of a body of cells add up to its internal force.
+  /// The cell's own force on each corner, N: its part of its springs, and of its volumetric energy.
+  /// The forces of all cells around a particle of a body of cells add up to its internal force.
   /// Only if asked for.
   std::array<Vec3, 8> force{};
   double energy = 0;  ///< J: its part of its springs and alpha springs; only if asked for
@@ -35,8 +36,8 @@ Tensor gradient_in(const PresentCell& cell, std::span<const double> xyz, double 
 /// Returns whether the body has cells: a cubic lattice whose springs do not leave a cell.
 bool has_cells(const Body& body);
 
-/// Adds the volumetric energy of a whole cell, and its forces on the corners, if the model has one.
-void add_volume_term(const Model& model, PresentCell& cell);
+/// Adds the volumetric energy of a cell that has one, and its forces on the corners.
+void add_volumetric_energy(const Model& model, PresentCell& cell);
 
 /// Visits all cells whose corners are particles; in a body of cells those that fill the shape.
 /// Calls for cells with a common corner follow each other in an order that no number of threads

@@ -74,7 +74,7 @@ std::vector<Symmetric> cauchy_stresses(const PresentSprings& springs) {
   const auto volumes = volumes_of(springs);
   for (Particle p = 0; p < body.particles; ++p) {
     const double J = 1 + volume_change(H[p]);
-    stresses[p] = symmetric_part(1 / (J > 0 ? J : 1) * virial[p]);
+    stresses[p] = symmetric_part(1 / (J > 0 ? J : J <= 0 ? nan : 1) * virial[p]);
     if (volumes)
       for (std::size_t c = 0; c < 3; ++c) stresses[p][c] += volumes->pressure(p);
   }
@@ -134,7 +134,7 @@ std::vector<Vec3> internal_forces(const PresentSprings& springs) {
     for (Particle p = 0; p < model.body.particles; ++p) forces[p] += volumes->force(p);
   if (model.volumetric.empty()) return forces;
   for_cells(springs, Asked::motion, [&](PresentCell cell) {
-    add_volume_term(model, cell);
+    add_volumetric_energy(model, cell);
     for (std::size_t n = 0; n < 8; ++n) forces[cell.corners[n]] += cell.force[n];
   });
   return forces;

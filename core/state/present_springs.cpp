@@ -1,4 +1,3 @@
-#include <model/spring_calls.hpp>
 #include <state/block_set.hpp>
 #include <state/present_springs.hpp>
 
@@ -102,26 +101,16 @@ PresentSprings::PresentSprings(const Model& model, const Simulation& simulation)
       [&](const Simulation::SpringMemory& spring) { memory_[spring.index] = spring; });
 }
 
-PresentSprings::Answer PresentSprings::ask(const SpringProperties& properties, Particle a,
-                                           Particle b, const Layout::Memory (&memory)[2],
-                                           std::uint32_t first) const {
-  const Vec3 apart = displacement(b) - displacement(a);
-  const std::size_t kinds = model_.springs.choice.membrane == KernelChoice::Membrane::none ? 1 : 2;
-  Answer sum;
-  for (std::size_t cross = 0; cross < kinds; ++cross) {
-    const double rise = cross == 0 ? height(b) - height(a) : height(b) + height(a);
-    const double rest_length = properties.rest_length_of(cross),
-                 growth = properties.growth(cross, apart, rise, model_.body.grid.membrane_distance);
-    LawNumbers kept{};
-    if (memory[cross].first != nullptr) kept = read_numbers(memory[cross], model_.springs.memory);
-    // As a measurement does: the memory is that of the last step's start and stays so.
-    const CompositeAnswer answer =
-        take_spring(model_, properties, cross, properties.elongation(cross, growth),
-                    simulation_.last_step(), kept.data() + first);
-    sum.pull += answer.force / std::sqrt(rest_length * rest_length + growth);
-    sum.energy += answer.stored;
-  }
-  return sum;
+/// The memory is that of the last step's start and stays so, as in a measurement.
+SpringPull PresentSprings::ask(const SpringProperties& properties, Particle a, Particle b,
+                               const Layout::Memory (&memory)[2], std::uint32_t first) const {
+  return pull_of(model_, properties, {displacement(b) - displacement(a), height(a), height(b)},
+                 simulation_.last_step(), [&](std::size_t cross) {
+                   const Layout::Memory& all = memory[cross];
+                   if (all.first == nullptr) return LawNumbers{};
+                   return read_numbers({all.first + first * all.stride, all.stride},
+                                       model_.springs.memory - first);
+                 });
 }
 
 void PresentSprings::find_memory(Particle a, std::uint32_t neighbour,
@@ -132,8 +121,8 @@ void PresentSprings::find_memory(Particle a, std::uint32_t neighbour,
       memory[cross ? 1 : 0] = simulation_.law_memory(a, neighbour, cross);
 }
 
-PresentSprings::Answer PresentSprings::part_of(Particle a, Particle b, std::uint32_t neighbour,
-                                               std::uint8_t material) const {
+SpringPull PresentSprings::part_of(Particle a, Particle b, std::uint32_t neighbour,
+                                   std::uint8_t material) const {
   if (!lives(a, neighbour)) return {};
   SpringProperties properties = model_.spring_properties(a, b, neighbour);
   const SpringConstants& own = model_.springs.spring(material, material, properties.spring_class);
@@ -194,7 +183,7 @@ void PresentSprings::compute(const Piece& piece, Asked asked, Row& row,
       if (!lives(part.a + t, part.neighbour)) continue;
       Layout::Memory memory[2];
       find_memory(part.a + t, part.neighbour, memory);
-      const Answer answer = ask(properties, part.a + t, part.b + t, memory);
+      const SpringPull answer = ask(properties, part.a + t, part.b + t, memory);
       springs.pull[at + t] = answer.pull;
       if (asked == Asked::energies) springs.energy[at + t] = answer.energy;
     }
@@ -256,7 +245,7 @@ void PresentSprings::visit_list(Asked asked,
   constexpr std::size_t piece = 1024;  // springs, for any number of threads
   const std::vector<ListedSpring>& listed = model_.body.listed.springs;
   const auto is_broken = [&](std::size_t n) { return !broken_.empty() && broken_[n] != 0; };
-  std::vector<Answer> answers(asked == Asked::motion ? 0 : listed.size());
+  std::vector<SpringPull> answers(asked == Asked::motion ? 0 : listed.size());
   simulation_.in_parallel((answers.size() + piece - 1) / piece, [&](std::size_t part) {
     for (std::size_t n = part * piece; n < std::min(listed.size(), (part + 1) * piece); ++n) {
       if (is_broken(n)) continue;

@@ -3,7 +3,7 @@
 // copied.
 #pragma once
 
-#include <model/model.hpp>
+#include <model/spring_calls.hpp>
 #include <state/simulation.hpp>
 
 #include <functional>
@@ -56,6 +56,9 @@ class PresentSprings {
   bool lives(Particle particle, std::uint32_t neighbour) const {
     return (alive_[particle] >> neighbour & 1U) != 0;
   }
+  /// Returns whether the volumetric energy acts of the cell whose lowest corner is this particle of
+  /// a structured body.
+  bool has_volumetric_energy(Particle lowest) const { return (alive_[lowest] & cell_bit) != 0; }
 
   /// Visits all springs that are not broken. Calls for springs that have a particle in common
   /// follow each other in an order that no number of threads changes; other calls may be at the
@@ -66,13 +69,9 @@ class PresentSprings {
   /// Computes the springs that start in plane k of a structured body, to the neighbours whose bits
   /// are set. Any thread may call it.
   PlaneSprings plane(std::int32_t k, Asked asked, std::uint32_t neighbours = ~0U) const;
-  /// Force over length, N/m, and energy, J.
-  struct Answer {
-    double pull = 0, energy = 0;
-  };
-  /// Returns the answer of the part that one material has in a spring of a structured body between
+  /// Returns the pull of the part that one material has in a spring of a structured body between
   /// cells of several materials, as that of a whole spring of this material.
-  Answer part_of(Particle a, Particle b, std::uint32_t neighbour, std::uint8_t material) const;
+  SpringPull part_of(Particle a, Particle b, std::uint32_t neighbour, std::uint8_t material) const;
 
  private:
   /// Consecutive particles with springs to as many others.
@@ -90,8 +89,8 @@ class PresentSprings {
                    const std::function<void(const PresentSpring&)>& visit) const;
   void visit_list(Asked asked, const std::function<void(const PresentSpring&)>& visit) const;
   /// `first`: place in the memory of the first number that the law keeps.
-  Answer ask(const SpringProperties& properties, Particle a, Particle b,
-             const Layout::Memory (&memory)[2], std::uint32_t first = 0) const;
+  SpringPull ask(const SpringProperties& properties, Particle a, Particle b,
+                 const Layout::Memory (&memory)[2], std::uint32_t first = 0) const;
   void find_memory(Particle a, std::uint32_t neighbour, Layout::Memory (&memory)[2]) const;
 
   const Model& model_;

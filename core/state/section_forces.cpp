@@ -4,7 +4,6 @@
 #include <hyperlattice/volumetric_cell.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 namespace hyperlattice {
 
@@ -74,18 +73,13 @@ void SectionForces::add(const Spring& spring, Vec3 about, Resultant& sum) const 
   const SpringProperties of =
       model_.spring_properties(spring.a.particle, spring.b.particle, spring.neighbour);
   const Vec3 apart = moved(spring.b) - moved(spring.a);
-  const std::size_t kinds = model_.springs.choice.membrane == KernelChoice::Membrane::none ? 1 : 2;
-  double pull = 0;  // N/m: the force over the vector from a to b
-  for (std::size_t cross = 0; cross < kinds; ++cross) {
-    const double rise =
-        cross == 0 ? height(spring.b) - height(spring.a) : height(spring.b) + height(spring.a);
-    const double growth = of.growth(cross, apart, rise, model_.body.grid.membrane_distance),
-                 elongation = of.elongation(cross, growth);
-    LawNumbers kept =
-        blocks_.law_numbers(*spring.a.block, spring.row, spring.number, spring.site, cross != 0);
-    pull += take_spring(model_, of, cross, elongation, clock_.last_step(), kept.data()).force /
-            (of.rest_length_of(cross) + elongation);
-  }
+  const double pull =
+      pull_of(model_, of, {apart, height(spring.a), height(spring.b)}, clock_.last_step(),
+              [&](std::size_t cross) {
+                return blocks_.law_numbers(*spring.a.block, spring.row, spring.number, spring.site,
+                                           cross != 0);
+              })
+          .pull;
   const End& before = spring.a_is_before ? spring.a : spring.b;
   const Vec3 force = ((spring.a_is_before ? of.share : -of.share) * pull) * (of.rest + apart);
   sum.force += force;

@@ -46,7 +46,7 @@ class SectionForces {
   /// A cell with a volumetric energy; the bit cell_bit of its first corner says whether it acts.
   struct Cell {
     std::array<End, 8> corners;
-    double modulus = 0;       ///< K_v, Pa
+    double modulus = 0;       ///< K_v times the cell's share, Pa
     std::uint8_t before = 0;  ///< bit n: corner n is before the plane
   };
   End end_of(Particle particle) const;

@@ -114,7 +114,8 @@ class Statics {
   std::vector<std::uint32_t> kind_;  ///< ParticleKinds::of() of each place; empty: one material
   /// Fraction of each spring that counts, [n * places + place] or per listed spring; 0: no spring.
   std::vector<float, ArrayMemory<float>> weight_;
-  Values cell_modulus_;                 ///< K_v of the cell of each place, Pa; empty: no cells
+  /// K_v times the share of the cell of each place, Pa; empty: no cells.
+  Values cell_modulus_;
   std::vector<float> particle_weight_;  ///< fraction of a whole particle at each place
 
   Values state_;              ///< displacements, m

@@ -86,6 +86,9 @@ void expect_internal_forces(const std::string& scene, const std::string& what) {
   }
 }
 
+/// Random parts of the cells of the block.
+Json parts_of_the_block() { return random_parts({"block", {}, in_box({0, 0, 0}, {6, 5, 8})}); }
+
 TEST(SectionForce, IsTheInternalForceOnThePartBefore) {
   for (const MembraneCase& one : membranes) expect_internal_forces(block(6, 5, 8, one), one.name);
   for (const MembraneCase& one : centred_lattices)
@@ -94,6 +97,11 @@ TEST(SectionForce, IsTheInternalForceOnThePartBefore) {
   expect_internal_forces(scene_of_cells(box_mm(6, 5, 8), {{"poisson", 0.25}}), "cells");
   expect_internal_forces(scene_of_cells(box_mm(6, 5, 8), {{"membrane", "I-m"}, {"poisson", 0.1}}),
                          "cells I-m");
+  for (const MembraneCase& one : volumetric) {
+    expect_internal_forces(block(6, 5, 8, one), one.name);
+    expect_internal_forces(scene_of_cells(box_mm(6, 5, 8), one.material), one.name);
+    expect_internal_forces(scene_of_partial_cells(parts_of_the_block(), one.material), one.name);
+  }
 }
 
 TEST(SectionForce, OfLawsWithMemoryAndOfSeveralLaws) {
@@ -156,10 +164,15 @@ TEST(LoadCells, BalanceAtRest) {
          { "type": "loads.force", "on": "z_max", "total": [3, -2, 20] },
          { "type": "loads.gravity", "acceleration": [100, 0, -9.81] },
          { "type": "solvers.static", "tolerance": 1e-12 })";
-  for (const std::string& material :
-       {std::string(R"("poisson": 0.25)"), std::string(R"("membrane": "I-m", "poisson": 0.1)")}) {
-    const AtRest body(scene({{"spacing", 1e-3}, {"shape", box_mm(6, 5, 8)}},
-                            elastic(1e10, material) + Stages(loads)));
+  const Keys whole = {{"shape", box_mm(6, 5, 8)}},
+             partial = {{"shape", box({}, {5.7e-3, 4.6e-3, 8e-3})}, {"boundary", "partial_cells"}};
+  for (const auto& [shape, material] : {std::pair<Keys, std::string>{whole, R"("poisson": 0.25)"},
+                                        {whole, R"("membrane": "I-m", "poisson": 0.1)"},
+                                        {whole, R"("poisson": 0.45)"},
+                                        {whole + Keys{{"boundary", "cells"}}, R"("poisson": 0.45)"},
+                                        {partial, R"("poisson": 0.45)"}}) {
+    const AtRest body(
+        scene(Keys{{"spacing", 1e-3}} + shape, elastic(1e10, material) + Stages(loads)));
     ForceSums& sums = body.simulation->force_sums();
     const Model& model = body.model();
     const ForcesId fixed = sums.follow(std::size_t{0}), pull = sums.follow(std::size_t{1}),
@@ -238,6 +251,7 @@ TEST(LoadCells, BalanceInMotion) {
   for (const char* material :
        {R"("type": "materials.elastic", "membrane": "none")",
         R"("type": "materials.elastic", "membrane": "I-m", "poisson": 0.1)",
+        R"("type": "materials.elastic", "poisson": 0.45)",
         R"("type": "materials.viscous", "membrane": "none", "time": 2e-7)"}) {
     const auto plan =
         plan_of(SceneBuilder{}

@@ -157,21 +157,22 @@ TEST(PartialCells, PassThePatchTest) {
 }
 
 TEST(PartialCells, ShrinkEvenlyUnderTheSamePressureEverywhere) {
-  for (const Solid& solid : solids()) {
-    constexpr double strain = 1e-20;
-    // With nu = 1/4 the bulk modulus is 2/3 E.
-    const auto plan = plan_of(
-        scene_of(solid.shape, {{"poisson", 0.25}},
-                 stage("loads.pressure", {{"on", "surface"}, {"pressure", 2e10 * strain}})));
-    const Model& model = *plan->model;
-    std::vector<double> u(3 * model.body.particles);
-    for (Particle p = 0; p < model.body.particles; ++p)
-      for (std::size_t c = 0; c < 3; ++c) u[3 * p + c] = -strain * model.body.position(p)[c];
-    double worst = 0;
-    for (const Force& rest : forces(model, u, {}))
-      for (const double component : rest) worst = std::max(worst, std::abs(component));
-    EXPECT_LT(worst, 1e-12 * 1e10 * strain * l * l) << solid.name;
-  }
+  for (const double poisson : {0.25, 0.45})
+    for (const Solid& solid : solids()) {
+      constexpr double strain = 1e-20;
+      const double pressure = 1e10 / (1 - 2 * poisson) * strain;  // three times the bulk modulus
+      const auto plan =
+          plan_of(scene_of(solid.shape, {{"poisson", poisson}},
+                           stage("loads.pressure", {{"on", "surface"}, {"pressure", pressure}})));
+      const Model& model = *plan->model;
+      std::vector<double> u(3 * model.body.particles);
+      for (Particle p = 0; p < model.body.particles; ++p)
+        for (std::size_t c = 0; c < 3; ++c) u[3 * p + c] = -strain * model.body.position(p)[c];
+      double worst = 0;
+      for (const Force& rest : forces(model, u, {}))
+        for (const double component : rest) worst = std::max(worst, std::abs(component));
+      EXPECT_LT(worst, 1e-12 * pressure * l * l) << solid.name << ' ' << poisson;
+    }
 }
 
 TEST(PartialCells, CarryAPressureOnACavityAsTheTrueSurfaceDoes) {
@@ -189,8 +190,8 @@ TEST(PartialCells, CarryAPressureOnACavityAsTheTrueSurfaceDoes) {
 
 /// Relative L2 error of the displacement of a thick sphere, radii 20 and 50, under a pressure
 /// inside: one octant with its planes of symmetry (Lame).
-double sphere_error(double spacing, const char* boundary) {
-  constexpr double E = 1, nu = 0.25, a = 20, b = 50, p = 1e-7;
+double sphere_error(double spacing, const char* boundary, double nu = 0.25) {
+  constexpr double E = 1, a = 20, b = 50, p = 1e-7;
   const Json octant = {{"intersection",
                         {{{"hollow_sphere", {{"inner_radius", a}, {"outer_radius", b}}}},
                          box({0, 0, 0}, {60, 60, 60})}}};
@@ -230,6 +231,29 @@ TEST(PartialCells, ConvergeWithSecondOrderOnASphere) {
   EXPECT_GT(std::log2(coarse / fine), 1.8);
 }
 
+// No locking: the errors near nu = 1/2 are of the same order. The prototype has .0925 and .0166 for
+// 0.49.
+TEST(PartialCells, ConvergeWithSecondOrderOnASphereNearOneHalf) {
+  for (const auto& [nu, expected] : {std::pair{0.45, 0.0117}, {0.49, 0.0166}}) {
+    const double coarse = sphere_error(5, "partial_cells", nu),
+                 fine = sphere_error(2.5, "partial_cells", nu);
+    std::printf("partial cells, nu %.2f: %.4f %.4f\n", nu, coarse, fine);
+    EXPECT_NEAR(fine / expected, 1, 0.15) << nu;
+    EXPECT_GT(std::log2(coarse / fine), 1.8) << nu;
+  }
+}
+
+TEST(LongPartialCells, ConvergeWithSecondOrderOnASphereNearOneHalf) {
+  for (const auto& [nu, expected] : {std::pair{0.45, 0.0020}, {0.49, 0.0028}}) {
+    const double fine = sphere_error(2.5, "partial_cells", nu),
+                 finer = sphere_error(1.25, "partial_cells", nu);
+    std::printf("partial cells, nu %.2f: %.4f %.4f; whole cells: %.4f\n", nu, fine, finer,
+                sphere_error(1.25, "cells", nu));
+    EXPECT_NEAR(finer / expected, 1, 0.15) << nu;
+    EXPECT_GT(std::log2(fine / finer), 1.8) << nu;
+  }
+}
+
 TEST(LongPartialCells, ConvergeWithSecondOrderOnASphere) {
   const double fine = sphere_error(2.5, "partial_cells"),
                finer = sphere_error(1.25, "partial_cells");
@@ -261,8 +285,8 @@ TEST(PartialCells, BalanceTheirEnergy) {
   const Stages loads = stage("loads.fixed", {{"on", "z_min"}}) +
                        stage("loads.gravity", {{"acceleration", {1, 2, -9.81}}}) +
                        stage("loads.pressure", {{"on", "outer_surface"}, {"pressure", 1e5}});
-  for (const Keys& material :
-       {Keys{{"poisson", 0.25}}, Keys{{"membrane", "I-m"}, {"poisson", 0.1}}}) {
+  for (const Keys& material : {Keys{{"poisson", 0.25}}, Keys{{"poisson", 0.45}},
+                               Keys{{"membrane", "I-m"}, {"poisson", 0.1}}}) {
     const auto plan = plan_of(scene_of(solids()[1].shape, material, loads));
     const double coarse = worst_balance(*plan->model, 0.4).largest_error,
                  fine = worst_balance(*plan->model, 0.1).largest_error;

@@ -166,8 +166,9 @@ TEST(Stress, OfWholeParticlesIsExactWhereTheyHaveACell) {
 
 /// One cell in a random motion. The nominal stress is the derivative of its energy.
 TEST(Stress, IsTheDerivativeOfTheEnergyOfACell) {
-  for (const char* material : {R"("poisson": 0.25)", R"("membrane": "I-m", "poisson": 0.1)",
-                               R"("membrane": "II", "poisson": 0.1)"}) {
+  for (const char* material :
+       {R"("poisson": 0.25)", R"("poisson": 0.45)", R"("membrane": "I-m", "poisson": 0.1)",
+        R"("membrane": "II", "poisson": 0.1)"}) {
     const auto plan = plan_of(scene_of_cells(box_of_cells({0, 0, 0}, {1, 1, 1}), material));
     const Model& model = *plan->model;
     const auto start = noise(24, 0.15 * l);
