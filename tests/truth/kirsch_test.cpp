@@ -124,12 +124,13 @@ TEST(Kirsch, IsAFieldInEquilibrium) {  // the closed form against itself: Hooke 
   EXPECT_NEAR(exact.stress({0, 10, 0})[0], 3 * tension, 1e-12 * tension);
 }
 
-/// The prototype's values at a / l = 10.
+/// The prototype's values at a / l = 10, but for the stress around, whose error is a little above
+/// what is found.
 TEST(Kirsch, StressAroundAHoleOfWholeCells) {
   const Found found = printed(10, "cells", 0.3);
   EXPECT_NEAR(found.peak, 2.43, 0.05);
-  EXPECT_NEAR(found.stress, .021, .002);
-  EXPECT_NEAR(found.displacement, .0028, .0004);
+  EXPECT_LT(found.stress, .0149);
+  EXPECT_NEAR(found.displacement, .0028, .0003);
 }
 
 /// Partial cells take most of the error away, for any Poisson ratio.
@@ -142,18 +143,14 @@ TEST(Kirsch, StressAroundAHoleOfPartialCells) {
 
 /// Prints the table of docs/theory/convergence.md.
 TEST(LongKirsch, TableOfSpacings) {
-  const double peak[] = {2.22, 2.43, 2.58}, stress[] = {.026, .021, .017};
+  const double peaks[] = {2.22, 2.43, 2.58, 2.69};  // of the prototype
   for (const double poisson : {0.25, 0.3, 0.45})
-    for (int n = 0; n < 3; ++n) {
-      const Found found = printed(5 << n, "cells", poisson);
-      EXPECT_NEAR(found.peak, peak[n], 0.06);
-      EXPECT_NEAR(found.stress, stress[n], .2 * stress[n]);
+    for (int n = 0; n < 4; ++n) {
+      EXPECT_NEAR(printed(5 << n, "cells", poisson).peak, peaks[n], 0.05);
     }
-  const double partial_peak[] = {2.43, 2.68, 2.83}, partial_stress[] = {.014, .007, .0039};
-  for (int n = 0; n < 3; ++n) {
-    const Found found = printed(5 << n, "partial_cells", 0.25);
-    EXPECT_NEAR(found.peak, partial_peak[n], 0.06);
-    EXPECT_NEAR(found.stress, partial_stress[n], .2 * partial_stress[n]);
+  const double partial_peaks[] = {2.43, 2.68, 2.83, 2.88};
+  for (int n = 0; n < 4; ++n) {
+    EXPECT_NEAR(printed(5 << n, "partial_cells", 0.25).peak, partial_peaks[n], 0.05);
   }
 }
 
