@@ -194,7 +194,7 @@ struct AggregationMultigrid::Level {
 
   void smooth(bool from_zero) {
     ChebyshevIteration chebyshev(blocks.largest);
-    for (int n = 0; n < ChebyshevIteration::degree; ++n) {
+    for (int n = 0; n < chebyshev.degree(); ++n) {
       const ChebyshevIteration::Step weights = n == 0 ? chebyshev.first() : chebyshev.next();
       const bool zero = from_zero && n == 0;
       rest = zero ? b : Eigen::VectorXd(b - K * x);

@@ -32,7 +32,7 @@ void ChebyshevSmoother::estimate_largest() {
 
 void ChebyshevSmoother::smooth(const Field& b, Field& x, bool from_zero) {
   ChebyshevIteration chebyshev(largest_);
-  for (int n = 0; n < ChebyshevIteration::degree; ++n) {
+  for (int n = 0; n < chebyshev.degree(); ++n) {
     const bool zero = n == 0 && from_zero;
     if (!zero) A_.multiply(x.data(), rest_.data());
     in_pieces(b.size(), A_.threads(), [&](std::size_t first, std::size_t last) {

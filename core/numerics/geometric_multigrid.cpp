@@ -38,7 +38,7 @@ void GeometricMultigrid::smooth(const GridLevel& level, Work& w, bool from_zero)
   ChebyshevIteration chebyshev(level.largest_eigenvalue());
   constexpr std::size_t piece =
       512;  // places; their numbers stay in the processor's caches between the loops
-  for (int step = 0; step < ChebyshevIteration::degree; ++step) {
+  for (int step = 0; step < chebyshev.degree(); ++step) {
     const ChebyshevIteration::Step weights = step == 0 ? chebyshev.first() : chebyshev.next();
     const bool from_nothing = from_zero && step == 0;
     if (!from_nothing) level.multiply(step == 0 ? w.x.data() : w.d.data(), w.t.data());

@@ -1,6 +1,7 @@
 // The critical time step of a body of cells also holds for edges, corners and single cells. For a
 // body of one cell the step is exact.
 #include <support/cells.hpp>
+#include <support/growth.hpp>
 
 #include <gtest/gtest.h>
 
@@ -15,18 +16,6 @@ INSTANTIATE_TEST_SUITE_P(Volumetric, CellsStep, testing::ValuesIn(volumetric),
                          [](const auto& info) { return std::string(info.param.name); });
 INSTANTIATE_TEST_SUITE_P(VolumetricBelow, CellsStep, testing::ValuesIn(volumetric_below),
                          [](const auto& info) { return std::string(info.param.name); });
-
-/// Growth of the largest displacement over many steps. The initial noise is so small that the
-/// springs stay linear.
-double growth(const Model& model, double fraction) {
-  Simulation simulation(model, 1);
-  const double size = 1e-16;
-  simulation.set_displacements(
-      noise(3 * model.body.particles, size, 1),
-      model.degrees_of_freedom == 4 ? noise(model.body.particles, size, 2) : std::vector<double>{});
-  for (int n = 0; n < 600; ++n) simulation.step(fraction * model.step_limit.time_step);
-  return largest(displacements(simulation)) / size;
-}
 
 TEST_P(CellsStep, HoldsForEveryShape) {
   for (const CellShape& shape : cell_shapes())

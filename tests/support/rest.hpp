@@ -14,8 +14,9 @@ struct AtRest {
   RestReport report;
   std::vector<double> u, heights;
 
-  explicit AtRest(const std::string& scene, int threads = 1) : plan(plan_of(scene, threads)) {
-    simulation = std::make_unique<Simulation>(*plan->model, threads);
+  explicit AtRest(const std::string& scene, int threads = 1) : AtRest(plan_of(scene, threads)) {}
+  explicit AtRest(std::unique_ptr<Plan> planned) : plan(std::move(planned)) {
+    simulation = std::make_unique<Simulation>(*plan->model, plan->threads);
     report = bring_to_rest(*plan, *simulation);
     u = displacements(*simulation);
     simulation->heights(heights);

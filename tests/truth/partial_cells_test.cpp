@@ -1,9 +1,10 @@
 // Bodies of partial cells: their volume, exact equilibrium under homogeneous strain and pressure,
-// second order on curved surfaces, and sound dynamics.
+// and sound dynamics. thick_sphere_test.cpp and kirsch_test.cpp measure their convergence.
 #include <model/surfaces.hpp>
 
 #include <support/cells.hpp>
 #include <support/energy_balance.hpp>
+#include <support/growth.hpp>
 #include <support/rest.hpp>
 
 #include <gtest/gtest.h>
@@ -186,92 +187,6 @@ TEST(PartialCells, CarryAPressureOnACavityAsTheTrueSurfaceDoes) {
   }
   EXPECT_NEAR(inside / (4 * pi * std::pow(3e-3, 3)), 1, 0.01);
   EXPECT_NEAR(outside / (4 * pi * std::pow(7.3e-3, 3)), 1, 0.01);
-}
-
-/// Relative L2 error of the displacement of a thick sphere, radii 20 and 50, under a pressure
-/// inside: one octant with its planes of symmetry (Lame).
-double sphere_error(double spacing, const char* boundary, double nu = 0.25) {
-  constexpr double E = 1, a = 20, b = 50, p = 1e-7;
-  const Json octant = {{"intersection",
-                        {{{"hollow_sphere", {{"inner_radius", a}, {"outer_radius", b}}}},
-                         box({0, 0, 0}, {60, 60, 60})}}};
-  const AtRest sphere(
-      SceneBuilder{}
-          .lattice("lattices.cubic", spacing, octant, {{"boundary", boundary}})
-          .material("materials.elastic", {{"young", E}, {"density", 1}, {"poisson", nu}})
-          .load("loads.fixed", {{"on", "x_min"}, {"axes", "x"}})
-          .load("loads.fixed", {{"on", "y_min"}, {"axes", "y"}})
-          .load("loads.fixed", {{"on", "z_min"}, {"axes", "z"}})
-          .region("wall", {{"sphere", {{"radius", 35}}}})
-          .load("loads.pressure",
-                {{"on", {{"intersection", {"surface", "wall"}}}}, {"pressure", p}})
-          .stages(to_rest)
-          .text());
-  const Body& body = sphere.model().body;
-  const double q = p * a * a * a / (b * b * b - a * a * a);
-  double error = 0, size = 0;
-  for (Particle n = 0; n < body.particles; ++n) {
-    const Vec3 x = body.position(n);
-    const double r = norm(x);
-    if (r < a || r > b) continue;
-    const double u = q / E * ((1 - 2 * nu) * r + (1 + nu) * b * b * b / (2 * r * r)),
-                 found = dot(x, {sphere.u[3 * n], sphere.u[3 * n + 1], sphere.u[3 * n + 2]}) / r;
-    const double share = body.share(n);
-    error += share * (found - u) * (found - u);
-    size += share * u * u;
-  }
-  return std::sqrt(error / size);
-}
-
-TEST(PartialCells, ConvergeWithSecondOrderOnASphere) {
-  const double coarse = sphere_error(5, "partial_cells"), fine = sphere_error(2.5, "partial_cells");
-  std::printf("partial cells: %.4f %.4f\n", coarse, fine);
-  EXPECT_NEAR(coarse, 0.0435, 0.005);
-  EXPECT_NEAR(fine, 0.0080, 0.001);
-  EXPECT_GT(std::log2(coarse / fine), 1.8);
-}
-
-// No locking: the errors near nu = 1/2 are of the same order. The prototype has .0925 and .0166 for
-// 0.49.
-TEST(PartialCells, ConvergeWithSecondOrderOnASphereNearOneHalf) {
-  for (const auto& [nu, expected] : {std::pair{0.45, 0.0117}, {0.49, 0.0166}}) {
-    const double coarse = sphere_error(5, "partial_cells", nu),
-                 fine = sphere_error(2.5, "partial_cells", nu);
-    std::printf("partial cells, nu %.2f: %.4f %.4f\n", nu, coarse, fine);
-    EXPECT_NEAR(fine / expected, 1, 0.15) << nu;
-    EXPECT_GT(std::log2(coarse / fine), 1.8) << nu;
-  }
-}
-
-TEST(LongPartialCells, ConvergeWithSecondOrderOnASphereNearOneHalf) {
-  for (const auto& [nu, expected] : {std::pair{0.45, 0.0020}, {0.49, 0.0028}}) {
-    const double fine = sphere_error(2.5, "partial_cells", nu),
-                 finer = sphere_error(1.25, "partial_cells", nu);
-    std::printf("partial cells, nu %.2f: %.4f %.4f; whole cells: %.4f\n", nu, fine, finer,
-                sphere_error(1.25, "cells", nu));
-    EXPECT_NEAR(finer / expected, 1, 0.15) << nu;
-    EXPECT_GT(std::log2(fine / finer), 1.8) << nu;
-  }
-}
-
-TEST(LongPartialCells, ConvergeWithSecondOrderOnASphere) {
-  const double fine = sphere_error(2.5, "partial_cells"),
-               finer = sphere_error(1.25, "partial_cells");
-  std::printf("partial cells: %.4f %.4f; whole cells: %.4f\n", fine, finer,
-              sphere_error(1.25, "cells"));
-  EXPECT_NEAR(finer, 0.0017, 0.0003);
-  EXPECT_GT(std::log2(fine / finer), 1.8);
-}
-
-/// Growth of the largest displacement over many steps from a tiny noise.
-double growth(const Model& model, double fraction) {
-  Simulation simulation(model, 1);
-  const double size = 1e-16;
-  simulation.set_displacements(
-      noise(3 * model.body.particles, size, 1),
-      model.degrees_of_freedom == 4 ? noise(model.body.particles, size, 2) : std::vector<double>{});
-  for (int n = 0; n < 600; ++n) simulation.step(fraction * model.step_limit.time_step);
-  return largest(displacements(simulation)) / size;
 }
 
 TEST(PartialCells, AreStableAtThePlannedStep) {

@@ -1,6 +1,7 @@
 // The strain of particles: exact for linear fields on any lattice, blind to rotations.
 #include <state/particle_strain.hpp>
 #include <support/cells.hpp>
+#include <support/tensors.hpp>
 
 #include <gtest/gtest.h>
 
@@ -12,26 +13,11 @@ using namespace hyperlattice::test;
 
 constexpr double l = 1e-3;
 
-std::vector<double> linear(const Body& body, const Tensor& H) {
-  std::vector<double> u;
-  for (Particle p = 0; p < body.particles; ++p) {
-    const Vec3 d = H * body.position(p);
-    u.insert(u.end(), {d.x, d.y, d.z});
-  }
-  return u;
-}
-
 /// R - I of a rotation by an angle about a direction (Rodrigues), without cancellation.
 Tensor rotation_less_one(Vec3 direction, double angle) {
   const Vec3 n = direction / norm(direction);
   const Tensor K{{Vec3{0, -n.z, n.y}, Vec3{n.z, 0, -n.x}, Vec3{-n.y, n.x, 0}}};
   return std::sin(angle) * K + 2 * std::sin(angle / 2) * std::sin(angle / 2) * (K * K);
-}
-
-double largest_component(const Symmetric& t) {
-  double most = 0;
-  for (const double x : t) most = std::isnan(x) ? HUGE_VAL : std::max(most, std::abs(x));
-  return most;
 }
 
 struct Moved {

@@ -5,6 +5,7 @@
 #include <support/cells.hpp>
 #include <support/lists.hpp>
 #include <support/rest.hpp>
+#include <support/tensors.hpp>
 
 #include <gtest/gtest.h>
 
@@ -39,30 +40,6 @@ std::vector<CellShape> shapes() {
   std::vector<CellShape> all = cell_shapes();
   all.push_back(random_cells());
   return all;
-}
-
-/// Displacements H x of all particles, x from the origin.
-std::vector<double> linear(const Body& body, const Tensor& H) {
-  std::vector<double> u;
-  for (Particle p = 0; p < body.particles; ++p) {
-    const Vec3 d = H * body.position(p);
-    u.insert(u.end(), {d.x, d.y, d.z});
-  }
-  return u;
-}
-
-double largest_difference(const Symmetric& a, const Symmetric& b) {
-  double most = 0;
-  for (std::size_t n = 0; n < 6; ++n)
-    most = std::isnan(a[n] - b[n]) ? HUGE_VAL : std::max(most, std::abs(a[n] - b[n]));
-  return most;
-}
-double largest_difference(const Tensor& a, const Tensor& b) {
-  double most = 0;
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j)
-      most = std::isnan(a[i][j] - b[i][j]) ? HUGE_VAL : std::max(most, std::abs(a[i][j] - b[i][j]));
-  return most;
 }
 
 /// A deformation with stretches of 20 % and shear of 30 %.

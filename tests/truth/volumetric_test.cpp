@@ -116,28 +116,6 @@ TEST(Volumetric, BodiesOfParticlesAreSofterAtTheirSurface) {
   }
 }
 
-/// A cube whose ends are glued to platens: apparent E over E. The prototype's numbers tend
-/// to 1.1726 and 1.2196 of finite elements (CalculiX, C3D20R, extrapolated).
-TEST(Volumetric, GluedCubesDoNotLock) {
-  for (const auto& [poisson, cells, expected] : {std::tuple{0.25, 4, 1.06458},
-                                                 {0.25, 8, 1.05096},
-                                                 {0.45, 4, 1.27707},
-                                                 {0.45, 8, 1.21290},
-                                                 {0.49, 4, 1.35997},
-                                                 {0.49, 8, 1.27404}}) {
-    constexpr double strain = 1e-10;
-    const double size = cells;
-    const AtRest cube(
-        scene({{"spacing", 1}, {"shape", box({}, {size, size, size})}, {"boundary", "cells"}},
-              elastic(1, {{"poisson", poisson}}) + stage("loads.fixed", {{"on", "z_min"}}) +
-                  stage("loads.displacement",
-                        {{"on", "z_max"}, {"value", {0, 0, -strain * size}}, {"rise", 1e-9}}) +
-                  stage("solvers.static", {{"tolerance", 1e-9}})));
-    const double modulus = cube.simulation->force_on_load().at(1).z / (size * size) / strain;
-    EXPECT_NEAR(modulus, expected, 1e-4) << poisson << ", " << cells;
-  }
-}
-
 /// After all springs through a plane are cut, nothing of the volumetric energy pulls across it: the
 /// two parts fly apart without forces between them.
 TEST(Volumetric, CellsWithoutASpringCarryNothing) {

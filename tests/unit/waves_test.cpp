@@ -2,6 +2,7 @@
 // independently.
 #include <model/critical_step.hpp>
 #include <model/stability.hpp>
+#include <model/zone.hpp>
 #include <support/cubic_lattice.hpp>
 
 #include <hyperlattice/calibration.hpp>
@@ -76,6 +77,76 @@ TEST(Waves, NamesTheWave) {
   const std::string longitudinal = describe(stiffest_wave(Cubic(I_m(1)).lattice));
   EXPECT_NE(longitudinal.find("pi"), std::string::npos) << longitudinal;
   EXPECT_EQ(longitudinal.find("fourth"), std::string::npos) << longitudinal;
+}
+
+/// Errors of the phase velocities in percent, least and largest over all directions.
+struct SpeedErrors {
+  double p_least, p_largest, s_least, s_largest;
+};
+
+/// The cubic lattice with volumetric energy; waves of `points` spacings. k = l = m = 1, so the
+/// speeds of the continuum are the roots of C11 = 3 + K_v and C44 = 1.
+SpeedErrors speed_errors(double poisson, double points) {
+  const Cubic cubic({0, 0, 0, false});
+  InfiniteLattice lattice = cubic.lattice;
+  lattice.membrane = KernelChoice::Membrane::none;
+  lattice.volumetric = (4 * poisson - 1) / (1 - 2 * poisson);
+  const double p_speed = std::sqrt(3 + lattice.volumetric), q = 2 * pi / points;
+  SpeedErrors errors{1e9, -1e9, 1e9, -1e9};
+  // Directions between [100], [110] and [111]; all others are equal to them by symmetry.
+  constexpr int steps = 28;
+  for (int j = 0; j <= steps; ++j)
+    for (int k = 0; k <= j; ++k) {
+      Vec3 along{1, 1.0 * j / steps, 1.0 * k / steps};
+      along = along / norm(along);
+      std::vector<Wave> found = waves(lattice, q * along, Sector::mirrored);
+      // The P wave moves along its vector.
+      std::sort(found.begin(), found.end(), [&](const Wave& a, const Wave& b) {
+        return std::abs(dot(a.direction, along)) < std::abs(dot(b.direction, along));
+      });
+      const auto percent = [&](const Wave& wave, double speed) {
+        return 100 * (std::sqrt(wave.stiffness) / q / speed - 1);
+      };
+      const double p = percent(found[2], p_speed);
+      errors.p_least = std::min(errors.p_least, p);
+      errors.p_largest = std::max(errors.p_largest, p);
+      for (const double s : {percent(found[0], 1), percent(found[1], 1)}) {
+        errors.s_least = std::min(errors.s_least, s);
+        errors.s_largest = std::max(errors.s_largest, s);
+      }
+    }
+  return errors;
+}
+
+/// The table of docs/theory/convergence.md, from an independent prototype.
+TEST(WaveSpeeds, AreThoseOfThePrototype) {
+  struct Case {
+    double poisson, points, p_least, p_largest;
+  };
+  for (const Case& of : {Case{0, 5, -7.8, -4.7},
+                         {0, 10, -2.0, -1.1},
+                         {0, 20, -.51, -.28},
+                         {0.25, 5, -9.4, -6.5},
+                         {0.25, 10, -2.4, -1.6},
+                         {0.25, 20, -.62, -.41},
+                         {0.4, 5, -11.1, -6.5},
+                         {0.4, 10, -2.9, -1.6},
+                         {0.4, 20, -.73, -.41},
+                         {0.45, 5, -12.6, -6.5},
+                         {0.45, 10, -3.3, -1.6},
+                         {0.45, 20, -.83, -.41},
+                         {0.49, 5, -14.1, -6.5},
+                         {0.49, 10, -3.7, -1.6},
+                         {0.49, 20, -.93, -.41}}) {
+    const SpeedErrors found = speed_errors(of.poisson, of.points);
+    const double digit = of.points < 20 ? 0.06 : 0.006;
+    EXPECT_NEAR(found.p_least, of.p_least, digit) << of.poisson << ", " << of.points;
+    EXPECT_NEAR(found.p_largest, of.p_largest, digit) << of.poisson << ", " << of.points;
+    // S waves hardly change the volume; so their speeds hardly know the Poisson ratio.
+    const bool coarse = of.points == 5, middle = of.points == 10;
+    EXPECT_NEAR(found.s_least, coarse ? -7.4 : middle ? -1.9 : -.48, digit) << of.poisson;
+    EXPECT_NEAR(found.s_largest, coarse ? -3.0 : middle ? -.75 : -.19, 2 * digit) << of.poisson;
+  }
 }
 
 TEST(WaveStability, ClampedMembranesNeedPositiveSpringsInSpace) {

@@ -9,11 +9,17 @@ class ChebyshevIteration {
  public:
   /// `largest`: upper bound of the eigenvalues of D^-1 A; above 0. Never throws.
   explicit ChebyshevIteration(double largest)
-      : middle_(largest * (1 + 1 / share) / 2),
-        half_(largest * (1 - 1 / share) / 2),
+      : degree_(largest <= wide       ? 2
+                : largest <= 2 * wide ? 3
+                                      : 4),
+        middle_(largest * (1 + 1 / share(largest)) / 2),
+        half_(largest * (1 - 1 / share(largest)) / 2),
         rho_(half_ / middle_) {}
 
-  static constexpr int degree = 2;  ///< number of steps of a smoother
+  /// Number of steps of a smoother. A body that is nearly incompressible has a larger largest
+  /// eigenvalue, that of its changes of volume. The others stay where they are, so a smoother for
+  /// them has to damp a wider range.
+  int degree() const { return degree_; }
 
   /// The weights of a step: of the previous step d, and of the preconditioned residual D^-1 (b - A
   /// x).
@@ -29,7 +35,11 @@ class ChebyshevIteration {
   }
 
  private:
-  static constexpr double share = 8;
+  /// Sums of positive terms between two nodes have eigenvalues up to 2, estimates are a little
+  /// above it.
+  static constexpr double wide = 3;
+  static double share(double largest) { return largest <= wide ? 8 : 16; }
+  int degree_;
   double middle_, half_, rho_;
 };
 
