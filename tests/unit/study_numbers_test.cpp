@@ -134,8 +134,8 @@ TEST(StudyFront, HoldsWhatNoOtherBeats) {
 }
 
 TEST(StudyFront, TellsTheTimeThatAnErrorTakes) {
-  // Errors fall as 1 / time; {0.35, 3} is not on the front.
-  const std::vector<Cost> costs{{0.1, 4}, {0.4, 1}, {0.025, 16}, {0.35, 3}};
+  // Errors fall as 1 / time; {0.45, 3} is not on the front.
+  const std::vector<Cost> costs{{0.1, 4}, {0.4, 1}, {0.025, 16}, {0.45, 3}};
   EXPECT_NEAR(seconds_for(costs, 0.2).value(), 2, 1e-12);
   EXPECT_NEAR(seconds_for(costs, 0.05).value(), 8, 1e-12);
   EXPECT_NEAR(seconds_for(costs, 0.025).value(), 16, 1e-12);
