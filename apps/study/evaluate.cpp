@@ -12,11 +12,6 @@
 
 namespace hyperlattice::study {
 
-bool same_but(const std::vector<std::size_t>& axes, Choice a, const Choice& b) {
-  for (const std::size_t axis : axes) a[axis] = b[axis];
-  return a == b;
-}
-
 std::size_t count_cases(const Study& study, const std::vector<Row>& rows) {
   std::set<Choice> cases;
   for (const Row& row : rows) {
@@ -160,12 +155,9 @@ class Evaluation {
       if (!rows_[r].error || truth_of(rows_[r]).kind != Truth::Kind::finest ||
           std::any_of(firsts.begin(), firsts.end(), same_family))
         continue;
-      const auto same_case = [&](std::size_t first) {
-        return std::all_of(study_.cases.begin(), study_.cases.end(), [&](std::size_t axis) {
-          return rows_[first].choice[axis] == rows_[r].choice[axis];
-        });
-      };
-      const auto rival = std::find_if(firsts.begin(), firsts.end(), same_case);
+      const auto rival = std::find_if(firsts.begin(), firsts.end(), [&](std::size_t first) {
+        return same_case(study_, rows_[first].choice, rows_[r].choice);
+      });
       if (rival != firsts.end())
         if (const auto gap = apart(r, *rival))
           gaps.push_back({rows_[r].choice, rows_[*rival].choice, *gap});
@@ -199,20 +191,15 @@ class Evaluation {
   std::vector<std::vector<ObservedCurve>> curves_;  // for each row and comparison
 };
 
-std::vector<ChoiceOrder> find_orders(std::size_t refinement, const std::vector<Row>& rows) {
+std::vector<ChoiceOrder> find_orders(const Study& study, const std::vector<Row>& rows) {
   std::vector<ChoiceOrder> orders;
-  std::vector<bool> taken(rows.size());
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    if (taken[r]) continue;
+  if (!study.refinement) return orders;
+  for (const auto& members : families(study, rows)) {
     std::vector<SizedError> errors;
-    for (std::size_t other = r; other < rows.size(); ++other) {
-      if (!same_but({refinement}, rows[other].choice, rows[r].choice)) continue;
-      taken[other] = true;
-      if (rows[other].error)
-        errors.push_back({*rows[other].numbers[refinement], *rows[other].error});
-    }
+    for (const std::size_t r : members)
+      if (rows[r].error) errors.push_back({*rows[r].numbers[*study.refinement], *rows[r].error});
     if (auto observed = observed_order(std::move(errors)))
-      orders.push_back({rows[r].choice, std::move(*observed)});
+      orders.push_back({rows[members.front()].choice, std::move(*observed)});
   }
   return orders;
 }
@@ -278,7 +265,8 @@ Findings find(const Study& study, const std::vector<Row>& rows, std::vector<Limi
   if (findings.target)
     if (const auto found = cheapest(of_settings, *findings.target))
       findings.cheapest = settings[*found].row;
-  if (study.refinement) findings.orders = find_orders(*study.refinement, rows);
+  findings.orders = find_orders(study, rows);
+  findings.equal_errors = compare_at_equal_error(study, rows);
   return findings;
 }
 

@@ -1,10 +1,10 @@
-// Evaluates finished runs: errors, orders of convergence, Pareto front, cheapest setting.
+// Evaluates finished runs: errors, orders of convergence, Pareto front, cheapest setting, run times
+// at equal error.
 #pragma once
 
+#include <study/equal_error.hpp>
 #include <study/front.hpp>
 #include <study/order.hpp>
-#include <study/rows.hpp>
-#include <study/study_file.hpp>
 
 namespace hyperlattice::study {
 
@@ -27,6 +27,7 @@ struct Findings {
   std::vector<ChoiceOrder> orders;  ///< empty without a refinement
   std::vector<LimitGap> limits;  ///< only if the truth is the finest run: each setting against the
                                  ///< first setting of the same case
+  std::vector<EqualError> equal_errors;
   std::optional<double> target;  ///< the target error
   /// Row of the cheapest setting with an error of at most the target.
   std::optional<std::size_t> cheapest;
@@ -41,9 +42,6 @@ std::vector<LimitGap> find_errors(const Study& study, const std::filesystem::pat
 
 /// Computes the findings from rows with errors.
 Findings find(const Study& study, const std::vector<Row>& rows, std::vector<LimitGap> limits = {});
-
-/// Returns whether two choices differ at most in these axes.
-bool same_but(const std::vector<std::size_t>& axes, Choice a, const Choice& b);
 
 /// Returns the number of cases in the rows; 1 without cases.
 std::size_t count_cases(const Study& study, const std::vector<Row>& rows);

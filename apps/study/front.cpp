@@ -1,6 +1,8 @@
 #include <study/front.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <tuple>
 
 namespace hyperlattice::study {
@@ -25,6 +27,22 @@ std::optional<std::size_t> cheapest(const std::vector<Cost>& costs, double targe
       best = n;
   }
   return best;
+}
+
+std::optional<double> seconds_for(const std::vector<Cost>& costs, double error) {
+  std::vector<Cost> front;  // from the quickest to the most accurate
+  const std::vector<bool> on_front = pareto_front(costs);
+  for (std::size_t n = 0; n < costs.size(); ++n)
+    if (on_front[n]) front.push_back(costs[n]);
+  std::sort(front.begin(), front.end(),
+            [](const Cost& a, const Cost& b) { return a.seconds < b.seconds; });
+  const auto reached = std::find_if(front.begin(), front.end(),
+                                    [&](const Cost& cost) { return cost.error <= error; });
+  if (reached == front.end()) return std::nullopt;
+  if (reached == front.begin() || !(reached->error > 0)) return reached->seconds;
+  const Cost& before = *std::prev(reached);
+  const double way = std::log(before.error / error) / std::log(before.error / reached->error);
+  return before.seconds * std::pow(reached->seconds / before.seconds, way);
 }
 
 std::optional<std::size_t> most_accurate(const std::vector<Cost>& costs) {

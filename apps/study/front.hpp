@@ -19,6 +19,10 @@ std::vector<bool> pareto_front(const std::vector<Cost>& costs);
 /// more accurate; nothing if there is none.
 std::optional<std::size_t> cheapest(const std::vector<Cost>& costs, double target);
 
+/// Returns the run time that an error takes, by a power law between two neighbouring points of the
+/// Pareto front; if all points are at least as accurate, the shortest run time; nothing if none is.
+std::optional<double> seconds_for(const std::vector<Cost>& costs, double error);
+
 /// Returns the index of the most accurate; nothing if `costs` is empty.
 std::optional<std::size_t> most_accurate(const std::vector<Cost>& costs);
 

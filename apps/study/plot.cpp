@@ -61,9 +61,7 @@ class Plot {
         if (rows_[r].error && *rows_[r].error > 0 && rows_[r].seconds() > 0)
           points.emplace_back(Cost{*rows_[r].error, rows_[r].seconds()}, label(rows_[r]));
       if (points.empty()) continue;
-      const std::string title = choice_text(study_.axes, rows_[members.front()].choice,
-                                            {study_.refinement.value_or(study_.axes.size())});
-      draw("$family", number, points, title.empty() ? "this scene" : title, 7);
+      draw("$family", number, points, title(rows_[members.front()].choice), 7);
       ++number;
     }
   }
@@ -113,6 +111,17 @@ class Plot {
     include({*findings_.target, most_.seconds});
     curves_.push_back(fmt::format("{:.6g} with lines dt 2 lc rgb '#555555' title 'target {:.3g} %'",
                                   100 * *findings_.target, 100 * *findings_.target));
+  }
+
+  /// Returns the setting and, if it is known and not in doubt, the order of convergence.
+  std::string title(const Choice& choice) const {
+    if (!study_.refinement) return choice_text(study_.axes, choice);
+    const std::string setting = choice_text(study_.axes, choice, {*study_.refinement});
+    std::string text = setting.empty() ? "this scene" : setting;
+    for (const ChoiceOrder& order : findings_.orders)
+      if (order.observed.doubt.empty() && same_but({*study_.refinement}, order.choice, choice))
+        text += fmt::format(", order {:.2f}", order.observed.order);
+    return text;
   }
 
   /// Returns the value of the refinement; empty without a refinement, since the title of the line

@@ -51,9 +51,15 @@ Json row_json(const Study& study, const Row& row, bool pareto) {
   return json;
 }
 
-Json order_json(const Study& study, const ChoiceOrder& order) {
+/// Returns a choice of all axes but the refinement.
+Json choice_json(const Study& study, const Choice& choice) {
   Json json = Json::object();
-  append_choice(json, study.axes, order.choice, refinement_of(study));
+  append_choice(json, study.axes, choice, refinement_of(study));
+  return json;
+}
+
+Json order_json(const Study& study, const ChoiceOrder& order) {
+  Json json = choice_json(study, order.choice);
   json["order"] = order.observed.order;
   if (!order.observed.doubt.empty()) json["doubt"] = order.observed.doubt;
   json["pairs"] = Json::array();
@@ -160,6 +166,19 @@ std::string limit_warning(const Study& study, const Findings& findings, const Ro
       setting_text(study, widest->other), setting_text(study, widest->one), percent(widest->apart));
 }
 
+std::string equal_errors_text(const Study& study, const Findings& findings) {
+  if (findings.equal_errors.empty()) return "";
+  std::string text = "\nRun times at equal error, against the setting with the most accurate run\n";
+  for (const EqualError& equal : findings.equal_errors)
+    fmt::format_to(std::back_inserter(text),
+                   "  {} takes {}{:.2g} times as long as {} for an error of {}: {:.3g} s against "
+                   "{:.3g} s\n",
+                   setting_text(study, equal.setting), equal.is_bound ? "at least " : "",
+                   equal.times(), setting_text(study, equal.reference), percent(equal.error),
+                   equal.seconds, equal.reference_seconds);
+  return text;
+}
+
 std::string peers_text(const Study& study) {
   if (study.peers.empty()) return "";
   Lines lines{{"peer", "error", "seconds"}};
@@ -199,28 +218,6 @@ std::string promise(const Study& study, const std::vector<Row>& rows, const Find
 }
 
 }  // namespace
-
-std::vector<std::vector<std::size_t>> families(const Study& study, const std::vector<Row>& rows) {
-  std::vector<std::vector<std::size_t>> found;
-  const std::size_t refinement = refinement_of(study);
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    const auto family = std::find_if(found.begin(), found.end(), [&](const auto& members) {
-      return study.refinement &&
-             choice_text(study.axes, rows[members.front()].choice, {refinement}) ==
-                 choice_text(study.axes, rows[r].choice, {refinement});
-    });
-    if (family == found.end())
-      found.push_back({r});
-    else
-      family->push_back(r);
-  }
-  if (study.refinement)
-    for (auto& members : found)
-      std::stable_sort(members.begin(), members.end(), [&](std::size_t a, std::size_t b) {
-        return rows[a].numbers[refinement] > rows[b].numbers[refinement];
-      });
-  return found;
-}
 
 std::string cheapest_sentence(const Study& study, const std::vector<Row>& rows,
                               const Findings& findings) {
@@ -262,12 +259,19 @@ Json study_json(const Study& study, const std::vector<Row>& rows, const Findings
   for (const ChoiceOrder& order : findings.orders)
     json["orders"].push_back(order_json(study, order));
   json["limits"] = Json::array();
-  for (const LimitGap& gap : findings.limits) {
-    Json one = Json::object(), other = Json::object();
-    append_choice(one, study.axes, gap.one, refinement_of(study));
-    append_choice(other, study.axes, gap.other, refinement_of(study));
-    json["limits"].push_back({{"of", one}, {"against", other}, {"apart", gap.apart}});
-  }
+  for (const LimitGap& gap : findings.limits)
+    json["limits"].push_back({{"of", choice_json(study, gap.one)},
+                              {"against", choice_json(study, gap.other)},
+                              {"apart", gap.apart}});
+  json["equal_errors"] = Json::array();
+  for (const EqualError& equal : findings.equal_errors)
+    json["equal_errors"].push_back({{"of", choice_json(study, equal.setting)},
+                                    {"against", choice_json(study, equal.reference)},
+                                    {"error", equal.error},
+                                    {"seconds", equal.seconds},
+                                    {"against_seconds", equal.reference_seconds},
+                                    {"times", equal.times()},
+                                    {"bound", equal.is_bound}});
   json["target_error"] = findings.target ? Json(*findings.target) : Json(nullptr);
   json["cheapest"] = findings.cheapest ? row_json(study, rows[*findings.cheapest],
                                                   findings.pareto[*findings.cheapest])
@@ -314,7 +318,8 @@ std::string study_text(const Study& study, const std::vector<Row>& rows, const F
                    more > 0 ? fmt::format(" and {} more", more) : "",
                    rows[r].is_done() ? "" : " failed", rows[r].reason);
   }
-  text += orders_text(study, findings) + limits_text(study, findings);
+  text += orders_text(study, findings) + limits_text(study, findings) +
+          equal_errors_text(study, findings);
   const std::string sentence = cheapest_sentence(study, rows, findings);
   return shown_whole(text + (sentence.empty() ? "" : '\n' + sentence + '\n'));
 }

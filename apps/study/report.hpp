@@ -19,8 +19,4 @@ std::string study_script(const Study& study, const std::vector<Row>& rows,
 std::string cheapest_sentence(const Study& study, const std::vector<Row>& rows,
                               const Findings& findings);
 
-/// Returns groups of rows that differ in the refinement alone, from the coarsest to the finest;
-/// without a refinement each row is its own group.
-std::vector<std::vector<std::size_t>> families(const Study& study, const std::vector<Row>& rows);
-
 }  // namespace hyperlattice::study

@@ -133,6 +133,18 @@ TEST(StudyFront, HoldsWhatNoOtherBeats) {
   EXPECT_FALSE(most_accurate({}));
 }
 
+TEST(StudyFront, TellsTheTimeThatAnErrorTakes) {
+  // Errors fall as 1 / time; {0.45, 3} is not on the front.
+  const std::vector<Cost> costs{{0.1, 4}, {0.4, 1}, {0.025, 16}, {0.45, 3}};
+  EXPECT_NEAR(seconds_for(costs, 0.2).value(), 2, 1e-12);
+  EXPECT_NEAR(seconds_for(costs, 0.05).value(), 8, 1e-12);
+  EXPECT_NEAR(seconds_for(costs, 0.025).value(), 16, 1e-12);
+  EXPECT_EQ(seconds_for(costs, 0.5), 1);
+  EXPECT_FALSE(seconds_for(costs, 0.02));
+  EXPECT_FALSE(seconds_for({}, 1));
+  EXPECT_EQ(seconds_for({{0.1, 1}, {0, 3}}, 0.05), 3) << "an error of zero has no power law";
+}
+
 /// 1 + x + c h^p at the points x of a lattice of spacing h.
 SizedCurve converging(double h, double p) {
   SizedCurve curve{h, {}};
@@ -216,6 +228,41 @@ TEST(StudyCases, AreAnsweredForTheHardest) {
   EXPECT_EQ(find(study, rows).cheapest, 3u);
   rows.pop_back();  // the hardest case was not run at this setting
   EXPECT_FALSE(find(study, rows).cheapest);
+}
+
+TEST(StudyEqualError, ComparesWithTheMostAccurateSetting) {
+  Study study;
+  study.axes.resize(2);
+  study.axes[0].name = "boundary";
+  study.axes[0].labels = {"particles", "cells", "spheres"};
+  study.axes[0].values = {{"particles"}, {"cells"}, {"spheres"}};
+  study.axes[1].name = "spacing";
+  study.axes[1].labels = {"4", "2"};
+  study.axes[1].values = {{4}, {2}};
+  study.refinement = 1;
+  const std::vector<Row> rows{done_row({0, 0}, 4, 0.4, 2), done_row({0, 1}, 2, 0.2, 16),
+                              done_row({1, 0}, 4, 0.4, 1), done_row({1, 1}, 2, 0.1, 16),
+                              done_row({2, 0}, 4, 0.8, 1), done_row({2, 1}, 2, 0.5, 9)};
+  const Findings findings = find(study, rows);
+  ASSERT_EQ(findings.equal_errors.size(), 2u);
+  const EqualError &particles = findings.equal_errors[0], &spheres = findings.equal_errors[1];
+  EXPECT_EQ(particles.setting[0], 0u);
+  EXPECT_EQ(particles.reference[0], 1u);
+  EXPECT_EQ(particles.error, 0.2);
+  EXPECT_NEAR(particles.reference_seconds, 4, 1e-12) << "half way from 1 to 16, in logarithms";
+  EXPECT_NEAR(particles.times(), 4, 1e-12);
+  EXPECT_FALSE(particles.is_bound);
+  EXPECT_EQ(spheres.reference_seconds, 1);
+  EXPECT_TRUE(spheres.is_bound);
+  const std::string text = study_text(study, rows, findings);
+  for (const char* line :
+       {"boundary particles takes 4 times as long as boundary cells for an error "
+        "of 20 %: 16 s against 4 s",
+        "boundary spheres takes at least 9 times as long as boundary cells"})
+    EXPECT_NE(text.find(line), std::string::npos) << text;
+  EXPECT_EQ(study_json(study, rows, findings)["equal_errors"][0]["against"]["boundary"], "cells");
+  study.cases = {0};  // each boundary now answers a question of its own
+  EXPECT_TRUE(find(study, rows).equal_errors.empty());
 }
 
 const CsvTable line = parse_csv(
