@@ -125,10 +125,11 @@ constexpr std::uint32_t boundary_hash() {
   for (const std::uint64_t constant :
        {std::uint64_t{max_spring_classes}, std::uint64_t{max_neighbours},
         std::uint64_t{max_law_constants}, std::uint64_t{max_law_memory},
-        std::uint64_t{max_failure_memory}, std::uint64_t{max_law_fields}, std::uint64_t{lanes}, std::uint64_t{slots_ahead},
-        std::uint64_t{record_numbers}, std::uint64_t{record_moved}, std::uint64_t{record_material},
-        std::uint64_t{particle_bit}, std::uint64_t{cell_bit}, std::uint64_t{scratch_margin},
-        std::uint64_t{std::size(family_names)}, std::uint64_t{std::size(field_names)}})
+        std::uint64_t{max_failure_memory}, std::uint64_t{max_law_fields}, std::uint64_t{lanes},
+        std::uint64_t{slots_ahead}, std::uint64_t{record_numbers}, std::uint64_t{record_moved},
+        std::uint64_t{record_material}, std::uint64_t{particle_bit}, std::uint64_t{cell_bit},
+        std::uint64_t{scratch_margin}, std::uint64_t{std::size(family_names)},
+        std::uint64_t{std::size(field_names)}})
     hash.add(constant);
 #define HYPERLATTICE_ADD(Struct, ...) Layout<Struct>::add_to(hash);
   HYPERLATTICE_BOUNDARY(HYPERLATTICE_ADD)
