@@ -240,7 +240,7 @@ TEST(PartialVolumetricBody, TakesTheEnergyOfTheCellsThatAreGone) {
   };
   const double coarse = worst(0.4), fine = worst(0.1);
   std::printf("balance: %.1e %.1e\n", coarse, fine);
-  EXPECT_LT(coarse, 1e-2);
+  EXPECT_LT(coarse, 1e-4);
   EXPECT_LT(fine, coarse / 4);
 }
 
