@@ -48,6 +48,12 @@ std::uint8_t Mixtures::commonest(std::uint32_t mixture) const {
   return static_cast<std::uint8_t>(std::max_element(shares.begin(), shares.end()) - shares.begin());
 }
 
+std::uint8_t Mixtures::material_of_spring(std::uint32_t mixture, const Neighbour& to) const {
+  std::uint8_t found = no_cell;
+  for_cells(mixture, to, [&](std::uint8_t material, double) { found = std::min(found, material); });
+  return found == no_cell ? commonest(mixture) : found;
+}
+
 double Mixtures::bytes() const {
   return static_cast<double>(of_particle_.size() * sizeof(std::uint32_t) +
                              around_.size() * sizeof(Around));

@@ -55,6 +55,9 @@ class Mixtures {
   /// Returns the material with the largest sum of shares; among equals the one with the smallest
   /// index.
   std::uint8_t commonest(std::uint32_t mixture) const;
+  /// Returns the material of a cell of the spring to a neighbour. It has the law of the spring,
+  /// unless the spring is composite.
+  std::uint8_t material_of_spring(std::uint32_t mixture, const Neighbour& to) const;
   double bytes() const;
 
   /// Calls visit(material, share) for each existing cell of the spring to a neighbour; with `to` {}

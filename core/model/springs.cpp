@@ -247,7 +247,11 @@ SpringProperties Model::spring_properties(Particle a, Particle b, std::uint32_t 
                                          : springs.spring_to(neighbour, kinds.of(a), kinds.of(b));
   properties.stiffness = stiffness * constants.stiffness;
   properties.cross_stiffness = stiffness * constants.cross_stiffness;
-  properties.law = materials[kinds.material(a)].law;
+  properties.law =
+      materials[kinds.mixtures.empty() ? kinds.material(a)
+                                       : kinds.mixtures.material_of_spring(
+                                             kinds.of(a), springs.neighbours[neighbour].site)]
+          .law;
   properties.composite = springs.composite(constants);
   properties.factor = stiffness;
   for (const std::size_t cross : {0U, 1U}) properties.constants[cross] = constants.law[cross];

@@ -198,9 +198,9 @@ RowEnergies OtherRows::several_laws_of_grid(Block& block, const KernelRequest& r
           model_.springs.spring_to(n, kind, cells ? 0 : block.material[there]);
       if (&constants != known) {
         known = &constants;
-        spring.properties = properties_of(
-            model_, constants,
-            cells ? model_.kinds.mixtures.commonest(kind) : static_cast<std::uint8_t>(kind));
+        spring.properties = properties_of(model_, constants,
+                                          cells ? model_.kinds.mixtures.material_of_spring(kind, to)
+                                                : static_cast<std::uint8_t>(kind));
         spring.properties.rest = neighbour.rest;
         spring.properties.rest_length = neighbour.rest_length;
         spring.properties.cross_rest_length = neighbour.cross_rest_length;

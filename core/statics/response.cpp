@@ -120,8 +120,9 @@ double Statics::linearise_row(std::size_t neighbour, std::int32_t begin, std::in
   const auto material = [&](std::size_t t) {
     const std::uint32_t kind =
         kind_.empty() || buffer.weight[t] == 0 ? 0 : kind_[static_cast<std::size_t>(first) + t];
-    return model_.kinds.mixtures.empty() ? static_cast<std::uint8_t>(kind)
-                                         : model_.kinds.mixtures.commonest(kind);
+    return model_.kinds.mixtures.empty()
+               ? static_cast<std::uint8_t>(kind)
+               : model_.kinds.mixtures.material_of_spring(kind, grid.neighbours[neighbour].site);
   };
   const bool alike = model_.springs.laws.size() == 1 && model_.springs.composites.empty() &&
                      (model_.materials.size() == 1 || model_.springs.kernels().linear);

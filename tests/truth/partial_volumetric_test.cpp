@@ -7,9 +7,9 @@
 #include <support/cells.hpp>
 #include <support/rest.hpp>
 
-#include <gtest/gtest.h>
+#include <hyperlattice/volumetric_cell.hpp>
 
-#include <Eigen/Dense>
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdio>
@@ -79,7 +79,8 @@ TEST_P(PartialVolumetric, PatchTestIsExact) {
 /// Returns the largest omega^2 of a body, from the forces of the kernels on each unit displacement.
 double largest_square(const Model& model) {
   const std::size_t numbers = 3 * model.body.particles;
-  Eigen::MatrixXd scaled(numbers, numbers);  // M^-1/2 K M^-1/2
+  const auto size_of_matrix = static_cast<Eigen::Index>(numbers);
+  Eigen::MatrixXd scaled(size_of_matrix, size_of_matrix);  // M^-1/2 K M^-1/2
   constexpr double size = 1e-20;
   std::vector<double> u(numbers);
   for (std::size_t n = 0; n < numbers; ++n) {
@@ -239,7 +240,7 @@ TEST(PartialVolumetricBody, TakesTheEnergyOfTheCellsThatAreGone) {
   };
   const double coarse = worst(0.4), fine = worst(0.1);
   std::printf("balance: %.1e %.1e\n", coarse, fine);
-  EXPECT_LT(coarse, 1e-2);
+  EXPECT_LT(coarse, 1e-4);
   EXPECT_LT(fine, coarse / 4);
 }
 
