@@ -10,7 +10,8 @@ namespace hyperlattice {
 /// shares as weights. In a lattice without cubic cells it is the virial of the particle's springs,
 ///   sigma_i = 1/(2 J V_i) sum f (x) r,
 /// V_i the particle's share of the volume of a site, J that of the least-squares gradient, or 1 if
-/// there is none, and the pressure of its nodal volume if it has one. NaN for a particle of a cubic lattice around which no cell has a stress.
+/// there is none, and the pressure of its nodal volume if it has one. NaN for a particle of a cubic
+/// lattice around which no cell has a stress.
 std::vector<Symmetric> cauchy_stresses(const PresentSprings& springs);
 /// Returns the nominal stress, Pa, in the same way: 1/(2 V_i) sum f (x) R without cells.
 std::vector<Tensor> nominal_stresses(const PresentSprings& springs);
