@@ -1,12 +1,16 @@
 // The volumetric energy of lists, nodal volumes: an invariant potential, uniform pressure, the
 // calibrated K_v of an independent prototype, dynamics with energy balance, breaking, restarts,
 // several materials, floats, refusals.
+#include <analyze/load_lattice.hpp>
 #include <contract/scenes.hpp>
 #include <model/homogenise.hpp>
 #include <model/nodal_volumes.hpp>
+#include <model/spring_lattice.hpp>
 #include <state/particle_stress.hpp>
 #include <state/present_volumes.hpp>
 #include <support/lists.hpp>
+
+#include <hyperlattice/membranes.hpp>
 
 #include <gtest/gtest.h>
 
@@ -142,41 +146,53 @@ TEST(NodalVolumes, SmallDisplacementsLoseNoDigits) {
   EXPECT_LT(difference, 1e-11 * largest);
 }
 
-/// K_v of the prototype (volumetric.md, table R4), for samples of other points.
+/// K_v of an independent prototype, k = l = 1, whose samples have other points: an error of 0.002
+/// in nu, as between samples of this size, is one of about a tenth in K_v.
 TEST(NodalVolumes, SamplesNeedTheModulusOfThePrototype) {
+  Host host({std::string(HYPERLATTICE_BUILD) + "/lib/hyperlattice"});
   for (const auto& [coordination, poisson, expected] :
-       {std::tuple{8.4, 0.4, .4292}, {8.4, 0.45, 1.3331}, {13.2, 0.45, 4.182}}) {
-    const auto plan =
-        random_block(6, 6, 6, poisson, {{"coordination", coordination}, {"sample", 12}});
-    const Model& model = *plan->model;
-    const MaterialConstants& constants = model.materials[0].constants;
-    const ElasticConstants own =
-        homogenise(model.body.listed, 0, model.body.grid.membrane_distance, constants);
-    EXPECT_NEAR(own.poisson(), poisson, 1e-6);
-    EXPECT_NEAR(own.young() / 1e10, 1, 1e-5);
-    RecordProperty("ratio", std::to_string(constants.volumetric * mm_in_m /
-                                           constants.base_stiffness / expected));
+       {std::tuple{"8.4", 0.4, .4292}, {"8.4", 0.45, 1.3331}, {"13.2", 0.45, 4.182}}) {
+    const LatticeGeometry geometry = load_lattice(
+        host, "lattices.random", {"coordination=" + std::string(coordination), "sample=12"});
+    const LatticeFacts facts = facts_of(geometry);
+    const double modulus = membranes::volumetric(facts, poisson);
+    EXPECT_NEAR(modulus * geometry.spacing / expected, 1, 0.12) << coordination << ", " << poisson;
+    MaterialConstants constants = membranes::constants(facts, {});
+    constants.volumetric = modulus;
+    EXPECT_NEAR(facts.elastic_constants(constants).poisson(), poisson, 1e-5);
   }
 }
 
-/// A free body after a random push: momentum and energy are conserved, as without the term.
+/// The body has the E and nu that the scene asks for.
+TEST(NodalVolumes, MaterialsHaveTheirModulus) {
+  const auto plan = random_block(6, 6, 6, 0.45);
+  const Model& model = *plan->model;
+  const ElasticConstants own = homogenise(model.body.listed, 0, model.body.grid.membrane_distance,
+                                          model.materials[0].constants);
+  EXPECT_NEAR(own.poisson(), 0.45, 1e-5);
+  EXPECT_NEAR(own.young() / 1e10, 1, 1e-5);
+}
+
+/// A free body after a random push: momentum is conserved, and the error of the energy falls with
+/// the square of the step.
 TEST(NodalVolumes, AFreeBodyKeepsItsEnergy) {
   double before = 0;
-  for (const double fraction : {0.8, 0.4}) {
+  for (const double fraction : {0.4, 0.2}) {
     const auto plan = random_block(6, 6, 6, 0.45);
     Simulation simulation(*plan->model, 1);
-    simulation.set_velocities(noise(3 * plan->model->body.particles, 3), {});
+    simulation.set_velocities(noise(3 * plan->model->body.particles, 30), {});
     const double step = fraction * plan->model->step_limit.time_step;
     const Vec3 momentum = simulation.balance().momentum;
     double worst = 0;
-    for (int n = 0; n < static_cast<int>(160 / fraction); ++n) {
+    for (int n = 0; n < static_cast<int>(40 / fraction); ++n) {
       simulation.step(step);
       worst = std::max(worst, std::abs(simulation.balance().relative_error()));
     }
     const EnergyBalance balance = simulation.balance();
     EXPECT_GT(balance.stored, 0.2 * balance.scale);
-    EXPECT_LT(norm(balance.momentum - momentum), 1e-12 * std::sqrt(balance.scale));
-    EXPECT_LT(worst, 2e-3);
+    const double mass = 2500 * 216e-9, speed = std::sqrt(2 * balance.scale / mass);
+    EXPECT_LT(norm(balance.momentum - momentum), 1e-12 * mass * speed);
+    EXPECT_LT(worst, 1e-3);
     if (before > 0) {
       EXPECT_LT(worst, 0.35 * before);
     }
@@ -192,14 +208,14 @@ std::uint64_t hash_after(int threads, const Keys& material, const std::string& p
                                 .text();
   const auto plan = plan_of(scene, threads);
   Simulation simulation(*plan->model, threads);
-  simulation.set_velocities(noise(3 * plan->model->body.particles, 20), {});
+  simulation.set_velocities(noise(3 * plan->model->body.particles, 200), {});
   for (int n = 0; n < 40; ++n) simulation.step(0.8 * plan->model->step_limit.time_step);
   broken = simulation.broken();
   return simulation.hash();
 }
 
 TEST(NodalVolumes, TheBitsAreTheSameForAnyNumberOfThreads) {
-  const Keys breaking = {{"failure", {{"type", "failures.elongation"}, {"limit", 0.03}}}};
+  const Keys breaking = {{"failure", {{"type", "failures.elongation"}, {"limit", 3e-5}}}};
   for (const char* precision : {"double", "float"})
     for (const Keys& material : {Keys{}, breaking}) {
       std::uint64_t broken = 0, other = 0;
@@ -236,7 +252,7 @@ TEST(NodalVolumes, FailureReleasesEnergy) {
   double before = 0;
   for (const double fraction : {0.8, 0.4}) {
     const auto plan = random_block(
-        7, 7, 7, 0.45, {}, {}, {{"failure", {{"type", "failures.elongation"}, {"limit", 0.05}}}});
+        7, 7, 7, 0.45, {}, {}, {{"failure", {{"type", "failures.elongation"}, {"limit", 5e-5}}}});
     Simulation simulation(*plan->model, 1);
     std::vector<double> velocities;
     for (Particle p = 0; p < plan->model->body.particles; ++p) {
@@ -248,14 +264,14 @@ TEST(NodalVolumes, FailureReleasesEnergy) {
     for (int n = 0; n < static_cast<int>(60 / fraction); ++n) {
       simulation.step(fraction * plan->model->step_limit.time_step);
       const EnergyBalance balance = simulation.balance();
-      EXPECT_GE(balance.dissipated_failure, lost);
+      EXPECT_GE(balance.dissipated_failure, lost) << n;
       lost = balance.dissipated_failure;
       worst = std::max(worst, std::abs(balance.relative_error()));
     }
     EXPECT_GT(simulation.broken(), 100U);
-    EXPECT_LT(worst, 1e-2);
+    EXPECT_LT(worst, 2e-2);
     if (before > 0) {
-      EXPECT_LT(worst, 0.5 * before);
+      EXPECT_LT(worst, 0.7 * before);
     }
     before = worst;
   }
@@ -265,10 +281,10 @@ TEST(NodalVolumes, FailureReleasesEnergy) {
 /// after a restart.
 TEST(NodalVolumes, ARestartHasTheSameBits) {
   const auto plan = random_block(6, 6, 6, 0.45, {}, {},
-                                 {{"failure", {{"type", "failures.elongation"}, {"limit", 0.03}}}});
+                                 {{"failure", {{"type", "failures.elongation"}, {"limit", 3e-5}}}});
   const double step = 0.8 * plan->model->step_limit.time_step;
   Simulation first(*plan->model, 2);
-  first.set_velocities(noise(3 * plan->model->body.particles, 20), {});
+  first.set_velocities(noise(3 * plan->model->body.particles, 200), {});
   for (int n = 0; n < 20; ++n) first.step(step);
   EXPECT_GT(first.broken(), 10U);
   const std::unique_ptr<Simulation> restarted = contract::restarted(first, *plan->model, 2);

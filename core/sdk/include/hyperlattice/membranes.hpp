@@ -104,8 +104,6 @@ inline double volumetric(const LatticeFacts& lattice, double poisson) {
   };
   const double without = miss(lattice.elastic_constants(springs)), slope = 1 - 2 * poisson;
   double now = without / slope, before = 0, miss_before = without;
-  const bool is_listed = lattice.lengths > 0;
-  if (!is_listed) return now;
   constexpr double exact = 1e-6;
   constexpr int most = 30;
   for (int n = 0; n < most; ++n) {
