@@ -5,6 +5,7 @@
 #include <plan/plan.hpp>
 
 #include <stdexcept>
+#include <string>
 
 namespace hyperlattice::test {
 

@@ -5,12 +5,10 @@
 #include <support/cells.hpp>
 #include <support/energy_balance.hpp>
 #include <support/growth.hpp>
-#include <support/rest.hpp>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 namespace {

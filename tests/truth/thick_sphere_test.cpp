@@ -69,33 +69,51 @@ Errors errors(double spacing, const std::string& boundary, double poisson) {
 }
 
 /// Errors at the spacings 5, 2.5 and 1.25. Displacements are those of an independent prototype. Of
-/// stresses a bound is given, a little above what is found; 0: none.
+/// stresses a bound is given, a little above what is found.
 struct Expected {
   const char* boundary;
   double poisson;
   double displacement[3], radial[3], hoop[3], pressure[3];
 };
-const Expected expected[] = {
-    {"cells", 0.25, {.0636, .0361, .0179}, {.009, .0075}, {.0145, .0074}, {.0079, .0042}},
-    {"cells", 0.45, {.0653, .0393, .0198}, {}, {}, {}},
-    {"cells", 0.49, {.0650, .0394, .0199}, {.0094, .0086}, {.018, .0089}, {.0123, .0054}},
-    {"partial_cells", 0.25, {.0435, .0080, .0017}, {}, {}, {}},
-    {"partial_cells", 0.49, {.0925, .0166, .0028}, {}, {}, {}}};
+const Expected expected[] = {{"cells",
+                              0.25,
+                              {.0636, .0361, .0179},
+                              {.0085, .0073, .0048},
+                              {.0140, .0072, .0037},
+                              {.0077, .0040, .0023}},
+                             {"cells",
+                              0.45,
+                              {.0653, .0393, .0198},
+                              {.0087, .0082, .0055},
+                              {.0167, .0085, .0045},
+                              {.0106, .0049, .0029}},
+                             {"cells",
+                              0.49,
+                              {.0650, .0394, .0199},
+                              {.0091, .0084, .0056},
+                              {.0177, .0087, .0046},
+                              {.0120, .0052, .0031}},
+                             {"partial_cells",
+                              0.25,
+                              {.0435, .0080, .0017},
+                              {.0082, .0021, .0012},
+                              {.0077, .0020, .0006},
+                              {.0041, .0011, .0005}},
+                             {"partial_cells", 0.49, {.0925, .0166, .0028}, {}, {}, {}}};
 
 void compare(const Expected& of, int refined) {
   const double spacing = 5 / std::pow(2, refined);
   const Errors found = errors(spacing, of.boundary, of.poisson);
   const std::string what = std::string(of.boundary) + ", nu " + std::to_string(of.poisson) +
                            ", spacing " + std::to_string(spacing);
-  // The shares of round cells are not the prototype's to the last digit.
-  const double digits = std::string(of.boundary) == "cells" ? 0.01 : 0.1;
+  // Bodies of few cells differ in how much a particle at the surface counts, partial cells in their
+  // shares.
+  const double digits = std::string(of.boundary) != "cells" ? 0.1 : refined == 0 ? 0.06 : 0.02;
   EXPECT_NEAR(found.displacement / of.displacement[refined], 1, digits) << what;
   for (const auto& [stress, most] : {std::pair{found.radial, of.radial[refined]},
                                      {found.hoop, of.hoop[refined]},
                                      {found.pressure, of.pressure[refined]}})
-    if (most > 0) {
-      EXPECT_LT(stress, most) << what;
-    }
+    EXPECT_LT(stress, most) << what;
 }
 
 TEST(ThickSphere, HasTheErrorsOfThePrototype) {

@@ -1,6 +1,6 @@
-// Bodies with the volumetric energy of cells against an independent prototype and the finite
-// element method: frequencies, elastic response of finite bodies, cut planes, and the statics of
-// what the steps in time do.
+// Bodies with the volumetric energy of cells against an independent prototype: frequencies, elastic
+// response of finite bodies, cut planes, and the statics of what the steps in time do.
+// convergence_test.cpp has finite elements.
 #include <support/cells.hpp>
 #include <support/rest.hpp>
 
