@@ -49,8 +49,8 @@ void LawMemory::advance(const EquilibriumUpdate& to) {
 template <class Visit>
 void LawMemory::for_base_springs(const Block& block, const Visit& visit) const {
   const auto place = [&](Particle particle) {
-    const auto [block, index] = blocks_.at(particle);
-    const auto number = [&, &of = *block, n = index](std::size_t c) {
+    const auto [home, index] = blocks_.at(particle);
+    const auto number = [&, &of = *home, n = index](std::size_t c) {
       return of.displacement[c][n];
     };
     return std::pair{Vec3{number(0), number(1), number(2)},
@@ -91,6 +91,7 @@ void LawMemory::add_softening(std::vector<double>& lost) const {
 
 void LawMemory::field(std::string_view name, std::vector<double>& values) const {
   std::vector<std::size_t> place;  // of the field among those of each law
+  place.reserve(model_.springs.laws.size());
   for (const Law& law : model_.springs.laws) {
     const auto& fields = law.stage->component->info.fields;
     place.push_back(static_cast<std::size_t>(

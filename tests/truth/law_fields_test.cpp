@@ -120,10 +120,11 @@ std::string faults_of_scene(const Stages& stages) {
 
 TEST(LawFields, OutputsNameThemAsAnyField) {
   const Stages material = stage("materials.slipping", slipping);
-  EXPECT_EQ(faults_of_scene(material + stage("writers.vtu", {{"fields", {"slip"}}}) +
-                            stage("writers.csv", {{"fields", {"displacement", "slip"}}}) +
-                            stage("writers.picture", {{"colour_by", "slip"}}) +
-                            stage("probes.region", {{"field", "slip"}})),
+  EXPECT_EQ(faults_of_scene(
+                material + stage("writers.vtu", {{"fields", {"slip"}}}) +
+                stage("writers.csv", {{"fields", {"displacement", "slip"}}}) +
+                stage("writers.picture", {{"colour_by", "slip"}, {"width", 64}, {"height", 64}}) +
+                stage("probes.region", {{"field", "slip"}})),
             "");
   EXPECT_NE(faults_of_scene(material + stage("writers.vtu", {{"fields", {"slop"}}}))
                 .find("did you mean \"slip\"?"),
