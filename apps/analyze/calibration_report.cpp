@@ -52,7 +52,7 @@ std::string calibration_text(const Calibration& found) {
     line(text, "base stiffness k / l", fmt::format("{:.6g} Pa", *found.stiffness_per_spacing));
   if (found.base_stiffness)
     line(text, "base stiffness k", fmt::format("{:.6g} N/m", *found.base_stiffness));
-  line(text, "endless lattice", pair_text(found.infinite));
+  line(text, "infinite lattice", pair_text(found.infinite));
   return text;
 }
 
@@ -77,7 +77,7 @@ std::string measured_text(const VirtualTestResult& measured, const VirtualTest::
                   in_a_cell > 1 ? fmt::format("cells of {} particles", in_a_cell) : "particles",
                   options.strain);
   line(text, "cube", pair_text(measured));
-  line(text, "less the endless lattice",
+  line(text, "less the infinite lattice",
        fmt::format("nu {:+.2g}, eta {:+.2g}", measured.poisson - infinite.poisson,
                    measured.modulus_ratio - infinite.modulus_ratio));
   line(text, "forces left",

@@ -18,7 +18,7 @@ bool is_measured(const Curve& curve) { return curve.points.front().measured.has_
 std::string source(const Curve& curve, const VirtualTest::Options& options) {
   return is_measured(curve) ? fmt::format("measured on {0} x {0} x {0} particles, strain {1:g}",
                                           options.particles, options.strain)
-                            : "the endless lattice";
+                            : "the infinite lattice";
 }
 
 void append_polynomial(std::string& text, std::string_view name,
@@ -77,7 +77,8 @@ std::string curve_text(const Curve& curve, const VirtualTest::Options& options) 
       "Membrane {}: {}\n", calibration::membrane_names[static_cast<std::size_t>(curve.membrane)],
       source(curve, options));
   fmt::format_to(std::back_inserter(text), "  {:>10} {:>12} {:>12}", "lambda", "nu", "eta");
-  text += is_measured(curve) ? fmt::format(" {:>14} {:>14}\n", "nu endless", "eta endless") : "\n";
+  text +=
+      is_measured(curve) ? fmt::format(" {:>14} {:>14}\n", "nu infinite", "eta infinite") : "\n";
   for (const CurvePoint& point : curve.points) {
     fmt::format_to(std::back_inserter(text), "  {:>10.6g} {:>12.6g} {:>12.6g}", point.lambda,
                    point.pair().poisson, point.pair().modulus_ratio);
@@ -102,7 +103,7 @@ std::string curve_script(const Curve& curve, const VirtualTest::Options& options
                    point.lambda, point.pair().poisson, point.pair().modulus_ratio,
                    point.infinite.poisson, point.infinite.modulus_ratio);
   text += "EOD\n";
-  const char* dots = is_measured(curve) ? "measured" : "endless lattice";
+  const char* dots = is_measured(curve) ? "measured" : "infinite lattice";
   const auto panel = [&](const Fit& fit, std::span<const double> paper, const char* x,
                          const std::string& columns, const std::string& endless) {
     fmt::format_to(std::back_inserter(text),
@@ -114,7 +115,7 @@ std::string curve_script(const Curve& curve, const VirtualTest::Options& options
                      plot_colours[1]);
     if (is_measured(curve))
       fmt::format_to(std::back_inserter(text),
-                     ", $points using {} with lines lw 1 lc rgb '#7f8c8d' title 'endless lattice'",
+                     ", $points using {} with lines lw 1 lc rgb '#7f8c8d' title 'infinite lattice'",
                      endless);
     fmt::format_to(std::back_inserter(text),
                    ", $points using {} with points pt 7 ps 0.7 lc rgb '#000000' title '{}'\n",

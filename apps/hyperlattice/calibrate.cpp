@@ -144,7 +144,7 @@ Command calibrate_command(CLI::App& program) {
                       "lattice constant l in m; gives k, with --young");
   command->add_option(
       "--parameters", a->choice.parameters,
-      "closed_form: exact for the endless lattice (default); paper: polynomials (11) and (13)");
+      "closed_form: exact for the infinite lattice (default); paper: polynomials (11) and (13)");
   command
       ->add_option("--measure", a->measure,
                    "also measure it by a compression test of N x N x N particles")

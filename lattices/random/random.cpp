@@ -73,7 +73,7 @@ class Random {
         .source("Zhao 2017, section 2.4 and figure 3: mean coordinations 8.4 and 13.2")
         .restrictions(
             "boundary particles only; the Poisson ratio of few neighbours is above 1/4 without a "
-            "membrane: 0.30 at 8.4, 0.25 at 13.2 in an endless "
+            "membrane: 0.30 at 8.4, 0.25 at 13.2 in an infinite "
             "body; nodal volumes give larger ones, but not to solvers.static. A particle at the "
             "surface has fewer springs, so those inside have more, and the "
             "largest Poisson ratio is less: at 8.4 about 0.27 "

@@ -220,7 +220,8 @@ TEST(CalibrateCommand, FigureTwo) {
 
   const test::Result endless = calibrate({"--membrane", "IV", "--curve", "-1.5", "5", "14"});
   EXPECT_EQ(endless.exit_code, 0) << endless.err;
-  EXPECT_NE(endless.out.find("Membrane IV: the endless lattice"), std::string::npos) << endless.out;
+  EXPECT_NE(endless.out.find("Membrane IV: the infinite lattice"), std::string::npos)
+      << endless.out;
   EXPECT_EQ(endless.out.find("the paper"), std::string::npos);
 }
 

@@ -22,7 +22,7 @@ class GaugeProbe {
                                   "a direction fixed in space, of any length, along which the "
                                   "ends move apart; the present line between them if left out")
         .equation(
-            "R: from the mean place of one end to that of the other, at rest; d: difference of "
+            "R: from the mean place of one end to that of the other, undeformed; d: difference of "
             "their mean displacements; elongation = |R + d| - |R|, or d . direction; strain = "
             "elongation / |R|")
         .restrictions(

@@ -23,22 +23,24 @@ class ReactionProbe {
                            "the name")
         .example("\"x_min\"")
         .add<&Options::about>("about", "m",
-                              "point of the moment; the mean place of the particles at rest if "
+                              "point of the moment; the mean undeformed place of the particles if "
                               "left out")
-        .add<&Options::area>("area", "m2", "area at rest; gives the column stress")
+        .add<&Options::area>("area", "m2", "undeformed area; gives the column stress")
         .positive()
         .add<&Options::normal>("normal", "",
                                "direction in which the stress is positive, such as the outward "
                                "normal of a face that is pulled")
         .equation(
             "force = sum F_i; moment = sum (x_i + u_i - about) x F_i; F_i: what the load pushes "
-            "particle i with; for prescribed motion m_i a_i less all other forces on i (at rest "
-            "minus the internal force); for a body acceleration g: m_i g. stress = force . normal "
+            "particle i with; for prescribed motion m_i a_i less all other forces on i (in "
+            "equilibrium minus the internal force); for a body acceleration g: m_i g. stress = "
+            "force . normal "
             "/ area")
         .restrictions(
             "On a region the forces of all loads on its particles count. Particles that no load "
             "touches count nothing: the force inside a body is that of probes.section. On the "
-            "way of a static stage whose start is not at rest, the forces that hold this start in "
+            "way of a static stage whose start is not in equilibrium, the forces that hold this "
+            "start in "
             "place do not count.")
         .check([](const Options& options, const FaultSink& faults) {
           if (options.area.has_value() != options.normal.has_value())

@@ -19,7 +19,7 @@ class SectionProbe {
 
   static Schema<Options> schema() {
     return Schema<Options>("probes.section", "Force and moment through a plane, over time")
-        .add<&Options::point>("point", "m", "a point of the plane, in the body at rest")
+        .add<&Options::point>("point", "m", "a point of the plane, in the undeformed body")
         .example("[\"3 mm\", 0, 0]")
         .add<&Options::normal>("normal", "", "direction across the plane, of any length")
         .example("[1, 0, 0]")
@@ -27,7 +27,7 @@ class SectionProbe {
         .fallback("\"all\"")
         .add<&Options::about>("about", "m", "point of the moment; `point` if left out")
         .add<&Options::area>("area", "m2",
-                             "area of the section at rest, for the stress; that of the springs "
+                             "undeformed area of the section, for the stress; that of the springs "
                              "that the plane cuts if left out")
         .positive()
         .equation(
@@ -36,8 +36,9 @@ class SectionProbe {
             "normal / area, positive in tension; area . m = normal . sum R_s over whole springs "
             "of class 0, m = 1/l in the cubic lattice")
         .restrictions(
-            "The plane divides the particles by their places at rest; particles on the plane are "
-            "before it. At rest the force is minus the sum of all loads on the material beyond, "
+            "The plane divides the particles by their undeformed places; particles on the plane "
+            "are before it. In equilibrium the force is minus the sum of all loads on the material "
+            "beyond, "
             "to round-off, for any direction of the plane. In motion the material beyond takes "
             "mass times acceleration of it. In a region, springs that leave the region do not "
             "count.")

@@ -26,7 +26,7 @@ struct FieldInfo {
 };
 
 inline constexpr FieldInfo field_table[] = {
-    {"displacement", FieldKind::vector, "m", "place now less place at rest"},
+    {"displacement", FieldKind::vector, "m", "present place less undeformed place"},
     {"velocity", FieldKind::vector, "m/s", "velocity half a step before the time"},
     {"height", FieldKind::number, "m", "displacement in the fourth dimension",
      FieldNeeds::free_membrane},
@@ -34,15 +34,16 @@ inline constexpr FieldInfo field_table[] = {
     {"source", FieldKind::number, "", "index of the particle in the list's own order, from 0",
      FieldNeeds::list},
     {"broken_open", FieldKind::number, "",
-     "number of the particle's broken springs that are longer than at rest", FieldNeeds::failure},
+     "number of the particle's broken springs that are longer than undeformed",
+     FieldNeeds::failure},
     {"broken_closed", FieldKind::number, "", "number of the others that are broken",
      FieldNeeds::failure},
     {"damage", FieldKind::number, "", "mean of 1 - integrity over the particle's springs",
      FieldNeeds::failure},
     {"stress", FieldKind::symmetric, "Pa", "Cauchy stress", FieldNeeds::nothing, true},
     {"nominal_stress", FieldKind::tensor, "Pa",
-     "first Piola-Kirchhoff stress: component xy is the force along x on an area at rest normal "
-     "to y",
+     "first Piola-Kirchhoff stress: component xy is the force along x on an undeformed area "
+     "normal to y",
      FieldNeeds::nothing, true},
     {"principal_stress", FieldKind::sorted, "Pa", "eigenvalues of the Cauchy stress",
      FieldNeeds::nothing, true},
@@ -61,9 +62,9 @@ inline constexpr FieldInfo field_table[] = {
      FieldNeeds::nothing, true},
     {"strain_rate", FieldKind::symmetric, "1/s", "symmetric part of the velocity gradient in space",
      FieldNeeds::nothing, true},
-    {"energy_density", FieldKind::number, "J/m3", "stored energy per volume at rest",
+    {"energy_density", FieldKind::number, "J/m3", "stored energy per undeformed volume",
      FieldNeeds::nothing, true},
-    {"kinetic_energy_density", FieldKind::number, "J/m3", "kinetic energy per volume at rest",
+    {"kinetic_energy_density", FieldKind::number, "J/m3", "kinetic energy per undeformed volume",
      FieldNeeds::nothing, true},
     {"internal_force", FieldKind::vector, "N", "force of the springs on the particle",
      FieldNeeds::nothing, true},
