@@ -152,8 +152,9 @@ class RunExamination {
     const bool is_fine = *residual <= fine_residual &&
                          run_.number("/rest/displacement_error").value_or(0) <= fine_displacement &&
                          (tolerance == 0 || *residual <= tolerance);
-    sentence += fmt::format(". Fine are at most {} and {}", short_number(fine_residual, 3),
-                            percent_text(fine_displacement));
+    const std::string bounds =
+        fmt::format("{} and {}", short_number(fine_residual, 3), percent_text(fine_displacement));
+    sentence += (is_fine ? ". Both are below their bounds, " : ". Their bounds are ") + bounds;
     add("rest", is_fine ? Judgement::fine : Judgement::doubtful, sentence + ".", numbers);
   }
 
