@@ -106,8 +106,8 @@ std::optional<double> jump_between(const Load& load, double from, double to, dou
 /// and the end of the run; nothing if there is none. Looks between samples, a few a step at most.
 std::optional<double> jump_of(const Load& load, double step, double end, std::uint64_t most_steps) {
   constexpr double fraction = 1e-3, samples_a_step = 4, beside_a_corner = 1e-6;
-  const double samples = samples_a_step * std::min(std::ceil(end / step),
-                                                   static_cast<double>(most_steps)),
+  const double samples = samples_a_step *
+                         std::min(std::ceil(end / step), static_cast<double>(most_steps)),
                apart = end / samples, gap = beside_a_corner * apart;
   double largest = 0;
   for (double n = 0; n < samples; ++n)
@@ -166,11 +166,11 @@ void check_resolution(Plan& plan, Faults& faults) {
                         name, load.frequency, steps, coarsest->stage->pointer,
                         100 * lost_by_mean(steps), 1 / (good * load.frequency)));
     }
-    if (const auto at = jump_of(load, step, plan.end_time(), most_steps))
+    if (const auto jump = jump_of(load, step, plan.end_time(), most_steps))
       plan.model->warnings.push_back(
           fmt::format("{}: at {:.6g} s it jumps, which a mean over a step does not see, so its "
                       "impulse is not exact. It needs corners where it has jumps",
-                      name, *at));
+                      name, *jump));
     else if (const auto at = too_fast_at(load, *coarsest, most_steps))
       plan.model->warnings.push_back(
           fmt::format("{}: about {:.4g} s it changes faster than the steps of {}, {:.4g} s, can "

@@ -30,7 +30,7 @@ class StageReader {
 
   std::vector<std::string> loads_;            ///< their labels
   std::vector<std::string> ambiguous_loads_;  ///< labels that stand for the first of several
-  std::vector<std::string_view> fields_;  ///< that materials declare, each once
+  std::vector<std::string_view> fields_;      ///< that materials declare, each once
   Reading reading_;
   Catalogue& catalogue_;
   std::vector<Fault>& refusals_;

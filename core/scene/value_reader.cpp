@@ -197,8 +197,9 @@ bool read_value(const Option& option, const Json& given, const std::string& poin
       const auto& several = reading.ambiguous_loads;
       if (given.is_string() && std::find(several.begin(), several.end(),
                                          given.get_ref<const std::string&>()) != several.end())
-        return wrong(", which one load has: several loads without a name are of this type, and "
-                     "only the first is called so; give the loads names");
+        return wrong(
+            ", which one load has: several loads without a name are of this type, and "
+            "only the first is called so; give the loads names");
       if (read_load(given, reading.loads, plain.load_or_region)) return true;
       if (given.is_string() && !reading.regions.knows(given.get_ref<const std::string&>()))
         return wrong(nearest_name(given.get_ref<const std::string&>(), reading));

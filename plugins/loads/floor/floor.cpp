@@ -76,7 +76,8 @@ class Floor {
         });
   }
 
-  explicit Floor(const Options& o) : o_(o), normal_(direction_of(o.normal)), forward_(along_floor(o)) {}
+  explicit Floor(const Options& o)
+      : o_(o), normal_(direction_of(o.normal)), forward_(along_floor(o)) {}
 
   void declare(const LoadBody& body, const LoadSink& sink) {
     const double whole = contact_stiffness(body, o_.on, o_.stiffness, sink);

@@ -25,7 +25,8 @@ class RegionProbe {
     schema.add<&Options::region>("region", "", "the particles").fallback("\"all\"");
     add_quantity_options(schema);
     schema.equation(
-        "mean = (1/n) sum q_i; min = min q_i; max = max q_i, over the n particles that have a value, "
+        "mean = (1/n) sum q_i; min = min q_i; max = max q_i, over the n particles that have a "
+        "value, "
         "nan if none has; with the component radial also radius = (1/n) sum |x_i - centre|, at "
         "rest, over all particles");
     return schema.check(check_quantity_options<Options>);
