@@ -343,7 +343,8 @@ TEST(Resolution, JumpsOfExpressionsWithoutCornersAreToldByThePlan) {
       const auto found = warnings(jump, step);
       ASSERT_FALSE(found.empty()) << jump << step;
       EXPECT_NE(found.front().find("it jumps"), std::string::npos) << found.front();
-      for (const std::string& warning : warnings(jump, step, {{"corners", {std::stod(at)}}}))
+      for (const std::string& warning :
+           warnings(jump, step, {{"corners", Json::array({std::stod(at)})}}))
         EXPECT_EQ(warning.find("it jumps"), std::string::npos) << jump << step;
     }
   for (const char* smooth : {"sqrt(t)", "abs(t - 5e-6)", "sin(3e5 * t)", "tanh((t - 5e-6) / 1e-6)"})

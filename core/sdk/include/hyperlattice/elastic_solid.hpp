@@ -142,9 +142,9 @@ struct Options {
     if (membrane != Membrane::free && has_ratios)
       faults.fault("membrane", "free, because k_alpha, k_beta or k_gamma is given");
     if (poisson && *poisson > largest)
-      faults.fault("poisson", text("at most ", largest,
-                                   ": nearer to 1/2 the resistance to changes of volume "
-                                   "leaves no digits for that to changes of shape"));
+      faults.fault("poisson",
+                   "at most 0.499999: nearer to 1/2 the resistance to changes of volume leaves no "
+                   "digits for that to changes of shape");
     if (volumetric && membrane != Membrane::none)
       faults.fault("volumetric", "false: only a solid without a membrane takes it");
     if (parameters == Parameters::paper && membrane != Membrane::I_m)
