@@ -152,8 +152,15 @@ class RunExamination {
     const bool is_fine = *residual <= fine_residual &&
                          run_.number("/rest/displacement_error").value_or(0) <= fine_displacement &&
                          (tolerance == 0 || *residual <= tolerance);
-    sentence += fmt::format(". Fine are at most {} and {}", short_number(fine_residual, 3),
-                            percent_text(fine_displacement));
+    const bool has_error = numbers.contains("displacement_error");
+    const std::string bounds =
+        short_number(fine_residual, 3) +
+        (has_error ? " and " + percent_text(fine_displacement) : std::string());
+    if (is_fine)
+      sentence += (has_error ? ". Both are below their bounds, " : ". It is below its bound, ");
+    else
+      sentence += (has_error ? ". Their bounds are " : ". Its bound is ");
+    sentence += bounds;
     add("rest", is_fine ? Judgement::fine : Judgement::doubtful, sentence + ".", numbers);
   }
 

@@ -190,7 +190,7 @@ struct HalfSpace {
         });
   }
   static Region make(const Options& half) {
-    const Vec3 point = half.point, n = half.normal;
+    const Vec3 point = half.point, n = scaled(half.normal);
     Vec3 low{-infinity, -infinity, -infinity}, high{infinity, infinity, infinity};
     const auto bound = [](double normal, double at, double& below, double& above) {
       (normal > 0 ? above : below) = at;

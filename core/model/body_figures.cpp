@@ -28,8 +28,7 @@ std::string beside(const Value& is, const std::optional<Value>& asked, const Tex
                    std::string_view more = "", bool at_most = false) {
   std::string made = text(is);
   if (!asked || text(*asked) == made) return fmt::format("{}{}", made, more);
-  return fmt::format("{}{}; its shape asks for {}{}", made, more, at_most ? "at most " : "",
-                     text(*asked));
+  return fmt::format("{}{} (shape: {}{})", made, more, at_most ? "at most " : "", text(*asked));
 }
 
 }  // namespace

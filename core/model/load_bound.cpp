@@ -40,9 +40,10 @@ void limit_step_by_loads(Model& model) {
   }
   const double alone = model.step_limit.time_step, square = 4 / (alone * alone) + stiffer;
   model.step_limit.time_step = 2 / (0.5 * rate + std::sqrt(0.25 * rate * rate + square));
-  model.step_limit.because +=
-      fmt::format("; shortened to {:.3g} of that, a safe bound, for what {} answers",
-                  model.step_limit.time_step / alone, names);
+  model.step_limit.because += fmt::format(
+      "; that alone allows {:.6g} s, but what {} answers shortens it to {:.3g} of "
+      "that, a safe bound",
+      alone, names, model.step_limit.time_step / alone);
 }
 
 }  // namespace hyperlattice

@@ -10,7 +10,7 @@ namespace {
 class Division {
  public:
   Division(const Body& body, Vec3 point, Vec3 normal, std::span<const Particle> among)
-      : body_(body), point_(point), normal_(normal / norm(normal)), among_(among) {}
+      : body_(body), point_(point), normal_(direction_of(normal)), among_(among) {}
 
   Vec3 normal() const { return normal_; }
   /// Returns the distance of a particle from the plane, m; positive beyond it.

@@ -82,6 +82,52 @@ std::optional<double> too_fast_at(const Load& load, const PlannedStage& stage,
   return worst > fraction * largest ? std::optional(at) : std::nullopt;
 }
 
+/// Returns the time of a jump of a load's factor within (from, to), which holds no corner; nothing
+/// if there is none. Halves the interval towards the larger difference: that of a smooth function
+/// shrinks, a jump stays.
+std::optional<double> jump_between(const Load& load, double from, double to, double least) {
+  double first = load.factor(from), last = load.factor(to);
+  const double whole = std::abs(last - first);
+  if (!(whole > least)) return std::nullopt;
+  constexpr double shrunk = 0.3, narrow = 1e-6;
+  const double width = narrow * (to - from);
+  while (to - from > width) {
+    const double middle = 0.5 * (from + to), at_middle = load.factor(middle);
+    if (!(middle > from && middle < to)) break;
+    const bool is_earlier = std::abs(at_middle - first) > std::abs(last - at_middle);
+    (is_earlier ? to : from) = middle;
+    (is_earlier ? last : first) = at_middle;
+    if (!(std::abs(last - first) > shrunk * whole)) return std::nullopt;
+  }
+  return to;
+}
+
+/// Returns the time of the first jump of a load's factor, away from its corners, between the start
+/// and the end of the run; nothing if there is none. Looks between samples, a few a step at most.
+std::optional<double> jump_of(const Load& load, double step, double end, std::uint64_t most_steps) {
+  constexpr double fraction = 1e-3, samples_a_step = 4, beside_a_corner = 1e-6;
+  const double samples = samples_a_step *
+                         std::min(std::ceil(end / step), static_cast<double>(most_steps)),
+               apart = end / samples, gap = beside_a_corner * apart;
+  double largest = 0;
+  for (double n = 0; n < samples; ++n)
+    largest = std::max(largest, std::abs(load.factor((n + 0.5) * apart)));
+  auto corner = load.corners.begin();
+  double from = gap;
+  for (double n = 1; n <= samples; ++n) {
+    const double to = n * apart;
+    for (; corner != load.corners.end() && *corner <= to + gap; ++corner) {
+      if (*corner - gap > from)
+        if (const auto at = jump_between(load, from, *corner - gap, fraction * largest)) return at;
+      from = std::max(from, *corner + gap);
+    }
+    if (!(to > from)) continue;
+    if (const auto at = jump_between(load, from, to, fraction * largest)) return at;
+    from = to;
+  }
+  return std::nullopt;
+}
+
 /// Returns the stage with the longest time step, or null if no stage has steps in time.
 const PlannedStage* coarsest_of(const Plan& plan) {
   const PlannedStage* coarsest = nullptr;
@@ -120,7 +166,12 @@ void check_resolution(Plan& plan, Faults& faults) {
                         name, load.frequency, steps, coarsest->stage->pointer,
                         100 * lost_by_mean(steps), 1 / (good * load.frequency)));
     }
-    if (const auto at = too_fast_at(load, *coarsest, most_steps))
+    if (const auto jump = jump_of(load, step, plan.end_time(), most_steps))
+      plan.model->warnings.push_back(
+          fmt::format("{}: at {:.6g} s it jumps, which a mean over a step does not see, so its "
+                      "impulse is not exact. It needs corners where it has jumps",
+                      name, *jump));
+    else if (const auto at = too_fast_at(load, *coarsest, most_steps))
       plan.model->warnings.push_back(
           fmt::format("{}: about {:.4g} s it changes faster than the steps of {}, {:.4g} s, can "
                       "tell, so its impulse is not exact. It needs shorter steps, or "

@@ -111,7 +111,15 @@ void Recorder::note(Outcome& outcome) {
   outcome.last = history_.last();
   outcome.largest_relative_error = history_.largest_relative_error();
   outcome.rest = rest_;
-  if (outcome.exit_code == exit_run) look_at_cells();  // folded cells may be the reason
+  if (outcome.exit_code == exit_run) {
+    // Compressed cells, as they were before the failure, or folded cells may be the reason.
+    if (std::string sentence = cells_.stiffened();
+        !sentence.empty() && stage_ != nullptr && !stage_->plan.at_rest) {
+      spdlog::warn("{}", sentence);
+      outcome.warnings.push_back(std::move(sentence));
+    }
+    look_at_cells();
+  }
   if (std::string sentence = cells_.sentence(); !sentence.empty())
     outcome.warnings.push_back(std::move(sentence));
 }

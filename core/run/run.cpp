@@ -163,8 +163,8 @@ void conclude(const Plan& plan, RunFolder& folder, Outcome& outcome) {
     if (outcome.exit_code == exit_done) outcome.end("failed", exit_outside, error.what());
   }
   if (outcome.exit_code == exit_done)
-    spdlog::info("done: {} steps in {:.3g} s, results in {}", outcome.steps, outcome.solve_seconds,
-                 directory.string());
+    spdlog::info("done: {} step{} in {:.3g} s, results in {}", outcome.steps,
+                 outcome.steps == 1 ? "" : "s", outcome.solve_seconds, directory.string());
   else
     spdlog::error("{}: {}", outcome.status, outcome.reason);
   if (outcome.exit_code != exit_done && has_checkpoint)

@@ -16,6 +16,9 @@ struct Reading {
   std::deque<std::string>& texts;
   /// Labels of the scene's loads, in their order.
   std::span<const std::string> loads = {};
+  /// Those of `loads` that stand for the first of several loads without a label, which have
+  /// numbers.
+  std::span<const std::string> ambiguous_loads = {};
   /// Fields that the scene's materials declare.
   std::span<const std::string_view> fields = {};
 };

@@ -65,17 +65,35 @@ void complete(std::vector<Label>& labels) {
   }
 }
 
-/// Returns the labels that the loads of a pipeline will have. Options of other stages name them.
-std::vector<std::string> labels_of_loads(const Json& pipeline) {
+/// Returns the types and labels of the loads of a pipeline; "" where the scene has no label.
+std::vector<Label> given_labels_of_loads(const Json& pipeline) {
   std::vector<Label> labels;
   for (const Json& stage : pipeline)
     if (const std::string type = word_in(stage, "type"); family_of(type) == Family::loads)
       labels.push_back({type, word_in(stage, "name")});
+  return labels;
+}
+
+/// Returns the labels that the loads will have. Options of other stages name them.
+std::vector<std::string> complete_labels(std::vector<Label> labels) {
   complete(labels);
   std::vector<std::string> names;
   names.reserve(labels.size());
   for (Label& label : labels) names.push_back(std::move(label.name));
   return names;
+}
+
+/// Returns the completed labels that belong to the first of several loads of one type without a
+/// label of their own: a reader of the scene cannot tell which load they mean.
+std::vector<std::string> ambiguous_labels(std::span<const Label> given,
+                                          std::span<const std::string> completed) {
+  std::map<std::string, std::vector<std::string>> unnamed;  // by type
+  for (std::size_t n = 0; n < given.size(); ++n)
+    if (given[n].name.empty()) unnamed[given[n].type].push_back(completed[n]);
+  std::vector<std::string> ambiguous;
+  for (const auto& [type, names] : unnamed)
+    if (names.size() > 1) ambiguous.push_back(names.front());
+  return ambiguous;
 }
 
 }  // namespace
@@ -97,8 +115,11 @@ Json StageReader::read(const Json& scene, std::vector<Stage>& stages) {
         fmt::format("at most {} stages; there are {}", most_stages, pipeline->size()));
     return resolved;
   }
-  loads_ = labels_of_loads(*pipeline);
+  const std::vector<Label> given = given_labels_of_loads(*pipeline);
+  loads_ = complete_labels(given);
+  ambiguous_loads_ = ambiguous_labels(given, loads_);
   reading_.loads = loads_;
+  reading_.ambiguous_loads = ambiguous_loads_;
   find_fields(*pipeline);
   reading_.fields = fields_;
   std::vector<std::optional<Family>> families;

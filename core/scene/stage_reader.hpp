@@ -28,8 +28,9 @@ class StageReader {
   void check_order(const std::vector<std::optional<Family>>& families);
   void give_names(std::vector<Stage>& stages, Json& resolved);
 
-  std::vector<std::string> loads_;        ///< their labels
-  std::vector<std::string_view> fields_;  ///< that materials declare, each once
+  std::vector<std::string> loads_;            ///< their labels
+  std::vector<std::string> ambiguous_loads_;  ///< labels that stand for the first of several
+  std::vector<std::string_view> fields_;      ///< that materials declare, each once
   Reading reading_;
   Catalogue& catalogue_;
   std::vector<Fault>& refusals_;

@@ -194,6 +194,12 @@ bool read_value(const Option& option, const Json& given, const std::string& poin
       plain.shape = reading.regions.read_shape(given, pointer, resolved);
       return plain.shape != nullptr;
     case OptionKind::load_or_region: {
+      const auto& several = reading.ambiguous_loads;
+      if (given.is_string() && std::find(several.begin(), several.end(),
+                                         given.get_ref<const std::string&>()) != several.end())
+        return wrong(
+            ", which one load has: several loads without a name are of this type, and "
+            "only the first is called so; give the loads names");
       if (read_load(given, reading.loads, plain.load_or_region)) return true;
       if (given.is_string() && !reading.regions.knows(given.get_ref<const std::string&>()))
         return wrong(nearest_name(given.get_ref<const std::string&>(), reading));

@@ -1,6 +1,8 @@
 #include <base/figures.hpp>
 #include <state/inside_out.hpp>
 
+#include <hyperlattice/volumetric_cell.hpp>
+
 #include <spdlog/fmt/fmt.h>
 
 #include <cmath>
@@ -95,6 +97,15 @@ void CellWatch::count(bool is_inside_out, Particle particle) {
   ++seen_.number;
 }
 
+/// Compares the volume of a cell whose corners moved by `moved`, spacings, with the least so far.
+void CellWatch::measure(const std::array<Vec3, 8>& moved, Particle particle) {
+  constexpr double spacing = 1, modulus = 1;
+  const double growth = cell_response(moved, spacing, modulus).volume_growth;
+  if (!(growth < least_growth_)) return;
+  least_growth_ = growth;
+  least_ = particle;
+}
+
 bool CellWatch::look(const Simulation& simulation) {
   if (seen_.has_looked != 0 && simulation.steps() == seen_.last_looked) return false;
   is_torn_.clear();
@@ -103,6 +114,7 @@ bool CellWatch::look(const Simulation& simulation) {
     is_torn_[broken.a] = is_torn_[broken.b] = true;
   }
   seen_.all = seen_.number = 0;
+  least_growth_ = 0;
   seen_.last_looked = simulation.steps();
   seen_.has_looked = 1;
   if (body_.is_listed()) {
@@ -113,6 +125,9 @@ bool CellWatch::look(const Simulation& simulation) {
     look_at_cells(simulation);
   }
   moved_ = {};
+  seen_.least_volume = 1 + least_growth_;
+  seen_.least_time = simulation.time();
+  if (least_growth_ < 0) seen_.least_place = body_.position(least_);
   const bool is_first = seen_.most == 0 && seen_.number > 0;
   if (is_first) {
     seen_.first_time = simulation.time();
@@ -160,7 +175,7 @@ void CellWatch::look_at_row(std::int32_t j, std::int32_t k) {
         is_whole = is_whole && row[n + 1] != Body::no_particle;
       }
       if (!is_whole) continue;
-      Vec3 moved[8];  // by corner: 1 along a1, 2 along a2, 4 along a3
+      std::array<Vec3, 8> moved;  // by corner: 1 along a1, 2 along a2, 4 along a3
       bool is_torn = false;
       for (std::size_t corner = 0; corner < 8; ++corner) {
         const Particle particle = row[corner >> 1] + (corner & 1);
@@ -177,6 +192,7 @@ void CellWatch::look_at_row(std::int32_t j, std::int32_t k) {
         is_inside_out = is_inside_out || turn(edge(0), edge(1), edge(2)) * upright <= 0;
       }
       count(is_inside_out, row[0]);
+      if (is_volumetric_) measure(moved, row[0]);
     }
 }
 
@@ -240,6 +256,18 @@ std::string CellWatch::sentence() const {
       count_text(seen_.most), count_text(seen_.all), kind, quantity_text(seen_.first_time, "s"),
       x.x, x.y, x.z,
       seen_.number < seen_.most ? fmt::format(", {} at the end", count_text(seen_.number)) : "");
+}
+
+std::string CellWatch::stiffened() const {
+  constexpr double noticeable = 0.8;  // the stiffness p' of a cell is then 1.55 times that at rest
+  if (!(seen_.least_volume < noticeable)) return "";
+  const Vec3 x = seen_.least_place;
+  const double stiffer = std::sqrt(volumetric_response(seen_.least_volume - 1).stiffness);
+  return fmt::format(
+      "a cell at ({:.4g}, {:.4g}, {:.4g}) m at rest had {:.3g} of its volume at {}; its volumetric "
+      "energy stiffens when compressed, so that the body at rest allows too long a step: expected "
+      "a `safety` up to {:.2g} times smaller",
+      x.x, x.y, x.z, seen_.least_volume, quantity_text(seen_.least_time, "s"), stiffer);
 }
 
 }  // namespace hyperlattice

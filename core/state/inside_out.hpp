@@ -24,11 +24,15 @@ struct InsideOut {
   Vec3 first_place;               ///< place at rest of the first one, m
   std::uint64_t last_looked = 0;  ///< step of the last look
   std::uint64_t has_looked = 0;   ///< 1 after the first look
+  double least_volume = 1;  ///< least J of volumetric cells at the last look, over that at rest
+  double least_time = 0;    ///< of that look, s
+  Vec3 least_place;         ///< place at rest of this cell, m
 };
 
 class CellWatch {
  public:
-  explicit CellWatch(const Model& model) : body_(model.body) {}
+  explicit CellWatch(const Model& model)
+      : body_(model.body), is_volumetric_(!model.volumetric.empty()) {}
 
   /// Looks at the present state on one thread, in about the time of a step on one thread. Skips
   /// cells and particles at a broken spring. Returns whether this look found the first one inside
@@ -42,6 +46,9 @@ class CellWatch {
 
   /// Returns a warning about folded cells; "" if none was seen.
   std::string sentence() const;
+  /// Returns why steps may have become too long, if cells with a volumetric energy were much
+  /// compressed at the last look; else "".
+  std::string stiffened() const;
   InsideOut& seen() { return seen_; }
 
  private:
@@ -52,8 +59,12 @@ class CellWatch {
   void look_at_list();
   void find_triples();
   void count(bool is_inside_out, Particle particle);
+  void measure(const std::array<Vec3, 8>& moved, Particle particle);
 
   const Body& body_;
+  bool is_volumetric_;
+  double least_growth_ = 0;  ///< least J - 1 in this look
+  Particle least_ = 0;       ///< first corner of this cell
   InsideOut seen_;
   std::vector<double> moved_;  ///< displacements x y z of the particles from first_ on, m
   Particle first_ = 0;

@@ -97,7 +97,7 @@ class Plastic {
             "each spring")
         .restrictions(
             "structured lattices; springs of positive stiffness, of which those across a bar carry "
-            "less than those along it")
+            "less than those along it: without a membrane, poisson up to 1/3")
         .field("plastic_strain", "",
                "mean over the particle's springs of plastic elongation over length at rest")
         .field("equivalent_plastic_strain", "",
@@ -133,10 +133,13 @@ class Plastic {
         if (stiffness == 0) continue;
         const double limit = bar.limit(c, cross), across = bar.across(c, cross);
         if (across > limit)
-          throw std::invalid_argument(
-              elastic_solid::text("membrane of another kind, or a smaller poisson: springs across "
-                                  "a bar would yield at ",
-                                  limit / across, " of the stress at which those along it do"));
+          throw std::invalid_argument(elastic_solid::text(
+              // No membrane reaches more than 1/3.
+              options_.membrane == elastic_solid::Membrane::none
+                  ? "poisson at most 1/3"
+                  : "membrane of another kind, or a smaller poisson",
+              ": springs across a bar would yield at ", limit / across,
+              " of the stress at which those along it do"));
         constants.set_law(c, cross,
                           PlasticLaw::Constants{stiffness * limit, stiffness * options_.hardening /
                                                                        (1 - options_.hardening)});

@@ -152,7 +152,7 @@ TEST(Analyze, RefusesPoissonRatiosOutOfReach) {
       {"--membrane", "III", "--poisson", "0.27"},
       {", 0.2667), the reach of membrane III", "within the reach of IV (not isotropic)"});
   expect_refused({"--membrane", "IV", "--poisson", "0.34"},
-                 {", 0.3333), the reach of membrane IV", "no membrane of this lattice reaches it"});
+                 {", 0.3333), the reach of membrane IV", "membrane none reaches it"});
   expect_refused({"--membrane", "I-m", "--poisson", "-0.2"},
                  {"-0.2 is within the reach of I (not isotropic), II (not isotropic)"});
   expect_refused({"--membrane", "none", "--poisson", "0.5"}, {"--poisson", "none, or 0.25"});

@@ -126,7 +126,7 @@ TEST(CalibrateCommand, RefusesWhatIsOutOfReach) {
       {"--membrane", "III", "--poisson", "0.27"},
       {", 0.2667), the reach of membrane III", "within the reach of IV (not isotropic)"});
   expect_refused({"--membrane", "IV", "--poisson", "0.34"},
-                 {", 0.3333), the reach of membrane IV", "no membrane of this lattice reaches it"});
+                 {", 0.3333), the reach of membrane IV", "membrane none reaches it"});
   expect_refused({"--lattice", "lattices.fcc", "--membrane", "none", "--poisson", "0.2"},
                  {"--poisson", "none, or 0.25"});
   expect_refused({"--membrane", "none", "--poisson", "0.5"}, {"--poisson", "none, or 0.25"});

@@ -331,6 +331,27 @@ TEST(Resolution, OfExpressionsFasterThanTheStepIsToldByThePlan) {
   }
 }
 
+/// A jump between two steps, within one or in a long run is found; kinks and steep slopes are none.
+TEST(Resolution, JumpsOfExpressionsWithoutCornersAreToldByThePlan) {
+  const auto warnings = [](const std::string& expression, double step, const Keys& more = {}) {
+    return plan_of(scene(expression_load(expression.c_str(), more), explicit_to(1e-5, step)))
+        ->model->warnings;
+  };
+  for (const double step : {1e-7, 7e-8})
+    for (const char* at : {"5e-6", "1.234567e-6", "9.99e-6"}) {
+      const std::string jump = std::string("t < ") + at + " ? 1 : 0";
+      const auto found = warnings(jump, step);
+      ASSERT_FALSE(found.empty()) << jump << step;
+      EXPECT_NE(found.front().find("it jumps"), std::string::npos) << found.front();
+      for (const std::string& warning :
+           warnings(jump, step, {{"corners", Json::array({std::stod(at)})}}))
+        EXPECT_EQ(warning.find("it jumps"), std::string::npos) << jump << step;
+    }
+  for (const char* smooth : {"sqrt(t)", "abs(t - 5e-6)", "sin(3e5 * t)", "tanh((t - 5e-6) / 1e-6)"})
+    for (const std::string& warning : warnings(smooth, 1e-7))
+      EXPECT_EQ(warning.find("it jumps"), std::string::npos) << smooth;
+}
+
 TEST(Resolution, OfLoadsIsToldByThePlan) {
   const auto with = [](const Keys& keys, double step) {
     return scene(pressed(1, keys), explicit_to(10e-6, step));

@@ -218,6 +218,13 @@ TEST(Laws, RefuseWhatTheyCannotDo) {
       expected(R"("type": "materials.plastic", "yield": 3e6, "membrane": "IV", "poisson": 0.3)")
           .find("negative stiffness"),
       std::string::npos);
+  const char* none =
+      R"("type": "materials.plastic", "yield": 3e6, "membrane": "none", "poisson": )";
+  EXPECT_EQ(expected((none + std::string("0.33")).c_str()), "");
+  // A diagonal along the bar grows by (1 - nu) / 2, one across it shrinks by nu.
+  EXPECT_NE(expected((none + std::string("0.4")).c_str())
+                .find("poisson at most 1/3: springs across a bar would yield at 0.75"),
+            std::string::npos);
 }
 
 }  // namespace

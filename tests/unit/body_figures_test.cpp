@@ -49,7 +49,7 @@ TEST(BodyFigures, AWidthThatTheSpacingDoesNotDivideIsToldWithItsError) {
     EXPECT_EQ(json.at("body").at("size").at(2), body.size.z);
     EXPECT_EQ(json.at("body").at("asked_size").at(2), 8e-3);
     const std::string page = plan_text(*plan);
-    EXPECT_NE(page.find("0.024 x 0.012 x 0.009 m; its shape asks for 0.024 x 0.012 x 0.008 m"),
+    EXPECT_NE(page.find("0.024 x 0.012 x 0.009 m (shape: 0.024 x 0.012 x 0.008 m)"),
               std::string::npos)
         << page;
   }
@@ -127,7 +127,7 @@ TEST(BodyFigures, AnExtentThatIsOnlyABoundIsToldAsOne) {
   const BodyFigures body = figures(lattice(1e-3, slanting, "particles"));
   EXPECT_TRUE(body.asked_at_most);
   EXPECT_TRUE(size_warnings(body, 1e-3).empty()) << "narrower than a bound is no error";
-  EXPECT_NE(body_lines(body)[0].second.find("; its shape asks for at most 0.004 x 0.004 x 0.004 m"),
+  EXPECT_NE(body_lines(body)[0].second.find(" (shape: at most 0.004 x 0.004 x 0.004 m)"),
             std::string::npos)
       << body_lines(body)[0].second;
 }
@@ -141,7 +141,7 @@ TEST(BodyFigures, LatticesOfMoreThanOneParticleACubeAreComparedToo) {
     EXPECT_NEAR(norm(odd.size - Vec3{7.5e-3, 7.5e-3, 16.5e-3}), 0, 1e-12) << type;
     EXPECT_EQ(size_warnings(odd, 3e-3).size(), 3u);
     EXPECT_EQ(body_lines(odd)[0].second,
-              "0.0075 x 0.0075 x 0.0165 m; its shape asks for 0.008 x 0.008 x 0.016 m");
+              "0.0075 x 0.0075 x 0.0165 m (shape: 0.008 x 0.008 x 0.016 m)");
   }
   const BodyFigures full = figures(lattice(1e-3, box({}, {2.5e-3, 2.5e-3, 2.5e-3}), "",
                                            "lattices.bcc"));  // right size; 35 particles, not 31.25

@@ -52,7 +52,7 @@ TEST_F(InputTables, RefusalsShowWhatWasFound) {
             "line 1: expected a column \"x\", named in the first line; it names \"a\", \"b\"");
   EXPECT_EQ(refusal("1;2\n"),
             "line 1: expected a column \"x\", named in the first line; it names \"1\", \"2\"");
-  EXPECT_EQ(refusal(""), "line 1: expected a column \"x\", named in the first line; it names \"\"");
+  EXPECT_EQ(refusal(""), "line 1: expected a table: the file is empty");
   EXPECT_EQ(refusal("# by CT\n\na,b\n1,2\n"),
             "line 3: expected a column \"x\", named in the first line; it names \"a\", \"b\"");
   EXPECT_EQ(refusal("# x,z\n\n"),

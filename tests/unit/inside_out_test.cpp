@@ -82,4 +82,21 @@ TEST(InsideOut, AGapOrAHoleIsNoCell) {
   EXPECT_EQ(body.look(same).all, 5u * 2 * 2 - 8);
 }
 
+TEST(InsideOut, CompressedCellsWithAVolumetricEnergyAreToldWithTheShorterStep) {
+  const auto compressed = [](Vec3 x) { return Vec3{x.x, x.y, 0.5 * x.z}; };
+  const std::string box =
+      listed_scene(stage("lattices.cubic", {{"spacing", "1 mm"}, {"shape", box_mm(6, 5, 4)}}),
+                   {{"membrane", "none"}, {"poisson", 0.4}});
+  Watched body(box), springs(lattice("lattices.cubic"));
+  EXPECT_NEAR(body.look(compressed).least_volume, 0.5, 1e-12);
+  // p' = y^4 (2 y - 1) with y^3 = 2 is 3.8296.
+  EXPECT_NE(body.watch->stiffened().find("0.5 of its volume"), std::string::npos);
+  EXPECT_NE(body.watch->stiffened().find("up to 2 times smaller"), std::string::npos)
+      << body.watch->stiffened();
+  EXPECT_EQ(body.look(same).least_volume, 1);
+  EXPECT_EQ(body.watch->stiffened(), "");
+  springs.look(compressed);
+  EXPECT_EQ(springs.watch->stiffened(), "") << "springs alone do not stiffen";
+}
+
 }  // namespace

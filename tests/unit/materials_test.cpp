@@ -206,7 +206,17 @@ TEST(Elastic, SaysWhichPoissonRatiosAMembraneReaches) {
   expect_in(material_faults({{"membrane", "IV"}, {"poisson", -0.3}}),
             {"/pipeline/1/poisson", "-0.3 is within the reach of II"});
   expect_in(material_faults({{"membrane", "I"}, {"poisson", 0.4}}),
-            {"no membrane of this lattice reaches it"});
+            {"/pipeline/1/poisson", "; membrane none reaches it"});
+  expect_in(
+      material_faults({{"membrane", "II"}, {"poisson", 0.2501}}),
+      {"is within the reach of III (not isotropic), IV (not isotropic); membrane none reaches "
+       "it too"});
+  expect_in(material_faults({{"poisson", -0.6}}),
+            {"has; volumetric true reaches it, in a body without failure"});
+  expect_in(material_faults({{"membrane", "I-m"}, {"poisson", -0.6}}),
+            {"membrane none with volumetric true reaches it"});
+  expect_in(material_faults({{"poisson", 0.49999999999999994}}),
+            {"/pipeline/1/poisson", "at most 0.499999"});
   expect_in(material_faults({{"poisson", 0.2}}), {"/pipeline/1/poisson", "0.25, or left out",
                                                   "I-m, I (not isotropic), II (not isotropic)"});
   expect_in(material_faults({{"membrane", "I-m"}, {"poisson", 0.02}, {"parameters", "paper"}}),

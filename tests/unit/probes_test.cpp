@@ -200,6 +200,15 @@ TEST(RegionProbe, KnowsUniformExpansion) {
   EXPECT_EQ(all.begin_probe(body.context("."), body.at(0)).size(), 9u);
 }
 
+TEST(RegionProbe, LeavesOutParticlesWithoutAValue) {
+  FakeBody body({2, 2, 2});
+  Plugin probe("probes.region", {{"component", "x"}});
+  EXPECT_EQ(probe.begin_probe(body.context("."), body.at(0)).size(), 3u);
+  for (const double value : probe.sample(body.at(std::nan("")), 3)) EXPECT_TRUE(std::isnan(value));
+  // u_x = t (x - c) + t^2 y is no number for x below c, and infinite above.
+  for (const double value : probe.sample(body.at(infinity), 3)) EXPECT_EQ(value, infinity);
+}
+
 /// The mean place of a region's particles at rest, m.
 Vec3 mean_place(FakeBody& body, const std::vector<Particle>& particles) {
   Vec3 sum;

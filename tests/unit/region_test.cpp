@@ -143,6 +143,11 @@ TEST(Region, BoundaryCountsAsInside) {
       make("hollow_sphere", {{"inner_radius", {1}}, {"outer_radius", {2}}})->contains({0, 1, 0}));
   EXPECT_TRUE(box({0, 0, 0}, {1, 1, 1})->contains({1, 0, 1}));
   EXPECT_TRUE(make("half_space", {{"normal", {0, 0, 1}}})->contains({5, 5, 0}));
+  for (const double length : {1e-300, 1e308}) {
+    const auto half = make("half_space", {{"normal", {length, length, length}}});
+    EXPECT_TRUE(half->contains({-5e3, 1, 1})) << length;
+    EXPECT_FALSE(half->contains({5e3, 1, 1})) << length;
+  }
   EXPECT_FALSE(make("half_space", {{"normal", {0, 0, 1}}})->contains({5, 5, 1e-12}));
 }
 

@@ -34,3 +34,15 @@ TEST(Vec3, ComponentsByAxis) {
   for (int axis = 0; axis < 3; ++axis) v[axis] += 1;
   EXPECT_EQ(v, (Vec3{2, -1, 5}));
 }
+
+TEST(Vec3, DirectionsHaveLengthOneWhateverTheLengthOfTheVector) {
+  for (const double length : {5e-324, 1e-200, 1e-3, 1.0, 7.0, 1e200, 1.7e308})
+    EXPECT_EQ(direction_of({0, -length, 0}), (Vec3{0, -1, 0})) << length;
+  for (const double length : {1e-300, 1e308}) {
+    const Vec3 d = direction_of({length, length, length});
+    for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(d[axis], 1 / std::sqrt(3.0), 1e-15) << length;
+  }
+  const Vec3 usual{0.3, -1.7, 4.1};
+  EXPECT_EQ(direction_of(usual), usual / norm(usual)) << "no digit changes";
+  EXPECT_EQ(scaled({}), Vec3{});
+}

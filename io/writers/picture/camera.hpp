@@ -35,7 +35,7 @@ struct Frame {
 inline Camera make_camera(std::span<const double> points, double edge, Vec3 view, bool perspective,
                           Frame frame) {
   Camera camera;
-  camera.forward = (-1 / norm(view)) * view;
+  camera.forward = (-1 / norm(scaled(view))) * scaled(view);
   const Vec3 sideways = cross(camera.forward, {0, 0, 1});  // z is up, or y for a view along z
   camera.right = norm(sideways) > 1e-6 ? sideways / norm(sideways) : Vec3{1, 0, 0};
   camera.up = cross(camera.right, camera.forward);

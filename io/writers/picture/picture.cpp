@@ -145,7 +145,7 @@ class Picture {
         .at_most(8192)
         .check([](const Options& options, const FaultSink& faults) {
           check_file_name(options.file, faults);
-          if (norm(options.view) == 0) faults.fault("view", "a direction that is not zero");
+          if (options.view == Vec3{}) faults.fault("view", "a direction that is not zero");
           if (options.range &&
               !(options.range->size() == 2 && options.range->front() < options.range->back()))
             faults.fault("range", "two numbers, the smaller first");

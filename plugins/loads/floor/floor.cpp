@@ -70,16 +70,14 @@ class Floor {
         .positive()
         .fallback("1")
         .check([](const Options& o, const FaultSink& faults) {
-          if (norm(o.normal) == 0) faults.fault("normal", "a direction");
-          if (o.friction_back && norm(cross(o.normal, o.forward)) == 0)
+          if (o.normal == Vec3{}) faults.fault("normal", "a direction");
+          if (o.normal != Vec3{} && o.friction_back && along_floor(o) == Vec3{})
             faults.fault("forward", "a direction along the floor, for friction_back");
         });
   }
 
-  explicit Floor(const Options& o) : o_(o), normal_(o.normal / norm(o.normal)) {
-    const Vec3 along = o.forward - dot(o.forward, normal_) * normal_;
-    if (norm(along) > 0) forward_ = along / norm(along);
-  }
+  explicit Floor(const Options& o)
+      : o_(o), normal_(direction_of(o.normal)), forward_(along_floor(o)) {}
 
   void declare(const LoadBody& body, const LoadSink& sink) {
     const double whole = contact_stiffness(body, o_.on, o_.stiffness, sink);
@@ -114,6 +112,14 @@ class Floor {
   }
 
  private:
+  /// Returns the direction of the part of `forward` along the floor; zero if it has none.
+  static Vec3 along_floor(const Options& o) {
+    const Vec3 forward = scaled(o.forward), normal = direction_of(o.normal),
+               along = forward - dot(forward, normal) * normal;
+    constexpr double rounding = 1e-14;
+    return norm(along) > rounding ? direction_of(along) : Vec3{};
+  }
+
   struct Contact {
     double height;  ///< height of the particle's rim over the floor, in the undeformed body, m
     PenaltyContact law;

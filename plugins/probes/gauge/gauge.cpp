@@ -36,7 +36,7 @@ class GaugeProbe {
   }
 
   explicit GaugeProbe(const Options& options) : options_(options) {
-    if (options.direction) direction_ = *options.direction / norm(*options.direction);
+    if (options.direction) direction_ = direction_of(*options.direction);
   }
 
   void begin(const OutputContext& context, const Snapshot& first, const ColumnSink& columns) {

@@ -20,7 +20,9 @@ class ReactionProbe {
                            "Force and moment of a load, or of all loads on a region, over time")
         .add<&Options::on>("on", "",
                            "the name of a load, or a region; a load counts first if both have "
-                           "the name")
+                           "the name. A load without a name is called as the last part of its "
+                           "type, the second such load with _2 behind it; where there are several, "
+                           "the first needs a name to be chosen")
         .example("\"x_min\"")
         .add<&Options::about>("about", "m",
                               "point of the moment; the mean undeformed place of the particles if "

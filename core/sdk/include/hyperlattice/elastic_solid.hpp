@@ -141,6 +141,10 @@ struct Options {
     const bool has_ratios = k_beta != 0 || k_gamma != 0 || k_alpha != 0.0;
     if (membrane != Membrane::free && has_ratios)
       faults.fault("membrane", "free, because k_alpha, k_beta or k_gamma is given");
+    if (poisson && *poisson > largest)
+      faults.fault("poisson",
+                   "at most 0.499999: nearer to 1/2 the resistance to changes of volume leaves no "
+                   "digits for that to changes of shape");
     if (volumetric && membrane != Membrane::none)
       faults.fault("volumetric", "false: only a solid without a membrane takes it");
     if (parameters == Parameters::paper && membrane != Membrane::I_m)
@@ -160,6 +164,8 @@ struct Options {
   }
 
  private:
+  /// The largest Poisson ratio: the bulk modulus is then 5e5 times the shear modulus.
+  static constexpr double largest = 0.499999;
   /// Difference of Poisson ratios that counts as none.
   static constexpr double tolerance = 1e-4;
 
@@ -253,7 +259,7 @@ struct Options {
              membranes::reached_by(lattice, membrane, *poisson),
              lattice.lengths > 0 ? "; a list of springs reaches only larger ones otherwise"
              : lattice.has_cells
-                 ? "; volumetric true reaches it too, in a body without failure"
+                 ? ", in a body without failure"
                  : "; other ratios need the volumetric energy of cubic cells, whose corners the "
                    "particles of this lattice are not"));
   }

@@ -35,6 +35,8 @@ class Filling {
 
  private:
   static constexpr double most_sites = 4e9;
+  /// The most steps from the anchor to a site. Above 2^53 a step more is not even another number.
+  static constexpr double farthest = 2147483648.0;
   static constexpr const char* nothing_inside =
       "no lattice site or cell's centre is inside the shape, or no cell has enough of it: expected "
       "a smaller spacing or a larger shape";
@@ -111,6 +113,10 @@ class Filling {
     if (span.count() > most_sites_along_an_axis)
       throw std::invalid_argument(
           "spacing is too small for this shape: more than 2^31 sites along an axis");
+    if (span.count() > 0 && std::max(std::abs(span.first), std::abs(span.last)) > farthest)
+      throw std::invalid_argument(
+          "anchor at most 2^31 spacings from the shape: farther off the places of sites are not "
+          "exact");
     return span;
   }
   Span along_x(double j, double k) const {

@@ -16,7 +16,7 @@ class LoadCell {
   LoadCell(ForcesId forces, Vec3 about) : forces_(forces), about_(about) {}
   /// Adds a stress. `normal` has any length; the stress is positive in its direction.
   void set_area(Vec3 normal, double area) {
-    normal_ = normal / norm(normal);
+    normal_ = direction_of(normal);
     area_ = area;
   }
 

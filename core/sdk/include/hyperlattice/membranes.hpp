@@ -184,13 +184,29 @@ std::string text(const Parts&... parts) {
   return out.str();
 }
 
-/// Returns, for a message, the membranes other than `but` that give the lattice this Poisson ratio
-/// and are stable.
+/// Upper bound of the Poisson ratio of a solid and of the option. A very soft lattice may seem to
+/// exceed it.
+inline constexpr double largest_poisson = 0.5;
+
+/// Returns, for a message, how the volumetric energy of the cells gives the lattice this Poisson
+/// ratio; "" if it does not. `but`: the membrane that the scene has.
+inline std::string reached_by_cells(const LatticeFacts& lattice, Membrane but, double poisson) {
+  if (!lattice.has_cells || !(poisson > -1 && poisson < largest_poisson)) return "";
+  if (poisson >= lattice.elastic_constants(constants(lattice, {})).poisson())
+    return but == Membrane::none ? "" : "membrane none";
+  return but == Membrane::none ? "volumetric true" : "membrane none with volumetric true";
+}
+
+/// Returns, for a message, what else gives the lattice this Poisson ratio: the membranes other than
+/// `but` that are stable, and the volumetric energy.
 inline std::string reached_by(const LatticeFacts& lattice, Membrane but, double poisson) {
   const bool is_listed = lattice.lengths > 0;
+  // Finding the ratios of a list costs tens of solutions for all its springs.
   if (is_listed)
-    return "other membranes have other ratios";  // finding them costs tens of solutions for all
-                                                 // springs of the list
+    return std::string("other membranes have other ratios") +
+           (lattice.has_cells && but != Membrane::none
+                ? "; membrane none reaches all from that of its springs to 0.5"
+                : "");
   std::string names;
   for (const Membrane other : with_lambda) {
     const double found = other == but ? infinity : lambda(lattice, other, poisson);
@@ -199,13 +215,12 @@ inline std::string reached_by(const LatticeFacts& lattice, Membrane but, double 
     const bool isotropic = std::abs(2 * c.C44 / (c.C11 - c.C12) - 1) < 0.01;
     names += text(names.empty() ? "" : ", ", name(other), isotropic ? "" : " (not isotropic)");
   }
-  return names.empty() ? "no membrane of this lattice reaches it"
-                       : text(poisson, " is within the reach of ", names);
+  const std::string cells = reached_by_cells(lattice, but, poisson);
+  if (names.empty())
+    return cells.empty() ? "no membrane of this lattice reaches it" : cells + " reaches it";
+  return text(poisson, " is within the reach of ", names, cells.empty() ? "" : "; ", cells,
+              cells.empty() ? "" : " reaches it too");
 }
-
-/// Upper bound of the Poisson ratio of a solid and of the option. A very soft lattice may seem to
-/// exceed it.
-inline constexpr double largest_poisson = 0.5;
 
 /// Returns, for a message about a Poisson ratio that a membrane cannot reach, its reach and the
 /// membranes that do.

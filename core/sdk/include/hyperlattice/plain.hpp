@@ -46,6 +46,16 @@ constexpr Vec3 cross(Vec3 a, Vec3 b) {
 }
 /// Returns the Euclidean length.
 inline double norm(Vec3 a) { return std::sqrt(dot(a, a)); }
+/// Returns a finite vector over a power of two, so that its largest component is between 1/2 and 1
+/// and no product of components overflows or underflows. Zero stays zero.
+inline Vec3 scaled(Vec3 a) {
+  int exponent = 0;
+  std::frexp(std::fmax(std::abs(a.x), std::fmax(std::abs(a.y), std::abs(a.z))), &exponent);
+  for (int axis = 0; axis < 3; ++axis) a[axis] = std::ldexp(a[axis], -exponent);
+  return a;
+}
+/// Returns the vector of length 1 along a finite vector of any length but zero.
+inline Vec3 direction_of(Vec3 a) { return scaled(a) / norm(scaled(a)); }
 
 /// Index of a particle: its position in the lattice's order, by z, then y, then x.
 using Particle = std::uint64_t;

@@ -285,6 +285,7 @@ class NumberTable {
     }
     check_reading(in);
     for (const std::string_view name : required) {
+      if (header_number == 0) complain(1, "a table: the file is empty");
       if (!header.find(name))
         complain(header_number, "a column \"" + std::string(name) +
                                     "\", named in the first line; it names " + header.text());
