@@ -70,6 +70,8 @@ inline constexpr FieldInfo field_table[] = {
     {"external_force", FieldKind::vector, "N",
      "force of the loads; along prescribed axes the force that keeps the motion",
      FieldNeeds::nothing, true},
+    {"force", FieldKind::vector, "N", "internal and external force, without damping",
+     FieldNeeds::nothing, true},
     {"acceleration", FieldKind::vector, "m/s2",
      "internal and external force over mass, without damping", FieldNeeds::nothing, true},
 };
