@@ -91,14 +91,17 @@ void set_volumetric(Model& model, Faults& faults) {
   for (const Material& material : model.materials) {
     const double modulus = material.constants.volumetric;
     moduli.push_back(modulus);
-    const auto refuse = [&](const char* expected) {
-      faults.add(material.stage->pointer, material.stage->component->type(), expected);
+    const auto refuse = [&](const Stage& at, const char* expected) {
+      faults.add(at.pointer, at.component->type(), expected);
     };
+    const std::vector<Stage>& failures = material.stage->failures;
     if (modulus != 0 && !has_cells)
       refuse(
+          *material.stage,
           "no volumetric energy on this lattice: its particles are not the corners of cubic cells");
     if (modulus < 0 && (model.springs.breakable || model.springs.softens))
       refuse(
+          failures.empty() ? *material.stage : failures.front(),
           "no failure in the body: a volumetric energy with K_v below zero would give energy to "
           "what breaks");
   }

@@ -2,6 +2,7 @@
 
 #include <hyperlattice/output.hpp>
 
+#include <spdlog/fmt/fmt.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -66,14 +67,14 @@ const FieldInfo* named_field(const Scene& scene, std::string_view name) {
   return find_field_part(name).field;
 }
 
-std::vector<std::string> asked_by(const Scene& scene, const Stage& output,
-                                  const nlohmann::json& resolved) {
-  std::vector<std::string> asked;
-  const auto consider = [&](const nlohmann::json& value) {
+/// Calls visit(field, value, pointer) for each value of an option of the output that names a field.
+template <class Visit>
+void for_named_fields(const Scene& scene, const Stage& output, const nlohmann::json& resolved,
+                      const Visit& visit) {
+  const auto consider = [&](const nlohmann::json& value, const std::string& pointer) {
     if (!value.is_string()) return;
-    const FieldInfo* field = named_field(scene, value.get_ref<const std::string&>());
-    if (field != nullptr && std::find(asked.begin(), asked.end(), field->name) == asked.end())
-      asked.emplace_back(field->name);
+    if (const FieldInfo* field = named_field(scene, value.get_ref<const std::string&>()))
+      visit(*field, value, pointer);
   };
   const auto& stage = resolved.at(nlohmann::json::json_pointer(output.pointer));
   for (const Option& option : output.component->info.options) {
@@ -82,11 +83,21 @@ std::vector<std::string> asked_by(const Scene& scene, const Stage& output,
       continue;
     const auto value = stage.find(option.name);
     if (value == stage.end()) continue;
-    if (value->is_array())
-      std::for_each(value->begin(), value->end(), consider);
-    else
-      consider(*value);
+    const std::string pointer = output.pointer + "/" + std::string(option.name);
+    if (!value->is_array()) consider(*value, pointer);
+    for (std::size_t n = 0; value->is_array() && n < value->size(); ++n)
+      consider((*value)[n], pointer + "/" + std::to_string(n));
   }
+}
+
+std::vector<std::string> asked_by(const Scene& scene, const Stage& output,
+                                  const nlohmann::json& resolved) {
+  std::vector<std::string> asked;
+  for_named_fields(scene, output, resolved,
+                   [&](const FieldInfo& field, const nlohmann::json&, const std::string&) {
+                     if (std::find(asked.begin(), asked.end(), field.name) == asked.end())
+                       asked.emplace_back(field.name);
+                   });
   return asked;
 }
 
@@ -98,6 +109,21 @@ AskedFields asked_fields(const Scene& scene) {
   for (const Family family : {Family::writers, Family::probes})
     for (const Stage* output : scene.of(family)) asked[output] = asked_by(scene, *output, resolved);
   return asked;
+}
+
+void check_fields(const Model& model, Faults& faults) {
+  const Scene& scene = *model.scene;
+  const auto resolved = nlohmann::json::parse(scene.resolved);
+  for (const Family family : {Family::writers, Family::probes})
+    for (const Stage* output : scene.of(family))
+      for_named_fields(scene, *output, resolved,
+                       [&](const FieldInfo& field, const nlohmann::json& value,
+                           const std::string& pointer) {
+                         if (has_field(model, field.name)) return;
+                         faults.add(pointer, value.dump(),
+                                    fmt::format("a field that this run has: {}",
+                                                fmt::join(fields_of(model), ", ")));
+                       });
 }
 
 }  // namespace hyperlattice

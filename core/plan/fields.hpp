@@ -1,6 +1,7 @@
 // The fields that a run has, and those that its outputs ask for.
 #pragma once
 
+#include <base/errors.hpp>
 #include <model/model.hpp>
 
 #include <hyperlattice/field_table.hpp>
@@ -27,5 +28,8 @@ bool is_measured(std::string_view name);
 /// For each writer and probe, the fields that any of its options names.
 using AskedFields = std::map<const Stage*, std::vector<std::string>>;
 AskedFields asked_fields(const Scene& scene);
+
+/// Adds a fault for each place where an output names a field that the run does not have.
+void check_fields(const Model& model, Faults& faults);
 
 }  // namespace hyperlattice

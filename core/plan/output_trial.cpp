@@ -1,10 +1,12 @@
 #include <base/errors.hpp>
 #include <base/figures.hpp>
 #include <model/acted_particles.hpp>
+#include <model/build.hpp>
 #include <model/section.hpp>
 #include <plan/columns.hpp>
 #include <plan/fields.hpp>
 #include <plan/output_trial.hpp>
+#include <plan/trial_folder.hpp>
 #include <process/file_limit.hpp>
 #include <process/lack_of_memory.hpp>
 #include <process/room.hpp>
@@ -18,8 +20,6 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
@@ -80,8 +80,9 @@ class BodyAtRest {
   std::vector<std::string> take_used() { return std::exchange(used_, {}); }
 
   /// Returns the snapshot for probes; writers do not need it.
-  Snapshot snapshot() {
-    check_room();
+  /// Throws OutsideError if there is no room for it, but InputError if there are faults.
+  Snapshot snapshot(const Faults& faults) {
+    check_room(faults);
     positions_.reserve(3 * model_.body.particles);
     for (Particle particle = 0; particle < model_.body.particles; ++particle) {
       const Vec3 x = model_.body.position(particle);
@@ -107,12 +108,14 @@ class BodyAtRest {
   }
 
  private:
-  void check_room() const {
+  void check_room(const Faults& faults) const {
     const double needed = 6.0 * sizeof(double) * static_cast<double>(model_.body.particles);
-    if (const Room room = memory_room(); needed > room.bytes)
-      throw OutsideError(
-          fmt::format("not enough memory to try the probes: {} are needed, {} left; {}",
-                      bytes_text(needed), bytes_text(room.bytes), room.bound));
+    const Room room = memory_room();
+    if (needed <= room.bytes) return;
+    faults.throw_if_any();
+    throw OutsideError(
+        fmt::format("not enough memory to try the probes: {} are needed, {} left; {}",
+                    bytes_text(needed), bytes_text(room.bytes), room.bound));
   }
 
   const Model& model_;
@@ -245,34 +248,6 @@ class ParticleSample {
   std::map<std::string, std::vector<double>, std::less<>> values_;
 };
 
-/// A temporary folder, removed with this object.
-class TrialFolder {
- public:
-  TrialFolder()
-      : path_((std::filesystem::temp_directory_path() / "hyperlattice_trial_XXXXXX").string()) {
-    if (::mkdtemp(path_.data()) == nullptr) throw OutsideError(path_ + ": cannot make the folder");
-  }
-  TrialFolder(const TrialFolder&) = delete;
-  TrialFolder& operator=(const TrialFolder&) = delete;
-  ~TrialFolder() {
-    try {
-      std::filesystem::remove_all(path_);
-    } catch (...) {  // files that stay are in the system's folder for temporary ones
-    }
-  }
-  const std::string& path() const { return path_; }
-
-  double bytes() const {
-    double bytes = 0;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(path_))
-      if (entry.is_regular_file()) bytes += static_cast<double>(entry.file_size());
-    return bytes;
-  }
-
- private:
-  std::string path_;
-};
-
 /// Returns the cost of a frame of the sample, or nothing if it cannot be written here.
 std::optional<FrameCost> try_frame(const Stage& stage, ParticleSample& sample) try {
   using Clock = std::chrono::steady_clock;
@@ -347,6 +322,13 @@ std::optional<FrameCost> frame_cost(const Model& model, BodyAtRest& rest, const 
                    of_all(all, number, least->seconds, more, cost->seconds)};
 }
 
+/// Returns whether the stage has a fault already.
+bool has_fault(const Stage& stage, const Faults& faults) {
+  return std::any_of(faults.all().begin(), faults.all().end(), [&](const Fault& fault) {
+    return fault.pointer == stage.pointer || fault.pointer.starts_with(stage.pointer + "/");
+  });
+}
+
 }  // namespace
 
 void try_outputs(Plan& plan, Faults& faults) {
@@ -355,6 +337,7 @@ void try_outputs(Plan& plan, Faults& faults) {
   BodyAtRest rest(*plan.model);
   const OutputContext context = rest.context();
   for (const Stage* stage : writers) {
+    if (has_fault(*stage, faults)) continue;
     const ComponentPointer writer = make_component(*stage);
     rest.take_asked();
     rest.take_used();
@@ -362,19 +345,20 @@ void try_outputs(Plan& plan, Faults& faults) {
       return stage->functions<WriterFunctions>().begin(writer.get(), context, why);
     });
     if (refused) {
-      faults.add(stage->pointer, stage->component->type(),
-                 "an output that fits the body: " + *refused);
+      add_all(faults, objection(*plan.scene, *stage, *refused));
       continue;
     }
     plan.used_fields[stage] = rest.take_used();
     if (const auto memory = stage->functions<WriterFunctions>().memory; memory != nullptr)
       plan.writer_bytes[stage] = std::max(0.0, memory(writer.get()));
+    if (!faults.empty()) continue;
     if (const auto cost = frame_cost(*plan.model, rest, *stage, rest.take_asked()))
       plan.frame_costs[stage] = *cost;
   }
   if (probes.empty()) return;
-  const Snapshot snapshot = rest.snapshot();
+  const Snapshot snapshot = rest.snapshot(faults);
   for (const Stage* stage : probes) {
+    if (has_fault(*stage, faults)) continue;
     const ComponentPointer probe = make_component(*stage);
     std::vector<std::string>& names =
         plan.tables.emplace_back(PlannedTable{stage->name, {"time"}}).columns;
@@ -387,9 +371,7 @@ void try_outputs(Plan& plan, Faults& faults) {
       if (!different.insert(name).second)
         throw plugin_error(*stage, "begin",
                            fmt::format("it gives two columns the name \"{}\"", name));
-    if (refused)
-      faults.add(stage->pointer, stage->component->type(),
-                 "an output that fits the body: " + *refused);
+    if (refused) add_all(faults, objection(*plan.scene, *stage, *refused));
   }
 }
 

@@ -72,16 +72,6 @@ void plan_stages(Plan& plan, Faults& faults) {
   }
 }
 
-/// Adds a fault for each output of a field that the run does not have.
-void check_fields(const Plan& plan, Faults& faults) {
-  const std::vector<std::string_view> present = fields_of(*plan.model);
-  for (const auto& [stage, names] : plan.asked_fields)
-    for (const std::string& name : names)
-      if (!has_field(*plan.model, name))
-        faults.add(stage->pointer, name,
-                   fmt::format("fields that this run has: {}", fmt::join(present, ", ")));
-}
-
 }  // namespace
 
 std::uint64_t Plan::steps() const {
@@ -137,12 +127,12 @@ std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, Threads threads) {
   Faults faults;
   plan->asked_fields = asked_fields(*plan->scene);
   plan_stages(*plan, faults);
-  check_fields(*plan, faults);
+  check_fields(*plan->model, faults);
   check_file_names(*plan->scene, faults);
   if (faults.empty()) check_precision(*plan, faults);
   if (faults.empty()) check_resolution(*plan, faults);
   if (faults.empty() && !plan->stages.empty()) warn_of_idle_loads(*plan);
-  if (faults.empty()) try_outputs(*plan, faults);
+  try_outputs(*plan, faults);
   faults.throw_if_any();
   estimate_output(*plan);
   set_threads(*plan, threads.of(plan->model->body.particles));

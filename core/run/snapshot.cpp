@@ -89,6 +89,7 @@ SnapshotSource::Compute SnapshotSource::function_of(std::string_view name) {
       {"kinetic_energy_density", &SnapshotSource::kinetic_energy_density},
       {"internal_force", &SnapshotSource::internal_force},
       {"external_force", &SnapshotSource::external_force},
+      {"force", &SnapshotSource::force},
       {"acceleration", &SnapshotSource::acceleration}};
   static_assert(std::size(functions) == std::size(field_table));
   for (const auto& [field, function] : functions)
@@ -204,12 +205,16 @@ void SnapshotSource::external_force(std::vector<double>& numbers) {
   fill(numbers, measured_->external_forces(), 3, [](Vec3 of, double* out) { copy(of, out); });
 }
 
-void SnapshotSource::acceleration(std::vector<double>& numbers) {
+void SnapshotSource::force(std::vector<double>& numbers) {
   const std::vector<Vec3>&inner = measured_->internal_forces(),
         &outer_forces = measured_->external_forces();
   numbers.resize(3 * inner.size());
-  for (Particle p = 0; p < inner.size(); ++p)
-    copy((inner[p] + outer_forces[p]) / model_.mass(p), &numbers[3 * p]);
+  for (Particle p = 0; p < inner.size(); ++p) copy(inner[p] + outer_forces[p], &numbers[3 * p]);
+}
+
+void SnapshotSource::acceleration(std::vector<double>& numbers) {
+  force(numbers);
+  for (std::size_t n = 0; n < numbers.size(); ++n) numbers[n] /= model_.mass(n / 3);
 }
 
 Resultant SnapshotSource::resultant(ForcesId forces, Vec3 about) {

@@ -66,6 +66,7 @@ class SnapshotSource {
   void kinetic_energy_density(std::vector<double>& numbers);
   void internal_force(std::vector<double>& numbers);
   void external_force(std::vector<double>& numbers);
+  void force(std::vector<double>& numbers);
   void acceleration(std::vector<double>& numbers);
   Resultant resultant(ForcesId forces, Vec3 about);
   void count_broken(std::vector<double>& numbers, bool open);

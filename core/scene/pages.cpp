@@ -7,6 +7,8 @@
 #include <spdlog/fmt/fmt.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 namespace hyperlattice {
 
 namespace {
@@ -34,7 +36,8 @@ std::string range_column(const Option& option) {
       if (option.kind == OptionKind::number && text.empty()) text = "any number";
       if (option.kind == OptionKind::integer) text = text.empty() ? "integer" : "integer " + text;
       if (option.kind == OptionKind::vector)
-        text = text.empty() ? "[x, y, z]" : "[x, y, z], each " + text;
+        text = (option.nonzero ? "[x, y, z], not zero" : "[x, y, z]") +
+               (text.empty() ? "" : ", each " + text);
       if (option.kind == OptionKind::numbers) text = text.empty() ? "list" : "list, each " + text;
       break;
     }
@@ -103,10 +106,51 @@ Json option_json(const Option& option, std::span<const OldName> old_names) {
   return json;
 }
 
-Json fields_json(std::span<const FieldInfo> fields) {
+/// Returns the fields that a material declares, or those of the core that an output may name.
+std::vector<const FieldInfo*> fields_of(const ComponentInfo& info) {
+  std::vector<const FieldInfo*> fields;
+  for (const FieldInfo& field : info.fields) fields.push_back(&field);
+  for (const Option& option : info.options) {
+    if (!option.plugin_fields) continue;
+    for (const std::string_view choice : option.choices)
+      if (const FieldInfo* field = find_field_part(choice).field;
+          field != nullptr && std::find(fields.begin(), fields.end(), field) == fields.end())
+        fields.push_back(field);
+  }
+  return fields;
+}
+
+/// Returns the names of a field's components; none of a number.
+std::span<const std::string_view> components_named(const FieldInfo& field) {
+  if (field.kind == FieldKind::number) return {};
+  return parts_of(field.kind);
+}
+
+std::string fields_table(const ComponentInfo& info) {
+  std::string rows;
+  for (const FieldInfo* field : fields_of(info)) {
+    std::string components;
+    for (const std::string_view name : components_named(*field))
+      components += fmt::format("{}`{}`", components.empty() ? "" : " ", name);
+    rows += fmt::format("\n| `{}` | {} | {} | {} |", field->name, components, field->unit,
+                        field->help);
+  }
+  if (rows.empty()) return "";
+  return std::string("Outputs may name these fields") +
+         (info.fields.empty() ? ", where a run has them, and those that its materials declare.\n\n"
+                              : ". A particle has one number of each.\n\n") +
+         "| field | components | unit | meaning |\n|---|---|---|---|" + rows;
+}
+
+Json fields_json(const ComponentInfo& info) {
   Json json = Json::array();
-  for (const FieldInfo& field : fields)
-    json.push_back({{"name", field.name}, {"unit", field.unit}, {"help", field.help}});
+  for (const FieldInfo* field : fields_of(info)) {
+    const auto components = components_named(*field);
+    json.push_back({{"name", field->name},
+                    {"unit", field->unit},
+                    {"components", std::vector<std::string>(components.begin(), components.end())},
+                    {"help", field->help}});
+  }
   return json;
 }
 
@@ -139,14 +183,7 @@ std::string component_page(const Component& component) {
       page, "Example",
       fmt::format("```json\n{}\n```",
                   info.family == Family::failures ? "\"failure\": " + stage.dump() : stage.dump()));
-  std::string fields;
-  for (const FieldInfo& field : info.fields)
-    fields += fmt::format("\n| `{}` | {} | {} |", field.name, field.unit, field.help);
-  if (!fields.empty())
-    section(page, "Fields",
-            "Outputs may name these fields. A particle has one number of each.\n\n"
-            "| field | unit | meaning |\n|---|---|---|" +
-                fields);
+  section(page, "Fields", fields_table(info));
   section(page, "Restrictions", info.restrictions);
   section(page, "Source", info.source);
   return page;
@@ -170,7 +207,7 @@ std::string component_json(const Component& component) {
                         {"path", component.path.string()},
                         {"options", options_json(info.options, info.old_names)},
                         {"common_options", std::move(common)},
-                        {"fields", fields_json(info.fields)},
+                        {"fields", fields_json(info)},
                         {"example", example_stage(info)}});
 }
 

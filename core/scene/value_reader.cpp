@@ -54,6 +54,19 @@ std::vector<std::string> names_of(const Option& option, const Reading& reading) 
   return names;
 }
 
+/// Returns a hint at the choice that a text may mean: a probe takes a component of a field by an
+/// option of its own.
+std::string hint(const Option& option, const Json& given, const Reading& reading) {
+  if (!given.is_string()) return "";
+  const auto& text = given.get_ref<const std::string&>();
+  const FieldPart meant = option.plugin_fields ? find_field_part(text) : FieldPart();
+  if (meant.part.empty()) return did_you_mean(text, names_of(option, reading));
+  return fmt::format("; did you mean \"{}\"{}?", meant.field->name,
+                     option.kind == OptionKind::choice
+                         ? fmt::format(" with component \"{}\"", meant.part)
+                         : "");
+}
+
 /// Returns whether the option takes the name of this field, which a material of the scene declares.
 bool is_field(const Option& option, const Json& given, const Reading& reading) {
   return option.plugin_fields && given.is_string() &&
@@ -91,10 +104,8 @@ bool read_texts(const Option& option, const Json& given, const std::string& poin
     const Json& entry = given[n];
     if (!entry.is_string() || (!option.choices.empty() && choice_of(option, entry) < 0 &&
                                !is_field(option, entry, reading))) {
-      const std::string near = entry.is_string() ? did_you_mean(entry.get_ref<const std::string&>(),
-                                                                names_of(option, reading))
-                                                 : "";
-      reading.faults.add(member(pointer, n), shown(entry), entry_expectation(option) + near);
+      reading.faults.add(member(pointer, n), shown(entry),
+                         entry_expectation(option) + hint(option, entry, reading));
       good = false;
     } else {
       value.texts.push_back(reading.texts.emplace_back(entry.get<std::string>()));
@@ -176,14 +187,15 @@ bool read_value(const Option& option, const Json& given, const std::string& poin
         return true;
       }
       if (plain.integer < 0)
-        return wrong(given.is_string() ? did_you_mean(given.get_ref<const std::string&>(),
-                                                      names_of(option, reading))
-                                       : "");
+        return wrong(hint(option, given, reading));
       plain.text = option.choices[static_cast<std::size_t>(plain.integer)];
       return true;
     case OptionKind::vector:
       if (!given.is_array() || given.size() != 3) return wrong();
-      return read_numbers(option, given, pointer, reading.faults, value, resolved);
+      if (!read_numbers(option, given, pointer, reading.faults, value, resolved)) return false;
+      if (!option.nonzero || value.numbers != std::vector<double>(3, 0)) return true;
+      reading.faults.add(pointer, shown(given), "a vector that is not zero");
+      return false;
     case OptionKind::numbers:
       if (!given.is_array()) return wrong();
       return read_numbers(option, given, pointer, reading.faults, value, resolved);

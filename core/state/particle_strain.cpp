@@ -27,7 +27,7 @@ bool is_finite(const Symmetric& tensor) {
 
 Eigen::Matrix3d matrix(const Symmetric& t) {
   Eigen::Matrix3d m;
-  m << t[0], t[3], t[5], t[3], t[1], t[4], t[5], t[4], t[2];
+  m << t[0], t[5], t[4], t[5], t[1], t[3], t[4], t[3], t[2];
   return m;
 }
 

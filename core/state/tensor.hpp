@@ -50,16 +50,16 @@ inline double volume_change(const Tensor& H) {
   return trace(H) + trace(c) + determinant(H);
 }
 
-/// The six numbers of a symmetric tensor: xx yy zz xy yz xz, the order of VTK.
+/// The six numbers of a symmetric tensor: xx yy zz yz xz xy, the order of Voigt.
 using Symmetric = std::array<double, 6>;
 /// Returns the symmetric part (T + T^T) / 2.
 inline Symmetric symmetric_part(const Tensor& a) {
   return {a[0].x,
           a[1].y,
           a[2].z,
-          0.5 * (a[0].y + a[1].x),
           0.5 * (a[1].z + a[2].y),
-          0.5 * (a[0].z + a[2].x)};
+          0.5 * (a[0].z + a[2].x),
+          0.5 * (a[0].y + a[1].x)};
 }
 
 }  // namespace hyperlattice

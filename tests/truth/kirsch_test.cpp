@@ -90,7 +90,7 @@ Found plate(int cells, const std::string& boundary, double poisson) {
     if (r < a + 2 || r > 2 * a) continue;
     const auto [xx, yy, zz, xy] = exact.stress(x);
     found.stress += std::pow(stress[n][0] - xx, 2) + std::pow(stress[n][1] - yy, 2) +
-                    std::pow(stress[n][3] - xy, 2);
+                    std::pow(stress[n][5] - xy, 2);
     counted += 3;
   }
   found.stress = std::sqrt(found.stress / counted) / tension;

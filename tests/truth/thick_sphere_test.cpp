@@ -56,8 +56,8 @@ Errors errors(double spacing, const std::string& boundary, double poisson) {
     if (r < inner + 2 * spacing || r > outer - 2 * spacing) continue;
     const Symmetric& s = stress[n];
     const Vec3 e = x / r,
-               pull{s[0] * e.x + s[3] * e.y + s[5] * e.z, s[3] * e.x + s[1] * e.y + s[4] * e.z,
-                    s[5] * e.x + s[4] * e.y + s[2] * e.z};
+               pull{s[0] * e.x + s[5] * e.y + s[4] * e.z, s[5] * e.x + s[1] * e.y + s[3] * e.z,
+                    s[4] * e.x + s[3] * e.y + s[2] * e.z};
     const double radial = dot(e, pull), hoop = (s[0] + s[1] + s[2] - radial) / 2;
     sum.radial += std::pow(radial - q * (1 - b3 / r3), 2);
     sum.hoop += std::pow(hoop - q * (1 + b3 / (2 * r3)), 2);

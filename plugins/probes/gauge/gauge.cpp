@@ -21,6 +21,7 @@ class GaugeProbe {
         .add<&Options::direction>("direction", "",
                                   "a direction fixed in space, of any length, along which the "
                                   "ends move apart; the present line between them if left out")
+        .nonzero()
         .equation(
             "R: from the mean place of one end to that of the other, undeformed; d: difference of "
             "their mean displacements; elongation = |R + d| - |R|, or d . direction; strain = "
@@ -28,11 +29,7 @@ class GaugeProbe {
         .restrictions(
             "Without a direction a rigid rotation gives nothing. The length |R| is between mean "
             "places of particles: with the boundary \"particles\" these are half a spacing inside "
-            "the faces of the body. Both ends must have different mean places.")
-        .check([](const Options& options, const FaultSink& faults) {
-          if (options.direction && *options.direction == Vec3{})
-            faults.fault("direction", "a vector that is not zero");
-        });
+            "the faces of the body. Both ends must have different mean places.");
   }
 
   explicit GaugeProbe(const Options& options) : options_(options) {
@@ -43,13 +40,13 @@ class GaugeProbe {
     const std::span<const Particle> from = context.particles(options_.from),
                                     to = context.particles(options_.to);
     if (from.empty() || to.empty())
-      throw std::runtime_error("no particle lies in the region \"" +
-                               std::string(from.empty() ? "from" : "to") + "\" of the gauge");
+      throw std::runtime_error(std::string(from.empty() ? "from" : "to") +
+                               " that names a region with particles");
     from_.assign(from.begin(), from.end());
     to_.assign(to.begin(), to.end());
     rest_ = mean(first.positions, to_) - mean(first.positions, from_);
     if (!(norm(rest_) > 1e-9 * first.spacing))
-      throw std::runtime_error("both ends of the gauge have the same mean place");
+      throw std::runtime_error("to whose mean place is not that of the end \"from\"");
     columns.column("elongation");
     columns.column("strain");
   }

@@ -32,6 +32,7 @@ class ReactionProbe {
         .add<&Options::normal>("normal", "",
                                "direction in which the stress is positive, such as the outward "
                                "normal of a face that is pulled")
+        .nonzero()
         .equation(
             "force = sum F_i; moment = sum (x_i + u_i - about) x F_i; F_i: what the load pushes "
             "particle i with; for prescribed motion m_i a_i less all other forces on i (in "
@@ -48,8 +49,6 @@ class ReactionProbe {
           if (options.area.has_value() != options.normal.has_value())
             faults.fault(options.area ? "normal" : "area",
                          "\"area\" and \"normal\" together, or neither of them");
-          if (options.normal && *options.normal == Vec3{})
-            faults.fault("normal", "a vector that is not zero");
         });
   }
 

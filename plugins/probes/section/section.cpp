@@ -23,6 +23,7 @@ class SectionProbe {
         .example("[\"3 mm\", 0, 0]")
         .add<&Options::normal>("normal", "", "direction across the plane, of any length")
         .example("[1, 0, 0]")
+        .nonzero()
         .add<&Options::region>("region", "", "the part of the body that the plane cuts")
         .fallback("\"all\"")
         .add<&Options::about>("about", "m", "point of the moment; `point` if left out")
@@ -41,17 +42,14 @@ class SectionProbe {
             "beyond, "
             "to round-off, for any direction of the plane. In motion the material beyond takes "
             "mass times acceleration of it. In a region, springs that leave the region do not "
-            "count.")
-        .check([](const Options& options, const FaultSink& faults) {
-          if (options.normal == Vec3{}) faults.fault("normal", "a vector that is not zero");
-        });
+            "count.");
   }
 
   explicit SectionProbe(const Options& options) : options_(options) {}
 
   void begin(const OutputContext& context, const Snapshot&, const ColumnSink& columns) {
     const Section section = context.section(options_.point, options_.normal, options_.region);
-    if (section.springs == 0) throw std::runtime_error("the plane cuts no spring of the region");
+    if (section.springs == 0) throw std::runtime_error("point of a plane that cuts springs of the region");
     area_ = options_.area.value_or(section.area);
     cell_ = LoadCell(section.forces, options_.about.value_or(options_.point));
     cell_.set_area(options_.normal, area_);

@@ -39,7 +39,7 @@
   CROSSES(Shape, self, contains_point, low, high, anchor, share_of_cube)                                                                                             \
   CROSSES(Complaint, self, receive)                                                                                                                   \
   CROSSES(OptionValue, absent, boolean, integer, number, text, numbers, texts, shape, region, load_or_region)                                         \
-  CROSSES(Option, name, unit, help, fallback, word, example, choices, low, high, low_open, high_open, optional, plugin_fields, kind, set)                            \
+  CROSSES(Option, name, unit, help, fallback, word, example, choices, low, high, low_open, high_open, nonzero, optional, plugin_fields, kind, set)                            \
   CROSSES(OldValue, before, now)                                                                                                                      \
   CROSSES(OldName, name, option, since, values)                                                                                                       \
   CROSSES(FieldInfo, name, kind, unit, help, needs, is_measured)                                                                                      \

@@ -71,6 +71,8 @@ inline constexpr FieldInfo field_table[] = {
     {"external_force", FieldKind::vector, "N",
      "force of the loads; along prescribed axes the force that keeps the motion",
      FieldNeeds::nothing, true},
+    {"force", FieldKind::vector, "N", "internal and external force, without damping",
+     FieldNeeds::nothing, true},
     {"acceleration", FieldKind::vector, "m/s2",
      "internal and external force over mass, without damping", FieldNeeds::nothing, true},
 };
@@ -89,7 +91,7 @@ inline constexpr FieldNames all_names = names_of_fields();
 
 inline constexpr std::string_view no_parts[] = {""};
 inline constexpr std::string_view vector_parts[] = {"x", "y", "z"};
-inline constexpr std::string_view symmetric_parts[] = {"xx", "yy", "zz", "xy", "yz", "xz"};
+inline constexpr std::string_view symmetric_parts[] = {"xx", "yy", "zz", "yz", "xz", "xy"};
 inline constexpr std::string_view tensor_parts[] = {"xx", "xy", "xz", "yx", "yy",
                                                     "yz", "zx", "zy", "zz"};
 inline constexpr std::string_view sorted_parts[] = {"1", "2", "3"};
@@ -103,7 +105,7 @@ inline constexpr auto& field_names = detail::all_names.of;
 inline constexpr std::size_t max_field_components = 9;
 
 /// Returns the names of the components, in their order; one empty name of a number. Symmetric
-/// tensors have the order of VTK.
+/// tensors have the order of Voigt.
 constexpr std::span<const std::string_view> parts_of(FieldKind kind) {
   switch (kind) {
     case FieldKind::vector:

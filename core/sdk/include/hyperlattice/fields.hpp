@@ -191,8 +191,8 @@ class Quantity {
     if (kind_ == FieldKind::vector) return dot({v[0], v[1], v[2]}, outwards) / distance;
     const Vec3 n = (1 / distance) * outwards;
     if (kind_ == FieldKind::symmetric)
-      return dot(n, {v[0] * n.x + v[3] * n.y + v[5] * n.z, v[3] * n.x + v[1] * n.y + v[4] * n.z,
-                     v[5] * n.x + v[4] * n.y + v[2] * n.z});
+      return dot(n, {v[0] * n.x + v[5] * n.y + v[4] * n.z, v[5] * n.x + v[1] * n.y + v[3] * n.z,
+                     v[4] * n.x + v[3] * n.y + v[2] * n.z});
     return dot(
         n, {dot({v[0], v[1], v[2]}, n), dot({v[3], v[4], v[5]}, n), dot({v[6], v[7], v[8]}, n)});
   }

@@ -66,6 +66,7 @@ struct Option {
   std::span<const std::string_view> choices;
   double low = -infinity, high = infinity;
   bool low_open = false, high_open = false;  ///< the bound itself is not allowed
+  bool nonzero = false;                      ///< a vector must have a length
   bool optional = false;
   bool plugin_fields = false;  ///< fields that materials of the scene declare are choices too
   OptionKind kind = OptionKind::number;
@@ -277,6 +278,11 @@ class Schema {
     if (high > last().high) return *this;
     last().high = high;
     last().high_open = true;
+    return *this;
+  }
+  /// Refuses the vector [0, 0, 0], which has no direction.
+  Schema& nonzero() {
+    last().nonzero = true;
     return *this;
   }
   /// Sets the names allowed for a text, for each text of a list, or for an enum member in the order
