@@ -100,10 +100,9 @@ void set_volumetric(Model& model, Faults& faults) {
           *material.stage,
           "no volumetric energy on this lattice: its particles are not the corners of cubic cells");
     if (modulus < 0 && (model.springs.breakable || model.springs.softens))
-      refuse(
-          failures.empty() ? *material.stage : failures.front(),
-          "no failure in the body: a volumetric energy with K_v below zero would give energy to "
-          "what breaks");
+      refuse(failures.empty() ? *material.stage : failures.front(),
+             "no failure in the body: a volumetric energy with K_v below zero would give energy to "
+             "what breaks");
   }
   if (faults.empty()) model.volumetric = Volumetric(model.body, model.kinds, std::move(moduli));
 }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <set>
 
 namespace hyperlattice {
@@ -26,10 +27,22 @@ double numbers_per_particle(const Plan& plan, const Stage& output) {
 }
 
 /// Returns how many more numbers per particle are in memory while these fields are computed: the
-/// displacements, and the tensors and weights from which fields follow.
-double working_numbers(const auto& fields) {
-  constexpr double numbers = 4 + 2 * 9 + 1;
-  return std::any_of(fields.begin(), fields.end(), is_measured) ? numbers : 0;
+/// displacements, the tensors and weights of the field that is being computed, and the quantities
+/// from which several fields follow (class Measured).
+double working_numbers(const std::set<std::string>& fields) {
+  if (!std::any_of(fields.begin(), fields.end(), is_measured)) return 0;
+  const auto asks = [&](std::initializer_list<const char*> names) {
+    return std::any_of(names.begin(), names.end(),
+                       [&](const char* name) { return fields.count(name) > 0; });
+  };
+  const bool principal = asks({"principal_stress", "principal_direction_1", "principal_direction_2",
+                               "principal_direction_3"});
+  double numbers = 4 + 2 * 9 + 1;
+  if (principal) numbers += 12;
+  if (principal || asks({"stress", "von_mises", "pressure"})) numbers += 6;
+  if (asks({"strain", "hencky_strain", "strain_rate"})) numbers += 9;
+  if (asks({"internal_force", "external_force", "force", "acceleration"})) numbers += 6;
+  return numbers;
 }
 
 /// Returns the fields of the frames that are written beside the steps.
@@ -39,9 +52,32 @@ std::set<std::string> queued_fields(const Plan& plan) {
   return fields;
 }
 
+/// Returns the numbers per particle of all outputs: the positions, the fields of the present state,
+/// which the run keeps for the next one, the copies of frames that wait, and what is computed on
+/// the way.
+double output_numbers(const Plan& plan) {
+  std::set<std::string> asked, kept;
+  for (const auto& [output, fields] : plan.asked_fields) {
+    asked.insert(fields.begin(), fields.end());
+    // Frames that are written beside the steps take their fields along.
+    const auto used = plan.used_fields.find(output);
+    if (plan.threads == 1 || used == plan.used_fields.end() || used->second.empty())
+      kept.insert(fields.begin(), fields.end());
+  }
+  if (plan.asked_fields.empty()) return 0;
+  double numbers = 3 + numbers_of(plan, kept) + working_numbers(asked);
+  if (plan.threads > 1) numbers += queued_frames * numbers_of(plan, queued_fields(plan));
+  return numbers;
+}
+
+/// The memory of the program and its libraries without a body, bytes.
+constexpr double program_bytes = 14e6;
+
 double particles_of(const Plan& plan) { return static_cast<double>(plan.model->body.particles); }
 
 }  // namespace
+
+double allocated_bytes(const Model& model) { return program_bytes + model_bytes(model); }
 
 double frames_of(const Plan& plan, const Stage& output) {
   const double every = output_interval(output, plan.end_time()),
@@ -106,12 +142,6 @@ void estimate_memory(Plan& plan) {
   for (const BlockLayout& block : layout->blocks)
     bytes += static_cast<double>(block.rows.size() * 2 * sizeof(Row));
 
-  double output_numbers = 0;  // positions, and the fields of the output with the most numbers
-  for (const Family family : {Family::writers, Family::probes})
-    for (const Stage* stage : plan.scene->of(family))
-      output_numbers = std::max(output_numbers, 3 + numbers_per_particle(plan, *stage) +
-                                                    working_numbers(plan.asked_fields.at(stage)));
-  if (plan.threads > 1) output_numbers += queued_frames * numbers_of(plan, queued_fields(plan));
   // Writers write one after the other, but may keep what they have allocated.
   for (const auto& [writer, allocated] : plan.writer_bytes) bytes += allocated;
   double solver_bytes = 0;
@@ -121,8 +151,9 @@ void estimate_memory(Plan& plan) {
   solver_bytes *= model.body.is_listed()
                       ? particles
                       : (high.i - low.i + 1.0) * (high.j - low.j + 1.0) * (high.k - low.k + 1.0);
-  plan.memory_bytes = solver_bytes + layout->state_bytes() + layout->scratch_bytes() + bytes +
-                      CellWatch::bytes(model) + output_numbers * sizeof(double) * particles;
+  plan.memory_bytes = program_bytes + solver_bytes + layout->state_bytes() +
+                      layout->scratch_bytes() + bytes + CellWatch::bytes(model) +
+                      output_numbers(plan) * sizeof(double) * particles;
 }
 
 void estimate_output(Plan& plan) {

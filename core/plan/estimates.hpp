@@ -17,8 +17,11 @@ void estimate_output(Plan& plan);
 /// calibration.hpp measures this machine.
 void estimate_time(Plan& plan);
 
-/// Returns the bytes of the plan's memory that are allocated already: those of the model.
+/// Returns the bytes of a model.
 double model_bytes(const Model& model);
+/// Returns the bytes of the plan's memory that are allocated already: those of the program and the
+/// model.
+double allocated_bytes(const Model& model);
 /// Returns the bytes of one frame of a writer with all its fields in motion: from the writer's
 /// trial, else from the count of numbers.
 double frame_bytes(const Plan& plan, const Stage& writer);

@@ -116,14 +116,14 @@ void check_fields(const Model& model, Faults& faults) {
   const auto resolved = nlohmann::json::parse(scene.resolved);
   for (const Family family : {Family::writers, Family::probes})
     for (const Stage* output : scene.of(family))
-      for_named_fields(scene, *output, resolved,
-                       [&](const FieldInfo& field, const nlohmann::json& value,
-                           const std::string& pointer) {
-                         if (has_field(model, field.name)) return;
-                         faults.add(pointer, value.dump(),
-                                    fmt::format("a field that this run has: {}",
-                                                fmt::join(fields_of(model), ", ")));
-                       });
+      for_named_fields(
+          scene, *output, resolved,
+          [&](const FieldInfo& field, const nlohmann::json& value, const std::string& pointer) {
+            if (has_field(model, field.name)) return;
+            faults.add(
+                pointer, value.dump(),
+                fmt::format("a field that this run has: {}", fmt::join(fields_of(model), ", ")));
+          });
 }
 
 }  // namespace hyperlattice

@@ -41,7 +41,7 @@ constexpr double surely = 0.7;
 
 std::vector<std::string> shortages(const Plan& plan, const std::filesystem::path& directory) {
   std::vector<std::string> found;
-  const double missing = plan.memory_bytes - model_bytes(*plan.model);
+  const double missing = plan.memory_bytes - allocated_bytes(*plan.model);
   if (const Room memory = memory_room(); missing > memory.bytes)
     found.push_back(fmt::format(
         "too little memory: the run needs {}, {} more than it has now; there are {} ({})",

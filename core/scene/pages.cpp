@@ -132,8 +132,8 @@ std::string fields_table(const ComponentInfo& info) {
     std::string components;
     for (const std::string_view name : components_named(*field))
       components += fmt::format("{}`{}`", components.empty() ? "" : " ", name);
-    rows += fmt::format("\n| `{}` | {} | {} | {} |", field->name, components, field->unit,
-                        field->help);
+    rows +=
+        fmt::format("\n| `{}` | {} | {} | {} |", field->name, components, field->unit, field->help);
   }
   if (rows.empty()) return "";
   return std::string("Outputs may name these fields") +

@@ -61,10 +61,9 @@ std::string hint(const Option& option, const Json& given, const Reading& reading
   const auto& text = given.get_ref<const std::string&>();
   const FieldPart meant = option.plugin_fields ? find_field_part(text) : FieldPart();
   if (meant.part.empty()) return did_you_mean(text, names_of(option, reading));
-  return fmt::format("; did you mean \"{}\"{}?", meant.field->name,
-                     option.kind == OptionKind::choice
-                         ? fmt::format(" with component \"{}\"", meant.part)
-                         : "");
+  return fmt::format(
+      "; did you mean \"{}\"{}?", meant.field->name,
+      option.kind == OptionKind::choice ? fmt::format(" with component \"{}\"", meant.part) : "");
 }
 
 /// Returns whether the option takes the name of this field, which a material of the scene declares.
@@ -186,8 +185,7 @@ bool read_value(const Option& option, const Json& given, const std::string& poin
         plain.text = reading.texts.emplace_back(given.get<std::string>());
         return true;
       }
-      if (plain.integer < 0)
-        return wrong(hint(option, given, reading));
+      if (plain.integer < 0) return wrong(hint(option, given, reading));
       plain.text = option.choices[static_cast<std::size_t>(plain.integer)];
       return true;
     case OptionKind::vector:

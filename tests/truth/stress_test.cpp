@@ -365,6 +365,10 @@ TEST(Stress, VonMisesAndPressure) {
   const Principal of = principal({1, 2, 3, 0, 0, 0});
   EXPECT_EQ(of.values, (Vec3{3, 2, 1}));
   EXPECT_EQ(of.directions[0], (Vec3{0, 0, 1}));
+  // The order xx yy zz yz xz xy: a shear in the plane xy pulls along (1, 1, 0).
+  const Symmetric shear = symmetric_part({{Vec3{0, 2, 0}, Vec3{}, Vec3{}}});
+  EXPECT_EQ(shear, (Symmetric{0, 0, 0, 0, 0, 1}));
+  EXPECT_NEAR(norm(principal(shear).directions[0] - Vec3{1, 1, 0} / std::sqrt(2.0)), 0, 1e-15);
 }
 
 }  // namespace

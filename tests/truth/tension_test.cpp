@@ -101,7 +101,26 @@ TEST_F(Tension, NamesWhatItDoesNotKnow) {
   outside["pipeline"][8]["point"] = {0, 0, 1};
   const Result none = run(outside);
   EXPECT_EQ(none.exit_code, 2);
-  EXPECT_NE(none.err.find("the plane cuts no spring of the region"), std::string::npos) << none.err;
+  EXPECT_NE(none.err.find("/pipeline/8/point: [0.0,0.0,1.0]: expected point of a plane that cuts"),
+            std::string::npos)
+      << none.err;
+  nlohmann::json zero = tension("pull", statics);
+  zero["pipeline"][7]["normal"] = {0, 0, 0};
+  zero["pipeline"][7]["area"] = -1;
+  const Result both = run(zero);  // one fault each, though the options are checked one by one
+  EXPECT_NE(both.err.find("/pipeline/7/area"), std::string::npos) << both.err;
+  EXPECT_NE(both.err.find("/pipeline/7/normal: [0,0,0]: expected a vector that is not zero"),
+            std::string::npos)
+      << both.err;
+  outside["pipeline"].push_back({{"type", "probes.region"}, {"field", "height"}});
+  const Result two = run(outside);  // a missing field does not hide the plane
+  EXPECT_NE(two.err.find("/pipeline/8/point"), std::string::npos) << two.err;
+  EXPECT_NE(two.err.find("/field: \"height\": expected a field that this run has"),
+            std::string::npos)
+      << two.err;
+  outside["pipeline"].back()["field"] = "stress_zz";
+  EXPECT_NE(run(outside).err.find("did you mean \"stress\" with component \"zz\"?"),
+            std::string::npos);
   nlohmann::json half = tension("pull", statics);
   half["pipeline"][7].erase("normal");
   EXPECT_NE(run(half).err.find("\"area\" and \"normal\" together"), std::string::npos);

@@ -112,6 +112,32 @@ TEST(Snapshot, ForcesOfAColumnAtRest) {
   EXPECT_NEAR(foot, 0.9 * weight, 1e-9 * weight);  // half a layer of five stands on the ground
 }
 
+/// Before the first step a body at rest without other loads has no acceleration, and a force on a
+/// face gives that of its particles.
+TEST(Snapshot, HasForcesBeforeTheFirstStep) {
+  const auto plan = plan_of(
+      SceneBuilder{}
+          .lattice("lattices.cubic", 1e-3, box_mm(2, 2, 2))
+          .material("materials.elastic", {{"young", 1e9}, {"density", 1000}, {"poisson", 0.25}})
+          .load("loads.fixed", {{"on", "z_min"}})
+          .load("loads.gravity", {{"acceleration", Vec3{0, 0, -9.81}}})
+          .solver("solvers.explicit", {{"end_time", 1e-5}})
+          .text());
+  const Model& model = *plan->model;
+  Simulation simulation(model, 1);
+  SnapshotSource source(model, simulation);
+  const Snapshot& snapshot = source.take();
+  const auto external = values(snapshot, "external_force"), force = values(snapshot, "force"),
+             acceleration = values(snapshot, "acceleration");
+  for (Particle p = 0; p < model.body.particles; ++p) {
+    const double expected = model.body.position(p).z < 1e-3 ? 0 : -9.81;
+    EXPECT_NEAR(acceleration[3 * p + 2], expected, 1e-12) << p;
+    EXPECT_NEAR(force[3 * p + 2], expected * model.mass(p), 1e-18) << p;
+    EXPECT_EQ(external[3 * p + 2], force[3 * p + 2]) << p;  // no spring pulls yet
+    EXPECT_EQ(acceleration[3 * p], 0) << p;
+  }
+}
+
 /// A body after three steps from random velocities.
 struct Shaken {
   std::unique_ptr<Plan> plan;

@@ -56,8 +56,8 @@ TEST(Plan, memory_counts_the_copies_of_frames_that_wait) {
   const auto particles = static_cast<double>(plan->model->body.particles);
   // The writer's own arrays: points and fields in single precision, and cells.
   const double encoded = particles * (4 * (3 + 4) + 4 + 4 + 1);
-  // Positions and the fields of the present state, and twice the fields.
-  EXPECT_NEAR(plan->memory_bytes - without, particles * 8 * (3 + 4 + 2 * 4) + encoded, 1);
+  // Positions, and twice the fields: the present state hands its own over.
+  EXPECT_NEAR(plan->memory_bytes - without, particles * 8 * (3 + 2 * 4) + encoded, 1);
   EXPECT_NEAR(plan_of(scene, 1)->memory_bytes - plan_of(small_sphere(), 1)->memory_bytes,
               particles * 8 * (3 + 4) + encoded, 1);
 }

@@ -278,11 +278,7 @@ TEST(GaugeProbe, MeasuresAlongADirection) {
 TEST(GaugeProbe, RefusesAGaugeWithoutLength) {
   FakeBody body({2, 2, 2});
   Plugin none("probes.gauge", {{"from", "all"}, {"to", "all"}});
-  EXPECT_EQ(refusal(none, body), "both ends of the gauge have the same mean place");
-  EXPECT_EQ(
-      Plugin("probes.gauge", {{"from", "all"}, {"to", "some"}, {"direction", {0.0, 0.0, 0.0}}})
-          .faults(),
-      std::vector<std::string>{"direction: a vector that is not zero"});
+  EXPECT_EQ(refusal(none, body), "to whose mean place is not that of the end \"from\"");
 }
 
 }  // namespace

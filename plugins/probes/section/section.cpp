@@ -49,7 +49,8 @@ class SectionProbe {
 
   void begin(const OutputContext& context, const Snapshot&, const ColumnSink& columns) {
     const Section section = context.section(options_.point, options_.normal, options_.region);
-    if (section.springs == 0) throw std::runtime_error("point of a plane that cuts springs of the region");
+    if (section.springs == 0)
+      throw std::runtime_error("point of a plane that cuts springs of the region");
     area_ = options_.area.value_or(section.area);
     cell_ = LoadCell(section.forces, options_.about.value_or(options_.point));
     cell_.set_area(options_.normal, area_);
