@@ -17,7 +17,7 @@ Body make_body(const Scene& scene) {
     return build_body(lattices[0]->functions<LatticeFunctions>(), lattice.get(), false,
                       lattices[0]->component);
   } catch (const std::invalid_argument& refused) {
-    throw refusal(*lattices[0], refused.what());
+    throw objection(scene, *lattices[0], refused.what());
   }
 }
 

@@ -76,7 +76,7 @@ class Points {
     static constexpr std::string_view coordinates[] = {"x", "y", "z"}, volume[] = {"volume"};
     const NumberTable table(o_.points, coordinates, volume);
     const std::vector<Vec3> positions = positions_of(table);
-    if (positions.size() < 2) throw std::invalid_argument("points has fewer than two particles");
+    if (positions.size() < 2) throw std::invalid_argument("points with at least two particles");
     check_apart(table, positions);
     const std::vector<double> volumes = volumes_of(table);
     const std::vector<ListedSpring> springs =
@@ -90,10 +90,10 @@ class Points {
     list.spacing = list.membrane_distance = o_.spacing.value_or(length);
     // The core reports springs whose length is zero in double precision.
     if (length > 0 && !(list.spacing >= length / most_apart && list.spacing <= length * most_apart))
-      throw std::invalid_argument(
-          "spacing is " + short_number(list.spacing) + " m, while the springs are " +
-          short_number(length) + " m long in the mean: expected a spacing between " +
-          short_number(length / most_apart) + " and " + short_number(length * most_apart) + " m");
+      throw std::invalid_argument("spacing between " + short_number(length / most_apart) + " and " +
+                                  short_number(length * most_apart) + " m, as the springs are " +
+                                  short_number(length) + " m long in the mean: it is " +
+                                  short_number(list.spacing) + " m");
     list.site_volume =
         o_.particle_volume.value_or(volumes.empty() ? std::pow(list.spacing, 3) : mean(volumes));
     list.shape = o_.shape.value_or(nullptr);
@@ -173,7 +173,8 @@ class Points {
       if (spring.stiffness == 0) table.refuse(n, "a stiffness that is not 0");
       springs.push_back(spring);
     }
-    if (springs.empty()) throw std::invalid_argument("springs has no spring");
+    if (springs.empty())
+      throw std::invalid_argument("springs with at least one spring: it has no spring");
     check_once(table, springs);
     check_stiffness(positions, springs);
     return springs;

@@ -49,7 +49,7 @@ std::vector<Vec3> throw_points(std::size_t count, Vec3 low, Vec3 high, double di
       misses = 0;
     } else if (++misses > most_misses) {
       throw std::invalid_argument(
-          "min_distance leaves no room for one particle in every spacing^3: at most 0.88 fits");
+          "min_distance that leaves room for one particle in every spacing^3: at most 0.88 fits");
     }
   }
   return thrown.points();
@@ -115,7 +115,7 @@ class Random {
     const auto count = static_cast<std::size_t>(std::llround(volume / std::pow(o_.spacing, 3)));
     if (count < 2)
       throw std::invalid_argument(
-          "shape holds fewer than two particles: expected a smaller spacing or a larger shape");
+          "shape that holds at least two particles: a larger one, or a smaller spacing");
     const double distance = o_.min_distance * o_.spacing;
     const std::vector<Vec3> points =
         throw_points(count, shape.low, shape.high, distance, false, Dice(o_.seed, 0),
@@ -123,7 +123,7 @@ class Random {
     const auto wanted =
         static_cast<std::size_t>(std::llround(o_.coordination * static_cast<double>(count) / 2));
     if (wanted > count * (count - 1) / 2)
-      throw std::invalid_argument("coordination is more than the number of particles can have");
+      throw std::invalid_argument("coordination that this number of particles can have");
     const Joined body = joined_by_number(
         count, pairs_to_choose_from(points, shape.low, shape.high, o_.spacing, wanted), wanted);
 
@@ -147,10 +147,10 @@ class Random {
     const Vec3 size = shape.high - shape.low;
     if (!std::isfinite(norm(size)))
       throw std::invalid_argument(
-          "shape has no end: expected a bounded one, such as the intersection of a half-space with "
-          "a box");
+          "shape that is bounded, such as the intersection of a half-space with a box");
     if (size.x * size.y * size.z > most_particles * std::pow(o_.spacing, 3))
-      throw std::invalid_argument("spacing is too small: a list holds at most 5e7 particles here");
+      throw std::invalid_argument(
+          "spacing large enough for at most 5e7 particles, which a list holds");
     const auto steps = [&](double length) {
       return std::max<std::int64_t>(1, std::llround(4 * length / o_.spacing));
     };

@@ -112,7 +112,7 @@ class Filling {
                     std::floor((high / grid_.spacing - start) / step + more)};
     if (span.count() > most_sites_along_an_axis)
       throw std::invalid_argument(
-          "spacing is too small for this shape: more than 2^31 sites along an axis");
+          "spacing large enough for at most 2^31 sites along an axis of the shape");
     if (span.count() > 0 && std::max(std::abs(span.first), std::abs(span.last)) > farthest)
       throw std::invalid_argument(
           "anchor at most 2^31 spacings from the shape: farther off the places of sites are not "
@@ -140,7 +140,7 @@ class Filling {
       for (double k = k_.first; k <= k_.last; ++k) widen(k);
     if (std::max(about, i_.count() * j_.count() * k_.count()) > most_sites)
       throw std::invalid_argument(
-          "spacing is too small for this shape: its box would hold more than 4e9 sites");
+          "spacing large enough for at most 4e9 sites in the box of the shape");
     if (i_.count() * j_.count() * k_.count() == 0) throw std::invalid_argument(nothing_inside);
     const bool cells = has_cells(grid_.boundary);  // sites are the corners of cells
     const double corner = cells ? 0.5 : 0;

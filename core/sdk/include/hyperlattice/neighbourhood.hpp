@@ -135,7 +135,7 @@ inline std::vector<NearPair> pairs_with_coordination(std::span<const Vec3> point
   const auto wanted =
       static_cast<std::size_t>(std::llround(coordination * static_cast<double>(points.size()) / 2));
   if (points.size() < 2 || wanted > points.size() * (points.size() - 1) / 2)
-    throw std::invalid_argument("coordination is more than the number of particles can have");
+    throw std::invalid_argument("coordination that this number of particles can have");
   double reach = 1.2 * spacing *
                  std::cbrt(3 * (coordination + 1) /
                            (4 * 3.141592653589793));  // of an infinite body, and a margin
