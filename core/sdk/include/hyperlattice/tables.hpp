@@ -267,7 +267,7 @@ class NumberTable {
     check_encoding(in);
     TableLines lines(in);
     std::string line;
-    std::size_t number = 0, header_number = 1;
+    std::size_t number = 0, header_number = 0;  // 0: the file has no line that is not blank
     TableColumns header("");
     bool is_named = false, is_row = false;  // whether `header` has all required columns, and
                                             // whether `line` is a row below a comment that has them
@@ -284,8 +284,8 @@ class NumberTable {
       is_named = has_all;
     }
     check_reading(in);
+    if (header_number == 0 && !required.empty()) complain(1, "a table: the file is empty");
     for (const std::string_view name : required) {
-      if (header_number == 0) complain(1, "a table: the file is empty");
       if (!header.find(name))
         complain(header_number, "a column \"" + std::string(name) +
                                     "\", named in the first line; it names " + header.text());
