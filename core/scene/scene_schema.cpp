@@ -35,7 +35,7 @@ Json quantity(const Option& option) {
 }
 
 Json choices(const Option& option) {
-  const Json own{{"enum", std::vector<std::string>(option.choices.begin(), option.choices.end())}};
+  Json own{{"enum", std::vector<std::string>(option.choices.begin(), option.choices.end())}};
   if (!option.plugin_fields) return own;
   return {{"anyOf", {own, reference("plugin_field")}}};
 }
