@@ -96,12 +96,13 @@ class Vtu {
       const FieldInfo* field = find_field(name);
       numbers += field == nullptr ? 1 : components_of(*field);
     }
-    const double real = options_.precision == Digits::single_precision ? sizeof(float)
-                                                                       : sizeof(double),
-                 cell = 2 * (has_long_numbers() ? sizeof(std::int64_t) : sizeof(std::int32_t)) +
-                        sizeof(std::uint8_t),
-                 moved = options_.deformed ? 3 * sizeof(double) : 0;
-    return static_cast<double>(selection_.size()) * (numbers * real + cell + moved);
+    const std::size_t real =
+        options_.precision == Digits::single_precision ? sizeof(float) : sizeof(double);
+    const std::size_t index = has_long_numbers() ? sizeof(std::int64_t) : sizeof(std::int32_t);
+    const std::size_t cell = 2 * index + sizeof(std::uint8_t);
+    const std::size_t moved = options_.deformed ? 3 * sizeof(double) : 0;
+    return static_cast<double>(selection_.size()) *
+           (numbers * static_cast<double>(real) + static_cast<double>(cell + moved));
   }
 
  private:
