@@ -8,13 +8,12 @@
 
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
 namespace {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
-constexpr double pi = std::numbers::pi, tension = 1e-7, young = 1;
+constexpr double tension = 1e-7, young = 1;
 
 /// Kirsch's plate: tension along x, a hole of radius `radius` around the z axis.
 struct Kirsch {
