@@ -213,7 +213,7 @@ TEST(RegionProbe, LeavesOutParticlesWithoutAValue) {
 Vec3 mean_place(FakeBody& body, const std::vector<Particle>& particles) {
   Vec3 sum;
   for (const Particle p : particles)
-    for (const std::size_t axis : {0, 1, 2}) sum[axis] += body.positions()[3 * p + axis];
+    for (const std::size_t axis : {0U, 1U, 2U}) sum[axis] += body.positions()[3 * p + axis];
   return sum / static_cast<double>(particles.size());
 }
 
@@ -242,7 +242,7 @@ struct Gauge {
     for (std::size_t n = 0; n < body.positions().size(); n += 3) {
       const Vec3 u =
           move(Vec3{body.positions()[n], body.positions()[n + 1], body.positions()[n + 2]});
-      for (const std::size_t axis : {0, 1, 2}) body.displacements[n + axis] = u[axis];
+      for (const std::size_t axis : {0U, 1U, 2U}) body.displacements[n + axis] = u[axis];
     }
     return probe.sample(snapshot, 2);
   }
