@@ -60,7 +60,7 @@ double diagonal() {
   return (std::hypot(1 + strain, 1) - std::numbers::sqrt2) / std::numbers::sqrt2;
 }
 
-/// Of 18 springs of an inner particle two are along x and eight along such diagonals. A diagonal
+/// An inner particle has 18 springs, two along x and eight along such diagonals. A diagonal
 /// yields at the elastic strain e (1 - nu) / 2 of a bar along x under the strain e.
 TEST(LawFields, PlasticStrainOfABarUnderHomogeneousStrain) {
   Stretched body(bar(stage("materials.plastic", plastic)).text());

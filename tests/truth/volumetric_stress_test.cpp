@@ -6,6 +6,7 @@
 
 #include <support/cells.hpp>
 #include <support/laws.hpp>
+#include <support/tensors.hpp>
 
 #include <gtest/gtest.h>
 
@@ -16,17 +17,6 @@ using namespace hyperlattice;
 using namespace hyperlattice::test;
 
 constexpr double l = 1e-3;
-
-/// Displacements H x of all particles, x from the origin.
-std::vector<double> linear(const Body& body, const Tensor& H) {
-  std::vector<double> u;
-  u.reserve(3 * body.particles);
-  for (Particle p = 0; p < body.particles; ++p) {
-    const Vec3 d = H * body.position(p);
-    u.insert(u.end(), {d.x, d.y, d.z});
-  }
-  return u;
-}
 
 /// Largest difference of two tensors; infinite if a number is none.
 template <std::size_t rows, class Row>
