@@ -45,6 +45,16 @@ std::vector<VolumeDerivative> NodalVolumes::derivatives(std::size_t particle) co
   return found;
 }
 
+VolumeState NodalVolumes::state() const {
+  VolumeState state;
+  state.moved.resize(particles());
+  state.ended.resize(particles());
+  state.growths.resize(tetrahedra_.size());
+  state.pressures.resize(particles());
+  state.energies.resize(particles());
+  return state;
+}
+
 double NodalVolumes::growth(std::size_t tetrahedron, std::span<const Vec3> moved) const {
   const Corners& of = tetrahedra_[tetrahedron];
   const std::vector<Vec3>& rest = listed_->positions;

@@ -72,6 +72,14 @@ struct SampleVolumes {
 /// periodic cube.
 SampleVolumes volumes_of_sample(const Listed& listed);
 
+/// The volumes of all particles at given displacements.
+struct VolumeState {
+  std::vector<Vec3> moved;                  ///< displacements, m
+  std::vector<std::uint8_t> ended;          ///< 1: the particle has lost its energy
+  std::vector<double> growths;              ///< of the volumes of the tetrahedra, m3
+  std::vector<double> pressures, energies;  ///< of the particles, Pa and J; 0 where ended
+};
+
 class NodalVolumes {
  public:
   /// `moduli`: K_v of each particle, Pa. `listed` must outlive the object.
@@ -87,8 +95,23 @@ class NodalVolumes {
   /// Returns the derivatives of the volume of a particle at rest.
   std::vector<VolumeDerivative> derivatives(std::size_t particle) const;
 
-  // The passes of an evaluation, each for a range of its items. `moved`: displacements of all
-  // particles, m.
+  /// Returns the state without displacements.
+  VolumeState state() const;
+  /// Finds growths, pressures and energies from the displacements. for_each(size, work) calls
+  /// work(n) for all n below `size`, in any order.
+  template <class ForEach>
+  void evaluate(VolumeState& state, const ForEach& for_each) const {
+    for_each(state.growths.size(),
+             [&](std::size_t n) { state.growths[n] = growth(n, state.moved); });
+    for_each(state.pressures.size(), [&](std::size_t particle) {
+      if (state.ended[particle] != 0) return;
+      const Response of = response(particle, state.growths);
+      state.pressures[particle] = of.pressure;
+      state.energies[particle] = of.energy;
+    });
+  }
+
+  // The passes of an evaluation. `moved`: displacements of all particles, m.
   /// Returns the growth of the volume of a tetrahedron, m3, without cancellation.
   double growth(std::size_t tetrahedron, std::span<const Vec3> moved) const;
   /// What the volume of a particle gives.

@@ -7,15 +7,10 @@ namespace hyperlattice {
 NodalPressures::NodalPressures(const BlockSet& blocks)
     : blocks_(blocks), volumes_(blocks.model().nodal_volumes.get()) {
   if (empty()) return;
-  const std::size_t particles = blocks.model().body.particles;
   first_.resize(blocks.size());
   blocks.layout().for_stretches(
       [this](const Stretch& stretch) { first_[stretch.block] = stretch.first; });
-  ended_.resize(particles);
-  moved_.resize(particles);
-  growths_.resize(volumes_->tetrahedra().size());
-  pressures_.resize(particles);
-  energies_.resize(particles);
+  now_ = volumes_->state();
 }
 
 double NodalPressures::bytes(const NodalVolumes& volumes) {
@@ -39,20 +34,14 @@ void NodalPressures::update() {
     const Particle end =
         number + 1 < blocks_.size() ? first_[number + 1] : blocks_.model().body.particles;
     for (Particle p = first_[number]; p < end; ++p)
-      for (int c = 0; c < 3; ++c) moved_[p][c] = block.displacement[c][p - first_[number]];
+      for (int c = 0; c < 3; ++c) now_.moved[p][c] = block.displacement[c][p - first_[number]];
   });
-  for_pieces(growths_.size(), [&](std::size_t n) { growths_[n] = volumes_->growth(n, moved_); });
-  for_pieces(pressures_.size(), [&](std::size_t p) {
-    if (ended_[p] != 0) return;  // both numbers are 0
-    const NodalVolumes::Response response = volumes_->response(p, growths_);
-    pressures_[p] = response.pressure;
-    energies_[p] = response.energy;
-  });
+  volumes_->evaluate(now_, [this](std::size_t size, const auto& work) { for_pieces(size, work); });
 }
 
 std::array<Vec3, 4> NodalPressures::forces(std::size_t tetrahedron) const {
-  std::array<Vec3, 4> forces = volumes_->gradients(tetrahedron, moved_);
-  const double pressure = volumes_->pressure(tetrahedron, pressures_);
+  std::array<Vec3, 4> forces = volumes_->gradients(tetrahedron, now_.moved);
+  const double pressure = volumes_->pressure(tetrahedron, now_.pressures);
   for (Vec3& force : forces) force = -pressure * force;
   return forces;
 }
@@ -61,10 +50,10 @@ double NodalPressures::lose(Particle a, Particle b, double step) {
   double energy = 0;
   volumes_->for_corners_at_edge(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b),
                                 [&](std::uint32_t corner) {
-                                  if (ended_[corner] != 0) return;
-                                  ended_[corner] = 1;
+                                  if (now_.ended[corner] != 0) return;
+                                  now_.ended[corner] = 1;
                                   energy += energy_before(corner, step);
-                                  pressures_[corner] = energies_[corner] = 0;
+                                  now_.pressures[corner] = now_.energies[corner] = 0;
                                 });
   return energy;
 }
@@ -81,10 +70,10 @@ double NodalPressures::energy_before(Particle particle, double step) const {
   double growth = 0;
   for (const Tetrahedra::Use use : volumes_->tetrahedra().of(particle)) {
     const Corners& corners = volumes_->tetrahedra()[use.tetrahedron];
-    const std::array<Vec3, 4> gradients = volumes_->gradients(use.tetrahedron, moved_);
+    const std::array<Vec3, 4> gradients = volumes_->gradients(use.tetrahedron, now_.moved);
     for (std::size_t n = 0; n < 4; ++n) growth += 0.25 * dot(gradients[n], moved(corners[n]));
   }
-  return energies_[particle] + 0.5 * pressures_[particle] * growth;
+  return now_.energies[particle] + 0.5 * now_.pressures[particle] * growth;
 }
 
 }  // namespace hyperlattice

@@ -6,7 +6,6 @@
 #include <model/nodal_volumes.hpp>
 #include <state/block_set.hpp>
 
-#include <cstdint>
 #include <vector>
 
 namespace hyperlattice {
@@ -24,11 +23,13 @@ class NodalPressures {
   /// of threads.
   void update();
   /// Returns the force on a particle in the state of the last update, N.
-  Vec3 force(Particle particle) const { return volumes_->force(particle, moved_, pressures_); }
+  Vec3 force(Particle particle) const {
+    return volumes_->force(particle, now_.moved, now_.pressures);
+  }
   /// Returns the forces of a tetrahedron on its corners in that state, N.
   std::array<Vec3, 4> forces(std::size_t tetrahedron) const;
   /// Returns the energy of a particle, J, in that state.
-  double energy(Particle particle) const { return energies_[particle]; }
+  double energy(Particle particle) const { return now_.energies[particle]; }
   /// Returns the particle at the start of a row of a block.
   Particle first_of(const Block& block, const Row& row) const {
     return first_[block.number] + row.start;
@@ -47,10 +48,7 @@ class NodalPressures {
   const BlockSet& blocks_;
   const NodalVolumes* volumes_;
   std::vector<Particle> first_;  ///< of each block
-  std::vector<std::uint8_t> ended_;
-  std::vector<Vec3> moved_;                   ///< displacements, m
-  std::vector<double> growths_;               ///< of the volumes of the tetrahedra, m3
-  std::vector<double> pressures_, energies_;  ///< Pa; J
+  VolumeState now_;              ///< of the last update
 };
 
 }  // namespace hyperlattice

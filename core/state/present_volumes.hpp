@@ -17,16 +17,15 @@ class PresentVolumes {
   PresentVolumes(const NodalVolumes& volumes, std::vector<Vec3> moved,
                  std::span<const Breakage> breakages);
 
-  double pressure(std::size_t particle) const { return pressures_[particle]; }  ///< Pa
-  double energy(std::size_t particle) const { return energies_[particle]; }     ///< J
+  double pressure(std::size_t particle) const { return now_.pressures[particle]; }  ///< Pa
+  double energy(std::size_t particle) const { return now_.energies[particle]; }     ///< J
   Vec3 force(std::size_t particle) const {
-    return volumes_.force(particle, moved_, pressures_);
+    return volumes_.force(particle, now_.moved, now_.pressures);
   }  ///< N
 
  private:
   const NodalVolumes& volumes_;
-  std::vector<Vec3> moved_;
-  std::vector<double> pressures_, energies_;
+  VolumeState now_;
 };
 
 }  // namespace hyperlattice
