@@ -180,7 +180,7 @@ TEST(Cost, ThePlanCountsSprings) {
 }
 
 TEST(Cost, AHundredMillionParticlesArePlannedToTheByteWithoutTheirMemory) {
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(HYPERLATTICE_SANITIZED)
   GTEST_SKIP() << "the sanitizer needs terabytes of address space";
 #endif
   json scene = minimal_scene();

@@ -12,7 +12,7 @@ namespace {
 
 const std::string folder = HYPERLATTICE_BUILD "/tests/bad_plugins/misbehaving";
 
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(HYPERLATTICE_SANITIZED)
 constexpr bool sanitized = true;
 #else
 constexpr bool sanitized = false;

@@ -205,7 +205,7 @@ TEST_F(Run, an_output_folder_that_cannot_be_is_an_outside_fault) {
 }
 
 TEST_F(Run, too_little_memory_says_how_much_is_needed) {
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(HYPERLATTICE_SANITIZED)
   GTEST_SKIP() << "the address sanitizer needs all of the address space";
 #endif
   json scene = small_sphere();

@@ -159,8 +159,7 @@ TEST_F(Surroundings, AFrameThatIsLargerThanFilesMayBeIsRefusedBeforeTheRun) {
   EXPECT_FALSE(exists("out"));
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)  // these need all of the address space
+#if !defined(HYPERLATTICE_SANITIZED)  // these need all of the address space
 
 TEST_F(Surroundings, ThreadsThatTheSystemRefusesAreExit4WithASummary) {
   if (shell("ulimit -s 1000000").exit_code != 0)
