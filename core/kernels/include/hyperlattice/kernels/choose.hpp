@@ -2,8 +2,8 @@
 // material's own source.
 #pragma once
 
+#include <hyperlattice/kernel_set.hpp>
 #include <hyperlattice/kernels/processor.hpp>
-#include <hyperlattice/material.hpp>
 
 hyperlattice::KernelSet hyperlattice_kernels_baseline(const hyperlattice::KernelChoice& choice);
 hyperlattice::KernelSet hyperlattice_kernels_avx2(const hyperlattice::KernelChoice& choice);

@@ -3,8 +3,8 @@
 // default value.
 #pragma once
 
+#include <hyperlattice/kernel_set.hpp>
 #include <hyperlattice/law.hpp>
-#include <hyperlattice/material.hpp>
 
 #include <type_traits>
 
