@@ -30,7 +30,9 @@ const FieldInfo* field_of(const std::string& column) {
 std::string unit_of(const std::string& column) {
   if (const FieldInfo* field = field_of(column)) return std::string(field->unit);
   static constexpr std::pair<const char*, const char*> units[] = {
-      {"radius", "m"}, {"elongation", "m"}, {"force", "N"}, {"moment", "N m"}, {"area", "m2"}};
+      {"radius", "m"},     {"elongation", "m"},  {"force", "N"},   {"moment", "N m"},
+      {"area", "m2"},      {"size", "m"},        {"kinetic", "J"}, {"spin", "rad/s"},
+      {"dust_mass", "kg"}, {"dust_kinetic", "J"}};
   for (const auto& [name, unit] : units)
     if (column.starts_with(name)) return unit;
   return "";
@@ -41,10 +43,19 @@ bool ends_in(const std::string& name, std::initializer_list<const char*> endings
                      [&](const char* ending) { return name.ends_with(ending); });
 }
 
-/// Returns the name of the plot of a column: the statistics of a number, or the components of a
-/// vector, share one plot.
+/// Returns whether a column is one of several numbered ones: "mass_0", "mass_1".
+bool is_numbered(const std::string& name) {
+  const std::size_t bar = name.rfind('_');
+  return bar != std::string::npos && bar + 1 < name.size() &&
+         name.find_first_not_of("0123456789", bar + 1) == std::string::npos &&
+         find_field(name) == nullptr;
+}
+
+/// Returns the name of the plot of a column: the statistics of a number, the components of a
+/// vector, or numbered columns share one plot.
 std::string quantity_of(const std::string& name) {
   const std::size_t bar = name.rfind('_');
+  if (is_numbered(name)) return name.substr(0, bar);
   const bool is_statistic = ends_in(name, {"_mean", "_min", "_max"});
   return is_statistic || (find_field_part(name).field != nullptr && find_field(name) == nullptr)
              ? name.substr(0, bar)

@@ -88,7 +88,8 @@ std::vector<CutTetrahedron> cut_tetrahedra(const Model& model, const Division& p
   return found;
 }
 
-/// Returns m of PlaneSection, 1/m.
+}  // namespace
+
 double crossing_factor(const Model& model) {
   const Body& body = model.body;
   double squares = 0, volume = body.grid.site_volume;
@@ -104,8 +105,6 @@ double crossing_factor(const Model& model) {
   }
   return squares / (3 * volume);
 }
-
-}  // namespace
 
 PlaneSection cut(const Model& model, Vec3 point, Vec3 normal, std::span<const Particle> among) {
   const Division plane(model.body, point, normal, among);

@@ -45,6 +45,10 @@ struct PlaneSection {
   double area = 0;
 };
 
+/// Returns m of PlaneSection, 1/m: a spring of class 0 stands for the area share |R| / m of a crack
+/// that it crosses.
+double crossing_factor(const Model& model);
+
 /// Cuts the body of the particles `among`, which are ascending, by a plane through `point`, m, with
 /// a normal of any length. Particles on the plane are before it, up to 1e-9 of the spacing. The
 /// springs are in the order of their ends before the plane.

@@ -17,6 +17,8 @@ void FrameCopy::take(SnapshotSource& source, const FieldNames& fields) {
     return PluginCall::answer(false,
                               [&] { return static_cast<FrameCopy*>(self)->field(name, out); });
   };
+  snapshot_.get_fragments = nullptr;  // the state goes on
+  snapshot_.get_crack_faces = nullptr;
   snapshot_.run_tasks = [](void* self, std::uint64_t count, void* work,
                            void (*task)(void* work, std::uint64_t n) noexcept) noexcept {
     static_cast<FrameCopy*>(self)->run_tasks(count, work, task);

@@ -1,7 +1,9 @@
 #include <host/plugin_call.hpp>
 #include <plan/fields.hpp>
 #include <run/snapshot.hpp>
+#include <state/crack_faces.hpp>
 #include <state/force_sums.hpp>
+#include <state/fragments.hpp>
 #include <state/particle_stress.hpp>
 
 #include <algorithm>
@@ -41,6 +43,17 @@ SnapshotSource::SnapshotSource(const Model& model, Simulation& simulation)
     return PluginCall::answer(
         Resultant(), [&] { return static_cast<SnapshotSource*>(self)->resultant(forces, about); });
   };
+  snapshot_.get_fragments = [](void* self, double damage, Field& out) noexcept {
+    return PluginCall::answer(false, [&] {
+      out = {1, static_cast<SnapshotSource*>(self)->fragments(damage)};
+      return true;
+    });
+  };
+  snapshot_.get_crack_faces = [](void* self, double damage) noexcept {
+    return PluginCall::answer(std::span<const CrackFace>(), [&] {
+      return static_cast<SnapshotSource*>(self)->crack_faces(damage);
+    });
+  };
 }
 
 void SnapshotSource::renew() {
@@ -71,9 +84,12 @@ SnapshotSource::Compute SnapshotSource::function_of(std::string_view name) {
       {"height", &SnapshotSource::height},
       {"material", &SnapshotSource::material},
       {"source", &SnapshotSource::source},
+      {"mass", &SnapshotSource::mass},
+      {"volume", &SnapshotSource::volume},
       {"broken_open", &SnapshotSource::broken_open},
       {"broken_closed", &SnapshotSource::broken_closed},
       {"damage", &SnapshotSource::damage},
+      {"fragment", &SnapshotSource::fragment},
       {"stress", &SnapshotSource::stress},
       {"nominal_stress", &SnapshotSource::nominal_stress},
       {"principal_stress", &SnapshotSource::principal_stress},
@@ -128,6 +144,38 @@ void SnapshotSource::material(std::vector<double>& numbers) {
 
 void SnapshotSource::source(std::vector<double>& numbers) {
   numbers.assign(model_.body.listed.source.begin(), model_.body.listed.source.end());
+}
+
+void SnapshotSource::mass(std::vector<double>& numbers) {
+  numbers.resize(model_.body.particles);
+  for (Particle p = 0; p < model_.body.particles; ++p) numbers[p] = model_.mass(p);
+}
+
+void SnapshotSource::volume(std::vector<double>& numbers) {
+  numbers.resize(model_.body.particles);
+  for (Particle p = 0; p < model_.body.particles; ++p)
+    numbers[p] = model_.body.share(p) * model_.body.grid.site_volume;
+}
+
+void SnapshotSource::fragment(std::vector<double>& numbers) {
+  if (masses_.empty()) mass(masses_);
+  numbers = hyperlattice::fragments(measured_->springs(), masses_, 1);
+}
+
+std::span<const double> SnapshotSource::fragments(double damage) {
+  if (damage == 1) {
+    Field field;
+    this->field("fragment", field);
+    return field.values;
+  }
+  if (masses_.empty()) mass(masses_);
+  fragments_ = hyperlattice::fragments(measured_->springs(), masses_, damage);
+  return fragments_;
+}
+
+std::span<const CrackFace> SnapshotSource::crack_faces(double damage) {
+  crack_faces_ = hyperlattice::crack_faces(model_, simulation_, damage);
+  return crack_faces_;
 }
 
 void SnapshotSource::stress(std::vector<double>& numbers) {
@@ -260,7 +308,8 @@ void SnapshotSource::damage(std::vector<double>& numbers) {
     numbers[breakage.a] += 1;
     numbers[breakage.b] += 1;
   }
-  if (model_.springs.softens) simulation_.add_softening(numbers);
+  for (const WeakenedSpring& spring : simulation_.weakened_springs())
+    for (const Particle end : {spring.a, spring.b}) numbers[end] += 1 - spring.integrity;
   for (Particle a = 0; a < body.particles; ++a)
     if (springs_of_[a] > 0) numbers[a] /= springs_of_[a];
 }

@@ -49,9 +49,12 @@ class SnapshotSource {
   void height(std::vector<double>& numbers);
   void material(std::vector<double>& numbers);
   void source(std::vector<double>& numbers);
+  void mass(std::vector<double>& numbers);
+  void volume(std::vector<double>& numbers);
   void broken_open(std::vector<double>& numbers) { count_broken(numbers, true); }
   void broken_closed(std::vector<double>& numbers) { count_broken(numbers, false); }
   void damage(std::vector<double>& numbers);
+  void fragment(std::vector<double>& numbers);
   void stress(std::vector<double>& numbers);
   void nominal_stress(std::vector<double>& numbers);
   void principal_stress(std::vector<double>& numbers);
@@ -69,6 +72,8 @@ class SnapshotSource {
   void force(std::vector<double>& numbers);
   void acceleration(std::vector<double>& numbers);
   Resultant resultant(ForcesId forces, Vec3 about);
+  std::span<const double> fragments(double damage);
+  std::span<const CrackFace> crack_faces(double damage);
   void count_broken(std::vector<double>& numbers, bool open);
 
   const Model& model_;
@@ -80,6 +85,9 @@ class SnapshotSource {
   bool forces_current_ = false;
   /// Springs of each particle at the start; filled when damage is first asked for.
   std::vector<std::uint32_t> springs_of_;
+  std::vector<double> masses_;  ///< kg; filled when fragments are first asked for
+  std::vector<double> fragments_;
+  std::vector<CrackFace> crack_faces_;
 };
 
 }  // namespace hyperlattice

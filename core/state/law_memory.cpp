@@ -71,22 +71,19 @@ void LawMemory::for_base_springs(const Block& block, const Visit& visit) const {
   });
 }
 
-void LawMemory::add_softening(std::vector<double>& lost) const {
-  struct Lost {
-    Particle a, b;
-    double integrity;
-  };
-  std::vector<std::vector<Lost>> found(blocks_.size());
+std::vector<WeakenedSpring> LawMemory::weakened() const {
+  std::vector<std::vector<WeakenedSpring>> found(blocks_.size());
   blocks_.team().for_each(blocks_.size(), [&](std::size_t n) {
     for_base_springs(blocks_[n], [&](const SpringEnds& ends, const SpringProperties& properties,
                                      double elongation, const LawNumbers& kept) {
       const double integrity = ask_spring(model_, properties, 0, elongation, kept.data()).integrity;
-      if (integrity < 1) found[n].push_back({ends.a, ends.b, integrity});
+      if (integrity < 1) found[n].push_back({ends.a, ends.b, ends.neighbour, integrity});
     });
   });
-  for (const std::vector<Lost>& of_block : found)
-    for (const Lost& spring : of_block)
-      for (const Particle end : {spring.a, spring.b}) lost[end] += 1 - spring.integrity;
+  std::vector<WeakenedSpring> all;
+  for (const std::vector<WeakenedSpring>& of_block : found)
+    all.insert(all.end(), of_block.begin(), of_block.end());
+  return all;
 }
 
 void LawMemory::field(std::string_view name, std::vector<double>& values) const {

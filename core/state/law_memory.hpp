@@ -5,6 +5,7 @@
 #include <state/block_set.hpp>
 #include <state/energy_account.hpp>
 #include <state/equilibrium_update.hpp>
+#include <state/weakened_spring.hpp>
 
 #include <string_view>
 #include <vector>
@@ -20,8 +21,9 @@ class LawMemory {
   /// dissipate to the energy account, and notes in the blocks the springs whose integrity becomes
   /// 0.
   void advance(const EquilibriumUpdate& to);
-  /// Adds 1 - integrity of each spring that exists to the numbers of both of its ends.
-  void add_softening(std::vector<double>& lost) const;
+  /// Returns the springs of laws that soften whose integrity is below 1, in the order of the
+  /// blocks.
+  std::vector<WeakenedSpring> weakened() const;
   /// Computes a field that laws give: the mean over each particle's base springs, which count by
   /// their share; not a number where no spring has the field.
   void field(std::string_view name, std::vector<double>& values) const;

@@ -48,8 +48,9 @@ double Simulation::elongation_now(std::size_t breakage) const {
 std::uint64_t Simulation::broken_open() const { return state_->failures.open(); }
 std::uint64_t Simulation::broken() const { return state_->failures.springs(); }
 
-void Simulation::add_softening(std::vector<double>& lost) const {
-  state_->law_memory.add_softening(lost);
+std::vector<WeakenedSpring> Simulation::weakened_springs() const {
+  if (!state_->blocks.model().springs.softens) return {};
+  return state_->law_memory.weakened();
 }
 
 void Simulation::law_field(std::string_view name, std::vector<double>& values) const {

@@ -6,6 +6,7 @@
 #include <state/energy_balance.hpp>
 #include <state/equilibrium_update.hpp>
 #include <state/layout.hpp>
+#include <state/weakened_spring.hpp>
 
 #include <cstdint>
 #include <functional>
@@ -97,8 +98,8 @@ class Simulation {
     Layout::Memory of[2];
   };
   void for_springs_of_list(const std::function<void(const SpringMemory&)>& visit) const;
-  /// Adds 1 - integrity of each spring that exists to the numbers of both of its ends.
-  void add_softening(std::vector<double>& lost) const;
+  /// Returns the springs that exist and whose integrity is below 1.
+  std::vector<WeakenedSpring> weakened_springs() const;
   /// Computes a field that laws give: the mean over each particle's base springs, which count by
   /// their share; not a number where no spring has the field.
   void law_field(std::string_view name, std::vector<double>& values) const;

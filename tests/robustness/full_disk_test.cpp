@@ -70,7 +70,8 @@ TEST(AtomicFile, FollowsNoLinkAndReplacesOnlyRegularFiles) {
 
 class FullDisk : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Types, FullDisk,
-                         testing::Values("writers.vtu", "writers.csv", "writers.picture"));
+                         testing::Values("writers.vtu", "writers.cracks", "writers.csv",
+                                         "writers.picture"));
 
 TEST_P(FullDisk, LeavesEarlierFramesIntact) {
   Folder folder("full_disk");

@@ -148,7 +148,8 @@ class Plugin {
 };
 
 /// A block of nx * ny * nz particles that moves by u(x, t) = t (x - c) + t^2 (y, z, x), without
-/// heights. Region 0 holds all particles, any other region every third one.
+/// heights. Region 0 holds all particles, any other region every third one. Each fifth particle has
+/// a crack towards the next one; each second of these faces belongs to a diagonal.
 class FakeBody {
  public:
   explicit FakeBody(std::array<int, 3> counts, double spacing = 1e-3) : spacing_(spacing) {
@@ -182,12 +183,14 @@ class FakeBody {
     velocities.resize(positions_.size());
     open.assign(all_.size(), 0);
     closed.assign(all_.size(), 0);
+    faces.clear();
     for (std::size_t n = 0; n < all_.size(); ++n) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const double x = positions_[3 * n + axis], next = positions_[3 * n + (axis + 1) % 3];
         displacements[3 * n + axis] = time * (x - spacing_) + time * time * next;
         velocities[3 * n + axis] = x - spacing_ + 2 * time * next;
       }
+      if (n % 5 == 0 && n + 1 < all_.size()) add_face(n);
       if (n % 5 == 0) open[n] = 1 + static_cast<double>(n % 3);
       if (n % 10 == 0) closed[n] = 1;
     }
@@ -212,6 +215,9 @@ class FakeBody {
         return false;
       return true;
     };
+    snapshot.get_crack_faces = [](void* self, double) noexcept {
+      return std::span<const CrackFace>(static_cast<FakeBody*>(self)->faces);
+    };
     return snapshot;
   }
 
@@ -219,8 +225,19 @@ class FakeBody {
   const std::vector<Particle>& some() const { return some_; }
 
   std::vector<double> displacements, velocities, open, closed;
+  std::vector<CrackFace> faces;
 
  private:
+  void add_face(Particle n) {
+    CrackFace face;
+    face.a = n;
+    face.b = n + 1;
+    face.spring_class = n % 2;
+    face.damage = 1;
+    face.area = face.spring_class == 0 ? spacing_ * spacing_ : 0;
+    faces.push_back(face);
+  }
+
   double spacing_;
   std::uint64_t step_ = 0;
   std::vector<double> positions_;

@@ -154,6 +154,39 @@ TEST(Vtu, AsksOnceForWhatIsConstantAndNamesItsFields) {
   EXPECT_EQ(std::count(asked.begin(), asked.end(), "velocity"), 2);
 }
 
+/// The number of faces that writers.cracks writes of a body of 4 x 3 x 2 particles.
+std::string faces_written(const nlohmann::json& options) {
+  Folder folder("cracks");
+  FakeBody body({4, 3, 2});
+  Plugin writer("writers.cracks", options);
+  writer.begin(body.context(folder.path()));
+  writer.frame(body.at(0));
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"cracks.pvd", "cracks_000000.vtp"}));
+  const std::string text = contents(folder.file("cracks_000000.vtp"));
+  const std::string name = "NumberOfPolys=\"";
+  const std::size_t at = text.find(name) + name.size();
+  return text.substr(at, text.find('"', at) - at);
+}
+
+// Faces of the particles 0, 5, 10, 15, 20 to the next one; 5 and 15 are of diagonals.
+TEST(Cracks, WritesTheFacesThatTheOptionsAskFor) {
+  EXPECT_EQ(faces_written({}), "3");
+  EXPECT_EQ(faces_written({{"diagonals", true}}), "5");
+  // No two successive particles are in the region.
+  EXPECT_EQ(faces_written({{"diagonals", true}, {"region", "some"}}), "0");
+}
+
+TEST(Cracks, NamesNoFieldSoThatItSeesTheSprings) {
+  static std::vector<std::string> named;
+  Folder folder("no_fields");
+  FakeBody body({4, 3, 2});
+  Plugin writer("writers.cracks", {{"deformed", true}});
+  OutputContext context = body.context(folder.path());
+  context.use_field = [](void*, std::string_view name) noexcept { named.emplace_back(name); };
+  writer.begin(context);
+  EXPECT_TRUE(named.empty());
+}
+
 TEST(Snapshot, RethrowsTheExceptionOfTheFirstTask) {
   FakeBody body({2, 2, 2});
   for (const bool shared : {false, true}) {

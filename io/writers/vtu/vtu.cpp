@@ -1,65 +1,30 @@
 // A series of files for ParaView: one VTK unstructured grid per frame, in which each particle is a
 // vertex, and a collection file (.pvd) that gives the times. Arrays are appended as raw binary
 // data. What does not change between frames is encoded once.
-#include "encoded_array.hpp"
+#include <vtk/xml_file.hpp>
 
 #include <hyperlattice/frames.hpp>
 
-#include <bit>
 #include <numeric>
 
 namespace hyperlattice {
 namespace {
 
-using namespace vtu;
+using namespace vtk;
 
-enum class Digits : std::uint32_t { single_precision, double_precision };
-constexpr std::string_view precisions[] = {"single", "double"};
 constexpr OldValue compressions[] = {{"true", "\"zlib\""}, {"false", "\"none\""}};
-
-/// The arrays at the end of a file, in their order.
-class Appended {
- public:
-  /// Adds an array and returns the text with which an element refers to it.
-  std::string add(const EncodedArray& array) {
-    std::string text = " format=\"appended\" offset=\"" + std::to_string(size_) + "\"/>\n";
-    arrays_.push_back(&array);
-    size_ += array.size();
-    return text;
-  }
-  void write(AtomicFile& file) const {
-    for (const EncodedArray* array : arrays_) array->write(file);
-  }
-
- private:
-  std::vector<const EncodedArray*> arrays_;
-  std::size_t size_ = 0;
-};
 
 class Vtu {
  public:
-  struct Options : FrameOptions {
-    Codec codec = Codec::lz4;
-    Digits precision = Digits::single_precision;
-  };
+  struct Options : FrameOptions, PackingOptions {};
 
   static Schema<Options> schema() {
     Schema<Options> schema(
         "writers.vtu",
         "Series of VTK unstructured grids for ParaView, with a .pvd file that gives the times");
     add_frame_options(schema);
-    schema
-        .add<&Options::codec>("codec", "",
-                              "how arrays are packed; lz4: almost as fast as none; zlib: the "
-                              "smallest files, and by far the most time")
-        .choices(codecs)
-        .fallback("\"lz4\"")
-        .formerly("compress", "0.2", compressions)
-        .add<&Options::precision>("precision", "",
-                                  "of the numbers in the files: single has 7 digits, double has "
-                                  "all 16 and takes twice the space")
-        .choices(precisions)
-        .fallback("\"single\"");
+    add_codec_option(schema).formerly("compress", "0.2", compressions);
+    add_precision_option(schema);
     return schema.check(check_frame_options<Options>);
   }
 
@@ -70,20 +35,15 @@ class Vtu {
     files_ = FrameFiles(context, options_.file, ".vtu");
     selection_ = Selection(context.particles(options_.region));
     for (std::size_t n = 0; n < context.earlier.size(); ++n)
-      add_to_collection(files_.name(n), context.earlier[n].time);
+      collection_.add(files_.name(n), context.earlier[n].time);
   }
 
   void frame(const Snapshot& snapshot) {
     encode(snapshot);
-    Appended appended;
-    const std::string xml = description(appended);
-    AtomicFile file(files_.path());
-    file.write(xml);
-    appended.write(file);
-    file.write("\n</AppendedData>\n</VTKFile>\n");
-    file.commit();
-    add_to_collection(files_.name(), snapshot.time);
-    write_collection();
+    describe().write(files_.path());
+    collection_.add(files_.name(), snapshot.time);
+    // With every frame, so that an interrupted run can be opened.
+    collection_.write(files_.path_of_series(".pvd"));
     files_.next();
   }
 
@@ -121,10 +81,7 @@ class Vtu {
   }
 
   void encode(const Snapshot& snapshot, std::span<const double> values, EncodedArray& array) const {
-    if (options_.precision == Digits::single_precision)
-      array.encode<float>(snapshot, options_.codec, values);
-    else
-      array.encode<double>(snapshot, options_.codec, values);
+    vtk::encode(snapshot, options_, values, array);
   }
 
   /// Encodes the cells: cell n is a vertex at point n, with connectivity 0, 1, ... and offsets 1,
@@ -150,37 +107,26 @@ class Vtu {
     return selection_.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
   }
 
-  /// Returns the text before the appended arrays.
-  std::string description(Appended& appended) const {
-    const std::string_view real = options_.precision == Digits::single_precision ? "Float32"
-                                                                                 : "Float64",
-                           whole = has_long_numbers() ? "Int64" : "Int32",
-                           compressor = compressor_of(options_.codec);
-    std::string xml =
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"";
-    xml += std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
-    xml += "\" header_type=\"UInt64\"";
-    if (!compressor.empty()) xml.append(" compressor=\"").append(compressor).append("\"");
-    xml += ">\n<UnstructuredGrid>\n<FieldData>\n";
-    xml += data_array("Float64", "TimeValue", " NumberOfTuples=\"1\"") + appended.add(time_) +
-           "</FieldData>\n";
+  XmlFile describe() const {
+    const std::string_view real = real_type(options_.precision),
+                           whole = has_long_numbers() ? "Int64" : "Int32";
+    XmlFile file("UnstructuredGrid", options_.codec);
+    file << "<FieldData>\n";
+    file.add("Float64", "TimeValue", " NumberOfTuples=\"1\"", time_);
     const std::string count = std::to_string(selection_.size());
-    xml +=
-        "<Piece NumberOfPoints=\"" + count + "\" NumberOfCells=\"" + count + "\">\n<PointData>\n";
+    file << "</FieldData>\n<Piece NumberOfPoints=\"" << count << "\" NumberOfCells=\"" << count
+         << "\">\n<PointData>\n";
     for (std::size_t n = 0; n < fields_.size(); ++n)
-      xml += data_array(real, options_.fields[n],
-                        shape_of(options_.fields[n], fields_[n].components)) +
-             appended.add(fields_[n].array);
-    xml += "</PointData>\n<Points>\n" + data_array(real, "Points", components(3)) +
-           appended.add(points_) + "</Points>\n<Cells>\n";
-    xml += data_array(whole, "connectivity", "") + appended.add(connectivity_);
-    xml += data_array(whole, "offsets", "") + appended.add(offsets_);
-    xml += data_array("UInt8", "types", "") + appended.add(types_);
-    return xml + "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
-  }
-
-  static std::string components(std::uint32_t count) {
-    return " NumberOfComponents=\"" + std::to_string(count) + "\"";
+      file.add(real, options_.fields[n], shape_of(options_.fields[n], fields_[n].components),
+               fields_[n].array);
+    file << "</PointData>\n<Points>\n";
+    file.add(real, "Points", components(3), points_);
+    file << "</Points>\n<Cells>\n";
+    file.add(whole, "connectivity", "", connectivity_);
+    file.add(whole, "offsets", "", offsets_);
+    file.add("UInt8", "types", "", types_);
+    file << "</Cells>\n</Piece>\n";
+    return file;
   }
 
   /// Returns the number and the names of a field's components, which ParaView shows.
@@ -194,26 +140,6 @@ class Vtu {
     return text;
   }
 
-  static std::string data_array(std::string_view type, std::string_view name,
-                                std::string_view shape) {
-    std::string text = "<DataArray type=\"";
-    return text.append(type).append("\" Name=\"").append(name).append("\"").append(shape);
-  }
-
-  void add_to_collection(const std::string& file, double time) {
-    collection_ += "<DataSet timestep=\"";
-    append_number(collection_, time);
-    collection_ += "\" part=\"0\" file=\"" + file + "\"/>\n";
-  }
-
-  /// Writes the collection file, with every frame, so that an interrupted run can be opened.
-  void write_collection() const {
-    write_file(
-        files_.path_of_series(".pvd"),
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n" +
-            collection_ + "</Collection>\n</VTKFile>\n");
-  }
-
   struct EncodedField {
     std::uint32_t components = 0;
     EncodedArray array;
@@ -222,7 +148,7 @@ class Vtu {
   Options options_;
   FrameFiles files_;
   Selection selection_;
-  std::string collection_;
+  Collection collection_;
   EncodedArray time_, points_, connectivity_, offsets_, types_;
   std::vector<EncodedField> fields_;  ///< in the order of the option
   std::vector<double> buffer_;

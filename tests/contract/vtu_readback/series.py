@@ -12,10 +12,10 @@ def times(path):
     return [(float(entry.get("timestep")), entry.get("file")) for entry in collection.findall("./Collection/DataSet")]
 
 
-def read(path):
-    """Reads the grid in a file. Ends the test if VTK's reader complains."""
+def read(path, reader_class=vtk.vtkXMLUnstructuredGridReader):
+    """Reads the data in a file. Ends the test if VTK's reader complains."""
     complaints = []
-    reader = vtk.vtkXMLUnstructuredGridReader()
+    reader = reader_class()
     reader.AddObserver("ErrorEvent", lambda *_: complaints.append(path))
     reader.SetFileName(path)
     reader.Update()

@@ -106,7 +106,8 @@
   CROSSES(Resultant, force, moment)                                                                                                                   \
   CROSSES(ForcesId, index)                                                                                                                            \
   CROSSES(Section, forces, springs, area)                                                                                                             \
-  CROSSES(Snapshot, time, step, particles, spacing, positions, self, get_field, get_resultant, run_tasks)                                             \
+  CROSSES(CrackFace, a, b, spring_class, corners, area, time, damage)                                                                                 \
+  CROSSES(Snapshot, time, step, particles, spacing, positions, self, get_field, get_resultant, get_fragments, get_crack_faces, run_tasks)             \
   CROSSES(FrameMark, step, time)                                                                                                                      \
   CROSSES(OutputContext, directory, title, fields, earlier, self, region_particles, announce_file, acted_particles, external_forces, cut_section,     \
           use_field)                                                                                                                                  \

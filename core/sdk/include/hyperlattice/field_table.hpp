@@ -33,6 +33,8 @@ inline constexpr FieldInfo field_table[] = {
     {"material", FieldKind::number, "", "index of the material in the scene, from 0"},
     {"source", FieldKind::number, "", "index of the particle in the list's own order, from 0",
      FieldNeeds::list},
+    {"mass", FieldKind::number, "kg", "mass of the particle"},
+    {"volume", FieldKind::number, "m3", "undeformed volume of the particle"},
     {"broken_open", FieldKind::number, "",
      "number of the particle's broken springs that are longer than undeformed",
      FieldNeeds::failure},
@@ -40,6 +42,10 @@ inline constexpr FieldInfo field_table[] = {
      FieldNeeds::failure},
     {"damage", FieldKind::number, "", "mean of 1 - integrity over the particle's springs",
      FieldNeeds::failure},
+    {"fragment", FieldKind::number, "",
+     "number of the connected piece, 0 for the heaviest; of equal ones the piece with the first "
+     "particle is first",
+     FieldNeeds::nothing, true},
     {"stress", FieldKind::symmetric, "Pa", "Cauchy stress", FieldNeeds::nothing, true},
     {"nominal_stress", FieldKind::tensor, "Pa",
      "first Piola-Kirchhoff stress: component xy is the force along x on an undeformed area "

@@ -10,6 +10,7 @@
 #include <hyperlattice/output.hpp>
 
 #include <algorithm>
+#include <array>
 
 namespace hyperlattice {
 
@@ -66,7 +67,7 @@ inline void require_field(const OutputContext& context, const Snapshot& first,
 
 /// Returns whether a field has the same values in all snapshots of a run.
 inline bool is_constant_field(std::string_view name) {
-  return name == "material" || name == "source";
+  return is_one_of(std::array<std::string_view, 4>{"material", "source", "mass", "volume"}, name);
 }
 
 /// A number taken from a field: a component; the magnitude of a vector; radial: along the line from

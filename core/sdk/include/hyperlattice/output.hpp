@@ -36,6 +36,24 @@ struct Section {
   double area = 0;            ///< of the section at rest, m2; see PlaneSection in core/model
 };
 
+/// A face between two particles whose base spring is broken or damaged: a quadrilateral normal to
+/// the undeformed spring, around its middle.
+///   area = share |R| / m   of a spring of class 0, with m of PlaneSection
+///   (core/model/section.hpp):
+/// the square between two sites of the cubic lattice. Faces of a plane crack add up to the area of
+/// its cross-section, each projected on the plane. In bodies of cells a face at the surface has a
+/// quadrilateral for each of its cells, of a quarter of the square times the cell's share. Springs
+/// of other classes, as the diagonals, cross the same crack: their area is 0, and they have a small
+/// square with edges of a quarter of the spacing.
+struct CrackFace {
+  Particle a = 0, b = 0;           ///< ends of the spring; a precedes b
+  std::uint32_t spring_class = 0;  ///< of the lattice; 0 in a list
+  Vec3 corners[4];                 ///< at rest, m
+  double area = 0;                 ///< at rest, m2
+  double time = 0;    ///< when a criterion broke the spring or it softened fully, s; NaN: not yet
+  double damage = 0;  ///< 1 - integrity: 1 for a broken spring
+};
+
 /// The body at one time. Particles are in the order z, y, x. Valid during the call that receives
 /// it.
 struct Snapshot {
@@ -47,6 +65,9 @@ struct Snapshot {
   void* self = nullptr;
   bool (*get_field)(void* self, std::string_view name, Field& field) noexcept = nullptr;
   Resultant (*get_resultant)(void* self, ForcesId forces, Vec3 about) noexcept = nullptr;
+  /// Null, as in a copy of a frame: only the fields are known.
+  bool (*get_fragments)(void* self, double damage, Field& numbers) noexcept = nullptr;
+  std::span<const CrackFace> (*get_crack_faces)(void* self, double damage) noexcept = nullptr;
   /// Calls task(work, n) for each n below `count`; null: the run has one thread for output.
   void (*run_tasks)(void* self, std::uint64_t count, void* work,
                     void (*task)(void* work, std::uint64_t n) noexcept) noexcept = nullptr;
@@ -61,10 +82,32 @@ struct Snapshot {
   template <class Task>
   void for_each(std::uint64_t count, const Task& task) const;
 
+  /// Returns the field "fragment" of the pieces that remain if springs whose damage, 1 - integrity,
+  /// is at least `damage` (above 0, at most 1) do not join their ends. For probes, and for writers
+  /// that name no field. Valid until the next call. Throws std::runtime_error in other writers.
+  std::span<const double> fragments(double damage) const {
+    Field numbers;
+    if (get_fragments == nullptr || !get_fragments(self, damage, numbers)) refuse_springs();
+    return numbers.values;
+  }
+
+  /// Returns the faces of the springs that are broken, or whose damage is at least `damage`, in the
+  /// order of their ends. For the same callers, valid as long, throws likewise.
+  std::span<const CrackFace> crack_faces(double damage) const {
+    if (get_crack_faces == nullptr) refuse_springs();
+    return get_crack_faces(self, damage);
+  }
+
   /// Returns the resultant of forces at this time. They act at the present places of the particles;
   /// `about`, m, is the point of the moment.
   Resultant resultant(ForcesId forces, Vec3 about) const {
     return get_resultant(self, forces, about);
+  }
+
+ private:
+  [[noreturn]] static void refuse_springs() {
+    throw std::runtime_error(
+        "only probes, and writers that name no field, can ask for fragments and faces of cracks");
   }
 };
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hyperlattice::vtu {
+namespace hyperlattice::vtk {
 
 enum class Codec : std::uint32_t { zlib, lz4, none };
 inline constexpr std::string_view codecs[] = {"zlib", "lz4", "none"};  ///< in the order of Codec
@@ -18,4 +18,4 @@ std::string_view compressor_of(Codec codec);
 /// result. Throws std::runtime_error if the codec fails.
 std::size_t pack(Codec codec, std::string_view bytes, std::vector<char>& out);
 
-}  // namespace hyperlattice::vtu
+}  // namespace hyperlattice::vtk

@@ -1,4 +1,4 @@
-#include "codec.hpp"
+#include <vtk/codec.hpp>
 
 #include <lz4.h>
 #include <zlib.h>
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace hyperlattice::vtu {
+namespace hyperlattice::vtk {
 
 namespace {
 
@@ -53,4 +53,4 @@ std::size_t pack(Codec codec, std::string_view bytes, std::vector<char>& out) {
   }
 }
 
-}  // namespace hyperlattice::vtu
+}  // namespace hyperlattice::vtk

@@ -4,7 +4,7 @@
 //                    (else 0), packed bytes of each block; then the packed blocks
 #pragma once
 
-#include "codec.hpp"
+#include <vtk/codec.hpp>
 
 #include <hyperlattice/files.hpp>
 #include <hyperlattice/output.hpp>
@@ -15,7 +15,7 @@
 #include <numeric>
 #include <span>
 
-namespace hyperlattice::vtu {
+namespace hyperlattice::vtk {
 
 template <class Number>
 std::string_view bytes_of(std::span<const Number> numbers) {
@@ -82,4 +82,4 @@ class EncodedArray {
   std::vector<Block> blocks_;
 };
 
-}  // namespace hyperlattice::vtu
+}  // namespace hyperlattice::vtk
