@@ -71,7 +71,7 @@ const Lattice lattices[] = {
      {{"poisson", 0.3}}},
     {"lattices.bcc", {}, {{"poisson", 0.25}}},
     {"lattices.fcc", {}, {{"poisson", 0.25}}},
-    {"lattices.random", {}, {{"poisson", 0.25}}},
+    {"lattices.random", {}, {}},
     {"lattices.random", {}, {{"poisson", 0.35}}},
 };
 
