@@ -3,6 +3,7 @@
 #include <model/body.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <stdexcept>
 #include <utility>
 
@@ -202,7 +203,74 @@ std::span<const Run> Body::row(std::int32_t j, std::int32_t k) const {
   return {runs.data() + row_runs[row], runs.data() + row_runs[row + 1]};
 }
 
+std::uint32_t Body::cut_of(Particle particle) const {
+  const auto found =
+      std::lower_bound(cut_sites.begin(), cut_sites.end(), particle,
+                       [](const CutSite& cut, Particle wanted) { return cut.particle < wanted; });
+  return found == cut_sites.end() || found->particle != particle ? 0 : found->neighbours;
+}
+
+std::uint64_t Body::cut_springs() const {
+  std::uint64_t count = listed.cut.size();
+  for (const CutSite& cut : cut_sites)
+    count += static_cast<std::uint64_t>(std::popcount(cut.neighbours));
+  return count;
+}
+
+void Body::take_away(std::vector<CutSite> cut) {
+  std::sort(cut.begin(), cut.end(),
+            [](const CutSite& a, const CutSite& b) { return a.particle < b.particle; });
+  for (const CutSite& one : cut)
+    if (!cut_sites.empty() && cut_sites.back().particle == one.particle)
+      cut_sites.back().neighbours |= one.neighbours;
+    else
+      cut_sites.push_back(one);
+  for (const CutSite& one : cut_sites)
+    for (std::uint32_t n = 0; n < neighbours.size(); ++n)
+      springs[neighbours[n].spring_class] -= one.neighbours >> n & 1U;
+}
+
+void Body::take_away(const std::vector<bool>& is_cut) {
+  std::vector<ListedSpring> kept;
+  kept.reserve(listed.springs.size());
+  for (std::size_t n = 0; n < listed.springs.size(); ++n)
+    (is_cut[n] ? listed.cut : kept).push_back(listed.springs[n]);
+  listed.springs = std::move(kept);
+  springs[0] = listed.springs.size();
+}
+
 std::vector<Range> Body::springs_of(std::int32_t j, std::int32_t k, const Neighbour& to) const {
+  std::vector<Range> found = uncut_springs_of(j, k, to);
+  if (cut_sites.empty()) return found;
+  const auto bit = static_cast<std::uint32_t>(std::find_if(neighbours.begin(), neighbours.end(),
+                                                           [&](const Neighbour& n) {
+                                                             return n.dx == to.dx &&
+                                                                    n.dy == to.dy && n.dz == to.dz;
+                                                           }) -
+                                              neighbours.begin());
+  std::vector<Range> kept;
+  for (const Run& run : row(j, k)) {
+    auto cut =
+        std::lower_bound(cut_sites.begin(), cut_sites.end(), run.first,
+                         [](const CutSite& of, Particle wanted) { return of.particle < wanted; });
+    const Particle end = run.first + static_cast<Particle>(run.end - run.begin);
+    for (const Range& range : found) {
+      Range rest{std::max(range.begin, run.begin), std::min(range.end, run.end)};
+      for (; cut != cut_sites.end() && cut->particle < end; ++cut) {
+        const std::int32_t i = run.begin + static_cast<std::int32_t>(cut->particle - run.first);
+        if (i >= rest.end) break;
+        if (i < rest.begin || (cut->neighbours >> bit & 1U) == 0) continue;
+        if (rest.begin < i) kept.push_back({rest.begin, i});
+        rest.begin = i + 1;
+      }
+      if (rest.begin < rest.end) kept.push_back(rest);
+    }
+  }
+  return kept;
+}
+
+std::vector<Range> Body::uncut_springs_of(std::int32_t j, std::int32_t k,
+                                          const Neighbour& to) const {
   if (!cells.empty()) return cells.sites(j, k, to);
   std::vector<Range> found;
   for (const Run& run : row(j, k))

@@ -55,7 +55,8 @@ BodyFigures body_figures(const Model& model) {
   else
     for (Particle particle = 0; particle < body.particles; ++particle)
       figures.mass += model.mass(particle);
-  figures.parts = count_parts(body);
+  figures.cut_springs = body.cut_springs();
+  figures.parts = parts_of(body);
   if (body.grid.shape == nullptr) return figures;
   const auto& shape = *static_cast<const Region*>(body.grid.shape->self);
   const SolidExtent extent = extent_of(shape);
@@ -86,10 +87,28 @@ std::vector<std::pair<std::string, std::string>> body_lines(const BodyFigures& f
                        fmt::format("{}, of which {} count by the share of their volume "
                                    "that lies inside the shape",
                                    count_text(figures.cells), count_text(figures.partial_cells)));
-  lines.emplace_back("bodies", figures.parts == 1
-                                   ? "1: springs join all particles"
-                                   : fmt::format("{}, which no spring joins", figures.parts));
+  const Parts& parts = figures.parts;
+  std::string bodies = "1: springs join all particles";
+  if (parts.count > 1) bodies = fmt::format("{}, which no spring joins", parts.count);
+  if (parts.loose > 0)
+    bodies += fmt::format("; {} of them {} without springs", parts.loose,
+                          parts.loose == 1 ? "is a particle" : "are particles");
+  lines.emplace_back("bodies", std::move(bodies));
+  if (figures.cut_springs > 0) lines.emplace_back("cut springs", count_text(figures.cut_springs));
   return lines;
+}
+
+std::string loose_warning(const Body& body, const Parts& parts) {
+  if (parts.loose == 0) return "";
+  const Vec3 x = body.position(parts.first_loose);
+  return fmt::format(
+      "{} particle{} without springs, the first at ({:.6g}, {:.6g}, {:.6g}) m: nothing but loads "
+      "moves {}{}",
+      count_text(parts.loose), parts.loose == 1 ? " is" : "s are", x.x, x.y, x.z,
+      parts.loose == 1 ? "it" : "them",
+      body.cut_springs() > 0 ? "; cuts that are less than a few spacings apart, or along an edge, "
+                               "leave such particles"
+                             : "");
 }
 
 std::vector<std::string> size_warnings(const BodyFigures& figures, double spacing) {

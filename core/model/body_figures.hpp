@@ -8,6 +8,15 @@
 
 namespace hyperlattice {
 
+/// The sets of particles that springs connect.
+struct Parts {
+  std::uint64_t count = 0;   ///< number of sets; a particle without springs is one
+  std::uint64_t loose = 0;   ///< number of particles without springs
+  Particle first_loose = 0;  ///< the first of them
+};
+
+Parts parts_of(const Body& body);
+
 struct BodyFigures {
   /// Edges of the box around the body's cells, or around the particles of a list, m.
   Vec3 size;
@@ -23,7 +32,8 @@ struct BodyFigures {
   double volume = 0, mass = 0;                 ///< m3, kg
   /// Volume, m3, and mass, kg, of the shape if its volume is known; the mass only for one material.
   std::optional<double> asked_volume, asked_mass;
-  std::uint64_t parts = 0;  ///< number of bodies without a spring between them
+  std::uint64_t cut_springs = 0;  ///< number of springs that the lattice's cuts took away
+  Parts parts;
 };
 
 BodyFigures body_figures(const Model& model);
@@ -38,7 +48,7 @@ std::vector<std::pair<std::string, std::string>> body_lines(const BodyFigures& f
 /// body gives no warning: its particles are inside the shape.
 std::vector<std::string> size_warnings(const BodyFigures& figures, double spacing);
 
-/// Returns the number of sets of particles that are connected by springs.
-std::uint64_t count_parts(const Body& body);
+/// Returns a warning about particles without springs; empty if there are none.
+std::string loose_warning(const Body& body, const Parts& parts);
 
 }  // namespace hyperlattice

@@ -33,9 +33,9 @@ void set_springs(Model& model, Faults& faults);
 
 /// Sets the volumetric energies of the cells. Adds a fault for each material whose K_v this lattice
 /// or the body's failure does not allow.
-void set_volumetric(Model& model, Faults& faults);
+void set_volumetric(Model& model, RegionIndex& regions, Faults& faults);
 /// Sets those of a listed body. Adds a fault for each material that cannot have one.
-void set_nodal_volumes(Model& model, Faults& faults);
+void set_nodal_volumes(Model& model, RegionIndex& regions, Faults& faults);
 
 /// Returns the part of a composite spring that has a material's own springs.
 SpringPart part_of(const Model& model, std::uint8_t material, std::uint32_t spring_class,

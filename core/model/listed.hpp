@@ -21,6 +21,7 @@ struct Listed {
   /// Volume of each particle over that of a whole particle; empty: all 1.
   std::vector<double> shares;
   std::vector<ListedSpring> springs;   ///< a < b; sorted by a, then b; each pair once
+  std::vector<ListedSpring> cut;       ///< those that were cut from the start, in the same order
   std::uint32_t sample_particles = 0;  ///< number of particles of the periodic sample; 0: no sample
   double sample_volume = 0;            ///< m3
   std::vector<SampleSpring> sample;

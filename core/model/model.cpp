@@ -1,5 +1,6 @@
 #include <model/build.hpp>
 #include <model/critical_step.hpp>
+#include <model/cut_springs.hpp>
 
 namespace hyperlattice {
 
@@ -31,7 +32,8 @@ std::unique_ptr<Model> build_model(const Scene& scene) {
   Faults faults;
   add_materials(*model, regions, faults);
   if (faults.empty()) set_springs(*model, faults);
-  if (faults.empty()) set_volumetric(*model, faults);
+  if (faults.empty()) cut_springs(*model, regions, faults);
+  if (faults.empty()) set_volumetric(*model, regions, faults);
   if (faults.empty()) find_critical_step(*model, faults);
   add_loads(*model, regions, faults);
   faults.throw_if_any();

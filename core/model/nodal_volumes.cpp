@@ -1,13 +1,42 @@
 #include <model/build.hpp>
+#include <model/cut_springs.hpp>
 #include <model/nodal_volumes.hpp>
 
 #include <hyperlattice/volumetric_cell.hpp>
 
+#include <algorithm>
+
 namespace hyperlattice {
 
-NodalVolumes::NodalVolumes(const Listed& listed, std::vector<double> moduli)
+namespace {
+
+/// Returns the tetrahedra of a listed body of which no cut crosses an edge.
+Tetrahedra uncut_tetrahedra(const Model& model, RegionIndex& regions) {
+  Tetrahedra all = tetrahedra_of(model.body.listed);
+  const std::vector<Cut>& cuts = model.scene->of(Family::lattices).front()->cuts;
+  if (cuts.empty()) return all;
+  constexpr std::size_t edges = 6;
+  std::vector<Segment> segments;
+  segments.reserve(edges * all.size());
+  for (std::size_t t = 0; t < all.size(); ++t)
+    for (std::size_t n = 0; n < 4; ++n)
+      for (std::size_t m = n + 1; m < 4; ++m)
+        segments.push_back({Particle{all[t][n]}, Particle{all[t][m]}});
+  const std::vector<bool> is_crossed = crossed(model.body, cuts, regions, segments);
+  std::vector<Corners> kept;
+  kept.reserve(all.size());
+  for (std::size_t t = 0; t < all.size(); ++t) {
+    const auto first = is_crossed.begin() + static_cast<std::ptrdiff_t>(edges * t);
+    if (std::find(first, first + edges, true) == first + edges) kept.push_back(all[t]);
+  }
+  return {model.body.listed.positions.size(), std::move(kept)};
+}
+
+}  // namespace
+
+NodalVolumes::NodalVolumes(const Listed& listed, Tetrahedra tetrahedra, std::vector<double> moduli)
     : listed_(&listed),
-      tetrahedra_(tetrahedra_of(listed)),
+      tetrahedra_(std::move(tetrahedra)),
       volumes_(listed.positions.size()),
       moduli_(std::move(moduli)) {
   for (std::size_t p = 0; p < volumes_.size(); ++p)
@@ -94,7 +123,7 @@ Vec3 NodalVolumes::force(std::size_t particle, std::span<const Vec3> moved,
   return sum;
 }
 
-void set_nodal_volumes(Model& model, Faults& faults) {
+void set_nodal_volumes(Model& model, RegionIndex& regions, Faults& faults) {
   bool has_energy = false;
   for (const Material& material : model.materials) {
     has_energy |= material.constants.volumetric != 0;
@@ -106,7 +135,8 @@ void set_nodal_volumes(Model& model, Faults& faults) {
   std::vector<double> moduli(model.body.particles);
   for (Particle p = 0; p < model.body.particles; ++p)
     moduli[p] = model.materials[model.kinds.material(p)].constants.volumetric;
-  auto volumes = std::make_shared<const NodalVolumes>(model.body.listed, std::move(moduli));
+  auto volumes = std::make_shared<const NodalVolumes>(
+      model.body.listed, uncut_tetrahedra(model, regions), std::move(moduli));
   if (volumes->tetrahedra().size() == 0)
     return faults.add("/pipeline", "",
                       "a list whose particles are the corners of tetrahedra, for a Poisson ratio "

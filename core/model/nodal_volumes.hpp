@@ -83,7 +83,7 @@ struct VolumeState {
 class NodalVolumes {
  public:
   /// `moduli`: K_v of each particle, Pa. `listed` must outlive the object.
-  NodalVolumes(const Listed& listed, std::vector<double> moduli);
+  NodalVolumes(const Listed& listed, Tetrahedra tetrahedra, std::vector<double> moduli);
 
   const Tetrahedra& tetrahedra() const { return tetrahedra_; }
   double bytes() const;

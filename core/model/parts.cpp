@@ -12,11 +12,12 @@ namespace {
 
 class Sets {
  public:
-  explicit Sets(std::size_t count) : parent_(count), sets_(count) {
+  explicit Sets(std::size_t count) : parent_(count), is_joined_(count, false), sets_(count) {
     std::iota(parent_.begin(), parent_.end(), std::size_t{0});
   }
 
   void join(std::size_t a, std::size_t b) {
+    is_joined_[a] = is_joined_[b] = true;
     a = root(a);
     b = root(b);
     if (a == b) return;
@@ -24,6 +25,7 @@ class Sets {
     --sets_;
   }
   std::size_t count() const { return sets_; }
+  bool is_joined(std::size_t n) const { return is_joined_[n]; }  ///< to any other
 
  private:
   std::size_t root(std::size_t n) {
@@ -32,6 +34,7 @@ class Sets {
   }
 
   std::vector<std::size_t> parent_;
+  std::vector<bool> is_joined_;
   std::size_t sets_;
 };
 
@@ -81,11 +84,18 @@ struct Pieces {
 
 }  // namespace
 
-std::uint64_t count_parts(const Body& body) {
+Parts parts_of(const Body& body) {
+  Parts parts;
+  const auto add_loose = [&parts](Particle particle) {
+    if (parts.loose++ == 0) parts.first_loose = particle;
+  };
   if (body.is_listed()) {
     Sets sets(body.particles);
     for (const ListedSpring& spring : body.listed.springs) sets.join(spring.a, spring.b);
-    return sets.count();
+    for (Particle particle = 0; particle < body.particles; ++particle)
+      if (!sets.is_joined(particle)) add_loose(particle);
+    parts.count = sets.count();
+    return parts;
   }
   const Pieces pieces(body);
   const auto row_of = [&](std::int32_t j, std::int32_t k) {
@@ -108,7 +118,13 @@ std::uint64_t count_parts(const Body& body) {
             if (there_ends <= i) ++there;
           }
         }
-  return sets.count();
+  for (std::int32_t k = 0; k < body.grid.sites[2]; ++k)
+    for (std::int32_t j = 0; j < body.grid.sites[1]; ++j)
+      for (std::size_t n = pieces.rows[row_of(j, k)]; n < pieces.rows[row_of(j, k) + 1]; ++n)
+        if (const Piece& piece = pieces.all[n]; piece.end == piece.begin + 1 && !sets.is_joined(n))
+          add_loose(body.at({piece.begin, j, k}));
+  parts.count = sets.count();
+  return parts;
 }
 
 }  // namespace hyperlattice

@@ -48,11 +48,12 @@ void cut_grid(const Model& model, const Division& plane, Particle before,
     const Site next{here.i + to.dx, here.j + to.dy, here.k + to.dz},
         previous{here.i - to.dx, here.j - to.dy, here.k - to.dz};
     const Particle after = body.at(next), ahead = body.at(previous);
-    const auto counts = [&](Particle other, Site first) {
-      return plane.has(other) && plane.is_beyond(plane.height(other)) && body.share(first, to) > 0;
+    const auto counts = [&](Particle other, Site first, Particle at_first) {
+      return plane.has(other) && plane.is_beyond(plane.height(other)) &&
+             body.share(first, to) > 0 && !body.is_cut(at_first, n);
     };
-    if (counts(after, here)) found.push_back({before, after, n, true});
-    if (counts(ahead, previous)) found.push_back({ahead, before, n, false});
+    if (counts(after, here, before)) found.push_back({before, after, n, true});
+    if (counts(ahead, previous, ahead)) found.push_back({ahead, before, n, false});
   }
 }
 
@@ -98,10 +99,11 @@ double crossing_factor(const Model& model) {
   if (body.is_listed()) {
     volume = 0;
     for (Particle p = 0; p < body.particles; ++p) volume += body.grid.site_volume * body.share(p);
-    for (const ListedSpring& spring : body.listed.springs) {
-      const Vec3 rest = body.position(spring.b) - body.position(spring.a);
-      squares += dot(rest, rest);
-    }
+    for (const auto* springs : {&body.listed.springs, &body.listed.cut})
+      for (const ListedSpring& spring : *springs) {
+        const Vec3 rest = body.position(spring.b) - body.position(spring.a);
+        squares += dot(rest, rest);
+      }
   }
   return squares / (3 * volume);
 }

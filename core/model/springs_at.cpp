@@ -38,9 +38,10 @@ std::vector<RestSpring> springs_at(const Model& model, std::span<const Particle>
       const Site here = body.site(particle), before{here.i - to.dx, here.j - to.dy, here.k - to.dz};
       const Particle next = body.at({here.i + to.dx, here.j + to.dy, here.k + to.dz}),
                      previous = body.at(before);
-      if (next != Body::no_particle && body.share(here, to) > 0)
+      if (next != Body::no_particle && body.share(here, to) > 0 && !body.is_cut(particle, n))
         found.push_back(rest_spring(model, particle, next, n));
-      if (previous != Body::no_particle && body.share(before, to) > 0 && !among(previous))
+      if (previous != Body::no_particle && body.share(before, to) > 0 && !among(previous) &&
+          !body.is_cut(previous, n))
         found.push_back(rest_spring(model, previous, particle, n));
     }
   std::sort(found.begin(), found.end(), [](const RestSpring& l, const RestSpring& r) {

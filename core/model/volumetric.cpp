@@ -32,6 +32,22 @@ Volumetric::Volumetric(const Body& body, const ParticleKinds& kinds,
     : body_(&body), kinds_(&kinds) {
   if (std::any_of(of_materials.begin(), of_materials.end(), [](double k) { return k != 0; }))
     of_materials_ = std::move(of_materials);
+  if (!empty()) find_cut_cells();
+}
+
+void Volumetric::find_cut_cells() {
+  body_->for_cut_springs([&](Particle a, Particle, std::uint32_t neighbour) {
+    const Neighbour& to = body_->neighbours[neighbour];
+    if (std::max({std::abs(to.dx), std::abs(to.dy), std::abs(to.dz)}) > 1)
+      return;  // such a spring belongs to no cell
+    const Site site = body_->site(a);
+    for_cells_of(to, [&](int di, int dj, int dk) {
+      const Particle lowest = body_->at({site.i + di, site.j + dj, site.k + dk});
+      if (lowest != Body::no_particle) cut_.push_back(lowest);
+    });
+  });
+  std::sort(cut_.begin(), cut_.end());
+  cut_.erase(std::unique(cut_.begin(), cut_.end()), cut_.end());
 }
 
 double Volumetric::largest() const {
@@ -54,6 +70,7 @@ std::vector<Range> Volumetric::row(std::int32_t j, std::int32_t k) const {
 }
 
 double Volumetric::modulus(Site cell) const {
+  if (!cut_.empty() && std::binary_search(cut_.begin(), cut_.end(), body_->at(cell))) return 0;
   if (uniform()) return of_materials_.front();
   return body_->cells.has_partial() ? body_->cells.share_of_cell(cell) * whole_modulus(cell)
                                     : whole_modulus(cell);
@@ -84,8 +101,8 @@ std::array<Particle, 8> Volumetric::corners(Site cell) const {
   return found;
 }
 
-void set_volumetric(Model& model, Faults& faults) {
-  if (model.body.is_listed()) return set_nodal_volumes(model, faults);
+void set_volumetric(Model& model, RegionIndex& regions, Faults& faults) {
+  if (model.body.is_listed()) return set_nodal_volumes(model, regions, faults);
   const bool has_cells = facts_of(geometry_from(model.body)).has_cells;
   std::vector<double> moduli;
   for (const Material& material : model.materials) {

@@ -22,7 +22,7 @@ class Volumetric {
 
   /// Returns whether no cell has a volumetric energy.
   bool empty() const { return of_materials_.empty(); }
-  /// Returns whether all cells have the same modulus().
+  /// Returns whether all cells that have a volumetric energy have the same modulus().
   bool uniform() const { return of_materials_.size() == 1 && !body_->cells.has_partial(); }
   /// Returns the largest and least K_v of the materials, Pa.
   double largest() const;
@@ -30,7 +30,8 @@ class Volumetric {
 
   /// Returns the cells of row (j, k), ascending and disjoint, by the sites of their lowest corners.
   std::vector<Range> row(std::int32_t j, std::int32_t k) const;
-  /// Returns K_v times the cell's share, Pa, of an existing cell.
+  /// Returns K_v times the cell's share, Pa, of an existing cell; 0 if one of its springs was cut
+  /// from the start.
   double modulus(Site cell) const;
   /// Calls visit(cell, modulus) for each cell of the body whose modulus is not 0.
   template <class Visit>
@@ -45,12 +46,14 @@ class Volumetric {
   std::array<Particle, 8> corners(Site cell) const;
 
  private:
+  void find_cut_cells();
   /// Returns K_v of an existing cell, Pa.
   double whole_modulus(Site cell) const;
 
   const Body* body_ = nullptr;
   const ParticleKinds* kinds_ = nullptr;
   std::vector<double> of_materials_;
+  std::vector<Particle> cut_;  ///< lowest corners of the cells that lack a spring, ascending
 };
 
 }  // namespace hyperlattice

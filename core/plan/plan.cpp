@@ -120,6 +120,8 @@ std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, Threads threads) {
   plan->body = body_figures(*plan->model);
   for (std::string& warning : size_warnings(plan->body, plan->model->body.grid.spacing))
     warnings.push_back(std::move(warning));
+  if (std::string warning = loose_warning(plan->model->body, plan->body.parts); !warning.empty())
+    warnings.push_back(std::move(warning));
   if (plan->model->body.is_listed())
     if (std::string warning = coordination_warning(plan->model->body); !warning.empty())
       warnings.push_back(std::move(warning));

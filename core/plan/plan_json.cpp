@@ -61,7 +61,9 @@ nlohmann::json body_json(const BodyFigures& body) {
   nlohmann::json json = {{"size", vector(body.size)},
                          {"volume", body.volume},
                          {"mass", body.mass},
-                         {"parts", body.parts}};
+                         {"parts", body.parts.count},
+                         {"cut_springs", body.cut_springs},
+                         {"loose_particles", body.parts.loose}};
   if (body.is_partial) {
     json["cells"] = body.cells;
     json["partial_cells"] = body.partial_cells;

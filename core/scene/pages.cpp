@@ -1,5 +1,6 @@
 // Documentation of components, from their declarations alone.
 #include <scene/common_options.hpp>
+#include <scene/cut_reader.hpp>
 #include <scene/examples.hpp>
 #include <scene/expectation.hpp>
 #include <scene/scene.hpp>
@@ -69,15 +70,30 @@ std::string meaning_column(const Option& option, std::span<const OldName> old_na
   return text;
 }
 
+/// A key of a family that is no plain option.
+struct ObjectKey {
+  std::string_view name, kind, range, help;
+};
+
+/// Returns those keys of a family.
+std::span<const ObjectKey> object_keys(Family family) {
+  static constexpr ObjectKey of_materials[] = {
+      {"failure", "stage", "object, or list of objects", failure_help}};
+  static constexpr ObjectKey of_lattices[] = {{cuts_key, "surfaces", "list of objects", cuts_help}};
+  if (family == Family::materials) return of_materials;
+  if (family == Family::lattices) return of_lattices;
+  return {};
+}
+
 void table(std::string& page, std::span<const Option> options, std::span<const OldName> old_names,
-           bool failure) {
+           std::span<const ObjectKey> keys) {
   page += "| option | unit | range | default | meaning |\n|---|---|---|---|---|\n";
   for (const Option& option : options)
     page +=
         fmt::format("| `{}` | {} | {} | {} | {} |\n", option.name, option.unit,
                     range_column(option), fallback_text(option), meaning_column(option, old_names));
-  if (failure)
-    page += fmt::format("| `failure` | | object, or list of objects | none | {} |\n", failure_help);
+  for (const ObjectKey& key : keys)
+    page += fmt::format("| `{}` | | {} | none | {} |\n", key.name, key.range, key.help);
 }
 
 void section(std::string& page, const char* title, std::string_view text) {
@@ -172,10 +188,10 @@ std::string component_page(const Component& component) {
   if (info.options.empty())
     page += "None of its own.\n";
   else
-    table(page, info.options, info.old_names, false);
+    table(page, info.options, info.old_names, {});
   if (!common.options.empty()) {
     page += fmt::format("\nAs every component of the family {}:\n\n", family_name(info.family));
-    table(page, common.options, common.old_names, info.family == Family::materials);
+    table(page, common.options, common.old_names, object_keys(info.family));
   }
   page += "\nNumbers are in the unit given; a text with a unit, such as \"1 mm\", is converted.\n";
   const Json stage = example_stage(info);
@@ -193,9 +209,9 @@ std::string component_json(const Component& component) {
   const ComponentInfo& info = component.info;
   const OptionSet& keys = common_options(info.family);
   Json common = options_json(keys.options, keys.old_names);
-  if (info.family == Family::materials)
+  for (const ObjectKey& key : object_keys(info.family))
     common.push_back(
-        {{"name", "failure"}, {"kind", "stage"}, {"help", failure_help}, {"required", false}});
+        {{"name", key.name}, {"kind", key.kind}, {"help", key.help}, {"required", false}});
   return json_text(Json{{"type", info.name},
                         {"family", family_name(info.family)},
                         {"summary", info.summary},

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <base/errors.hpp>
+#include <geometry/cut_surface.hpp>
 #include <geometry/region.hpp>
 #include <host/host.hpp>
 
@@ -28,6 +29,12 @@ struct Cadence {
   bool first = true, last = true;
 };
 
+/// A surface across which a lattice has no springs from the start.
+struct Cut {
+  std::string pointer;  ///< JSON pointer of the surface: "/pipeline/0/cuts/0/plane"
+  CutSurface surface;
+};
+
 /// One stage of the pipeline.
 struct Stage {
   const Component* component = nullptr;
@@ -38,6 +45,7 @@ struct Stage {
   std::string name;
   RegionId region;              ///< materials: region of the material; default "all"
   std::vector<Stage> failures;  ///< materials: the failure criteria
+  std::vector<Cut> cuts;        ///< lattices: the surfaces that cut springs
   Cadence cadence;              ///< writers, probes
   /// solvers: time between history records, s; 0: 200 records over the stage
   double record_every = 0;

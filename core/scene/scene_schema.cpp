@@ -1,6 +1,7 @@
 // The JSON Schema of a scene, from the declarations of components, shapes and common keys.
 #include <geometry/primitives.hpp>
 #include <scene/common_options.hpp>
+#include <scene/cut_reader.hpp>
 #include <scene/region_reader.hpp>
 #include <scene/scene.hpp>
 
@@ -137,6 +138,9 @@ Json component_schema(const ComponentInfo& info) {
     object["properties"]["failure"] = reference("failure");
     object["properties"]["failure"]["description"] = failure_help;
   }
+  if (info.family == Family::lattices)
+    object["properties"][std::string(cuts_key)] = {
+        {"type", "array"}, {"description", cuts_help}, {"items", reference("cut")}};
   return object;
 }
 
@@ -176,6 +180,28 @@ Json expression(const std::string& definition, Json name) {
   return {{"oneOf", std::move(alternatives)}};
 }
 
+/// Returns the schema of a surface that cuts springs.
+Json cut() {
+  Json alternatives = Json::array();
+  for (const CutKind& kind : cut_kinds()) {
+    Json parameters = object_schema(kind.summary);
+    declare(parameters, kind.options.options, kind.options.old_names);
+    if (kind.has_corners) {
+      parameters["properties"][std::string(corners_option)] = {
+          {"type", "array"},
+          {"description", corners_help},
+          {"items", value_schema(corner_option())},
+          {"minItems", 3}};
+      parameters["required"].push_back(corners_option);
+    }
+    Json object = object_schema(kind.summary);
+    object["properties"][std::string(kind.name)] = std::move(parameters);
+    object["required"].push_back(kind.name);
+    alternatives.push_back(std::move(object));
+  }
+  return {{"oneOf", std::move(alternatives)}};
+}
+
 }  // namespace
 
 std::string scene_schema(const std::vector<const Component*>& components) {
@@ -195,6 +221,7 @@ std::string scene_schema(const std::vector<const Component*>& components) {
       later.push_back(component->type());
   }
   const auto types = [&](Family family) { return of_family[static_cast<std::size_t>(family)]; };
+  definitions["cut"] = cut();
   definitions["plugin_field"] = plugin_field(components);
   definitions["criterion"] = one_of(types(Family::failures));
   definitions["failure"] = {

@@ -1,4 +1,5 @@
 #include <scene/common_options.hpp>
+#include <scene/cut_reader.hpp>
 #include <scene/expectation.hpp>
 #include <scene/stage_reader.hpp>
 
@@ -38,6 +39,7 @@ std::string taken_key(const ComponentInfo& info) {
   std::vector<std::string_view> keys = names(common.options, common.old_names);
   keys.push_back("type");
   if (info.family == Family::materials) keys.push_back("failure");
+  if (info.family == Family::lattices) keys.push_back(cuts_key);
   for (const std::string_view name : names(info.options, info.old_names))
     if (std::find(keys.begin(), keys.end(), name) != keys.end()) return std::string(name);
   return "";
@@ -228,20 +230,32 @@ std::optional<Stage> StageReader::read_stage(const Json& given, const std::strin
   std::optional<std::vector<Stage>> failures;
   if (failure != given.end())
     failures = read_failures(*failure, member(pointer, "failure"), failure_resolved);
+  const auto cut = family == Family::lattices ? given.find(cuts_key) : given.end();
+  Json cuts_resolved;
+  std::optional<std::vector<Cut>> cuts;
+  if (cut != given.end())
+    cuts = read_cuts(*cut, member(pointer, std::string(cuts_key)), reading_, cuts_resolved);
   stage.component = find(given, pointer, family);
   if (stage.component == nullptr) return std::nullopt;
 
   std::vector<std::string> keys{"type"};
   if (family == Family::materials) keys.emplace_back("failure");
+  if (family == Family::lattices) keys.emplace_back(cuts_key);
   OptionReader reader(given, pointer, reading_, std::move(keys));
   const OptionsPointer common = reader.fill(common_options(family), resolved);
   stage.options =
       reader.fill(option_set(stage.component->info, stage.component->path.c_str()), resolved);
   reader.reject_unknown();
-  if (!common || !stage.options || (failure != given.end() && !failures)) return std::nullopt;
+  if (!common || !stage.options || (failure != given.end() && !failures) ||
+      (cut != given.end() && !cuts))
+    return std::nullopt;
   if (failures) {
     stage.failures = std::move(*failures);
     resolved["failure"] = std::move(failure_resolved);
+  }
+  if (cuts) {
+    stage.cuts = std::move(*cuts);
+    resolved[std::string(cuts_key)] = std::move(cuts_resolved);
   }
   take_common(*static_cast<const CommonOptions*>(common.get()), stage);
   return stage;

@@ -109,6 +109,10 @@ void CellWatch::measure(const std::array<Vec3, 8>& moved, Particle particle) {
 bool CellWatch::look(const Simulation& simulation) {
   if (seen_.has_looked != 0 && simulation.steps() == seen_.last_looked) return false;
   is_torn_.clear();
+  body_.for_cut_springs([this](Particle a, Particle b, std::uint32_t) {
+    is_torn_.resize(body_.particles, false);
+    is_torn_[a] = is_torn_[b] = true;
+  });
   for (const Breakage& broken : simulation.breakages()) {
     is_torn_.resize(body_.particles, false);
     is_torn_[broken.a] = is_torn_[broken.b] = true;

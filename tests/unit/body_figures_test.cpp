@@ -187,7 +187,7 @@ TEST(BodyFigures, CountsAsASearchThroughAllSpringsDoes) {
       }
       std::uint64_t parts = 0;
       for (Particle p = 0; p < first.size(); ++p) parts += first[p] == p ? 1 : 0;
-      EXPECT_EQ(count_parts(built->body), parts) << type << shape;
+      EXPECT_EQ(parts_of(built->body).count, parts) << type << shape;
     }
 }
 

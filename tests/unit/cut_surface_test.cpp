@@ -1,0 +1,342 @@
+// Cuts of lattices: which springs each kind of surface takes away, against a direct search among
+// all springs; the side of particles on a surface; counts of the plan; faults.
+#include <model/body_figures.hpp>
+#include <model/build.hpp>
+#include <support/models.hpp>
+#include <support/scenes.hpp>
+
+#include <gtest/gtest.h>
+#include <spdlog/fmt/fmt.h>
+
+#include <set>
+
+namespace {
+using namespace hyperlattice;
+using namespace hyperlattice::test;
+
+using Ends = std::set<std::pair<Particle, Particle>>;
+
+/// The ends of all springs of a body.
+Ends springs_of(const Body& body) {
+  Ends ends;
+  body.for_springs([&](Particle a, Particle b, std::uint32_t) { ends.emplace(a, b); });
+  return ends;
+}
+Ends cut_springs_of(const Body& body) {
+  Ends ends;
+  body.for_cut_springs([&](Particle a, Particle b, std::uint32_t) { ends.emplace(a, b); });
+  return ends;
+}
+
+/// A file that exists as long as the object.
+class InputText {
+ public:
+  InputText(const std::string& name, const std::string& text)
+      : path_(std::filesystem::temp_directory_path() /
+              ("hyperlattice_cut_" + std::to_string(::getpid()) + "_" + name)) {
+    std::ofstream(path_) << text;
+  }
+  InputText(const InputText&) = delete;
+  InputText& operator=(const InputText&) = delete;
+  ~InputText() { std::filesystem::remove(path_); }
+  std::string path() const { return path_.string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+Json plane(Vec3 point, Vec3 normal) { return {{"plane", {{"point", point}, {"normal", normal}}}}; }
+Json disc(Vec3 centre, Vec3 normal, double radius) {
+  return {{"disc", {{"centre", centre}, {"normal", normal}, {"radius", radius}}}};
+}
+
+struct LatticeCase {
+  const char* type;
+  Keys more;
+};
+const LatticeCase lattices[] = {{"lattices.cubic", {}},
+                                {"lattices.cubic", {{"boundary", "cells"}}},
+                                {"lattices.bcc", {}},
+                                {"lattices.fcc", {}},
+                                {"lattices.random", {{"sample", 6}}}};
+
+const Json shape = box({}, {6, 5, 4});
+
+BuiltScene cut_body(const LatticeCase& of, const Json& cuts, const Keys& material = {}) {
+  return build(stage(of.type, Keys{{"spacing", 1}, {"shape", shape}, {"cuts", cuts}} + of.more) +
+               elastic(material));
+}
+
+/// Checks that the body lacks the springs for which is_cut(x_a, x_b) holds, and no other.
+template <class IsCut>
+void expect_cut(const LatticeCase& of, const Json& cuts, const IsCut& is_cut) {
+  const BuiltScene whole = cut_body(of, Json::array()), cut = cut_body(of, cuts);
+  Ends there, gone;
+  for (const auto& [a, b] : springs_of(whole->body))
+    (is_cut(whole->body.position(a), whole->body.position(b)) ? gone : there).emplace(a, b);
+  EXPECT_EQ(springs_of(cut->body), there) << of.type << cuts;
+  EXPECT_EQ(cut_springs_of(cut->body), gone) << of.type << cuts;
+  EXPECT_GT(gone.size(), 0U) << of.type << cuts;
+  EXPECT_EQ(cut->body.cut_springs(), gone.size());
+  EXPECT_EQ(cut->body.base_springs(), there.size());
+  // Loads that ask for springs see the same.
+  std::vector<Particle> all(cut->body.particles);
+  for (Particle p = 0; p < all.size(); ++p) all[p] = p;
+  EXPECT_EQ(springs_at(*cut, all).size(), there.size());
+  // The constants of the material are those of the whole lattice.
+  EXPECT_EQ(cut->materials[0].constants.base_stiffness,
+            whole->materials[0].constants.base_stiffness);
+}
+
+/// The point where the line from a to b crosses a plane; nothing if it does not.
+std::optional<Vec3> crossing(Vec3 a, Vec3 b, Vec3 point, Vec3 normal) {
+  const double from = dot(a - point, normal), to = dot(b - point, normal);
+  if ((from > 0) == (to > 0)) return std::nullopt;
+  return a + from / (from - to) * (b - a);
+}
+
+TEST(Cuts, PlanesAndDiscsInAnyDirectionOnEveryLattice) {
+  const Vec3 point{2.93, 2.41, 1.87};
+  for (const LatticeCase& of : lattices)
+    for (const Vec3 normal : {Vec3{0, 0, 1}, Vec3{0, -2, 0}, Vec3{1, 0, 0}, Vec3{0.3, -0.7, 1.1}}) {
+      expect_cut(of, Json::array({plane(point, normal)}),
+                 [&](Vec3 a, Vec3 b) { return crossing(a, b, point, normal).has_value(); });
+      expect_cut(of, Json::array({disc(point, normal, 1.61)}), [&](Vec3 a, Vec3 b) {
+        const auto x = crossing(a, b, point, normal);
+        return x && norm(*x - point) < 1.61;
+      });
+    }
+}
+
+TEST(Cuts, OverlappingCutsCountOnce) {
+  const Vec3 point{2.93, 2.41, 1.87}, other{3.1, 2.2, 1.87};
+  const Json cuts = Json::array({disc(point, {0, 0, 1}, 1.5), disc(other, {0, 0, -1}, 1.5)});
+  for (const LatticeCase& of : lattices)
+    expect_cut(of, cuts, [&](Vec3 a, Vec3 b) {
+      const auto x = crossing(a, b, point, {0, 0, 1});
+      return x && (norm(*x - point) < 1.5 || norm(*x - other) < 1.5);
+    });
+}
+
+TEST(Cuts, PolygonIsConcaveIfItsCornersSaySo) {
+  // An L in the plane x = 2.9.
+  const Json corners = {{2.9, 0.2, 0.3}, {2.9, 4.1, 0.3}, {2.9, 4.1, 1.7},
+                        {2.9, 1.7, 1.7}, {2.9, 1.7, 3.6}, {2.9, 0.2, 3.6}};
+  for (const LatticeCase& of : lattices)
+    expect_cut(of, Json::array({Json{{"polygon", {{"corners", corners}}}}}), [&](Vec3 a, Vec3 b) {
+      const auto x = crossing(a, b, {2.9, 0, 0}, {1, 0, 0});
+      return x && x->y > 0.2 && x->y < 4.1 && x->z > 0.3 && x->z < (x->y < 1.7 ? 3.6 : 1.7);
+    });
+}
+
+TEST(Cuts, ListOfDiscsIsTheSumOfItsDiscs) {
+  const InputText file("discs.csv",
+                       "x,y,z,nx,ny,nz,radius\n293,241,187,0,0,2,150\n"
+                       "200,301,110,1,1,0,120\n9000,0,0,1,0,0,1\n");
+  const Vec3 one{2.93, 2.41, 1.87}, two{2, 3.01, 1.1};
+  for (const LatticeCase& of : lattices) {
+    const Json cuts = Json::array({Json{{"discs", {{"file", file.path()}, {"scale", "1 cm"}}}}});
+    expect_cut(of, cuts, [&](Vec3 a, Vec3 b) {
+      const auto x = crossing(a, b, one, {0, 0, 1}), y = crossing(a, b, two, {1, 1, 0});
+      return (x && norm(*x - one) < 1.5) || (y && norm(*y - two) < 1.2);
+    });
+    const std::vector<std::string>& warnings = cut_body(of, cuts)->warnings;
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_EQ(warnings[0], "1 of the 3 surfaces of /pipeline/0/cuts/0/discs cross no spring");
+  }
+}
+
+std::string facets(std::initializer_list<std::array<Vec3, 3>> triangles) {
+  std::string text = "solid\n";
+  for (const auto& corners : triangles) {
+    text += "facet normal 0 0 0\nouter loop\n";
+    for (const Vec3 x : corners) text += fmt::format("vertex {} {} {}\n", x.x, x.y, x.z);
+    text += "endloop\nendfacet\n";
+  }
+  return text + "endsolid\n";
+}
+
+/// A sheet that is bent along an edge, and passes through particles of the cubic lattice wherever
+/// it can: the flat part at z = 1.5 for x < 3.5, the part at 45 degrees beyond.
+TEST(Cuts, BentSheetThroughParticlesLeavesTwoBodies) {
+  const Vec3 a{-1, -1, 1.5}, b{3.5, -1, 1.5}, c{3.5, 9, 1.5}, d{-1, 9, 1.5}, e{8.5, -1, 6.5},
+      f{8.5, 9, 6.5};
+  const InputText upwards("up.stl", facets({{a, b, c}, {a, c, d}, {b, e, f}, {b, f, c}}));
+  const InputText downwards("down.stl", facets({{a, c, b}, {a, d, c}, {b, f, e}, {b, c, f}}));
+  const auto height = [](Vec3 x) { return x.x < 3.5 ? x.z - 1.5 : x.z - 1.5 - (x.x - 3.5); };
+  for (const LatticeCase& of : lattices)
+    for (const InputText* file : {&upwards, &downwards}) {
+      const double sign = file == &upwards ? 1 : -1;
+      const Json cuts = Json::array({Json{{"sheet", {{"file", file->path()}}}}});
+      // A particle on the sheet is on the side that the normal points away from.
+      expect_cut(of, cuts, [&](Vec3 x, Vec3 y) {
+        return (sign * height(x) > 1e-9) != (sign * height(y) > 1e-9);
+      });
+      EXPECT_EQ(parts_of(cut_body(of, cuts)->body).count, 2U) << of.type << sign;
+    }
+}
+
+TEST(Cuts, ClosedSheetAroundAParticleMakesItLoose) {
+  const Vec3 low{2.1, 2.1, 1.1}, x{0.8, 0, 0}, y{0, 0.8, 0}, z{0, 0, 0.8};
+  const InputText file("around.stl", facets({{low, low + y, low + x},
+                                             {low + x + y, low + x, low + y},
+                                             {low + z, low + z + x, low + z + y},
+                                             {low + z + x + y, low + z + y, low + z + x},
+                                             {low, low + x, low + z},
+                                             {low + x + z, low + z, low + x},
+                                             {low + y, low + y + z, low + x + y},
+                                             {low + x + y + z, low + x + y, low + y + z},
+                                             {low, low + z, low + y},
+                                             {low + y + z, low + y, low + z},
+                                             {low + x, low + x + y, low + x + z},
+                                             {low + x + y + z, low + x + z, low + x + y}}));
+  const auto plan = plan_of(
+      SceneBuilder{}
+          .lattice("lattices.cubic", 1, shape, {{"cuts", {{{"sheet", {{"file", file.path()}}}}}}})
+          .stages(elastic())
+          .solver("solvers.explicit", {{"end_time", 1e-6}})
+          .text());
+  EXPECT_EQ(plan->body.parts.count, 2U);
+  EXPECT_EQ(plan->body.parts.loose, 1U);
+  EXPECT_EQ(plan->body.cut_springs, 18U);
+  EXPECT_EQ(plan->model->body.position(plan->body.parts.first_loose), Vec3(2.5, 2.5, 1.5));
+  const std::string warning = loose_warning(plan->model->body, plan->body.parts);
+  EXPECT_NE(warning.find("1 particle is without springs, the first at (2.5, 2.5, 1.5) m"),
+            std::string::npos)
+      << warning;
+  EXPECT_NE(plan_text(*plan).find("2, which no spring joins; 1 of them is a particle without"),
+            std::string::npos)
+      << plan_text(*plan);
+}
+
+/// A plane through particles: those on it are on the side that the normal points away from.
+TEST(Cuts, ParticlesOnAPlaneAreBehindIt) {
+  for (const LatticeCase& of : lattices) {
+    if (std::string(of.type) == "lattices.random") continue;
+    const BuiltScene whole = cut_body(of, Json::array());
+    for (const Vec3 normal : {Vec3{0, 0, 1}, Vec3{0, 0, -1}, Vec3{1, 1, 0}, Vec3{-1, -1, -1}}) {
+      const Vec3 through = whole->body.position(whole->body.particles / 2 + 3);
+      const Json cuts = Json::array({plane(through, normal)});
+      const BuiltScene cut = cut_body(of, cuts);
+      std::uint64_t on = 0;
+      const auto is_beyond = [&](Particle p) {
+        const double height = dot(cut->body.position(p) - through, normal);
+        on += std::abs(height) < 1e-9 ? 1 : 0;
+        return height > 1e-9;
+      };
+      for (const auto& [a, b] : springs_of(cut->body)) EXPECT_EQ(is_beyond(a), is_beyond(b));
+      for (const auto& [a, b] : cut_springs_of(cut->body)) EXPECT_NE(is_beyond(a), is_beyond(b));
+      EXPECT_GT(on, 0U);
+      EXPECT_EQ(cut->body.base_springs() + cut->body.cut_springs(), whole->body.base_springs());
+      EXPECT_EQ(parts_of(cut->body).count, 2U);
+    }
+  }
+}
+
+TEST(Cuts, BorderSeparatesBodiesThatTouch) {
+  const Json grain = {{"sphere", {{"centre", {3, 2.5, 2}}, {"radius", 1.7}}}};
+  for (const LatticeCase& of : lattices)
+    expect_cut(of, Json::array({Json{{"border", {{"of", grain}}}}}), [](Vec3 a, Vec3 b) {
+      const Vec3 centre{3, 2.5, 2};
+      return (norm(a - centre) <= 1.7) != (norm(b - centre) <= 1.7);
+    });
+}
+
+TEST(Cuts, VolumetricEnergyEndsWithTheCellsThatAreCut) {
+  const BuiltScene whole = cut_body(lattices[0], Json::array(), {{"poisson", 0.3}}),
+                   cut = cut_body(lattices[0], Json::array({plane({3, 0, 0}, {1, 0, 0})}),
+                                  {{"poisson", 0.3}});
+  const auto cells = [](const Model& model) {
+    int count = 0;
+    model.volumetric.for_cells([&](Site, double) { ++count; });
+    return count;
+  };
+  EXPECT_EQ(cells(*whole), 5 * 4 * 3);
+  EXPECT_EQ(cells(*cut), 4 * 4 * 3);
+}
+
+TEST(Cuts, FaultsNameTheSurfaceAndWhatWasExpected) {
+  const InputText none("none.csv", "x,y,z,nx,ny,nz,radius\n"),
+      short_row("short.csv", "x,y,z,nx,ny,nz,radius\n1,2,3,0,0,1\n"),
+      column("column.csv", "x,y,z,nx,ny,nz\n1,2,3,0,0,1\n"),
+      normal("normal.csv", "x,y,z,nx,ny,nz,radius\n1,2,3,0,0,1,1\n1,2,3,0,0,0,1\n"),
+      radius("radius.csv", "x,y,z,nx,ny,nz,radius\n1,2,3,0,0,1,-1\n"),
+      word("word.csv", "x,y,z,nx,ny,nz,radius\n1,2,three,0,0,1,1\n"),
+      solid("solid.stl", "solid\nendsolid\n");
+  const auto file = [](const char* kind, const InputText& of) {
+    return Json{{kind, {{"file", of.path()}}}};
+  };
+  const auto polygon = [](const Json& corners) {
+    return Json{{"polygon", {{"corners", corners}}}};
+  };
+  struct Wrong {
+    Json cut;
+    const char *pointer, *expected;
+  };
+  const Wrong all[] = {
+      {plane({9, 0, 0}, {1, 0, 0}), "/plane", "3.5 m away from the particles"},
+      {plane({0, 0, 0}, {0, 0, 0}), "/plane/normal", "not zero"},
+      {disc({3, 2, 2.2}, {0, 0, 1}, 0.3), "/disc", "passes between all of them: a larger one"},
+      {disc({3, 2, 20}, {0, 0, 1}, 1), "/disc", "16.5 m away"},
+      {disc({3, 2, 2}, {0, 0, 1}, 0), "/disc/radius", "above 0"},
+      {polygon({{0, 0, 2}, {1, 0, 2}}), "/polygon/corners", "at least three corners"},
+      {polygon({{0, 0, 2}, {1, 0, 2}, {2, 0, 2}}), "/polygon/corners", "no area"},
+      {polygon({{0, 0, 2}, {4, 0, 2}, {4, 4, 3}, {0, 4, 2}}), "/polygon/corners", "off the plane"},
+      {polygon({{0, 0, 2}, {4, 4, 2}, {4, 0, 2}, {0, 3, 2}}), "/polygon/corners", "cross"},
+      {polygon({{0, 0, 2}, {"1 s", 0, 2}, {2, 1, 2}}), "/polygon/corners/1/0", "m"},
+      {file("discs", none), "/discs/file", "it has no discs"},
+      {file("discs", short_row), "/discs/file", "line 2: a row of 7 cells"},
+      {file("discs", column), "/discs/file", "no column \"radius\""},
+      {file("discs", normal), "/discs/file", "line 3: the normal is [0, 0, 0]"},
+      {file("discs", radius), "/discs/file", "line 2: the radius is not above 0"},
+      {file("discs", word), "/discs/file", "line 2: a number was expected in the column \"z\""},
+      {file("sheet", solid), "/sheet/file", "no facets"},
+      {{{"sheet", {{"file", "nowhere.stl"}}}}, "/sheet/file", "no such file"},
+      {{{"border", {{"of", "all"}}}}, "/border", "holds all particles"},
+      {{{"border", {{"of", box({9, 9, 9}, {10, 10, 10})}}}}, "/border", "holds none"},
+      {{{"plain", {{"normal", {0, 0, 1}}}}}, "/plain", "did you mean \"plane\"?"},
+      {3, "", "a surface: an object with one key"},
+  };
+  for (const Wrong& wrong : all) {
+    std::string faults;
+    try {
+      cut_body(lattices[0], Json::array({wrong.cut}));
+    } catch (const InputError& error) {
+      ASSERT_EQ(error.faults().size(), 1U) << error.what();
+      EXPECT_EQ(error.faults()[0].pointer, std::string("/pipeline/0/cuts/0") + wrong.pointer);
+      faults = error.what();
+    }
+    EXPECT_NE(faults.find(wrong.expected), std::string::npos) << wrong.cut << faults;
+  }
+  for (const Json& away : {plane({9, 0, 0}, {1, 0, 0}), disc({3, 2, 20}, {0, 0, 1}, 1)}) {
+    std::string faults;
+    try {
+      cut_body(lattices[4], Json::array({away}));
+    } catch (const InputError& error) {
+      faults = error.what();
+    }
+    EXPECT_NE(faults.find("m away from the particles"), std::string::npos) << away << faults;
+  }
+  EXPECT_NE(faults_of(stage("lattices.cubic", {{"spacing", 1}, {"shape", shape}, {"cuts", 3}}) +
+                      elastic())
+                .find("a list of surfaces"),
+            std::string::npos);
+}
+
+TEST(Cuts, ContentOfAFileIsPartOfTheIdentity) {
+  const auto identity = [](double radius) {
+    const InputText file("identity.csv",
+                         fmt::format("x,y,z,nx,ny,nz,radius\n3,2,2,0,0,1,{}\n", radius));
+    const auto plan = plan_of(
+        SceneBuilder{}
+            .lattice("lattices.cubic", 1, shape, {{"cuts", {{{"discs", {{"file", file.path()}}}}}}})
+            .stages(elastic())
+            .solver("solvers.explicit", {{"end_time", 1e-6}})
+            .text());
+    return identity_hash(plan->identity);
+  };
+  EXPECT_EQ(identity(2), identity(2));
+  EXPECT_NE(identity(2), identity(2.1));
+}
+
+}  // namespace
