@@ -263,6 +263,7 @@ void SnapshotSource::damage(std::vector<double>& numbers) {
   if (model_.springs.softens) simulation_.add_softening(numbers);
   for (Particle a = 0; a < body.particles; ++a)
     if (springs_of_[a] > 0) numbers[a] /= springs_of_[a];
+  if (!model_.cohesive.empty()) simulation_.copy_damage(numbers);
 }
 
 }  // namespace hyperlattice
