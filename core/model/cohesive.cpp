@@ -62,9 +62,6 @@ void check_support(const Model& model, const Material& material, Faults& faults)
     refuse(*material.stage,
            "no volumetric energy, thus the Poisson ratio of the springs: a field of damage does "
            "not soften it");
-  if (!model.kinds.mixtures.empty())
-    refuse(stage, "one material in the body, or boundary particles: cells of several materials "
-                  "have no field of damage");
 }
 
 /// Adds a fault if the length does not fit the strength or the spacing.

@@ -31,7 +31,7 @@ struct Simulation::State {
   EnergyAccount energy{blocks, clock, failures, sweeps};
   LawMemory law_memory{blocks, energy};
   KineticEnergy kinetic{blocks};
-  ForceSums force_sums{blocks, clock, loads, pressures, sweeps};
+  ForceSums force_sums{blocks, clock, loads, pressures, damage, sweeps};
 
   State(const Model& model, int threads) : blocks(model, threads) {}
 
