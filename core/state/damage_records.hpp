@@ -71,6 +71,8 @@ class DamageRecords {
   explicit DamageRecords(BlockSet& blocks);
 
   static constexpr std::uint32_t none = ~std::uint32_t{0};
+  /// Memory for every particle of the body, bytes; records take more near cracks.
+  static constexpr std::size_t bytes_of_particle = sizeof(std::uint32_t);
   /// Returns the number of a particle's record, or none.
   std::uint32_t of(Particle particle) const { return index_[particle]; }
   DamageRecord& operator[](std::uint32_t record) { return records_[record]; }
