@@ -26,12 +26,27 @@ constexpr double damage_speed = 0.8 * 0.866;
 /// Least part of an alpha spring that remains, so that heights of dust stay bounded.
 constexpr double least_alpha = 1e-3;
 
-Symmetric corrected(const Symmetric& virial, const std::vector<double>& correction) {
-  if (correction.empty()) return virial;
+/// Adds pull r (x) r.
+void add_virial(Symmetric& sum, double pull, Vec3 r) {
+  const Vec3 force = pull * r;
+  sum[0] += force.x * r.x;
+  sum[1] += force.y * r.y;
+  sum[2] += force.z * r.z;
+  sum[3] += force.y * r.z;
+  sum[4] += force.x * r.z;
+  sum[5] += force.x * r.y;
+}
+
+/// Returns the stress from the virial, of which `heights` is the part of the heights.
+Symmetric corrected(const Symmetric& virial, const Symmetric& heights,
+                    const VirialCorrection& correction) {
+  const double trace = heights[0] + heights[1] + heights[2];
   Symmetric stress{};
-  for (std::size_t row = 0; row < 6; ++row)
+  for (std::size_t row = 0; row < 6; ++row) {
+    stress[row] = correction.heights[row] * trace;
     for (std::size_t column = 0; column < 6; ++column)
-      stress[row] += correction[6 * row + column] * virial[column];
+      stress[row] += correction.strains[6 * row + column] * (virial[column] - heights[column]);
+  }
   return stress;
 }
 
@@ -74,7 +89,7 @@ void DamageField::gather(std::uint32_t number) {
   const std::size_t kinds = model_.springs.choice.membrane == KernelChoice::Membrane::none ? 1 : 2;
   record.force = {};
   record.stored = record.dissipated = 0;
-  Symmetric virial{};
+  Symmetric virial{}, of_heights{};
   double spread = 0;
   for (DamageSpring& spring : record.springs()) {
     spread += spring.spread * (records_.damage_of(spring.to) - records_.damage(number));
@@ -93,6 +108,13 @@ void DamageField::gather(std::uint32_t number) {
                    over_length = spring.stiffness[cross] * u / (spring.rest_length[cross] + u);
       const bool degrades = cross == 1 || u > 0;
       pull_of_virial += (degrades ? share : 1) * over_length;
+      if (record.correction && cross == 1) {
+        const double total = there.height + here.height, length = spring.rest_length[1] + u;
+        add_virial(of_heights,
+                   share * spring.stiffness[1] * total * (2 * delta + total) /
+                       ((length + spring.rest_length[1]) * length),
+                   r);
+      }
       const double f = degrades ? factor : 1;
       if (spring.handed_over) {
         const double pull = f * over_length;
@@ -108,13 +130,7 @@ void DamageField::gather(std::uint32_t number) {
       spring.elongation[cross] = u;
       spring.factor[cross] = f;
     }
-    const Vec3 fr = pull_of_virial * r;
-    virial[0] += fr.x * r.x;
-    virial[1] += fr.y * r.y;
-    virial[2] += fr.z * r.z;
-    virial[3] += fr.y * r.z;
-    virial[4] += fr.x * r.z;
-    virial[5] += fr.x * r.y;
+    add_virial(virial, pull_of_virial, r);
   }
   if (record.alpha > 0) {  // the kernel has computed the whole spring: 2 alpha s, alpha s^2
     const double f = own < 1 ? std::max(own, least_alpha) : 1;
@@ -126,7 +142,8 @@ void DamageField::gather(std::uint32_t number) {
   }
   if (record.material == nullptr) return;
   for (double& component : virial) component /= 2 * record.volume;
-  record.stress = corrected(virial, record.correction);
+  for (double& component : of_heights) component /= 2 * record.volume;
+  record.stress = record.correction ? corrected(virial, of_heights, *record.correction) : virial;
   const double in_spacings = record.material->length / model_.body.grid.spacing;
   record.spread = in_spacings * in_spacings * spread;
 }

@@ -8,20 +8,11 @@ namespace hyperlattice {
 namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 /// Returns the products of two components in the order of Symmetric.
-Eigen::Matrix<double, 6, 1> squares(Vec3 r) {
-  return (Eigen::Matrix<double, 6, 1>() << r.x * r.x, r.y * r.y, r.z * r.z, r.y * r.z, r.x * r.z,
-          r.x * r.y)
-      .finished();
-}
-
-/// Adds to the operator from small strains to 2 V times the virial what one spring gives.
-void add_virial(Matrix6& sum, Vec3 rest, double stiffness_over_square) {
-  const Eigen::Matrix<double, 6, 1> of = squares(rest);
-  Eigen::Matrix<double, 6, 1> strain = of;
-  strain.tail<3>() *= 2;  // the strains yz, xz and xy stand twice in the tensor
-  sum += stiffness_over_square * of * strain.transpose();
+Vector6 squares(Vec3 r) {
+  return (Vector6() << r.x * r.x, r.y * r.y, r.z * r.z, r.y * r.z, r.x * r.z, r.x * r.y).finished();
 }
 
 }  // namespace
@@ -162,35 +153,52 @@ void DamageRecords::add_spring(DamageRecord& record, const Neighbour& to, std::u
 
 /// The virial of a particle is its stress if the shares of its springs are those of a plane
 /// surface. At edges and corners the operator from strain to virial is another one than from strain
-/// to stress, and their quotient turns one into the other.
+/// to stress, and their quotient turns one into the other. The heights of a membrane add a part of
+/// their own, which is isotropic inside the body.
 void DamageRecords::find_correction(DamageRecord& record) const {
-  if (model_.springs.choice.membrane != KernelChoice::Membrane::none) return;
   const std::uint8_t material = record.material->material;
-  Matrix6 whole = Matrix6::Zero(), own = Matrix6::Zero();
   const double spacing = model_.body.grid.spacing;
-  const auto over_square = [&](std::uint32_t n) {
+  struct Operator {
+    Matrix6 strains = Matrix6::Zero();
+    Vector6 heights = Vector6::Zero();
+  } whole, own;
+  const auto add = [&](Operator& sum, std::uint32_t n, double share) {
     const NeighbourGeometry& to = model_.springs.neighbours[n];
-    return model_.springs.spring(material, material, to.site.spring_class).stiffness /
-           (to.rest_length * to.rest_length);
+    const SpringConstants& of = model_.springs.spring(material, material, to.site.spring_class);
+    const double base = of.stiffness / (to.rest_length * to.rest_length),
+                 cross = has_membrane()
+                             ? of.cross_stiffness / (to.cross_rest_length * to.cross_rest_length)
+                             : 0;
+    const Vector6 square = squares(to.rest);
+    Vector6 strain = square;
+    strain.tail<3>() *= 2;  // the strains yz, xz and xy stand twice in the tensor
+    sum.strains += share * (base + cross) * square * strain.transpose();
+    sum.heights += share * cross * square;
   };
-  for (std::uint32_t n = 0; n < model_.springs.neighbours.size(); ++n)
-    add_virial(whole, model_.springs.neighbours[n].rest, 2 * over_square(n));
-  whole /= 2 * spacing * spacing * spacing;
+  for (std::uint32_t n = 0; n < model_.springs.neighbours.size(); ++n) add(whole, n, 2);
+  whole.strains /= 2 * spacing * spacing * spacing;
   for (const DamageSpring& spring : record.springs()) {
     const Particle first = spring.forward ? record.particle : spring.to;
-    const double share =
-        model_.body.share(model_.body.site(first), model_.body.neighbours[spring.neighbour]);
-    add_virial(own, spring.rest, share * over_square(spring.neighbour));
+    add(own, spring.neighbour,
+        model_.body.share(model_.body.site(first), model_.body.neighbours[spring.neighbour]));
   }
-  own /= 2 * record.volume;
+  own.strains /= 2 * record.volume;
   constexpr double rounding = 1e-9;
-  if ((own - whole).cwiseAbs().maxCoeff() < rounding * whole.cwiseAbs().maxCoeff()) return;
-  Eigen::FullPivLU<Matrix6> inverse(own);
+  if ((own.strains - whole.strains).cwiseAbs().maxCoeff() <
+      rounding * whole.strains.cwiseAbs().maxCoeff())
+    return;
+  Eigen::FullPivLU<Matrix6> inverse(own.strains);
   inverse.setThreshold(1e-6);
   if (!inverse.isInvertible()) return;  // a layer or a rod: some strains stretch no spring
-  const Matrix6 correction = whole * inverse.inverse();
-  record.correction.resize(36);
-  Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(record.correction.data()) = correction;
+  auto found = std::make_unique<VirialCorrection>();
+  Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(found->strains.data()) =
+      whole.strains * inverse.inverse();
+  const double trace = own.heights.head<3>().sum();
+  // The trace of the virial grows with the springs' shares over that of the volume.
+  const double parts = trace > 0 ? record.volume / (spacing * spacing * spacing) / trace : 0;
+  for (Eigen::Index n = 0; n < 6; ++n)
+    found->heights[static_cast<std::size_t>(n)] = parts * whole.heights[n];
+  record.correction = std::move(found);
 }
 
 bool DamageRecords::exists(const DamageRecord& record, const DamageSpring& spring) const {

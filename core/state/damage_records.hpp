@@ -9,6 +9,7 @@
 
 #include <array>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -33,6 +34,14 @@ struct DamageSpring {
   double factor[2] = {1, 1};    ///< of its stiffness, likewise
 };
 
+/// Turns the virial of a particle whose cells are not symmetric into the stress, for small strains
+/// of one value around the particle.
+struct VirialCorrection {
+  std::array<double, 36> strains{};  ///< for the part of strains: 6 x 6, row by row
+  /// For the part of heights: stress over the sum xx + yy + zz of the virial.
+  Symmetric heights{};
+};
+
 /// A particle whose damage is followed.
 struct DamageRecord {
   static constexpr std::size_t most_springs = 18;
@@ -48,9 +57,8 @@ struct DamageRecord {
   double alpha = 0;                    ///< of the alpha spring, N/m
   double rate = 0;                     ///< of damage in the last step, 1/s
   std::uint64_t marked = 0;            ///< step in which a spring was last above its alarm
-  /// Turns the virial of a particle whose cells are not symmetric into the stress: 6 x 6 row by
-  /// row, for small strains. Empty: it is the stress.
-  std::vector<double> correction;
+  /// For a particle whose cells are not symmetric; null: its virial is its stress.
+  std::unique_ptr<const VirialCorrection> correction;
 
   // results of the last evaluation
   double height = 0, alpha_factor = 1;  ///< m
@@ -144,6 +152,9 @@ class DamageRecords {
   void add_spring(DamageRecord& record, const Neighbour& to, std::uint32_t neighbour,
                   bool forward) const;
   void find_correction(DamageRecord& record) const;
+  bool has_membrane() const {
+    return model_.springs.choice.membrane != KernelChoice::Membrane::none;
+  }
   void forget(std::uint32_t record);
   void find_rows();
 

@@ -81,7 +81,7 @@ struct Bar {
   }
   /// Time of the test, s, in passages of waves, and the speed of a rim, m/s.
   static double time(double end) { return 150 * end / 2000; }
-  double speed(double end) const { return 0.5 * 2.7 * strength / young * end / time(end); }
+  double speed(double end) const { return 0.5 * 1.5 * strength / young * end / time(end); }
 
   /// Returns the stress of the rims, Pa.
   double stress() const {
