@@ -23,6 +23,8 @@ bool is_identifier(std::string_view text) {
 bool whole(const LatticeFunctions& f) { return f.build; }
 bool whole(const MaterialFunctions& f) { return f.constants && f.kernels && !f.law.empty(); }
 bool whole(const FailureFunctions& f) {
+  if (f.surface.inputs || f.surface.ratios)
+    return f.surface.inputs && f.surface.ratios && !f.alarm && !f.review && f.memory == 0;
   return f.alarm && f.review && f.memory <= max_failure_memory && (f.memory == 0 || f.start);
 }
 bool whole(const LoadFunctions& f) { return f.declare && f.factor; }

@@ -31,6 +31,12 @@ void add_materials(Model& model, RegionIndex& regions, Faults& faults);
 /// kernels.
 void set_springs(Model& model, Faults& faults);
 
+/// Sets the constants of the damage of materials with a strength surface. Adds a fault for what
+/// damage does not know, and for a length that is too small or too large. Needs the laws.
+void set_cohesive(Model& model, Faults& faults);
+/// Finds the particles near supports, which take no damage.
+void set_intact(Model& model);
+
 /// Sets the volumetric energies of the cells. Adds a fault for each material whose K_v this lattice
 /// or the body's failure does not allow.
 void set_volumetric(Model& model, RegionIndex& regions, Faults& faults);

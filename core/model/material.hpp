@@ -1,4 +1,4 @@
-// A material of the scene and the criteria that break its springs.
+// A material of the scene, the criteria that break its springs, and its strength surface.
 #pragma once
 
 #include <model/component_pointer.hpp>
@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace hyperlattice {
@@ -33,6 +34,12 @@ struct Material {
   /// In the order of the scene: the first one that is met breaks a spring. Empty: the springs do
   /// not break.
   std::vector<Criterion> failures;
+  /// The surface at which the material's damage grows (model/cohesive.hpp).
+  struct Surface {
+    const Stage* stage = nullptr;
+    ComponentPointer component;
+  };
+  std::optional<Surface> surface;
   /// Returns the smallest alarm of all criteria, m; infinite without criteria.
   double alarm(const SpringFacts& spring) const;
 };

@@ -83,20 +83,32 @@ std::string reach_of_sample(const Body& body, const std::string& sentence) {
          "ratio; a body more spacings across reaches further";
 }
 
+/// Adds a criterion of springs or the strength surface. Throws InputError for a second surface.
+void add_failure(Material& material, const Stage& stage) {
+  const auto& functions = stage.functions<FailureFunctions>();
+  if (functions.surface.ratios != nullptr) {
+    if (material.surface)
+      throw InputError({{stage.pointer, stage.component->type(),
+                         fmt::format("one strength surface for each material; {} is one already",
+                                     material.surface->stage->component->type())}});
+    material.surface.emplace(Material::Surface{&stage, make_component(stage)});
+    return;
+  }
+  Material::Criterion& criterion = material.failures.emplace_back();
+  criterion.stage = &stage;
+  criterion.component = make_component(stage);
+  if (functions.memory > 0)
+    call(stage, "start", [&](const Complaint&) {
+      functions.start(criterion.start.data());
+      return true;
+    });
+}
+
 Material make_material(const Model& model, const Stage& stage, const LatticeFacts& facts) {
   Material material;
   material.stage = &stage;
   material.component = make_component(stage);
-  for (const Stage& failure : stage.failures) {
-    Material::Criterion& criterion = material.failures.emplace_back();
-    criterion.stage = &failure;
-    criterion.component = make_component(failure);
-    if (const auto& functions = failure.functions<FailureFunctions>(); functions.memory > 0)
-      call(failure, "start", [&](const Complaint&) {
-        functions.start(criterion.start.data());
-        return true;
-      });
-  }
+  for (const Stage& failure : stage.failures) add_failure(material, failure);
   const auto refused = refusal_of(stage, "constants", [&](const Complaint& why) {
     return stage.functions<MaterialFunctions>().constants(material.component.get(), facts,
                                                           material.constants, why);

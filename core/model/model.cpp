@@ -37,6 +37,7 @@ std::unique_ptr<Model> build_model(const Scene& scene) {
   if (faults.empty()) find_critical_step(*model, faults);
   add_loads(*model, regions, faults);
   faults.throw_if_any();
+  set_intact(*model);
   limit_step_by_loads(*model);
   return model;
 }

@@ -1,6 +1,7 @@
 // The model of a scene: particles, springs, masses and loads. It does not change during a run.
 #pragma once
 
+#include <model/cohesive.hpp>
 #include <model/load.hpp>
 #include <model/material.hpp>
 #include <model/particle_kinds.hpp>
@@ -25,6 +26,9 @@ struct Model {
   ParticleKinds kinds;
   SpringTable springs;
   Volumetric volumetric;
+  CohesiveMaterials cohesive;
+  /// 1 for each particle that takes no damage because it is near a support; empty if none is.
+  std::vector<std::uint8_t> intact;
   LoadSet loads;
   StepLimit step_limit;
   int degrees_of_freedom = 3;         ///< of a particle; 4 with a free membrane

@@ -75,10 +75,12 @@ struct SpringPull {
 
 /// Returns the pull of a spring in its present motion. A law with a memory gives the force that it
 /// has after a step of `time_step` seconds to this motion. `memory(cross)` returns a copy of what
-/// the laws keep, in a container with data().
+/// the laws keep, in a container with data(). `remains`: what damage leaves of a cross spring, and
+/// of a base spring that is stretched.
 template <class Memory>
 SpringPull pull_of(const Model& model, const SpringProperties& properties,
-                   const SpringMotion& motion, double time_step, const Memory& memory) {
+                   const SpringMotion& motion, double time_step, const Memory& memory,
+                   double remains = 1) {
   const std::size_t kinds = model.springs.choice.membrane == KernelChoice::Membrane::none ? 1 : 2;
   SpringPull sum;
   for (std::size_t cross = 0; cross < kinds; ++cross) {
@@ -90,8 +92,9 @@ SpringPull pull_of(const Model& model, const SpringProperties& properties,
     auto kept = memory(cross);
     const CompositeAnswer answer = take_spring(
         model, properties, cross, properties.elongation(cross, growth), time_step, kept.data());
-    sum.pull += answer.force / std::sqrt(rest_length * rest_length + growth);
-    sum.energy += answer.stored;
+    const double factor = cross == 1 || growth > 0 ? remains : 1;
+    sum.pull += factor * answer.force / std::sqrt(rest_length * rest_length + growth);
+    sum.energy += factor * answer.stored;
   }
   return sum;
 }

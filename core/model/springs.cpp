@@ -83,6 +83,12 @@ SpringConstants spring_within(const Model& model, const Material& material,
   const SpringFacts facts{rest_length(model, spring_class), spring.stiffness,
                           model.body.grid.spacing, spring_class, model.springs.crossings};
   spring.alarm = material.alarm(facts);
+  if (!model.cohesive.empty()) {
+    const auto number = static_cast<std::size_t>(&material - model.materials.data());
+    const Cohesive& of = model.cohesive[number];
+    if (of.stage != nullptr)
+      spring.alarm = std::min(spring.alarm, of.stretch_alarm * facts.rest_length);
+  }
   for (int cross = 0; cross < 2; ++cross)
     std::copy_n(own.law[spring_class][cross], max_law_constants, spring.law[cross]);
   return spring;
@@ -321,6 +327,8 @@ void set_springs(Model& model, Faults& faults) {
                    "a criterion that does not ask for the rate, for a listed lattice");
     }
   find_laws(model);
+  set_cohesive(model, faults);
+  springs.breakable = springs.breakable || !model.cohesive.empty();
   add_springs(model);
   for (const Material& material : model.materials) {
     const MaterialConstants& constants = material.constants;

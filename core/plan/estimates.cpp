@@ -1,6 +1,7 @@
 #include <model/nodal_volumes.hpp>
 #include <plan/estimates.hpp>
 #include <plan/fields.hpp>
+#include <state/damage_records.hpp>
 #include <state/inside_out.hpp>
 #include <state/layout.hpp>
 #include <state/nodal_pressures.hpp>
@@ -122,6 +123,8 @@ double model_bytes(const Model& model) {
       model.kinds.mixtures.bytes();
   if (model.nodal_volumes)
     bytes += model.nodal_volumes->bytes() + NodalPressures::bytes(*model.nodal_volumes);
+  if (!model.cohesive.empty())
+    bytes += static_cast<double>(model.body.particles * DamageRecords::bytes_of_particle);
   for (const Load& load : model.loads)
     bytes += static_cast<double>(load.particles.size() * sizeof(LoadedParticle) +
                                  load.watched.size() * sizeof(WatchedParticle));

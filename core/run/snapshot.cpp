@@ -312,6 +312,7 @@ void SnapshotSource::damage(std::vector<double>& numbers) {
     for (const Particle end : {spring.a, spring.b}) numbers[end] += 1 - spring.integrity;
   for (Particle a = 0; a < body.particles; ++a)
     if (springs_of_[a] > 0) numbers[a] /= springs_of_[a];
+  if (!model_.cohesive.empty()) simulation_.copy_damage(numbers);
 }
 
 }  // namespace hyperlattice

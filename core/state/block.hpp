@@ -88,6 +88,8 @@ struct Block {
     bool softened = false;  ///< its integrity became 0; it stays
   };
   std::vector<Broken> broken;         ///< in this step, in the order of row, neighbour, site
+  /// Particles beside springs above the alarm of their cohesive material, see DamageField.
+  std::vector<Particle> noted;
   std::vector<std::uint8_t> answers;  ///< of the failure criterion to one batch
   /// A load whose answer was not finite in the present sweep.
   std::uint32_t bad_answer = no_load;

@@ -68,9 +68,10 @@ void BlockSet::allocate(Block& block, std::size_t number) const {
   }
   block.scratch = AlignedArray<double>(layout_->scratch_numbers());
   block.damped_work.assign(block.rows.size(), 0);
-  if (model_.springs.softens) block.fracture_work.assign(block.rows.size(), 0);
+  if (model_.springs.softens || !model_.cohesive.empty())
+    block.fracture_work.assign(block.rows.size(), 0);
   const auto is_other = [](const Row& row) { return row.law != 0; };
-  if (std::any_of(block.rows.begin(), block.rows.end(), is_other))
+  if (!model_.cohesive.empty() || std::any_of(block.rows.begin(), block.rows.end(), is_other))
     block.other_sums.resize(block.rows.size());
   block.sums.resize(block.rows.size());
   layout_->fill(block);

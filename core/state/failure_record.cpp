@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <tuple>
 
 namespace hyperlattice {
 namespace {
@@ -33,6 +34,13 @@ End end_of(const Block& block, std::uint64_t n, int components, double time) {
 
 void FailureRecord::collect(double step) {
   for (Block& block : blocks_) {
+    // Damage ends springs before the kernel breaks others.
+    if (!blocks_.model().cohesive.empty())
+      std::stable_sort(block.broken.begin(), block.broken.end(),
+                       [](const Block::Broken& a, const Block::Broken& b) {
+                         return std::tie(a.row, a.neighbour, a.site) <
+                                std::tie(b.row, b.neighbour, b.site);
+                       });
     for (const Block::Broken& broken : block.broken) {
       const SpringEnds& spring = broken.spring;
       if (!spring.is_first) continue;

@@ -10,7 +10,7 @@ ForcesId ForceSums::add(Followed followed) {
 }
 
 ForcesId ForceSums::follow(const PlaneSection& section) {
-  return add(SectionForces(blocks_, clock_, pressures_, section));
+  return add(SectionForces(blocks_, clock_, pressures_, damage_, section));
 }
 ForcesId ForceSums::follow(std::size_t load) {
   return add(ExternalForces(blocks_, clock_, loads_, load));

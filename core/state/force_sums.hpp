@@ -16,8 +16,13 @@ namespace hyperlattice {
 class ForceSums {
  public:
   ForceSums(const BlockSet& blocks, const Clock& clock, const ActingLoads& loads,
-            NodalPressures& pressures, Sweeps& sweeps)
-      : blocks_(blocks), clock_(clock), loads_(loads), pressures_(pressures), sweeps_(sweeps) {}
+            NodalPressures& pressures, const DamageField& damage, Sweeps& sweeps)
+      : blocks_(blocks),
+        clock_(clock),
+        loads_(loads),
+        pressures_(pressures),
+        damage_(damage),
+        sweeps_(sweeps) {}
 
   /// Begins to follow the force through a section.
   ForcesId follow(const PlaneSection& section);
@@ -42,6 +47,7 @@ class ForceSums {
   const Clock& clock_;
   const ActingLoads& loads_;
   NodalPressures& pressures_;
+  const DamageField& damage_;
   Sweeps& sweeps_;
   std::vector<Followed> all_;
 };

@@ -58,9 +58,9 @@ struct SpringPlace {
   bool counts = true;  ///< false for copies: in ghost rows, or from the second end
 };
 
-/// Row::law of rows whose springs have the first law, and whose particles have volumetric energies
-/// (nodal_pressures.hpp).
-inline constexpr std::int32_t first_law_and_volumes = -2;
+/// Row::law of rows whose springs have the first law, and to whose particles the host adds forces:
+/// those of volumetric energies (nodal_pressures.hpp) or of soft springs (damage_field.hpp).
+inline constexpr std::int32_t first_law_and_more = -2;
 
 class Layout {
  public:

@@ -92,7 +92,7 @@ std::vector<ListedLayout::Materials> ListedLayout::materials_of_rows() const {
 
 /// Returns the law of all springs of a row of the body, see Row::law.
 std::int32_t ListedLayout::law_of_row(std::int32_t material, std::uint64_t row) const {
-  const std::int32_t first = model_.nodal_volumes ? first_law_and_volumes : 0;
+  const std::int32_t first = model_.nodal_volumes ? first_law_and_more : 0;
   if (materials_of_rows_.empty()) return first;
   Materials materials = materials_of_rows_[row];
   if (materials.none() && material >= 0) materials.set(static_cast<std::size_t>(material));

@@ -109,7 +109,7 @@ void OtherRows::compute(Block& block, const KernelRequest& request, const RowPla
                         bool measures) const {
   const Row& row = request.rows[place.index];
   RowEnergies energies;
-  const std::int32_t number = row.law == first_law_and_volumes ? 0 : row.law;
+  const std::int32_t number = row.law == first_law_and_more ? 0 : row.law;
   if (number >= 0) {
     const Law& law = model_.springs.laws[static_cast<std::size_t>(number)];
     energies = call_row_kernel(law, measures ? law.kernels.measure_row : law.kernels.step_row,
@@ -118,15 +118,17 @@ void OtherRows::compute(Block& block, const KernelRequest& request, const RowPla
     energies = model_.body.is_listed() ? several_laws_of_list(block, request, place, measures)
                                        : several_laws_of_grid(block, request, place, measures);
   }
-  if (!pressures_.empty()) {
-    // Kernels measure in doubles, and so do laws with a memory step.
-    const bool in_floats = model_.springs.choice.precision == Precision::floats && !measures &&
-                           model_.springs.kernels().memory == 0;
+  // Kernels measure in doubles, and so do laws with a memory step.
+  const bool in_floats = model_.springs.choice.precision == Precision::floats && !measures &&
+                         model_.springs.kernels().memory == 0;
+  if (!pressures_.empty())
     energies.stored += in_floats ? add_volumes<float>(block, request, row)
                                  : add_volumes<double>(block, request, row);
-  }
-  const bool owned = place.index >= block.layout->first_own;
+  const bool owned = place.index >= block.layout->first_own && place.index < block.layout->last_own;
   if (!owned) return;
+  if (!damage_.empty())
+    energies.stored += in_floats ? add_soft_springs<float>(block, request, place)
+                                 : add_soft_springs<double>(block, request, place);
   if (measures) {
     block.other_sums[place.index] = energies;
     return;
@@ -148,6 +150,22 @@ double OtherRows::add_volumes(const Block& block, const KernelRequest& request,
     for (int c = 0; c < 3; ++c) scratch.own(c)[t] += static_cast<Real>(force[c]);
     energy += pressures_.energy(particle);
   }
+  return energy;
+}
+
+/// Adds the forces of soft springs to those on the row. Returns half of their energy, J.
+template <class Real>
+double OtherRows::add_soft_springs(const Block& block, const KernelRequest& request,
+                                   const RowPlace& place) const {
+  const ScratchRows<Real> scratch(request, model_.degrees_of_freedom);
+  const std::int32_t begin = request.rows[place.index].begin;
+  double energy = 0;
+  damage_.for_row(block, place.index, [&](const DamageRecord& record) {
+    for (int c = 0; c < model_.degrees_of_freedom; ++c)
+      scratch.own(c)[record.site - begin] +=
+          static_cast<Real>(record.force[static_cast<std::size_t>(c)]);
+    energy += record.stored;
+  });
   return energy;
 }
 

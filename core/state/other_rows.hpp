@@ -1,10 +1,11 @@
 // Rows whose springs the kernel of the first law does not compute. A row of one law goes to the
 // kernel of this law. A row with springs of several laws, or of several sets of constants, is
 // computed here, one spring after another, as the theory states it (kernels/reference.hpp). The
-// forces of nodal volumes join those of the springs of a row here.
+// forces of nodal volumes and of soft springs join those of the springs of a row here.
 #pragma once
 
 #include <state/block_set.hpp>
+#include <state/damage_field.hpp>
 #include <state/nodal_pressures.hpp>
 #include <state/spring_review.hpp>
 
@@ -12,8 +13,13 @@ namespace hyperlattice {
 
 class OtherRows {
  public:
-  OtherRows(const BlockSet& blocks, const SpringReview& review, const NodalPressures& pressures)
-      : blocks_(blocks), model_(blocks.model()), review_(review), pressures_(pressures) {}
+  OtherRows(const BlockSet& blocks, const SpringReview& review, const NodalPressures& pressures,
+            const DamageField& damage)
+      : blocks_(blocks),
+        model_(blocks.model()),
+        review_(review),
+        pressures_(pressures),
+        damage_(damage) {}
 
   /// Computes a row's forces and its energies. A measurement changes nothing but the forces and
   /// Block::other_sums.
@@ -23,6 +29,9 @@ class OtherRows {
  private:
   template <class Real>
   double add_volumes(const Block& block, const KernelRequest& request, const Row& row) const;
+  template <class Real>
+  double add_soft_springs(const Block& block, const KernelRequest& request,
+                          const RowPlace& place) const;
   RowEnergies several_laws_of_grid(Block& block, const KernelRequest& request,
                                    const RowPlace& place, bool measures) const;
   RowEnergies several_laws_of_list(Block& block, const KernelRequest& request,
@@ -34,6 +43,7 @@ class OtherRows {
   const Model& model_;
   const SpringReview& review_;
   const NodalPressures& pressures_;
+  const DamageField& damage_;
 };
 
 }  // namespace hyperlattice

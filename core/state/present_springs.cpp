@@ -88,6 +88,12 @@ PresentSprings::PresentSprings(const Model& model, const Simulation& simulation)
   simulation.heights(heights_);
   if (!model.body.is_listed()) {
     simulation.alive(alive_);
+    soft_.resize(model.body.neighbours.size());
+    for (const SoftSpring& spring : simulation.soft_springs()) {
+      std::uint16_t& bits = alive_[spring.a];
+      bits = static_cast<std::uint16_t>(bits | 1U << spring.neighbour);
+      soft_[spring.neighbour].push_back(spring);
+    }
     return;
   }
   for (const Breakage& breakage : simulation.breakages()) {
@@ -103,14 +109,18 @@ PresentSprings::PresentSprings(const Model& model, const Simulation& simulation)
 
 /// The memory is that of the last step's start and stays so, as in a measurement.
 SpringPull PresentSprings::ask(const SpringProperties& properties, Particle a, Particle b,
-                               const Layout::Memory (&memory)[2], std::uint32_t first) const {
-  return pull_of(model_, properties, {displacement(b) - displacement(a), height(a), height(b)},
-                 simulation_.last_step(), [&](std::size_t cross) {
-                   const Layout::Memory& all = memory[cross];
-                   if (all.first == nullptr) return LawNumbers{};
-                   return read_numbers({all.first + first * all.stride, all.stride},
-                                       model_.springs.memory - first);
-                 });
+                               const Layout::Memory (&memory)[2], std::uint32_t first,
+                               double remains) const {
+  return pull_of(
+      model_, properties, {displacement(b) - displacement(a), height(a), height(b)},
+      simulation_.last_step(),
+      [&](std::size_t cross) {
+        const Layout::Memory& all = memory[cross];
+        if (all.first == nullptr) return LawNumbers{};
+        return read_numbers({all.first + first * all.stride, all.stride},
+                            model_.springs.memory - first);
+      },
+      remains);
 }
 
 void PresentSprings::find_memory(Particle a, std::uint32_t neighbour,
@@ -124,6 +134,8 @@ void PresentSprings::find_memory(Particle a, std::uint32_t neighbour,
 SpringPull PresentSprings::part_of(Particle a, Particle b, std::uint32_t neighbour,
                                    std::uint8_t material) const {
   if (!lives(a, neighbour)) return {};
+  const auto soft = soft_in({neighbour, a, b, 1});
+  const double remains = soft.empty() ? 1 : soft.front().factor;
   SpringProperties properties = model_.spring_properties(a, b, neighbour);
   const SpringConstants& own = model_.springs.spring(material, material, properties.spring_class);
   std::uint32_t first = 0;
@@ -139,7 +151,7 @@ SpringPull PresentSprings::part_of(Particle a, Particle b, std::uint32_t neighbo
   for (const std::size_t cross : {0U, 1U}) properties.constants[cross] = own.law[cross];
   Layout::Memory memory[2];
   find_memory(a, neighbour, memory);
-  return ask(properties, a, b, memory, first);
+  return ask(properties, a, b, memory, first, remains);
 }
 
 template <class Visit>
@@ -188,6 +200,25 @@ void PresentSprings::compute(const Piece& piece, Asked asked, Row& row,
       if (asked == Asked::energies) springs.energy[at + t] = answer.energy;
     }
   }
+  for (const SoftSpring& soft : soft_in(piece)) {
+    const Particle b = piece.b + (soft.a - piece.a);
+    const SpringPull answer =
+        ask(model_.spring_properties(soft.a, b, piece.neighbour), soft.a, b, {}, 0, soft.factor);
+    const std::size_t at = springs.index(piece.neighbour, soft.a);
+    springs.pull[at] = answer.pull;
+    if (asked == Asked::energies) springs.energy[at] = answer.energy;
+  }
+}
+
+/// Returns the soft springs of a piece.
+std::span<const SoftSpring> PresentSprings::soft_in(const Piece& piece) const {
+  const std::vector<SoftSpring>& all = soft_[piece.neighbour];
+  const auto from = [&](Particle first) {
+    return std::lower_bound(
+        all.begin(), all.end(), first,
+        [](const SoftSpring& spring, Particle particle) { return spring.a < particle; });
+  };
+  return {from(piece.a), from(piece.a + piece.count)};
 }
 
 PlaneSprings PresentSprings::plane(std::int32_t k, Asked asked, std::uint32_t neighbours) const {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <model/spring_calls.hpp>
+#include <state/damage_field.hpp>
 #include <state/simulation.hpp>
 
 #include <functional>
@@ -88,15 +89,19 @@ class PresentSprings {
   void visit_plane(std::int32_t k, Asked asked,
                    const std::function<void(const PresentSpring&)>& visit) const;
   void visit_list(Asked asked, const std::function<void(const PresentSpring&)>& visit) const;
-  /// `first`: place in the memory of the first number that the law keeps.
+  /// `first`: place in the memory of the first number that the law keeps. `remains`: see pull_of().
   SpringPull ask(const SpringProperties& properties, Particle a, Particle b,
-                 const Layout::Memory (&memory)[2], std::uint32_t first = 0) const;
+                 const Layout::Memory (&memory)[2], std::uint32_t first = 0,
+                 double remains = 1) const;
+  std::span<const SoftSpring> soft_in(const Piece& piece) const;
   void find_memory(Particle a, std::uint32_t neighbour, Layout::Memory (&memory)[2]) const;
 
   const Model& model_;
   const Simulation& simulation_;
-  std::vector<double> displacements_, heights_;   ///< m
-  std::vector<std::uint16_t> alive_;              ///< of a structured body, see KernelRequest
+  std::vector<double> displacements_, heights_;  ///< m
+  std::vector<std::uint16_t> alive_;             ///< of a structured body, see KernelRequest
+  /// [neighbour]: springs that damage has softened, ascending by their first ends
+  std::vector<std::vector<SoftSpring>> soft_;
   std::vector<std::uint8_t> broken_;              ///< of a listed body; empty: no spring is
   std::vector<Simulation::SpringMemory> memory_;  ///< of a listed body whose laws keep some
 };

@@ -10,6 +10,7 @@ void Simulation::archive(Archive& archive) {
   state_->loads.archive(archive);
   state_->failures.archive(archive);
   state_->energy.archive(archive);
+  if (!state_->damage.empty()) state_->damage.archive(archive);
 }
 
 }  // namespace hyperlattice

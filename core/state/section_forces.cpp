@@ -8,15 +8,18 @@
 namespace hyperlattice {
 
 SectionForces::SectionForces(const BlockSet& blocks, const Clock& clock,
-                             const NodalPressures& pressures, const PlaneSection& section)
+                             const NodalPressures& pressures, const DamageField& damage,
+                             const PlaneSection& section)
     : blocks_(blocks),
       model_(blocks.model()),
       clock_(clock),
       pressures_(pressures),
+      damage_(damage),
       tetrahedra_(section.tetrahedra) {
   for (const CutSpring& cut : section.springs) {
     const Place place = blocks_.layout().place(cut.a);
-    const auto number = blocks_.layout().number_in_row(blocks_[place.block], place, cut.neighbour);
+    auto number = blocks_.layout().number_in_row(blocks_[place.block], place, cut.neighbour);
+    if (!damage_.empty() && damage_.factor(cut.a, cut.neighbour)) number = cut.neighbour;
     if (!number) continue;
     springs_.push_back({end_of(cut.a), end_of(cut.b), place.row, *number, place.site, cut.neighbour,
                         cut.a_is_before});
@@ -66,7 +69,7 @@ void SectionForces::add(const CutTetrahedron& cut, Vec3 about, Resultant& sum) c
 }
 
 /// Adds the force of a spring on its end before the plane.
-void SectionForces::add(const Spring& spring, Vec3 about, Resultant& sum) const {
+void SectionForces::add(const Spring& spring, double remains, Vec3 about, Resultant& sum) const {
   const auto height = [this](const End& end) {
     return model_.degrees_of_freedom == 4 ? end.block->displacement[3][end.index] : 0;
   };
@@ -74,16 +77,26 @@ void SectionForces::add(const Spring& spring, Vec3 about, Resultant& sum) const 
       model_.spring_properties(spring.a.particle, spring.b.particle, spring.neighbour);
   const Vec3 apart = moved(spring.b) - moved(spring.a);
   const double pull =
-      pull_of(model_, of, {apart, height(spring.a), height(spring.b)}, clock_.last_step(),
-              [&](std::size_t cross) {
-                return blocks_.law_numbers(*spring.a.block, spring.row, spring.number, spring.site,
-                                           cross != 0);
-              })
+      pull_of(
+          model_, of, {apart, height(spring.a), height(spring.b)}, clock_.last_step(),
+          [&](std::size_t cross) {
+            return blocks_.law_numbers(*spring.a.block, spring.row, spring.number, spring.site,
+                                       cross != 0);
+          },
+          remains)
           .pull;
   const End& before = spring.a_is_before ? spring.a : spring.b;
   const Vec3 force = ((spring.a_is_before ? of.share : -of.share) * pull) * (of.rest + apart);
   sum.force += force;
   sum.moment += cross(model_.body.position(before.particle) + moved(before) - about, force);
+}
+
+/// Returns what damage leaves of a spring, 1 without damage; nothing if the spring is broken.
+std::optional<double> SectionForces::remaining(const Spring& spring) const {
+  const Place first{spring.a.block->number, spring.row, spring.site, spring.a.index};
+  if (blocks_.layout().exists(*spring.a.block, first, spring.number)) return 1;
+  if (damage_.empty()) return std::nullopt;
+  return damage_.factor(spring.a.particle, spring.neighbour);
 }
 
 Resultant SectionForces::sum(Vec3 about) const {
@@ -92,10 +105,7 @@ Resultant SectionForces::sum(Vec3 about) const {
   std::vector<Resultant> parts((all + piece - 1) / piece);
   blocks_.team().for_each(parts.size(), [&](std::size_t n) {
     for (std::size_t s = n * piece; s < std::min(all, (n + 1) * piece); ++s) {
-      const Spring& spring = springs_[s];
-      const Place first{spring.a.block->number, spring.row, spring.site, spring.a.index};
-      if (blocks_.layout().exists(*spring.a.block, first, spring.number))
-        add(spring, about, parts[n]);
+      if (const auto remains = remaining(springs_[s])) add(springs_[s], *remains, about, parts[n]);
     }
   });
   Resultant total;

@@ -7,12 +7,14 @@
 #include <model/section.hpp>
 #include <state/block_set.hpp>
 #include <state/clock.hpp>
+#include <state/damage_field.hpp>
 #include <state/nodal_pressures.hpp>
 
 #include <hyperlattice/output.hpp>
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace hyperlattice {
@@ -21,7 +23,7 @@ class SectionForces {
  public:
   /// Follows the springs of the section that still exist.
   SectionForces(const BlockSet& blocks, const Clock& clock, const NodalPressures& pressures,
-                const PlaneSection& section);
+                const DamageField& damage, const PlaneSection& section);
 
   /// Whether the pressures must be updated before sum() for the present state.
   bool asks_pressures() const { return !tetrahedra_.empty(); }
@@ -52,13 +54,15 @@ class SectionForces {
   End end_of(Particle particle) const;
   static Vec3 moved(const End& end);
   void add(const Cell& cell, Vec3 about, Resultant& sum) const;
-  void add(const Spring& spring, Vec3 about, Resultant& sum) const;
+  void add(const Spring& spring, double remains, Vec3 about, Resultant& sum) const;
+  std::optional<double> remaining(const Spring& spring) const;
   void add(const CutTetrahedron& cut, Vec3 about, Resultant& sum) const;
 
   const BlockSet& blocks_;
   const Model& model_;
   const Clock& clock_;
   const NodalPressures& pressures_;
+  const DamageField& damage_;
   std::vector<Spring> springs_;
   std::vector<Cell> cells_;
   std::vector<CutTetrahedron> tetrahedra_;

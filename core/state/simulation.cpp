@@ -53,6 +53,14 @@ std::vector<WeakenedSpring> Simulation::weakened_springs() const {
   return state_->law_memory.weakened();
 }
 
+void Simulation::copy_damage(std::vector<double>& values) const {
+  state_->damage.copy_damage(values);
+}
+
+std::vector<SoftSpring> Simulation::soft_springs() const {
+  return state_->damage.empty() ? std::vector<SoftSpring>{} : state_->damage.soft_springs();
+}
+
 void Simulation::law_field(std::string_view name, std::vector<double>& values) const {
   state_->law_memory.field(name, values);
 }
@@ -112,6 +120,12 @@ std::uint64_t Simulation::hash() const {
           add(state_->blocks.layout().alive_bits(block, n));
         }
       });
+  if (!state_->damage.empty())
+    state_->damage.for_damaged([&](Particle particle, double damage, double rate) {
+      add(particle);
+      add(std::bit_cast<std::uint64_t>(damage));
+      add(std::bit_cast<std::uint64_t>(rate));
+    });
   return hash;
 }
 

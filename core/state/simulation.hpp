@@ -18,6 +18,7 @@ namespace hyperlattice {
 
 class Archive;
 class ForceSums;
+struct SoftSpring;
 
 /// The moving body. Results have the same bits for any number of threads.
 class Simulation {
@@ -100,6 +101,10 @@ class Simulation {
   void for_springs_of_list(const std::function<void(const SpringMemory&)>& visit) const;
   /// Returns the springs that exist and whose integrity is below 1.
   std::vector<WeakenedSpring> weakened_springs() const;
+  /// Sets the damage of the particles of cohesive materials, and leaves the others' values.
+  void copy_damage(std::vector<double>& values) const;
+  /// Returns the springs whose stiffness damage lowers, in the order of their ends.
+  std::vector<SoftSpring> soft_springs() const;
   /// Computes a field that laws give: the mean over each particle's base springs, which count by
   /// their share; not a number where no spring has the field.
   void law_field(std::string_view name, std::vector<double>& values) const;
@@ -113,7 +118,7 @@ class Simulation {
   /// Returns the largest distance of a particle from its start, m.
   double farthest() const;
   /// Returns an FNV-1a hash of displacements, velocities and living springs in the particles'
-  /// order.
+  /// order, then of damage.
   std::uint64_t hash() const;
   double bytes() const;  ///< of the state without scratch arrays
   double scratch_bytes() const;

@@ -9,6 +9,7 @@ namespace hyperlattice {
 
 const std::uint8_t* SpringReview::review(Block& block, const AlarmRow& alarm) const {
   block.answers.assign(alarm.sites.size(), 0);
+  if (!damage_.empty()) damage_.note(block, alarm);
   const auto ends = [&](std::size_t n) {
     return blocks_.layout().spring(block, alarm.row, alarm.neighbour, alarm.sites[n]);
   };

@@ -3,6 +3,7 @@
 
 #include <state/block_set.hpp>
 #include <state/clock.hpp>
+#include <state/damage_field.hpp>
 
 #include <span>
 
@@ -10,8 +11,8 @@ namespace hyperlattice {
 
 class SpringReview {
  public:
-  SpringReview(const BlockSet& blocks, const Clock& clock)
-      : blocks_(blocks), model_(blocks.model()), clock_(clock) {}
+  SpringReview(const BlockSet& blocks, const Clock& clock, const DamageField& damage)
+      : blocks_(blocks), model_(blocks.model()), clock_(clock), damage_(damage) {}
 
   /// Asks the failure criteria about springs above their alarm, and notes in the block those that
   /// break. Returns an answer for each spring, valid until the block's next review; 0: the spring
@@ -27,6 +28,7 @@ class SpringReview {
   const BlockSet& blocks_;
   const Model& model_;
   const Clock& clock_;
+  const DamageField& damage_;
 };
 
 }  // namespace hyperlattice

@@ -4,6 +4,7 @@
 #include <state/acting_loads.hpp>
 #include <state/block_set.hpp>
 #include <state/clock.hpp>
+#include <state/damage_field.hpp>
 #include <state/energy_account.hpp>
 #include <state/failure_record.hpp>
 #include <state/force_sums.hpp>
@@ -21,15 +22,16 @@ struct Simulation::State {
   BlockSet blocks;
   Clock clock;
   ActingLoads loads{blocks, clock};
-  SpringReview review{blocks, clock};
+  DamageField damage{blocks, clock};
+  SpringReview review{blocks, clock, damage};
   NodalPressures pressures{blocks};
-  OtherRows other_rows{blocks, review, pressures};
-  Sweeps sweeps{blocks, loads, review, pressures, other_rows};
+  OtherRows other_rows{blocks, review, pressures, damage};
+  Sweeps sweeps{blocks, loads, review, pressures, damage, other_rows};
   FailureRecord failures{blocks, clock, pressures};
   EnergyAccount energy{blocks, clock, failures, sweeps};
   LawMemory law_memory{blocks, energy};
   KineticEnergy kinetic{blocks};
-  ForceSums force_sums{blocks, clock, loads, pressures, sweeps};
+  ForceSums force_sums{blocks, clock, loads, pressures, damage, sweeps};
 
   State(const Model& model, int threads) : blocks(model, threads) {}
 

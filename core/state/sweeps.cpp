@@ -7,12 +7,13 @@
 namespace hyperlattice {
 
 Sweeps::Sweeps(BlockSet& blocks, ActingLoads& loads, const SpringReview& review,
-               NodalPressures& pressures, const OtherRows& other_rows)
+               NodalPressures& pressures, DamageField& damage, const OtherRows& other_rows)
     : blocks_(blocks),
       model_(blocks.model()),
       loads_(loads),
       review_(review),
       pressures_(pressures),
+      damage_(damage),
       other_rows_(other_rows),
       exact_(asked_for_exact_springs()) {}
 
@@ -24,19 +25,23 @@ void Sweeps::set_damping(double alpha, double rate) {
 void Sweeps::step(const Sweep& sweep) {
   loads_.prepare(sweep);
   loads_.check_factors();
+  if (!damage_.empty()) damage_.update(2 * sweep.after);
   read_motion();
   if (!pressures_.empty()) pressures_.update();
   blocks_.team().for_each(blocks_.size(), [&](std::size_t b) {
     Block& block = blocks_[b];
     loads_.set_supports(block, sweep);
+    if (!damage_.empty()) damage_.watch_shortening(block);
     run_kernel(model_.springs.kernels().step, block, sweep.before, sweep.after, false);
     count_work(block, sweep.before + sweep.after);
   });
   loads_.check_answers();
+  if (!damage_.empty()) damage_.finish();
 }
 
 RowSums Sweeps::measure(const Sweep& sweep) {
   loads_.prepare(sweep);
+  if (!damage_.empty()) damage_.evaluate();
   read_motion();
   if (!pressures_.empty()) pressures_.update();
   blocks_.team().for_each(blocks_.size(), [&](std::size_t b) {

@@ -1,4 +1,5 @@
-// Evaluations of all forces: ghost planes, loads, nodal volumes, then the kernel on every block.
+// Evaluations of all forces: damage, ghost planes, loads, nodal volumes, then the kernel on every
+// block.
 #pragma once
 
 #include <state/acting_loads.hpp>
@@ -11,7 +12,7 @@ namespace hyperlattice {
 class Sweeps {
  public:
   Sweeps(BlockSet& blocks, ActingLoads& loads, const SpringReview& review,
-         NodalPressures& pressures, const OtherRows& other_rows);
+         NodalPressures& pressures, DamageField& damage, const OtherRows& other_rows);
 
   /// Sets the damping: `alpha` of local damping and the rate of damping in proportion to mass, 1/s.
   void set_damping(double alpha, double rate);
@@ -43,6 +44,7 @@ class Sweeps {
   ActingLoads& loads_;
   const SpringReview& review_;
   NodalPressures& pressures_;
+  DamageField& damage_;
   const OtherRows& other_rows_;
   double damping_ = 0, damping_rate_ = 0;  // local; in proportion to mass, 1/s
   const bool exact_;                       // whether kernels take exact springs

@@ -82,7 +82,10 @@
           axial, cross_pull, cross_axial)                                                                                                             \
   CROSSES(SpringFacts, rest_length, stiffness, spacing, spring_class, crossings)                                                                      \
   CROSSES(SpringBatch, time, spring, elongation, a, b, rate, memory, time_step)                                                                       \
-  CROSSES(FailureFunctions, alarm, review, asks_ends, asks_rate, memory, start)                                                                       \
+  CROSSES(PrincipalStress, first, second, third)                                                                                                      \
+  CROSSES(CohesiveInputs, strength, fracture_energy, length, weibull_modulus, seed, allow_coarse, intact_near_supports)                               \
+  CROSSES(SurfaceFunctions, inputs, ratios)                                                                                                           \
+  CROSSES(FailureFunctions, alarm, review, asks_ends, asks_rate, memory, start, surface)                                                              \
   CROSSES(OpenArea, particle, area)                                                                                                                   \
   CROSSES(RestSpring, a, b, stiffness, share, rest_length, breakable)                                                                                 \
   CROSSES(LoadBody, self, spacing, rim, region_particles, particle_position, particle_mass, particle_share, region_open_areas, region_true_area,      \

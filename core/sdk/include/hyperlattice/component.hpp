@@ -79,6 +79,12 @@ namespace detail {
 template <class Component>
 struct FunctionsOf;
 
+/// What the host holds of a component class; a family's header may add data to it.
+template <class Component>
+struct Held {
+  using type = Component;
+};
+
 template <class Options>
 void* make_options(const Complaint& why) noexcept {
   Options* made = nullptr;
@@ -89,6 +95,7 @@ void* make_options(const Complaint& why) noexcept {
 template <class Component>
 ComponentInfo describe() {
   using Options = typename Component::Options;
+  using Made = typename Held<Component>::type;
   static const Schema<Options> schema = Component::schema();
   ComponentInfo info;
   info.family = FunctionsOf<Component>::family;
@@ -109,11 +116,11 @@ ComponentInfo describe() {
                      [&] { schema.cross_check()(*static_cast<const Options*>(options), faults); });
     };
   info.create = [](const void* options, const Complaint& why) noexcept -> void* {
-    Component* made = nullptr;
-    guarded(why, [&] { made = new Component(*static_cast<const Options*>(options)); });
+    Made* made = nullptr;
+    guarded(why, [&] { made = new Made(*static_cast<const Options*>(options)); });
     return made;
   };
-  info.destroy = [](void* component) noexcept { delete static_cast<Component*>(component); };
+  info.destroy = [](void* component) noexcept { delete static_cast<Made*>(component); };
   info.functions = &FunctionsOf<Component>::table;
   info.functions_size = sizeof(FunctionsOf<Component>::table);
   return info;

@@ -1,14 +1,17 @@
-// A failure criterion: the rule that says whether a base spring breaks. It states an alarm, the
+// A failure criterion of springs: the rule that says whether a base spring breaks. It states an alarm, the
 // elongation below which the spring cannot break; fast kernels only compare with it. The criterion
 // decides about springs above their alarm, which it gets in batches. It may keep a few numbers for
 // each spring, such as a damage that grows with time:
 //
 //   struct Memory { double damage = 0; };
 //   bool breaks(const SpringFacts& spring, const AlarmedSpring& state, Memory& memory) const;
+//
+// The other kind of failure component is a strength surface (strength_surface.hpp).
 #pragma once
 
 #include <hyperlattice/component.hpp>
 #include <hyperlattice/law.hpp>
+#include <hyperlattice/strength_surface.hpp>
 
 #include <algorithm>
 #include <array>
@@ -56,7 +59,8 @@ struct SpringBatch {
   double time_step = 0;  ///< see AlarmedSpring, seconds
 };
 
-/// Functions of a failure criterion across the boundary.
+/// Functions of a failure component across the boundary. A criterion of springs has alarm and
+/// review, a strength surface has the functions of `surface` only.
 struct FailureFunctions {
   bool (*alarm)(const void* failure, const SpringFacts& spring, double& elongation,
                 const Complaint& why) noexcept;
@@ -66,6 +70,7 @@ struct FailureFunctions {
   std::uint32_t memory;       ///< how many numbers the criterion keeps for each spring
   /// Writes the memory of a spring that no review has seen yet. Null if there is no memory.
   void (*start)(double* memory) noexcept;
+  SurfaceFunctions surface;
 };
 
 template <class T>
@@ -188,7 +193,30 @@ struct FunctionsOf<T> {
       !AsksElongation<T>,
       asks_rate<T>(),
       failure_memory<T>(),
-      start_of<T>()};
+      start_of<T>(),
+      {nullptr, nullptr}};
+};
+
+template <SurfaceComponent T>
+struct FunctionsOf<T> {
+  static constexpr Family family = Family::failures;
+  static constexpr FailureFunctions table{
+      nullptr,
+      nullptr,
+      false,
+      false,
+      0,
+      nullptr,
+      {[](const void* held, CohesiveInputs& inputs) noexcept {
+         inputs = static_cast<const WithInputs<T>*>(held)->inputs;
+       },
+       [](const void* held, std::span<const PrincipalStress> stresses, double* ratios,
+          const Complaint& why) noexcept {
+         return guarded(why, [&] {
+           const T& surface = static_cast<const WithInputs<T>*>(held)->surface;
+           for (std::size_t n = 0; n < stresses.size(); ++n) ratios[n] = surface.ratio(stresses[n]);
+         });
+       }}};
 };
 }  // namespace detail
 }  // namespace hyperlattice

@@ -1,0 +1,391 @@
+#include <state/damage_field.hpp>
+#include <state/damage_growth.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyperlattice {
+
+namespace {
+
+// Marks of a particle repeat after a few steps, so that particles that stay above their alarm cost
+// no list in every step. A particle without damage is followed for longer than that.
+constexpr std::uint64_t steps_between_marks = 16, steps_followed = 64;
+/// A wave takes two to three steps from one particle to the next, and damage many more.
+constexpr std::uint64_t steps_between_watches = 4;
+
+/// Returns the part that remains of two half springs in series.
+double in_series(double a, double b) {
+  const double sum = a + b;
+  return sum > 0 ? 2 * a * b / sum : 0;
+}
+
+/// c_d in spacings per step. The wave of d is stable below 0.866.
+constexpr double damage_speed = 0.8 * 0.866;
+
+/// Least part of an alpha spring that remains, so that heights of dust stay bounded.
+constexpr double least_alpha = 1e-3;
+
+/// Adds pull r (x) r.
+void add_virial(Symmetric& sum, double pull, Vec3 r) {
+  const Vec3 force = pull * r;
+  sum[0] += force.x * r.x;
+  sum[1] += force.y * r.y;
+  sum[2] += force.z * r.z;
+  sum[3] += force.y * r.z;
+  sum[4] += force.x * r.z;
+  sum[5] += force.x * r.y;
+}
+
+/// Returns the stress from the virial, of which `heights` is the part of the heights.
+Symmetric corrected(const Symmetric& virial, const Symmetric& heights,
+                    const VirialCorrection& correction) {
+  const double trace = heights[0] + heights[1] + heights[2];
+  Symmetric stress{};
+  for (std::size_t row = 0; row < 6; ++row) {
+    stress[row] = correction.heights[row] * trace;
+    for (std::size_t column = 0; column < 6; ++column)
+      stress[row] += correction.strains[6 * row + column] * (virial[column] - heights[column]);
+  }
+  return stress;
+}
+
+}  // namespace
+
+/// Displacement and height of a particle, m.
+struct DamageField::Motion {
+  Vec3 moved;
+  double height = 0;
+};
+
+DamageField::Motion DamageField::motion_of(const Block& block, std::uint64_t index) const {
+  return {
+      {block.displacement[0][index], block.displacement[1][index], block.displacement[2][index]},
+      model_.degrees_of_freedom == 4 ? block.displacement[3][index] : 0.0};
+}
+
+void DamageField::evaluate() {
+  records_.for_each([this](std::uint32_t record) { gather(record); });
+  for (const std::uint32_t number : records_.order()) {
+    DamageRecord& record = records_[number];
+    blocks_[record.block].fracture_work[record.row] += record.dissipated;
+    record.dissipated = 0;
+  }
+}
+
+/// Computes a record's springs in their order.
+///
+/// The energy of the scheme at n is E_n = 1/2 v(n-1/2).M.v(n+1/2) plus the stored energy. For a
+/// spring with the stiffness f_n k and the elongation u_n,
+///   kinetic energy:  1/2 (u_{n+1} - u_n) (-f_n k u_n - f_{n+1} k u_{n+1}),
+///   stored energy:   1/2 k (f_{n+1} u_{n+1}^2 - f_n u_n^2),
+/// whose sum is -1/2 (f_n - f_{n+1}) k u_n u_{n+1}. So the spring dissipates
+///   D = 1/2 (f_n - f_{n+1}) k u_n u_{n+1}
+/// in the step, and the balance is as exact as that of springs that do not change.
+void DamageField::gather(std::uint32_t number) {
+  DamageRecord& record = records_[number];
+  const Motion here = motion_of(blocks_[record.block], record.index);
+  const double own = records_.remaining(number), delta = model_.body.grid.membrane_distance;
+  const std::size_t kinds = model_.springs.choice.membrane == KernelChoice::Membrane::none ? 1 : 2;
+  record.force = {};
+  record.stored = record.dissipated = 0;
+  Symmetric virial{}, of_heights{};
+  double spread = 0;
+  for (DamageSpring& spring : record.springs()) {
+    spread += spring.spread * (records_.damage_of(spring.to) - records_.damage(number));
+    if (!spring.present) continue;
+    if (!spring.handed_over && !records_.exists(record, spring)) {
+      spring.present = false;
+      continue;
+    }
+    const Motion there = motion_of(blocks_[spring.block], spring.index);
+    const Vec3 r = spring.rest + (there.moved - here.moved);
+    const double other = records_.remaining_of(spring.to), factor = in_series(own, other),
+                 share = own + other > 0 ? 2 * other / (own + other) : 1;  // f over own omega
+    double pull_of_virial = 0;
+    for (std::size_t cross = 0; cross < kinds; ++cross) {
+      const double u = elongation(spring, cross, here, there),
+                   over_length = spring.stiffness[cross] * u / (spring.rest_length[cross] + u);
+      const bool degrades = cross == 1 || u > 0;
+      pull_of_virial += (degrades ? share : 1) * over_length;
+      if (record.correction && cross == 1) {
+        const double total = there.height + here.height, length = spring.rest_length[1] + u;
+        add_virial(of_heights,
+                   share * spring.stiffness[1] * total * (2 * delta + total) /
+                       ((length + spring.rest_length[1]) * length),
+                   r);
+      }
+      const double f = degrades ? factor : 1;
+      if (spring.handed_over) {
+        const double pull = f * over_length;
+        record.force[0] += pull * r.x;
+        record.force[1] += pull * r.y;
+        record.force[2] += pull * r.z;
+        record.force[3] += cross == 0 ? pull * (there.height - here.height)
+                                      : -pull * (delta + (there.height + here.height));
+        record.stored += 0.25 * spring.stiffness[cross] * f * u * u;
+        record.dissipated += 0.25 * (spring.factor[cross] - f) * spring.stiffness[cross] *
+                             spring.elongation[cross] * u;
+      }
+      spring.elongation[cross] = u;
+      spring.factor[cross] = f;
+    }
+    add_virial(virial, pull_of_virial, r);
+  }
+  if (record.alpha > 0) {  // the kernel has computed the whole spring: 2 alpha s, alpha s^2
+    const double f = own < 1 ? std::max(own, least_alpha) : 1;
+    record.force[3] += 2 * (1 - f) * record.alpha * here.height;
+    record.stored -= (1 - f) * record.alpha * here.height * here.height;
+    record.dissipated += (record.alpha_factor - f) * record.alpha * record.height * here.height;
+    record.height = here.height;
+    record.alpha_factor = f;
+  }
+  if (record.material == nullptr) return;
+  for (double& component : virial) component /= 2 * record.volume;
+  for (double& component : of_heights) component /= 2 * record.volume;
+  record.stress = record.correction ? corrected(virial, of_heights, *record.correction) : virial;
+  const double in_spacings = record.material->length / model_.body.grid.spacing;
+  record.spread = in_spacings * in_spacings * spread;
+}
+
+double DamageField::elongation(const DamageSpring& spring, std::size_t cross, const Motion& here,
+                               const Motion& there) const {
+  const Vec3 d = there.moved - here.moved;
+  const double rise = cross == 0 ? there.height - here.height : there.height + here.height;
+  const double twice = cross == 0 ? 0 : 2 * model_.body.grid.membrane_distance;
+  const double growth = dot(d, 2 * spring.rest + d) + rise * (twice + rise),
+               length = spring.rest_length[cross];
+  return growth / (std::sqrt(length * length + growth) + length);
+}
+
+void DamageField::update(double time_step) {
+  evaluate();
+  next_.resize(records_.numbers());
+  records_.for_pieces([&](std::span<const std::uint32_t> records) { grow(records, time_step); });
+  ended_.clear();
+  std::vector<std::uint32_t> damaged;
+  for (const std::uint32_t record : records_.order()) {
+    const double before = records_.damage(record), now = next_[record];
+    if (now == before) continue;
+    const double remained = records_.remaining(record);
+    records_.set_damage(record, now);
+    if (before == 0) damaged.push_back(record);
+    if (remained == 1 && records_.remaining(record) < 1) soft_.push_back(record);
+    if (remained > 0 && records_.remaining(record) == 0) ended_.push_back(record);
+  }
+  surround(damaged);
+  note_gone();
+}
+
+/// Finds the damage of some records after the step.
+void DamageField::grow(std::span<const std::uint32_t> records, double time_step) {
+  struct Driven {
+    std::uint32_t record;
+    PrincipalStress stress;
+  };
+  std::vector<Driven> driven;
+  driven.reserve(records.size());
+  for (const std::uint32_t number : records) {
+    const double damage = next_[number] = records_.damage(number);
+    const DamageRecord& record = records_[number];
+    if (record.material != nullptr && damage < 1)
+      driven.push_back({number, principal_values(record.stress)});
+  }
+  if (driven.empty()) return;
+  // Each material's surface is asked about its stresses at once.
+  std::vector<PrincipalStress> stresses;
+  std::vector<double> ratios;
+  stresses.reserve(driven.size());
+  for (const Cohesive& material : model_.cohesive) {
+    const auto is_of = [&](const Driven& one) {
+      return records_[one.record].material == &material;
+    };
+    stresses.clear();
+    for (const Driven& one : driven)
+      if (is_of(one)) stresses.push_back(one.stress);
+    if (stresses.empty()) continue;
+    ratios.assign(stresses.size(), 0);
+    material.ratios(stresses, ratios.data());
+    const double crossing = material.length * time_step / (damage_speed * model_.body.grid.spacing);
+    auto ratio = ratios.begin();
+    for (const Driven& one : driven) {
+      if (!is_of(one)) continue;
+      DamageRecord& record = records_[one.record];
+      const double equivalent = *ratio++ * material.strength / record.strength;
+      DamageStep step;
+      step.damage = records_.damage(one.record);
+      step.rate = record.rate;
+      step.shape = record.shape;
+      step.drive = equivalent * equivalent;
+      step.spread = record.spread;
+      step.inertia = crossing * crossing;
+      step.viscosity = material.viscosity;
+      step.time_step = time_step;
+      record.rate = damage_rate(step);
+      const double damage = step.damage + time_step * record.rate;
+      next_[one.record] = damage >= 1 - 1e-4 ? 1 : damage;
+    }
+  }
+}
+
+/// Counts the springs of which nothing remains when they are stretched, each once.
+void DamageField::note_gone() {
+  for (const std::uint32_t number : ended_) {
+    const DamageRecord& record = records_[number];
+    for (const DamageSpring& spring : record.springs()) {
+      const std::uint32_t other = records_.of(spring.to);
+      const bool ends_too = std::find(ended_.begin(), ended_.end(), other) != ended_.end();
+      // The other end has counted it, in an earlier step or in this one.
+      if (!spring.present ||
+          (records_.remaining_of(spring.to) == 0 && !(ends_too && record.particle < spring.to)))
+        continue;
+      const DamageRecord& first = spring.forward ? record : records_[other];
+      blocks_[first.block].broken.push_back(
+          {{spring.forward ? record.particle : spring.to,
+            spring.forward ? spring.to : record.particle, spring.neighbour, true},
+           spring.elongation[0],
+           first.row,
+           spring.neighbour,
+           first.site,
+           true});
+    }
+  }
+}
+
+/// Makes records of the neighbours of particles that have their first damage. Their springs were
+/// whole in this state.
+void DamageField::surround(const std::vector<std::uint32_t>& damaged) {
+  std::vector<Particle> neighbours;
+  neighbours.reserve(damaged.size() * DamageRecord::most_springs);
+  for (const std::uint32_t number : damaged)
+    for (const DamageSpring& spring : records_[number].springs()) neighbours.push_back(spring.to);
+  const std::size_t kinds = model_.springs.choice.membrane == KernelChoice::Membrane::none ? 1 : 2;
+  for (const std::uint32_t number : records_.add(std::move(neighbours))) {
+    DamageRecord& record = records_[number];
+    record.marked = clock_.steps();
+    const Motion here = motion_of(blocks_[record.block], record.index);
+    for (DamageSpring& spring : record.springs())
+      for (std::size_t cross = 0; cross < kinds; ++cross)
+        spring.elongation[cross] =
+            elongation(spring, cross, here, motion_of(blocks_[spring.block], spring.index));
+  }
+}
+
+void DamageField::finish() {
+  for (const std::uint32_t number : soft_) {
+    DamageRecord& record = records_[number];
+    for (DamageSpring& spring : record.springs()) {
+      if (spring.handed_over || !spring.present) continue;
+      if (!records_.exists(record, spring)) {
+        spring.present = false;
+        continue;
+      }
+      records_.clear_bit(record, spring);
+      spring.handed_over = true;
+      for (DamageSpring& same : records_[records_.of(spring.to)].springs())
+        if (same.to == record.particle) same.handed_over = true;
+    }
+  }
+  soft_.clear();
+  std::vector<Particle> noted;
+  for (Block& block : blocks_) {
+    noted.insert(noted.end(), block.noted.begin(), block.noted.end());
+    block.noted.clear();
+  }
+  if (!noted.empty()) {
+    records_.add(noted);
+    for (const Particle particle : noted) records_[records_.of(particle)].marked = clock_.steps();
+  }
+  if (clock_.steps() % steps_followed == 0) remove_idle();
+}
+
+/// Removes the records of particles that have no damage, nor a neighbour with damage, and whose
+/// springs have been below their alarm for long.
+void DamageField::remove_idle() {
+  records_.remove_if([this](const DamageRecord& record) {
+    if (records_.damage_of(record.particle) > 0 || record.marked + steps_followed > clock_.steps())
+      return false;
+    const auto springs = record.springs();
+    return std::none_of(springs.begin(), springs.end(), [this](const DamageSpring& spring) {
+      return records_.damage_of(spring.to) > 0;
+    });
+  });
+}
+
+void DamageField::note(Block& block, const AlarmRow& springs) const {
+  const double rest_length = model_.springs.neighbours[springs.neighbour].rest_length;
+  for (std::size_t n = 0; n < springs.sites.size(); ++n) {
+    const SpringEnds ends =
+        blocks_.layout().spring(block, springs.row, springs.neighbour, springs.sites[n]);
+    for (const Particle end : {ends.a, ends.b}) {
+      const std::uint32_t record = records_.of(end);
+      if (record != DamageRecords::none &&
+          records_[record].marked + steps_between_marks > clock_.steps())
+        continue;
+      const Cohesive& material = model_.cohesive[model_.kinds.material(end)];
+      if (springs.elongation[n] > material.stretch_alarm * rest_length && records_.has_field(end))
+        block.noted.push_back(end);
+    }
+  }
+}
+
+void DamageField::watch_shortening(Block& block) const {
+  if (clock_.steps() % steps_between_watches != 0) return;
+  double alarm = infinity;
+  for (const Cohesive& material : model_.cohesive)
+    if (material.stage != nullptr) alarm = std::min(alarm, material.shortening_alarm);
+  if (!std::isfinite(alarm)) return;
+  for (std::uint32_t r = block.layout->first_own; r < block.layout->last_own; ++r) {
+    const Row& row = block.rows[r];
+    for (std::uint32_t n = 0; n < model_.springs.neighbours.size(); ++n) {
+      if ((row.neighbours >> n & 1U) == 0) continue;
+      const NeighbourGeometry& to = model_.springs.neighbours[n];
+      const double square = to.rest_length * to.rest_length,
+                   least = square * ((1 - alarm) * (1 - alarm) - 1);
+      for (std::int32_t i = row.begin; i < row.end; ++i) {
+        const std::uint64_t here = row.start + static_cast<std::uint64_t>(i - row.begin);
+        if ((block.alive[here] >> n & 1U) == 0) continue;
+        const Vec3 d = motion_of(block, blocks_.layout().other_end(block.number, r, n, i)).moved -
+                       motion_of(block, here).moved;
+        if (dot(d, 2 * to.rest + d) > least) continue;
+        const SpringEnds ends = blocks_.layout().spring(block, r, n, i);
+        for (const Particle end : {ends.a, ends.b}) {
+          const std::uint32_t record = records_.of(end);
+          if (records_.has_field(end) &&
+              (record == DamageRecords::none ||
+               records_[record].marked + steps_between_marks <= clock_.steps()))
+            block.noted.push_back(end);
+        }
+      }
+    }
+  }
+}
+
+void DamageField::copy_damage(std::vector<double>& values) const {
+  for (Particle p = 0; p < values.size(); ++p)
+    if (model_.cohesive[model_.kinds.material(p)].stage != nullptr)
+      values[p] = records_.damage_of(p);
+}
+
+std::optional<double> DamageField::factor(Particle first, std::uint32_t neighbour) const {
+  const std::uint32_t number = records_.of(first);
+  if (number == DamageRecords::none) return std::nullopt;
+  for (const DamageSpring& spring : records_[number].springs())
+    if (spring.forward && spring.neighbour == neighbour && spring.handed_over && spring.present)
+      return in_series(records_.remaining(number), records_.remaining_of(spring.to));
+  return std::nullopt;
+}
+
+std::vector<SoftSpring> DamageField::soft_springs() const {
+  std::vector<SoftSpring> found;
+  for (const std::uint32_t number : records_.order()) {
+    const DamageRecord& record = records_[number];
+    for (const DamageSpring& spring : record.springs())
+      if (spring.forward && spring.handed_over && spring.present)
+        found.push_back({record.particle, spring.neighbour,
+                         in_series(records_.remaining(number), records_.remaining_of(spring.to))});
+  }
+  return found;
+}
+
+}  // namespace hyperlattice

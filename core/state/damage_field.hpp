@@ -1,0 +1,93 @@
+// The field of damage of cohesive materials (docs/theory/cohesive.md). A particle has the damage
+// d, of which omega(d) of its stiffness remains. A spring is two half springs in series, so that
+// the harmonic mean of its ends' omega remains of it: of a base spring if it is stretched, of a
+// cross spring always.
+//
+// A spring with an end of omega < 1 is handed over: its bit in Block::alive is cleared, so that
+// kernels skip it with its cross springs, and the field computes it. What kernels cost stays as it
+// is, and the field costs what lies near cracks.
+#pragma once
+
+#include <state/clock.hpp>
+#include <state/damage_records.hpp>
+
+#include <hyperlattice/kernel_request.hpp>
+
+#include <optional>
+#include <vector>
+
+namespace hyperlattice {
+
+/// A spring that the field computes. The stiffness of a cross spring has the factor, that of a base
+/// spring too if it is stretched.
+struct SoftSpring {
+  Particle a = 0;               ///< first end
+  std::uint32_t neighbour = 0;  ///< see Model::spring_properties
+  double factor = 1;
+};
+
+class DamageField {
+ public:
+  DamageField(BlockSet& blocks, const Clock& clock)
+      : blocks_(blocks), model_(blocks.model()), clock_(clock), records_(blocks) {}
+
+  /// Returns whether no material is cohesive. All other functions need one.
+  bool empty() const { return model_.cohesive.empty(); }
+
+  // A step of length `time_step`, s, calls these in turn.
+  /// Computes the forces of the present state, then lets damage grow. Must be called before blocks
+  /// exchange: other blocks copy the bits of springs.
+  void update(double time_step);
+  /// Notes particles beside springs that are shortened beyond the alarm. Must be called after
+  /// blocks exchanged.
+  void watch_shortening(Block& block) const;
+  /// Hands over the springs that became soft, and follows the particles that were noted.
+  void finish();
+
+  /// Computes the forces and energies of the present state, and what the last step dissipated.
+  void evaluate();
+  /// Notes the ends of springs above their alarm. Each block's thread may call it.
+  void note(Block& block, const AlarmRow& springs) const;
+
+  /// Returns the records of a row, with the results of the last evaluation.
+  template <class Visit>
+  void for_row(const Block& block, std::uint32_t row, const Visit& visit) const {
+    for (const std::uint32_t record : records_.of_row(block.number, row)) visit(records_[record]);
+  }
+  /// Sets the damage of the particles of cohesive materials, and leaves the others.
+  void copy_damage(std::vector<double>& values) const;
+  /// Calls visit(particle, damage, rate) for the particles with damage in their order.
+  template <class Visit>
+  void for_damaged(const Visit& visit) const {
+    for (const std::uint32_t record : records_.order())
+      if (records_.damage(record) > 0)
+        visit(records_[record].particle, records_.damage(record), records_[record].rate);
+  }
+  /// Returns the factor of a spring, given its first end, if it is handed over.
+  std::optional<double> factor(Particle first, std::uint32_t neighbour) const;
+  /// Returns the springs that are handed over, in the order of their first ends and neighbours.
+  std::vector<SoftSpring> soft_springs() const;
+
+  void archive(Archive& archive) { records_.archive(archive); }
+
+ private:
+  struct Motion;
+  Motion motion_of(const Block& block, std::uint64_t index) const;
+  double elongation(const DamageSpring& spring, std::size_t cross, const Motion& here,
+                    const Motion& there) const;
+  void gather(std::uint32_t number);
+  void grow(std::span<const std::uint32_t> records, double time_step);
+  void note_gone();
+  void surround(const std::vector<std::uint32_t>& damaged);
+  void remove_idle();
+
+  BlockSet& blocks_;
+  const Model& model_;
+  const Clock& clock_;
+  DamageRecords records_;
+  std::vector<double> next_;          // damage of each record after the step
+  std::vector<std::uint32_t> soft_;   // records whose omega fell below 1 in this step
+  std::vector<std::uint32_t> ended_;  // records whose omega became 0 in this step
+};
+
+}  // namespace hyperlattice

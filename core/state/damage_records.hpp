@@ -1,0 +1,172 @@
+// The particles near cracks. Damage is stored only for particles that have some, for their
+// neighbours, and for particles whose stress may reach the surface; all others have d = 0.
+#pragma once
+
+#include <model/cohesive.hpp>
+#include <state/archive.hpp>
+#include <state/block_set.hpp>
+#include <state/tensor.hpp>
+
+#include <array>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace hyperlattice {
+
+/// A spring seen from one of its ends, of index 0 base and 1 cross.
+struct DamageSpring {
+  Particle to = 0;
+  std::uint32_t block = 0;      ///< that stores the other end
+  std::uint64_t index = 0;      ///< of the other end in its arrays
+  std::uint32_t neighbour = 0;  ///< number of the spring among those of its first end
+  bool forward = true;          ///< whether the record's particle is the first end
+  bool present = true;          ///< false: a criterion has removed it
+  bool handed_over = false;     ///< whether the field computes it, not the kernel
+  Vec3 rest;                    ///< from the record's particle to the other end, m
+  double rest_length[2] = {};   ///< m
+  double stiffness[2] = {};     ///< with the share, N/m
+  double spread = 0;            ///< weight in the Laplacian over the particle's share
+  double elongation[2] = {};    ///< in the last evaluation, m
+  double factor[2] = {1, 1};    ///< of its stiffness, likewise
+};
+
+/// Turns the virial of a particle whose cells are not symmetric into the stress, for small strains
+/// of one value around the particle.
+struct VirialCorrection {
+  std::array<double, 36> strains{};  ///< for the part of strains: 6 x 6, row by row
+  /// For the part of heights: stress over the sum xx + yy + zz of the virial.
+  Symmetric heights{};
+};
+
+/// A particle whose damage is followed.
+struct DamageRecord {
+  static constexpr std::size_t most_springs = 18;
+
+  Particle particle = 0;
+  std::uint32_t block = 0, row = 0;
+  std::int32_t site = 0;
+  std::uint64_t index = 0;
+  const Cohesive* material = nullptr;  ///< null: damage stays 0
+  double volume = 0;                   ///< m3
+  double strength = 0;                 ///< of this particle, Pa
+  double shape = 1;                    ///< A
+  double alpha = 0;                    ///< of the alpha spring, N/m
+  double rate = 0;                     ///< of damage in the last step, 1/s
+  std::uint64_t marked = 0;            ///< step in which a spring was last above its alarm
+  /// For a particle whose cells are not symmetric; null: its virial is its stress.
+  std::unique_ptr<const VirialCorrection> correction;
+
+  // results of the last evaluation
+  double height = 0, alpha_factor = 1;  ///< m
+  Symmetric stress{};                   ///< Pa
+  double spread = 0;                    ///< b^2 times the Laplacian of damage
+  std::array<double, 4> force{};        ///< of springs that are handed over, N
+  double stored = 0;                    ///< half of their energies, J
+  double dissipated = 0;                ///< half of what they lost since the evaluation before, J
+
+  std::uint32_t count = 0;
+  std::array<DamageSpring, most_springs> all;
+  std::span<DamageSpring> springs() { return {all.data(), count}; }
+  std::span<const DamageSpring> springs() const { return {all.data(), count}; }
+};
+
+class DamageRecords {
+ public:
+  explicit DamageRecords(BlockSet& blocks);
+
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
+  /// Memory for every particle of the body, bytes; records take more near cracks.
+  static constexpr std::size_t bytes_of_particle = sizeof(std::uint32_t);
+  /// Returns the number of a particle's record, or none.
+  std::uint32_t of(Particle particle) const { return index_[particle]; }
+  DamageRecord& operator[](std::uint32_t record) { return records_[record]; }
+  const DamageRecord& operator[](std::uint32_t record) const { return records_[record]; }
+  /// Returns the numbers of all records in the order of their particles.
+  std::span<const std::uint32_t> order() const { return order_; }
+  /// Returns those of one row of a block.
+  std::span<const std::uint32_t> of_row(std::size_t block, std::uint32_t row) const {
+    const auto [begin, end] = rows_[block][row];
+    return order().subspan(begin, end - begin);
+  }
+
+  /// Returns how many numbers of records there are, used or not.
+  std::size_t numbers() const { return records_.size(); }
+  /// Damage of a record; both are 0 and 1 without damage.
+  double damage(std::uint32_t record) const { return damages_[record]; }
+  double remaining(std::uint32_t record) const { return remaining_[record]; }
+  void set_damage(std::uint32_t record, double damage);
+  /// Returns them for any particle.
+  double damage_of(Particle particle) const {
+    return index_[particle] == none ? 0 : damages_[index_[particle]];
+  }
+  double remaining_of(Particle particle) const {
+    return index_[particle] == none ? 1 : remaining_[index_[particle]];
+  }
+
+  /// Returns whether damage can grow at a particle.
+  bool has_field(Particle particle) const;
+  /// Makes records of those particles that have none. Returns the numbers of the new ones.
+  std::vector<std::uint32_t> add(std::vector<Particle> particles);
+  /// Removes the records for which `removes` is true.
+  template <class Removes>
+  void remove_if(const Removes& removes) {
+    std::vector<std::uint32_t> left;
+    left.reserve(order_.size());
+    for (const std::uint32_t record : order_)
+      if (removes(records_[record]))
+        forget(record);
+      else
+        left.push_back(record);
+    if (left.size() == order_.size()) return;
+    order_ = std::move(left);
+    find_rows();
+  }
+  /// Returns whether the bit of the first end says that the spring exists.
+  bool exists(const DamageRecord& record, const DamageSpring& spring) const;
+  void clear_bit(const DamageRecord& record, const DamageSpring& spring);
+
+  /// Calls work(record number) for all on the threads of the run.
+  template <class Work>
+  void for_each(const Work& work) const {
+    for_pieces([&](std::span<const std::uint32_t> records) {
+      for (const std::uint32_t record : records) work(record);
+    });
+  }
+  /// Calls work(record numbers) for pieces of the order.
+  template <class Work>
+  void for_pieces(const Work& work) const {
+    constexpr std::size_t piece = 64;
+    blocks_.team().for_each((order_.size() + piece - 1) / piece, [&](std::size_t n) {
+      work(order().subspan(n * piece, std::min(piece, order_.size() - n * piece)));
+    });
+  }
+
+  void archive(Archive& archive);
+
+ private:
+  void fill(DamageRecord& record, Particle particle) const;
+  void add_spring(DamageRecord& record, const Neighbour& to, std::uint32_t neighbour,
+                  bool forward) const;
+  void find_correction(DamageRecord& record) const;
+  bool has_membrane() const {
+    return model_.springs.choice.membrane != KernelChoice::Membrane::none;
+  }
+  void forget(std::uint32_t record);
+  void find_rows();
+
+  BlockSet& blocks_;
+  const Model& model_;
+  std::deque<DamageRecord> records_;
+  std::vector<double> damages_, remaining_;  // of each record
+  std::vector<std::uint32_t> unused_;        // numbers of records
+  std::vector<std::uint32_t> order_;
+  std::vector<std::uint32_t> index_;  // of each particle
+  /// [block][row]: its range in order_
+  std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> rows_;
+};
+
+}  // namespace hyperlattice

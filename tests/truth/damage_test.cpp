@@ -1,0 +1,304 @@
+// The field of damage: the bar whose curve of softening is known in closed form, the profile of
+// damage that remains, and what the field must not do. See docs/theory/cohesive.md.
+#include <support/laws.hpp>
+#include <support/scenes.hpp>
+
+#include <state/archive.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+namespace {
+using namespace hyperlattice;
+using namespace hyperlattice::test;
+
+constexpr double young = 1e10, strength = 1e7, spacing = 1e-3;
+
+/// The toughness of a material with l_ch = 3.6 b, and the material with these keys of the surface.
+double fracture_energy(double poisson, double length) {
+  const double modulus = young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson));
+  return 3.6 * length * strength * strength / modulus * (1 + 0.175 * spacing / length);
+}
+Keys cohesive(double poisson, double length, const Keys& more = {}) {
+  return {{"young", young},
+          {"density", 2500},
+          {"poisson", poisson},
+          {"membrane", poisson == 0.25 ? "none" : "I-m"},
+          {"failure", (Keys{{"type", "failures.cohesive"},
+                            {"strength", strength},
+                            {"fracture_energy", fracture_energy(poisson, length)},
+                            {"length", length},
+                            {"intact_near_supports", false}} +
+                       more)
+                          .json()}};
+}
+
+std::vector<double> damage_of(const Model& model, const Simulation& simulation) {
+  std::vector<double> values(model.body.particles, 0);
+  simulation.copy_damage(values);
+  return values;
+}
+
+/// A bar of one cell by one cell that two rims pull apart slowly. The two middle layers of cells
+/// are weaker by 0.5 %.
+struct Bar {
+  int half;  ///< length, cells
+  std::unique_ptr<Plan> plan;
+  std::unique_ptr<Simulation> simulation;
+
+  Bar(int half_length, double poisson, double length, const std::string& precision, int threads = 1)
+      : half(half_length) {
+    const double end = mm(2 * half);
+    plan = plan_of(
+        SceneBuilder{}
+            .key("precision", precision)
+            .lattice("lattices.cubic", spacing, box_mm(2 * half, 1, 1), {{"boundary", "cells"}})
+            .material("materials.elastic", cohesive(poisson, length))
+            .material("materials.elastic",
+                      cohesive(poisson, length, {{"strength", 0.995 * strength}}) +
+                          Keys{{"name", "weak"},
+                               {"region", box({mm(half - 1), -1, -1}, {mm(half + 1), 1, 1})}})
+            .load("loads.velocity", {{"name", "left"},
+                                     {"on", "x_min"},
+                                     {"axes", "x"},
+                                     {"value", Vec3{-speed(end), 0, 0}},
+                                     {"rise", 0.1 * time(end)}})
+            .load("loads.velocity", {{"name", "right"},
+                                     {"on", "x_max"},
+                                     {"axes", "x"},
+                                     {"value", Vec3{speed(end), 0, 0}},
+                                     {"rise", 0.1 * time(end)}})
+            .load("loads.fixed", {{"on", "y_min"}, {"axes", "y"}})
+            .load("loads.fixed", {{"on", "z_min"}, {"axes", "z"}})
+            .solver("solvers.explicit", {{"end_time", 1}})
+            .text(),
+        threads);
+    simulation = std::make_unique<Simulation>(*plan->model, threads);
+    simulation->set_damping(0, 0.3 * std::numbers::pi * 2000 / end);
+  }
+  /// Time of the test, s, in passages of waves, and the speed of a rim, m/s.
+  static double time(double end) { return 150 * end / 2000; }
+  double speed(double end) const { return 0.5 * 1.5 * strength / young * end / time(end); }
+
+  /// Returns the stress of the rims, Pa.
+  double stress() const {
+    const std::vector<Vec3> forces = simulation->force_on_load();
+    return (forces[0].x - forces[1].x) / 2 / (spacing * spacing);
+  }
+  /// Returns the growth of the length, m, less that of the elastic bar.
+  double opening(double stress) const {
+    std::vector<double> u;
+    simulation->displacements(u);
+    const std::size_t last = 3 * static_cast<std::size_t>(2 * half);
+    return u[last] - u[0] - stress / young * mm(2 * half);
+  }
+};
+
+struct Softening {
+  double peak = 0;       ///< over the strength
+  double worst = 0;      ///< distance from the line, over the strength
+  double worst_top = 0;  ///< of the damage in the middle from 1 - stress / strength
+  double dissipated = 0, stored = 0, error = 0;
+  std::vector<double> damage;
+};
+Softening pull(Bar& bar, double length, double poisson) {
+  Softening found;
+  const Model& model = *bar.plan->model;
+  const double modulus = model.cohesive[0].modulus,
+               toughness = 3.6 * length * strength * strength / modulus;
+  const double last = 2 * toughness / strength, step = 0.85 * model.step_limit.time_step;
+  (void)poisson;
+  const double end = Bar::time(mm(2 * bar.half));
+  bool softens = false;
+  for (int n = 0; bar.simulation->time() < end; ++n) {
+    bar.simulation->step(step);
+    if (n % 50 != 0) continue;
+    const double stress = bar.stress() / strength, w = bar.opening(stress * strength) / last;
+    if (std::getenv("SHOW") != nullptr)
+      std::printf("%g %g %g\n", w, stress,
+                  damage_of(model, *bar.simulation)[static_cast<std::size_t>(bar.half)]);
+    found.peak = std::max(found.peak, stress);
+    if (w > 0.1) softens = true;
+    if (!softens || w > 0.95) continue;
+    found.worst = std::max(found.worst, std::abs(stress - (1 - w)));
+    const double top = damage_of(model, *bar.simulation)[static_cast<std::size_t>(bar.half)];
+    found.worst_top = std::max(found.worst_top, std::abs(top - (1 - stress)));
+  }
+  const EnergyBalance balance = bar.simulation->balance();
+  found.dissipated = balance.dissipated_failure / (toughness * spacing * spacing);
+  found.stored = balance.stored / (toughness * spacing * spacing);
+  found.error = balance.relative_error();
+  found.damage = damage_of(model, *bar.simulation);
+  return found;
+}
+
+class BarOfDamage : public testing::TestWithParam<std::pair<int, double>> {};
+
+TEST_P(BarOfDamage, SoftensAlongTheLineOfItsToughness) {
+  const auto [ratio, poisson] = GetParam();
+  const double length = mm(ratio);
+  Bar bar((5 * ratio + 1) / 2, poisson, length, "double");
+  const Softening found = pull(bar, length, poisson);
+  std::printf("b/h %d: peak %.4f line %.4f top %.4f D %.4f stored %.2e balance %.2e\n", ratio,
+              found.peak, found.worst, found.worst_top, found.dissipated, found.stored,
+              found.error);
+  EXPECT_NEAR(found.peak, 1, 0.01);
+  EXPECT_LT(found.worst, 0.02);
+  EXPECT_LT(found.worst_top, 0.03);
+  EXPECT_NEAR(found.dissipated, 1, 0.03);
+  EXPECT_LT(std::abs(found.error), 1e-3);
+  // What remains has the profile d = 1 - sin(|x| / b).
+  for (int i = 0; i <= 2 * bar.half; ++i) {
+    const double x = std::abs(i - bar.half) * spacing / length,
+                 expected = x < std::numbers::pi / 2 ? 1 - std::sin(x) : 0;
+    EXPECT_NEAR(found.damage[static_cast<std::size_t>(i)], expected, 0.03) << i;
+  }
+}
+INSTANTIATE_TEST_SUITE_P(None, BarOfDamage,
+                         testing::Values(std::pair(3, 0.25), std::pair(5, 0.25)));
+
+/// A block that is shaken until it cracks.
+std::unique_ptr<Plan> shaken_block(double poisson, const std::string& precision = "double",
+                                   const std::string& boundary = "cells") {
+  return plan_of(SceneBuilder{}
+                     .key("precision", precision)
+                     .lattice("lattices.cubic", spacing, box_mm(9, 5, 8), {{"boundary", boundary}})
+                     .material("materials.elastic", cohesive(poisson, 3e-3))
+                     .solver("solvers.explicit", {{"end_time", 1}})
+                     .text());
+}
+
+/// Tears the block along z with a smooth motion.
+void set_tearing(const Model& model, Simulation& simulation) {
+  std::vector<double> v = noise(3 * model.body.particles, 0.3);
+  for (Particle p = 0; p < model.body.particles; ++p)
+    v[3 * p + 2] += 20 * (model.body.position(p).z / 8e-3 - 0.4);
+  simulation.set_velocities(v, model.degrees_of_freedom == 4
+                                   ? std::vector<double>(model.body.particles, 0)
+                                   : std::vector<double>{});
+}
+struct Torn {
+  EnergyBalance balance;
+  std::uint64_t hash = 0, broken = 0;
+  std::vector<double> damage, u;
+};
+Torn torn(const Plan& plan, int threads, int steps = 300) {
+  Simulation simulation(*plan.model, threads);
+  set_tearing(*plan.model, simulation);
+  for (int n = 0; n < steps; ++n) {
+    simulation.step(0.4 * plan.model->step_limit.time_step);
+    if (threads == 2 && n % 37 == 0) simulation.balance();  // measurements change nothing
+  }
+  Torn found{simulation.balance(), 0, simulation.broken(), damage_of(*plan.model, simulation),
+             displacements(simulation)};
+  found.hash = simulation.hash();
+  return found;
+}
+
+TEST(Damage, HasTheSameBitsForAnyNumberOfThreadsAndClosesItsBalance) {
+  for (const char* boundary : {"cells", "particles"}) {
+    const auto plan = shaken_block(0.25, "double", boundary);
+    const Torn one = torn(*plan, 1), two = torn(*plan, 2), three = torn(*plan, 3);
+    std::printf("%s: damaged %.3f broken %llu failure/scale %.3f balance %.2e\n", boundary,
+                largest(one.damage), static_cast<unsigned long long>(one.broken),
+                one.balance.dissipated_failure / one.balance.scale, one.balance.relative_error());
+    EXPECT_EQ(largest(one.damage), 1);
+    EXPECT_GT(one.broken, 0u);
+    EXPECT_GT(one.balance.dissipated_failure, 0.02 * one.balance.scale);
+    EXPECT_LT(std::abs(one.balance.relative_error()), 1e-3);
+    for (const Torn* other : {&two, &three}) {
+      EXPECT_EQ(one.hash, other->hash);
+      EXPECT_EQ(one.balance.dissipated_failure, other->balance.dissipated_failure);
+      EXPECT_EQ(one.balance.stored, other->balance.stored);
+      EXPECT_EQ(one.broken, other->broken);
+    }
+  }
+}
+
+/// Saves a state in memory.
+std::vector<char> saved(Simulation& simulation) {
+  std::vector<char> bytes;
+  Archive archive(
+      [&](void* data, std::size_t size) {
+        const char* from = static_cast<const char*>(data);
+        bytes.insert(bytes.end(), from, from + size);
+      },
+      false);
+  simulation.archive(archive);
+  return bytes;
+}
+
+TEST(Damage, GoesOnFromACheckpointWithTheSameBits) {
+  const auto plan = shaken_block(0.25);
+  const double step = 0.4 * plan->model->step_limit.time_step;
+  Simulation whole(*plan->model, 2), first(*plan->model, 2), second(*plan->model, 2);
+  set_tearing(*plan->model, whole);
+  set_tearing(*plan->model, first);
+  for (int n = 0; n < 130; ++n) {
+    whole.step(step);
+    first.step(step);
+  }
+  const std::vector<char> bytes = saved(first);
+  std::size_t at = 0;
+  Archive archive(
+      [&](void* data, std::size_t size) {
+        std::memcpy(data, bytes.data() + at, size);
+        at += size;
+      },
+      true);
+  second.archive(archive);
+  EXPECT_EQ(at, bytes.size());
+  for (int n = 0; n < 130; ++n) {
+    whole.step(step);
+    second.step(step);
+  }
+  EXPECT_EQ(whole.hash(), second.hash());
+  EXPECT_EQ(whole.balance().dissipated_failure, second.balance().dissipated_failure);
+  EXPECT_EQ(whole.broken(), second.broken());
+}
+
+TEST(Damage, IsTheSameInFloats) {
+  const auto doubles = shaken_block(0.25), floats = shaken_block(0.25, "float");
+  const Torn exact = torn(*doubles, 1, 150), rounded = torn(*floats, 1, 150);
+  std::printf("floats: distance of damage %.2e, D %.2e, balance %.2e\n",
+              distance(exact.damage, rounded.damage),
+              rounded.balance.dissipated_failure / exact.balance.dissipated_failure - 1,
+              rounded.balance.relative_error());
+  EXPECT_LT(distance(exact.damage, rounded.damage), 1e-3);
+  EXPECT_NEAR(rounded.balance.dissipated_failure / exact.balance.dissipated_failure, 1, 1e-3);
+  EXPECT_LT(std::abs(rounded.balance.relative_error()), 1e-3);
+}
+
+// A plate that spins with stresses of 0.3 of the strength: frames do not matter, nothing cracks.
+TEST(Damage, StaysZeroInABodyThatSpins) {
+  for (const double poisson : {0.25, 0.2}) {
+    const auto plan =
+        plan_of(SceneBuilder{}
+                    .lattice("lattices.cubic", spacing, box_mm(8, 8, 1), {{"boundary", "cells"}})
+                    .material("materials.elastic", cohesive(poisson, 3e-3))
+                    .solver("solvers.explicit", {{"end_time", 1}})
+                    .text());
+    const Model& model = *plan->model;
+    Simulation simulation(model, 1);
+    const double rate = std::sqrt(0.3 * strength / 2500) / 4e-3;
+    std::vector<double> v(3 * model.body.particles);
+    for (Particle p = 0; p < model.body.particles; ++p) {
+      const Vec3 at = model.body.position(p);
+      v[3 * p] = -rate * (at.y - 4e-3);
+      v[3 * p + 1] = rate * (at.x - 4e-3);
+    }
+    simulation.set_velocities(v, model.degrees_of_freedom == 4
+                                     ? std::vector<double>(model.body.particles, 0)
+                                     : std::vector<double>{});
+    while (simulation.time() < 1.4 * 2 * std::numbers::pi / rate)
+      simulation.step(0.8 * model.step_limit.time_step);
+    EXPECT_EQ(largest(damage_of(model, simulation)), 0);
+    EXPECT_EQ(simulation.balance().dissipated_failure, 0);
+    EXPECT_LT(std::abs(simulation.balance().relative_error()), 1e-3);
+  }
+}
+
+}  // namespace
