@@ -70,7 +70,8 @@ class Polytope {
 PrincipalStress principal(const ElasticConstants& of, const Strain& strain) {
   const double trace = strain.head<3>().sum();
   Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();
-  for (Eigen::Index n = 0; n < 3; ++n) stress(n, n) = of.C12 * trace + (of.C11 - of.C12) * strain(n);
+  for (Eigen::Index n = 0; n < 3; ++n)
+    stress(n, n) = of.C12 * trace + (of.C11 - of.C12) * strain(n);
   stress(2, 1) = of.C44 * strain(3);
   stress(2, 0) = of.C44 * strain(4);
   stress(1, 0) = of.C44 * strain(5);

@@ -28,7 +28,8 @@ struct PrincipalStress {
   double first = 0, second = 0, third = 0;
 
   double trace() const { return first + second + third; }
-  /// Returns the equivalent stress of von Mises, sqrt(3 J2): that of uniaxial tension is its stress.
+  /// Returns the equivalent stress of von Mises, sqrt(3 J2): that of uniaxial tension is its
+  /// stress.
   double von_mises() const {
     const double a = first - second, b = second - third, c = third - first;
     return std::sqrt((a * a + b * b + c * c) / 2);
