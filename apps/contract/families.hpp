@@ -55,6 +55,7 @@ class Trial {
 void check_lattice(Trial& trial);
 void check_material(Trial& trial);
 void check_failure(Trial& trial);
+void check_surface(Trial& trial);
 void check_load(Trial& trial);
 void check_solver(Trial& trial);
 void check_writer(Trial& trial);

@@ -42,6 +42,7 @@ void Guard::fail(const std::string& what, double time_step) const {
   for (const Material::Criterion& criterion : material.failures)
     law += fmt::format("{}{}", &criterion == &material.failures.front() ? " with " : ", ",
                        criterion.stage->component->type());
+  if (material.surface) law += fmt::format(", {}", material.surface->stage->component->type());
   throw RunError(fmt::format(
       "step {}, t = {:.6g} s: {}. {} particle {} at ({:.4g}, {:.4g}, {:.4g}) m{}, law {}. "
       "The step was {:.4g} s, {:.3g} of the critical {:.4g} s.",

@@ -46,8 +46,9 @@ void check_support(const Model& model, const Material& material, Faults& faults)
   if (model.body.is_listed())
     return refuse(stage, "a criterion of springs: a list of springs has no field of damage");
   if (!elastic_solid::is_cubic_of_18(facts_of(geometry_from(model.body))))
-    return refuse(stage, "a criterion of springs: only the cubic lattice of 18 neighbours has a "
-                         "field of damage");
+    return refuse(stage,
+                  "a criterion of springs: only the cubic lattice of 18 neighbours has a "
+                  "field of damage");
   if (model.springs.laws.size() > 1)
     refuse(stage, "one law for all materials of a body with a field of damage");
   const KernelSet& kernels = model.springs.laws[material.law].kernels;
@@ -76,7 +77,8 @@ void check_length(const Model& model, const Cohesive& of, Faults& faults) {
           : "";
   if (!(longest > 0) || longest < shortest * (1 - round_off)) {
     // the spacing and the strength whose longest length has enough spacings
-    const double unit = (longest + lattice_energy * spacing), most = unit / (enough + lattice_energy);
+    const double unit = (longest + lattice_energy * spacing),
+                 most = unit / (enough + lattice_energy);
     faults.add(of.stage->pointer + "/strength", fmt::format("{:.6g} Pa", of.strength),
                fmt::format("at most {:.4g} Pa, or a spacing of at most {:.4g} m{}: the length "
                            "of damage must be at least {:g} spacings and at most {:.4g} m",
@@ -85,12 +87,14 @@ void check_length(const Model& model, const Cohesive& of, Faults& faults) {
     return;
   }
   if (of.length > longest * (1 + round_off))
-    faults.add(of.stage->pointer + "/length", fmt::format("{:.6g} m", of.length),
-               fmt::format("at most {:.4g} m{}, or a strength of at most {:.4g} Pa", longest, scatter,
-                           of.strength / of.largest_strength * of.largest_admissible_strength()));
+    faults.add(
+        of.stage->pointer + "/length", fmt::format("{:.6g} m", of.length),
+        fmt::format("at most {:.4g} m{}, or a strength of at most {:.4g} Pa", longest, scatter,
+                    of.strength / of.largest_strength * of.largest_admissible_strength()));
   else if (of.length < shortest * (1 - round_off))
-    faults.add(of.stage->pointer + "/length", fmt::format("{:.6g} m", of.length),
-               fmt::format("at least {:g} spacings, {:.4g} m, or allow_coarse true", enough, shortest));
+    faults.add(
+        of.stage->pointer + "/length", fmt::format("{:.6g} m", of.length),
+        fmt::format("at least {:g} spacings, {:.4g} m, or allow_coarse true", enough, shortest));
 }
 
 Cohesive constants_of(const Model& model, std::uint8_t number) {
@@ -119,14 +123,14 @@ Cohesive constants_of(const Model& model, std::uint8_t number) {
   of.modulus = elastic.C11;
   of.bulk_modulus = (elastic.C11 + 2 * elastic.C12) / 3;
   of.wave_speed = std::sqrt(of.modulus / material.constants.density);
-  of.length = inputs.length > 0 ? inputs.length
-                                : of.largest_length(of.largest_strength, grid.spacing);
+  of.length =
+      inputs.length > 0 ? inputs.length : of.largest_length(of.largest_strength, grid.spacing);
   if (!(of.length > 0)) return of;
   of.corrected = of.fracture_energy / (1 + lattice_energy * grid.spacing / of.length);
   of.viscosity = 0.5 * of.length / of.wave_speed;
-  const SurfaceAlarm alarm = surface_alarm(
-      lattice.geometry().neighbours, elastic,
-      [&](std::span<const PrincipalStress> stresses, double* ratios) { of.ratios(stresses, ratios); });
+  const SurfaceAlarm alarm = surface_alarm(lattice.geometry().neighbours, elastic,
+                                           [&](std::span<const PrincipalStress> stresses,
+                                               double* ratios) { of.ratios(stresses, ratios); });
   const double weakest = of.least_strength / of.strength;
   of.stretch_alarm = weakest * alarm.stretch;
   of.shortening_alarm = weakest * alarm.shortening;

@@ -70,7 +70,8 @@ class Polytope {
 PrincipalStress principal(const ElasticConstants& of, const Strain& strain) {
   const double trace = strain.head<3>().sum();
   Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();
-  for (Eigen::Index n = 0; n < 3; ++n) stress(n, n) = of.C12 * trace + (of.C11 - of.C12) * strain(n);
+  for (Eigen::Index n = 0; n < 3; ++n)
+    stress(n, n) = of.C12 * trace + (of.C11 - of.C12) * strain(n);
   stress(2, 1) = of.C44 * strain(3);
   stress(2, 0) = of.C44 * strain(4);
   stress(1, 0) = of.C44 * strain(5);
@@ -94,13 +95,13 @@ SurfaceAlarm surface_alarm(std::span<const NeighbourGeometry> springs,
     ratios(stresses, found.data());
     return found.empty() ? infinity : *std::max_element(found.begin(), found.end());
   };
-  // A larger shortening may halve the stretch, not more: stretched springs come first as a rule.
-  constexpr double most = 0x1p14;
+  // A larger shortening costs stretch. Waves stretch and shorten alike, so a moderate one is enough.
+  constexpr double most = 0x1p14, dearest = 1.5;
   const double tension = largest(1);
   double shortened = 1, reached = tension;
   while (shortened < most) {
     const double next = largest(2 * shortened);
-    if (!(next <= 2 * tension)) break;
+    if (!(next <= dearest * tension)) break;
     shortened *= 2;
     reached = next;
   }

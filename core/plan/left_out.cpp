@@ -41,6 +41,8 @@ void leave_out_kernel_parts(const Plan& plan, std::vector<LeftOut>& out) {
     out.push_back({"volumetric energy", "no material needs it for its Poisson ratio"});
   if (!model.springs.breakable)
     out.push_back({"failure", "no material names a failure law: no spring is tested"});
+  if (model.cohesive.empty())
+    out.push_back({"field of damage", "no material has a strength surface: no stress is watched"});
   if (model.springs.breakable && !criteria_remember(model))
     out.push_back({"memory of failure laws", "none keeps one: springs break by what they are now"});
   const auto is_static = [](const PlannedStage& stage) {

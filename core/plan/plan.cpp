@@ -1,6 +1,7 @@
 #include <base/errors.hpp>
 #include <model/build.hpp>
 #include <plan/coordination.hpp>
+#include <plan/damage.hpp>
 #include <plan/estimates.hpp>
 #include <plan/fields.hpp>
 #include <plan/file_names.hpp>
@@ -66,6 +67,9 @@ void plan_stages(Plan& plan, Faults& faults) {
     if (!refused && is_static && plan.model->nodal_volumes)
       faults.add(stage->pointer, stage->component->type(),
                  "a solver that steps: the volumetric energy of a list of springs has no tangent");
+    if (!refused && is_static && !plan.model->cohesive.empty())
+      faults.add(stage->pointer, stage->component->type(),
+                 "a solver that steps: damage does not grow between states of rest");
     if (!refused) start = planned.plan.end_time;
     plan.stages.push_back(std::move(planned));
   }
@@ -122,6 +126,7 @@ std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, Threads threads) {
     warnings.push_back(std::move(warning));
   if (std::string warning = loose_warning(plan->model->body, plan->body.parts); !warning.empty())
     warnings.push_back(std::move(warning));
+  warn_of_damage(*plan);
   if (plan->model->body.is_listed())
     if (std::string warning = coordination_warning(plan->model->body); !warning.empty())
       warnings.push_back(std::move(warning));

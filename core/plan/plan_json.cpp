@@ -1,5 +1,6 @@
 #include <model/arithmetic.hpp>
 #include <plan/coordination.hpp>
+#include <plan/damage.hpp>
 #include <plan/estimates.hpp>
 #include <scene/common_options.hpp>
 
@@ -135,6 +136,7 @@ nlohmann::json common_facts(const Plan& plan) {
 
 nlohmann::json plan_json(const Plan& plan) {
   nlohmann::json facts = common_facts(plan);
+  if (!plan.model->cohesive.empty()) facts["damage"] = damage_json(*plan.model);
   if (!plan.model->body.is_listed()) return facts;
   const Coordination springs = coordination_of(plan.model->body);
   facts["springs_of_a_particle"] = {

@@ -1,5 +1,6 @@
 // The plan as text for people. Every number comes from the JSON form, so that the two agree.
 #include <base/figures.hpp>
+#include <plan/damage.hpp>
 #include <plan/estimates.hpp>
 #include <state/simulation.hpp>
 
@@ -116,6 +117,9 @@ std::string plan_text(const Plan& plan) {
           facts.at("volumetric").get<bool>() ? "volumetric energy, " : "",
           facts.at("breakable").get<bool>() ? "breakable" : "unbreakable", word("precision"),
           word("instructions"), plan.threads, plan.threads == 1 ? "" : "s"));
+  if (facts.contains("damage"))
+    for (const auto& entry : facts.at("damage"))
+      for (const auto& [name, value] : damage_lines(entry)) page.line(name, value);
   page.line("critical time step",
             fmt::format("{:.6g} s: {}", number("critical_time_step"), word("critical_because")));
   for (const PlannedStage& stage : plan.stages)

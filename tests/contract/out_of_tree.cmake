@@ -32,7 +32,7 @@ if(NOT result EQUAL 2 OR NOT output MATCHES "a name that no component has yet" O
   message(FATAL_ERROR "a built-in component's name must be refused: ${output}")
 endif()
 
-foreach(type failures.tearing materials.wearing_out lattices.dense loads.nudge writers.places)
+foreach(type failures.tearing surfaces.leaning materials.wearing_out lattices.dense loads.nudge writers.places)
   set(project ${folder}/${type})
   string(TIMESTAMP start "%s")
   must_work(${folder}/moved/bin/hyperlattice plugins --new ${type} --out ${project})

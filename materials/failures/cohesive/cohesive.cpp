@@ -1,5 +1,5 @@
-// The strength of brittle solids: in tension a limit of the largest principal stress (Rankine); with
-// a compressive strength also a limit of the shear on inclined planes, which friction raises
+// The strength of brittle solids: in tension a limit of the largest principal stress (Rankine);
+// with a compressive strength also a limit of the shear on inclined planes, which friction raises
 // (Mohr-Coulomb with tension cut-off):
 //   ratio = max(<s1> / sigma_t, (N s1 - s3) / C),   N = (1 + sin phi) / (1 - sin phi)
 // In uniaxial compression the second term is 1 at C. N = C / sigma_t makes it one at sigma_t in
@@ -14,9 +14,7 @@ namespace {
 using namespace hyperlattice;
 
 /// Returns N, the slope of the limit of s3 by s1. `friction`: angle, radians.
-double slope(double friction) {
-  return (1 + std::sin(friction)) / (1 - std::sin(friction));
-}
+double slope(double friction) { return (1 + std::sin(friction)) / (1 - std::sin(friction)); }
 
 class Cohesive {
  public:
@@ -67,8 +65,8 @@ class Cohesive {
                                 : o.compressive_strength.value_or(0) / o.strength) {}
 
   double ratio(const PrincipalStress& stress) const {
-    return std::max({0.0, stress.first / tension_,
-                     (slope_ * stress.first - stress.third) / compression_});
+    return std::max(
+        {0.0, stress.first / tension_, (slope_ * stress.first - stress.third) / compression_});
   }
 
  private:

@@ -1,7 +1,7 @@
-// A failure criterion of springs: the rule that says whether a base spring breaks. It states an alarm, the
-// elongation below which the spring cannot break; fast kernels only compare with it. The criterion
-// decides about springs above their alarm, which it gets in batches. It may keep a few numbers for
-// each spring, such as a damage that grows with time:
+// A failure criterion of springs: the rule that says whether a base spring breaks. It states an
+// alarm, the elongation below which the spring cannot break; fast kernels only compare with it. The
+// criterion decides about springs above their alarm, which it gets in batches. It may keep a few
+// numbers for each spring, such as a damage that grows with time:
 //
 //   struct Memory { double damage = 0; };
 //   bool breaks(const SpringFacts& spring, const AlarmedSpring& state, Memory& memory) const;

@@ -15,6 +15,7 @@
 
 #include <hyperlattice/component.hpp>
 
+#include <cmath>
 #include <concepts>
 #include <cstdint>
 #include <optional>
@@ -25,6 +26,14 @@ namespace hyperlattice {
 /// Principal values of the effective Cauchy stress, Pa, tension positive: first >= second >= third.
 struct PrincipalStress {
   double first = 0, second = 0, third = 0;
+
+  double trace() const { return first + second + third; }
+  /// Returns the equivalent stress of von Mises, sqrt(3 J2): that of uniaxial tension is its
+  /// stress.
+  double von_mises() const {
+    const double a = first - second, b = second - third, c = third - first;
+    return std::sqrt((a * a + b * b + c * c) / 2);
+  }
 };
 
 /// What the damage of a material needs besides its surface.
