@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <tuple>
 
 namespace hyperlattice {
 namespace {
@@ -46,7 +47,7 @@ void FailureRecord::collect(double step) {
       breakage.softened = broken.softened;
       breakage.again = !broken.softened && softened_.contains({breakage.a, breakage.neighbour});
       breakages_.push_back(breakage);
-      note(breakage);
+      note(breakage, ends_of(block, broken));
       energy_ += lose_cells(blocks_, breakage.a, breakage.neighbour, step);
       if (!pressures_.empty()) energy_ += pressures_.lose(breakage.a, breakage.b, step);
       if (!broken.softened) energy_ += energy_of(breakages_.size() - 1, block, broken, step);
@@ -56,16 +57,29 @@ void FailureRecord::collect(double step) {
 }
 
 /// Adds what follows from the last breakage.
-void FailureRecord::note(const Breakage& breakage) {
-  ends_.push_back(find_ends(breakage));
+void FailureRecord::note(const Breakage& breakage, const Ends& ends) {
+  ends_.push_back(ends);
   if (breakage.softened) softened_.insert({breakage.a, breakage.neighbour});
   if (breakage.again) ++again_;
 }
 
-FailureRecord::Ends FailureRecord::find_ends(const Breakage& breakage) const {
-  const auto [block_a, place_a] = blocks_.at(breakage.a);
-  const auto [block_b, place_b] = blocks_.at(breakage.b);
+FailureRecord::Ends FailureRecord::find_ends(Particle a, Particle b) const {
+  const auto [block_a, place_a] = blocks_.at(a);
+  const auto [block_b, place_b] = blocks_.at(b);
   return {block_a, block_b, place_a, place_b};
+}
+
+/// Returns the same as find_ends() of a spring that a kernel named. The kernel of a structured body
+/// knows the places of ends in its own block: no search through the body is needed.
+FailureRecord::Ends FailureRecord::ends_of(const Block& block, const Block::Broken& broken) const {
+  const SpringEnds& spring = broken.spring;
+  if (blocks_.model().body.is_listed()) return find_ends(spring.a, spring.b);
+  const Row& row = block.rows[broken.row];
+  Ends ends{&block, &block, row.start + static_cast<std::uint64_t>(broken.site - row.begin), 0};
+  ends.b = blocks_.layout().other_end(block.number, broken.row, broken.neighbour, broken.site);
+  const bool owns_b = ends.b < block.rows[block.layout->last_own].start;
+  if (!owns_b) std::tie(ends.block_b, ends.b) = blocks_.at(spring.b);
+  return ends;
 }
 
 /// Returns the energy lost with a base spring and its cross springs, J. They pulled during the step
@@ -102,17 +116,33 @@ double FailureRecord::energy_of(std::size_t index, const Block& block, const Blo
   return energy * properties.share;
 }
 
-double FailureRecord::elongation_now(std::size_t index) const {
+/// A broken base spring as it is now: the growth of its squared length, m2, and its rest length, m.
+FailureRecord::Growth FailureRecord::growth_now(std::size_t index) const {
   const Model& model = blocks_.model();
   const Breakage& breakage = breakages_[index];
-  const SpringProperties properties =
-      model.spring_properties(breakage.a, breakage.b, breakage.neighbour);
+  SpringProperties geometry;
+  if (model.body.is_listed()) {
+    geometry = model.spring_properties(breakage.a, breakage.b, breakage.neighbour);
+  } else {
+    const NeighbourGeometry& to = model.springs.neighbours[breakage.neighbour];
+    geometry.rest = to.rest;
+    geometry.rest_length = to.rest_length;
+  }
   const Ends& where = ends_[index];
-  const End a = end_of(*where.block_a, where.a, model.degrees_of_freedom, 0),
-            b = end_of(*where.block_b, where.b, model.degrees_of_freedom, 0);
-  const Vec3 d = b.place - a.place;
-  return properties.elongation(
-      0, properties.growth(0, d, b.height - a.height, model.body.grid.membrane_distance));
+  const auto apart = [&](int c) {
+    return where.block_b->displacement[c][where.b] - where.block_a->displacement[c][where.a];
+  };
+  const double rise = model.degrees_of_freedom == 4 ? apart(3) : 0;
+  return {
+      geometry.growth(0, {apart(0), apart(1), apart(2)}, rise, model.body.grid.membrane_distance),
+      geometry.rest_length};
+}
+
+double FailureRecord::elongation_now(std::size_t index) const {
+  const Growth now = growth_now(index);
+  SpringProperties geometry;
+  geometry.rest_length = now.rest_length;
+  return geometry.elongation(0, now.of_square);
 }
 
 std::uint64_t FailureRecord::open() const {
@@ -122,7 +152,7 @@ std::uint64_t FailureRecord::open() const {
   blocks_.team().for_each((all + piece - 1) / piece, [&](std::size_t number) {
     std::uint64_t here = 0;
     for (std::size_t n = number * piece; n < std::min(all, (number + 1) * piece); ++n)
-      here += !breakages_[n].again && elongation_now(n) > 0 ? 1 : 0;
+      here += !breakages_[n].again && growth_now(n).of_square > 0 ? 1 : 0;
     open += here;
   });
   return open;
@@ -136,7 +166,7 @@ void FailureRecord::archive(Archive& archive) {
   softened_.clear();
   again_ = 0;
   for (const Breakage& breakage : breakages_) {
-    note(breakage);
+    note(breakage, find_ends(breakage.a, breakage.b));
     if (!pressures_.empty()) pressures_.lose(breakage.a, breakage.b, 0);
   }
 }

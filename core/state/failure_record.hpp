@@ -44,8 +44,14 @@ class FailureRecord {
     std::uint64_t a, b;
   };
 
-  void note(const Breakage& breakage);
-  Ends find_ends(const Breakage& breakage) const;
+  struct Growth {
+    double of_square, rest_length;
+  };
+
+  void note(const Breakage& breakage, const Ends& ends);
+  Ends find_ends(Particle a, Particle b) const;
+  Ends ends_of(const Block& block, const Block::Broken& broken) const;
+  Growth growth_now(std::size_t breakage) const;
   double energy_of(std::size_t breakage, const Block& block, const Block::Broken& broken,
                    double step) const;
 
