@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <tuple>
 
 namespace hyperlattice {
 namespace {
@@ -29,6 +28,8 @@ End end_of(const Block& block, std::uint64_t n, int components, double time) {
   }
   return end;
 }
+
+std::uint32_t number_of(const Block& block) { return static_cast<std::uint32_t>(block.number); }
 
 }  // namespace
 
@@ -57,7 +58,9 @@ void FailureRecord::collect(double step) {
 }
 
 /// Adds what follows from the last breakage.
-void FailureRecord::note(const Breakage& breakage, const Ends& ends) {
+void FailureRecord::note(const Breakage& breakage, Ends ends) {
+  ends.neighbour = breakage.neighbour;
+  ends.counts = !breakage.again;
   ends_.push_back(ends);
   if (breakage.softened) softened_.insert({breakage.a, breakage.neighbour});
   if (breakage.again) ++again_;
@@ -66,7 +69,7 @@ void FailureRecord::note(const Breakage& breakage, const Ends& ends) {
 FailureRecord::Ends FailureRecord::find_ends(Particle a, Particle b) const {
   const auto [block_a, place_a] = blocks_.at(a);
   const auto [block_b, place_b] = blocks_.at(b);
-  return {block_a, block_b, place_a, place_b};
+  return {place_a, place_b, number_of(*block_a), number_of(*block_b)};
 }
 
 /// Returns the same as find_ends() of a spring that a kernel named. The kernel of a structured body
@@ -75,11 +78,13 @@ FailureRecord::Ends FailureRecord::ends_of(const Block& block, const Block::Brok
   const SpringEnds& spring = broken.spring;
   if (blocks_.model().body.is_listed()) return find_ends(spring.a, spring.b);
   const Row& row = block.rows[broken.row];
-  Ends ends{&block, &block, row.start + static_cast<std::uint64_t>(broken.site - row.begin), 0};
-  ends.b = blocks_.layout().other_end(block.number, broken.row, broken.neighbour, broken.site);
-  const bool owns_b = ends.b < block.rows[block.layout->last_own].start;
-  if (!owns_b) std::tie(ends.block_b, ends.b) = blocks_.at(spring.b);
-  return ends;
+  const std::uint64_t a = row.start + static_cast<std::uint64_t>(broken.site - row.begin),
+                      b = blocks_.layout().other_end(block.number, broken.row, broken.neighbour,
+                                                     broken.site);
+  if (b < block.rows[block.layout->last_own].start)
+    return {a, b, number_of(block), number_of(block)};
+  const auto [block_b, place_b] = blocks_.at(spring.b);
+  return {a, place_b, number_of(block), number_of(*block_b)};
 }
 
 /// Returns the energy lost with a base spring and its cross springs, J. They pulled during the step
@@ -92,8 +97,8 @@ double FailureRecord::energy_of(std::size_t index, const Block& block, const Blo
   const Ends& where = ends_[index];
   const SpringProperties properties =
       model.spring_properties(breakage.a, breakage.b, breakage.neighbour);
-  const End a = end_of(*where.block_a, where.a, model.degrees_of_freedom, step),
-            b = end_of(*where.block_b, where.b, model.degrees_of_freedom, step);
+  const End a = end_of(blocks_[where.block_a], where.a, model.degrees_of_freedom, step),
+            b = end_of(blocks_[where.block_b], where.b, model.degrees_of_freedom, step);
 
   const Vec3 d = b.place - a.place, moved = b.moved - a.moved;
   const double rate_in_space = 2 * dot(properties.rest + d, moved);
@@ -116,22 +121,21 @@ double FailureRecord::energy_of(std::size_t index, const Block& block, const Blo
   return energy * properties.share;
 }
 
-/// A broken base spring as it is now: the growth of its squared length, m2, and its rest length, m.
-FailureRecord::Growth FailureRecord::growth_now(std::size_t index) const {
+/// Returns the growth of the squared length of a broken base spring, m2, and its rest length, m.
+FailureRecord::Growth FailureRecord::growth_now(const Ends& where) const {
   const Model& model = blocks_.model();
-  const Breakage& breakage = breakages_[index];
   SpringProperties geometry;
   if (model.body.is_listed()) {
-    geometry = model.spring_properties(breakage.a, breakage.b, breakage.neighbour);
+    const ListedSpring& spring = model.body.listed.springs[where.neighbour];
+    geometry = model.spring_properties(spring.a, spring.b, where.neighbour);
   } else {
-    const NeighbourGeometry& to = model.springs.neighbours[breakage.neighbour];
+    const NeighbourGeometry& to = model.springs.neighbours[where.neighbour];
     geometry.rest = to.rest;
     geometry.rest_length = to.rest_length;
   }
-  const Ends& where = ends_[index];
-  const auto apart = [&](int c) {
-    return where.block_b->displacement[c][where.b] - where.block_a->displacement[c][where.a];
-  };
+  const Numbers *const a = blocks_[where.block_a].displacement, *const b = blocks_[where.block_b]
+                                                                               .displacement;
+  const auto apart = [&](int c) { return b[c][where.b] - a[c][where.a]; };
   const double rise = model.degrees_of_freedom == 4 ? apart(3) : 0;
   return {
       geometry.growth(0, {apart(0), apart(1), apart(2)}, rise, model.body.grid.membrane_distance),
@@ -139,20 +143,39 @@ FailureRecord::Growth FailureRecord::growth_now(std::size_t index) const {
 }
 
 double FailureRecord::elongation_now(std::size_t index) const {
-  const Growth now = growth_now(index);
+  const Growth now = growth_now(ends_[index]);
   SpringProperties geometry;
   geometry.rest_length = now.rest_length;
   return geometry.elongation(0, now.of_square);
 }
 
-std::uint64_t FailureRecord::open() const {
-  constexpr std::size_t piece = 1024;  // breakages
-  const std::size_t all = breakages_.size();
+std::uint64_t FailureRecord::open() {
+  arrange();
+  return count_open(by_place_) + count_open(std::span(ends_).subspan(by_place_.size()));
+}
+
+/// Arranges failures by their places. A count then reads the state in the order of the memory,
+/// which takes most of its time. The latest failures wait until they are many.
+void FailureRecord::arrange() {
+  const std::size_t before = by_place_.size();
+  if (ends_.size() - before <= before / 4) return;
+  const auto precedes = [](const Ends& l, const Ends& r) {
+    return l.block_a != r.block_a ? l.block_a < r.block_a : l.a < r.a;
+  };
+  const auto next = static_cast<std::ptrdiff_t>(before);
+  by_place_.insert(by_place_.end(), ends_.begin() + next, ends_.end());
+  std::sort(by_place_.begin() + next, by_place_.end(), precedes);
+  std::inplace_merge(by_place_.begin(), by_place_.begin() + next, by_place_.end(), precedes);
+}
+
+std::uint64_t FailureRecord::count_open(std::span<const Ends> failures) const {
+  constexpr std::size_t piece = 1024;  // failures
   std::atomic<std::uint64_t> open = 0;
-  blocks_.team().for_each((all + piece - 1) / piece, [&](std::size_t number) {
+  blocks_.team().for_each((failures.size() + piece - 1) / piece, [&](std::size_t number) {
+    const std::size_t first = number * piece;
     std::uint64_t here = 0;
-    for (std::size_t n = number * piece; n < std::min(all, (number + 1) * piece); ++n)
-      here += !breakages_[n].again && growth_now(n).of_square > 0 ? 1 : 0;
+    for (const Ends& ends : failures.subspan(first, std::min(piece, failures.size() - first)))
+      here += ends.counts && growth_now(ends).of_square > 0 ? 1 : 0;
     open += here;
   });
   return open;
@@ -163,6 +186,7 @@ void FailureRecord::archive(Archive& archive) {
   archive(energy_);
   if (!archive.restores()) return;
   ends_.clear();
+  by_place_.clear();
   softened_.clear();
   again_ = 0;
   for (const Breakage& breakage : breakages_) {
