@@ -1,8 +1,9 @@
 #include <run/failure_log.hpp>
 
+#include <spdlog/fmt/compile.h>
 #include <spdlog/fmt/fmt.h>
 
-#include <iterator>
+#include <string>
 
 namespace hyperlattice {
 
@@ -13,13 +14,18 @@ void FailureLog::begin() {
 
 void FailureLog::write_new(const std::vector<Breakage>& breakages) {
   if (written_ == breakages.size()) return;
-  std::string lines;
+  fmt::memory_buffer lines;
+  std::string beginning;  // that breakages of one step share
+  const std::uint64_t first = written_;
   for (; written_ < breakages.size(); ++written_) {
     const Breakage& b = breakages[written_];
-    fmt::format_to(std::back_inserter(lines), "{},{},{},{},{},{:d}\n", b.step, b.time, b.a, b.b,
-                   b.elongation, b.softened);
+    if (written_ == first || b.step != breakages[written_ - 1].step)
+      beginning = fmt::format("{},{},", b.step, b.time);
+    lines.append(beginning);
+    fmt::format_to(fmt::appender(lines), FMT_COMPILE("{},{},{},{:d}\n"), b.a, b.b, b.elongation,
+                   b.softened);
   }
-  table_->lines(lines);
+  table_->lines({lines.data(), lines.size()});
 }
 
 }  // namespace hyperlattice

@@ -30,6 +30,8 @@ End end_of(const Block& block, std::uint64_t n, int components, double time) {
   return end;
 }
 
+std::uint32_t number_of(const Block& block) { return static_cast<std::uint32_t>(block.number); }
+
 }  // namespace
 
 void FailureRecord::collect(double step) {
@@ -54,7 +56,7 @@ void FailureRecord::collect(double step) {
       breakage.softened = broken.softened;
       breakage.again = !broken.softened && softened_.contains({breakage.a, breakage.neighbour});
       breakages_.push_back(breakage);
-      note(breakage);
+      note(breakage, ends_of(block, broken));
       energy_ += lose_cells(blocks_, breakage.a, breakage.neighbour, step);
       if (!pressures_.empty()) energy_ += pressures_.lose(breakage.a, breakage.b, step);
       if (!broken.softened) energy_ += energy_of(breakages_.size() - 1, block, broken, step);
@@ -64,16 +66,33 @@ void FailureRecord::collect(double step) {
 }
 
 /// Adds what follows from the last breakage.
-void FailureRecord::note(const Breakage& breakage) {
-  ends_.push_back(find_ends(breakage));
+void FailureRecord::note(const Breakage& breakage, Ends ends) {
+  ends.neighbour = breakage.neighbour;
+  ends.counts = !breakage.again;
+  ends_.push_back(ends);
   if (breakage.softened) softened_.insert({breakage.a, breakage.neighbour});
   if (breakage.again) ++again_;
 }
 
-FailureRecord::Ends FailureRecord::find_ends(const Breakage& breakage) const {
-  const auto [block_a, place_a] = blocks_.at(breakage.a);
-  const auto [block_b, place_b] = blocks_.at(breakage.b);
-  return {block_a, block_b, place_a, place_b};
+FailureRecord::Ends FailureRecord::find_ends(Particle a, Particle b) const {
+  const auto [block_a, place_a] = blocks_.at(a);
+  const auto [block_b, place_b] = blocks_.at(b);
+  return {place_a, place_b, number_of(*block_a), number_of(*block_b)};
+}
+
+/// Returns the same as find_ends() of a spring that a kernel named. The kernel of a structured body
+/// knows the places of ends in its own block: no search through the body is needed.
+FailureRecord::Ends FailureRecord::ends_of(const Block& block, const Block::Broken& broken) const {
+  const SpringEnds& spring = broken.spring;
+  if (blocks_.model().body.is_listed()) return find_ends(spring.a, spring.b);
+  const Row& row = block.rows[broken.row];
+  const std::uint64_t a = row.start + static_cast<std::uint64_t>(broken.site - row.begin),
+                      b = blocks_.layout().other_end(block.number, broken.row, broken.neighbour,
+                                                     broken.site);
+  if (b < block.rows[block.layout->last_own].start)
+    return {a, b, number_of(block), number_of(block)};
+  const auto [block_b, place_b] = blocks_.at(spring.b);
+  return {a, place_b, number_of(block), number_of(*block_b)};
 }
 
 /// Returns the energy lost with a base spring and its cross springs, J. They pulled during the step
@@ -86,8 +105,8 @@ double FailureRecord::energy_of(std::size_t index, const Block& block, const Blo
   const Ends& where = ends_[index];
   const SpringProperties properties =
       model.spring_properties(breakage.a, breakage.b, breakage.neighbour);
-  const End a = end_of(*where.block_a, where.a, model.degrees_of_freedom, step),
-            b = end_of(*where.block_b, where.b, model.degrees_of_freedom, step);
+  const End a = end_of(blocks_[where.block_a], where.a, model.degrees_of_freedom, step),
+            b = end_of(blocks_[where.block_b], where.b, model.degrees_of_freedom, step);
 
   const Vec3 d = b.place - a.place, moved = b.moved - a.moved;
   const double rate_in_space = 2 * dot(properties.rest + d, moved);
@@ -110,27 +129,61 @@ double FailureRecord::energy_of(std::size_t index, const Block& block, const Blo
   return energy * properties.share;
 }
 
-double FailureRecord::elongation_now(std::size_t index) const {
+/// Returns the growth of the squared length of a broken base spring, m2, and its rest length, m.
+FailureRecord::Growth FailureRecord::growth_now(const Ends& where) const {
   const Model& model = blocks_.model();
-  const Breakage& breakage = breakages_[index];
-  const SpringProperties properties =
-      model.spring_properties(breakage.a, breakage.b, breakage.neighbour);
-  const Ends& where = ends_[index];
-  const End a = end_of(*where.block_a, where.a, model.degrees_of_freedom, 0),
-            b = end_of(*where.block_b, where.b, model.degrees_of_freedom, 0);
-  const Vec3 d = b.place - a.place;
-  return properties.elongation(
-      0, properties.growth(0, d, b.height - a.height, model.body.grid.membrane_distance));
+  SpringProperties geometry;
+  if (model.body.is_listed()) {
+    const ListedSpring& spring = model.body.listed.springs[where.neighbour];
+    geometry = model.spring_properties(spring.a, spring.b, where.neighbour);
+  } else {
+    const NeighbourGeometry& to = model.springs.neighbours[where.neighbour];
+    geometry.rest = to.rest;
+    geometry.rest_length = to.rest_length;
+  }
+  const Numbers *const a = blocks_[where.block_a].displacement, *const b = blocks_[where.block_b]
+                                                                               .displacement;
+  const auto apart = [&](int c) { return b[c][where.b] - a[c][where.a]; };
+  const double rise = model.degrees_of_freedom == 4 ? apart(3) : 0;
+  return {
+      geometry.growth(0, {apart(0), apart(1), apart(2)}, rise, model.body.grid.membrane_distance),
+      geometry.rest_length};
 }
 
-std::uint64_t FailureRecord::open() const {
-  constexpr std::size_t piece = 1024;  // breakages
-  const std::size_t all = breakages_.size();
+double FailureRecord::elongation_now(std::size_t index) const {
+  const Growth now = growth_now(ends_[index]);
+  SpringProperties geometry;
+  geometry.rest_length = now.rest_length;
+  return geometry.elongation(0, now.of_square);
+}
+
+std::uint64_t FailureRecord::open() {
+  arrange();
+  return count_open(by_place_) + count_open(std::span(ends_).subspan(by_place_.size()));
+}
+
+/// Arranges failures by their places. A count then reads the state in the order of the memory,
+/// which takes most of its time. The latest failures wait until they are many.
+void FailureRecord::arrange() {
+  const std::size_t before = by_place_.size();
+  if (ends_.size() - before <= before / 4) return;
+  const auto precedes = [](const Ends& l, const Ends& r) {
+    return l.block_a != r.block_a ? l.block_a < r.block_a : l.a < r.a;
+  };
+  const auto next = static_cast<std::ptrdiff_t>(before);
+  by_place_.insert(by_place_.end(), ends_.begin() + next, ends_.end());
+  std::sort(by_place_.begin() + next, by_place_.end(), precedes);
+  std::inplace_merge(by_place_.begin(), by_place_.begin() + next, by_place_.end(), precedes);
+}
+
+std::uint64_t FailureRecord::count_open(std::span<const Ends> failures) const {
+  constexpr std::size_t piece = 1024;  // failures
   std::atomic<std::uint64_t> open = 0;
-  blocks_.team().for_each((all + piece - 1) / piece, [&](std::size_t number) {
+  blocks_.team().for_each((failures.size() + piece - 1) / piece, [&](std::size_t number) {
+    const std::size_t first = number * piece;
     std::uint64_t here = 0;
-    for (std::size_t n = number * piece; n < std::min(all, (number + 1) * piece); ++n)
-      here += !breakages_[n].again && elongation_now(n) > 0 ? 1 : 0;
+    for (const Ends& ends : failures.subspan(first, std::min(piece, failures.size() - first)))
+      here += ends.counts && growth_now(ends).of_square > 0 ? 1 : 0;
     open += here;
   });
   return open;
@@ -141,10 +194,11 @@ void FailureRecord::archive(Archive& archive) {
   archive(energy_);
   if (!archive.restores()) return;
   ends_.clear();
+  by_place_.clear();
   softened_.clear();
   again_ = 0;
   for (const Breakage& breakage : breakages_) {
-    note(breakage);
+    note(breakage, find_ends(breakage.a, breakage.b));
     if (!pressures_.empty()) pressures_.lose(breakage.a, breakage.b, 0);
   }
 }

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -33,19 +34,29 @@ class FailureRecord {
   /// Returns the number of springs that failed.
   std::uint64_t springs() const { return breakages_.size() - again_; }
   /// Returns the number of springs whose failure is open; those of all others are closed.
-  std::uint64_t open() const;
+  std::uint64_t open();
 
   void archive(Archive& archive);
 
  private:
-  /// The places where the ends of a broken spring are stored.
+  /// The places where the ends of a broken spring are stored, and what else says whether its
+  /// failure is open: counts read this alone.
   struct Ends {
-    const Block *block_a, *block_b;
-    std::uint64_t a, b;
+    std::uint64_t a, b;              ///< in the arrays of their blocks
+    std::uint32_t block_a, block_b;  ///< numbers of the blocks
+    std::uint32_t neighbour = 0;     ///< see Model::spring_properties
+    bool counts = true;              ///< false if the breakage is Breakage::again
+  };
+  struct Growth {
+    double of_square, rest_length;
   };
 
-  void note(const Breakage& breakage);
-  Ends find_ends(const Breakage& breakage) const;
+  void note(const Breakage& breakage, Ends ends);
+  Ends find_ends(Particle a, Particle b) const;
+  Ends ends_of(const Block& block, const Block::Broken& broken) const;
+  Growth growth_now(const Ends& where) const;
+  void arrange();
+  std::uint64_t count_open(std::span<const Ends> failures) const;
   double energy_of(std::size_t breakage, const Block& block, const Block::Broken& broken,
                    double step) const;
 
@@ -53,7 +64,8 @@ class FailureRecord {
   const Clock& clock_;
   NodalPressures& pressures_;
   std::vector<Breakage> breakages_;
-  std::vector<Ends> ends_;                                 // of each breakage
+  std::vector<Ends> ends_;      // of each breakage
+  std::vector<Ends> by_place_;  // of the first breakages, in the order of their places
   std::set<std::pair<Particle, std::uint32_t>> softened_;  // first end and neighbour
   std::uint64_t again_ = 0;  // breakages of springs that had softened before
   double energy_ = 0;        // J

@@ -7,6 +7,18 @@
 
 namespace hyperlattice {
 
+/// Springs for one call of a criterion, on the stack: most rows that ring do so for one spring or
+/// two. Members that the criterion does not ask for are not set.
+struct SpringReview::Asked {
+  static constexpr std::size_t most = 64;
+  std::size_t size = 0;
+  std::size_t number[most];  ///< in the row
+  double elongation[most], rate[most];
+  Particle a[most], b[most];
+  FailureMemory::mapped_type* kept[most];
+  double memory[most * max_failure_memory];
+};
+
 const std::uint8_t* SpringReview::review(Block& block, const AlarmRow& alarm) const {
   block.answers.assign(alarm.sites.size(), 0);
   if (!damage_.empty()) damage_.note(block, alarm);
@@ -56,39 +68,55 @@ const std::uint8_t* SpringReview::review(Block& block, const AlarmRow& alarm) co
 void SpringReview::ask(Block& block, const AlarmRow& alarm, const Material::Criterion& criterion,
                        const SpringFacts& facts, std::size_t first,
                        std::span<const double> elongation) const {
-  const auto& functions = criterion.stage->functions<FailureFunctions>();
   const double least = criterion.alarm(facts);
-  std::vector<std::size_t> asked;
-  std::vector<Particle> a, b;
-  std::vector<double> elongations, rates, memory;
-  std::vector<FailureMemory::mapped_type*> kept;
+  Asked asked;
   for (std::size_t n = first; n < first + elongation.size(); ++n) {
     if (block.answers[n] != 0 || !(elongation[n - first] > least)) continue;
-    asked.push_back(n);
-    elongations.push_back(elongation[n - first]);
-    if (functions.asks_rate) rates.push_back(rate_of(block, alarm, n));
-    if (functions.asks_ends) {
-      const SpringEnds spring =
-          blocks_.layout().spring(block, alarm.row, alarm.neighbour, alarm.sites[n]);
-      a.push_back(std::min(spring.a, spring.b));
-      b.push_back(std::max(spring.a, spring.b));
-    }
-    if (functions.memory > 0) {
-      const FailureKey key{alarm.row, alarm.neighbour, alarm.sites[n], criterion.number};
-      kept.push_back(&block.failure_memory.try_emplace(key, criterion.start).first->second);
-      memory.insert(memory.end(), kept.back()->begin(), kept.back()->begin() + functions.memory);
-    }
+    asked.elongation[asked.size] = elongation[n - first];
+    asked.number[asked.size++] = n;
+    if (asked.size == Asked::most) ask(block, alarm, criterion, facts, asked);
   }
-  if (asked.empty()) return;
-  std::vector<std::uint8_t> answers(asked.size(), 0);
-  const SpringBatch batch{clock_.time(), facts,         elongations,      a, b,
-                          rates,         memory.data(), clock_.advanced()};
+  if (asked.size > 0) ask(block, alarm, criterion, facts, asked);
+}
+
+/// Asks a criterion about these springs, and forgets them.
+void SpringReview::ask(Block& block, const AlarmRow& alarm, const Material::Criterion& criterion,
+                       const SpringFacts& facts, Asked& asked) const {
+  const auto& functions = criterion.stage->functions<FailureFunctions>();
+  const std::size_t size = asked.size, rates = functions.asks_rate ? size : 0,
+                    ends = functions.asks_ends ? size : 0;
+  for (std::size_t n = 0; n < rates; ++n) asked.rate[n] = rate_of(block, alarm, asked.number[n]);
+  for (std::size_t n = 0; n < ends; ++n) {
+    const SpringEnds spring =
+        blocks_.layout().spring(block, alarm.row, alarm.neighbour, alarm.sites[asked.number[n]]);
+    asked.a[n] = std::min(spring.a, spring.b);
+    asked.b[n] = std::max(spring.a, spring.b);
+  }
+  const std::size_t numbers = functions.memory;
+  if (numbers > 0)
+    for (std::size_t n = 0; n < size; ++n) {
+      const FailureKey key{alarm.row, alarm.neighbour, alarm.sites[asked.number[n]],
+                           criterion.number};
+      asked.kept[n] = &block.failure_memory.try_emplace(key, criterion.start).first->second;
+      std::copy_n(asked.kept[n]->begin(), numbers, &asked.memory[n * numbers]);
+    }
+  const SpringBatch batch{clock_.time(),
+                          facts,
+                          {asked.elongation, size},
+                          {asked.a, ends},
+                          {asked.b, ends},
+                          {asked.rate, rates},
+                          numbers > 0 ? asked.memory : nullptr,
+                          clock_.advanced()};
+  std::uint8_t answers[Asked::most] = {};
   call(*criterion.stage, "breaks", [&](const Complaint& why) {
-    return functions.review(criterion.component.get(), batch, answers.data(), why);
+    return functions.review(criterion.component.get(), batch, answers, why);
   });
-  for (std::size_t n = 0; n < asked.size(); ++n) block.answers[asked[n]] = answers[n];
-  for (std::size_t n = 0; n < kept.size(); ++n)
-    std::copy_n(&memory[n * functions.memory], functions.memory, kept[n]->begin());
+  for (std::size_t n = 0; n < size; ++n) {
+    block.answers[asked.number[n]] = answers[n];
+    if (numbers > 0) std::copy_n(&asked.memory[n * numbers], numbers, asked.kept[n]->begin());
+  }
+  asked.size = 0;
 }
 
 /// Returns the rate of growth of a spring, m/s, from the velocities half a step before. The step
