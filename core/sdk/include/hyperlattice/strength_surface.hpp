@@ -68,9 +68,9 @@ struct CohesiveOptions {
         .example("10")
         .template add<&Of::length>(
             "length", "m",
-            "b, half width of a crack's band over pi / 2; left out: the largest that strength, "
-            "fracture energy and stiffness allow, 8 C11 G_c / (3 pi sigma_t^2) less 0.175 "
-            "spacings. A study of several spacings must keep it")
+            "b, internal length: the band of a crack is pi b wide. Left out: the largest that "
+            "strength, fracture energy and stiffness allow, 8 C11 G_c / (3 pi sigma_t^2) less "
+            "0.175 spacings. A study of several spacings gives the same to all")
         .positive()
         .template add<&Of::weibull_modulus>(
             "weibull_modulus", "",
