@@ -1,6 +1,7 @@
 // Particles near supports, which take no damage: the clamping of a rim would start cracks.
 #include <model/build.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -31,18 +32,23 @@ bool is_inside(const Body& body, Site site, const std::vector<std::uint8_t>& sup
   return true;
 }
 
-/// Marks the particles nearer than `radius` spacings to a site.
+/// Calls mark(first, last + 1) for ranges of particles that are nearer than `radius` spacings to a
+/// site.
 template <class Mark>
 void for_ball(const Body& body, Site centre, double radius, const Mark& mark) {
   const auto reach = static_cast<std::int32_t>(radius);
   for (std::int32_t k = -reach; k <= reach; ++k)
     for (std::int32_t j = -reach; j <= reach; ++j) {
       const double left = radius * radius - j * j - k * k;
-      if (left < 0) continue;
-      const auto most = static_cast<std::int32_t>(std::sqrt(left));
-      for (std::int32_t i = -most; i <= most; ++i) {
-        const Particle found = body.at({centre.i + i, centre.j + j, centre.k + k});
-        if (found != Body::no_particle) mark(found);
+      if (!(left > 0)) continue;
+      // The largest whole number below the root.
+      const auto most = static_cast<std::int32_t>(std::ceil(std::sqrt(left))) - 1;
+      for (const Run& run : body.row(centre.j + j, centre.k + k)) {
+        const std::int32_t begin = std::max(run.begin, centre.i - most),
+                           end = std::min(run.end, centre.i + most + 1);
+        if (begin < end)
+          mark(run.first + static_cast<Particle>(begin - run.begin),
+               run.first + static_cast<Particle>(end - run.begin));
       }
     }
 }
@@ -50,10 +56,10 @@ void for_ball(const Body& body, Site centre, double radius, const Mark& mark) {
 }  // namespace
 
 void set_intact(Model& model) {
-  double radius = 0;
-  for (const Cohesive& of : model.cohesive)
-    if (of.stage != nullptr && of.intact_near_supports) radius = std::max(radius, of.zone());
-  if (radius == 0) return;
+  const auto has_zone = [](const Cohesive& of) {
+    return of.stage != nullptr && of.intact_near_supports;
+  };
+  if (std::none_of(model.cohesive.begin(), model.cohesive.end(), has_zone)) return;
   const std::vector<std::uint8_t> held = supports(model);
   if (held.empty()) return;
   const Body& body = model.body;
@@ -61,13 +67,16 @@ void set_intact(Model& model) {
   for (Particle support = 0; support < body.particles; ++support) {
     if (held[support] == 0) continue;
     const Site site = body.site(support);
-    const double reach = is_inside(body, site, held) ? 0 : radius / body.grid.spacing;
-    for_ball(body, site, reach, [&](Particle near) {
-      const Cohesive& of = model.cohesive[model.kinds.material(near)];
-      if (of.stage == nullptr || !of.intact_near_supports) return;
-      const double distance = norm(body.position(near) - body.position(support));
-      if (distance < of.zone()) intact[near] = 1;
-    });
+    if (const Cohesive& own = model.cohesive[model.kinds.material(support)]; has_zone(own))
+      intact[support] = 1;
+    if (is_inside(body, site, held)) continue;
+    for (const Cohesive& of : model.cohesive) {
+      if (!has_zone(of)) continue;
+      for_ball(body, site, of.zone() / body.grid.spacing, [&](Particle first, Particle end) {
+        for (Particle near = first; near < end; ++near)
+          if (model.kinds.material(near) == of.material) intact[near] = 1;
+      });
+    }
   }
   model.intact = std::move(intact);
 }
