@@ -27,9 +27,10 @@ class TestCube {
     return xyz;
   }
 
-  /// Returns the mean displacement of the upper face less that of the lower face, m.
+  /// Returns the mean displacement of the upper face less that of the lower face, m. A face is one
+  /// layer of a structured lattice, and of a list the particles near the outermost one.
   double growth(int axis, const std::vector<double>& xyz) const {
-    constexpr double nearby = 1e-6;
+    constexpr double nearby = 0.4;  // spacings; layers are half a spacing apart at least
     const auto [low, high] = ends(axis);
     double sum_low = 0, sum_high = 0, count_low = 0, count_high = 0;
     for (std::size_t p = 0; p < places_.size(); ++p) {

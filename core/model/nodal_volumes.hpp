@@ -34,6 +34,7 @@ class Tetrahedra {
 
   std::size_t size() const { return corners_.size(); }
   const Corners& operator[](std::size_t tetrahedron) const { return corners_[tetrahedron]; }
+  std::span<const Corners> all() const { return corners_; }
   /// A tetrahedron of a point, and the number of the point among its corners.
   struct Use {
     std::uint32_t tetrahedron : 30, corner : 2;
@@ -120,7 +121,8 @@ class NodalVolumes {
     double stiffness = 0;  ///< derivative of p_i by J_i, Pa
     double energy = 0;     ///< J
   };
-  /// Returns the response to the growths of all tetrahedra, m3.
+  /// Returns the response to the growths of all tetrahedra, m3. All is 0 of a particle without an
+  /// energy.
   Response response(std::size_t particle, std::span<const double> growths) const;
   /// Returns the force on a particle, N. `pressures`: of all particles, Pa.
   Vec3 force(std::size_t particle, std::span<const Vec3> moved,

@@ -19,6 +19,7 @@ SolverFacts solver_facts(const Model& model, double start_time) {
       start_time, model.step_limit.time_step, model.loads.corners,
       count(std::max({sites(low.i, high.i), sites(low.j, high.j), sites(low.k, high.k)}))};
   facts.listed = model.body.is_listed();
+  facts.nodal_volumes = model.nodal_volumes != nullptr;
   if (facts.listed) {
     const Vec3 size = model.body.highest - model.body.lowest;
     facts.sites_across = count(std::max({size.x, size.y, size.z}) / model.body.grid.spacing);

@@ -15,4 +15,9 @@ PresentVolumes::PresentVolumes(const NodalVolumes& volumes, std::vector<Vec3> mo
   });
 }
 
+double PresentVolumes::stiffness(std::size_t particle) const {
+  if (now_.ended[particle] != 0 || volumes_.modulus(particle) == 0) return 0;
+  return volumes_.response(particle, now_.growths).stiffness / volumes_.rest_volume(particle);
+}
+
 }  // namespace hyperlattice

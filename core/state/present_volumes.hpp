@@ -19,6 +19,8 @@ class PresentVolumes {
 
   double pressure(std::size_t particle) const { return now_.pressures[particle]; }  ///< Pa
   double energy(std::size_t particle) const { return now_.energies[particle]; }     ///< J
+  /// Returns the derivative of the pressure by the volume of the particle, Pa / m3.
+  double stiffness(std::size_t particle) const;
   Vec3 force(std::size_t particle) const {
     return volumes_.force(particle, now_.moved, now_.pressures);
   }  ///< N

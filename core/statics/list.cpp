@@ -6,6 +6,8 @@
 #include <statics/spring_rows.hpp>
 #include <statics/statics.hpp>
 
+#include <cmath>
+
 namespace hyperlattice {
 
 void Statics::make_list() {
@@ -29,6 +31,7 @@ void Statics::make_list() {
     spring_cross_stiffness_.push_back(properties.cross_stiffness);
   }
   grid.springs = springs_;
+  if (model_.nodal_volumes) grid.tetrahedra = model_.nodal_volumes->tetrahedra().all();
   weight_.assign(springs_.size(), 1);
   for (const Breakage& broken : simulation_.breakages())
     if (!broken.softened) weight_[broken.neighbour] = 0;
@@ -38,18 +41,23 @@ void Statics::make_list() {
       [&](const Simulation::SpringMemory& spring) { spring_memory_[spring.index] = spring; });
 }
 
-/// Adds the forces of nodal volumes; returns their energy, J. They have no tangent.
-double Statics::respond_volumes(const double* u, double* force) const {
+/// Adds the forces of nodal volumes and writes their tangents; returns their energy, J.
+double Statics::respond_volumes(const double* u, double* force,
+                                const SpringTangents* tangents) const {
   if (!model_.nodal_volumes) return 0;
   const auto places = static_cast<std::size_t>(problem_.grid.places);
   std::vector<Vec3> moved(places);
   for (std::size_t p = 0; p < places; ++p) moved[p] = {u[p], u[places + p], u[2 * places + p]};
   const PresentVolumes volumes(*model_.nodal_volumes, std::move(moved), simulation_.breakages());
+  const double spacing = problem_.grid.spacing;
   double energy = 0;
   for (std::size_t p = 0; p < places; ++p) {
     const Vec3 own = volumes.force(p);
     for (std::size_t c = 0; c < 3; ++c) force[c * places + p] += own[c];
     energy += volumes.energy(p);
+    if (tangents == nullptr) continue;
+    tangents->volume_stiffness[p] = static_cast<float>(volumes.stiffness(p) * std::pow(spacing, 4));
+    tangents->volume_pressure[p] = static_cast<float>(volumes.pressure(p) * spacing);
   }
   return energy;
 }
@@ -106,7 +114,7 @@ double Statics::respond_list(const double* u, double* force, const SpringTangent
     }
   double energy = 0;
   for (const double of_piece : energies) energy += of_piece;
-  return energy + respond_volumes(u, force);
+  return energy + respond_volumes(u, force, tangents);
 }
 
 }  // namespace hyperlattice

@@ -53,7 +53,7 @@ class Statics {
   // list.cpp
   void make_list();
   double respond_list(const double* u, double* force, const SpringTangents* tangents) const;
-  double respond_volumes(const double* u, double* force) const;
+  double respond_volumes(const double* u, double* force, const SpringTangents* tangents) const;
 
   // cells.cpp
   void make_cells(const std::vector<std::uint16_t>& alive);

@@ -4,6 +4,8 @@
 #include "scenes.hpp"
 
 #include <engine/stage_calls.hpp>
+#include <state/force_sums.hpp>
+#include <state/particle_stress.hpp>
 
 namespace hyperlattice::test {
 
@@ -33,6 +35,32 @@ struct AtRest {
       }
     return sum / count;
   }
+};
+
+/// The forces that the solver left out of balance when it stopped at its tolerance.
+class OutOfBalance {
+ public:
+  explicit OutOfBalance(const AtRest& body)
+      : body_(body), forces_(internal_forces(PresentSprings(body.model(), *body.simulation))) {
+    const std::vector<Vec3> internal = forces_,
+                            external = body.simulation->external_forces(
+                                [&]() -> const std::vector<Vec3>& { return internal; });
+    for (Particle p = 0; p < forces_.size(); ++p) forces_[p] += external[p];
+  }
+  /// Returns their sum over these particles, with the moment about a point, m.
+  Resultant on(const std::vector<Particle>& particles, Vec3 about) const {
+    Resultant sum;
+    for (const Particle p : particles) {
+      const Vec3 moved{body_.u[3 * p], body_.u[3 * p + 1], body_.u[3 * p + 2]};
+      sum.force += forces_[p];
+      sum.moment += cross(body_.model().body.position(p) + moved - about, forces_[p]);
+    }
+    return sum;
+  }
+
+ private:
+  const AtRest& body_;
+  std::vector<Vec3> forces_;  ///< on each particle, N
 };
 
 /// A scene of the cubic lattice with these keys, and more stages.

@@ -6,7 +6,8 @@ ListedSystem::ListedSystem(const StaticProblem& problem)
     : System(problem),
       grid_(problem.grid),
       components_(static_cast<std::size_t>(grid_.components)),
-      block_size_(components_ * components_) {
+      block_size_(components_ * components_),
+      volumes_(problem) {
   axial_.resize(grid_.springs.size());
   pull_.resize(grid_.springs.size());
   if (components_ == 4) {
@@ -25,9 +26,17 @@ void ListedSystem::find_pattern() {
     neighbours[static_cast<std::size_t>(spring.a)].push_back(spring.b);
     neighbours[static_cast<std::size_t>(spring.b)].push_back(spring.a);
   }
+  for (std::int64_t p = 0; p < grid_.places && !volumes_.empty(); ++p) {
+    const std::span<const std::int64_t> around = volumes_.around(p);
+    for (const std::int64_t place : around) {
+      auto& row = neighbours[static_cast<std::size_t>(place)];
+      row.insert(row.end(), around.begin(), around.end());
+    }
+  }
   first_.push_back(0);
   for (auto& row : neighbours) {
     std::sort(row.begin(), row.end());
+    row.erase(std::unique(row.begin(), row.end()), row.end());
     column_.insert(column_.end(), row.begin(), row.end());
     first_.push_back(column_.size());
   }
@@ -52,6 +61,7 @@ double ListedSystem::linearise(const Field& displacement, Field& force) {
   if (components_ == 4)
     tangents = {axial_.data(), pull_.data(), cross_axial_.data(), cross_pull_.data(),
                 alpha_.data()};
+  if (!volumes_.empty()) volumes_.receive(tangents);
   const double energy = problem().respond(displacement.data(), force.data(), &tangents);
   assemble(displacement);
   return energy;
@@ -91,6 +101,15 @@ void ListedSystem::assemble(const Field& u) {
   }
   for (std::int64_t p = 0; heights && p < grid_.places; ++p)
     block(find(p, p))[15] += static_cast<double>(alpha_[static_cast<std::size_t>(p)]);
+  if (!volumes_.empty()) add_volumes(u);
+}
+
+void ListedSystem::add_volumes(const Field& u) {
+  volumes_.for_blocks(u, [&](std::int64_t from, std::int64_t to, const VolumeBlock& volume) {
+    double* const own = block(find(from, to));
+    for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t b = 0; b < 3; ++b) own[a * components_ + b] += volume[3 * a + b];
+  });
 }
 
 void ListedSystem::multiply(const double* x, double* y) const {

@@ -1,9 +1,11 @@
 // The system of a listed lattice: the tangent is assembled, with one block for each pair of a
-// particle and a neighbour. Derived classes add the preconditioner.
+// particle and a neighbour; with nodal volumes also for each pair of particles around a third one.
+// Derived classes add the preconditioner.
 #pragma once
 
 #include "spring_tangent.hpp"
 #include "system.hpp"
+#include "volume_tangents.hpp"
 
 namespace hyperlattice::statics {
 
@@ -41,6 +43,7 @@ class ListedSystem : public System {
   void find_pattern();
   SpringNumbers numbers_of(std::size_t spring) const;
   void assemble(const Field& displacement);
+  void add_volumes(const Field& displacement);
   double* block(std::size_t at) { return blocks_.data() + at * block_size_; }
   const double* block(std::size_t at) const { return blocks_.data() + at * block_size_; }
   std::size_t find(std::int64_t row, std::int64_t column) const;
@@ -53,6 +56,7 @@ class ListedSystem : public System {
       column_;    ///< particle of each block's column, ascending in a row, diagonal included
   Field blocks_;  ///< [block][a][b], N/m
   Floats axial_, pull_, cross_axial_, cross_pull_, alpha_;
+  VolumeTangents volumes_;
 };
 
 }  // namespace hyperlattice::statics

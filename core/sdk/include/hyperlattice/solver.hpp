@@ -14,6 +14,7 @@ struct SolverFacts {
   std::span<const double> corners;  ///< times, s, where a load has a kink or jump, ascending
   std::int32_t sites_across = 1;    ///< sites along the longest side of the body's box
   bool listed = false;              ///< the lattice is listed
+  bool nodal_volumes = false;       ///< the particles of the list have volumetric energies
   bool remembers = false;  ///< a law has a memory, which advances with each accepted state of rest
   bool answering = false;  ///< a load answers to the motion; statics() does not include such loads
 };

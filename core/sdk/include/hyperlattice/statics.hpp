@@ -26,6 +26,10 @@ struct StaticSpring {
   Vec3 rest;                  ///< rest vector from a to b, m
 };
 
+/// The places of the corners of a tetrahedron of a listed lattice. A place has a quarter of the
+/// volume of each of its tetrahedra.
+using StaticTetrahedron = std::array<std::uint32_t, 4>;
+
 /// Layout of the fields: the box of sites, or the places of a listed lattice.
 struct StaticGrid {
   std::array<std::int32_t, 3> sites{};  ///< box of sites
@@ -38,6 +42,8 @@ struct StaticGrid {
   bool cells = false;                     ///< cells have volumetric energies
   bool listed = false;                    ///< sites, neighbours and rows are empty
   std::span<const StaticSpring> springs;  ///< springs of a listed lattice
+  /// Tetrahedra of a listed lattice whose places have volumetric energies; else empty.
+  std::span<const StaticTetrahedron> tetrahedra;
   /// Bits of each place, bit c: the place has a particle that may move along c.
   const std::uint8_t* free = nullptr;
   int threads = 1;
@@ -65,6 +71,9 @@ struct SpringTangents {
   /// / 16 and p l / 16, with the pressure p and its derivative (volumetric_cell.hpp), N/m; 0 where
   /// there is no cell. Only with StaticGrid::cells.
   float *cell_stiffness = nullptr, *cell_pressure = nullptr;
+  /// Volumetric energy of each place of a list: l^4 dp/dV and p l, with its pressure p and volume
+  /// V, N/m; 0 where it has ended. Only with StaticGrid::tetrahedra.
+  float *volume_stiffness = nullptr, *volume_pressure = nullptr;
 };
 
 /// A body in the form that a static solver needs.
