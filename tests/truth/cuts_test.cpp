@@ -1,6 +1,7 @@
 // Bodies with cuts: a cut through everything against the halves alone, bodies that fly apart
 // without a force, and a penny-shaped crack under tension against Sneddon's closed form.
 #include <model/body_figures.hpp>
+#include <support/cuts.hpp>
 #include <support/rest.hpp>
 #include <support/scenes.hpp>
 
@@ -12,8 +13,6 @@
 namespace {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
-
-Json plane(Vec3 point, Vec3 normal) { return {{"plane", {{"point", point}, {"normal", normal}}}}; }
 
 /// Steps a scene and returns the displacements by the sites' positions.
 struct Moved {
