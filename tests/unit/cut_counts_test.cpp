@@ -26,12 +26,13 @@ TEST(CutCounts, ClosedSheetAroundAParticleMakesItLoose) {
                                              {low + y + z, low + y, low + z},
                                              {low + x, low + x + y, low + x + z},
                                              {low + x + y + z, low + x + z, low + x + y}}));
-  const auto plan = plan_of(SceneBuilder{}
-                                .lattice("lattices.cubic", 1, box({}, {6, 5, 4}),
-                                         {{"cuts", {{{"sheet", {{"file", file.path()}}}}}}})
-                                .stages(elastic_stage)
-                                .solver("solvers.explicit", {{"end_time", 1e-6}})
-                                .text());
+  const auto plan =
+      plan_of(SceneBuilder{}
+                  .lattice("lattices.cubic", 1, box({}, {6, 5, 4}),
+                           {{"cuts", Json::array({Json{{"sheet", {{"file", file.path()}}}}})}})
+                  .stages(elastic_stage)
+                  .solver("solvers.explicit", {{"end_time", 1e-6}})
+                  .text());
   EXPECT_EQ(plan->body.parts.count, 2U);
   EXPECT_EQ(plan->body.parts.loose, 1U);
   EXPECT_EQ(plan->body.cut_springs, 18U);
@@ -49,12 +50,13 @@ TEST(CutCounts, ContentOfAFileIsPartOfTheIdentity) {
   const auto identity = [](double radius) {
     const InputText file("identity.csv",
                          fmt::format("x,y,z,nx,ny,nz,radius\n3,2,2,0,0,1,{}\n", radius));
-    const auto plan = plan_of(SceneBuilder{}
-                                  .lattice("lattices.cubic", 1, box({}, {6, 5, 4}),
-                                           {{"cuts", {{{"discs", {{"file", file.path()}}}}}}})
-                                  .stages(elastic_stage)
-                                  .solver("solvers.explicit", {{"end_time", 1e-6}})
-                                  .text());
+    const auto plan =
+        plan_of(SceneBuilder{}
+                    .lattice("lattices.cubic", 1, box({}, {6, 5, 4}),
+                             {{"cuts", Json::array({Json{{"discs", {{"file", file.path()}}}}})}})
+                    .stages(elastic_stage)
+                    .solver("solvers.explicit", {{"end_time", 1e-6}})
+                    .text());
     return identity_hash(plan->identity);
   };
   EXPECT_EQ(identity(2), identity(2));
