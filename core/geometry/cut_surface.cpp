@@ -43,9 +43,9 @@ Vec3 area_vector(std::span<const Vec3> corners) {
   return sum;
 }
 
-FlatPiece polygon_of(std::vector<Vec3> corners) {
+FlatPiece polygon_of(std::vector<Vec3> corners, FlatPiece::Outline outline) {
   FlatPiece piece = plane_at(corners.front(), area_vector(corners));
-  piece.outline = FlatPiece::Outline::polygon;
+  piece.outline = outline;
   piece.low = piece.high = corners.front();
   for (const Vec3 x : corners)
     for (int axis = 0; axis < 3; ++axis) {
@@ -139,7 +139,7 @@ struct PolygonCut {
   static Schema<Options> schema() { return Schema<Options>("polygon", "Flat polygon"); }
   static CutSurface make(const Options&, std::span<const Vec3> corners) {
     check_polygon(corners);
-    return {{polygon_of({corners.begin(), corners.end()})}, {}, false};
+    return {{polygon_of({corners.begin(), corners.end()}, FlatPiece::Outline::polygon)}, {}, false};
   }
 };
 
@@ -224,7 +224,7 @@ struct SheetCut {
       if (norm(own) == 0) continue;
       sum += own;
       area += norm(own);
-      surface.pieces.push_back(polygon_of(std::move(corners)));
+      surface.pieces.push_back(polygon_of(std::move(corners), FlatPiece::Outline::facet));
     }
     if (surface.pieces.empty()) throw std::runtime_error("its facets have no area");
     // Few facets are parallel to both parts of the direction.

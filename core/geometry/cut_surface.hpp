@@ -18,14 +18,16 @@ namespace hyperlattice {
 /// A flat piece of a surface: an endless plane, or the part of one within an outline. A crossing on
 /// the outline counts as inside.
 struct FlatPiece {
-  enum class Outline { none, circle, polygon };
+  /// A facet is a polygon that others of a sheet continue.
+  enum class Outline { none, circle, polygon, facet };
   Outline outline = Outline::none;
-  Vec3 point;                 ///< of the plane, m; the centre of a circle
-  Vec3 normal;                ///< of length 1
-  double radius = 0;          ///< of a circle, m
-  std::vector<Vec3> corners;  ///< of a polygon, m, anticlockwise seen from the tip of the normal
-  Vec3 moved_along;           ///< direction in which the piece is moved, see above
-  Vec3 low, high;             ///< corners of the box around the piece, m; infinite for a plane
+  Vec3 point;         ///< of the plane, m; the centre of a circle
+  Vec3 normal;        ///< of length 1
+  double radius = 0;  ///< of a circle, m
+  /// of a polygon or facet, m; anticlockwise seen from the tip of the normal
+  std::vector<Vec3> corners;
+  Vec3 moved_along;  ///< direction in which the piece is moved, see above
+  Vec3 low, high;    ///< corners of the box around the piece, m; infinite for a plane
 
   /// Returns the distance from the plane, m, positive on the side of the normal.
   double height(Vec3 x) const { return dot(x - point, normal); }

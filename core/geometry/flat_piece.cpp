@@ -21,8 +21,11 @@ bool FlatPiece::crosses(Vec3 a, Vec3 b, double spacing) const {
   const Vec3 moved = shift * spacing * moved_along;
   const double at_a = height(a - moved), at_b = height(b - moved);
   if ((at_a > 0) == (at_b > 0)) return false;
-  return outline == Outline::none ||
-         holds(a - moved + at_a / (at_a - at_b) * (b - a), 4 * shift * spacing);
+  if (outline == Outline::none) return true;
+  // Moving the piece moves the crossing, so that a crossing near a rim counts. At a fold of a sheet
+  // it must not: there only rounding counts.
+  const double tolerance = outline == Outline::facet ? 1e-9 : 4 * shift;
+  return holds(a - moved + at_a / (at_a - at_b) * (b - a), tolerance * spacing);
 }
 
 bool FlatPiece::holds(Vec3 crossing, double tolerance) const {

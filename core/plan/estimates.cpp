@@ -115,7 +115,9 @@ double records_of(const PlannedStage& stage) {
 double model_bytes(const Model& model) {
   const std::size_t runs = model.body.runs.size() + model.body.cells.runs().size();
   auto bytes =
-      static_cast<double>(model.body.listed.springs.size() * sizeof(ListedSpring) +
+      static_cast<double>((model.body.listed.springs.size() + model.body.listed.cut.size()) *
+                              sizeof(ListedSpring) +
+                          model.body.cut_sites.size() * sizeof(CutSite) +
                           model.body.listed.positions.size() * sizeof(Vec3) + runs * sizeof(Run) +
                           model.body.row_runs.size() * sizeof(std::size_t) +
                           model.body.cells.partial().size() * sizeof(PartialCell) +

@@ -83,8 +83,9 @@ double CellWatch::bytes(const Model& model) {
   const double at_a_time = model.body.is_listed()
                                ? particles
                                : std::min(particles, std::max(slab_particles, two_planes));
-  double bytes = 3 * sizeof(double) * at_a_time;        // displacements
-  if (model.springs.breakable) bytes += particles / 8;  // one bit: torn or not
+  double bytes = 3 * sizeof(double) * at_a_time;  // displacements
+  // One bit: torn or not.
+  if (model.springs.breakable || model.body.cut_springs() > 0) bytes += particles / 8;
   if (!model.body.is_listed()) return bytes;
   bytes += sizeof(Triple) * particles;
   return bytes + Ends::bytes(particles, springs);

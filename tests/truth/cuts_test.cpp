@@ -1,6 +1,7 @@
 // Bodies with cuts: a cut through everything against the halves alone, bodies that fly apart
 // without a force, and a penny-shaped crack under tension against Sneddon's closed form.
 #include <model/body_figures.hpp>
+#include <support/cuts.hpp>
 #include <support/rest.hpp>
 #include <support/scenes.hpp>
 
@@ -12,8 +13,6 @@
 namespace {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
-
-Json plane(Vec3 point, Vec3 normal) { return {{"plane", {{"point", point}, {"normal", normal}}}}; }
 
 /// Steps a scene and returns the displacements by the sites' positions.
 struct Moved {
@@ -85,7 +84,7 @@ TEST(Cuts, PartsFlyApartWithoutForce) {
           SceneBuilder{}
               .stage(of.type, Keys{{"spacing", 1e-3},
                                    {"shape", box_mm(10, 9, 8)},
-                                   {"cuts", {plane(point, normal)}}} +
+                                   {"cuts", Json::array({plane(point, normal)})}} +
                                   of.more)
               .material("materials.elastic", Keys{{"young", 1e10}, {"density", 2500}} + of.material)
               .region("behind",
@@ -130,11 +129,11 @@ constexpr double young = 1, tension = 1e-7;
 std::array<double, 2> pulled(int cells, double poisson, bool is_cut) {
   const double a = cells, half = 4 * a;
   // The disc is half-way between two layers of particles.
-  const Json disc = {{"disc", {{"centre", {0, 0, 0.5}}, {"normal", {0, 0, 1}}, {"radius", a}}}};
+  const Json crack = disc({0, 0, 0.5}, {0, 0, 1}, a);
   const AtRest rest(
       SceneBuilder{}
           .lattice("lattices.cubic", 1, box({0, 0, -half}, {half, half, half + 1}),
-                   {{"boundary", "cells"}, {"cuts", is_cut ? Json::array({disc}) : Json::array()}})
+                   {{"boundary", "cells"}, {"cuts", is_cut ? Json::array({crack}) : Json::array()}})
           .material("materials.elastic", {{"young", young}, {"density", 1}, {"poisson", poisson}})
           .region("axis", box({-0.1, -0.1, -half - 0.1}, {0.1, 0.1, -half + 0.1}))
           .load("loads.fixed", {{"on", "x_min"}, {"axes", "x"}})
