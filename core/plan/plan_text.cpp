@@ -2,7 +2,7 @@
 #include <base/figures.hpp>
 #include <plan/damage.hpp>
 #include <plan/estimates.hpp>
-#include <state/simulation.hpp>
+#include <state/failure_record.hpp>
 
 #include <spdlog/fmt/fmt.h>
 #include <nlohmann/json.hpp>
@@ -88,11 +88,11 @@ std::string plan_text(const Plan& plan) {
   page.section("Allocated");
   page.line("particles", count("particles"));
   page.line("state", fmt::format("{:.1f} bytes per particle", number("bytes_per_particle")));
-  page.line("memory",
-            bytes_text(number("memory_bytes")) +
-                (facts.at("breakable").get<bool>()
-                     ? fmt::format(", and {} bytes for each spring that breaks", sizeof(Breakage))
-                     : ""));
+  page.line("memory", bytes_text(number("memory_bytes")) +
+                          (facts.at("breakable").get<bool>()
+                               ? fmt::format(", and {} bytes for each spring that breaks",
+                                             FailureRecord::bytes_each)
+                               : ""));
 
   page.section("Computed");
   page.line("springs", fmt::format("{}, {:.2f} per particle", count("springs"),

@@ -132,18 +132,20 @@ double FailureRecord::energy_of(std::size_t index, const Block& block, const Blo
 /// Returns the growth of the squared length of a broken base spring, m2, and its rest length, m.
 FailureRecord::Growth FailureRecord::growth_now(const Ends& where) const {
   const Model& model = blocks_.model();
-  SpringProperties geometry;
+  SpringProperties geometry;  // its rest vector and length are all that is needed
   if (model.body.is_listed()) {
-    const ListedSpring& spring = model.body.listed.springs[where.neighbour];
-    geometry = model.spring_properties(spring.a, spring.b, where.neighbour);
+    const Listed& list = model.body.listed;
+    const ListedSpring& spring = list.springs[where.neighbour];
+    geometry.rest = list.positions[spring.b] - list.positions[spring.a];
+    geometry.rest_length = norm(geometry.rest);
   } else {
     const NeighbourGeometry& to = model.springs.neighbours[where.neighbour];
     geometry.rest = to.rest;
     geometry.rest_length = to.rest_length;
   }
-  const Numbers *const a = blocks_[where.block_a].displacement, *const b = blocks_[where.block_b]
-                                                                               .displacement;
-  const auto apart = [&](int c) { return b[c][where.b] - a[c][where.a]; };
+  const auto& from = blocks_[where.block_a].displacement;
+  const auto& to = blocks_[where.block_b].displacement;
+  const auto apart = [&](int c) { return to[c][where.b] - from[c][where.a]; };
   const double rise = model.degrees_of_freedom == 4 ? apart(3) : 0;
   return {
       geometry.growth(0, {apart(0), apart(1), apart(2)}, rise, model.body.grid.membrane_distance),
@@ -162,8 +164,8 @@ std::uint64_t FailureRecord::open() {
   return count_open(by_place_) + count_open(std::span(ends_).subspan(by_place_.size()));
 }
 
-/// Arranges failures by their places. A count then reads the state in the order of the memory,
-/// which takes most of its time. The latest failures wait until they are many.
+/// Arranges failures by their places: a count then reads the state in the order of the memory. The
+/// latest failures wait until they are many.
 void FailureRecord::arrange() {
   const std::size_t before = by_place_.size();
   if (ends_.size() - before <= before / 4) return;

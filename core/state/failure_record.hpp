@@ -15,7 +15,19 @@
 namespace hyperlattice {
 
 class FailureRecord {
+  /// The places where the ends of a broken spring are stored, and what else says whether its
+  /// failure is open: counts read this alone.
+  struct Ends {
+    std::uint64_t a, b;              ///< in the arrays of their blocks
+    std::uint32_t block_a, block_b;  ///< numbers of the blocks
+    std::uint32_t neighbour = 0;     ///< see Model::spring_properties
+    bool counts = true;              ///< false if the breakage is Breakage::again
+  };
+
  public:
+  /// Bytes that the record takes for each failure, while its arrays have no room to spare.
+  static constexpr std::size_t bytes_each = sizeof(Breakage) + 2 * sizeof(Ends);
+
   FailureRecord(BlockSet& blocks, const Clock& clock, NodalPressures& pressures)
       : blocks_(blocks), clock_(clock), pressures_(pressures) {}
 
@@ -39,14 +51,6 @@ class FailureRecord {
   void archive(Archive& archive);
 
  private:
-  /// The places where the ends of a broken spring are stored, and what else says whether its
-  /// failure is open: counts read this alone.
-  struct Ends {
-    std::uint64_t a, b;              ///< in the arrays of their blocks
-    std::uint32_t block_a, block_b;  ///< numbers of the blocks
-    std::uint32_t neighbour = 0;     ///< see Model::spring_properties
-    bool counts = true;              ///< false if the breakage is Breakage::again
-  };
   struct Growth {
     double of_square, rest_length;
   };

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -203,6 +204,51 @@ TEST(Failures, WeibullScattersAsItSays) {
     }
   // 18 of 19 springs in a row along x have a next one
   EXPECT_NEAR(pairs / all, 0.5 * 18 / 19, 0.03);
+}
+
+/// Compares the elongations of broken springs with the places of their ends in the whole body, step
+/// by step, and counts open failures by them.
+void follow_broken(const Plan& plan) {
+  const Model& model = *plan.model;
+  const double step = 0.5 * model.step_limit.time_step;
+  for (const int threads : {1, 3}) {
+    Simulation simulation(model, threads);
+    simulation.set_velocities(noise(3 * model.body.particles, 1.5e-6 / step), {});
+    std::set<std::uint64_t> steps;  // with breakages
+    std::uint64_t most_open = 0, most_closed = 0;
+    for (int n = 0; n < 60; ++n) {
+      simulation.step(step);
+      std::vector<double> u, heights;
+      simulation.displacements(u);
+      simulation.heights(heights);
+      std::uint64_t open = 0, number = 0;
+      for (const Breakage& broken : simulation.breakages()) {
+        const auto place = [&](Particle p) {
+          return model.body.position(p) + Vec3{u[3 * p], u[3 * p + 1], u[3 * p + 2]};
+        };
+        const double rise = heights.empty() ? 0 : heights[broken.b] - heights[broken.a],
+                     rest = norm(model.body.position(broken.b) - model.body.position(broken.a)),
+                     now = std::hypot(norm(place(broken.b) - place(broken.a)), rise);
+        const double elongation = simulation.elongation_now(number++);
+        EXPECT_NEAR(elongation, now - rest, 1e-15) << threads << " threads, step " << n;
+        open += elongation > 0 ? 1 : 0;
+        steps.insert(broken.step);
+      }
+      EXPECT_EQ(simulation.broken_open(), open) << threads << " threads, step " << n;
+      most_open = std::max(most_open, open);
+      most_closed = std::max(most_closed, number - open);
+    }
+    EXPECT_GT(steps.size(), 5u);
+    EXPECT_GT(most_open, 10u);
+    EXPECT_GT(most_closed, 10u);
+  }
+}
+
+TEST(Failures, OpenOnesAreThoseWhoseEndsAreFartherThanAtRest) {
+  const Keys failure = failing("elongation", {{"limit", 2e-6}});
+  follow_broken(*plan_of(block(7, 6, 8, Keys{{"membrane", "I-m"}, {"poisson", 0.2}} + failure)));
+  const ListFiles files(5, 4, 6);
+  follow_broken(*plan_of(listed_scene(files.lattice(), Keys{{"membrane", "none"}} + failure)));
 }
 
 }  // namespace
