@@ -62,10 +62,6 @@ void plan_stages(Plan& plan, Faults& faults) {
       add_all(faults, objection(*plan.scene, *stage, *refused));
     else
       check_plan(*stage, planned);
-    const bool is_static = planned.plan.at_rest && planned.plan.time_step == 0;
-    if (!refused && is_static && plan.model->nodal_volumes)
-      faults.add(stage->pointer, stage->component->type(),
-                 "a solver that steps: the volumetric energy of a list of springs has no tangent");
     if (!refused) start = planned.plan.end_time;
     plan.stages.push_back(std::move(planned));
   }
