@@ -64,9 +64,6 @@ void plan_stages(Plan& plan, Faults& faults) {
     else
       check_plan(*stage, planned);
     const bool is_static = planned.plan.at_rest && planned.plan.time_step == 0;
-    if (!refused && is_static && plan.model->nodal_volumes)
-      faults.add(stage->pointer, stage->component->type(),
-                 "a solver that steps: the volumetric energy of a list of springs has no tangent");
     if (!refused && is_static && !plan.model->cohesive.empty())
       faults.add(stage->pointer, stage->component->type(),
                  "a solver that steps: damage does not grow between states of rest");

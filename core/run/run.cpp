@@ -19,7 +19,7 @@ namespace hyperlattice {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using WallClock = std::chrono::steady_clock;
 
 /// Takes the memory and threads of a run before it removes the results of an earlier run. Throws
 /// OutsideError if the system refuses them; but returns null if there are no results to lose: the
@@ -112,7 +112,7 @@ void solve(const Plan& plan, const RunOptions& options, RunFolder& folder,
            Outcome& outcome) {
   std::optional<StageSequence> stages;
   attempt(plan, outcome, [&] {
-    const auto start = Clock::now();
+    const auto start = WallClock::now();
     if (!resumed) folder.write("scene.resolved.json", plan.scene->resolved_in(options.directory));
     if (!simulation) simulation = std::make_unique<Simulation>(*plan.model, plan.threads);
     stages.emplace(plan, options, folder, *simulation);
@@ -178,7 +178,7 @@ int run(Plan& plan, const RunOptions& options) {
   refuse_shortage(plan, options.directory);
   if (options.resume) must_be_resumable(options.directory);
   RunFolder folder(options.directory, !options.resume);
-  const auto start = Clock::now();
+  const auto start = WallClock::now();
   std::unique_ptr<Simulation> simulation;
   const std::optional<Checkpoint> resumed = prepare(folder, plan, options, simulation);
   Outcome outcome;

@@ -74,7 +74,7 @@ class Random {
         .restrictions(
             "boundary particles only; the Poisson ratio of few neighbours is above 1/4 without a "
             "membrane: 0.30 at 8.4, 0.25 at 13.2 in an infinite "
-            "body; nodal volumes give larger ones, but not to solvers.static. A particle at the "
+            "body; nodal volumes give larger ones. A particle at the "
             "surface has fewer springs, so those inside have more, and the "
             "largest Poisson ratio is less: at 8.4 about 0.27 "
             "in a body 10 particles across, 0.29 in one of 30; a coordination below 7 leaves no "
