@@ -59,7 +59,7 @@ TEST(BodyFigures, WhatFitsIsNotWarnedOf) {
   for (const char* boundary : {"particles", "cells"}) {
     const BodyFigures body = figures(lattice(1e-3, box_mm(4, 3, 2), boundary));
     EXPECT_TRUE(size_warnings(body, 1e-3).empty()) << boundary;
-    EXPECT_EQ(body.parts, 1u);
+    EXPECT_EQ(body.parts.count, 1u);
   }
   const BodyFigures ball = figures(
       // The surface of cells has steps.
@@ -155,7 +155,7 @@ TEST(BodyFigures, LatticesOfMoreThanOneParticleACubeAreComparedToo) {
 TEST(BodyFigures, CountsBodiesThatNoSpringJoins) {
   const auto two = [](double low, const char* boundary, const char* type) {
     const Json shape = set("union", box_mm(4, 3, 3), box({0, 0, low}, {4e-3, 3e-3, 8e-3}));
-    return figures(lattice(1e-3, shape, boundary, type)).parts;
+    return figures(lattice(1e-3, shape, boundary, type)).parts.count;
   };
   EXPECT_EQ(two(3e-3, "particles", "lattices.cubic"), 1u) << "neighbouring cells are joined";
   EXPECT_EQ(two(4e-3, "particles", "lattices.cubic"), 2u) << "an empty cell parts them";
