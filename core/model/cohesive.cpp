@@ -45,7 +45,10 @@ void check_support(const Model& model, const Material& material, Faults& faults)
   };
   if (model.body.is_listed())
     return refuse(stage, "a criterion of springs: a list of springs has no field of damage");
-  if (!elastic_solid::is_cubic_of_18(facts_of(geometry_from(model.body))))
+  const LatticeGeometry geometry = geometry_from(model.body);
+  LatticeFacts facts = facts_of(geometry);
+  facts.neighbours = model.body.neighbours;
+  if (!elastic_solid::is_cubic_of_18(facts))
     return refuse(stage,
                   "a criterion of springs: only the cubic lattice of 18 neighbours has a "
                   "field of damage");
