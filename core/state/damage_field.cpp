@@ -8,11 +8,10 @@ namespace hyperlattice {
 
 namespace {
 
-// Marks of a particle repeat after a few steps, so that particles that stay above their alarm cost
-// no list in every step. A particle without damage is followed for longer than that.
-constexpr std::uint64_t steps_between_marks = 16, steps_followed = 64;
-/// A wave takes two to three steps from one particle to the next, and damage many more.
-constexpr std::uint64_t steps_between_watches = 4;
+/// A wave takes two to three steps from one particle to the next.
+constexpr std::uint64_t steps_of_rest = 4;
+/// Ratio of the strength below which a particle without damage rests.
+constexpr double safe_ratio = 0.8;
 
 /// Returns the part that remains of two half springs in series.
 double in_series(double a, double b) {
@@ -84,6 +83,7 @@ void DamageField::evaluate() {
 /// in the step, and the balance is as exact as that of springs that do not change.
 void DamageField::gather(std::uint32_t number) {
   DamageRecord& record = records_[number];
+  if (rests(record)) return;
   const Motion here = motion_of(blocks_[record.block], record.index);
   const double own = records_.remaining(number), delta = model_.body.grid.membrane_distance;
   const std::size_t kinds = model_.springs.choice.membrane == KernelChoice::Membrane::none ? 1 : 2;
@@ -188,7 +188,7 @@ void DamageField::grow(std::span<const std::uint32_t> records, double time_step)
   for (const std::uint32_t number : records) {
     const double damage = next_[number] = records_.damage(number);
     const DamageRecord& record = records_[number];
-    if (record.material != nullptr && damage < 1)
+    if (record.material != nullptr && damage < 1 && !rests(record))
       driven.push_back({number, principal_values(record.stress)});
   }
   if (driven.empty()) return;
@@ -224,6 +224,8 @@ void DamageField::grow(std::span<const std::uint32_t> records, double time_step)
       record.rate = damage_rate(step);
       const double damage = step.damage + time_step * record.rate;
       next_[one.record] = damage >= 1 - 1e-4 ? 1 : damage;
+      if (damage == 0 && equivalent < safe_ratio && !touches_damage(record))
+        record.rests_until = clock_.steps() + steps_of_rest;
     }
   }
 }
@@ -252,23 +254,41 @@ void DamageField::note_gone() {
   }
 }
 
-/// Makes records of the neighbours of particles that have their first damage. Their springs were
-/// whole in this state.
+/// Makes records of the neighbours of particles that have their first damage, and ends their rest.
+/// Their springs were whole in this state.
 void DamageField::surround(const std::vector<std::uint32_t>& damaged) {
   std::vector<Particle> neighbours;
   neighbours.reserve(damaged.size() * DamageRecord::most_springs);
   for (const std::uint32_t number : damaged)
     for (const DamageSpring& spring : records_[number].springs()) neighbours.push_back(spring.to);
+  std::vector<std::uint32_t> behind = records_.add(neighbours);
+  for (const Particle neighbour : neighbours)
+    if (rests(records_[records_.of(neighbour)])) behind.push_back(records_.of(neighbour));
   const std::size_t kinds = model_.springs.choice.membrane == KernelChoice::Membrane::none ? 1 : 2;
-  for (const std::uint32_t number : records_.add(std::move(neighbours))) {
+  for (const std::uint32_t number : behind) {
     DamageRecord& record = records_[number];
     record.marked = clock_.steps();
+    record.rests_until = 0;
     const Motion here = motion_of(blocks_[record.block], record.index);
+    record.height = here.height;
     for (DamageSpring& spring : record.springs())
       for (std::size_t cross = 0; cross < kinds; ++cross)
         spring.elongation[cross] =
             elongation(spring, cross, here, motion_of(blocks_[spring.block], spring.index));
   }
+}
+
+/// Returns whether the particle needs no evaluation in this step: its stress was far below the
+/// surface a few steps ago, and no damage is near.
+bool DamageField::rests(const DamageRecord& record) const {
+  return clock_.steps() < record.rests_until;
+}
+
+bool DamageField::touches_damage(const DamageRecord& record) const {
+  const auto springs = record.springs();
+  return std::any_of(springs.begin(), springs.end(), [this](const DamageSpring& spring) {
+    return records_.damage_of(spring.to) > 0;
+  });
 }
 
 void DamageField::finish() {
@@ -310,55 +330,6 @@ void DamageField::remove_idle() {
       return records_.damage_of(spring.to) > 0;
     });
   });
-}
-
-void DamageField::note(Block& block, const AlarmRow& springs) const {
-  const double rest_length = model_.springs.neighbours[springs.neighbour].rest_length;
-  for (std::size_t n = 0; n < springs.sites.size(); ++n) {
-    const SpringEnds ends =
-        blocks_.layout().spring(block, springs.row, springs.neighbour, springs.sites[n]);
-    for (const Particle end : {ends.a, ends.b}) {
-      const std::uint32_t record = records_.of(end);
-      if (record != DamageRecords::none &&
-          records_[record].marked + steps_between_marks > clock_.steps())
-        continue;
-      const Cohesive& material = model_.cohesive[model_.kinds.material(end)];
-      if (springs.elongation[n] > material.stretch_alarm * rest_length && records_.has_field(end))
-        block.noted.push_back(end);
-    }
-  }
-}
-
-void DamageField::watch_shortening(Block& block) const {
-  if (clock_.steps() % steps_between_watches != 0) return;
-  double alarm = infinity;
-  for (const Cohesive& material : model_.cohesive)
-    if (material.stage != nullptr) alarm = std::min(alarm, material.shortening_alarm);
-  if (!std::isfinite(alarm)) return;
-  for (std::uint32_t r = block.layout->first_own; r < block.layout->last_own; ++r) {
-    const Row& row = block.rows[r];
-    for (std::uint32_t n = 0; n < model_.springs.neighbours.size(); ++n) {
-      if ((row.neighbours >> n & 1U) == 0) continue;
-      const NeighbourGeometry& to = model_.springs.neighbours[n];
-      const double square = to.rest_length * to.rest_length,
-                   least = square * ((1 - alarm) * (1 - alarm) - 1);
-      for (std::int32_t i = row.begin; i < row.end; ++i) {
-        const std::uint64_t here = row.start + static_cast<std::uint64_t>(i - row.begin);
-        if ((block.alive[here] >> n & 1U) == 0) continue;
-        const Vec3 d = motion_of(block, blocks_.layout().other_end(block.number, r, n, i)).moved -
-                       motion_of(block, here).moved;
-        if (dot(d, 2 * to.rest + d) > least) continue;
-        const SpringEnds ends = blocks_.layout().spring(block, r, n, i);
-        for (const Particle end : {ends.a, ends.b}) {
-          const std::uint32_t record = records_.of(end);
-          if (records_.has_field(end) &&
-              (record == DamageRecords::none ||
-               records_[record].marked + steps_between_marks <= clock_.steps()))
-            block.noted.push_back(end);
-        }
-      }
-    }
-  }
 }
 
 void DamageField::copy_damage(std::vector<double>& values) const {

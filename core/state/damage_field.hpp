@@ -80,6 +80,12 @@ class DamageField {
   void note_gone();
   void surround(const std::vector<std::uint32_t>& damaged);
   void remove_idle();
+  void note(Block& block, Particle particle) const;
+  bool rests(const DamageRecord& record) const;
+  bool touches_damage(const DamageRecord& record) const;
+
+  /// A particle without damage is followed this long after its last note.
+  static constexpr std::uint64_t steps_followed = 64;
 
   BlockSet& blocks_;
   const Model& model_;

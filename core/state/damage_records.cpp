@@ -217,7 +217,7 @@ void DamageRecords::archive(Archive& archive) {
   struct Kept {
     Particle particle;
     double damage, rate, height, alpha_factor;
-    std::uint64_t marked;
+    std::uint64_t marked, rests_until;
     std::uint32_t present, handed_over;  ///< bits of springs
     double elongation[DamageRecord::most_springs][2], factor[DamageRecord::most_springs][2];
   };
@@ -231,6 +231,7 @@ void DamageRecords::archive(Archive& archive) {
               record.height,
               record.alpha_factor,
               record.marked,
+              record.rests_until,
               0,
               0,
               {},
@@ -259,6 +260,7 @@ void DamageRecords::archive(Archive& archive) {
     record.height = kept.height;
     record.alpha_factor = kept.alpha_factor;
     record.marked = kept.marked;
+    record.rests_until = kept.rests_until;
     for (std::size_t s = 0; s < record.count; ++s) {
       DamageSpring& spring = record.all[s];
       spring.present = (kept.present >> s & 1U) != 0;

@@ -57,6 +57,7 @@ struct DamageRecord {
   double alpha = 0;                    ///< of the alpha spring, N/m
   double rate = 0;                     ///< of damage in the last step, 1/s
   std::uint64_t marked = 0;            ///< step in which a spring was last above its alarm
+  std::uint64_t rests_until = 0;       ///< step of the next evaluation, see DamageField
   /// For a particle whose cells are not symmetric; null: its virial is its stress.
   std::unique_ptr<const VirialCorrection> correction;
 

@@ -1,0 +1,69 @@
+// Which particles the field of damage must follow: those beside springs above the alarm of their
+// material.
+#include <state/damage_field.hpp>
+
+#include <cmath>
+
+namespace hyperlattice {
+
+namespace {
+
+// Notes of a particle repeat after a few steps, so that particles that stay above their alarm cost
+// no list in every step. Records live longer than that (DamageField::steps_followed).
+constexpr std::uint64_t steps_between_notes = 16;
+/// A wave takes two to three steps from one particle to the next, and damage many more.
+constexpr std::uint64_t steps_between_watches = 4;
+
+}  // namespace
+
+/// Notes a particle if damage can grow there and it was not noted lately.
+void DamageField::note(Block& block, Particle particle) const {
+  const std::uint32_t record = records_.of(particle);
+  if (record != DamageRecords::none &&
+      records_[record].marked + steps_between_notes > clock_.steps())
+    return;
+  if (records_.has_field(particle)) block.noted.push_back(particle);
+}
+
+void DamageField::note(Block& block, const AlarmRow& springs) const {
+  const double rest_length = model_.springs.neighbours[springs.neighbour].rest_length;
+  for (std::size_t n = 0; n < springs.sites.size(); ++n) {
+    const SpringEnds ends =
+        blocks_.layout().spring(block, springs.row, springs.neighbour, springs.sites[n]);
+    for (const Particle end : {ends.a, ends.b})
+      if (springs.elongation[n] >
+          model_.cohesive[model_.kinds.material(end)].stretch_alarm * rest_length)
+        note(block, end);
+  }
+}
+
+void DamageField::watch_shortening(Block& block) const {
+  if (clock_.steps() % steps_between_watches != 0) return;
+  double alarm = infinity;
+  for (const Cohesive& material : model_.cohesive)
+    if (material.stage != nullptr) alarm = std::min(alarm, material.shortening_alarm);
+  if (!std::isfinite(alarm)) return;
+  for (std::uint32_t r = block.layout->first_own; r < block.layout->last_own; ++r) {
+    const Row& row = block.rows[r];
+    for (std::uint32_t n = 0; n < model_.springs.neighbours.size(); ++n) {
+      if ((row.neighbours >> n & 1U) == 0) continue;
+      const NeighbourGeometry& to = model_.springs.neighbours[n];
+      const double square = to.rest_length * to.rest_length,
+                   least = square * ((1 - alarm) * (1 - alarm) - 1);
+      for (std::int32_t i = row.begin; i < row.end; ++i) {
+        const std::uint64_t here = row.start + static_cast<std::uint64_t>(i - row.begin);
+        if ((block.alive[here] >> n & 1U) == 0) continue;
+        const std::uint64_t there = blocks_.layout().other_end(block.number, r, n, i);
+        const auto apart = [&](int c) {
+          return block.displacement[c][there] - block.displacement[c][here];
+        };
+        const Vec3 d{apart(0), apart(1), apart(2)};
+        if (dot(d, 2 * to.rest + d) > least) continue;
+        const SpringEnds ends = blocks_.layout().spring(block, r, n, i);
+        for (const Particle end : {ends.a, ends.b}) note(block, end);
+      }
+    }
+  }
+}
+
+}  // namespace hyperlattice
