@@ -1,13 +1,12 @@
 # Prints, for a run of this scene, when the cracks start and the angle of the upper one with its
 # notch.
 #   python3 angle.py OUT
-# A place is cracked when a spring there has lost all of its stiffness.
 import math
 import pathlib
 import sys
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
-from broken_springs import broken_springs
+from damage_frames import cracked_particles
 
 NOTCH = (0.05, 0.1255)  # m
 
@@ -16,7 +15,7 @@ def angle(out):
     """Returns when the upper crack starts (us), its angle with the notch from a line through its
     height of 3 to 75 mm (degrees), and how far ahead of the notch it is 30 and 60 mm up (mm)."""
     # The spall at the far edge is another crack.
-    path = [(time, x - NOTCH[0], y - NOTCH[1]) for time, x, y in broken_springs(out) if y > NOTCH[1] and 0.045 < x < 0.095]
+    path = [(time, x - NOTCH[0], y - NOTCH[1]) for time, x, y in cracked_particles(out) if y > NOTCH[1] and 0.045 < x < 0.095]
     found = dict.fromkeys(["start, us", "angle", "30 mm up, mm", "60 mm up, mm"])
     if not path:
         return found
