@@ -132,9 +132,14 @@ class NodalVolumes {
   /// Returns the mean pressure over the corners of a tetrahedron, Pa.
   double pressure(std::size_t tetrahedron, std::span<const double> pressures) const;
 
-  /// Calls visit(particle) for each corner of the tetrahedra with the edge from a to b.
+  /// Calls visit(particle) for each particle whose energy ends when the spring from a to b breaks:
+  /// its ends, and the corners of the tetrahedra with this edge. May visit a particle more than
+  /// once.
   template <class Visit>
-  void for_corners_at_edge(std::uint32_t a, std::uint32_t b, const Visit& visit) const {
+  void for_ended_by(Particle from, Particle to, const Visit& visit) const {
+    const auto a = static_cast<std::uint32_t>(from), b = static_cast<std::uint32_t>(to);
+    visit(a);
+    visit(b);
     for (const Tetrahedra::Use use : tetrahedra_.of(a)) {
       const Corners& corners = tetrahedra_[use.tetrahedron];
       for (const std::uint32_t end : corners)

@@ -48,13 +48,12 @@ std::array<Vec3, 4> NodalPressures::forces(std::size_t tetrahedron) const {
 
 double NodalPressures::lose(Particle a, Particle b, double step) {
   double energy = 0;
-  volumes_->for_corners_at_edge(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b),
-                                [&](std::uint32_t corner) {
-                                  if (now_.ended[corner] != 0) return;
-                                  now_.ended[corner] = 1;
-                                  energy += energy_before(corner, step);
-                                  now_.pressures[corner] = now_.energies[corner] = 0;
-                                });
+  volumes_->for_ended_by(a, b, [&](std::uint32_t particle) {
+    if (now_.ended[particle] != 0) return;
+    now_.ended[particle] = 1;
+    energy += energy_before(particle, step);
+    now_.pressures[particle] = now_.energies[particle] = 0;
+  });
   return energy;
 }
 

@@ -1,6 +1,6 @@
 // The volumetric energies of the particles of a listed body (model/nodal_volumes.hpp) in the
-// present state. The energy of a particle ends when a spring breaks that is an edge of one of its
-// tetrahedra: then no energy is created, whatever the volumes of the others.
+// present state. The energy of a particle ends when one of its springs breaks, or one that is an
+// edge of one of its tetrahedra: then no energy is created, whatever the volumes of the others.
 #pragma once
 
 #include <model/nodal_volumes.hpp>
@@ -35,9 +35,9 @@ class NodalPressures {
     return first_[block.number] + row.start;
   }
 
-  /// Ends the energies of the particles at the tetrahedra with this edge. Returns the energy that
-  /// is lost, J, with half of the work of the last step of length `step`, s, as FailureRecord
-  /// counts it for springs. Must be called after the step, by one thread.
+  /// Ends the energies that end with the spring from a to b, see NodalVolumes::for_ended_by.
+  /// Returns the energy that is lost, J, with half of the work of the last step of length `step`,
+  /// s, as FailureRecord counts it for springs. Must be called after the step, by one thread.
   double lose(Particle a, Particle b, double step);
 
  private:

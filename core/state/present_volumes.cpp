@@ -7,9 +7,8 @@ PresentVolumes::PresentVolumes(const NodalVolumes& volumes, std::vector<Vec3> mo
     : volumes_(volumes), now_(volumes.state()) {
   now_.moved = std::move(moved);
   for (const Breakage& broken : breakages)
-    volumes.for_corners_at_edge(static_cast<std::uint32_t>(broken.a),
-                                static_cast<std::uint32_t>(broken.b),
-                                [this](std::uint32_t corner) { now_.ended[corner] = 1; });
+    volumes.for_ended_by(broken.a, broken.b,
+                         [this](std::uint32_t particle) { now_.ended[particle] = 1; });
   volumes.evaluate(now_, [](std::size_t size, const auto& work) {
     for (std::size_t n = 0; n < size; ++n) work(n);
   });

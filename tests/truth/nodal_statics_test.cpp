@@ -101,7 +101,8 @@ TEST(NodalStatics, RelaxationAgrees) {
 
 /// The energy is that of the steps in time, and the supports carry the load.
 TEST(NodalStatics, EnergyIsTheWorkAndReactionsAreTheLoad) {
-  const Keys load = {{"on", "z_max"}, {"total", Vec3{1, 0, 5}}};
+  const Vec3 total{1, 0, 5};
+  const Keys load = {{"on", "z_max"}, {"total", total}};
   const AtRest body(random_scene(7, 0.45, {},
                                  stage("loads.fixed", {{"on", "z_min"}}) +
                                      stage("loads.force", load) +
@@ -109,8 +110,8 @@ TEST(NodalStatics, EnergyIsTheWorkAndReactionsAreTheLoad) {
   const EnergyBalance balance = body.simulation->balance();
   EXPECT_GT(balance.stored, 0);
   EXPECT_NEAR(balance.injected / balance.stored, 1, 1e-4);
-  const std::vector<Vec3> on_load = body.simulation->force_on_load();
-  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(on_load[0][c] + on_load[1][c], 0, 1e-9) << c;
+  const Vec3 on_support = body.simulation->force_on_load().front();
+  EXPECT_LT(norm(on_support - total), 1e-9);
 }
 
 /// The mean strain along an axis: the slope of the displacements over the places of the particles
