@@ -353,7 +353,7 @@ std::vector<SoftSpring> DamageField::soft_springs() const {
     const DamageRecord& record = records_[number];
     for (const DamageSpring& spring : record.springs())
       if (spring.forward && spring.handed_over && spring.present)
-        found.push_back({record.particle, spring.neighbour,
+        found.push_back({record.particle, spring.to, spring.neighbour,
                          in_series(records_.remaining(number), records_.remaining_of(spring.to))});
   }
   return found;

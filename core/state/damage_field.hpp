@@ -21,7 +21,7 @@ namespace hyperlattice {
 /// A spring that the field computes. The stiffness of a cross spring has the factor, that of a base
 /// spring too if it is stretched.
 struct SoftSpring {
-  Particle a = 0;               ///< first end
+  Particle a = 0, b = 0;        ///< a is the first end
   std::uint32_t neighbour = 0;  ///< see Model::spring_properties
   double factor = 1;
 };

@@ -201,9 +201,8 @@ void PresentSprings::compute(const Piece& piece, Asked asked, Row& row,
     }
   }
   for (const SoftSpring& soft : soft_in(piece)) {
-    const Particle b = piece.b + (soft.a - piece.a);
-    const SpringPull answer =
-        ask(model_.spring_properties(soft.a, b, piece.neighbour), soft.a, b, {}, 0, soft.factor);
+    const SpringPull answer = ask(model_.spring_properties(soft.a, soft.b, piece.neighbour), soft.a,
+                                  soft.b, {}, 0, soft.factor);
     const std::size_t at = springs.index(piece.neighbour, soft.a);
     springs.pull[at] = answer.pull;
     if (asked == Asked::energies) springs.energy[at] = answer.energy;

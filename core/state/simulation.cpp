@@ -49,8 +49,13 @@ std::uint64_t Simulation::broken_open() const { return state_->failures.open(); 
 std::uint64_t Simulation::broken() const { return state_->failures.springs(); }
 
 std::vector<WeakenedSpring> Simulation::weakened_springs() const {
-  if (!state_->blocks.model().springs.softens) return {};
-  return state_->law_memory.weakened();
+  std::vector<WeakenedSpring> weakened;
+  if (state_->blocks.model().springs.softens) weakened = state_->law_memory.weakened();
+  const std::vector<SoftSpring> soft = soft_springs();
+  weakened.reserve(weakened.size() + soft.size());
+  for (const SoftSpring& spring : soft)
+    weakened.push_back({spring.a, spring.b, spring.neighbour, spring.factor});
+  return weakened;
 }
 
 void Simulation::copy_damage(std::vector<double>& values) const {

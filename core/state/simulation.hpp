@@ -99,7 +99,8 @@ class Simulation {
     Layout::Memory of[2];
   };
   void for_springs_of_list(const std::function<void(const SpringMemory&)>& visit) const;
-  /// Returns the springs that exist and whose integrity is below 1.
+  /// Returns the springs that exist and whose integrity is below 1: those that their law softens,
+  /// and then the soft springs of damage, whose integrity is what remains of them in tension.
   std::vector<WeakenedSpring> weakened_springs() const;
   /// Sets the damage of the particles of cohesive materials, and leaves the others' values.
   void copy_damage(std::vector<double>& values) const;

@@ -13,8 +13,8 @@ Statics::Statics(const Model& model, Simulation& simulation, double start, doubl
     : model_(model), simulation_(simulation), start_(start), end_(end) {
   if (!simulation.soft_springs().empty())
     throw RunError(
-        "damage has softened springs, and a search for rest does not know them yet: take "
-        "solvers.explicit for the stages after the first crack");
+        "damage has softened springs, and a search for rest does not know them yet: take an "
+        "explicit solver for the stages after the first crack");
   problem_.grid.listed = model.body.is_listed();
   if (problem_.grid.listed)
     make_list();

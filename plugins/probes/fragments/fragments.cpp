@@ -57,7 +57,9 @@ class FragmentsProbe {
             "most "
             "2^(1-n) of the body's; the last one also has all that are lighter. Velocities are "
             "half "
-            "a step before the time. Volumetric energies, contacts and loads join nothing.");
+            "a step before the time. Volumetric energies, contacts and loads join nothing. With "
+            "failures.cohesive each particle with d = 1 is a piece: let least_mass count it as "
+            "dust.");
   }
 
   explicit FragmentsProbe(const Options& options) : options_(options) {}
