@@ -94,7 +94,7 @@ TEST_F(CommandLine, BeginsAPluginOnlyWhereThereIsNothing) {
   for (const char* type : {"failure.mine", "failures.Mine", "failures", "failures."}) {
     const test::Result result = run({"plugins", "--new", type, "--out", "project"});
     EXPECT_EQ(result.exit_code, 2) << type;
-    EXPECT_NE(result.err.find("one of failures, lattices, loads, materials, writers"),
+    EXPECT_NE(result.err.find("one of failures, lattices, loads, materials, surfaces, writers"),
               std::string::npos)
         << result.err;
     EXPECT_FALSE(exists("project"));

@@ -51,9 +51,9 @@ class FragmentsProbe {
             "lighter pieces. size_20, size_50, size_80: the fragments up to this size hold 20, 50, "
             "80 % of the fragments' mass. Columns that end in _0, _1, ...: of the heaviest "
             "fragments, numbered as by the field `fragment`: 0 is the heaviest, and of equal "
-            "masses "
-            "the one with the first particle; nan: there is no such fragment. spin is nan if the "
-            "particles lie on a line. bin_n: number of fragments with a mass above 2^-n and at "
+            "masses the one with the first particle; all 0: there is no such fragment. spin is 0 "
+            "if "
+            "the particles lie on a line. bin_n: number of fragments with a mass above 2^-n and at "
             "most "
             "2^(1-n) of the body's; the last one also has all that are lighter. Velocities are "
             "half "
@@ -80,7 +80,7 @@ class FragmentsProbe {
     gather(snapshot);
     row = write_sums(row);
     for (std::size_t n = 0; n < static_cast<std::size_t>(options_.largest); ++n)
-      row = n < fragments_ ? write(pieces_[n], row) : std::fill_n(row, columns_of_piece, none);
+      row = n < fragments_ ? write(pieces_[n], row) : std::fill_n(row, columns_of_piece, 0.0);
     write_histogram(row);
   }
 
@@ -88,7 +88,6 @@ class FragmentsProbe {
   static constexpr const char* fields[] = {"fragment",     "mass",     "volume",
                                            "displacement", "velocity", "kinetic_energy_density"};
   static constexpr std::size_t columns_of_piece = 13;
-  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
   /// Finds the pieces in the order of their numbers: the heaviest is first.
   void gather(const Snapshot& snapshot) {
@@ -140,7 +139,7 @@ class FragmentsProbe {
       sizes.emplace_back(pieces_[n].size(), pieces_[n].mass());
     std::sort(sizes.begin(), sizes.end());
     for (const double part : {0.2, 0.5, 0.8}) {
-      double below = 0, size = none;
+      double below = 0, size = 0;
       for (std::size_t n = 0; n < sizes.size() && !(below >= part * mass); ++n) {
         size = sizes[n].first;
         below += sizes[n].second;

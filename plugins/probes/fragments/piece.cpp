@@ -26,10 +26,7 @@ Vec3 Piece::spin() const {
   const double determinant = dot(inertia_[0], first),
                trace = inertia_[0].x + inertia_[1].y + inertia_[2].z;
   constexpr double flattest = 1e-9;  // of the inertia about the axis, over the whole
-  if (!(determinant > flattest * trace * trace * trace)) {
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    return {none, none, none};
-  }
+  if (!(determinant > flattest * trace * trace * trace)) return {};
   return 1 / determinant *
          (angular_momentum_.x * first + angular_momentum_.y * second + angular_momentum_.z * third);
 }

@@ -30,7 +30,7 @@ class Piece {
   Vec3 centre() const { return moment_ / mass_; }      ///< of mass, m
   Vec3 velocity() const { return momentum_ / mass_; }  ///< of the centre of mass, m/s
   /// Returns the angular velocity, rad/s, of a rigid body with the same angular momentum about the
-  /// centre of mass; NaN if the particles lie on a line.
+  /// centre of mass; 0 if the particles lie on a line.
   Vec3 spin() const;
 
  private:
