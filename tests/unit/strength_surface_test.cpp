@@ -100,9 +100,10 @@ TEST(StrengthSurface, DruckerPragerMeetsTheNineCirclesOfGlass) {
       surface("failures.drucker_prager", {{"compressive_strength", glass_compression * strength}}));
   EXPECT_NEAR(ratio(built, 1, 0, 0), 1, 1e-12);
   EXPECT_NEAR(ratio(built, 0, 0, -glass_compression), 1, 1e-12);
-  EXPECT_NEAR(ratio(built, glass_shear, 0, -glass_shear), 1, 1e-3);
-  EXPECT_NEAR(ratio(built, glass_biaxial, glass_biaxial, 0), 1, 1e-3);
-  EXPECT_NEAR(ratio(built, glass_hydrostatic, glass_hydrostatic, glass_hydrostatic), 1, 1e-3);
+  constexpr double digits = 2e-3;  // the strengths are given to two or three digits
+  EXPECT_NEAR(ratio(built, glass_shear, 0, -glass_shear), 1, digits);
+  EXPECT_NEAR(ratio(built, glass_biaxial, glass_biaxial, 0), 1, digits);
+  EXPECT_NEAR(ratio(built, glass_hydrostatic, glass_hydrostatic, glass_hydrostatic), 1, digits);
   EXPECT_EQ(ratio(built, -1, -1, -1), 0);
 }
 
@@ -237,7 +238,8 @@ TEST(Cohesive, BodiesThatDamageDoesNotKnowAreRefused) {
 }
 
 TEST(Cohesive, NoDamageNearSupports) {
-  const Stages load = stage("loads.displacement", {{"on", "x_min"}, {"value", {1e-6, 0, 0}}});
+  const Stages load =
+      stage("loads.displacement", {{"on", "x_min"}, {"value", {1e-6, 0, 0}}, {"rise", 1e-3}});
   const auto bar = [&](const Keys& more) {
     return build(box_lattice(20, 3, 3) +
                  elastic(Keys{{"poisson", 0.25}} +
