@@ -56,8 +56,7 @@ void check_support(const Model& model, const Material& material, Faults& faults)
     refuse(stage, "one law for all materials of a body with a field of damage");
   const KernelSet& kernels = model.springs.laws[material.law].kernels;
   if (!kernels.linear || kernels.memory > 0)
-    refuse(*material.stage,
-           "a material with linear elastic springs beside a field of damage");
+    refuse(*material.stage, "a material with linear elastic springs beside a field of damage");
   if (model.springs.choice.membrane == KernelChoice::Membrane::clamped)
     refuse(*material.stage,
            "no membrane, or one that can move in the fourth dimension: a field of damage does not "

@@ -95,7 +95,8 @@ SurfaceAlarm surface_alarm(std::span<const NeighbourGeometry> springs,
     ratios(stresses, found.data());
     return found.empty() ? infinity : *std::max_element(found.begin(), found.end());
   };
-  // A larger shortening costs stretch. Waves stretch and shorten alike, so a moderate one is enough.
+  // A larger shortening costs stretch. Waves stretch and shorten alike, so a moderate one is
+  // enough.
   constexpr double most = 0x1p14, dearest = 1.5;
   const double tension = largest(1);
   double shortened = 1, reached = tension;

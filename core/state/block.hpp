@@ -87,7 +87,7 @@ struct Block {
     std::int32_t site;
     bool softened = false;  ///< its integrity became 0; it stays
   };
-  std::vector<Broken> broken;         ///< in this step, in the order of row, neighbour, site
+  std::vector<Broken> broken;  ///< in this step, in the order of row, neighbour, site
   /// Particles beside springs above the alarm of their cohesive material, see DamageField.
   std::vector<Particle> noted;
   std::vector<std::uint8_t> answers;  ///< of the failure criterion to one batch
