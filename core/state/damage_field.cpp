@@ -232,11 +232,13 @@ void DamageField::grow(std::span<const std::uint32_t> records, double time_step)
 
 /// Counts the springs of which nothing remains when they are stretched, each once.
 void DamageField::note_gone() {
+  std::vector<std::uint32_t> sorted = ended_;  // ended_ has the order of the particles
+  std::sort(sorted.begin(), sorted.end());
   for (const std::uint32_t number : ended_) {
     const DamageRecord& record = records_[number];
     for (const DamageSpring& spring : record.springs()) {
       const std::uint32_t other = records_.of(spring.to);
-      const bool ends_too = std::find(ended_.begin(), ended_.end(), other) != ended_.end();
+      const bool ends_too = std::binary_search(sorted.begin(), sorted.end(), other);
       // The other end has counted it, in an earlier step or in this one.
       if (!spring.present ||
           (records_.remaining_of(spring.to) == 0 && !(ends_too && record.particle < spring.to)))
