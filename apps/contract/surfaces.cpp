@@ -140,8 +140,9 @@ Finding alarm_is_conservative(const Model& model, const Cohesive& of) {
       longest = std::max(longest, stretch);
       shortest = std::max(shortest, -stretch);
     }
-    const double by = std::min(longest > 0 ? of.stretch_alarm / longest : infinity,
-                               shortest > 0 ? most / shortest : infinity);
+    double by = infinity;
+    if (longest > 0) by = of.stretch_alarm / longest;
+    if (shortest > 0) by = std::min(by, most / shortest);
     const PrincipalStress principal = principal_stress(by * strain, shear, lame);
     nearest = std::max(nearest, ratio(of, principal));
   }
