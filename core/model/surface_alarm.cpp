@@ -93,7 +93,8 @@ SurfaceAlarm surface_alarm(std::span<const NeighbourGeometry> springs,
     for (const Strain& corner : corners) stresses.push_back(principal(constants, corner));
     std::vector<double> found(stresses.size());
     ratios(stresses, found.data());
-    return found.empty() ? infinity : *std::max_element(found.begin(), found.end());
+    if (found.empty()) return infinity;
+    return *std::max_element(found.begin(), found.end());
   };
   // A larger shortening costs stretch. Waves stretch and shorten alike, so a moderate one is
   // enough.
