@@ -20,7 +20,7 @@ constexpr int edge = 12;  // cells, four lengths of damage
 
 /// Returns the largest stress on the platens over the compressive strength, and the last one.
 std::pair<double, double> crush(const Keys& elastic) {
-  constexpr double speed = 0.1, rise = 20e-6, end = 200e-6;
+  constexpr double speed = 0.1, rise = 20e-6, end = 300e-6;
   const auto plan = plan_of(
       SceneBuilder{}
           .lattice("lattices.cubic", spacing, box_mm(edge, edge, edge), {{"boundary", "cells"}})
