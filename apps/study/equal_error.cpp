@@ -14,7 +14,7 @@ struct SettingCosts {
   Cost best;  ///< of its most accurate run
 };
 
-std::vector<SettingCosts> settings_of(const Study& study, const std::vector<Row>& rows) {
+std::vector<SettingCosts> costs_of_settings(const Study& study, const std::vector<Row>& rows) {
   std::vector<SettingCosts> settings;
   for (const auto& members : families(study, rows)) {
     SettingCosts setting{rows[members.front()].choice, {}, {}};
@@ -34,7 +34,7 @@ std::vector<SettingCosts> settings_of(const Study& study, const std::vector<Row>
 std::vector<EqualError> compare_at_equal_error(const Study& study, const std::vector<Row>& rows) {
   std::vector<EqualError> found;
   if (!study.refinement) return found;
-  const std::vector<SettingCosts> settings = settings_of(study, rows);
+  const std::vector<SettingCosts> settings = costs_of_settings(study, rows);
   for (const SettingCosts& setting : settings) {
     const SettingCosts* reference = &setting;
     for (const SettingCosts& other : settings)

@@ -1,3 +1,4 @@
+#include <base/descriptor.hpp>
 #include <base/errors.hpp>
 #include <base/folder_file.hpp>
 
@@ -16,22 +17,6 @@ namespace hyperlattice {
 
 namespace {
 
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() { reset(-1); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  void reset(int number) {
-    if (number_ >= 0) ::close(number_);
-    number_ = number;
-  }
-  int number() const { return number_; }
-
- private:
-  int number_;
-};
-
 bool leads_out(const std::filesystem::path& name) {
   if (name.empty() || name.is_absolute()) return true;
   for (const auto& part : name)
@@ -44,10 +29,10 @@ bool leads_out(const std::filesystem::path& name) {
 int open_within(Descriptor& file, const std::filesystem::path& folder,
                 const std::filesystem::path& name) {
   constexpr int flags = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
-  file.reset(::open(folder.c_str(), flags | O_DIRECTORY));
+  file = Descriptor(::open(folder.c_str(), flags | O_DIRECTORY));
   for (const auto& part : name) {
     if (file.number() < 0) return errno;
-    file.reset(::openat(file.number(), part.c_str(), flags | O_NOFOLLOW));
+    file = Descriptor(::openat(file.number(), part.c_str(), flags | O_NOFOLLOW));
   }
   return file.number() < 0 ? errno : 0;
 }
@@ -80,7 +65,7 @@ std::optional<FolderFile> read_folder_file(const std::filesystem::path& folder,
     found.refusal = "a name that leads out of the folder";
     return found;
   }
-  Descriptor file(-1);
+  Descriptor file;
   const int error = open_within(file, folder, name);
   if (error == ENOENT || error == ENOTDIR || error == ENAMETOOLONG) return std::nullopt;
   if (error == ELOOP) found.refusal = "a link";
@@ -103,9 +88,14 @@ std::optional<FolderFile> read_folder_file(const std::filesystem::path& folder,
   return found;
 }
 
+bool is_there(const std::filesystem::path& path) {
+  struct stat status {};
+  return ::lstat(path.c_str(), &status) == 0;
+}
+
 bool has_folder_file(const std::filesystem::path& folder, const std::filesystem::path& name) {
   if (leads_out(name)) return false;
-  Descriptor file(-1);
+  Descriptor file;
   struct stat status {};
   return open_within(file, folder, name) == 0 && ::fstat(file.number(), &status) == 0 &&
          S_ISREG(status.st_mode);

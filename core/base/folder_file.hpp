@@ -28,6 +28,9 @@ std::optional<FolderFile> read_folder_file(const std::filesystem::path& folder,
                                            const std::filesystem::path& name, std::uint64_t most,
                                            bool head = false);
 
+/// Returns whether the path exists; a link counts, wherever it leads.
+bool is_there(const std::filesystem::path& path);
+
 /// Returns whether the folder has a regular file of that name.
 bool has_folder_file(const std::filesystem::path& folder, const std::filesystem::path& name);
 

@@ -1,3 +1,4 @@
+#include <base/descriptor.hpp>
 #include <base/errors.hpp>
 #include <base/input_file.hpp>
 
@@ -30,21 +31,6 @@ std::string fault_of_error(int error) {
              : "";
 }
 
-class Descriptor {
- public:
-  explicit Descriptor(const std::filesystem::path& file)
-      : number_(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)) {}
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int number() const { return number_; }
-
- private:
-  int number_;
-};
-
 }  // namespace
 
 std::string input_file_fault(const std::filesystem::path& file) {
@@ -64,8 +50,8 @@ std::string read_input_file(const std::filesystem::path& file, const std::string
                                     std::generic_category().message(error)));
   };
   refuse(input_file_fault(file));  // before opening, since opening a device can have effects
-  const Descriptor descriptor(file);
-  if (descriptor.number() < 0) throw fail(errno);
+  const Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
+  if (!descriptor) throw fail(errno);
   struct stat status {};
   if (::fstat(descriptor.number(), &status) != 0) throw fail(errno);
   refuse(fault_of(status));

@@ -250,7 +250,7 @@ struct BorderCut {
 };
 
 template <class Kind>
-CutKind describe() {
+CutKind describe_cut() {
   static const auto schema = Kind::schema();
   CutKind kind{schema.name(),
                schema.summary(),
@@ -268,8 +268,9 @@ CutKind describe() {
 }  // namespace
 
 std::span<const CutKind> cut_kinds() {
-  static const std::array all{describe<PlaneCut>(), describe<DiscCut>(),  describe<PolygonCut>(),
-                              describe<DiscsCut>(), describe<SheetCut>(), describe<BorderCut>()};
+  static const std::array all{describe_cut<PlaneCut>(),   describe_cut<DiscCut>(),
+                              describe_cut<PolygonCut>(), describe_cut<DiscsCut>(),
+                              describe_cut<SheetCut>(),   describe_cut<BorderCut>()};
   return all;
 }
 

@@ -59,9 +59,7 @@ bool has_functions(const ComponentInfo& info) {
   return false;
 }
 
-// bytes. Texts of a plugin are shown to people; a longer one is most likely a length that was never
-// set.
-constexpr std::size_t longest_name = 200, longest_text = 1 << 16;
+constexpr std::size_t longest_name = 200;  // bytes
 
 bool is_text(std::string_view text) {
   return text.size() <= longest_text && (text.empty() || text.data() != nullptr);

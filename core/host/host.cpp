@@ -87,8 +87,7 @@ const Component* keep(Component component) {
   return components.back().get();
 }
 
-constexpr std::size_t longest_text = 1 << 16, longest_refusal = 8192,
-                      longest_version = 200;  // bytes
+constexpr std::size_t longest_refusal = 8192, longest_version = 200;  // bytes
 
 /// Returns `shown` as a text that lives until the process ends, or `text` itself if both are equal.
 std::string_view kept(std::string_view text, std::string shown) {

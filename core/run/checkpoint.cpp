@@ -1,5 +1,6 @@
 #include <base/descriptor.hpp>
 #include <base/errors.hpp>
+#include <base/folder_file.hpp>
 #include <run/checkpoint.hpp>
 #include <run/records.hpp>
 
@@ -59,11 +60,6 @@ Checkpoint verified(const fs::path& file) {
   RecordReader::verify(file);
   RecordReader records(file);
   return {file, read_head(records, file)};
-}
-
-bool is_there(const fs::path& file) {
-  struct stat status {};
-  return ::lstat(file.c_str(), &status) == 0;
 }
 
 Checkpoint newest(const fs::path& directory) {

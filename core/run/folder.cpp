@@ -27,12 +27,6 @@ namespace fs = std::filesystem;
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
-/// Returns whether the path exists; a link counts, wherever it leads.
-bool is_there(const fs::path& path) {
-  struct stat status {};
-  return ::lstat(path.c_str(), &status) == 0;
-}
-
 /// Returns whether a name leads to a regular file through real folders only, no links.
 bool is_real(const fs::path& directory, const std::string& name, struct stat& status) {
   fs::path path = directory;

@@ -11,7 +11,7 @@ namespace hyperlattice {
 
 namespace {
 
-std::vector<std::string> kind_names() {
+std::vector<std::string> names_of_cuts() {
   std::vector<std::string> names;
   for (const CutKind& kind : cut_kinds()) names.emplace_back(kind.name);
   return names;
@@ -74,7 +74,7 @@ std::optional<Cut> read_kind(const CutKind& kind, const Json& parameters,
 
 std::optional<Cut> read_cut(const Json& given, const std::string& pointer, Reading reading,
                             Json& resolved) {
-  const std::vector<std::string> names = kind_names();
+  const std::vector<std::string> names = names_of_cuts();
   const std::string expected =
       fmt::format("a surface: an object with one key out of {}", fmt::join(names, ", "));
   if (!given.is_object() || given.size() != 1) {

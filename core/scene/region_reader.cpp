@@ -14,10 +14,10 @@ namespace hyperlattice {
 namespace {
 
 // levels of nested sets, which are evaluated for every particle
-constexpr std::size_t deepest = 64;
+constexpr std::size_t most_levels = 64;
 constexpr std::size_t most_suggestions = 100;  // faults for which similar names are searched
 // regions of one set after all names are replaced; each may be evaluated for every particle
-constexpr std::size_t largest = 10'000;
+constexpr std::size_t most_regions = 10'000;
 
 const std::string expected_region =
     "a region: a name, or an object with one key out of box, sphere, hollow_sphere, cylinder, "
@@ -114,9 +114,10 @@ RegionId RegionReader::add(const std::shared_ptr<const Region>& region, const st
 
 /// Adds only one fault, also if many regions are nested too deeply.
 bool RegionReader::can_nest(const std::string& pointer, std::size_t depth) {
-  if (depth <= deepest) return true;
+  if (depth <= most_levels) return true;
   if (!std::exchange(too_deep_, true))
-    faults_.add(pointer, "", fmt::format("at most {} levels of regions within regions", deepest));
+    faults_.add(pointer, "",
+                fmt::format("at most {} levels of regions within regions", most_levels));
   return false;
 }
 
@@ -187,10 +188,10 @@ std::shared_ptr<const Region> RegionReader::read_set(const SetOperation& operati
     whole.depth = std::max(whole.depth, part.depth + 1);
   }
   if (!can_nest(pointer, whole.depth)) return nullptr;
-  if (whole.size > largest) {
+  if (whole.size > most_regions) {
     faults_.add(pointer, "",
                 fmt::format("a set of at most {} regions; with all names written out it has {}",
-                            largest, whole.size));
+                            most_regions, whole.size));
     return nullptr;
   }
   auto set = make_set(operation.kind, std::move(regions));

@@ -12,12 +12,9 @@ namespace hyperlattice {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr Tensor no_tensor{{Vec3{nan, nan, nan}, Vec3{nan, nan, nan}, Vec3{nan, nan, nan}}};
-
 Symmetric no_symmetric() {
   Symmetric none;
-  none.fill(nan);
+  none.fill(std::numeric_limits<double>::quiet_NaN());
   return none;
 }
 
@@ -110,7 +107,7 @@ Symmetric strain_rate(const Tensor& H, const Tensor& H_per_second) {
 }
 
 Principal principal(const Symmetric& tensor) {
-  if (!is_finite(tensor)) return {{nan, nan, nan}, no_tensor};
+  if (!is_finite(tensor)) return {no_tensor[0], no_tensor};
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(matrix(tensor));
   Principal found;
   for (std::size_t n = 0; n < 3; ++n) {

@@ -11,9 +11,6 @@ namespace hyperlattice {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr Tensor no_tensor{{Vec3{nan, nan, nan}, Vec3{nan, nan, nan}, Vec3{nan, nan, nan}}};
-
 /// The part of the volume at rest that a particle of a lattice without cells has, m3.
 double volume_of(const Body& body, Particle particle) {
   return body.share(particle) * body.grid.site_volume;
@@ -74,7 +71,7 @@ std::vector<Symmetric> cauchy_stresses(const PresentSprings& springs) {
   const auto volumes = volumes_of(springs);
   for (Particle p = 0; p < body.particles; ++p) {
     const double J = 1 + volume_change(H[p]);
-    stresses[p] = symmetric_part(1 / (J > 0 ? J : J <= 0 ? nan : 1) * virial[p]);
+    stresses[p] = symmetric_part(1 / (J > 0 ? J : J <= 0 ? no_tensor[0].x : 1) * virial[p]);
     if (volumes)
       for (std::size_t c = 0; c < 3; ++c) stresses[p][c] += volumes->pressure(p);
   }
@@ -102,7 +99,7 @@ std::vector<double> energy_densities(const PresentSprings& springs) {
   const Model& model = springs.model();
   const Body& body = model.body;
   if (has_cells(body))
-    return means_of_cells<double>(springs, Asked::energies, nan,
+    return means_of_cells<double>(springs, Asked::energies, no_tensor[0].x,
                                   [](const PresentCell& cell, double spacing) {
                                     return std::optional(energy_density(cell, spacing));
                                   });

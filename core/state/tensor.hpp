@@ -4,6 +4,7 @@
 #include <hyperlattice/plain.hpp>
 
 #include <array>
+#include <limits>
 
 namespace hyperlattice {
 
@@ -22,6 +23,11 @@ struct Tensor {
 };
 static_assert(sizeof(Tensor) == 9 * sizeof(double));
 
+/// All numbers are NaN: where a tensor is not defined.
+inline constexpr Tensor no_tensor = [] {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  return Tensor{{Vec3{nan, nan, nan}, Vec3{nan, nan, nan}, Vec3{nan, nan, nan}}};
+}();
 inline constexpr Tensor identity{{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}};
 
 /// Returns a (x) b.

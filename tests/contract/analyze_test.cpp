@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-namespace {
+namespace analyze_test {
 using namespace hyperlattice;
 using nlohmann::json;
 using Words = std::vector<std::string>;
@@ -290,4 +290,4 @@ TEST(Analyze, SaysThatGnuplotIsMissing) {
   EXPECT_FALSE(std::filesystem::exists(folder.file("map.svg")));
 }
 
-}  // namespace
+}  // namespace analyze_test

@@ -11,7 +11,7 @@
 #include <fstream>
 
 namespace hyperlattice {
-namespace {
+namespace bad_plugins_test {
 
 namespace fs = std::filesystem;
 
@@ -305,5 +305,5 @@ TEST(Gate, SurvivesAnyDamageToTheHeader) {
     for (const int value : {0, 1, 127, 255}) refusal_with_byte(offset, static_cast<char>(value));
 }
 
-}  // namespace
+}  // namespace bad_plugins_test
 }  // namespace hyperlattice

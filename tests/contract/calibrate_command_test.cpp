@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <support/program.hpp>
 
-namespace {
+namespace calibrate_command_test {
 using namespace hyperlattice;
 using nlohmann::json;
 using Words = std::vector<std::string>;
@@ -225,4 +225,4 @@ TEST(CalibrateCommand, FigureTwo) {
   EXPECT_EQ(endless.out.find("the paper"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace calibrate_command_test

@@ -3,7 +3,7 @@
 #include <support/program.hpp>
 
 namespace hyperlattice {
-namespace {
+namespace command_line_test {
 
 using nlohmann::json;
 
@@ -168,5 +168,5 @@ TEST_F(CommandLine, MachinesReadWhatPeopleRead) {
   EXPECT_NE(run({"plugins"}).out.find("\nloads\n  loads.actuation "), std::string::npos);
 }
 
-}  // namespace
+}  // namespace command_line_test
 }  // namespace hyperlattice

@@ -11,7 +11,7 @@
 #include <limits>
 
 namespace hyperlattice::test {
-namespace {
+namespace contract_test {
 
 using contract::Check;
 using contract::Verdict;
@@ -126,5 +126,5 @@ TEST(Picture, PutsPointsWhereTheyBelong) {
     EXPECT_NE(svg.find(text), std::string::npos) << text;
 }
 
-}  // namespace
+}  // namespace contract_test
 }  // namespace hyperlattice::test

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 namespace hyperlattice::test {
-namespace {
+namespace misbehaving_plugins_test {
 
 const std::string folder = HYPERLATTICE_BUILD "/tests/bad_plugins/misbehaving";
 
@@ -318,5 +318,5 @@ TEST(MisbehavingPlugins, APipeIsNoPlugin) {
       << result.err;
 }
 
-}  // namespace
+}  // namespace misbehaving_plugins_test
 }  // namespace hyperlattice::test

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <support/report.hpp>
 
-namespace {
+namespace report_command_test {
 using namespace hyperlattice::test;
 using nlohmann::json;
 namespace fs = std::filesystem;
@@ -187,4 +187,4 @@ TEST_F(ReportCommand, CallsFineOnlyWhatIsBelowTheStatedBound) {
   }
 }
 
-}  // namespace
+}  // namespace report_command_test

@@ -5,7 +5,7 @@
 
 #include <sys/stat.h>
 
-namespace {
+namespace report_files_test {
 using namespace hyperlattice::test;
 using nlohmann::json;
 using Words = std::vector<std::string>;
@@ -277,4 +277,4 @@ TEST_F(ReportFiles, RefusesCommandsThatMakeNoSense) {
   EXPECT_FALSE(fs::exists(out("good") + "/report.html"));
 }
 
-}  // namespace
+}  // namespace report_files_test

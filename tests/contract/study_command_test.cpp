@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <support/study.hpp>
 
-namespace {
+namespace study_command_test {
 using namespace hyperlattice::test;
 using nlohmann::json;
 using Words = std::vector<std::string>;
@@ -345,4 +345,4 @@ TEST_F(StudyCommand, TellsFaultsOfItsScenesOnceEach) {
                   "expected a pressure above 0 Pa"});
 }
 
-}  // namespace
+}  // namespace study_command_test

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <support/study.hpp>
 
-namespace {
+namespace study_folder_test {
 using namespace hyperlattice::test;
 using nlohmann::json;
 namespace fs = std::filesystem;
@@ -169,4 +169,4 @@ TEST_F(StudyFolder, GoesOnAfterAnInterruption) {
   EXPECT_EQ(fs::last_write_time(out() + "/runs/step-0.2us_stiffness-stiff/summary.json"), first);
 }
 
-}  // namespace
+}  // namespace study_folder_test

@@ -7,7 +7,7 @@
 #include <support/program.hpp>
 
 namespace hyperlattice::test {
-namespace {
+namespace changed_inputs_test {
 
 using nlohmann::json;
 namespace fs = std::filesystem;
@@ -168,5 +168,5 @@ TEST_F(ChangedInputs, AMovedFolderRunsAndKeepsItsIdentity) {
             folder.file("moved/body.raw"));
 }
 
-}  // namespace
+}  // namespace changed_inputs_test
 }  // namespace hyperlattice::test

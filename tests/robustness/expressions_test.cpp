@@ -12,7 +12,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace {
+namespace expressions_test {
 using namespace hyperlattice;
 
 constexpr int quick = 300, thorough = 20'000;
@@ -132,4 +132,4 @@ void damaged(int usual) {
 TEST(Expressions, DamagedOnesAreReadOrRefused) { damaged(quick); }
 TEST(LongExpressions, DamagedOnesAreReadOrRefused) { damaged(thorough); }
 
-}  // namespace
+}  // namespace expressions_test

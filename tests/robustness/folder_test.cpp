@@ -12,7 +12,7 @@
 #include <set>
 
 namespace hyperlattice::test {
-namespace {
+namespace folder_test {
 
 using nlohmann::json;
 namespace fs = std::filesystem;
@@ -371,5 +371,5 @@ TEST_F(FolderOfARun, AFailureKeepsTheCheckpoint) {
   EXPECT_TRUE(fs::exists(out + "/checkpoint.bin"));
 }
 
-}  // namespace
+}  // namespace folder_test
 }  // namespace hyperlattice::test

@@ -7,7 +7,7 @@
 #include <map>
 
 namespace hyperlattice::test {
-namespace {
+namespace frame_queue_test {
 
 /// A sphere that breaks, with writers of every kind. A probe asks for a field of the same times.
 nlohmann::json watched_sphere() {
@@ -77,5 +77,5 @@ TEST(FrameQueue, PutsTheFramesIntoTheCollectionInTheirOrder) {
   EXPECT_EQ(entries, 26);
 }
 
-}  // namespace
+}  // namespace frame_queue_test
 }  // namespace hyperlattice::test

@@ -10,7 +10,7 @@
 #include <functional>
 
 namespace hyperlattice::test {
-namespace {
+namespace full_disk_test {
 
 using contract::SmallDisk;
 
@@ -96,5 +96,5 @@ TEST_P(FullDisk, LeavesEarlierFramesIntact) {
   EXPECT_EQ(folder.names().size(), names.size() + 1);
 }
 
-}  // namespace
+}  // namespace full_disk_test
 }  // namespace hyperlattice::test

@@ -9,7 +9,7 @@
 
 #include <sys/stat.h>
 
-namespace {
+namespace limits_test {
 using namespace hyperlattice;
 using Json = nlohmann::ordered_json;
 
@@ -187,4 +187,4 @@ TEST(Limits, EditorsMayNameTheSchema) {
   EXPECT_TRUE(has(refusal_of(given.dump()), "/$schema: 1: expected"));
 }
 
-}  // namespace
+}  // namespace limits_test

@@ -12,7 +12,7 @@
 #include <fstream>
 #include <iterator>
 
-namespace {
+namespace malformed_scenes_test {
 
 using namespace hyperlattice;
 using Json = nlohmann::ordered_json;
@@ -122,8 +122,6 @@ Ending program(const fs::path& folder, const std::string& command,
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder / "stderr.txt")};
 }
 
-}  // namespace
-
 TEST_P(MalformedScenes, AreRefusedByTheReader) {
   Host host;
   if (one_.value("plan", false)) {
@@ -208,3 +206,5 @@ TEST(MalformedScenesTable, ManyFaultsAreToldAtOnce) {
                               "/pipeline/2/on: ", "/pipeline/3/time_stp: ", "/titel: "})
     EXPECT_NE(ending.message.find(pointer), std::string::npos) << pointer << '\n' << ending.message;
 }
+
+}  // namespace malformed_scenes_test

@@ -14,7 +14,7 @@
 
 #include <cstring>
 
-namespace {
+namespace mutated_inputs_test {
 using namespace hyperlattice;
 using namespace std::string_view_literals;  // texts with NUL bytes
 
@@ -161,4 +161,4 @@ TEST(LongMutatedInputs, Tables) { tables(thorough); }
 TEST(LongMutatedInputs, Units) { units(thorough); }
 TEST(LongMutatedInputs, Images) { images(thorough); }
 
-}  // namespace
+}  // namespace mutated_inputs_test

@@ -7,10 +7,9 @@
 
 #include <gtest/gtest.h>
 
+namespace mutated_scenes_test {
 using namespace hyperlattice;
 using Json = nlohmann::ordered_json;
-
-namespace {
 
 const std::string good = R"({ "format": "hyperlattice/1", "title": "t",
   "regions": { "tip": { "box": { "low": [0, 0, "9 mm"], "high": ["10 mm", "10 mm", "10 mm"] } },
@@ -82,4 +81,4 @@ TEST(MutatedScenes, MisplacedValues) { misplace_values(quick); }
 TEST(LongMutatedScenes, DamagedBytes) { damage_bytes(thorough); }
 TEST(LongMutatedScenes, MisplacedValues) { misplace_values(thorough); }
 
-}  // namespace
+}  // namespace mutated_scenes_test

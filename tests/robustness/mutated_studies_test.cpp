@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <support/output.hpp>
 
-namespace {
+namespace mutated_studies_test {
 using namespace hyperlattice;
 using namespace hyperlattice::study;
 
@@ -114,4 +114,4 @@ TEST_F(MutatedStudies, AreReadOrRefused) {
   EXPECT_GT(refused, 5 * places.size());
 }
 
-}  // namespace
+}  // namespace mutated_studies_test

@@ -8,7 +8,7 @@
 #include <map>
 
 namespace hyperlattice::test {
-namespace {
+namespace resume_test {
 
 using nlohmann::json;
 
@@ -326,5 +326,5 @@ TEST_F(Earlier, CheckpointIsUsedWithAWord) {
   EXPECT_TRUE(left_behind(out) == left_behind(whole));
 }
 
-}  // namespace
+}  // namespace resume_test
 }  // namespace hyperlattice::test

@@ -5,10 +5,9 @@
 
 #include <set>
 
+namespace run_test {
 using namespace hyperlattice::test;
 using nlohmann::json;
-
-namespace {
 
 constexpr std::size_t material = 1, load = 2, solver = 3;
 
@@ -320,4 +319,4 @@ TEST_F(Run, progress_for_programs_is_json) {
     EXPECT_TRUE(last.contains(key)) << key;
 }
 
-}  // namespace
+}  // namespace run_test

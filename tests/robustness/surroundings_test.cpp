@@ -8,6 +8,7 @@
 
 #include <sched.h>
 
+namespace surroundings_test {
 using hyperlattice::test::contents;
 using hyperlattice::test::Folder;
 using hyperlattice::test::Launch;
@@ -16,8 +17,6 @@ using hyperlattice::test::Result;
 using hyperlattice::test::run_program;
 using hyperlattice::test::small_sphere;
 using nlohmann::json;
-
-namespace {
 
 class Surroundings : public testing::Test {
  protected:
@@ -229,4 +228,4 @@ TEST_F(Surroundings, LackOfMemoryIsExit4WhereverItIsMet) {
 
 #endif
 
-}  // namespace
+}  // namespace surroundings_test

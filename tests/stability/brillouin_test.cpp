@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <random>
 
-namespace {
+namespace brillouin_test {
 using namespace hyperlattice;
 using calibration::Ratios;
 
@@ -120,4 +120,4 @@ TEST(Brillouin, ClampedBodyCentredLatticesNeedBothSpringsPositive) {
   EXPECT_GT(stable, 100);
 }
 
-}  // namespace
+}  // namespace brillouin_test

@@ -5,12 +5,12 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace cells_step_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
 class CellsStep : public testing::TestWithParam<MembraneCase> {};
-INSTANTIATE_TEST_SUITE_P(Membranes, CellsStep, testing::ValuesIn(membranes),
+INSTANTIATE_TEST_SUITE_P(Membranes, CellsStep, testing::ValuesIn(membrane_cases),
                          [](const auto& info) { return std::string(info.param.name); });
 INSTANTIATE_TEST_SUITE_P(Volumetric, CellsStep, testing::ValuesIn(volumetric),
                          [](const auto& info) { return std::string(info.param.name); });
@@ -41,4 +41,4 @@ TEST_P(CellsStep, HoldsForSeveralMaterials) {
   }
 }
 
-}  // namespace
+}  // namespace cells_step_test

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace {
+namespace critical_step_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -14,7 +14,7 @@ class CriticalStep : public testing::TestWithParam<MembraneCase> {};
 const auto name_of = [](const testing::TestParamInfo<MembraneCase>& info) {
   return std::string(info.param.name);
 };
-INSTANTIATE_TEST_SUITE_P(Membranes, CriticalStep, testing::ValuesIn(membranes), name_of);
+INSTANTIATE_TEST_SUITE_P(Membranes, CriticalStep, testing::ValuesIn(membrane_cases), name_of);
 INSTANTIATE_TEST_SUITE_P(Volumetric, CriticalStep, testing::ValuesIn(volumetric), name_of);
 INSTANTIATE_TEST_SUITE_P(CentredLattices, CriticalStep, testing::ValuesIn(centred_lattices),
                          name_of);
@@ -50,4 +50,4 @@ TEST(CriticalStepOfSeveralMaterials, HoldsForCentredLattices) {
   }
 }
 
-}  // namespace
+}  // namespace critical_step_test

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace {
+namespace extreme_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -138,4 +138,4 @@ TEST(Extreme, SmallBodies) {
   }
 }
 
-}  // namespace
+}  // namespace extreme_test

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace {
+namespace unstable_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -168,4 +168,4 @@ TEST(Unstable, GrowsAsTheWaveSays) {
   EXPECT_LT(growth(-1.9, 500).first, 100);
 }
 
-}  // namespace
+}  // namespace unstable_test

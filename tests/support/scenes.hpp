@@ -51,7 +51,7 @@ struct MembraneCase {
   const char* material;
   const char* lattice = "lattices.cubic";
 };
-inline const MembraneCase membranes[] = {
+inline const MembraneCase membrane_cases[] = {
     {"none", R"("poisson": 0.25)"},
     {"I", R"("membrane": "I", "poisson": 0.1)"},
     {"II", R"("membrane": "II", "poisson": 0.1)"},

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace {
+namespace actuation_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -185,4 +185,4 @@ TEST(TimeFunctions, HaveTheShapesThatTheyName) {
     EXPECT_NE(faults_of(pipeline(form)).find(sentence), std::string::npos) << form;
 }
 
-}  // namespace
+}  // namespace actuation_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace aggregation_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -105,4 +105,4 @@ TEST(AggregationOf, ABodyThatNothingHoldsIsToldHowItMoves) {
   }
 }
 
-}  // namespace
+}  // namespace aggregation_test

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace {
+namespace answering_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -215,4 +215,4 @@ TEST(AnsweringLoads, StaticSolversRefuseSuchLoads) {
   }
 }
 
-}  // namespace
+}  // namespace answering_test

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace {
+namespace balance_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -82,4 +82,4 @@ TEST(Breaking, TakesTheEnergyOfTheSpringsThatAreGone) {
   EXPECT_LT(fine, coarse / 30);
 }
 
-}  // namespace
+}  // namespace balance_test

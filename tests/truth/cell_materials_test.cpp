@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace cell_materials_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -241,4 +241,4 @@ TEST(CellMaterials, OfTwoLawsDoNotDependOnTheirOrder) {
   EXPECT_LT(distance(first.u, second.u), 1e-7 * largest(first.u));
 }
 
-}  // namespace
+}  // namespace cell_materials_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace {
+namespace cells_loads_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -76,7 +76,7 @@ TEST(CellLoads, GravityPullsTheMassOfTheVolume) {
 }
 
 class PressedCells : public testing::TestWithParam<MembraneCase> {};
-INSTANTIATE_TEST_SUITE_P(Membranes, PressedCells, testing::ValuesIn(membranes),
+INSTANTIATE_TEST_SUITE_P(Membranes, PressedCells, testing::ValuesIn(membrane_cases),
                          [](const auto& info) { return std::string(info.param.name); });
 
 TEST_P(PressedCells, ShrinkEvenlyUnderTheSamePressureEverywhere) {
@@ -107,4 +107,4 @@ TEST_P(PressedCells, ShrinkEvenlyUnderTheSamePressureEverywhere) {
   }
 }
 
-}  // namespace
+}  // namespace cells_loads_test

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace {
+namespace cells_motion_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -26,7 +26,7 @@ void shake(Simulation& simulation, const Model& model, double amplitude) {
 }
 
 class MovingCells : public testing::TestWithParam<MembraneCase> {};
-INSTANTIATE_TEST_SUITE_P(Membranes, MovingCells, testing::ValuesIn(membranes),
+INSTANTIATE_TEST_SUITE_P(Membranes, MovingCells, testing::ValuesIn(membrane_cases),
                          [](const auto& info) { return std::string(info.param.name); });
 INSTANTIATE_TEST_SUITE_P(Volumetric, MovingCells, testing::ValuesIn(volumetric),
                          [](const auto& info) { return std::string(info.param.name); });
@@ -143,4 +143,4 @@ TEST_P(BreakingCells, HaveTheSameBitsForAnyNumberOfThreads) {
   EXPECT_EQ(result(3), one);
 }
 
-}  // namespace
+}  // namespace cells_motion_test

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace {
+namespace cells_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -79,7 +79,7 @@ std::map<CellIndex, Force> tractions(const CellShape& shape, const Elasticity::T
 }
 
 class CellsOfMembrane : public testing::TestWithParam<MembraneCase> {};
-INSTANTIATE_TEST_SUITE_P(Membranes, CellsOfMembrane, testing::ValuesIn(membranes),
+INSTANTIATE_TEST_SUITE_P(Membranes, CellsOfMembrane, testing::ValuesIn(membrane_cases),
                          [](const auto& info) { return std::string(info.param.name); });
 INSTANTIATE_TEST_SUITE_P(Volumetric, CellsOfMembrane, testing::ValuesIn(volumetric),
                          [](const auto& info) { return std::string(info.param.name); });
@@ -339,4 +339,4 @@ TEST(Cells, MassIsThatOfTheVolume) {
   }
 }
 
-}  // namespace
+}  // namespace cells_test

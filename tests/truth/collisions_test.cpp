@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace collisions_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -114,4 +114,4 @@ TEST(Collisions, ResultsDoNotDependOnThreads) {
   EXPECT_EQ(meet(*bars(contact, 1)).hash, meet(*bars(contact, 3)).hash);
 }
 
-}  // namespace
+}  // namespace collisions_test

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace {
+namespace convergence_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -144,4 +144,4 @@ TEST(GluedCube, TakesFewIterations) {
   }
 }
 
-}  // namespace
+}  // namespace convergence_test

@@ -11,7 +11,7 @@
 #include <cstdio>
 #include <utility>
 
-namespace {
+namespace crushed_cube_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -65,4 +65,4 @@ TEST(CrushedCube, BearsItsCompressiveStrength) {
   }
 }
 
-}  // namespace
+}  // namespace crushed_cube_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace cuts_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -107,4 +107,4 @@ TEST(Cuts, PartsFlyApartWithoutForce) {
     }
 }
 
-}  // namespace
+}  // namespace cuts_test

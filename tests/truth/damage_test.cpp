@@ -12,7 +12,7 @@
 #include <cstring>
 #include <numbers>
 
-namespace {
+namespace damage_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -356,4 +356,4 @@ TEST(Damage, StaysZeroInABodyThatSpins) {
   }
 }
 
-}  // namespace
+}  // namespace damage_test

@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <numbers>
 
-namespace {
+namespace dynamics_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -263,4 +263,4 @@ TEST(Spinning, AboutAnyAxisAndFalling) {
   EXPECT_LT(std::max(fallen, turned), 1e-11);  // m, largest of all particles
 }
 
-}  // namespace
+}  // namespace dynamics_test

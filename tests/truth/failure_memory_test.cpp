@@ -16,7 +16,7 @@
 #include <set>
 #include <tuple>
 
-namespace {
+namespace failure_memory_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -444,4 +444,4 @@ TEST(FailureMemory, ACriterionOfSomebodyElseKeepsTheContract) {
   EXPECT_EQ(passed.count("memory"), 1u);
 }
 
-}  // namespace
+}  // namespace failure_memory_test

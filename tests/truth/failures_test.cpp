@@ -11,7 +11,7 @@
 #include <functional>
 #include <set>
 
-namespace {
+namespace failures_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -251,4 +251,4 @@ TEST(Failures, OpenOnesAreThoseWhoseEndsAreFartherThanAtRest) {
   follow_broken(*plan_of(listed_scene(files.lattice(), Keys{{"membrane", "none"}} + failure)));
 }
 
-}  // namespace
+}  // namespace failures_test

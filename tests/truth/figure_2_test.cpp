@@ -5,7 +5,7 @@
 #include <analyze/load_lattice.hpp>
 #include <support/components.hpp>
 
-namespace {
+namespace figure_2_test {
 using namespace hyperlattice;
 
 Curve figure(int particles, double strain) {
@@ -57,4 +57,4 @@ TEST(FigureTwo, AnotherCubeHasOtherCoefficients) {  // hence the agreement is si
   EXPECT_GT(worst(figure(10, 1e-3).lambda_of_poisson.coefficients, calibration::paper_cubic), 0.05);
 }
 
-}  // namespace
+}  // namespace figure_2_test

@@ -15,7 +15,7 @@
 #include <optional>
 #include <set>
 
-namespace {
+namespace fragments_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -471,4 +471,4 @@ TEST(CrackFaces, AreRefusedInCopies) {
   EXPECT_THROW(copy.fragments(1), std::runtime_error);
 }
 
-}  // namespace
+}  // namespace fragments_test

@@ -11,7 +11,7 @@
 #include <cstdio>
 #include <numbers>
 
-namespace {
+namespace impulse_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -387,4 +387,4 @@ TEST(Resolution, OfLoadsIsToldByThePlan) {
   }
 }
 
-}  // namespace
+}  // namespace impulse_test

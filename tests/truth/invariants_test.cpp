@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace {
+namespace invariants_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -14,7 +14,7 @@ class EveryMembrane : public testing::TestWithParam<MembraneCase> {};
 const auto name_of = [](const testing::TestParamInfo<MembraneCase>& info) {
   return std::string(info.param.name);
 };
-INSTANTIATE_TEST_SUITE_P(Membranes, EveryMembrane, testing::ValuesIn(membranes), name_of);
+INSTANTIATE_TEST_SUITE_P(Membranes, EveryMembrane, testing::ValuesIn(membrane_cases), name_of);
 INSTANTIATE_TEST_SUITE_P(Volumetric, EveryMembrane, testing::ValuesIn(volumetric), name_of);
 INSTANTIATE_TEST_SUITE_P(CentredLattices, EveryMembrane, testing::ValuesIn(centred_lattices),
                          name_of);
@@ -204,4 +204,4 @@ TEST_P(EveryMembrane, TheSameBitsForAnyNumberOfThreads) {
   }
 }
 
-}  // namespace
+}  // namespace invariants_test

@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-namespace {
+namespace kernels_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -143,4 +143,4 @@ TEST_P(Kernels, GiveTheSameBitsForAnyNumberOfThreads) {
   }
 }
 
-}  // namespace
+}  // namespace kernels_test

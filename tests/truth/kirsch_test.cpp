@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace {
+namespace kirsch_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -156,4 +156,4 @@ TEST(LongKirsch, TableOfSpacings) {
     }
 }
 
-}  // namespace
+}  // namespace kirsch_test

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace {
+namespace law_fields_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -149,4 +149,4 @@ TEST(LawFields, ANameHasOneMeaning) {
       << faults;
 }
 
-}  // namespace
+}  // namespace law_fields_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace laws_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -227,4 +227,4 @@ TEST(Laws, RefuseWhatTheyCannotDo) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace laws_test

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace listed_laws_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -298,4 +298,4 @@ TEST(ListedLaws, PlasticSpringsOfAllDirectionsAreRefused) {
   }
 }
 
-}  // namespace
+}  // namespace listed_laws_test

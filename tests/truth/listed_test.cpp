@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace listed_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -68,7 +68,7 @@ void expect_same_motion(const Twins& twins, Simulation& grid, Simulation& list, 
 
 TEST(ListedLoads, AnswerToAListAsToTheGrid) {
   const Twins twins(
-      5, 6, 7, membranes[0].material, "",
+      5, 6, 7, membrane_cases[0].material, "",
       R"({ "type": "loads.actuation", "on": "all", "force": 5, "form": "harmonic", "frequency": 1e6 },
     { "type": "loads.floor", "on": "all", "stiffness": 1e6, "friction": 0.4 }, { "type": "loads.start_velocity", "linear": [1, 0, -2] })");
   Simulation grid(*twins.grid->model, 1), list(*twins.list->model, 3);
@@ -336,4 +336,4 @@ TEST(ListedStatics, ABodyThatNothingHoldsIsToldHowItMoves) {
   }
 }
 
-}  // namespace
+}  // namespace listed_test

@@ -9,7 +9,7 @@
 
 #include <numeric>
 
-namespace {
+namespace load_cells_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -90,7 +90,8 @@ void expect_internal_forces(const std::string& scene, const std::string& what) {
 Json parts_of_the_block() { return random_parts({"block", {}, in_box({0, 0, 0}, {6, 5, 8})}); }
 
 TEST(SectionForce, IsTheInternalForceOnThePartBefore) {
-  for (const MembraneCase& one : membranes) expect_internal_forces(block(6, 5, 8, one), one.name);
+  for (const MembraneCase& one : membrane_cases)
+    expect_internal_forces(block(6, 5, 8, one), one.name);
   for (const MembraneCase& one : centred_lattices)
     expect_internal_forces(block(6, 5, 8, one), one.name);
   expect_internal_forces(block(6, 5, 8, Keys{}, {}, "lattices.random"), "random");
@@ -394,4 +395,4 @@ TEST(LoadCells, AreTheSameForThreadsAndAfterARestart) {
   }
 }
 
-}  // namespace
+}  // namespace load_cells_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace no_rest_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -180,4 +180,4 @@ TEST(NoRest, AMechanismIsAnErrorThatSaysWhereItMoves) {
   EXPECT_LE(number_before(text, "% of the particles"), 58);
 }
 
-}  // namespace
+}  // namespace no_rest_test

@@ -1,3 +1,4 @@
+// Own executable: it compiles files of a plugin.
 // States of rest and sections of lists with nodal volumes: the exact tangent, relaxation, energy,
 // the Poisson ratio of finite bodies, the force through a plane at rest and while it opens.
 #include <listed_system.hpp>
@@ -12,7 +13,7 @@
 #include <cstdio>
 #include <numeric>
 
-namespace {
+namespace nodal_statics_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -240,4 +241,4 @@ TEST(NodalSections, BalanceWhileAPlaneOpens) {
   EXPECT_LT(norm(force), 0.01 * most);
 }
 
-}  // namespace
+}  // namespace nodal_statics_test

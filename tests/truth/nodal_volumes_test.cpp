@@ -17,7 +17,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace {
+namespace nodal_volumes_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -384,4 +384,4 @@ TEST(NodalVolumes, WhatCannotBeIsRefused) {
       std::string::npos);
 }
 
-}  // namespace
+}  // namespace nodal_volumes_test

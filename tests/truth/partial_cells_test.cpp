@@ -11,7 +11,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace {
+namespace partial_cells_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -300,4 +300,4 @@ TEST(PartialCells, ThePlanSaysWhatCounts) {
   EXPECT_NE(cells->second.find("share of their volume"), std::string::npos) << cells->second;
 }
 
-}  // namespace
+}  // namespace partial_cells_test

@@ -14,7 +14,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace {
+namespace partial_volumetric_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -259,4 +259,4 @@ TEST(PartialVolumetricBody, ThePlanCountsTheModuli) {
   EXPECT_GE(bytes(0.45, "partial_cells"), bytes(0.25, "partial_cells") + 8);
 }
 
-}  // namespace
+}  // namespace partial_volumetric_test

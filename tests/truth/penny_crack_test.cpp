@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <numbers>
 
-namespace {
+namespace penny_crack_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -77,4 +77,4 @@ TEST(PennyCrack, OpensAsInTheClosedForm) {
   }
 }
 
-}  // namespace
+}  // namespace penny_crack_test

@@ -11,7 +11,7 @@
 
 #include <map>
 
-namespace {
+namespace random_lattice_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -133,8 +133,9 @@ TEST(RandomLattice, PoissonRatiosThatNoOptionTakesAreNotOffered) {
             std::string::npos)
       << none;
   EXPECT_EQ(none.find("within"), std::string::npos) << none;
-  EXPECT_EQ(sentence(stiff),
-            "within (0.3333, 0.5), the reach of membrane I; other membranes have other ratios");
+  EXPECT_EQ(
+      sentence(stiff),
+      "within (0.3333, 0.5), the reach of membrane I; other membranes have other ratios");
 }
 
 TEST(RandomLattice, AReachOfTooFewSpringsSaysWhy) {
@@ -294,4 +295,4 @@ TEST(Points, RefusesPointsThatCannotBeParticles) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace random_lattice_test

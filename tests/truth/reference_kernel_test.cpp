@@ -10,7 +10,7 @@
 
 #include <algorithm>
 
-namespace {
+namespace reference_kernel_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -158,4 +158,4 @@ TEST_P(ReferenceKernel, GivesTheForcesOfEveryKernel) {
   }
 }
 
-}  // namespace
+}  // namespace reference_kernel_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace rest_extremes_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -158,4 +158,4 @@ TEST(RestExtremes, ALoadThatGoesAwayLeavesNothing) {
   }
 }
 
-}  // namespace
+}  // namespace rest_extremes_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace scattered_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -123,4 +123,4 @@ TEST(Scattered, StaysStableUpToItsStep) {
   EXPECT_LT(std::abs(ended.balance.relative_error()), 1e-6);
 }
 
-}  // namespace
+}  // namespace scattered_test

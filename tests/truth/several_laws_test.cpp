@@ -7,7 +7,7 @@
 
 #include <array>
 
-namespace {
+namespace several_laws_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -342,4 +342,4 @@ TEST(SeveralLaws, HalvesOfTheSameElasticityAreAsOneSpring) {
   }
 }
 
-}  // namespace
+}  // namespace several_laws_test

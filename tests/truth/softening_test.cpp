@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace softening_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -118,4 +118,4 @@ TEST(Softening, ABlockThatIsTornLosesEnergyOfFractureOnly) {
   EXPECT_EQ(one.hash, three.hash);
 }
 
-}  // namespace
+}  // namespace softening_test

@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <sstream>
 
-namespace {
+namespace sphere_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -176,4 +176,4 @@ TEST_P(Sphere, FollowsItCloserWithCells) {
   }
 }
 
-}  // namespace
+}  // namespace sphere_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace statics_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -371,4 +371,4 @@ TEST(Statics, IterationsDoNotGrowWithTheBody) {
   EXPECT_LE(iterations(24), coarse + 6);
 }
 
-}  // namespace
+}  // namespace statics_test

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace {
+namespace strain_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -126,4 +126,4 @@ TEST(Strain, OfAParticleWithoutAWholeCellIsThatOfItsSprings) {
   EXPECT_EQ(found, body.particles);
 }
 
-}  // namespace
+}  // namespace strain_test

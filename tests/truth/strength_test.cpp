@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace {
+namespace strength_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -57,4 +57,4 @@ TEST(Strength, UnderTensionFallsWithPressureFromTheSide) {
         << sideways;
 }
 
-}  // namespace
+}  // namespace strength_test

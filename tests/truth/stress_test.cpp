@@ -12,7 +12,7 @@
 #include <cmath>
 #include <set>
 
-namespace {
+namespace stress_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -103,7 +103,7 @@ struct Elasticity {
 };
 
 TEST(Stress, OfSmallStrainsIsThatOfTheElasticConstantsForEachMembrane) {
-  for (const MembraneCase& membrane : membranes)
+  for (const MembraneCase& membrane : membrane_cases)
     for (const CellShape& shape : {cell_shapes()[2], cell_shapes()[6], random_cells()}) {
       const auto plan = plan_of(scene_of_cells(shape.shape, membrane.material));
       const Model& model = *plan->model;
@@ -269,11 +269,11 @@ std::vector<Vec3> forces_of_kernels(const Model& model, const std::vector<double
 TEST(InternalForce, IsThatOfTheKernels) {
   const std::vector<std::string> scenes{
       block(5, 4, 3),
-      block(5, 4, 3, membranes[6]),
+      block(5, 4, 3, membrane_cases[6]),
       block(5, 4, 3, centred_lattices[0]),
       block(5, 4, 3, centred_lattices[4]),
       block(5, 4, 3, Keys(R"("membrane": "none")"), {}, "lattices.random"),
-      scene_of_cells(cell_shapes()[2].shape, membranes[6].material)};
+      scene_of_cells(cell_shapes()[2].shape, membrane_cases[6].material)};
   for (const std::string& scene : scenes) {
     const auto plan = plan_of(scene);
     const Model& model = *plan->model;
@@ -371,4 +371,4 @@ TEST(Stress, VonMisesAndPressure) {
   EXPECT_NEAR(norm(principal(shear).directions[0] - Vec3{1, 1, 0} / std::sqrt(2.0)), 0, 1e-15);
 }
 
-}  // namespace
+}  // namespace stress_test

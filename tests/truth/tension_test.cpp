@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace tension_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -126,4 +126,4 @@ TEST_F(Tension, NamesWhatItDoesNotKnow) {
   EXPECT_NE(run(half).err.find("\"area\" and \"normal\" together"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace tension_test

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace {
+namespace thick_sphere_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -162,4 +162,4 @@ TEST(LongThickSphere, TableOfParticles) {
   for (const double poisson : {0.25, 0.4, 0.45, 0.49}) print("particles", poisson, 0.9);
 }
 
-}  // namespace
+}  // namespace thick_sphere_test

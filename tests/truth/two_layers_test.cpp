@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-namespace {
+namespace two_layers_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -78,7 +78,8 @@ struct TwoLayers {
 
 class MovingMembrane : public testing::TestWithParam<MembraneCase> {};
 INSTANTIATE_TEST_SUITE_P(Membranes, MovingMembrane,
-                         testing::Values(membranes[1], membranes[2], membranes[6], membranes[8]),
+                         testing::Values(membrane_cases[1], membrane_cases[2], membrane_cases[6],
+                                         membrane_cases[8]),
                          [](const auto& info) { return std::string(info.param.name); });
 
 TEST_P(MovingMembrane, OneMirroredLayerMovesAsTwoLayersDo) {
@@ -125,4 +126,4 @@ TEST_P(MovingMembrane, OneMirroredLayerMovesAsTwoLayersDo) {
       << "round-off grows in a chaotic motion, but not further in 500 steps of a lattice of 1 mm";
 }
 
-}  // namespace
+}  // namespace two_layers_test

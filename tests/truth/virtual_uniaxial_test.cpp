@@ -6,7 +6,7 @@
 #include <support/components.hpp>
 #include <support/reference_table.hpp>
 
-namespace {
+namespace virtual_uniaxial_test {
 using namespace hyperlattice;
 using test::virtual_test;
 
@@ -80,4 +80,4 @@ TEST(VirtualTest, AResidualOutOfReachIsAFailureNotALoop) {
   EXPECT_THROW(virtual_test(host, options), RunError);
 }
 
-}  // namespace
+}  // namespace virtual_uniaxial_test

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <random>
 
-namespace {
+namespace volumetric_cell_test {
 using namespace hyperlattice;
 
 constexpr double l = 2e-3, K = 3e9;
@@ -135,4 +135,4 @@ TEST(VolumetricCell, HasTheTangentOfItsPressure) {
   }
 }
 
-}  // namespace
+}  // namespace volumetric_cell_test

@@ -12,7 +12,7 @@
 
 #include <cmath>
 
-namespace {
+namespace volumetric_stress_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -185,4 +185,4 @@ TEST(VolumetricStress, OfCellsWithASoftenedSpringHasNoVolumetricPart) {
   EXPECT_LT(worst, 1e-9 * size);
 }
 
-}  // namespace
+}  // namespace volumetric_stress_test

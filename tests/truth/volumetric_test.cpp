@@ -9,7 +9,7 @@
 #include <cmath>
 #include <map>
 
-namespace {
+namespace volumetric_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -177,4 +177,4 @@ TEST(Volumetric, StaticsAndStepsComeToTheSameRest) {
   EXPECT_LT(distance(by_steps.u, by_statics.u), 1e-6 * largest(by_statics.u));
 }
 
-}  // namespace
+}  // namespace volumetric_test

@@ -10,7 +10,7 @@
 
 #include <numbers>
 
-namespace {
+namespace body_figures_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -191,4 +191,4 @@ TEST(BodyFigures, CountsAsASearchThroughAllSpringsDoes) {
     }
 }
 
-}  // namespace
+}  // namespace body_figures_test

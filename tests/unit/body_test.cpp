@@ -9,10 +9,9 @@
 #include <set>
 #include <stdexcept>
 
+namespace body_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
-
-namespace {
 
 /// A lattice of the given runs, for tests of the faults that build_body finds.
 struct Runs {
@@ -99,4 +98,4 @@ TEST(Body, CubicRefusesShapesThatItCannotFill) {
                std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace body_test

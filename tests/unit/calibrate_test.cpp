@@ -7,7 +7,7 @@
 #include <analyze/load_lattice.hpp>
 #include <support/reference_table.hpp>
 
-namespace {
+namespace calibrate_test {
 using namespace hyperlattice;
 using calibration::Membrane;
 
@@ -137,4 +137,4 @@ TEST(Calibrate, FitsOfPointsOnTheCurve) {
   EXPECT_LT(curve.modulus_ratio_of_lambda.largest_error, 0.01);
 }
 
-}  // namespace
+}  // namespace calibrate_test

@@ -5,10 +5,9 @@
 #include <gtest/gtest.h>
 #include <support/reference_table.hpp>
 
+namespace calibration_test {
 using namespace hyperlattice;
 using namespace hyperlattice::calibration;
-
-namespace {
 
 constexpr Membrane with_lambda[] = {Membrane::I, Membrane::II, Membrane::III, Membrane::IV,
                                     Membrane::I_m};
@@ -106,4 +105,4 @@ TEST(Calibration, EquationFifteenIsTheBulkValueWithoutSurfaces) {
               stiffness_bulk(1e9, 1e-3, 1.5), 1e-6);
 }
 
-}  // namespace
+}  // namespace calibration_test

@@ -8,10 +8,9 @@
 
 #include <numbers>
 
+namespace cells_surfaces_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
-
-namespace {
 
 using Part = std::shared_ptr<const Region>;
 
@@ -133,4 +132,4 @@ TEST(CellRegions, InnerAndOuterSurfaceOfAHollowBall) {
     ASSERT_GT(norm(b.body.position(p)), 7);
 }
 
-}  // namespace
+}  // namespace cells_surfaces_test

@@ -15,7 +15,7 @@
 #include <random>
 #include <set>
 
-namespace {
+namespace centred_lattices_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 using calibration::Membrane;
@@ -315,4 +315,4 @@ TEST_P(Centred, AMeasuredCubeApproachesTheEndlessLattice) {
   EXPECT_LT(std::abs(poisson.back()), std::abs(poisson.front()));
 }
 
-}  // namespace
+}  // namespace centred_lattices_test

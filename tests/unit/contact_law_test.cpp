@@ -7,7 +7,7 @@
 
 #include <random>
 
-namespace {
+namespace contact_law_test {
 
 constexpr double spacing = 1e-3, mass = 2e-6, stiffness = 1e6;
 
@@ -124,4 +124,4 @@ TEST(Contact, NoPairIsMissed) {
   EXPECT_GT(met, 40 * count);
 }
 
-}  // namespace
+}  // namespace contact_law_test

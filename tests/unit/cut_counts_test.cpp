@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace cut_counts_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -63,4 +63,4 @@ TEST(CutCounts, ContentOfAFileIsPartOfTheIdentity) {
   EXPECT_NE(identity(2), identity(2.1));
 }
 
-}  // namespace
+}  // namespace cut_counts_test

@@ -9,7 +9,7 @@
 
 #include <set>
 
-namespace {
+namespace cut_surface_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -315,4 +315,4 @@ TEST(Cuts, FaultsNameTheSurfaceAndWhatWasExpected) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace cut_surface_test

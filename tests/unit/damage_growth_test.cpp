@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace {
+namespace damage_growth_test {
 using namespace hyperlattice;
 
 TEST(PrincipalValues, AreTheRootsOfTheCharacteristicPolynomial) {
@@ -87,4 +87,4 @@ TEST(DamageRate, IsZeroBelowTheSurface) {
   EXPECT_GT(damage_rate(of), 0);
 }
 
-}  // namespace
+}  // namespace damage_growth_test

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace {
+namespace delaunay_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -83,4 +83,4 @@ TEST(Delaunay, TakesPointsWithoutVolume) {
   EXPECT_GT(volume_of(delaunay(twice), twice), 1);
 }
 
-}  // namespace
+}  // namespace delaunay_test

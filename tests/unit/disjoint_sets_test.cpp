@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace disjoint_sets_test {
 using namespace hyperlattice::numerics;
 
 TEST(SharedDisjointSets, AreThoseOfOneThread) {
@@ -38,4 +38,4 @@ TEST(SharedDisjointSets, AreThoseOfOneThread) {
   }
 }
 
-}  // namespace
+}  // namespace disjoint_sets_test

@@ -13,7 +13,7 @@
 #include <random>
 #include <sstream>
 
-namespace {
+namespace elasticity_test {
 using namespace hyperlattice;
 using calibration::Membrane;
 using calibration::Ratios;
@@ -294,4 +294,4 @@ TEST(Crystals, CauchysRelationNeedsAClampedMembrane) {
   EXPECT_NEAR(elasticity(with_ratios(cubic(), found->ratios)).poisson_bulk(), 0.25, 1e-12);
 }
 
-}  // namespace
+}  // namespace elasticity_test

@@ -6,9 +6,8 @@
 
 #include <random>
 
+namespace explicit_test {
 using namespace hyperlattice;
-
-namespace {
 
 /// Records every step that the solver takes.
 struct Notebook {
@@ -117,4 +116,4 @@ TEST(Explicit, stops_when_the_host_says_so) {
   EXPECT_EQ(notebook.observed, 3u);
 }
 
-}  // namespace
+}  // namespace explicit_test

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace {
+namespace factorisation_test {
 using namespace hyperlattice::numerics;
 
 Eigen::SparseMatrix<double> two_by_two(double a, double b, double c) {
@@ -97,4 +97,4 @@ TEST(BlockInverse, IsFiniteWhateverTheBlock) {
   EXPECT_TRUE(BlockInverse(block).inverse.allFinite());
 }
 
-}  // namespace
+}  // namespace factorisation_test

@@ -13,7 +13,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace {
+namespace fields_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -160,8 +160,8 @@ struct Shaken {
 TEST(Snapshot, HasEachFieldOfTheRunWithFiniteNumbers) {
   const Keys none = {{"membrane", "none"}};
   for (const std::string& scene :
-       {block(3, 4, 5, membranes[6]),
-        block(3, 4, 5, membranes[0], {}, stage("loads.fixed", {{"on", "z_min"}})),
+       {block(3, 4, 5, membrane_cases[6]),
+        block(3, 4, 5, membrane_cases[0], {}, stage("loads.fixed", {{"on", "z_min"}})),
         block(5, 5, 5, none, {}, "lattices.random")}) {
     Shaken body(scene);
     const Model& model = body.model;
@@ -197,8 +197,8 @@ TEST(Snapshot, AccelerationIsTheKickOfTheNextStep) {
                               {"region", box({0, 0, 2e-3}, {1, 1, 1})}} +
                          none;
   std::vector<std::string> scenes{
-      block(3, 4, 5, membranes[6]),
-      block(3, 4, 5, membranes[0], {}, stage("loads.fixed", {{"on", "z_min"}})),
+      block(3, 4, 5, membrane_cases[6]),
+      block(3, 4, 5, membrane_cases[0], {}, stage("loads.fixed", {{"on", "z_min"}})),
       law_scene(stage("lattices.random", {{"spacing", 1e-3}, {"shape", box_mm(5, 5, 5)}}),
                 viscous + none)};
   for (const char* boundary : {"particles", "cells"})
@@ -224,4 +224,4 @@ TEST(Snapshot, AccelerationIsTheKickOfTheNextStep) {
   }
 }
 
-}  // namespace
+}  // namespace fields_test

@@ -10,7 +10,7 @@
 
 #include <sys/stat.h>
 
-namespace {
+namespace identity_test {
 using namespace hyperlattice;
 using Kind = Dependence::Kind;
 
@@ -97,4 +97,4 @@ TEST(FolderFile, IsRegularAndInsideTheFolder) {
   EXPECT_TRUE(has_folder_file(in, "text"));
 }
 
-}  // namespace
+}  // namespace identity_test

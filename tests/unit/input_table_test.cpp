@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <support/output.hpp>
 
-namespace {
+namespace input_table_test {
 using namespace hyperlattice;
 
 class InputTables : public testing::Test {
@@ -221,4 +221,4 @@ TEST(CsvTables, TellRowsOfOtherLengthsAndNamesOfSeveral) {
   EXPECT_EQ(name_of_several(parse_csv("t,u,u\n")), "u");
 }
 
-}  // namespace
+}  // namespace input_table_test

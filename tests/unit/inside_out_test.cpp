@@ -6,7 +6,7 @@
 
 #include <optional>
 
-namespace {
+namespace inside_out_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -99,4 +99,4 @@ TEST(InsideOut, CompressedCellsWithAVolumetricEnergyAreToldWithTheShorterStep) {
   EXPECT_EQ(springs.watch->stiffened(), "") << "springs alone do not stiffen";
 }
 
-}  // namespace
+}  // namespace inside_out_test

@@ -7,9 +7,8 @@
 
 #include <gtest/gtest.h>
 
+namespace json_test {
 using namespace hyperlattice;
-
-namespace {
 
 /// The first fault of a text, as "pointer: expected".
 std::string fault(std::string_view text) {
@@ -36,8 +35,6 @@ std::string set(std::string_view text, const std::vector<std::string>& settings)
   apply_settings(json, settings, faults);
   return faults.empty() ? json.dump() : InputError(faults.all()).what();
 }
-
-}  // namespace
 
 TEST(Json, CommentsAndOrderAreKept) {
   const Json json =
@@ -152,3 +149,5 @@ TEST(Errors, OneLineAFault) {
   EXPECT_STREQ(error.what(), "/a: 1: expected a text\nscene: expected an object");
   EXPECT_EQ(error.faults().size(), 2u);
 }
+
+}  // namespace json_test

@@ -6,10 +6,9 @@
 
 #include <numbers>
 
+namespace loads_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
-
-namespace {
 
 BuiltScene box_with(const Stages& loads) { return build(box_lattice(3, 4, 5) + elastic() + loads); }
 std::string box_faults(const Stages& loads) {
@@ -174,4 +173,4 @@ TEST(Loads, AnEmptyRegionSaysWhatItIs) {
     EXPECT_NE(message.find(part), std::string::npos) << part << " in: " << message;
 }
 
-}  // namespace
+}  // namespace loads_test

@@ -6,10 +6,9 @@
 
 #include <gtest/gtest.h>
 
+namespace materials_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
-
-namespace {
 
 using Membrane = KernelChoice::Membrane;
 
@@ -246,4 +245,4 @@ TEST(Elastic, AnUnstableMembraneIsRefusedWithItsWave) {
       {"homogeneous deformation"});
 }
 
-}  // namespace
+}  // namespace materials_test

@@ -15,9 +15,8 @@
 
 #include <gtest/gtest.h>
 
+namespace options_test {
 using namespace hyperlattice;
-
-namespace {
 
 /// Reads one value by one option. Returns the SI value as JSON text, or the expectation of the
 /// fault.
@@ -91,8 +90,6 @@ std::string read_switched(const char* text) {
   for (const std::string& warning : faults.warnings()) all += ' ' + warning;
   return all;
 }
-
-}  // namespace
 
 TEST(Options, IntegersStayWithinTheirType) {
   const auto schema = Schema<Whole>("", "")
@@ -372,3 +369,5 @@ TEST(Pages, SchemaIsStrict) {
       EXPECT_TRUE(stage["properties"].contains(std::string(option.name)));
   }
 }
+
+}  // namespace options_test

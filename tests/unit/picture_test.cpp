@@ -6,7 +6,7 @@
 #include <png.h>
 
 namespace hyperlattice::test {
-namespace {
+namespace picture_test {
 
 struct Pixels {
   int width = 0, height = 0;
@@ -249,5 +249,5 @@ TEST(Picture, SurvivesParticlesThatFlewAway) {
     }
 }
 
-}  // namespace
+}  // namespace picture_test
 }  // namespace hyperlattice::test

@@ -20,10 +20,9 @@
 #include <fstream>
 #include <set>
 
+namespace plan_test {
 using namespace hyperlattice;
 using test::small_sphere;
-
-namespace {
 
 std::unique_ptr<Plan> plan_of(const nlohmann::json& scene, int threads = 1) {
   const test::Folder folder("plan");
@@ -394,4 +393,4 @@ TEST(Plan, warns_of_floats_that_have_become_coarse) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace plan_test

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace hyperlattice::test {
-namespace {
+namespace probes_test {
 
 std::string refusal(Plugin& probe, FakeBody& body) {
   try {
@@ -281,5 +281,5 @@ TEST(GaugeProbe, RefusesAGaugeWithoutLength) {
   EXPECT_EQ(refusal(none, body), "to whose mean place is not that of the end \"from\"");
 }
 
-}  // namespace
+}  // namespace probes_test
 }  // namespace hyperlattice::test

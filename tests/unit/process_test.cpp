@@ -18,7 +18,7 @@
 #include <thread>
 
 namespace hyperlattice {
-namespace {
+namespace process_test {
 
 class FakeRoot : public testing::Test {
  protected:
@@ -188,5 +188,5 @@ TEST(NamedFile, WritesIntoWhatIsNoFileAndReplacesNothing) {
   EXPECT_FALSE(std::filesystem::exists(folder.file("nowhere")));
 }
 
-}  // namespace
+}  // namespace process_test
 }  // namespace hyperlattice

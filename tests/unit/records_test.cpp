@@ -13,9 +13,8 @@
 #include <numeric>
 #include <random>
 
+namespace records_test {
 using namespace hyperlattice;
-
-namespace {
 
 class Records : public testing::Test {
  protected:
@@ -133,4 +132,4 @@ TEST(Archive, AllocatesNoMoreThanItHolds) {
   EXPECT_LE(values.size(), std::size_t{1} << 17);
 }
 
-}  // namespace
+}  // namespace records_test

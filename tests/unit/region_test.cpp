@@ -7,9 +7,8 @@
 #include <numbers>
 #include <random>
 
+namespace region_test {
 using namespace hyperlattice;
-
-namespace {
 
 using Values = std::initializer_list<std::pair<std::string_view, std::vector<double>>>;
 
@@ -73,8 +72,6 @@ double volume(const Region& region, Vec3 low, Vec3 high, int n) {
             {low.x + (i + 0.5) * cell.x, low.y + (j + 0.5) * cell.y, low.z + (k + 0.5) * cell.z});
   return static_cast<double>(count) * cell.x * cell.y * cell.z;
 }
-
-}  // namespace
 
 TEST(Region, HollowSphereOfThePaperHoldsItsParticles) {
   const auto sphere = make("hollow_sphere", {{"inner_radius", {0.020}}, {"outer_radius", {0.050}}});
@@ -251,3 +248,5 @@ TEST(Primitives, CrossChecksNameTheOption) {
   EXPECT_EQ(faults_of("half_space", {{"normal", {0, 0, 0}}}), Names{"normal"});
   EXPECT_EQ(faults_of("cylinder", {{"start", {1, 0, 0}}, {"end", {1, 0, 0}}}), Names{"end"});
 }
+
+}  // namespace region_test

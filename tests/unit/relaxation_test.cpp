@@ -6,9 +6,8 @@
 
 #include <vector>
 
+namespace relaxation_test {
 using namespace hyperlattice;
-
-namespace {
 
 /// A host whose residual falls to a tenth at each measurement, and whose kinetic energy has a peak
 /// every twelfth step.
@@ -111,4 +110,4 @@ TEST(Relaxation, StepsAreStableAndTheEndIsTheLastCorner) {
   EXPECT_THROW((void)Relaxation(o).plan(facts), std::runtime_error);
 }
 
-}  // namespace
+}  // namespace relaxation_test

@@ -16,7 +16,7 @@
 #include <limits>
 
 namespace hyperlattice::report {
-namespace {
+namespace report_test {
 
 using Labels = std::vector<std::string>;
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
@@ -291,5 +291,5 @@ TEST(StressOverStrain, PairsLoadCellsAndGauges) {
   EXPECT_FALSE(has_points(stress_over_strain(run)));
 }
 
-}  // namespace
+}  // namespace report_test
 }  // namespace hyperlattice::report

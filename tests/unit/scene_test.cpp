@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 
+namespace scene_test {
 using namespace hyperlattice;
 using Json = nlohmann::ordered_json;
 
@@ -382,3 +383,4 @@ TEST(Scene, AMissingFileIsTheInputsFault) {
   EXPECT_THROW(read_scene("/no/such/scene.json", {}, host), InputError);
   EXPECT_THROW(read_scene(HYPERLATTICE_SOURCE, {}, host), InputError);  // a folder is no scene
 }
+}  // namespace scene_test

@@ -10,10 +10,9 @@
 #include <numbers>
 #include <random>
 
+namespace shares_of_cells_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
-
-namespace {
 
 /// A lattice of unit cells with given shares, nx by ny by nz, x fastest; 0: no cell.
 struct Shares {
@@ -216,4 +215,4 @@ TEST(PartialCells, ACavityHasItsOwnFaces) {
   EXPECT_NEAR(outer, 3 * (125 + 218 * 0.5), 1e-12);
 }
 
-}  // namespace
+}  // namespace shares_of_cells_test

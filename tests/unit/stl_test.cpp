@@ -10,7 +10,7 @@
 #include <numbers>
 #include <random>
 
-namespace {
+namespace stl_test {
 using namespace hyperlattice;
 using Facets = std::vector<std::array<Vec3, 3>>;
 
@@ -353,4 +353,4 @@ TEST(Stl, FillsALattice) {
   EXPECT_NE(why.find("there is no such file"), std::string::npos) << why;
 }
 
-}  // namespace
+}  // namespace stl_test

@@ -11,10 +11,9 @@
 #include <cmath>
 #include <numbers>
 
+namespace strength_surface_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
-
-namespace {
 
 using std::numbers::pi;
 constexpr double strength = 1e6, energy = 6000, spacing = 1, modulus = 1.2e9;  // C11 for E 1 GPa
@@ -294,4 +293,4 @@ TEST(Cohesive, StaticSolversAreRefused) {
   }
 }
 
-}  // namespace
+}  // namespace strength_surface_test

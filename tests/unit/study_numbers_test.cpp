@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace {
+namespace study_numbers_test {
 using namespace hyperlattice::study;
 using hyperlattice::CsvTable;
 using hyperlattice::parse_csv;
@@ -387,4 +387,4 @@ TEST(StudyCsv, ReadsLines) {
   EXPECT_EQ(hyperlattice::csv_number("-1e-3"), -1e-3);
 }
 
-}  // namespace
+}  // namespace study_numbers_test

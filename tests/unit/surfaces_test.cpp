@@ -8,10 +8,9 @@
 #include <bit>
 #include <numbers>
 
+namespace surfaces_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
-
-namespace {
 
 using Part = std::shared_ptr<const Region>;
 
@@ -116,4 +115,4 @@ TEST(Surfaces, SetsOfSurfacesAndSolids) {
   }
 }
 
-}  // namespace
+}  // namespace surfaces_test

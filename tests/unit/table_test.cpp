@@ -18,9 +18,8 @@
 #include <iterator>
 #include <limits>
 
+namespace table_test {
 using namespace hyperlattice;
-
-namespace {
 
 std::filesystem::path fresh_folder(const std::string& name) {
   const auto folder = std::filesystem::path(testing::TempDir()) / ("hyperlattice_table_" + name);
@@ -157,4 +156,4 @@ TEST(Progress, writes_times_like_a_clock) {
   EXPECT_EQ(clock_time(3723), "1:02:03");
 }
 
-}  // namespace
+}  // namespace table_test

@@ -10,9 +10,8 @@
 #include <cmath>
 #include <thread>
 
+namespace units_test {
 using namespace hyperlattice;
-
-namespace {
 
 double si(std::string_view text, std::string_view unit) {
   const Quantity quantity = read_quantity(text, unit);
@@ -22,8 +21,6 @@ double si(std::string_view text, std::string_view unit) {
 std::string problem(std::string_view text, std::string_view unit) {
   return read_quantity(text, unit).problem;
 }
-
-}  // namespace
 
 TEST(Units, ScalesOfTheInternationalSystem) {
   EXPECT_EQ(si("1 mm", "m"), 0.001);
@@ -204,3 +201,5 @@ TEST(Units, ThreadsMayReadAtTheSameTime) {
   for (auto& thread : threads) thread.join();
   EXPECT_EQ(right, 2000);
 }
+
+}  // namespace units_test

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+namespace vec3_test {
 using namespace hyperlattice;
 
 TEST(Vec3, Operators) {
@@ -46,3 +47,4 @@ TEST(Vec3, DirectionsHaveLengthOneWhateverTheLengthOfTheVector) {
   EXPECT_EQ(direction_of(usual), usual / norm(usual)) << "no digit changes";
   EXPECT_EQ(scaled({}), Vec3{});
 }
+}  // namespace vec3_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace {
+namespace volume_share_test {
 using namespace hyperlattice;
 
 constexpr double pi = std::numbers::pi;
@@ -157,4 +157,4 @@ TEST(VolumeShare, OfASolidThatIsKnownByPointsOnly) {
   EXPECT_NEAR(volume_share(solid, {{0, 0, 0}, 1}), pi / 6, 2e-3);
 }
 
-}  // namespace
+}  // namespace volume_share_test

@@ -8,7 +8,7 @@
 
 #include <numbers>
 
-namespace {
+namespace voxels_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
@@ -168,4 +168,4 @@ TEST(Voxels, SaysWhatAHeaderMayBe) {
       << why;
 }
 
-}  // namespace
+}  // namespace voxels_test

@@ -14,11 +14,10 @@
 #include <complex>
 #include <random>
 
+namespace waves_test {
 using namespace hyperlattice;
 using calibration::Ratios;
 using test::Cubic;
-
-namespace {
 
 double bound(const Cubic& cubic) {
   StiffnessBound sum;
@@ -226,4 +225,4 @@ TEST(Waves, TwoSectorsAreTheWholeTwoLayerLattice) {
   }
 }
 
-}  // namespace
+}  // namespace waves_test

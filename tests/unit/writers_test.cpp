@@ -9,7 +9,7 @@
 #include <thread>
 
 namespace hyperlattice::test {
-namespace {
+namespace writers_test {
 
 std::vector<std::vector<double>> numbers_below_header(const std::string& path) {
   std::ifstream in(path);
@@ -265,5 +265,5 @@ TEST_P(EveryWriter, IgnoresTheLocale) {
   EXPECT_NE(plain.find("1.5e-06"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace writers_test
 }  // namespace hyperlattice::test
