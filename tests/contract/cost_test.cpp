@@ -1,4 +1,3 @@
-// Own executable: it replaces the allocator.
 // A scene costs only what it names: each feature adds its own share of mapped libraries, memory and
 // files. The test counts allocations in the allocator, and reads the libraries from the process.
 #include <support/program.hpp>

@@ -1,4 +1,3 @@
-// Own executable: it compiles files of a plugin.
 // States of rest and sections of lists with nodal volumes: the exact tangent, relaxation, energy,
 // the Poisson ratio of finite bodies, the force through a plane at rest and while it opens.
 #include <listed_system.hpp>

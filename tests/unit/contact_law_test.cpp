@@ -1,4 +1,3 @@
-// Own executable: it compiles files of a plugin.
 // Contact forces between two close particles, by hand; and the search for pairs while particles
 // move.
 #include "../../plugins/loads/contact/contact.cpp"

@@ -1,4 +1,3 @@
-// Own executable: it compiles files of a plugin.
 // The explicit solver takes equal steps to the end of a stage, none longer than asked, at any
 // corners of the loads. It refuses an unstable step.
 #include "../../plugins/solvers/explicit/explicit.cpp"

@@ -1,4 +1,3 @@
-// Own executable: it compiles files of a plugin.
 // The relaxation solver never exceeds the stable step, continues at least to the last corner of the
 // loads, stops at a small residual, and fails if the residual stays large.
 #include "../../plugins/solvers/relaxation/relaxation.cpp"
