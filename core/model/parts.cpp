@@ -1,41 +1,35 @@
-// The number of connected parts of a body (union-find). Most bodies are long rows that springs
+// The number of connected parts of a body. Most bodies are long rows that springs
 // along x connect; each such row is one entry, so that a body of many millions of particles is
 // counted by rows.
 #include <model/body_figures.hpp>
+#include <numerics/disjoint_sets.hpp>
 
 #include <algorithm>
-#include <numeric>
 
 namespace hyperlattice {
 
 namespace {
 
+/// Sets of pieces that springs join, with their number.
 class Sets {
  public:
-  explicit Sets(std::size_t count) : parent_(count), is_joined_(count, false), sets_(count) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
+  explicit Sets(std::size_t count)
+      : sets_(static_cast<std::int64_t>(count)), is_joined_(count, false), count_(count) {}
 
   void join(std::size_t a, std::size_t b) {
     is_joined_[a] = is_joined_[b] = true;
-    a = root(a);
-    b = root(b);
-    if (a == b) return;
-    parent_[std::max(a, b)] = std::min(a, b);
-    --sets_;
+    const auto first = static_cast<std::int64_t>(a), second = static_cast<std::int64_t>(b);
+    if (sets_.root(first) == sets_.root(second)) return;
+    sets_.join(first, second);
+    --count_;
   }
-  std::size_t count() const { return sets_; }
+  std::size_t count() const { return count_; }
   bool is_joined(std::size_t n) const { return is_joined_[n]; }  ///< to any other
 
  private:
-  std::size_t root(std::size_t n) {
-    while (parent_[n] != n) n = parent_[n] = parent_[parent_[n]];
-    return n;
-  }
-
-  std::vector<std::size_t> parent_;
+  numerics::DisjointSets sets_;
   std::vector<bool> is_joined_;
-  std::size_t sets_;
+  std::size_t count_;
 };
 
 /// The sites begin <= i < end of a row, connected by springs along x, or a single site.

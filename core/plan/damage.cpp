@@ -72,6 +72,8 @@ std::vector<std::pair<std::string, std::string>> damage_lines(const nlohmann::js
 void warn_of_damage(Plan& plan) {
   Model& model = *plan.model;
   constexpr double good = 5, round_off = 1e-9;
+  const auto intact =
+      static_cast<std::uint64_t>(std::count(model.intact.begin(), model.intact.end(), 1));
   const double spacing = model.body.grid.spacing;
   for (const Cohesive& of : model.cohesive) {
     if (of.stage == nullptr) continue;
@@ -94,6 +96,11 @@ void warn_of_damage(Plan& plan) {
       warn(
           "with the boundary \"particles\" the stress at the body's surface is too low: its "
           "particles count in full and lack springs; \"cells\" has it right");
+    if (of.intact_near_supports && 2 * intact > model.body.particles)
+      warn(
+          fmt::format("{} of {} particles are near prescribed motions, where no damage grows; "
+                      "intact_near_supports: false lets it grow there",
+                      count_text(intact), count_text(model.body.particles)));
     if (!of.intact_near_supports && has_supports(model))
       warn("intact_near_supports is false: the clamping at prescribed motions may start cracks");
   }

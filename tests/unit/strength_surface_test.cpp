@@ -276,6 +276,22 @@ TEST(Cohesive, ThePlanTellsLengthsAndWarns) {
   expect_in(plan_text(*plan), {"length of damage", "crack without traction"});
 }
 
+TEST(Cohesive, SupportsThatKeepTheBodyIntactAreTold) {
+  // A motion that is prescribed everywhere keeps every particle intact, here a plane strain.
+  const auto warnings = [](bool intact) {
+    const auto plan = plan_of(block(
+        12, 12, 1,
+        Keys{{"poisson", 0.25}} + surface("failures.cohesive", {{"strength", 4e6},
+                                                                {"fracture_energy", 10},
+                                                                {"length", 4e-3},
+                                                                {"intact_near_supports", intact}}),
+        stage("loads.fixed", {{"on", "all"}, {"axes", "z"}})));
+    return plan_json(*plan).at("warnings").dump();
+  };
+  expect_in(warnings(true), {"144 of 144 particles", "no damage grows"});
+  EXPECT_EQ(warnings(false).find("no damage grows"), std::string::npos);
+}
+
 TEST(Cohesive, StaticSolversAreRefused) {
   const std::string scene =
       SceneBuilder{}
