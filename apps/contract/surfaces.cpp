@@ -1,5 +1,7 @@
-// The contract of strength surfaces: the ratio is 1 at the strength in uniaxial tension, grows in
-// proportion to the stress, is convex, and no stress below the alarms of the springs reaches it.
+// The contract of strength surfaces. The function: the ratio is 1 at the strength in uniaxial
+// tension, grows in proportion to the stress, is convex, and no stress below the alarms of the
+// springs reaches it. The body: its damage begins at the surface, only grows and only takes energy,
+// with the same bits for any number of threads, after a restart, and nearly so in floats.
 #include <contract/families.hpp>
 #include <model/cohesive.hpp>
 
@@ -13,6 +15,8 @@
 
 namespace hyperlattice::contract {
 namespace {
+
+using Tensor = Eigen::Matrix3d;
 
 /// Returns the ratios of many stresses at once.
 std::vector<double> ratios(const Cohesive& of, const std::vector<PrincipalStress>& stresses) {
@@ -111,8 +115,6 @@ Finding is_convex(const Cohesive& of) {
   return passes_if(true, "the ratio of a mean of two stresses is at most the mean of their ratios");
 }
 
-using Tensor = Eigen::Matrix3d;
-
 PrincipalStress principal_stress(const Tensor& strain, double shear, double lame) {
   const Tensor stress = 2 * shear * strain + lame * strain.trace() * Tensor::Identity();
   const Eigen::Vector3d values =
@@ -152,12 +154,142 @@ Finding alarm_is_conservative(const Model& model, const Cohesive& of) {
                                of.stretch_alarm, of.shortening_alarm, nearest));
 }
 
+/// Returns the strain of an isotropic solid under a stress with these principal values, whose
+/// directions are the columns of `axes`.
+Tensor strain_of(const Cohesive& of, const PrincipalStress& stress, const Tensor& axes) {
+  const double shear = 3 * (of.modulus - of.bulk_modulus) / 4;
+  const Eigen::Vector3d values(stress.first, stress.second, stress.third);
+  const double mean = values.mean();
+  const Eigen::Vector3d strains =
+      (values.array() - mean) / (2 * shear) + mean / (3 * of.bulk_modulus);
+  return axes * strains.asDiagonal() * axes.transpose();
+}
+
+/// Returns the least and the largest damage of the particles after the body was held in a uniform
+/// strain for some steps.
+std::pair<double, double> damage_in(const Model& model, const Tensor& strain) {
+  const std::uint64_t particles = model.body.particles;
+  std::vector<double> u(3 * particles), damage(particles);
+  for (Particle p = 0; p < particles; ++p) {
+    const Vec3 at = model.body.position(p);
+    const Eigen::Vector3d moved = strain * Eigen::Vector3d(at.x, at.y, at.z);
+    std::copy_n(moved.data(), 3, &u[3 * p]);
+  }
+  DrivenBody body(model);
+  // particles far below their strength are evaluated in every fourth step
+  for (int n = 0; n < 9; ++n) body.forces(u, 0.1 * model.step_limit.time_step);
+  body.simulation().copy_damage(damage);
+  const auto [least, most] = std::minmax_element(damage.begin(), damage.end());
+  return {*least, *most};
+}
+
+/// Returns how much the ratio can change if each principal stress changes by up to `by`, Pa.
+double change(const Cohesive& of, const PrincipalStress& stress, double by) {
+  double most = 0;
+  for (const double a : {-by, by})
+    for (const double b : {-by, by})
+      for (const double c : {-by, by})
+        most = std::max(
+            most,
+            std::abs(ratio(of, sorted(stress.first + a, stress.second + b, stress.third + c)) -
+                     ratio(of, stress)));
+  return most;
+}
+
+/// Strains the body in proportion, along axes that are turned at random, to just below and just
+/// above the surface: no particle below it is damaged, and each above it, up to the corners. The
+/// margin counts that stresses of a large strain differ by some of its square.
+Finding begins_at_the_surface(const Model& model, const Cohesive& of) {
+  constexpr double least_margin = 0.01, largest_margin = 0.3;
+  const std::vector<PrincipalStress> all = samples(of);
+  const std::vector<double> turns = noise(4 * all.size(), 1, 2);
+  int paths = 0;
+  for (std::size_t n = 0; n < all.size(); n += n < 950 ? 20 : 1) {
+    const double to_surface = ratio(of, all[n]);
+    if (!(to_surface > 0)) continue;
+    const Tensor axes = Eigen::Quaterniond(Eigen::Vector4d(&turns[4 * n])).normalized().matrix();
+    const Tensor strain = strain_of(of, all[n], axes) / to_surface;
+    const double margin = least_margin + change(of, scaled(all[n], 1 / to_surface),
+                                                3 * of.modulus * strain.squaredNorm());
+    if (margin > largest_margin) continue;
+    ++paths;
+    const auto where = [&] {
+      return fmt::format("{:.0f} % from {}", 100 * margin, text_of(scaled(all[n], 1 / to_surface)));
+    };
+    if (damage_in(model, (1 - margin) * strain).second != 0)
+      return passes_if(false, "damage inside, " + where());
+    if (!(damage_in(model, (1 + margin) * strain).first > 0))
+      return passes_if(false, "particles without damage outside, " + where());
+  }
+  return passes_if(
+      paths > 20, fmt::format("on {} paths in all directions, up to the corners of a body", paths));
+}
+
+/// A motion whose springs pass their alarms within a step.
+RandomMotion shaking(const Model& model, const Cohesive& of) {
+  return {3 * of.stretch_alarm * model.body.grid.spacing / model.step_limit.time_step};
+}
+
+/// A base spring that passes through zero within a step changes its stiffness there, which the
+/// books count at the step's end. So the sum may fall back by a little, and no more.
+Finding only_takes_energy(const Model& model, const Cohesive& of) {
+  Simulation simulation(model, 1);
+  simulation.set_velocities(noise(3 * model.body.particles, shaking(model, of).speed), {});
+  std::vector<double> before(model.body.particles, 0), now = before;
+  double taken = 0, given_back = 0;
+  for (int n = 0; n < 400; ++n) {
+    simulation.step(0.1 * model.step_limit.time_step);
+    simulation.copy_damage(now);
+    const double dissipated = simulation.balance().dissipated_failure;
+    for (std::size_t p = 0; p < now.size(); ++p)
+      if (now[p] < before[p])
+        return passes_if(false, fmt::format("damage {} becomes {}", before[p], now[p]));
+    given_back = std::max(given_back, taken - dissipated);
+    before = now;
+    taken = std::max(taken, dissipated);
+  }
+  const EnergyBalance balance = simulation.balance();
+  return passes_if(
+      taken > 0 && given_back < 1e-3 * taken && std::abs(balance.relative_error()) < 1e-3,
+      fmt::format("{:.3g} J in 400 steps, {:.1g} of it given back; balance {:.1g}", taken,
+                  given_back / taken, balance.relative_error()));
+}
+
+Finding same_bits(const Model& model, const Cohesive& of) {
+  RandomMotion motion = shaking(model, of);
+  const MotionResult one = run_motion(model, motion);
+  motion.threads = 3;
+  const MotionResult three = run_motion(model, motion);
+  return passes_if(one.is_finite() && one.hash == three.hash && one.balance.dissipated_failure > 0,
+                   fmt::format("with 1 and 3 threads, while damage takes {:.3g} J",
+                               one.balance.dissipated_failure));
+}
+
+Finding restart(const Model& model, const Cohesive& of) {
+  RandomMotion motion = shaking(model, of);
+  const MotionResult whole = run_motion(model, motion);
+  motion.cut_off = true;
+  const MotionResult cut_off = run_motion(model, motion);
+  return passes_if(whole.is_finite() && cut_off.hash == whole.hash &&
+                       cut_off.balance.dissipated_failure == whole.balance.dissipated_failure,
+                   "the same damage when it is cut off half-way and goes on");
+}
+
+Finding in_floats(const Model& doubles, const Model& floats, const Cohesive& of) {
+  const double exact = run_motion(doubles, shaking(doubles, of)).balance.dissipated_failure,
+               rounded = run_motion(floats, shaking(doubles, of)).balance.dissipated_failure;
+  return passes_if(
+      std::abs(rounded / exact - 1) < 1e-3,
+      fmt::format("damage takes the same energy within {:.1g}", std::abs(rounded / exact - 1)));
+}
+
 }  // namespace
 
 void check_surface(Trial& trial) {
   Json material = trial.scenes.material();
   material["failure"] = trial.example;
-  const auto plan = trial.scenes.plan_of({trial.scenes.grid_box(4, 4, 4, "cells"), material});
+  const std::vector<Json> stages{trial.scenes.grid_box(4, 4, 4, "cells"), material};
+  const auto plan = trial.scenes.plan_of(stages);
   const Cohesive& of = plan->model->cohesive.front();
   trial.check("1 in tension", [&] { return is_one_in_tension(of); });
   trial.check("0 without stress", [&] { return starts_at_zero(of); });
@@ -165,7 +297,16 @@ void check_surface(Trial& trial) {
   trial.check("finite", [&] { return is_finite(of); });
   trial.check("continuous", [&] { return is_continuous(of); });
   trial.check("convex", [&] { return is_convex(of); });
-  trial.check("alarm is conservative", [&] { return alarm_is_conservative(*plan->model, of); });
+  const Model& model = *plan->model;
+  trial.check("alarm is conservative", [&] { return alarm_is_conservative(model, of); });
+  trial.check("begins at the surface", [&] { return begins_at_the_surface(model, of); });
+  trial.check("only takes energy", [&] { return only_takes_energy(model, of); });
+  trial.check("same bits", [&] { return same_bits(model, of); });
+  trial.check("restart", [&] { return restart(model, of); });
+  trial.check("in floats", [&] {
+    const auto floats = trial.scenes.plan_of(stages, 1, "float");
+    return in_floats(model, *floats->model, of);
+  });
 }
 
 }  // namespace hyperlattice::contract
