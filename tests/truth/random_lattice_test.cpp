@@ -133,9 +133,8 @@ TEST(RandomLattice, PoissonRatiosThatNoOptionTakesAreNotOffered) {
             std::string::npos)
       << none;
   EXPECT_EQ(none.find("within"), std::string::npos) << none;
-  EXPECT_EQ(
-      sentence(stiff),
-      "within (0.3333, 0.5), the reach of membrane I; other membranes have other ratios");
+  EXPECT_EQ(sentence(stiff),
+            "within (0.3333, 0.5), the reach of membrane I; other membranes have other ratios");
 }
 
 TEST(RandomLattice, AReachOfTooFewSpringsSaysWhy) {
