@@ -50,10 +50,12 @@ void DamageField::watch_shortening(Block& block) const {
       const NeighbourGeometry& to = model_.springs.neighbours[n];
       const double square = to.rest_length * to.rest_length,
                    least = square * ((1 - alarm) * (1 - alarm) - 1);
+      // In a grid the other ends of a row's springs are as far apart as the sites.
+      const std::uint64_t other = blocks_.layout().other_end(block.number, r, n, row.begin);
       for (std::int32_t i = row.begin; i < row.end; ++i) {
-        const std::uint64_t here = row.start + static_cast<std::uint64_t>(i - row.begin);
+        const auto along = static_cast<std::uint64_t>(i - row.begin);
+        const std::uint64_t here = row.start + along, there = other + along;
         if ((block.alive[here] >> n & 1U) == 0) continue;
-        const std::uint64_t there = blocks_.layout().other_end(block.number, r, n, i);
         const auto apart = [&](int c) {
           return block.displacement[c][there] - block.displacement[c][here];
         };
