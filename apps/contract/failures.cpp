@@ -243,27 +243,25 @@ Finding memory_is_sound(const Criterion& criterion, double threshold) {
       fmt::format("asked {} times about the same history, it answers and keeps the same", half));
 }
 
-Finding same_bits(const Model& model, double threshold) {
-  RandomMotion motion{threshold / model.step_limit.time_step};  // moves by a threshold in a step
+}  // namespace
+
+Finding same_bits_while_failing(const Model& model, RandomMotion motion) {
   const MotionResult one = run_motion(model, motion);
   motion.threads = 3;
   const MotionResult three = run_motion(model, motion);
   return passes_if(one.is_finite() && one.hash == three.hash && one.balance.dissipated_failure > 0,
-                   fmt::format("with 1 and 3 threads, while springs with {:.3g} J break",
+                   fmt::format("with 1 and 3 threads, while failure takes {:.3g} J",
                                one.balance.dissipated_failure));
 }
 
-Finding restart(const Model& model, double threshold) {
-  RandomMotion motion{threshold / model.step_limit.time_step};
+Finding restart_while_failing(const Model& model, RandomMotion motion) {
   const MotionResult whole = run_motion(model, motion);
   motion.cut_off = true;
   const MotionResult cut_off = run_motion(model, motion);
   return passes_if(whole.is_finite() && cut_off.hash == whole.hash &&
                        cut_off.balance.dissipated_failure == whole.balance.dissipated_failure,
-                   "the same springs break when it is cut off half-way and goes on");
+                   "the same failure when it is cut off half-way and goes on");
 }
-
-}  // namespace
 
 void check_failure(Trial& trial) {
   if (static_cast<const FailureFunctions*>(trial.component.info.functions)->surface.ratios !=
@@ -294,8 +292,10 @@ void check_failure(Trial& trial) {
   trial.check("takes the spring's energy",
               [&] { return takes_its_energy(*pair->model, how, *threshold); });
   if (one.remembers()) trial.check("memory", [&] { return memory_is_sound(one, *threshold); });
-  trial.check("same bits", [&] { return same_bits(*block->model, *threshold); });
-  trial.check("restart", [&] { return restart(*block->model, *threshold); });
+  // Particles move by the threshold within a step.
+  const RandomMotion motion{*threshold / block->model->step_limit.time_step};
+  trial.check("same bits", [&] { return same_bits_while_failing(*block->model, motion); });
+  trial.check("restart", [&] { return restart_while_failing(*block->model, motion); });
 }
 
 }  // namespace hyperlattice::contract

@@ -52,6 +52,11 @@ class Trial {
   std::vector<Check>& checks_;
 };
 
+/// Compares the bits of a motion, in which failure takes energy, on 1 and 3 threads.
+Finding same_bits_while_failing(const Model& model, RandomMotion motion);
+/// Compares the bits of a whole motion with those of one that a checkpoint interrupts.
+Finding restart_while_failing(const Model& model, RandomMotion motion);
+
 void check_lattice(Trial& trial);
 void check_material(Trial& trial);
 void check_failure(Trial& trial);

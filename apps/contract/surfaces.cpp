@@ -176,7 +176,7 @@ std::pair<double, double> damage_in(const Model& model, const Tensor& strain) {
     std::copy_n(moved.data(), 3, &u[3 * p]);
   }
   DrivenBody body(model);
-  // particles far below their strength are evaluated in every fourth step
+  // The field evaluates particles far below their strength in every fourth step.
   for (int n = 0; n < 9; ++n) body.forces(u, 0.1 * model.step_limit.time_step);
   body.simulation().copy_damage(damage);
   const auto [least, most] = std::minmax_element(damage.begin(), damage.end());
@@ -184,7 +184,7 @@ std::pair<double, double> damage_in(const Model& model, const Tensor& strain) {
 }
 
 /// Returns how much the ratio can change if each principal stress changes by up to `by`, Pa.
-double change(const Cohesive& of, const PrincipalStress& stress, double by) {
+double ratio_change(const Cohesive& of, const PrincipalStress& stress, double by) {
   double most = 0;
   for (const double a : {-by, by})
     for (const double b : {-by, by})
@@ -197,8 +197,9 @@ double change(const Cohesive& of, const PrincipalStress& stress, double by) {
 }
 
 /// Strains the body in proportion, along axes that are turned at random, to just below and just
-/// above the surface: no particle below it is damaged, and each above it, up to the corners. The
-/// margin counts that stresses of a large strain differ by some of its square.
+/// above the surface. No particle below it is damaged, and each particle above it is, up to the
+/// corners. The margin includes the second order of the strain, which the small-strain stress
+/// lacks.
 Finding begins_at_the_surface(const Model& model, const Cohesive& of) {
   constexpr double least_margin = 0.01, largest_margin = 0.3;
   const std::vector<PrincipalStress> all = samples(of);
@@ -209,8 +210,8 @@ Finding begins_at_the_surface(const Model& model, const Cohesive& of) {
     if (!(to_surface > 0)) continue;
     const Tensor axes = Eigen::Quaterniond(Eigen::Vector4d(&turns[4 * n])).normalized().matrix();
     const Tensor strain = strain_of(of, all[n], axes) / to_surface;
-    const double margin = least_margin + change(of, scaled(all[n], 1 / to_surface),
-                                                3 * of.modulus * strain.squaredNorm());
+    const double margin = least_margin + ratio_change(of, scaled(all[n], 1 / to_surface),
+                                                      3 * of.modulus * strain.squaredNorm());
     if (margin > largest_margin) continue;
     ++paths;
     const auto where = [&] {
@@ -225,18 +226,19 @@ Finding begins_at_the_surface(const Model& model, const Cohesive& of) {
       paths > 20, fmt::format("on {} paths in all directions, up to the corners of a body", paths));
 }
 
-/// A motion whose springs pass their alarms within a step.
+/// Returns a motion whose springs pass their alarms within a step.
 RandomMotion shaking(const Model& model, const Cohesive& of) {
   return {3 * of.stretch_alarm * model.body.grid.spacing / model.step_limit.time_step};
 }
 
-/// A base spring that passes through zero within a step changes its stiffness there, which the
-/// books count at the step's end. So the sum may fall back by a little, and no more.
+/// A spring that passes through its rest length within a step has a negative product u_n u_n+1 in
+/// the dissipated energy (docs/theory/cohesive.md). So the sum may fall by a little, which vanishes
+/// with the step.
 Finding only_takes_energy(const Model& model, const Cohesive& of) {
   Simulation simulation(model, 1);
   simulation.set_velocities(noise(3 * model.body.particles, shaking(model, of).speed), {});
   std::vector<double> before(model.body.particles, 0), now = before;
-  double taken = 0, given_back = 0;
+  double taken = 0, fallen_back = 0;
   for (int n = 0; n < 400; ++n) {
     simulation.step(0.1 * model.step_limit.time_step);
     simulation.copy_damage(now);
@@ -244,35 +246,15 @@ Finding only_takes_energy(const Model& model, const Cohesive& of) {
     for (std::size_t p = 0; p < now.size(); ++p)
       if (now[p] < before[p])
         return passes_if(false, fmt::format("damage {} becomes {}", before[p], now[p]));
-    given_back = std::max(given_back, taken - dissipated);
+    fallen_back = std::max(fallen_back, taken - dissipated);
     before = now;
     taken = std::max(taken, dissipated);
   }
   const EnergyBalance balance = simulation.balance();
   return passes_if(
-      taken > 0 && given_back < 1e-3 * taken && std::abs(balance.relative_error()) < 1e-3,
-      fmt::format("{:.3g} J in 400 steps, {:.1g} of it given back; balance {:.1g}", taken,
-                  given_back / taken, balance.relative_error()));
-}
-
-Finding same_bits(const Model& model, const Cohesive& of) {
-  RandomMotion motion = shaking(model, of);
-  const MotionResult one = run_motion(model, motion);
-  motion.threads = 3;
-  const MotionResult three = run_motion(model, motion);
-  return passes_if(one.is_finite() && one.hash == three.hash && one.balance.dissipated_failure > 0,
-                   fmt::format("with 1 and 3 threads, while damage takes {:.3g} J",
-                               one.balance.dissipated_failure));
-}
-
-Finding restart(const Model& model, const Cohesive& of) {
-  RandomMotion motion = shaking(model, of);
-  const MotionResult whole = run_motion(model, motion);
-  motion.cut_off = true;
-  const MotionResult cut_off = run_motion(model, motion);
-  return passes_if(whole.is_finite() && cut_off.hash == whole.hash &&
-                       cut_off.balance.dissipated_failure == whole.balance.dissipated_failure,
-                   "the same damage when it is cut off half-way and goes on");
+      taken > 0 && fallen_back < 1e-3 * taken && std::abs(balance.relative_error()) < 1e-3,
+      fmt::format("{:.3g} J in 400 steps, falls by at most {:.1g} of it; balance {:.1g}", taken,
+                  fallen_back / taken, balance.relative_error()));
 }
 
 Finding in_floats(const Model& doubles, const Model& floats, const Cohesive& of) {
@@ -300,9 +282,10 @@ void check_surface(Trial& trial) {
   const Model& model = *plan->model;
   trial.check("alarm is conservative", [&] { return alarm_is_conservative(model, of); });
   trial.check("begins at the surface", [&] { return begins_at_the_surface(model, of); });
+  const RandomMotion motion = shaking(model, of);
   trial.check("only takes energy", [&] { return only_takes_energy(model, of); });
-  trial.check("same bits", [&] { return same_bits(model, of); });
-  trial.check("restart", [&] { return restart(model, of); });
+  trial.check("same bits", [&] { return same_bits_while_failing(model, motion); });
+  trial.check("restart", [&] { return restart_while_failing(model, motion); });
   trial.check("in floats", [&] {
     const auto floats = trial.scenes.plan_of(stages, 1, "float");
     return in_floats(model, *floats->model, of);

@@ -71,7 +71,8 @@ std::vector<Symmetric> cauchy_stresses(const PresentSprings& springs) {
   const auto volumes = volumes_of(springs);
   for (Particle p = 0; p < body.particles; ++p) {
     const double J = 1 + volume_change(H[p]);
-    stresses[p] = symmetric_part(1 / (J > 0 ? J : J <= 0 ? no_tensor[0].x : 1) * virial[p]);
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    stresses[p] = symmetric_part(1 / (J > 0 ? J : J <= 0 ? nan : 1) * virial[p]);
     if (volumes)
       for (std::size_t c = 0; c < 3; ++c) stresses[p][c] += volumes->pressure(p);
   }
@@ -99,7 +100,8 @@ std::vector<double> energy_densities(const PresentSprings& springs) {
   const Model& model = springs.model();
   const Body& body = model.body;
   if (has_cells(body))
-    return means_of_cells<double>(springs, Asked::energies, no_tensor[0].x,
+    return means_of_cells<double>(springs, Asked::energies,
+                                  std::numeric_limits<double>::quiet_NaN(),
                                   [](const PresentCell& cell, double spacing) {
                                     return std::optional(energy_density(cell, spacing));
                                   });
