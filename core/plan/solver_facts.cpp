@@ -25,6 +25,7 @@ SolverFacts solver_facts(const Model& model, double start_time) {
     facts.sites_across = count(std::max({size.x, size.y, size.z}) / model.body.grid.spacing);
   }
   facts.remembers = model.springs.memory > 0;
+  facts.damages = !model.cohesive.empty();
   facts.answering = model.loads.answering;
   return facts;
 }

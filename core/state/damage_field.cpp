@@ -25,6 +25,9 @@ constexpr double damage_speed = 0.8 * 0.866;
 /// Least part of an alpha spring that remains, so that heights of dust stay bounded.
 constexpr double least_alpha = 1e-3;
 
+/// Returns the part of an alpha spring that remains.
+double alpha_factor(double remaining) { return remaining < 1 ? std::max(remaining, least_alpha) : 1; }
+
 /// Adds pull r (x) r.
 void add_virial(Symmetric& sum, double pull, Vec3 r) {
   const Vec3 force = pull * r;
@@ -81,14 +84,14 @@ void DamageField::evaluate() {
 /// whose sum is -1/2 (f_n - f_{n+1}) k u_n u_{n+1}. So the spring dissipates
 ///   D = 1/2 (f_n - f_{n+1}) k u_n u_{n+1}
 /// in the step, and the balance is as exact as that of springs that do not change.
-void DamageField::gather(std::uint32_t number) {
+void DamageField::gather(std::uint32_t number, Part part) {
   DamageRecord& record = records_[number];
-  if (rests(record)) return;
+  const bool whole = part == Part::all;
+  if (whole && rests(record)) return;
   const Motion here = motion_of(blocks_[record.block], record.index);
   const double own = records_.remaining(number), delta = model_.body.grid.membrane_distance;
   const std::size_t kinds = model_.springs.choice.membrane == KernelChoice::Membrane::none ? 1 : 2;
-  record.force = {};
-  record.stored = record.dissipated = 0;
+  if (whole) record.force = {}, record.stored = record.dissipated = 0;
   Symmetric virial{}, of_heights{};
   double spread = 0;
   for (DamageSpring& spring : record.springs()) {
@@ -115,6 +118,7 @@ void DamageField::gather(std::uint32_t number) {
                        ((length + spring.rest_length[1]) * length),
                    r);
       }
+      if (!whole) continue;
       const double f = degrades ? factor : 1;
       if (spring.handed_over) {
         const double pull = f * over_length;
@@ -132,8 +136,8 @@ void DamageField::gather(std::uint32_t number) {
     }
     add_virial(virial, pull_of_virial, r);
   }
-  if (record.alpha > 0) {  // the kernel has computed the whole spring: 2 alpha s, alpha s^2
-    const double f = own < 1 ? std::max(own, least_alpha) : 1;
+  if (whole && record.alpha > 0) {  // the kernel has computed the whole spring: 2 alpha s, alpha s^2
+    const double f = alpha_factor(own);
     record.force[3] += 2 * (1 - f) * record.alpha * here.height;
     record.stored -= (1 - f) * record.alpha * here.height * here.height;
     record.dissipated += (record.alpha_factor - f) * record.alpha * record.height * here.height;
@@ -162,10 +166,15 @@ void DamageField::update(double time_step) {
   evaluate();
   next_.resize(records_.numbers());
   records_.for_pieces([&](std::span<const std::uint32_t> records) { grow(records, time_step); });
+  set_damages(next_);
+}
+
+/// Sets the damage of all records, and notes what follows from it.
+void DamageField::set_damages(const std::vector<double>& damages) {
   ended_.clear();
   std::vector<std::uint32_t> damaged;
   for (const std::uint32_t record : records_.order()) {
-    const double before = records_.damage(record), now = next_[record];
+    const double before = records_.damage(record), now = damages[record];
     if (now == before) continue;
     const double remained = records_.remaining(record);
     records_.set_damage(record, now);
@@ -179,54 +188,62 @@ void DamageField::update(double time_step) {
 
 /// Finds the damage of some records after the step.
 void DamageField::grow(std::span<const std::uint32_t> records, double time_step) {
-  struct Driven {
-    std::uint32_t record;
-    PrincipalStress stress;
-  };
-  std::vector<Driven> driven;
+  std::vector<std::uint32_t> driven;
   driven.reserve(records.size());
   for (const std::uint32_t number : records) {
     const double damage = next_[number] = records_.damage(number);
     const DamageRecord& record = records_[number];
-    if (record.material != nullptr && damage < 1 && !rests(record))
-      driven.push_back({number, principal_values(record.stress)});
+    if (record.material != nullptr && damage < 1 && !rests(record)) driven.push_back(number);
   }
   if (driven.empty()) return;
-  // Each material's surface is asked about its stresses at once.
-  std::vector<PrincipalStress> stresses;
   std::vector<double> ratios;
-  stresses.reserve(driven.size());
-  for (const Cohesive& material : model_.cohesive) {
-    const auto is_of = [&](const Driven& one) {
-      return records_[one.record].material == &material;
-    };
-    stresses.clear();
-    for (const Driven& one : driven)
-      if (is_of(one)) stresses.push_back(one.stress);
-    if (stresses.empty()) continue;
-    ratios.assign(stresses.size(), 0);
-    material.ratios(stresses, ratios.data());
+  find_ratios(driven, ratios);
+  for (std::size_t n = 0; n < driven.size(); ++n) {
+    DamageRecord& record = records_[driven[n]];
+    const Cohesive& material = *record.material;
     const double crossing = material.length * time_step / (damage_speed * model_.body.grid.spacing);
-    auto ratio = ratios.begin();
-    for (const Driven& one : driven) {
-      if (!is_of(one)) continue;
-      DamageRecord& record = records_[one.record];
-      const double equivalent = *ratio++ * material.strength / record.strength;
-      DamageStep step;
-      step.damage = records_.damage(one.record);
-      step.rate = record.rate;
-      step.shape = record.shape;
-      step.drive = equivalent * equivalent;
-      step.spread = record.spread;
-      step.inertia = crossing * crossing;
-      step.viscosity = material.viscosity;
-      step.time_step = time_step;
-      record.rate = damage_rate(step);
-      const double damage = step.damage + time_step * record.rate;
-      next_[one.record] = damage >= 1 - 1e-4 ? 1 : damage;
-      if (damage == 0 && equivalent < safe_ratio && !touches_damage(record))
-        record.rests_until = clock_.steps() + steps_of_rest;
+    DamageStep step;
+    step.damage = records_.damage(driven[n]);
+    step.rate = record.rate;
+    step.shape = record.shape;
+    step.drive = ratios[n] * ratios[n];
+    step.spread = record.spread;
+    step.inertia = crossing * crossing;
+    step.viscosity = material.viscosity;
+    step.time_step = time_step;
+    record.rate = damage_rate(step);
+    const double damage = step.damage + time_step * record.rate;
+    next_[driven[n]] = damage >= 1 - 1e-4 ? 1 : damage;
+    if (damage == 0 && ratios[n] < safe_ratio && !touches_damage(record))
+      record.rests_until = clock_.steps() + steps_of_rest;
+  }
+}
+
+/// Finds how close the stress of each record is to its particle's surface: 1 on it. Each material's
+/// surface is asked about its stresses at once.
+void DamageField::find_ratios(std::span<const std::uint32_t> records,
+                              std::vector<double>& ratios) const {
+  ratios.assign(records.size(), 0);
+  std::vector<PrincipalStress> stresses;
+  std::vector<std::size_t> of_material;
+  std::vector<double> found;
+  stresses.reserve(records.size());
+  of_material.reserve(records.size());
+  for (const Cohesive& material : model_.cohesive) {
+    stresses.clear();
+    of_material.clear();
+    for (std::size_t n = 0; n < records.size(); ++n) {
+      const DamageRecord& record = records_[records[n]];
+      if (record.material != &material) continue;
+      stresses.push_back(principal_values(record.stress));
+      of_material.push_back(n);
     }
+    if (stresses.empty()) continue;
+    found.assign(stresses.size(), 0);
+    material.ratios(stresses, found.data());
+    for (std::size_t n = 0; n < found.size(); ++n)
+      ratios[of_material[n]] =
+          found[n] * material.strength / records_[records[of_material[n]]].strength;
   }
 }
 
@@ -266,18 +283,23 @@ void DamageField::surround(const std::vector<std::uint32_t>& damaged) {
   std::vector<std::uint32_t> behind = records_.add(neighbours);
   for (const Particle neighbour : neighbours)
     if (rests(records_[records_.of(neighbour)])) behind.push_back(records_.of(neighbour));
-  const std::size_t kinds = model_.springs.choice.membrane == KernelChoice::Membrane::none ? 1 : 2;
   for (const std::uint32_t number : behind) {
-    DamageRecord& record = records_[number];
-    record.marked = clock_.steps();
-    record.rests_until = 0;
-    const Motion here = motion_of(blocks_[record.block], record.index);
-    record.height = here.height;
-    for (DamageSpring& spring : record.springs())
-      for (std::size_t cross = 0; cross < kinds; ++cross)
-        spring.elongation[cross] =
-            elongation(spring, cross, here, motion_of(blocks_[spring.block], spring.index));
+    records_[number].marked = clock_.steps();
+    records_[number].rests_until = 0;
+    note_elongations(number);
   }
+}
+
+/// Keeps the elongations of the present state for the energy that the next one dissipates.
+void DamageField::note_elongations(std::uint32_t number) {
+  DamageRecord& record = records_[number];
+  const std::size_t kinds = model_.springs.choice.membrane == KernelChoice::Membrane::none ? 1 : 2;
+  const Motion here = motion_of(blocks_[record.block], record.index);
+  record.height = here.height;
+  for (DamageSpring& spring : record.springs())
+    for (std::size_t cross = 0; cross < kinds; ++cross)
+      spring.elongation[cross] =
+          elongation(spring, cross, here, motion_of(blocks_[spring.block], spring.index));
 }
 
 /// Returns whether the particle needs no evaluation in this step: its stress was far below the
@@ -309,6 +331,12 @@ void DamageField::finish() {
     }
   }
   soft_.clear();
+  follow_noted();
+  if (clock_.steps() % steps_followed == 0) remove_idle();
+}
+
+/// Makes records of the particles that were noted.
+void DamageField::follow_noted() {
   std::vector<Particle> noted;
   for (Block& block : blocks_) {
     noted.insert(noted.end(), block.noted.begin(), block.noted.end());
@@ -318,7 +346,6 @@ void DamageField::finish() {
     records_.add(noted);
     for (const Particle particle : noted) records_[records_.of(particle)].marked = clock_.steps();
   }
-  if (clock_.steps() % steps_followed == 0) remove_idle();
 }
 
 /// Removes the records of particles that have no damage, nor a neighbour with damage, and whose
@@ -354,10 +381,20 @@ std::vector<SoftSpring> DamageField::soft_springs() const {
   for (const std::uint32_t number : records_.order()) {
     const DamageRecord& record = records_[number];
     for (const DamageSpring& spring : record.springs())
-      if (spring.forward && spring.handed_over && spring.present)
+      if (spring.forward && spring.present &&
+          (spring.handed_over || records_.remaining(number) < 1 ||
+           records_.remaining_of(spring.to) < 1))
         found.push_back({record.particle, spring.to, spring.neighbour,
                          in_series(records_.remaining(number), records_.remaining_of(spring.to))});
   }
+  return found;
+}
+
+std::vector<SoftParticle> DamageField::soft_particles() const {
+  std::vector<SoftParticle> found;
+  for (const std::uint32_t number : records_.order())
+    if (records_[number].alpha > 0 && records_.remaining(number) < 1)
+      found.push_back({records_[number].particle, alpha_factor(records_.remaining(number))});
   return found;
 }
 

@@ -26,6 +26,26 @@ struct SoftSpring {
   double factor = 1;
 };
 
+/// A particle of which a part of the alpha spring remains.
+struct SoftParticle {
+  Particle particle = 0;
+  double alpha_factor = 1;
+};
+
+/// Bounds of a search for damage at rest. Stresses are those of the displacements times a factor.
+struct DamageBounds {
+  double least_factor = 1, most_factor = 1;
+  double most_growth = 1;  ///< of a particle's damage since the last accepted state
+};
+
+/// Damage at rest.
+struct SettledDamage {
+  double factor = 1;  ///< the largest between the bounds at which damage grew by most_growth or less
+  double change = 0;  ///< largest change of a particle's damage since the last search
+  std::vector<SoftSpring> springs;  ///< in the order of their first ends and neighbours
+  std::vector<SoftParticle> particles;
+};
+
 class DamageField {
  public:
   DamageField(BlockSet& blocks, const Clock& clock)
@@ -43,6 +63,16 @@ class DamageField {
   void watch_shortening(Block& block) const;
   /// Hands over the springs that became soft, and follows the particles that were noted.
   void finish();
+
+  // Between states of rest (damage_at_rest.cpp).
+  /// Finds the damage at rest for the present displacements, at least that of the last accepted
+  /// state. The damage of the field stays; the next search begins with the result.
+  SettledDamage settle(const DamageBounds& bounds);
+  /// Forgets the results of searches.
+  void forget_search() { settled_.clear(); }
+  /// Notes the elongations of springs before the displacements change, and lets damage become that
+  /// of the last search. finish() must follow.
+  void accept_search();
 
   /// Computes the forces and energies of the present state, and what the last step dissipated.
   void evaluate();
@@ -67,6 +97,7 @@ class DamageField {
   std::optional<double> factor(Particle first, std::uint32_t neighbour) const;
   /// Returns the springs that are handed over, in the order of their first ends and neighbours.
   std::vector<SoftSpring> soft_springs() const;
+  std::vector<SoftParticle> soft_particles() const;
 
   void archive(Archive& archive) { records_.archive(archive); }
 
@@ -75,7 +106,14 @@ class DamageField {
   Motion motion_of(const Block& block, std::uint64_t index) const;
   double elongation(const DamageSpring& spring, std::size_t cross, const Motion& here,
                     const Motion& there) const;
-  void gather(std::uint32_t number);
+  /// What gather() computes: all, or the stress alone, which leaves the energies as they are.
+  enum class Part { all, stress };
+  void gather(std::uint32_t number, Part part = Part::all);
+  void find_ratios(std::span<const std::uint32_t> records, std::vector<double>& ratios) const;
+  void note_elongations(std::uint32_t number);
+  void set_damages(const std::vector<double>& damages);
+  void follow_noted();
+  void watch(Block& block, double stretch, double shortening) const;
   void grow(std::span<const std::uint32_t> records, double time_step);
   void note_gone();
   void surround(const std::vector<std::uint32_t>& damaged);
@@ -94,6 +132,7 @@ class DamageField {
   std::vector<double> next_;          // damage of each record after the step
   std::vector<std::uint32_t> soft_;   // records whose omega fell below 1 in this step
   std::vector<std::uint32_t> ended_;  // records whose omega became 0 in this step
+  std::vector<double> settled_;       // damage of each record after the last search; empty: none
 };
 
 }  // namespace hyperlattice

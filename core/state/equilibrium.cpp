@@ -39,11 +39,27 @@ void Simulation::apply_equilibrium(const EquilibriumUpdate& to) {
   }
   state_->energy.count_halted(to.dissipated);
   state_->law_memory.advance(to);
+  if (!state_->damage.empty()) state_->damage.accept_search();
   set({false, 0, 3}, to.xyz);
   if (!to.heights.empty()) set({false, 3, 1}, to.heights);
+  if (!state_->damage.empty()) state_->damage.finish();
   state_->failures.collect(0);
   state_->loads.rest(to.factor, to.gravity);
   state_->clock.jump(to.time);
 }
+
+SettledDamage Simulation::settle_damage(const std::vector<double>& xyz,
+                                        const std::vector<double>& heights,
+                                        const DamageBounds& bounds) {
+  std::vector<double> now, heights_now;
+  displacements(now);
+  this->heights(heights_now);
+  set_displacements(xyz, heights);
+  SettledDamage found = state_->damage.settle(bounds);
+  set_displacements(now, heights_now);
+  return found;
+}
+
+void Simulation::forget_damage_search() { state_->damage.forget_search(); }
 
 }  // namespace hyperlattice

@@ -66,6 +66,10 @@ std::vector<SoftSpring> Simulation::soft_springs() const {
   return state_->damage.empty() ? std::vector<SoftSpring>{} : state_->damage.soft_springs();
 }
 
+std::vector<SoftParticle> Simulation::soft_particles() const {
+  return state_->damage.empty() ? std::vector<SoftParticle>{} : state_->damage.soft_particles();
+}
+
 void Simulation::law_field(std::string_view name, std::vector<double>& values) const {
   state_->law_memory.field(name, values);
 }

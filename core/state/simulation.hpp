@@ -18,6 +18,9 @@ namespace hyperlattice {
 
 class Archive;
 class ForceSums;
+struct DamageBounds;
+struct SettledDamage;
+struct SoftParticle;
 struct SoftSpring;
 
 /// The moving body. Results have the same bits for any number of threads.
@@ -106,6 +109,13 @@ class Simulation {
   void copy_damage(std::vector<double>& values) const;
   /// Returns the springs whose stiffness damage lowers, in the order of their ends.
   std::vector<SoftSpring> soft_springs() const;
+  std::vector<SoftParticle> soft_particles() const;
+  /// Finds the damage at rest for displacements other than the present ones (damage_field.hpp).
+  /// The state stays; apply_equilibrium() takes the damage over.
+  SettledDamage settle_damage(const std::vector<double>& xyz, const std::vector<double>& heights,
+                              const DamageBounds& bounds);
+  /// Forgets the damage that was found.
+  void forget_damage_search();
   /// Computes a field that laws give: the mean over each particle's base springs, which count by
   /// their share; not a number where no spring has the field.
   void law_field(std::string_view name, std::vector<double>& values) const;

@@ -32,13 +32,16 @@ void Statics::make_list() {
   }
   grid.springs = springs_;
   if (model_.nodal_volumes) grid.tetrahedra = model_.nodal_volumes->tetrahedra().all();
-  weight_.assign(springs_.size(), 1);
-  for (const Breakage& broken : simulation_.breakages())
-    if (!broken.softened) weight_[broken.neighbour] = 0;
   if (model_.springs.memory == 0) return;
   spring_memory_.resize(springs_.size());
   simulation_.for_springs_of_list(
       [&](const Simulation::SpringMemory& spring) { spring_memory_[spring.index] = spring; });
+}
+
+void Statics::find_listed_weights() {
+  weight_.assign(springs_.size(), 1);
+  for (const Breakage& broken : simulation_.breakages())
+    if (!broken.softened) weight_[broken.neighbour] = 0;
 }
 
 /// Adds the forces of nodal volumes and writes their tangents; returns their energy, J.

@@ -63,6 +63,8 @@ void Statics::make_loads() {
     });
   }
 
+  find_preload();
+
   holding_.assign(problem_.grid.numbers(), 0);
   Values external(holding_.size());
   add_loads(0, external.data());
@@ -76,6 +78,23 @@ void Statics::make_loads() {
   });
   add_loads(0, external.data());
   force_scale(force_.data(), external.data());
+}
+
+/// Finds the loads of the start over their change in the stage, for loads in one proportion; of
+/// prescribed displacements if some change, else of forces.
+void Statics::find_preload() {
+  double along = 0, square = 0;
+  const auto add = [&](double from, double to) {
+    along += from * (to - from);
+    square += (to - from) * (to - from);
+  };
+  for (const Held& held : held_)
+    for (int c = 0; c < 3; ++c)
+      if ((held.axes >> c & 1u) != 0) add(held.from[c], held.to[c]);
+  if (square == 0)
+    for (std::size_t l = 0; l < factor_end_.size(); ++l) add(factor_start_[l], factor_end_[l]);
+  if (square == 0) add(gravity_start_, 1);
+  preload_ = square > 0 ? std::max(0.0, along / square) : 0;
 }
 
 std::vector<double> Statics::factors(double share) const {

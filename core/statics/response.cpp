@@ -27,7 +27,8 @@ double Statics::respond(const double* u, double* force, const SpringTangents* ta
   const double energy =
       problem_.grid.listed ? respond_list(u, force, tangents) : respond_grid(u, force, tangents);
   if (tangents != nullptr && problem_.grid.components == 4) fill_alpha(*tangents);
-  return energy + hold_heights(u, force);
+  const double of_heights = hold_heights(u, force);
+  return energy + of_heights + (soft_.empty() ? 0 : respond_soft(u, force, tangents));
 }
 
 double Statics::respond_grid(const double* u, double* force, const SpringTangents* tangents) const {
@@ -156,35 +157,18 @@ double Statics::linearise(const AlikeSprings& alike, RowBuffers& buffer) const {
 
 double Statics::linearise_composite(const CompositeSpring& composite, const AlikeSprings& alike,
                                     RowBuffers& buffer) const {
-  const SpringRow& row = buffer.springs;
-  const auto difference = [&](std::size_t c) {
-    return row.here[c] == nullptr ? 0 : row.there[c][0] - row.here[c][0];
-  };
-  const Vec3 d{difference(0), difference(1), difference(2)};
-  const double in_space = dot(d, 2 * row.rest + d);
-  double energy = 0;
   const std::size_t kinds = model_.springs.choice.membrane == KernelChoice::Membrane::none ? 1 : 2;
-  for (std::size_t cross = 0; cross < kinds; ++cross) {
-    const double rise =
-        row.here[3] == nullptr ? 0 : row.there[3][0] + (cross == 0 ? -1 : 1) * row.here[3][0];
-    const double growth = in_space + rise * (cross == 0 ? rise : 2 * row.membrane_distance + rise),
-                 rest_length = cross == 0 ? row.rest_length : row.cross_rest_length,
-                 length = std::sqrt(rest_length * rest_length + growth);
+  return linearise_one(buffer, kinds, [&](std::size_t cross, double rest_length, double u) {
     const CompositeSpring::Spring spring{cross, alike.stiffness / alike.constants.stiffness,
-                                         rest_length, growth / (length + rest_length)};
+                                         rest_length, u};
     std::array<double, max_spring_memory> kept{};
     const Layout::Memory& memory = alike.memory[cross];
     for (std::uint32_t n = 0; n < model_.springs.memory; ++n)
       kept[n] = memory.first[n * memory.stride];
     const double tangent = composite.tangent(spring, kept.data());
     const CompositeAnswer answer = composite.take(spring, 0, kept.data());
-    const double pull = answer.force / length;
-    (cross == 0 ? row.pull : row.cross_pull)[0] = row.weight[0] * pull;
-    (cross == 0 ? row.axial : row.cross_axial)[0] =
-        row.weight[0] * (tangent - pull) * row.spacing * row.spacing / (length * length);
-    energy += row.weight[0] * answer.stored;
-  }
-  return energy;
+    return LinearisedSpring{answer.force, tangent, answer.stored};
+  });
 }
 
 /// Adds the forces of the alpha springs, of length Delta + 2 h, on the heights; returns their

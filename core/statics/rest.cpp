@@ -16,6 +16,7 @@ namespace hyperlattice {
 RestReport Statics::rest() {
   const StaticGrid& grid = problem_.grid;
   const Values before = state_, force_before = force_;
+  if (simulation_.broken() != broken_ || problem_.damages) read_springs();
   read_state(state_.data());
   respond(state_.data(), force_.data(), nullptr);
   Values external(force_.size());

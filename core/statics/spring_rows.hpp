@@ -4,6 +4,7 @@
 #include <hyperlattice/statics.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace hyperlattice {
@@ -102,6 +103,38 @@ inline void keep_tangents(const RowBuffers& row, bool has_heights, std::size_t a
       tangents.pull[at + t] = static_cast<float>(row.pull[t] + row.cross_pull[t]);
     }
   }
+}
+
+/// The answer of a spring to its elongation.
+struct LinearisedSpring {
+  double force = 0, tangent = 0, stored = 0;  ///< N, N/m and J
+};
+
+/// Linearises the one spring of a row and, with `kinds` = 2, its cross spring, whose answers are
+/// answer(cross, rest length, elongation). Returns their energy, J.
+template <class Answer>
+double linearise_one(RowBuffers& buffer, std::size_t kinds, const Answer& answer) {
+  const SpringRow& row = buffer.springs;
+  const auto difference = [&](std::size_t c) {
+    return row.here[c] == nullptr ? 0 : row.there[c][0] - row.here[c][0];
+  };
+  const Vec3 d{difference(0), difference(1), difference(2)};
+  const double in_space = dot(d, 2 * row.rest + d);
+  double energy = 0;
+  for (std::size_t cross = 0; cross < kinds; ++cross) {
+    const double rise =
+        row.here[3] == nullptr ? 0 : row.there[3][0] + (cross == 0 ? -1 : 1) * row.here[3][0];
+    const double growth = in_space + rise * (cross == 0 ? rise : 2 * row.membrane_distance + rise),
+                 rest_length = cross == 0 ? row.rest_length : row.cross_rest_length,
+                 length = std::sqrt(rest_length * rest_length + growth);
+    const LinearisedSpring found = answer(cross, rest_length, growth / (length + rest_length));
+    const double pull = found.force / length;
+    (cross == 0 ? row.pull : row.cross_pull)[0] = row.weight[0] * pull;
+    (cross == 0 ? row.axial : row.cross_axial)[0] =
+        row.weight[0] * (found.tangent - pull) * row.spacing * row.spacing / (length * length);
+    energy += row.weight[0] * found.stored;
+  }
+  return energy;
 }
 
 }  // namespace hyperlattice

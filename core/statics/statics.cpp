@@ -11,10 +11,6 @@ namespace hyperlattice {
 
 Statics::Statics(const Model& model, Simulation& simulation, double start, double end, int threads)
     : model_(model), simulation_(simulation), start_(start), end_(end) {
-  if (!simulation.soft_springs().empty())
-    throw RunError(
-        "damage has softened springs, and a search for rest does not know them yet: take an "
-        "explicit solver for the stages after the first crack");
   problem_.grid.listed = model.body.is_listed();
   if (problem_.grid.listed)
     make_list();
@@ -24,7 +20,7 @@ Statics::Statics(const Model& model, Simulation& simulation, double start, doubl
   const std::int64_t few = problem_.grid.listed ? 4096 : 65536;
   problem_.grid.threads = problem_.grid.places < few ? 1 : threads;
   if (problem_.grid.threads > 1) try_openmp_threads(problem_.grid.threads);
-  if (!problem_.grid.listed) make_weights();
+  read_springs();
   state_.assign(problem_.grid.numbers(), 0);
   force_.assign(problem_.grid.numbers(), 0);
   read_state(state_.data());
@@ -48,6 +44,16 @@ Statics::Statics(const Model& model, Simulation& simulation, double start, doubl
     return PluginCall::answer(
         0.0, [&] { return static_cast<Statics*>(self)->force_scale(internal, external); });
   };
+  problem_.damages = !model_.cohesive.empty();
+  problem_.grow_damage_at = [](void* self, const double* displacement,
+                               const DamageSearch& search) noexcept {
+    return PluginCall::answer(DamageFound{}, [&] {
+      return static_cast<Statics*>(self)->grow_damage(displacement, search);
+    });
+  };
+  problem_.restore_damage_at = [](void* self) noexcept {
+    PluginCall::answer([&] { static_cast<Statics*>(self)->restore_damage(); });
+  };
   problem_.position_of = [](void* self, std::int64_t place) noexcept {
     const auto& statics = *static_cast<const Statics*>(self);
     const StaticGrid& grid = statics.problem_.grid;
@@ -59,6 +65,17 @@ Statics::Statics(const Model& model, Simulation& simulation, double start, doubl
              static_cast<std::int32_t>(from % grid.plane / grid.row) + low.j,
              static_cast<std::int32_t>(from / grid.plane) + low.k});
   };
+}
+
+/// Reads which springs are there and which are soft.
+void Statics::read_springs() {
+  broken_ = simulation_.broken();
+  soft_.clear();
+  if (problem_.grid.listed)
+    find_listed_weights();
+  else
+    make_weights();
+  take_soft(simulation_.soft_springs(), simulation_.soft_particles());
 }
 
 void Statics::accept(double share, const double* displacement) {

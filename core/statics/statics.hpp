@@ -14,6 +14,8 @@
 namespace hyperlattice {
 
 struct RowBuffers;
+struct SoftParticle;
+struct SoftSpring;
 
 class Statics {
  public:
@@ -35,6 +37,8 @@ class Statics {
  private:
   using Values = std::vector<double, ArrayMemory<double>>;
 
+  void read_springs();
+
   // grid.cpp
   void make_grid();
   void make_weights();
@@ -52,6 +56,7 @@ class Statics {
 
   // list.cpp
   void make_list();
+  void find_listed_weights();
   double respond_list(const double* u, double* force, const SpringTangents* tangents) const;
   double respond_volumes(const double* u, double* force, const SpringTangents* tangents) const;
 
@@ -61,6 +66,14 @@ class Statics {
   /// their energy, J.
   double respond_cells(std::int64_t first, std::size_t count, const double* u, double* force,
                        const SpringTangents* tangents) const;
+
+  // soft_springs.cpp
+  /// Takes over the springs and particles that damage softens; their former ones return.
+  void take_soft(const std::vector<SoftSpring>& springs,
+                 const std::vector<SoftParticle>& particles);
+  DamageFound grow_damage(const double* displacement, const DamageSearch& search);
+  void restore_damage();
+  double respond_soft(const double* u, double* force, const SpringTangents* tangents) const;
 
   // response.cpp
   double respond_grid(const double* u, double* force, const SpringTangents* tangents) const;
@@ -97,6 +110,7 @@ class Statics {
 
   // load_path.cpp
   void make_loads();
+  void find_preload();
   void add_loads(double share, double* force) const;
   void prescribe(double share, double* u) const;
   double force_scale(const double* internal, const double* external);
@@ -116,6 +130,19 @@ class Statics {
   std::vector<float, ArrayMemory<float>> weight_;
   /// K_v times the share of the cell of each place, Pa; empty: no cells.
   Values cell_modulus_;
+  struct Soft {
+    std::int64_t place, step;  ///< of the first end, and on to the other
+    std::size_t at;            ///< in weight_
+    float weight;              ///< there, before it was softened
+    SpringProperties of;
+    double factor;
+  };
+  struct SoftAlpha {
+    std::int64_t place;
+    double lost;  ///< of its stiffness, N/m
+  };
+  std::vector<Soft> soft_;  ///< springs that respond_soft() computes
+  std::vector<SoftAlpha> soft_alphas_;
   std::vector<float> particle_weight_;  ///< fraction of a whole particle at each place
 
   Values state_;              ///< displacements, m
@@ -125,6 +152,8 @@ class Statics {
   Values holding_;            ///< further forces that hold the state at share 0 at rest, N
   std::vector<double> factor_start_, factor_end_;  ///< one per load
   double gravity_start_ = 1;
+  std::uint64_t broken_ = 0;  ///< springs when they were read last
+  double preload_ = 0;  ///< loads of the start over their change in the stage
   std::vector<double> mass_;  ///< at each place, kg; empty without body acceleration
   struct Loaded {
     std::int64_t place;

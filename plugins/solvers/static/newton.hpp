@@ -38,6 +38,8 @@ class Newton {
   /// the load. The first search takes full Newton steps; a second one, with a line search, follows
   /// if the first fails.
   Outcome solve_load_step(double share, Field& displacement);
+  /// Must be called before a search if the forces of the springs have changed since the last one.
+  void forget_tangent() { prepared_ = false; }
   const RestReport& report() const { return report_; }
   bool stopped() const { return stopped_; }  ///< whether the host stopped the search
 

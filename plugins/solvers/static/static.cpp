@@ -2,6 +2,7 @@
 //   F_springs(u) + F_loads = 0,
 // in load steps that are halved (cutback) if the method does not converge.
 #include "aggregated_system.hpp"
+#include "cracking.hpp"
 #include "factorised_system.hpp"
 #include "failure.hpp"
 #include "grid_system.hpp"
@@ -23,6 +24,8 @@ class Static {
     double tolerance = 1e-6;
     std::int64_t load_steps = 1, most_cutbacks = 10;
     std::optional<bool> stability;
+    double damage_step = 0.05;
+    bool snap_back = false;
     Preconditioner preconditioner = Preconditioner::automatic;
     std::optional<double> end_time;
   };
@@ -71,6 +74,18 @@ class Static {
                                   "one tangent is searched for a motion along which its "
                                   "stiffness is negative; left out: of structured lattices, as "
                                   "particles of a list that hang on two springs buckle alone")
+        .add<&Options::damage_step>(
+            "damage_step", "",
+            "of cohesive materials: largest growth of a particle's damage from one state of rest to "
+            "the next, which controls the load as cracks grow")
+        .above(0)
+        .at_most(1)
+        .fallback("0.05")
+        .add<&Options::snap_back>(
+            "snap_back", "",
+            "of cohesive materials: whether loads and time fall where a crack would run on under "
+            "loads that are held; if not, it runs to its next state of rest at once")
+        .fallback("false")
         .add<&Options::preconditioner>(
             "preconditioner", "",
             "of listed lattices: a factorisation of the tangent, whole or with no more entries "
@@ -94,6 +109,11 @@ class Static {
             ? 2200
             : 400;  // measured, set-up included: a compact grid takes 250, a slender one 550
     plan.bytes_per_site = facts.listed ? 11000 : 1300;
+    plan.grows_damage = true;
+    if (facts.damages) {  // measured: a particle's damage grows to 1 while its neighbours' do
+      plan.steps += static_cast<std::uint64_t>(3 / o_.damage_step);
+      plan.sweeps_per_step *= 20;
+    }
     return plan;
   }
 
@@ -103,7 +123,10 @@ class Static {
     if (problem == nullptr) return;
     const std::unique_ptr<statics::System> system = system_of(*problem);
     statics::Newton newton(
-        *system, host, {.tolerance = o_.tolerance, .stable = o_.stability.value_or(!facts.listed)});
+        *system, host,
+        {.tolerance = o_.tolerance,
+         .stable = o_.stability.value_or(!facts.listed && !problem->damages)});
+    statics::Cracking cracking(*problem, newton, o_.snap_back);
     statics::Field u(problem->state, problem->state + problem->grid.numbers());
     const double whole = 1 / static_cast<double>(o_.load_steps),
                  shortest = whole * std::exp2(-static_cast<double>(o_.most_cutbacks));
@@ -111,10 +134,14 @@ class Static {
     while (share < 1) {
       constexpr double nearly = 1e-9;
       const double next = share + length > 1 - nearly ? 1 : share + length;
-      const statics::Outcome found = newton.solve_load_step(next, u);
+      double reached = problem->damages ? share : next;
+      const statics::Outcome found =
+          problem->damages
+              ? cracking.solve_load_step(next, o_.damage_step * length / whole, reached, u)
+              : newton.solve_load_step(next, u);
       if (newton.stopped()) return;
       if (found.at_rest) {
-        share = next;
+        share = reached;
         length = std::min(whole, 2 * length);
         if (!host.accept(share, u.data()) || !host.report(newton.report()) || !host.observe())
           return;

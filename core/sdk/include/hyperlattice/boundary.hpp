@@ -99,10 +99,12 @@
   CROSSES(StaticSpring, a, b, rest)                                                                                                                   \
   CROSSES(StaticGrid, sites, row, plane, origin, places, components, spacing, membrane_distance, neighbours, rows, cells, listed, springs, tetrahedra, free, threads) \
   CROSSES(SpringTangents, axial, pull, cross_axial, cross_pull, alpha, cell_stiffness, cell_pressure, volume_stiffness, volume_pressure)                                             \
-  CROSSES(StaticProblem, self, grid, state, respond_to, load_at, prescribe_at, scale_of, position_of)                                                 \
+  CROSSES(DamageSearch, share, least_share, most_share, most_growth)                                                                                  \
+  CROSSES(DamageFound, share, change)                                                                                                                 \
+  CROSSES(StaticProblem, self, grid, state, respond_to, load_at, prescribe_at, scale_of, position_of, damages, grow_damage_at, restore_damage_at)                                                 \
   CROSSES(RestReport, residual, displacement_error, iterations)                                                                                       \
-  CROSSES(SolverFacts, start_time, critical_time_step, corners, sites_across, listed, nodal_volumes, remembers, answering)                             \
-  CROSSES(SolverPlan, end_time, time_step, stable_time_step, damping, steps, at_rest, resumes, bytes_per_site, sweeps_per_step)                       \
+  CROSSES(SolverFacts, start_time, critical_time_step, corners, sites_across, listed, nodal_volumes, remembers, damages, answering)                             \
+  CROSSES(SolverPlan, end_time, time_step, stable_time_step, damping, steps, at_rest, grows_damage, resumes, bytes_per_site, sweeps_per_step)                       \
   CROSSES(SolverHost, self, time, steps_done, take_step, show, open, take, measure_rest, stop_motion, set_damping_rate, show_rest, keep_motion)       \
   CROSSES(SolverFunctions, plan, run)                                                                                                                 \
   CROSSES(Field, components, values)                                                                                                                  \

@@ -16,6 +16,7 @@ struct SolverFacts {
   bool listed = false;              ///< the lattice is listed
   bool nodal_volumes = false;       ///< the particles of the list have volumetric energies
   bool remembers = false;  ///< a law has a memory, which advances with each accepted state of rest
+  bool damages = false;    ///< materials are cohesive: their damage grows
   bool answering = false;  ///< a load answers to the motion; statics() does not include such loads
 };
 
@@ -29,6 +30,8 @@ struct SolverPlan {
   /// The stage searches a state of rest: its steps are not steps in time, and time_step may be 0.
   /// Loads have their values at end_time.
   bool at_rest = false;
+  /// Of a search without steps in time: whether it grows the damage of cohesive materials.
+  bool grows_damage = false;
   /// Whether run() can continue in the middle of a stage, after SolverHost::steps_done steps.
   bool resumes = false;
   /// Memory that the solver needs besides the state, for each site of the body's box, bytes.

@@ -76,6 +76,22 @@ struct SpringTangents {
   float *volume_stiffness = nullptr, *volume_pressure = nullptr;
 };
 
+/// A search for the damage of cohesive materials that is at rest, for displacements that are.
+struct DamageSearch {
+  double share = 1;                         ///< fraction of the load that the displacements carry
+  double least_share = 0, most_share = 1;   ///< between which the search may choose
+  double most_growth = 1;  ///< largest growth of a particle's damage since the last accepted state
+};
+
+/// Its result.
+struct DamageFound {
+  /// The largest fraction of the load between the bounds at which damage has grown by no more than
+  /// `most_growth`, or the least if it grows by more there. The stress is taken to be in proportion
+  /// to the load; this holds where `share` is the fraction that was asked about.
+  double share = 1;
+  double change = 0;  ///< largest change of a particle's damage since the last search
+};
+
 /// A body in the form that a static solver needs.
 struct StaticProblem {
   void* self = nullptr;
@@ -87,6 +103,10 @@ struct StaticProblem {
   void (*prescribe_at)(void* self, double share, double* displacement) noexcept = nullptr;
   double (*scale_of)(void* self, const double* internal, const double* external) noexcept = nullptr;
   Vec3 (*position_of)(void* self, std::int64_t place) noexcept = nullptr;
+  bool damages = false;  ///< whether materials are cohesive
+  DamageFound (*grow_damage_at)(void* self, const double* displacement,
+                                const DamageSearch& search) noexcept = nullptr;
+  void (*restore_damage_at)(void* self) noexcept = nullptr;
 
   /// Computes the forces of the springs on every particle, N, held particles included, and the
   /// tangents if `tangents` is not null. Returns the stored energy, J.
@@ -105,6 +125,14 @@ struct StaticProblem {
   double force_scale(const double* internal, const double* external) const {
     return scale_of(self, internal, external);
   }
+  /// Finds the damage at rest under the stress of the displacements, never below that of the last
+  /// accepted state. respond() has this damage from then on, and accept() keeps it. Only with
+  /// `damages`.
+  DamageFound grow_damage(const double* displacement, const DamageSearch& search) const {
+    return grow_damage_at(self, displacement, search);
+  }
+  /// Returns to the damage of the last accepted state.
+  void restore_damage() const { restore_damage_at(self); }
   /// Returns the position at rest, m.
   Vec3 position(std::int64_t place) const { return position_of(self, place); }
 };

@@ -1,0 +1,200 @@
+// Damage between states of rest. For given displacements the damage at rest solves
+//   R(d) = g(d) q - (1 - d) + b^2 lap d = 0 where it grows, and R <= 0 where it does not,
+// with d at least that of the last accepted state. Its drive q is in proportion to the square of
+// the stress, so that a factor of the load can be found at which damage grows by a given amount:
+// an equation that has a solution also where the load must fall as cracks grow.
+#include <state/damage_field.hpp>
+#include <state/damage_growth.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyperlattice {
+
+namespace {
+
+/// The equations of the records that are driven, for projected over-relaxation in their order.
+class DamageEquations {
+ public:
+  struct Equation {
+    std::uint32_t record = 0;
+    double start = 0;  ///< least damage
+    double shape = 1, drive = 0;
+    double diagonal = 0;              ///< b^2 times the sum of the weights of its Laplacian
+    std::size_t first = 0, last = 0;  ///< its other particles
+  };
+
+  explicit DamageEquations(std::vector<double>& damage) : damage_(damage) {}
+  void add(const Equation& equation) {
+    all_.push_back(equation);
+    all_.back().first = others_.size();
+  }
+  /// Adds another particle of the last equation, with b^2 times its weight. none: without damage.
+  void add_other(std::uint32_t record, double weight) {
+    all_.back().diagonal += weight;
+    if (record != DamageRecords::none) others_.push_back({record, weight});
+    all_.back().last = others_.size();
+  }
+  bool empty() const { return all_.empty(); }
+
+  /// Solves for drives times `factor`^2. Returns the largest growth.
+  double solve(double factor) {
+    constexpr double over_relaxation = 1.7, solved = 1e-7;
+    constexpr int most_sweeps = 2000;
+    double growth = 0;
+    for (int n = 0; n < most_sweeps; ++n) {
+      double change = 0;
+      growth = 0;
+      for (const Equation& equation : all_) {
+        double& damage = damage_[equation.record];
+        double others = 0;
+        for (std::size_t o = equation.first; o < equation.last; ++o)
+          others += others_[o].weight * damage_[others_[o].record];
+        // The rate of a step of length 1 with this viscosity is the growth at rest.
+        DamageStep step;
+        step.damage = equation.start;
+        step.rate = damage - equation.start;
+        step.shape = equation.shape;
+        step.drive = factor * factor * equation.drive;
+        step.spread = others - equation.diagonal * equation.start;
+        step.viscosity = equation.diagonal;
+        step.time_step = 1;
+        const double target = equation.start + damage_rate(step),
+                     next = std::clamp(damage + over_relaxation * (target - damage), equation.start,
+                                       1.0);
+        change = std::max(change, std::abs(next - damage));
+        damage = next;
+        growth = std::max(growth, damage - equation.start);
+      }
+      if (change < solved) break;
+    }
+    return growth;
+  }
+
+  /// Solves for the largest factor between the bounds at which damage grows by no more than
+  /// `most_growth`, or for the least. Returns the factor.
+  double solve(const DamageBounds& bounds) {
+    constexpr double nearly = 1e-4;
+    constexpr int tries = 60;
+    struct End {
+      double factor;
+      double excess;  ///< of growth over the wanted one, relative
+      bool known = false;
+    } low{bounds.least_factor, -1}, high{bounds.most_factor, 1};
+    // At rest the factor is 1.
+    double factor = std::clamp(1.0, low.factor, high.factor), step = 0.01;
+    for (int n = 0; n < tries; ++n) {
+      const double excess = solve(factor) / bounds.most_growth - 1;
+      if (std::abs(excess) < nearly || (excess < 0 && factor >= high.factor) ||
+          (excess > 0 && factor <= low.factor))
+        return factor;
+      (excess < 0 ? low : high) = {factor, excess, true};
+      if (low.known && high.known) {  // a secant, or halves where nothing grows at the lower end
+        const double part =
+            low.excess > -1 ? std::clamp(low.excess / (low.excess - high.excess), 0.02, 0.98) : 0.5;
+        factor = low.factor + part * (high.factor - low.factor);
+      } else {
+        factor = std::clamp(factor * (excess < 0 ? 1 + step : 1 - step), low.factor, high.factor);
+        step = std::min(4 * step, 0.5);
+      }
+    }
+    return factor;
+  }
+
+ private:
+  struct Other {
+    std::uint32_t record;
+    double weight;
+  };
+  std::vector<double>& damage_;  // of each record
+  std::vector<Equation> all_;
+  std::vector<Other> others_;
+};
+
+}  // namespace
+
+SettledDamage DamageField::settle(const DamageBounds& bounds) {
+  double stretch = infinity, shortening = infinity;
+  for (const Cohesive& material : model_.cohesive) {
+    if (material.stage == nullptr) continue;
+    stretch = std::min(stretch, material.stretch_alarm);
+    shortening = std::min(shortening, material.shortening_alarm);
+  }
+  blocks_.team().for_each(blocks_.size(), [&](std::size_t b) { blocks_.exchange(blocks_[b]); });
+  blocks_.team().for_each(blocks_.size(),
+                          [&](std::size_t b) { watch(blocks_[b], stretch, shortening); });
+  follow_noted();
+
+  // The records get the damage of the search for its time, so that stresses are those of this
+  // damage.
+  const auto of_records = [this] {
+    std::vector<double> all(records_.numbers(), 0);
+    for (const std::uint32_t number : records_.order()) all[number] = records_.damage(number);
+    return all;
+  };
+  std::vector<double> accepted = of_records();
+  if (settled_.empty()) settled_ = accepted;
+  settled_.resize(records_.numbers(), 0);
+  for (const std::uint32_t number : records_.order()) records_.set_damage(number, settled_[number]);
+  records_.for_each([this](std::uint32_t record) { gather(record, Part::stress); });
+
+  SettledDamage found;
+  std::vector<double> damage = settled_;
+  for (std::size_t followed = 0; followed != records_.order().size();) {
+    followed = records_.order().size();
+    std::vector<std::uint32_t> driven;
+    driven.reserve(followed);
+    for (const std::uint32_t number : records_.order())
+      if (records_[number].material != nullptr && accepted[number] < 1) driven.push_back(number);
+    std::vector<double> ratios;
+    find_ratios(driven, ratios);
+    DamageEquations equations(damage);
+    for (std::size_t n = 0; n < driven.size(); ++n) {
+      const DamageRecord& record = records_[driven[n]];
+      const double in_spacings = record.material->length / model_.body.grid.spacing;
+      equations.add({driven[n], accepted[driven[n]], record.shape, ratios[n] * ratios[n]});
+      for (const DamageSpring& spring : record.springs())
+        if (spring.spread > 0)
+          equations.add_other(records_.of(spring.to), in_spacings * in_spacings * spring.spread);
+    }
+    found.factor = equations.empty() ? bounds.most_factor : equations.solve(bounds);
+    // The damaged zone must have records all around it.
+    std::vector<Particle> around;
+    for (const std::uint32_t number : driven)
+      if (damage[number] > 0)
+        for (const DamageSpring& spring : records_[number].springs()) around.push_back(spring.to);
+    const std::vector<std::uint32_t> added = records_.add(std::move(around));
+    accepted.resize(records_.numbers(), 0);
+    settled_.resize(records_.numbers(), 0);
+    damage.resize(records_.numbers(), 0);
+    for (const std::uint32_t number : added) {
+      accepted[number] = settled_[number] = damage[number] = 0;
+      gather(number, Part::stress);
+    }
+  }
+  for (const std::uint32_t number : records_.order()) {
+    if (damage[number] >= 1 - 1e-4) damage[number] = 1;
+    found.change = std::max(found.change, std::abs(damage[number] - settled_[number]));
+    records_.set_damage(number, damage[number]);
+    records_[number].marked = clock_.steps();
+  }
+  settled_ = std::move(damage);
+  found.springs = soft_springs();
+  found.particles = soft_particles();
+  for (const std::uint32_t number : records_.order()) records_.set_damage(number, accepted[number]);
+  return found;
+}
+
+void DamageField::accept_search() {
+  if (settled_.empty()) return;
+  for (const std::uint32_t number : records_.order()) {
+    records_[number].rests_until = 0;
+    records_[number].rate = 0;
+    note_elongations(number);
+  }
+  settled_.resize(records_.numbers(), 0);
+  set_damages(settled_);
+  settled_.clear();
+}
+
+}  // namespace hyperlattice

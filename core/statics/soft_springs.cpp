@@ -1,0 +1,103 @@
+// Springs that damage softens (state/damage_field.hpp): a factor of their stiffness remains, of a
+// base spring only while it is stretched. They are few, so that they are computed one by one.
+#include <state/damage_field.hpp>
+#include <statics/spring_rows.hpp>
+#include <statics/statics.hpp>
+
+#include <algorithm>
+
+namespace hyperlattice {
+
+namespace {
+
+/// Least part of a stiffness in the tangent, so that equations of particles of which nothing
+/// remains have a solution. Forces do not have it, so that states of rest do not depend on it.
+constexpr double least_tangent = 1e-6;
+
+}  // namespace
+
+void Statics::take_soft(const std::vector<SoftSpring>& springs,
+                        const std::vector<SoftParticle>& particles) {
+  for (const Soft& soft : soft_) weight_[soft.at] = soft.weight;
+  soft_.clear();
+  soft_alphas_.clear();
+  soft_.reserve(springs.size());
+  for (const SoftSpring& spring : springs) {
+    const std::int64_t place = place_of(spring.a);
+    const std::size_t at =
+        spring.neighbour * static_cast<std::size_t>(problem_.grid.places) +
+        static_cast<std::size_t>(place);
+    soft_.push_back({place, place_of(spring.b) - place, at, weight_[at],
+                     model_.spring_properties(spring.a, spring.b, spring.neighbour),
+                     spring.factor});
+    weight_[at] = 0;
+  }
+  soft_alphas_.reserve(particles.size());
+  for (const SoftParticle& soft : particles)
+    soft_alphas_.push_back({place_of(soft.particle),
+                            (1 - soft.alpha_factor) *
+                                model_.kinds.alphas[model_.kinds.of(soft.particle)] *
+                                model_.body.share(soft.particle)});
+}
+
+double Statics::respond_soft(const double* u, double* force,
+                             const SpringTangents* tangents) const {
+  const StaticGrid& grid = problem_.grid;
+  const std::size_t kinds = model_.springs.choice.membrane == KernelChoice::Membrane::none ? 1 : 2;
+  RowBuffers buffer(grid, 1);
+  SpringRow& row = buffer.springs;
+  row.count = 1;
+  double energy = 0;
+  for (const Soft& soft : soft_) {
+    buffer.weight[0] = soft.of.share;
+    row.rest = soft.of.rest;
+    row.rest_length = soft.of.rest_length_of(0);
+    row.cross_rest_length = soft.of.rest_length_of(1);
+    for (int c = 0; c < grid.components; ++c) {
+      row.here[c] = u + c * grid.places + soft.place;
+      row.there[c] = row.here[c] + soft.step;
+    }
+    energy += linearise_one(buffer, kinds, [&](std::size_t cross, double, double elongation) {
+      const bool degrades = cross == 1 || elongation > 0;
+      const double whole = soft.of.stiffness_of(cross),
+                   stiffness = degrades ? soft.factor * whole : whole;
+      return LinearisedSpring{stiffness * elongation, std::max(stiffness, least_tangent * whole),
+                          0.5 * stiffness * elongation * elongation};
+    });
+    add_forces(buffer, grid, grid.places, soft.step, force + soft.place);
+    if (tangents != nullptr)
+      keep_tangents(buffer, grid.components == 4, soft.at, *tangents);
+  }
+  for (const SoftAlpha& alpha : soft_alphas_) {
+    if (grid.components != 4) break;
+    const auto place = static_cast<std::size_t>(alpha.place);
+    const std::size_t height = 3 * static_cast<std::size_t>(grid.places) + place;
+    force[height] += 2 * alpha.lost * u[height];
+    energy -= alpha.lost * u[height] * u[height];
+    if (tangents != nullptr) tangents->alpha[place] -= static_cast<float>(2 * alpha.lost);
+  }
+  return energy;
+}
+
+DamageFound Statics::grow_damage(const double* displacement, const DamageSearch& search) {
+  const auto load = [&](double share) { return preload_ + share; };
+  DamageBounds bounds;
+  bounds.least_factor = load(search.least_share) / load(search.share);
+  bounds.most_factor = load(search.most_share) / load(search.share);
+  bounds.most_growth = search.most_growth;
+  const SettledDamage found = simulation_.settle_damage(
+      of_particles(displacement, 0, 3),
+      problem_.grid.components == 4 ? of_particles(displacement, 3, 1) : std::vector<double>(),
+      bounds);
+  take_soft(found.springs, found.particles);
+  return {std::clamp(found.factor * load(search.share) - preload_, search.least_share,
+                     search.most_share),
+          found.change};
+}
+
+void Statics::restore_damage() {
+  simulation_.forget_damage_search();
+  take_soft(simulation_.soft_springs(), simulation_.soft_particles());
+}
+
+}  // namespace hyperlattice
