@@ -36,7 +36,7 @@ TEST(CutCounts, ClosedSheetAroundAParticleMakesItLoose) {
   EXPECT_EQ(plan->body.parts.count, 2U);
   EXPECT_EQ(plan->body.parts.loose, 1U);
   EXPECT_EQ(plan->body.cut_springs, 18U);
-  EXPECT_EQ(plan->model->body.position(plan->body.parts.first_loose), Vec3(2.5, 2.5, 1.5));
+  EXPECT_EQ(plan->model->body.position(plan->body.parts.first_loose), (Vec3{2.5, 2.5, 1.5}));
   const std::string warning = loose_warning(plan->model->body, plan->body.parts);
   EXPECT_NE(warning.find("1 particle is without springs, the first at (2.5, 2.5, 1.5) m"),
             std::string::npos)

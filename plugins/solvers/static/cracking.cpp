@@ -1,5 +1,6 @@
 #include "cracking.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace hyperlattice::statics {
@@ -8,7 +9,9 @@ Outcome Cracking::solve_load_step(double most_share, double most_growth, double&
                                   Field& displacement) {
   constexpr int most_alternations = 1000;
   constexpr double still = 1e-4;  // changes of damage, and of the load over itself
+  constexpr double rough = 1e-4;  // residual while damage still changes
   constexpr double first_growth = 0.02;  // of a step: the first damage ends a step at the peak
+  const double tolerance = newton_.tolerance();
   const double least_share = follows_ ? 0 : share;
   const double growth = cracked_ ? most_growth : first_growth * most_growth;
   Field u = displacement;
@@ -17,7 +20,9 @@ Outcome Cracking::solve_load_step(double most_share, double most_growth, double&
   bool settled = false;
   for (int n = 0; n < most_alternations; ++n) {
     newton_.forget_tangent();
+    newton_.set_tolerance(settled ? tolerance : std::max(tolerance, rough));
     Outcome found = newton_.solve_load_step(at, u);
+    newton_.set_tolerance(tolerance);
     if (newton_.stopped()) return {};
     if (settled && found.at_rest) {
       cracked_ = cracked_ || at < most_share;

@@ -38,6 +38,8 @@ class Newton {
   /// the load. The first search takes full Newton steps; a second one, with a line search, follows
   /// if the first fails.
   Outcome solve_load_step(double share, Field& displacement);
+  double tolerance() const { return limits_.tolerance; }
+  void set_tolerance(double tolerance) { limits_.tolerance = tolerance; }
   /// Must be called before a search if the forces of the springs have changed since the last one.
   void forget_tangent() { prepared_ = false; }
   const RestReport& report() const { return report_; }

@@ -41,7 +41,7 @@ class Static {
         .restrictions(
             "Springs do not break during the stage; those beyond their limit at its end break in "
             "the first step in time that "
-            "follows. A law with a memory starts each load step with the memory of the last state "
+            "follows. The damage of cohesive materials grows between its states of rest. A law with a memory starts each load step with the memory of the last state "
             "of "
             "rest; the memory advances when the step is accepted, and no time passes for the law. "
             "A "
@@ -72,8 +72,9 @@ class Static {
         .add<&Options::stability>("stability", "",
                                   "whether states of rest must be stable: each that took more than "
                                   "one tangent is searched for a motion along which its "
-                                  "stiffness is negative; left out: of structured lattices, as "
-                                  "particles of a list that hang on two springs buckle alone")
+                                  "stiffness is negative; left out: of structured lattices "
+                                  "without cohesive materials, as particles of a list that hang on "
+                                  "two springs buckle alone")
         .add<&Options::damage_step>(
             "damage_step", "",
             "of cohesive materials: largest growth of a particle's damage from one state of rest to "
