@@ -278,6 +278,13 @@ std::vector<bool> crossed(const Body& body, std::span<const Cut> cuts, RegionInd
   return is_crossed;
 }
 
+void for_crossings(const Body& body, const Cut& cut, std::span<const Segment> segments,
+                   const std::function<void(std::size_t, const FlatPiece&)>& visit) {
+  const SegmentBins bins(body, segments);
+  for (const FlatPiece& piece : cut.surface.pieces)
+    for_crossed(body, bins, segments, piece, [&](std::size_t n) { visit(n, piece); });
+}
+
 void cut_springs(Model& model, RegionIndex& regions, Faults& faults) {
   const std::vector<Cut>& cuts = model.scene->of(Family::lattices).front()->cuts;
   if (cuts.empty()) return;

@@ -22,6 +22,11 @@ struct Segment {
 std::vector<bool> crossed(const Body& body, std::span<const Cut> cuts, RegionIndex& regions,
                           std::span<const Segment> segments);
 
+/// Calls visit(n, piece) for each crossing of segment n with a flat piece of the cut, piece by
+/// piece.
+void for_crossings(const Body& body, const Cut& cut, std::span<const Segment> segments,
+                   const std::function<void(std::size_t, const FlatPiece&)>& visit);
+
 /// Takes away the springs that the cuts of the model's lattice cross. The materials and the table
 /// of springs must be complete: their constants are those of the whole lattice. Adds a fault for
 /// each surface that crosses no spring, and a warning for lists of discs of which some cross none.

@@ -20,6 +20,12 @@ void Load::prepare(const WatchedMotion& motion) const {
   });
 }
 
+void Load::update(const WatchedMotion& motion, std::span<double> kept) const {
+  call(*stage, "update", [&](const Complaint& why) {
+    return stage->functions<LoadFunctions>().update(component.get(), motion, kept, why);
+  });
+}
+
 Vec3 Load::answer(const WatchedMotion& motion, std::size_t n) const {
   Vec3 force;
   call(*stage, "answer", [&](const Complaint& why) {

@@ -6,6 +6,8 @@
 #include <hyperlattice/load.hpp>
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -29,6 +31,7 @@ struct Load {
   std::vector<LoadedParticle> particles;  ///< ascending, each once
   std::vector<WatchedParticle> watched;   ///< in the order in which the load named them
   std::vector<double> corners;  ///< times of kinks and jumps of the factor, s; ascending, each once
+  std::uint64_t memory = 0;     ///< how many numbers the load keeps from one step to the next
   double frequency = 0;  ///< highest frequency at which the factor oscillates, Hz; 0: none declared
   Vec3 acceleration;
   // Each of these functions throws OutsideError if the load throws. They do not check for NaN; the
@@ -52,6 +55,8 @@ struct Load {
     return !watched.empty() && stage->functions<LoadFunctions>().prepare != nullptr;
   }
   void prepare(const WatchedMotion& motion) const;
+  /// Advances the load's memory after the answers to a motion.
+  void update(const WatchedMotion& motion, std::span<double> kept) const;
   /// Returns the force on the n-th watched particle, N.
   Vec3 answer(const WatchedMotion& motion, std::size_t n) const;
 

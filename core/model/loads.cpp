@@ -1,5 +1,6 @@
 #include <base/visible.hpp>
 #include <model/build.hpp>
+#include <model/load_view.hpp>
 
 #include <spdlog/fmt/fmt.h>
 
@@ -20,109 +21,6 @@ bool is_finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std:
 
 std::string axis_names(Axes axes) { return std::string(axis_set_names[axes - 1]); }
 
-/// Returns the distance from a particle to the shape, see LoadBody::gap().
-double gap_to_shape(const Body& body, Particle particle, Vec3 direction) {
-  if (body.grid.boundary != Boundary::partial_cells || body.grid.shape == nullptr) return 0;
-  const Shape& shape = *body.grid.shape;
-  const Vec3 start = body.position(particle);
-  const double spacing = body.grid.spacing;
-  constexpr double rounding = 1e-6;
-  for (const Vec3 normal : face_normals)
-    if (shape.contains(start) || shape.contains(start + rounding * spacing * normal)) return 0;
-  constexpr int steps = 64, halvings = 20;
-  double outside = 0, inside = infinity;
-  for (int n = 1; n <= steps && inside == infinity; ++n) {
-    const double far = 2 * spacing * n / steps;
-    (shape.contains(start + far * direction) ? inside : outside) = far;
-  }
-  for (int n = 0; n < halvings && inside < infinity; ++n) {
-    const double middle = 0.5 * (outside + inside);
-    (shape.contains(start + middle * direction) ? inside : outside) = middle;
-  }
-  return inside;
-}
-
-/// The body as one load sees it. It stores the id of a region that turned out to be empty.
-struct View {
-  const Model& model;
-  RegionIndex& regions;
-  std::optional<RegionId> empty;
-  std::map<std::uint32_t, std::vector<RestSpring>> springs;
-  bool springs_unknown = false;  ///< springs were asked for, but the materials have faults
-
-  std::span<const Particle> particles(RegionId region) {
-    const std::span<const Particle> found = regions.particles(region);
-    if (found.empty()) empty = region;
-    return found;
-  }
-
-  Particle existing(Particle particle) const {
-    if (particle >= model.body.particles)
-      throw PluginMistake("it asks about a particle that does not exist");
-    return particle;
-  }
-
-  /// Calls `code` and returns its result to the load, or `otherwise` if `code` throws.
-  template <class Result, class Code>
-  static Result answer(void* self, Result otherwise, Code&& code) noexcept {
-    return PluginCall::answer(otherwise,
-                              [&]() -> Result { return code(*static_cast<View*>(self)); });
-  }
-
-  LoadBody body() {
-    LoadBody seen;
-    seen.self = this;
-    seen.spacing = model.body.grid.spacing;
-    seen.rim = model.body.cells.empty() ? 0.5 * model.body.grid.spacing : 0;
-    seen.region_particles = [](void* self, RegionId region) noexcept {
-      return answer(self, std::span<const Particle>(),
-                    [&](View& view) { return view.particles(region); });
-    };
-    seen.particle_position = [](void* self, Particle particle) noexcept {
-      return answer(self, Vec3(),
-                    [&](View& view) { return view.model.body.position(view.existing(particle)); });
-    };
-    seen.particle_mass = [](void* self, Particle particle) noexcept {
-      return answer(self, 0.0, [&](View& view) {
-        // Masses are missing only if the materials have faults; then nothing runs.
-        return view.model.kinds.masses.empty() ? 0 : view.model.mass(view.existing(particle));
-      });
-    };
-    seen.particle_share = [](void* self, Particle particle) noexcept {
-      return answer(self, 1.0,
-                    [&](View& view) { return view.model.body.share(view.existing(particle)); });
-    };
-    seen.region_open_areas = [](void* self, RegionId region) noexcept {
-      return answer(self, std::span<const OpenArea>(), [&](View& view) {
-        return view.particles(region).empty() ? std::span<const OpenArea>()
-                                              : view.regions.open_areas(region);
-      });
-    };
-    seen.region_true_area = [](void* self, RegionId region) noexcept {
-      return answer(self, 0.0, [&](View& view) { return view.regions.true_area(region); });
-    };
-    seen.region_centre = [](void* self, RegionId region) noexcept {
-      return answer(self, Vec3(), [&](View& view) { return view.regions.centre(region); });
-    };
-    seen.particle_gap = [](void* self, Particle particle, Vec3 direction) noexcept {
-      return answer(self, 0.0, [&](View& view) {
-        return gap_to_shape(view.model.body, view.existing(particle), direction);
-      });
-    };
-    seen.region_springs = [](void* self, RegionId region) noexcept {
-      return answer(self, std::span<const RestSpring>(),
-                    [&](View& view) -> std::span<const RestSpring> {
-                      const auto [found, fresh] = view.springs.try_emplace(region.index);
-                      view.springs_unknown |= view.model.springs.constants.empty();
-                      if (fresh && !view.springs_unknown)
-                        found->second = springs_at(view.model, view.particles(region));
-                      return found->second;
-                    });
-    };
-    return seen;
-  }
-};
-
 /// Receives the declarations of one load and merges them for each particle.
 struct Collector {
   const Body& body;
@@ -132,6 +30,7 @@ struct Collector {
   std::map<Particle, Vec3> start_velocities{};
   std::vector<double> corners{};
   double frequency = 0;
+  std::uint64_t memory = 0;
   Vec3 acceleration{};
   std::vector<std::string> warnings{};
   std::uint64_t warned = 0;  ///< number of warnings, including those that are not kept
@@ -244,6 +143,13 @@ struct Collector {
         c.frequency = std::max(c.frequency, hertz);
       });
     };
+    to.receive_memory = [](void* self, std::uint64_t numbers) noexcept {
+      take(self, [&](Collector& c) {
+        constexpr std::uint64_t most = std::uint64_t{1} << 40;
+        if (numbers > most) throw std::length_error("it asks for more memory than there can be");
+        c.memory += numbers;
+      });
+    };
     return to;
   }
 };
@@ -331,11 +237,12 @@ void check_conflicts(Model& model, Faults& faults) {
 
 void add_loads(Model& model, RegionIndex& regions, Faults& faults) {
   std::map<Particle, Vec3> start_velocities;
+  TakenCuts taken;
   for (const Stage* stage : model.scene->of(Family::loads)) try {
       Load load;
       load.stage = stage;
       load.component = make_component(*stage);
-      View view{model, regions, std::nullopt, {}, false};
+      LoadView view(model, regions, *stage, taken);
       Collector collector{.body = model.body};
       const auto refused = refusal_of(*stage, "declare", [&](const Complaint& why) {
         return stage->functions<LoadFunctions>().declare(load.component.get(), view.body(),
@@ -351,7 +258,10 @@ void add_loads(Model& model, RegionIndex& regions, Faults& faults) {
       if (refused) throw objection(*model.scene, *stage, *refused);
       if (!collector.watched.empty() && stage->functions<LoadFunctions>().answer == nullptr)
         throw refusal(*stage, "it watches particles but has no answer");
+      if (collector.memory > 0 && stage->functions<LoadFunctions>().update == nullptr)
+        throw refusal(*stage, "it keeps numbers but has no update");
       load.watched = std::move(collector.watched);
+      load.memory = collector.memory;
       model.loads.answering |= !load.watched.empty();
       load.particles = in_order(collector.particles);
       load.acceleration = collector.acceleration;

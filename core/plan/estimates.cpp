@@ -143,7 +143,8 @@ void estimate_memory(Plan& plan) {
   for (const Load& load : model.loads)
     bytes +=
         static_cast<double>(load.particles.size() * sizeof(BoundaryParticle) +
-                            load.watched.size() * (sizeof(BoundaryParticle) + 2 * sizeof(Vec3)));
+                            load.watched.size() * (sizeof(BoundaryParticle) + 2 * sizeof(Vec3)) +
+                            load.memory * sizeof(double));
   for (const BlockLayout& block : layout->blocks)
     bytes += static_cast<double>(block.rows.size() * 2 * sizeof(Row));
 

@@ -29,6 +29,7 @@ ActingLoads::ActingLoads(BlockSet& blocks, const Clock& clock)
     const Load& load = model_.loads[l];
     acting_[l].displacement.resize(load.watched.size());
     acting_[l].velocity.resize(load.watched.size());
+    acting_[l].memory.resize(load.memory);
     for (const LoadedParticle& loaded : load.particles)
       acting_[l].moves |= (loaded.displaced | loaded.driven) != 0;
   }
@@ -42,6 +43,8 @@ void ActingLoads::rest(std::vector<double> factors, double gravity) {
 void ActingLoads::archive(Archive& archive) {
   archive(rest_factors_);
   archive(gravity_);
+  for (Acting& load : acting_)
+    if (!load.memory.empty()) archive(std::span(load.memory));
 }
 
 void ActingLoads::prepare(const Sweep& sweep) {
@@ -64,7 +67,7 @@ void ActingLoads::prepare(const Sweep& sweep) {
         now.now = load.limit(time, reach);
     }
     if (!rest_factors_.empty()) now.mean = rest_factors_[l];
-    now.motion = {time, now.mean, now.displacement, now.velocity};
+    now.motion = {time, now.mean, now.displacement, now.velocity, now.memory};
   }
 }
 
@@ -81,6 +84,12 @@ void ActingLoads::watch(const Block& block) {
 void ActingLoads::prepare_answers() {
   for (std::size_t l = 0; l < acting_.size(); ++l)
     if (model_.loads[l].prepares()) model_.loads[l].prepare(acting_[l].motion);
+}
+
+void ActingLoads::update_memory() {
+  for (std::size_t l = 0; l < acting_.size(); ++l)
+    if (Acting& now = acting_[l]; !now.memory.empty())
+      model_.loads[l].update(now.motion, now.memory);
 }
 
 /// Sets the external forces. Their components along prescribed axes move nothing and are kept

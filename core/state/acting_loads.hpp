@@ -34,6 +34,14 @@ class ActingLoads {
   void watch(const Block& block);
   /// Lets loads prepare their answers, after watch() of all blocks.
   void prepare_answers();
+  /// Lets loads advance their memory, after the answers of a step.
+  void update_memory();
+  /// Calls visit(number) for each number that loads keep, in the order of the loads.
+  template <class Visit>
+  void for_memory(const Visit& visit) const {
+    for (const Acting& load : acting_)
+      for (const double number : load.memory) visit(number);
+  }
   /// Sets the external forces on the block's boundary particles, and the velocities of those that
   /// loads move.
   void set_supports(Block& block, const Sweep& sweep) const;
@@ -68,6 +76,7 @@ class ActingLoads {
     Load::Limit now;          ///< of the load factor at the present time
     bool moves = false;       ///< whether the load prescribes motion
     std::vector<Vec3> displacement, velocity;
+    std::vector<double> memory;
     WatchedMotion motion;
   };
 

@@ -135,6 +135,7 @@ std::uint64_t Simulation::hash() const {
       add(std::bit_cast<std::uint64_t>(damage));
       add(std::bit_cast<std::uint64_t>(rate));
     });
+  state_->loads.for_memory([&](double number) { add(std::bit_cast<std::uint64_t>(number)); });
   return hash;
 }
 

@@ -129,7 +129,7 @@ class Simulation {
   /// Returns the largest distance of a particle from its start, m.
   double farthest() const;
   /// Returns an FNV-1a hash of displacements, velocities and living springs in the particles'
-  /// order, then of damage.
+  /// order, then of damage and of what loads keep.
   std::uint64_t hash() const;
   double bytes() const;  ///< of the state without scratch arrays
   double scratch_bytes() const;

@@ -36,6 +36,7 @@ void Sweeps::step(const Sweep& sweep) {
     count_work(block, sweep.before + sweep.after);
   });
   loads_.check_answers();
+  loads_.update_memory();
   if (!damage_.empty()) damage_.finish();
 }
 

@@ -45,6 +45,19 @@ const Case cases[] = {
                                       {"membrane", "none"},
                                       {"yield", "5 MPa"}};
      }},
+    {"friction",
+     [](json& scene) {
+       scene["pipeline"][lattice]["cuts"] = {
+           {{"plane", {{"point", {0, 0, 0.0105}}, {"normal", {0.2, 0.1, 1}}}}}};
+       scene["pipeline"][material] = {{"type", "materials.elastic"},
+                                      {"young", "10 GPa"},
+                                      {"poisson", 0.25},
+                                      {"density", 2500},
+                                      {"membrane", "none"}};
+       scene["pipeline"][3]["value"] = {0.3, 0, -0.3};
+       scene["pipeline"][4] = {{"type", "loads.friction"}, {"angle", "10 degrees"}};
+       scene["pipeline"][5]["end_time"] = "0.5 ms";
+     }},
     {"listed",
      [](json& scene) {
        scene["pipeline"].erase(4);  // the drag needs a surface with more springs

@@ -49,7 +49,7 @@ std::vector<Vec3> forces(const std::vector<Vec3>& places, const std::vector<Vec3
   o.grip = 0.2;
   Contact contact(o);
   contact.declare(bodies.body, bodies.sink);
-  const WatchedMotion motion{0, 1, moved, velocities};
+  const WatchedMotion motion{0, 1, moved, velocities, {}};
   contact.prepare(motion);
   std::vector<Vec3> found;
   for (std::size_t n = 0; n < places.size(); ++n) found.push_back(contact.answer(motion, n));

@@ -88,13 +88,14 @@
   CROSSES(FailureFunctions, alarm, review, asks_ends, asks_rate, memory, start, surface)                                                              \
   CROSSES(OpenArea, particle, area)                                                                                                                   \
   CROSSES(RestSpring, a, b, stiffness, share, rest_length, breakable)                                                                                 \
+  CROSSES(SeveredSpring, a, b, stiffness, rest, normal, crossing)                                                                                         \
   CROSSES(LoadBody, self, spacing, rim, region_particles, particle_position, particle_mass, particle_share, region_open_areas, region_true_area,      \
-          region_centre, region_springs, particle_gap)                                                                                                \
-  CROSSES(WatchedMotion, time, factor, displacement, velocity)                                                                                        \
+          region_centre, region_springs, particle_gap, region_cut_springs)                                                                                                \
+  CROSSES(WatchedMotion, time, factor, displacement, velocity, memory)                                                                                        \
   CROSSES(LoadStiffnessBound, stiffness, viscosity)                                                                                                             \
   CROSSES(LoadSink, self, receive_force, receive_displacement, receive_velocity, receive_acceleration, receive_start_velocity, receive_corner,        \
-          receive_watched, receive_warning, receive_frequency)                                                                                                                            \
-  CROSSES(LoadFunctions, declare, factor, answer, prepare)                                                                                            \
+          receive_watched, receive_warning, receive_frequency, receive_memory)                                                                                                                            \
+  CROSSES(LoadFunctions, declare, factor, answer, prepare, update)                                                                                            \
   CROSSES(StaticRow, begin, end)                                                                                                                      \
   CROSSES(StaticSpring, a, b, rest)                                                                                                                   \
   CROSSES(StaticGrid, sites, row, plane, origin, places, components, spacing, membrane_distance, neighbours, rows, cells, listed, springs, tetrahedra, free, threads) \

@@ -2,7 +2,7 @@
 // the load factor. The load declares them once, before the run. The core applies the mean of the
 // factor over each time step and counts the load's work. A load whose forces depend on the motion
 // also answers: it names the particles that it watches, and returns the force on each in every
-// step.
+// step. It may keep numbers from one step to the next, its memory.
 #pragma once
 
 #include <hyperlattice/component.hpp>
@@ -31,6 +31,15 @@ struct RestSpring {
   bool breakable = false;  ///< whether a failure criterion may remove the spring
 };
 
+/// A base spring that a cut of the lattice took away, with the cut's surface where it crosses.
+struct SeveredSpring {
+  Particle a = 0, b = 0;  ///< the normal points from the side of a to the side of b
+  double stiffness = 0;   ///< of the spring if it existed, with its share, N/m
+  Vec3 rest;              ///< from a to b at rest, m
+  Vec3 normal;            ///< of the surface, of length 1
+  Vec3 crossing;          ///< where the line from a to b meets the surface, m
+};
+
 /// The body as a load sees it.
 struct LoadBody {
   void* self = nullptr;
@@ -46,6 +55,8 @@ struct LoadBody {
   Vec3 (*region_centre)(void* self, RegionId region) noexcept = nullptr;
   std::span<const RestSpring> (*region_springs)(void* self, RegionId region) noexcept = nullptr;
   double (*particle_gap)(void* self, Particle particle, Vec3 direction) noexcept = nullptr;
+  std::span<const SeveredSpring> (*region_cut_springs)(void* self,
+                                                       RegionId region) noexcept = nullptr;
 
   /// Returns the particles of the region in ascending order. The core itself reports an empty
   /// region as an error; the load may then return without declaring anything.
@@ -80,6 +91,14 @@ struct LoadBody {
   double gap(Particle particle, Vec3 direction) const {
     return particle_gap(self, particle, direction);
   }
+  /// Returns the springs that cuts took away, with both ends in the region, each once, in the order
+  /// of a spring's first end and its neighbours. Where several surfaces cross a spring, it has the
+  /// first one. The normal of a region's border, which has no surface, is the mean direction of the
+  /// springs from a. Only for grids of base springs alone; the core itself reports other bodies, a
+  /// region without cut springs, and springs that another load has asked for, as errors.
+  std::span<const SeveredSpring> cut_springs(RegionId region) const {
+    return region_cut_springs(self, region);
+  }
 };
 
 /// Set of the displacement components that a constraint prescribes: bits 0 x, 1 y, 2 z.
@@ -101,6 +120,7 @@ struct WatchedMotion {
   std::span<const Vec3> displacement;  ///< metres
   std::span<const Vec3> velocity;  ///< m/s, half a step before `time`; forces that depend on it are
                                    ///< first-order accurate in the time step
+  std::span<const double> memory;  ///< what the load keeps, as it was after the last step
 };
 
 /// Bounds of the derivative of an answered force with the particle's displacement, N/m, and
@@ -124,6 +144,7 @@ struct LoadSink {
                           const LoadStiffnessBound& reaction) noexcept = nullptr;
   void (*receive_warning)(void* self, std::string_view sentence) noexcept = nullptr;
   void (*receive_frequency)(void* self, double hertz) noexcept = nullptr;
+  void (*receive_memory)(void* self, std::uint64_t numbers) noexcept = nullptr;
 
   /// Adds a force, N.
   void force(Particle particle, Vec3 amplitude) const { receive_force(self, particle, amplitude); }
@@ -155,6 +176,9 @@ struct LoadSink {
   }
   /// Watches a particle without a force on it. It takes a number among the watched particles.
   void look_at(Particle particle) const { receive_watched(self, particle, false, {}); }
+  /// Lets the load keep so many numbers from one step to the next; all start at zero. They are part
+  /// of the state: checkpoints and the state's hash hold them.
+  void remember(std::uint64_t numbers) const { receive_memory(self, numbers); }
   /// Warns of input that is allowed, but probably a mistake.
   void warn(std::string_view sentence) const { receive_warning(self, sentence); }
 };
@@ -170,6 +194,8 @@ struct LoadFunctions {
   bool (*prepare)(void* load, const WatchedMotion& motion,
                   const Complaint& why) noexcept;  ///< called before the answers to a motion; null:
                                                    ///< nothing to prepare
+  bool (*update)(const void* load, const WatchedMotion& motion, std::span<double> memory,
+                 const Complaint& why) noexcept;  ///< null: the load has no memory
 };
 
 /// A load class has: void declare(const LoadBody&, const LoadSink&), called once, which throws if
@@ -186,6 +212,10 @@ concept LoadComponent = requires(T& load, const LoadBody& body, const LoadSink& 
 /// depend on nothing but its arguments. The core does not multiply the answer by the load factor.
 /// The load may have void prepare(const WatchedMotion&), which one thread calls once before the
 /// answers to a motion. Answers must not depend on earlier answers.
+///
+/// A load with a memory (LoadSink::remember) also has void update(const WatchedMotion&,
+/// std::span<double> memory) const. One thread calls it once in each step, after the answers to the
+/// motion, which saw the memory of before. Measurements ask for answers too, and update nothing.
 template <class T>
 concept AnsweringLoad = LoadComponent<T> && requires(const T& load, const WatchedMotion& motion) {
   { load.answer(motion, std::size_t{}) } -> std::convertible_to<Vec3>;
@@ -214,6 +244,19 @@ constexpr auto prepare_of() -> decltype(LoadFunctions::prepare) {
 }
 
 template <LoadComponent T>
+constexpr auto update_of() -> decltype(LoadFunctions::update) {
+  if constexpr (requires(const T& load, const WatchedMotion& motion, std::span<double> memory) {
+                  load.update(motion, memory);
+                })
+    return [](const void* load, const WatchedMotion& motion, std::span<double> memory,
+              const Complaint& why) noexcept {
+      return guarded(why, [&] { static_cast<const T*>(load)->update(motion, memory); });
+    };
+  else
+    return nullptr;
+}
+
+template <LoadComponent T>
 struct FunctionsOf<T> {
   static constexpr Family family = Family::loads;
   static constexpr LoadFunctions table{
@@ -223,7 +266,7 @@ struct FunctionsOf<T> {
       [](const void* load, double time, double& factor, const Complaint& why) noexcept {
         return guarded(why, [&] { factor = static_cast<const T*>(load)->factor(time); });
       },
-      answer_of<T>(), prepare_of<T>()};
+      answer_of<T>(), prepare_of<T>(), update_of<T>()};
 };
 }  // namespace detail
 }  // namespace hyperlattice
