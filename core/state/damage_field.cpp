@@ -168,7 +168,7 @@ void DamageField::update(double time_step) {
     const double before = records_.damage(record), now = next_[record];
     if (now == before) continue;
     const double remained = records_.remaining(record);
-    records_.set_damage(record, now);
+    records_.grow_to(record, now, clock_.time());
     if (before == 0) damaged.push_back(record);
     if (remained == 1 && records_.remaining(record) < 1) soft_.push_back(record);
     if (remained > 0 && records_.remaining(record) == 0) ended_.push_back(record);

@@ -10,6 +10,7 @@
 
 #include <state/clock.hpp>
 #include <state/damage_records.hpp>
+#include <state/soft_spring.hpp>
 
 #include <hyperlattice/kernel_request.hpp>
 
@@ -17,14 +18,6 @@
 #include <vector>
 
 namespace hyperlattice {
-
-/// A spring that the field computes. The stiffness of a cross spring has the factor, that of a base
-/// spring too if it is stretched.
-struct SoftSpring {
-  Particle a = 0, b = 0;        ///< a is the first end
-  std::uint32_t neighbour = 0;  ///< see Model::spring_properties
-  double factor = 1;
-};
 
 class DamageField {
  public:
@@ -56,6 +49,10 @@ class DamageField {
   }
   /// Sets the damage of the particles of cohesive materials, and leaves the others.
   void copy_damage(std::vector<double>& values) const;
+  /// Computes the fields crack_opening, m, and crack_time, s, of all particles. Without cohesive
+  /// materials they are 0 and NaN.
+  void copy_openings(std::vector<double>& values) const;
+  void copy_crack_times(std::vector<double>& values) const;
   /// Calls visit(particle, damage, rate) for the particles with damage in their order.
   template <class Visit>
   void for_damaged(const Visit& visit) const {
@@ -83,6 +80,7 @@ class DamageField {
   void note(Block& block, Particle particle) const;
   bool rests(const DamageRecord& record) const;
   bool touches_damage(const DamageRecord& record) const;
+  double opening(std::uint32_t number) const;
 
   /// A particle without damage is followed this long after its last note.
   static constexpr std::uint64_t steps_followed = 64;

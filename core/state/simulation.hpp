@@ -104,6 +104,10 @@ class Simulation {
   std::vector<WeakenedSpring> weakened_springs() const;
   /// Sets the damage of the particles of cohesive materials, and leaves the others' values.
   void copy_damage(std::vector<double>& values) const;
+  /// Compute the fields crack_opening, m, and crack_time, s, of all particles; 0 and NaN where no
+  /// material is cohesive.
+  void crack_openings(std::vector<double>& values) const;
+  void crack_times(std::vector<double>& values) const;
   /// Returns the springs whose stiffness damage lowers, in the order of their ends.
   std::vector<SoftSpring> soft_springs() const;
   /// Computes a field that laws give: the mean over each particle's base springs, which count by
