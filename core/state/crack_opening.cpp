@@ -6,19 +6,36 @@
 // to 1 - f. The opening per spacing is the gradient that fits the openings o of the half springs
 // R / 2 by least squares,
 //   G = 2 (sum k o (x) R) (sum k R (x) R)^-1.
-// For a crack along a lattice plane the sum of G over the planes is the jump of displacements, less
-// what is elastic in it, whatever its size.
+// Its trace is the opening along the normal of a crack, and 0 for a slip inside a body. For a crack
+// along a lattice plane the sum over the planes is the jump of displacements, less what is elastic
+// in it, whatever its size. Springs at a surface make components of G off the diagonal, not of the
+// trace.
 #include <state/damage_field.hpp>
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <span>
 
 namespace hyperlattice {
 
 namespace {
 
-Eigen::Vector3d vector(Vec3 of) { return {of.x, of.y, of.z}; }
+/// The least-squares fit of a gradient of deformation to springs.
+struct Fit {
+  Eigen::Matrix3d moved = Eigen::Matrix3d::Zero(), rests = moved;
+
+  void add(double weight, const Eigen::Vector3d& present, const Eigen::Vector3d& rest) {
+    moved += weight * present * rest.transpose();
+    rests += weight * rest * rest.transpose();
+  }
+  /// Bodies of one layer or one row of particles have springs along two axes or one.
+  Eigen::Matrix3d inverse() const {
+    return rests.completeOrthogonalDecomposition().pseudoInverse();
+  }
+  Eigen::Matrix3d gradient() const { return moved * inverse(); }
+};
 
 /// Returns the rotation that is nearest to a gradient of deformation, of any rank.
 Eigen::Matrix3d rotation_of(const Eigen::Matrix3d& gradient) {
@@ -35,37 +52,46 @@ double DamageField::opening(std::uint32_t number) const {
   const DamageRecord& record = records_[number];
   const double own = records_.remaining(number);
   if (own == 1) return 0;
-  const auto exists = [&](const DamageSpring& spring) {
-    return spring.present && (spring.handed_over || records_.exists(record, spring));
+  struct Line {
+    Eigen::Vector3d rest, present;    // m
+    double stiffness = 0, other = 1;  // N/m; omega of the other end
+    bool stretched = false;
   };
-  const auto jump = [&](const DamageSpring& spring) {
+  std::array<Line, DamageRecord::most_springs> all;
+  std::size_t count = 0;
+  for (const DamageSpring& spring : record.springs()) {
+    if (!spring.present || !(spring.handed_over || records_.exists(record, spring))) continue;
     const Block &here = blocks_[record.block], &there = blocks_[spring.block];
-    Eigen::Vector3d d;
-    for (int c = 0; c < 3; ++c)
-      d[c] = there.displacement[c][spring.index] - here.displacement[c][record.index];
-    return d;
-  };
-  Eigen::Matrix3d rests = Eigen::Matrix3d::Zero(), moved = rests, opened = rests;
-  for (const DamageSpring& spring : record.springs()) {
-    if (!exists(spring)) continue;
-    const Eigen::Vector3d rest = vector(spring.rest);
-    rests += spring.stiffness[0] * rest * rest.transpose();
-    moved += spring.stiffness[0] * (rest + jump(spring)) * rest.transpose();
+    Line& line = all[count++];
+    for (int c = 0; c < 3; ++c) {
+      line.rest[c] = spring.rest[static_cast<std::size_t>(c)];
+      line.present[c] =
+          line.rest[c] + (there.displacement[c][spring.index] - here.displacement[c][record.index]);
+    }
+    line.stiffness = spring.stiffness[0];
+    line.other = records_.remaining_of(spring.to);
+    line.stretched = line.present.squaredNorm() > line.rest.squaredNorm();
   }
-  // Bodies of one layer or one row of particles have springs along two axes or one.
-  const Eigen::Matrix3d inverse = rests.completeOrthogonalDecomposition().pseudoInverse();
-  const Eigen::Matrix3d rotation = rotation_of(moved * inverse);
-  for (const DamageSpring& spring : record.springs()) {
-    const Eigen::Vector3d rest = vector(spring.rest), r = rest + jump(spring);
-    if (!exists(spring) || !(r.squaredNorm() > rest.squaredNorm())) continue;
-    const double other = records_.remaining_of(spring.to),
-                 part = own + other > 0 ? (1 - own) * other / (own + other) : 0.5;
-    opened += 2 * part * spring.stiffness[0] * (r - rotation * rest) * rest.transpose();
+  const std::span<const Line> lines(all.data(), count);
+  // The rotation is that of the springs that hold the particle, if any does.
+  constexpr double least_weight = 1e-6;
+  Fit whole, held;
+  for (const Line& line : lines) {
+    const double sum = own + line.other, factor = !line.stretched ? 1
+                                                  : sum > 0       ? 2 * own * line.other / sum
+                                                                  : 0;
+    whole.add(line.stiffness, line.present, line.rest);
+    held.add(line.stiffness * std::max(factor, least_weight), line.present, line.rest);
   }
-  const Eigen::Matrix3d gradient = rotation.transpose() * opened * inverse;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(
-      (gradient + gradient.transpose()) / 2, Eigen::EigenvaluesOnly);
-  return std::max(0.0, principal.eigenvalues()[2]) * model_.body.grid.spacing;
+  const Eigen::Matrix3d rotation = rotation_of(held.gradient()), inverse = whole.inverse();
+  double trace = 0;
+  for (const Line& line : lines) {
+    if (!line.stretched) continue;
+    const double sum = own + line.other, part = sum > 0 ? (1 - own) * line.other / sum : 0.5;
+    trace += 2 * part * line.stiffness *
+             (rotation.transpose() * line.present - line.rest).dot(inverse * line.rest);
+  }
+  return std::max(0.0, trace) * model_.body.grid.spacing;
 }
 
 void DamageField::copy_openings(std::vector<double>& values) const {

@@ -44,7 +44,10 @@ struct Bar {
   std::unique_ptr<Plan> plan;
   std::unique_ptr<Simulation> simulation;
 
-  Bar(int half_length, double poisson, double length, const std::string& precision, int threads = 1)
+  /// `confined`: its particles do not move along y and z, as in a wide plate, so that its modulus
+  /// is C11.
+  Bar(int half_length, double poisson, double length, const std::string& precision, int threads = 1,
+      bool confined = false)
       : half(half_length) {
     const double end = mm(2 * half);
     plan = plan_of(
@@ -66,8 +69,8 @@ struct Bar {
                                      {"axes", "x"},
                                      {"value", Vec3{speed(end), 0, 0}},
                                      {"rise", 0.1 * time(end)}})
-            .load("loads.fixed", {{"on", "y_min"}, {"axes", "y"}})
-            .load("loads.fixed", {{"on", "z_min"}, {"axes", "z"}})
+            .load("loads.fixed", {{"on", confined ? "all" : "y_min"}, {"axes", "y"}})
+            .load("loads.fixed", {{"on", confined ? "all" : "z_min"}, {"axes", "z"}})
             .solver("solvers.explicit", {{"end_time", 1}})
             .text(),
         threads);
