@@ -23,7 +23,7 @@ namespace hyperlattice {
 namespace {
 
 /// The least-squares fit of a gradient of deformation to springs.
-struct Fit {
+struct GradientFit {
   Eigen::Matrix3d moved = Eigen::Matrix3d::Zero(), rests = moved;
 
   void add(double weight, const Eigen::Vector3d& present, const Eigen::Vector3d& rest) {
@@ -75,11 +75,9 @@ double DamageField::opening(std::uint32_t number) const {
   const std::span<const Line> lines(all.data(), count);
   // The rotation is that of the springs that hold the particle, if any does.
   constexpr double least_weight = 1e-6;
-  Fit whole, held;
+  GradientFit whole, held;
   for (const Line& line : lines) {
-    const double sum = own + line.other, factor = !line.stretched ? 1
-                                                  : sum > 0       ? 2 * own * line.other / sum
-                                                                  : 0;
+    const double sum = own + line.other, factor = sum > 0 ? 2 * own * line.other / sum : 0;
     whole.add(line.stiffness, line.present, line.rest);
     held.add(line.stiffness * std::max(factor, least_weight), line.present, line.rest);
   }

@@ -97,21 +97,21 @@ TEST(CrackOpening, OfARowOfABarIsItsGrowthLessTheElasticPart) {
   const RowErrors found = pull(bar);
   EXPECT_GT(found.stages, 20);
   EXPECT_LT(found.softening, 0.03);
-  EXPECT_LT(found.separated, 0.003);
+  EXPECT_LT(found.separated, 0.005);
   const double apart = 5 * spacing, before = bar.growth();
   separate(bar, apart);
   const std::vector<double> far = openings(*bar.simulation);
   for (const double sum : rows_of(bar, far)) EXPECT_NEAR(sum, before + apart, 1e-3 * apart);
   turn(*bar.plan->model, *bar.simulation);
   const std::vector<double> turned = openings(*bar.simulation);
-  for (std::size_t p = 0; p < far.size(); ++p) EXPECT_NEAR(turned[p], far[p], 1e-9 * spacing) << p;
+  for (std::size_t p = 0; p < far.size(); ++p) EXPECT_NEAR(turned[p], far[p], 1e-6 * spacing) << p;
 }
 
 // The membrane's cross springs soften in both signs, and carry a part of the stress.
 TEST(CrackOpening, OfARowOfABarWithAMembraneToo) {
   const RowErrors found = pull(Bar(8, 0.2, 3e-3, "double", 1, true));
   EXPECT_LT(found.softening, 0.03);
-  EXPECT_LT(found.separated, 0.003);
+  EXPECT_LT(found.separated, 0.005);
 }
 
 // The time is that of the step in which an observer sees the damage pass its bound.
