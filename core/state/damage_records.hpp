@@ -62,8 +62,8 @@ struct DamageRecord {
   double rate = 0;                     ///< of damage in the last step, 1/s
   /// Time, s, of the state in which damage first reached `cracked`; NaN: it has not.
   double crack_time = std::numeric_limits<double>::quiet_NaN();
-  std::uint64_t marked = 0;            ///< step in which a spring was last above its alarm
-  std::uint64_t rests_until = 0;       ///< step of the next evaluation, see DamageField
+  std::uint64_t marked = 0;       ///< step in which a spring was last above its alarm
+  std::uint64_t rests_until = 0;  ///< step of the next evaluation, see DamageField
   /// For a particle whose cells are not symmetric; null: its virial is its stress.
   std::unique_ptr<const VirialCorrection> correction;
 
