@@ -15,8 +15,8 @@
 
 namespace hyperlattice {
 
-/// A flat piece of a surface: an endless plane, or the part of one within an outline. A crossing on
-/// the outline counts as inside.
+/// A flat piece of a surface: a whole plane, or the part of a plane inside an outline. A line that
+/// meets the plane on the outline crosses the piece too.
 struct FlatPiece {
   /// A facet is a polygon that others of a sheet continue.
   enum class Outline { none, circle, polygon, facet };

@@ -82,11 +82,17 @@ void check_length(const Model& model, const Cohesive& of, Faults& faults) {
     // the spacing and the strength whose longest length has enough spacings
     const double unit = (longest + lattice_energy * spacing),
                  most = unit / (enough + lattice_energy);
+    const std::string reason =
+        longest > 0 ? fmt::format(
+                          "the length of damage is at most {:.4g} m, and must be at least "
+                          "{:g} spacings or allow_coarse true",
+                          longest, enough)
+                    : std::string("no length of damage fits");
     faults.add(of.stage->pointer + "/strength", fmt::format("{:.6g} Pa", of.strength),
-               fmt::format("at most {:.4g} Pa, or a spacing of at most {:.4g} m{}: the length "
-                           "of damage must be at least {:g} spacings and at most {:.4g} m",
-                           of.strength * std::sqrt(most / spacing), most, scatter, enough,
-                           std::max(longest, 0.0)));
+               fmt::format("at most {:.4g} Pa, or a spacing of at most {:.4g} m, or a "
+                           "fracture_energy of at least {:.4g} J/m2{}: with those of this scene {}",
+                           of.strength * std::sqrt(most / spacing), most,
+                           of.fracture_energy * spacing / most, scatter, reason));
     return;
   }
   if (of.length > longest * (1 + round_off))

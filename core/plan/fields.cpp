@@ -47,6 +47,8 @@ bool has_field(const Model& model, std::string_view name) {
       return model.degrees_of_freedom == 4;
     case FieldNeeds::failure:
       return model.springs.breakable || model.springs.softens;
+    case FieldNeeds::damage:
+      return !model.cohesive.empty();
     default:
       return true;
   }

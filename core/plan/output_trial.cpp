@@ -11,6 +11,7 @@
 #include <process/lack_of_memory.hpp>
 #include <process/room.hpp>
 #include <scene/stage_call.hpp>
+#include <state/crack_faces.hpp>
 
 #include <hyperlattice/output.hpp>
 
@@ -61,6 +62,13 @@ class BodyAtRest {
         const PlaneSection section =
             cut(rest.model_, point, normal, rest.regions_.particles(region));
         return Section{{}, section.springs.size(), section.area};
+      });
+    };
+    context.get_cut_faces = [](void* self) noexcept {
+      return PluginCall::answer(std::span<const CrackFace>(), [&] {
+        auto& rest = *static_cast<BodyAtRest*>(self);
+        if (rest.cut_faces_.empty()) rest.cut_faces_ = cut_faces(rest.model_);
+        return std::span<const CrackFace>(rest.cut_faces_);
       });
     };
     context.use_field = [](void* self, std::string_view name) noexcept {
@@ -124,6 +132,7 @@ class BodyAtRest {
   std::vector<std::string_view> fields_;
   std::vector<RegionId> asked_;
   std::vector<std::string> used_;
+  std::vector<CrackFace> cut_faces_;
   std::vector<double> positions_;
   std::map<std::uint32_t, std::vector<double>> zeros_;  ///< by number of components
 };
@@ -214,7 +223,8 @@ class ParticleSample {
                      [this](Particle particle) { return model_.body.listed.source[particle]; });
     else if (name == "displacement" || name == "height")
       fill(values, 1e-3 * model_.body.grid.spacing);
-    else if (field_of(model_, name)->needs != FieldNeeds::failure)
+    else if (const FieldNeeds needs = field_of(model_, name)->needs;
+             needs != FieldNeeds::failure && needs != FieldNeeds::damage)
       fill(values, 1.0);
     field.values = values;
     return true;

@@ -65,8 +65,9 @@ void plan_stages(Plan& plan, Faults& faults) {
       check_plan(*stage, planned);
     const bool is_static = planned.plan.at_rest && planned.plan.time_step == 0;
     if (!refused && is_static && facts.damages && !planned.plan.grows_damage)
-      faults.add(stage->pointer, stage->component->type(),
-                 "a solver that lets damage grow between states of rest, or one that steps in time");
+      faults.add(
+          stage->pointer, stage->component->type(),
+          "a solver that lets damage grow between states of rest, or one that steps in time");
     if (!refused) start = planned.plan.end_time;
     plan.stages.push_back(std::move(planned));
   }

@@ -4,6 +4,7 @@
 #include <run/outputs.hpp>
 #include <scene/stage_call.hpp>
 #include <state/archive.hpp>
+#include <state/crack_faces.hpp>
 #include <state/force_sums.hpp>
 
 #include <spdlog/spdlog.h>
@@ -41,6 +42,7 @@ void Outputs::archive(Archive& archive) {
 
 void Outputs::begin() {
   for (Output& output : outputs_) begin(output);
+  cut_faces_ = {};
   source_.renew();
   const bool any = std::any_of(outputs_.begin(), outputs_.end(), [](const Output& output) {
     return output.table == nullptr && !output.fields.empty();
@@ -127,6 +129,13 @@ OutputContext Outputs::context_of(Output& output) const {
       const Output& writer = *static_cast<Output*>(self);
       writer.owner->announce(writer, file, rewritten);
       return true;
+    });
+  };
+  context.get_cut_faces = [](void* self) noexcept {
+    return PluginCall::answer(std::span<const CrackFace>(), [&] {
+      auto& owner = *static_cast<Output*>(self)->owner;
+      if (owner.cut_faces_.empty()) owner.cut_faces_ = cut_faces(owner.model_);
+      return std::span<const CrackFace>(owner.cut_faces_);
     });
   };
   context.use_field = [](void* self, std::string_view name) noexcept {

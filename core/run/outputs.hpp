@@ -67,6 +67,7 @@ class Outputs {
   RunFolder& folder_;
   int threads_;
   std::vector<std::string_view> fields_;  ///< of this run
+  std::vector<CrackFace> cut_faces_;      ///< while outputs begin, if one asks for them
   std::list<Output> outputs_;
   RegionIndex regions_;
   ActedParticles acted_;

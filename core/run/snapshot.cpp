@@ -89,6 +89,8 @@ SnapshotSource::Compute SnapshotSource::function_of(std::string_view name) {
       {"broken_open", &SnapshotSource::broken_open},
       {"broken_closed", &SnapshotSource::broken_closed},
       {"damage", &SnapshotSource::damage},
+      {"crack_opening", &SnapshotSource::crack_opening},
+      {"crack_time", &SnapshotSource::crack_time},
       {"fragment", &SnapshotSource::fragment},
       {"stress", &SnapshotSource::stress},
       {"nominal_stress", &SnapshotSource::nominal_stress},

@@ -54,6 +54,8 @@ class SnapshotSource {
   void broken_open(std::vector<double>& numbers) { count_broken(numbers, true); }
   void broken_closed(std::vector<double>& numbers) { count_broken(numbers, false); }
   void damage(std::vector<double>& numbers);
+  void crack_opening(std::vector<double>& numbers) { simulation_.crack_openings(numbers); }
+  void crack_time(std::vector<double>& numbers) { simulation_.crack_times(numbers); }
   void fragment(std::vector<double>& numbers);
   void stress(std::vector<double>& numbers);
   void nominal_stress(std::vector<double>& numbers);

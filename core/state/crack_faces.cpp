@@ -11,6 +11,21 @@ namespace hyperlattice {
 
 namespace {
 
+/// A spring at rest.
+struct Geometry {
+  Vec3 rest;  ///< from the first end to the other one, m
+  std::uint32_t spring_class = 0;
+  double share = 1;
+};
+
+/// Returns a spring that a cut took away; see Body::for_cut_springs.
+Geometry geometry_of_cut(const Model& model, Particle a, Particle b, std::uint32_t neighbour) {
+  const Body& body = model.body;
+  if (body.is_listed()) return {body.position(b) - body.position(a), 0, 1};
+  const NeighbourGeometry& to = model.springs.neighbours[neighbour];
+  return {to.rest, to.site.spring_class, body.share(body.site(a), to.site)};
+}
+
 /// The failure of a spring.
 struct Failed {
   Particle b = 0;
@@ -50,9 +65,8 @@ class Faces {
       : model_(model), body_(model.body), m_(crossing_factor(model)) {}
 
   /// Adds the faces of the spring from a to its neighbour.
-  void add(Particle a, std::uint32_t neighbour, const Failed& failed,
+  void add(Particle a, std::uint32_t neighbour, const Geometry& of, const Failed& failed,
            std::vector<CrackFace>& faces) const {
-    const SpringProperties of = model_.spring_properties(a, failed.b, neighbour);
     CrackFace face;
     face.a = a;
     face.b = failed.b;
@@ -65,7 +79,7 @@ class Faces {
       set_square(face, middle, u, v, body_.grid.spacing / 4);
       faces.push_back(face);
     } else if (of.share == 1 || body_.cells.empty()) {
-      face.area = of.share * of.rest_length / m_;
+      face.area = of.share * norm(of.rest) / m_;
       set_square(face, middle, u, v, std::sqrt(face.area));
       faces.push_back(face);
     } else {
@@ -119,7 +133,22 @@ std::vector<CrackFace> crack_faces(const Model& model, const Simulation& simulat
   if (failed.empty()) return faces;
   const Faces shapes(model);
   faces.reserve(failed.size());
-  for (const auto& [spring, how] : failed) shapes.add(spring.first, spring.second, how, faces);
+  for (const auto& [spring, how] : failed) {
+    const SpringProperties of = model.spring_properties(spring.first, how.b, spring.second);
+    shapes.add(spring.first, spring.second, {of.rest, of.spring_class, of.share}, how, faces);
+  }
+  return faces;
+}
+
+std::vector<CrackFace> cut_faces(const Model& model) {
+  std::vector<CrackFace> faces;
+  const std::uint64_t springs = model.body.cut_springs();
+  if (springs == 0) return faces;
+  const Faces shapes(model);
+  faces.reserve(springs);
+  model.body.for_cut_springs([&](Particle a, Particle b, std::uint32_t neighbour) {
+    shapes.add(a, neighbour, geometry_of_cut(model, a, b, neighbour), {b, 0, 1}, faces);
+  });
   return faces;
 }
 

@@ -185,7 +185,7 @@ SettledDamage DamageField::settle(const DamageBounds& bounds) {
   return found;
 }
 
-void DamageField::accept_search() {
+void DamageField::accept_search(double time) {
   if (settled_.empty()) return;
   for (const std::uint32_t number : records_.order()) {
     records_[number].rests_until = 0;
@@ -193,7 +193,7 @@ void DamageField::accept_search() {
     note_elongations(number);
   }
   settled_.resize(records_.numbers(), 0);
-  set_damages(settled_);
+  set_damages(settled_, time);
   settled_.clear();
 }
 

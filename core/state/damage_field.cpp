@@ -26,7 +26,9 @@ constexpr double damage_speed = 0.8 * 0.866;
 constexpr double least_alpha = 1e-3;
 
 /// Returns the part of an alpha spring that remains.
-double alpha_factor(double remaining) { return remaining < 1 ? std::max(remaining, least_alpha) : 1; }
+double alpha_factor(double remaining) {
+  return remaining < 1 ? std::max(remaining, least_alpha) : 1;
+}
 
 /// Adds pull r (x) r.
 void add_virial(Symmetric& sum, double pull, Vec3 r) {
@@ -136,7 +138,8 @@ void DamageField::gather(std::uint32_t number, Part part) {
     }
     add_virial(virial, pull_of_virial, r);
   }
-  if (whole && record.alpha > 0) {  // the kernel has computed the whole spring: 2 alpha s, alpha s^2
+  if (whole &&
+      record.alpha > 0) {  // the kernel has computed the whole spring: 2 alpha s, alpha s^2
     const double f = alpha_factor(own);
     record.force[3] += 2 * (1 - f) * record.alpha * here.height;
     record.stored -= (1 - f) * record.alpha * here.height * here.height;
@@ -166,18 +169,18 @@ void DamageField::update(double time_step) {
   evaluate();
   next_.resize(records_.numbers());
   records_.for_pieces([&](std::span<const std::uint32_t> records) { grow(records, time_step); });
-  set_damages(next_);
+  set_damages(next_, clock_.time());
 }
 
-/// Sets the damage of all records, and notes what follows from it.
-void DamageField::set_damages(const std::vector<double>& damages) {
+/// Sets the damage of all records at a time, s, and notes what follows from it.
+void DamageField::set_damages(const std::vector<double>& damages, double time) {
   ended_.clear();
   std::vector<std::uint32_t> damaged;
   for (const std::uint32_t record : records_.order()) {
     const double before = records_.damage(record), now = damages[record];
     if (now == before) continue;
     const double remained = records_.remaining(record);
-    records_.set_damage(record, now);
+    records_.grow_to(record, now, time);
     if (before == 0) damaged.push_back(record);
     if (remained == 1 && records_.remaining(record) < 1) soft_.push_back(record);
     if (remained > 0 && records_.remaining(record) == 0) ended_.push_back(record);

@@ -10,6 +10,7 @@
 
 #include <state/clock.hpp>
 #include <state/damage_records.hpp>
+#include <state/soft_spring.hpp>
 
 #include <hyperlattice/kernel_request.hpp>
 
@@ -17,14 +18,6 @@
 #include <vector>
 
 namespace hyperlattice {
-
-/// A spring that the field computes. The stiffness of a cross spring has the factor, that of a base
-/// spring too if it is stretched.
-struct SoftSpring {
-  Particle a = 0, b = 0;        ///< a is the first end
-  std::uint32_t neighbour = 0;  ///< see Model::spring_properties
-  double factor = 1;
-};
 
 /// A particle of which a part of the alpha spring remains.
 struct SoftParticle {
@@ -40,8 +33,9 @@ struct DamageBounds {
 
 /// Damage at rest.
 struct SettledDamage {
-  double factor = 1;  ///< the largest between the bounds at which damage grew by most_growth or less
-  double change = 0;  ///< largest change of a particle's damage since the last search
+  double factor =
+      1;  ///< the largest between the bounds at which damage grew by most_growth or less
+  double change = 0;                ///< largest change of a particle's damage since the last search
   std::vector<SoftSpring> springs;  ///< in the order of their first ends and neighbours
   std::vector<SoftParticle> particles;
 };
@@ -71,8 +65,8 @@ class DamageField {
   /// Forgets the results of searches.
   void forget_search() { settled_.clear(); }
   /// Notes the elongations of springs before the displacements change, and lets damage become that
-  /// of the last search. finish() must follow.
-  void accept_search();
+  /// of the last search, at `time`, s. finish() must follow.
+  void accept_search(double time);
 
   /// Computes the forces and energies of the present state, and what the last step dissipated.
   void evaluate();
@@ -86,6 +80,10 @@ class DamageField {
   }
   /// Sets the damage of the particles of cohesive materials, and leaves the others.
   void copy_damage(std::vector<double>& values) const;
+  /// Computes the fields crack_opening, m, and crack_time, s, of all particles. Without cohesive
+  /// materials they are 0 and NaN.
+  void copy_openings(std::vector<double>& values) const;
+  void copy_crack_times(std::vector<double>& values) const;
   /// Calls visit(particle, damage, rate) for the particles with damage in their order.
   template <class Visit>
   void for_damaged(const Visit& visit) const {
@@ -111,7 +109,7 @@ class DamageField {
   void gather(std::uint32_t number, Part part = Part::all);
   void find_ratios(std::span<const std::uint32_t> records, std::vector<double>& ratios) const;
   void note_elongations(std::uint32_t number);
-  void set_damages(const std::vector<double>& damages);
+  void set_damages(const std::vector<double>& damages, double time);
   void follow_noted();
   void watch(Block& block, double stretch, double shortening) const;
   void grow(std::span<const std::uint32_t> records, double time_step);
@@ -121,6 +119,7 @@ class DamageField {
   void note(Block& block, Particle particle) const;
   bool rests(const DamageRecord& record) const;
   bool touches_damage(const DamageRecord& record) const;
+  double opening(std::uint32_t number) const;
 
   /// A particle without damage is followed this long after its last note.
   static constexpr std::uint64_t steps_followed = 64;

@@ -30,6 +30,12 @@ void DamageRecords::set_damage(std::uint32_t record, double damage) {
   remaining_[record] = of.material == nullptr ? 1 : hyperlattice::remaining(damage, of.shape);
 }
 
+void DamageRecords::grow_to(std::uint32_t record, double damage, double time) {
+  if (damages_[record] < DamageRecord::cracked && damage >= DamageRecord::cracked)
+    records_[record].crack_time = time;
+  set_damage(record, damage);
+}
+
 std::vector<std::uint32_t> DamageRecords::add(std::vector<Particle> particles) {
   std::sort(particles.begin(), particles.end());
   particles.erase(std::unique(particles.begin(), particles.end()), particles.end());
@@ -216,7 +222,7 @@ void DamageRecords::archive(Archive& archive) {
   /// What a record cannot find again from the model.
   struct Kept {
     Particle particle;
-    double damage, rate, height, alpha_factor;
+    double damage, rate, height, alpha_factor, crack_time;
     std::uint64_t marked, rests_until;
     std::uint32_t present, handed_over;  ///< bits of springs
     double elongation[DamageRecord::most_springs][2], factor[DamageRecord::most_springs][2];
@@ -230,6 +236,7 @@ void DamageRecords::archive(Archive& archive) {
               record.rate,
               record.height,
               record.alpha_factor,
+              record.crack_time,
               record.marked,
               record.rests_until,
               0,
@@ -259,6 +266,7 @@ void DamageRecords::archive(Archive& archive) {
     record.rate = kept.rate;
     record.height = kept.height;
     record.alpha_factor = kept.alpha_factor;
+    record.crack_time = kept.crack_time;
     record.marked = kept.marked;
     record.rests_until = kept.rests_until;
     for (std::size_t s = 0; s < record.count; ++s) {

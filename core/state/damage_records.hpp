@@ -9,6 +9,7 @@
 
 #include <array>
 #include <deque>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -45,6 +46,9 @@ struct VirialCorrection {
 /// A particle whose damage is followed.
 struct DamageRecord {
   static constexpr std::size_t most_springs = 18;
+  /// Damage from which on a particle counts as cracked. The traction is then a tenth of the
+  /// strength in the middle of a crack that opens slowly.
+  static constexpr double cracked = 0.9;
 
   Particle particle = 0;
   std::uint32_t block = 0, row = 0;
@@ -56,8 +60,10 @@ struct DamageRecord {
   double shape = 1;                    ///< A
   double alpha = 0;                    ///< of the alpha spring, N/m
   double rate = 0;                     ///< of damage in the last step, 1/s
-  std::uint64_t marked = 0;            ///< step in which a spring was last above its alarm
-  std::uint64_t rests_until = 0;       ///< step of the next evaluation, see DamageField
+  /// Time, s, of the state in which damage first reached `cracked`; NaN: it has not.
+  double crack_time = std::numeric_limits<double>::quiet_NaN();
+  std::uint64_t marked = 0;       ///< step in which a spring was last above its alarm
+  std::uint64_t rests_until = 0;  ///< step of the next evaluation, see DamageField
   /// For a particle whose cells are not symmetric; null: its virial is its stress.
   std::unique_ptr<const VirialCorrection> correction;
 
@@ -100,6 +106,8 @@ class DamageRecords {
   double damage(std::uint32_t record) const { return damages_[record]; }
   double remaining(std::uint32_t record) const { return remaining_[record]; }
   void set_damage(std::uint32_t record, double damage);
+  /// Sets the damage that a record has from the state at `time`, s, on.
+  void grow_to(std::uint32_t record, double damage, double time);
   /// Returns them for any particle.
   double damage_of(Particle particle) const {
     return index_[particle] == none ? 0 : damages_[index_[particle]];

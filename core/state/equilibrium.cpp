@@ -39,7 +39,7 @@ void Simulation::apply_equilibrium(const EquilibriumUpdate& to) {
   }
   state_->energy.count_halted(to.dissipated);
   state_->law_memory.advance(to);
-  if (!state_->damage.empty()) state_->damage.accept_search();
+  if (!state_->damage.empty()) state_->damage.accept_search(to.time);
   set({false, 0, 3}, to.xyz);
   if (!to.heights.empty()) set({false, 3, 1}, to.heights);
   if (!state_->damage.empty()) state_->damage.finish();

@@ -4,8 +4,8 @@
 #pragma once
 
 #include <model/spring_calls.hpp>
-#include <state/damage_field.hpp>
 #include <state/simulation.hpp>
+#include <state/soft_spring.hpp>
 
 #include <functional>
 #include <vector>

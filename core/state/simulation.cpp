@@ -62,6 +62,13 @@ void Simulation::copy_damage(std::vector<double>& values) const {
   state_->damage.copy_damage(values);
 }
 
+void Simulation::crack_openings(std::vector<double>& values) const {
+  state_->damage.copy_openings(values);
+}
+void Simulation::crack_times(std::vector<double>& values) const {
+  state_->damage.copy_crack_times(values);
+}
+
 std::vector<SoftSpring> Simulation::soft_springs() const {
   return state_->damage.empty() ? std::vector<SoftSpring>{} : state_->damage.soft_springs();
 }

@@ -107,6 +107,10 @@ class Simulation {
   std::vector<WeakenedSpring> weakened_springs() const;
   /// Sets the damage of the particles of cohesive materials, and leaves the others' values.
   void copy_damage(std::vector<double>& values) const;
+  /// Compute the fields crack_opening, m, and crack_time, s, of all particles; 0 and NaN where no
+  /// material is cohesive.
+  void crack_openings(std::vector<double>& values) const;
+  void crack_times(std::vector<double>& values) const;
   /// Returns the springs whose stiffness damage lowers, in the order of their ends.
   std::vector<SoftSpring> soft_springs() const;
   std::vector<SoftParticle> soft_particles() const;

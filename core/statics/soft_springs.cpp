@@ -24,9 +24,8 @@ void Statics::take_soft(const std::vector<SoftSpring>& springs,
   soft_.reserve(springs.size());
   for (const SoftSpring& spring : springs) {
     const std::int64_t place = place_of(spring.a);
-    const std::size_t at =
-        spring.neighbour * static_cast<std::size_t>(problem_.grid.places) +
-        static_cast<std::size_t>(place);
+    const std::size_t at = spring.neighbour * static_cast<std::size_t>(problem_.grid.places) +
+                           static_cast<std::size_t>(place);
     soft_.push_back({place, place_of(spring.b) - place, at, weight_[at],
                      model_.spring_properties(spring.a, spring.b, spring.neighbour),
                      spring.factor});
@@ -34,14 +33,13 @@ void Statics::take_soft(const std::vector<SoftSpring>& springs,
   }
   soft_alphas_.reserve(particles.size());
   for (const SoftParticle& soft : particles)
-    soft_alphas_.push_back({place_of(soft.particle),
-                            (1 - soft.alpha_factor) *
-                                model_.kinds.alphas[model_.kinds.of(soft.particle)] *
-                                model_.body.share(soft.particle)});
+    soft_alphas_.push_back(
+        {place_of(soft.particle), (1 - soft.alpha_factor) *
+                                      model_.kinds.alphas[model_.kinds.of(soft.particle)] *
+                                      model_.body.share(soft.particle)});
 }
 
-double Statics::respond_soft(const double* u, double* force,
-                             const SpringTangents* tangents) const {
+double Statics::respond_soft(const double* u, double* force, const SpringTangents* tangents) const {
   const StaticGrid& grid = problem_.grid;
   const std::size_t kinds = model_.springs.choice.membrane == KernelChoice::Membrane::none ? 1 : 2;
   RowBuffers buffer(grid, 1);
@@ -62,11 +60,10 @@ double Statics::respond_soft(const double* u, double* force,
       const double whole = soft.of.stiffness_of(cross),
                    stiffness = degrades ? soft.factor * whole : whole;
       return LinearisedSpring{stiffness * elongation, std::max(stiffness, least_tangent * whole),
-                          0.5 * stiffness * elongation * elongation};
+                              0.5 * stiffness * elongation * elongation};
     });
     add_forces(buffer, grid, grid.places, soft.step, force + soft.place);
-    if (tangents != nullptr)
-      keep_tangents(buffer, grid.components == 4, soft.at, *tangents);
+    if (tangents != nullptr) keep_tangents(buffer, grid.components == 4, soft.at, *tangents);
   }
   for (const SoftAlpha& alpha : soft_alphas_) {
     if (grid.components != 4) break;

@@ -153,7 +153,7 @@ class Statics {
   std::vector<double> factor_start_, factor_end_;  ///< one per load
   double gravity_start_ = 1;
   std::uint64_t broken_ = 0;  ///< springs when they were read last
-  double preload_ = 0;  ///< loads of the start over their change in the stage
+  double preload_ = 0;        ///< loads of the start over their change in the stage
   std::vector<double> mass_;  ///< at each place, kg; empty without body acceleration
   struct Loaded {
     std::int64_t place;

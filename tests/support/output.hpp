@@ -72,6 +72,7 @@ class Plugin {
       return functions<WriterFunctions>().begin(component_, context, why);
     });
   }
+  double memory_bytes() { return functions<WriterFunctions>().memory(component_); }
   void frame(const Snapshot& snapshot) {
     call([&](const Complaint& why) {
       return functions<WriterFunctions>().frame(component_, snapshot, why);

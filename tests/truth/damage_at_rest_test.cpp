@@ -41,14 +41,13 @@ struct Bar {
                   {"density", 2500},
                   {"poisson", poisson},
                   {"membrane", poisson == 0.25 ? "none" : "I-m"},
-                  {"failure",
-                   Keys{{"type", "failures.cohesive"},
-                        {"strength", share * strength},
-                        {"fracture_energy",
-                         toughness(poisson, length) * (1 + 0.175 * spacing / length)},
-                        {"length", length},
-                        {"intact_near_supports", false}}
-                       .json()}} +
+                  {"failure", Keys{{"type", "failures.cohesive"},
+                                   {"strength", share * strength},
+                                   {"fracture_energy",
+                                    toughness(poisson, length) * (1 + 0.175 * spacing / length)},
+                                   {"length", length},
+                                   {"intact_near_supports", false}}
+                                  .json()}} +
              more;
     };
     SceneBuilder scene;
@@ -165,15 +164,17 @@ TEST_P(BarAtRest, SoftensAlongTheLineOfItsToughness) {
     if (w < 0.02) continue;
     if (rest.stress > 0.3) worst = std::max(worst, std::abs(rest.stress - (1 - w)));
     if (rest.stress > 0.02)
-      worst_opening = std::max(
-          worst_opening, std::abs(w - opening_of_layers(rest.stress, bar.length / spacing)));
+      worst_opening = std::max(worst_opening,
+                               std::abs(w - opening_of_layers(rest.stress, bar.length / spacing)));
     worst_top = std::max(worst_top, std::abs(rest.top - (1 - rest.stress)));
   }
   const double area = spacing * spacing * toughness_here;
-  std::printf("nu %.2f: %zu states, peak %.4f line %.4f layers %.4f top %.4f D %.4f stored %.4f error %.1e\n",
-              bar.poisson, found.states.size(), found.peak(), worst, worst_opening, worst_top,
-              found.balance.dissipated_failure / area, found.balance.stored / area,
-              found.balance.relative_error());
+  std::printf(
+      "nu %.2f: %zu states, peak %.4f line %.4f layers %.4f top %.4f D %.4f stored %.4f error "
+      "%.1e\n",
+      bar.poisson, found.states.size(), found.peak(), worst, worst_opening, worst_top,
+      found.balance.dissipated_failure / area, found.balance.stored / area,
+      found.balance.relative_error());
   EXPECT_GT(found.states.size(), 15u);
   EXPECT_NEAR(found.peak(), 0.9975, 0.01);  // between both strengths
   // Below 0.3 of the strength a band of 5 spacings does not resolve the line: its layers do so in
@@ -213,8 +214,8 @@ TEST(DamageAtRest, FollowsASnapBackOrRunsOn) {
   }
   bar.snap_back = false;
   const Softening runs = pull(bar);
-  const double stored_at_peak = 0.5 * runs.peak() * runs.peak() *
-                                strength * strength * spacing * spacing * compliance;
+  const double stored_at_peak =
+      0.5 * runs.peak() * runs.peak() * strength * strength * spacing * spacing * compliance;
   std::printf("follows: %zu states, line %.4f, fell by %.2f w_c, D %.4f; runs: D %.4f, of %.4f\n",
               follows.states.size(), worst, fallen / last,
               follows.balance.dissipated_failure / area, runs.balance.dissipated_failure / area,

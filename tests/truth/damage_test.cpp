@@ -1,101 +1,19 @@
 // The field of damage: the bar whose curve of softening is known in closed form, the profile of
 // damage that remains, and what the field must not do. See docs/theory/cohesive.md.
-#include <support/laws.hpp>
-#include <support/scenes.hpp>
+#include <support/archives.hpp>
+#include <support/cohesive_bar.hpp>
 
-#include <state/archive.hpp>
 #include <state/damage_field.hpp>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <numbers>
 
 namespace damage_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
-
-constexpr double young = 1e10, strength = 1e7, spacing = 1e-3;
-
-/// The toughness of a material with l_ch = 3.6 b, and the material with these keys of the surface.
-double fracture_energy(double poisson, double length) {
-  const double modulus = young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson));
-  return 3.6 * length * strength * strength / modulus * (1 + 0.175 * spacing / length);
-}
-Keys cohesive(double poisson, double length, const Keys& more = {}) {
-  return {{"young", young},
-          {"density", 2500},
-          {"poisson", poisson},
-          {"membrane", poisson == 0.25 ? "none" : "I-m"},
-          {"failure", (Keys{{"type", "failures.cohesive"},
-                            {"strength", strength},
-                            {"fracture_energy", fracture_energy(poisson, length)},
-                            {"length", length},
-                            {"intact_near_supports", false}} +
-                       more)
-                          .json()}};
-}
-
-std::vector<double> damage_of(const Model& model, const Simulation& simulation) {
-  std::vector<double> values(model.body.particles, 0);
-  simulation.copy_damage(values);
-  return values;
-}
-
-/// A bar of one cell by one cell that two rims pull apart slowly. The two
-/// middle layers of cells are weaker by 0.5 %.
-struct Bar {
-  int half;  ///< length, cells
-  std::unique_ptr<Plan> plan;
-  std::unique_ptr<Simulation> simulation;
-
-  Bar(int half_length, double poisson, double length, const std::string& precision, int threads = 1)
-      : half(half_length) {
-    const double end = mm(2 * half);
-    plan = plan_of(
-        SceneBuilder{}
-            .key("precision", precision)
-            .lattice("lattices.cubic", spacing, box_mm(2 * half, 1, 1), {{"boundary", "cells"}})
-            .material("materials.elastic", cohesive(poisson, length))
-            .material("materials.elastic",
-                      cohesive(poisson, length, {{"strength", 0.995 * strength}}) +
-                          Keys{{"name", "weak"},
-                               {"region", box({mm(half - 1), -1, -1}, {mm(half + 1), 1, 1})}})
-            .load("loads.velocity", {{"name", "left"},
-                                     {"on", "x_min"},
-                                     {"axes", "x"},
-                                     {"value", Vec3{-speed(end), 0, 0}},
-                                     {"rise", 0.1 * time(end)}})
-            .load("loads.velocity", {{"name", "right"},
-                                     {"on", "x_max"},
-                                     {"axes", "x"},
-                                     {"value", Vec3{speed(end), 0, 0}},
-                                     {"rise", 0.1 * time(end)}})
-            .load("loads.fixed", {{"on", "y_min"}, {"axes", "y"}})
-            .load("loads.fixed", {{"on", "z_min"}, {"axes", "z"}})
-            .solver("solvers.explicit", {{"end_time", 1}})
-            .text(),
-        threads);
-    simulation = std::make_unique<Simulation>(*plan->model, threads);
-    simulation->set_damping(0, 0.3 * std::numbers::pi * 2000 / end);
-  }
-  /// Time of the test, s, in passages of waves, and the speed of a rim, m/s.
-  static double time(double end) { return 250 * end / 2000; }
-  double speed(double end) const { return 0.5 * 2.7 * strength / young * end / time(end); }
-
-  /// Returns the stress of the rims, Pa.
-  double stress() const {
-    const std::vector<Vec3> forces = simulation->force_on_load();
-    return (forces[0].x - forces[1].x) / 2 / (spacing * spacing);
-  }
-  /// Returns the growth of the length, m.
-  double growth() const {
-    std::vector<double> u;
-    simulation->displacements(u);
-    return u[3 * static_cast<std::size_t>(2 * half)] - u[0];
-  }
-};
+using namespace hyperlattice::test::cohesive_bar;
 
 struct Softening {
   double peak = 0;       ///< over the strength
@@ -164,26 +82,6 @@ TEST_P(BarOfDamage, SoftensAlongTheLineOfItsToughness) {
 }
 INSTANTIATE_TEST_SUITE_P(None, BarOfDamage, testing::Values(std::pair(3, 0.25), std::pair(3, 0.2)));
 
-/// A bar that is torn along z.
-std::unique_ptr<Plan> torn_bar(double poisson, const std::string& precision = "double",
-                               const std::string& boundary = "cells") {
-  return plan_of(SceneBuilder{}
-                     .key("precision", precision)
-                     .lattice("lattices.cubic", spacing, box_mm(3, 3, 20), {{"boundary", boundary}})
-                     .material("materials.elastic", cohesive(poisson, 3e-3))
-                     .solver("solvers.explicit", {{"end_time", 1}})
-                     .text());
-}
-
-/// Lets the ends fly apart.
-void set_tearing(const Model& model, Simulation& simulation) {
-  std::vector<double> v = noise(3 * model.body.particles, 0.3);
-  for (Particle p = 0; p < model.body.particles; ++p)
-    v[3 * p + 2] += 12 * (model.body.position(p).z / 20e-3 - 0.4);
-  simulation.set_velocities(v, model.degrees_of_freedom == 4
-                                   ? std::vector<double>(model.body.particles, 0)
-                                   : std::vector<double>{});
-}
 struct Torn {
   EnergyBalance balance;
   std::uint64_t hash = 0, broken = 0;
@@ -222,19 +120,6 @@ TEST(Damage, HasTheSameBitsForAnyNumberOfThreadsAndClosesItsBalance) {
   }
 }
 
-/// Saves a state in memory.
-std::vector<char> saved(Simulation& simulation) {
-  std::vector<char> bytes;
-  Archive archive(
-      [&](void* data, std::size_t size) {
-        const char* from = static_cast<const char*>(data);
-        bytes.insert(bytes.end(), from, from + size);
-      },
-      false);
-  simulation.archive(archive);
-  return bytes;
-}
-
 TEST(Damage, GoesOnFromACheckpointWithTheSameBits) {
   const auto plan = torn_bar(0.25);
   const double step = 0.4 * plan->model->step_limit.time_step;
@@ -246,15 +131,7 @@ TEST(Damage, GoesOnFromACheckpointWithTheSameBits) {
     first.step(step);
   }
   const std::vector<char> bytes = saved(first);
-  std::size_t at = 0;
-  Archive archive(
-      [&](void* data, std::size_t size) {
-        std::memcpy(data, bytes.data() + at, size);
-        at += size;
-      },
-      true);
-  second.archive(archive);
-  EXPECT_EQ(at, bytes.size());
+  EXPECT_EQ(restore(second, bytes), bytes.size());
   for (int n = 0; n < 130; ++n) {
     whole.step(step);
     second.step(step);

@@ -3,6 +3,8 @@
 #include <model/section.hpp>
 #include <plan/fields.hpp>
 #include <run/snapshot.hpp>
+#include <state/crack_faces.hpp>
+#include <support/cuts.hpp>
 #include <support/lists.hpp>
 #include <support/output.hpp>
 
@@ -307,6 +309,38 @@ TEST(CrackFaces, OfAStraightCrackHaveTheAreaOfTheSection) {
     if (of.area > 0) {
       EXPECT_NEAR(projected, of.area, of.tolerance * of.area);
     }
+  }
+}
+
+// Springs that a cut took away have the faces that they have where they break.
+TEST(CutFaces, AreThoseOfBrokenSprings) {
+  for (const TwoPieces& of : two_pieces()) {
+    SCOPED_TRACE(of.name);
+    Broken body(of.scene, above(of.plane));
+    auto scene = nlohmann::json::parse(of.scene);
+    scene["pipeline"][0]["cuts"] = Json::array({plane({0, 0, of.plane}, {0, 0, 1})});
+    const auto cut_plan = plan_of(scene.dump());
+    const auto by_ends = [](std::span<const CrackFace> faces) {
+      std::multimap<std::pair<Particle, Particle>, CrackFace> sorted;
+      for (const CrackFace& face : faces) sorted.emplace(std::pair(face.a, face.b), face);
+      return sorted;
+    };
+    const auto expected = by_ends(body.snapshot().crack_faces(1)),
+               found = by_ends(cut_faces(*cut_plan->model));
+    ASSERT_EQ(found.size(), expected.size());
+    ASSERT_GT(found.size(), 0U);
+    auto broken = expected.begin();
+    for (const auto& [ends, face] : found) {
+      EXPECT_EQ(ends, broken->first);
+      EXPECT_EQ(face.time, 0);
+      EXPECT_EQ(face.damage, 1);
+      EXPECT_EQ(face.spring_class, broken->second.spring_class);
+      EXPECT_NEAR(face.area, broken->second.area, 1e-12 * broken->second.area);
+      for (std::size_t n = 0; n < 4; ++n)
+        EXPECT_LT(norm(face.corners[n] - broken->second.corners[n]), 1e-15);
+      ++broken;
+    }
+    EXPECT_TRUE(cut_faces(body.model()).empty());
   }
 }
 

@@ -215,7 +215,16 @@ TEST(Cohesive, StrengthsScatterAboutTheirMean) {
 
 TEST(Cohesive, LengthsThatDoNotFitAreRefused) {
   expect_in(refusal(surface("failures.cohesive", {{"strength", 2e6}})),
-            {"/failure/strength", "at most 1.387e+06 Pa", "a spacing of at most"});
+            {"/failure/strength", "at most 1.387e+06 Pa", "a spacing of at most",
+             "a fracture_energy of at least", "is at most 1.353 m", "allow_coarse"});
+  // Not even a short one; the three ways out lead to a length of three spacings.
+  const std::string none = refusal(surface("failures.cohesive", {{"strength", 8e6}}));
+  expect_in(none, {"/failure/strength", "at most 1.387e+06 Pa", "no length of damage fits"});
+  EXPECT_EQ(none.find("at most 0 m"), std::string::npos) << none;
+  expect_in(none, {"a fracture_energy of at least 1.995e+05 J/m2"});
+  EXPECT_EQ(
+      refusal(surface("failures.cohesive", {{"strength", 8e6}, {"fracture_energy", 1.9952e5}})),
+      "");
   expect_in(refusal(surface("failures.cohesive", {{"length", 8}})),
             {"/failure/length", "8 m", "at most 5.937 m", "a strength of at most"});
   expect_in(refusal(surface("failures.cohesive", {{"length", 2}})),

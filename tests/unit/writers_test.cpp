@@ -176,6 +176,31 @@ TEST(Cracks, WritesTheFacesThatTheOptionsAskFor) {
   EXPECT_EQ(faces_written({{"diagonals", true}, {"region", "some"}}), "0");
 }
 
+TEST(Cracks, ShowsTheFacesOfCutsIfAsked) {
+  FakeBody body({4, 3, 2});
+  body.at(0);
+  static const std::vector<CrackFace> cuts(body.faces.begin(), body.faces.begin() + 2);
+  Folder folder("cuts");
+  OutputContext context = body.context(folder.path());
+  context.get_cut_faces = [](void*) noexcept { return std::span<const CrackFace>(cuts); };
+  const auto bytes = [&](const nlohmann::json& options, std::string& text) {
+    Plugin writer("writers.cracks", options);
+    writer.begin(context);
+    writer.frame(body.at(0));
+    text = contents(folder.file("cracks_000000.vtp"));
+    return writer.memory_bytes();
+  };
+  // Besides 5 faces of which 3 are of class 0: one cut of class 0 and one diagonal.
+  std::string without, with, all;
+  EXPECT_EQ(bytes({}, without), 0);
+  const double one = bytes({{"cuts", true}}, with);
+  EXPECT_GT(one, sizeof(CrackFace));
+  EXPECT_EQ(bytes({{"cuts", true}, {"diagonals", true}}, all), 2 * one);
+  EXPECT_NE(without.find("NumberOfPolys=\"3\""), std::string::npos);
+  EXPECT_NE(with.find("NumberOfPolys=\"4\""), std::string::npos);
+  EXPECT_NE(all.find("NumberOfPolys=\"7\""), std::string::npos);
+}
+
 TEST(Cracks, NamesNoFieldSoThatItSeesTheSprings) {
   static std::vector<std::string> named;
   Folder folder("no_fields");

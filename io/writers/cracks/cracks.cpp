@@ -19,7 +19,7 @@ class Cracks {
     std::string file;
     RegionId region;
     double damage = 1;
-    bool deformed = false, diagonals = false;
+    bool deformed = false, diagonals = false, cuts = false;
   };
 
   static Schema<Options> schema() {
@@ -43,6 +43,10 @@ class Cracks {
         .add<&Options::diagonals>("diagonals", "",
                                   "also springs of the other classes, as the diagonals of the "
                                   "cubic lattice: small squares of area 0")
+        .fallback("false")
+        .add<&Options::cuts>("cuts", "",
+                             "also springs that the lattice's cuts took away, with the time 0 and "
+                             "the damage 1")
         .fallback("false");
     add_codec_option(schema);
     add_precision_option(schema);
@@ -58,7 +62,8 @@ class Cracks {
             "oblique to the lattice has stairs. With cells a face at the surface has one "
             "quadrilateral for each of its cells. Numbers of each face: time of failure (nan: not "
             "failed yet), damage, opening (below 0: closed), jump, normal (at rest, from a to b), "
-            "area, spring_class, particle_a, particle_b. The run waits for these files.")
+            "area, spring_class, particle_a, particle_b. With cuts those of the cuts come first. "
+            "The run waits for these files.")
         .check([](const Options& options, const FaultSink& faults) {
           check_file_name(options.file, faults);
         });
@@ -71,6 +76,10 @@ class Cracks {
     const auto particles = context.particles(options_.region);
     if (particles.empty()) throw std::runtime_error("no particle lies in the region");
     particles_.assign(particles.begin(), particles.end());
+    cuts_.clear();
+    if (options_.cuts)
+      for (const CrackFace& face : context.cut_faces())
+        if (is_written(face)) cuts_.push_back(face);
     collection_ = {};
     for (std::size_t n = 0; n < context.earlier.size(); ++n)
       collection_.add(files_.name(n), context.earlier[n].time);
@@ -81,8 +90,9 @@ class Cracks {
     particle_a_.clear();
     particle_b_.clear();
     const std::span<const double> moved = require_field(snapshot, "displacement").values;
+    for (const CrackFace& face : cuts_) add(snapshot, face, moved);
     for (const CrackFace& face : snapshot.crack_faces(options_.damage))
-      if (is_written(snapshot, face)) add(snapshot, face, moved);
+      if (is_written(face)) add(snapshot, face, moved);
     encode(snapshot);
     describe().write(files_.path());
     collection_.add(files_.name(), snapshot.time);
@@ -91,6 +101,14 @@ class Cracks {
   }
 
   void end() {}
+
+  /// Returns the bytes of the faces of cuts, of their numbers and of the encoded arrays. How many
+  /// springs will fail nobody knows.
+  double memory_bytes() const noexcept {
+    constexpr double reals = 12 + 11, wholes = 2;  // of points and of all other arrays
+    return static_cast<double>(cuts_.size()) *
+           (sizeof(CrackFace) + 2 * (reals * sizeof(double) + wholes * sizeof(std::int64_t)));
+  }
 
  private:
   /// Real numbers of each face, or of each point.
@@ -103,11 +121,10 @@ class Cracks {
     void add(Vec3 value) { values.insert(values.end(), {value.x, value.y, value.z}); }
   };
 
-  bool is_written(const Snapshot& snapshot, const CrackFace& face) const {
+  bool is_written(const CrackFace& face) const {
     if (face.spring_class != 0 && !options_.diagonals) return false;
     const auto has = [&](Particle particle) {
-      return particles_.size() == snapshot.particles ||
-             std::binary_search(particles_.begin(), particles_.end(), particle);
+      return std::binary_search(particles_.begin(), particles_.end(), particle);
     };
     return has(face.a) && has(face.b);
   }
@@ -179,6 +196,7 @@ class Cracks {
   FrameFiles files_;
   Collection collection_;
   std::vector<Particle> particles_;  ///< of the region, ascending
+  std::vector<CrackFace> cuts_;      ///< those that are written
   Array points_{"Points", 3, {}, {}}, time_{"time", 1, {}, {}}, damage_{"damage", 1, {}, {}},
       opening_{"opening", 1, {}, {}}, jump_{"jump", 3, {}, {}}, normal_{"normal", 3, {}, {}},
       area_{"area", 1, {}, {}}, class_{"spring_class", 1, {}, {}};

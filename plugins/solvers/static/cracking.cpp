@@ -8,8 +8,8 @@ namespace hyperlattice::statics {
 Outcome Cracking::solve_load_step(double most_share, double most_growth, double& share,
                                   Field& displacement) {
   constexpr int most_alternations = 1000;
-  constexpr double still = 1e-4;  // changes of damage, and of the load over itself
-  constexpr double rough = 1e-4;  // residual while damage still changes
+  constexpr double still = 1e-4;         // changes of damage, and of the load over itself
+  constexpr double rough = 1e-4;         // residual while damage still changes
   constexpr double first_growth = 0.02;  // of a step: the first damage ends a step at the peak
   const double tolerance = newton_.tolerance();
   const double least_share = follows_ ? 0 : share;

@@ -18,7 +18,8 @@ class Cracking {
   /// Changes the displacements from those of the accepted state of rest, at the fraction `share` of
   /// the load, to those of the next one, and `share` to its fraction: `most_share` at most, less
   /// where damage grows by `most_growth`.
-  Outcome solve_load_step(double most_share, double most_growth, double& share, Field& displacement);
+  Outcome solve_load_step(double most_share, double most_growth, double& share,
+                          Field& displacement);
 
  private:
   const StaticProblem& problem_;

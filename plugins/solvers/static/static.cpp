@@ -41,7 +41,8 @@ class Static {
         .restrictions(
             "Springs do not break during the stage; those beyond their limit at its end break in "
             "the first step in time that "
-            "follows. The damage of cohesive materials grows between its states of rest. A law with a memory starts each load step with the memory of the last state "
+            "follows. The damage of cohesive materials grows between its states of rest. A law "
+            "with a memory starts each load step with the memory of the last state "
             "of "
             "rest; the memory advances when the step is accepted, and no time passes for the law. "
             "A "
@@ -75,10 +76,10 @@ class Static {
                                   "stiffness is negative; left out: of structured lattices "
                                   "without cohesive materials, as particles of a list that hang on "
                                   "two springs buckle alone")
-        .add<&Options::damage_step>(
-            "damage_step", "",
-            "of cohesive materials: largest growth of a particle's damage from one state of rest to "
-            "the next, which controls the load as cracks grow")
+        .add<&Options::damage_step>("damage_step", "",
+                                    "of cohesive materials: largest growth of a particle's damage "
+                                    "from one state of rest to "
+                                    "the next, which controls the load as cracks grow")
         .above(0)
         .at_most(1)
         .fallback("0.05")
@@ -123,10 +124,9 @@ class Static {
     const StaticProblem* problem = host.statics();
     if (problem == nullptr) return;
     const std::unique_ptr<statics::System> system = system_of(*problem);
-    statics::Newton newton(
-        *system, host,
-        {.tolerance = o_.tolerance,
-         .stable = o_.stability.value_or(!facts.listed && !problem->damages)});
+    statics::Newton newton(*system, host,
+                           {.tolerance = o_.tolerance,
+                            .stable = o_.stability.value_or(!facts.listed && !problem->damages)});
     statics::Cracking cracking(*problem, newton, o_.snap_back);
     statics::Field u(problem->state, problem->state + problem->grid.numbers());
     const double whole = 1 / static_cast<double>(o_.load_steps),

@@ -116,7 +116,7 @@
   CROSSES(Snapshot, time, step, particles, spacing, positions, self, get_field, get_resultant, get_fragments, get_crack_faces, run_tasks)             \
   CROSSES(FrameMark, step, time)                                                                                                                      \
   CROSSES(OutputContext, directory, title, fields, earlier, self, region_particles, announce_file, acted_particles, external_forces, cut_section,     \
-          use_field)                                                                                                                                  \
+          use_field, get_cut_faces)                                                                                                                   \
   CROSSES(WriterFunctions, begin, frame, end, memory)                                                                                                 \
   CROSSES(ColumnSink, self, receive)                                                                                                                  \
   CROSSES(ProbeFunctions, begin, sample)

@@ -14,7 +14,7 @@ namespace hyperlattice {
 /// Number, vector in space, symmetric tensor, tensor, or three numbers in descending order.
 enum class FieldKind : std::uint32_t { number, vector, symmetric, tensor, sorted };
 /// What a body must have so that a field exists in its run.
-enum class FieldNeeds : std::uint32_t { nothing, free_membrane, list, failure };
+enum class FieldNeeds : std::uint32_t { nothing, free_membrane, list, failure, damage };
 
 struct FieldInfo {
   std::string_view name;
@@ -40,8 +40,17 @@ inline constexpr FieldInfo field_table[] = {
      FieldNeeds::failure},
     {"broken_closed", FieldKind::number, "", "number of the others that are broken",
      FieldNeeds::failure},
-    {"damage", FieldKind::number, "", "mean of 1 - integrity over the particle's springs",
+    {"damage", FieldKind::number, "",
+     "mean of 1 - integrity over the particle's springs; of cohesive materials the state d between "
+     "0, whole, and 1, without tension",
      FieldNeeds::failure},
+    {"crack_opening", FieldKind::number, "m",
+     "opening of a crack in the particle's layer, one spacing thick; the openings along a lattice "
+     "row that is normal to a crack add up to the crack's",
+     FieldNeeds::damage},
+    {"crack_time", FieldKind::number, "s",
+     "time at which the damage of the particle reached 0.9; not a number: it has not",
+     FieldNeeds::damage},
     {"fragment", FieldKind::number, "",
      "number of the connected piece, 0 for the heaviest; of equal ones the piece with the first "
      "particle is first",

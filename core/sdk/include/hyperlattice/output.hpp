@@ -140,6 +140,8 @@ struct OutputContext {
   Section (*cut_section)(void* self, Vec3 point, Vec3 normal, RegionId region) noexcept = nullptr;
   /// Receives the name of a field that the writer's frames will ask for; see use().
   void (*use_field)(void* self, std::string_view name) noexcept = nullptr;
+  /// Null: this body's are not known.
+  std::span<const CrackFace> (*get_cut_faces)(void* self) noexcept = nullptr;
 
   /// Returns the particles of the region in ascending order.
   std::span<const Particle> particles(RegionId region) const {
@@ -162,6 +164,11 @@ struct OutputContext {
   /// writes. require_field() calls this function.
   void use(std::string_view name) const {
     if (use_field != nullptr) use_field(self, name);
+  }
+  /// Returns the faces of the springs that the lattice's cuts took away, in the order of their
+  /// ends, with the time 0 and the damage 1. Valid during begin().
+  std::span<const CrackFace> cut_faces() const {
+    return get_cut_faces == nullptr ? std::span<const CrackFace>() : get_cut_faces(self);
   }
   /// Announces a file. Throws std::runtime_error if the file must not be touched.
   void announce(std::string_view name, bool rewritten = false) const {

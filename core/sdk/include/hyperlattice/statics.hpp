@@ -78,8 +78,8 @@ struct SpringTangents {
 
 /// A search for the damage of cohesive materials that is at rest, for displacements that are.
 struct DamageSearch {
-  double share = 1;                         ///< fraction of the load that the displacements carry
-  double least_share = 0, most_share = 1;   ///< between which the search may choose
+  double share = 1;                        ///< fraction of the load that the displacements carry
+  double least_share = 0, most_share = 1;  ///< between which the search may choose
   double most_growth = 1;  ///< largest growth of a particle's damage since the last accepted state
 };
 
