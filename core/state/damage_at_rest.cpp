@@ -111,6 +111,13 @@ class DamageEquations {
   std::vector<Other> others_;
 };
 
+/// Returns the part of its change that damage takes in a search, given the number of searches
+/// before. Searches that go to and fro come to rest in smaller parts.
+double part_of_change(int searches) {
+  constexpr int patience = 25;
+  return std::max(0.1, std::exp2(-searches / patience));
+}
+
 }  // namespace
 
 SettledDamage DamageField::settle(const DamageBounds& bounds) {
@@ -172,9 +179,12 @@ SettledDamage DamageField::settle(const DamageBounds& bounds) {
       gather(number, Part::stress);
     }
   }
+  const double part = part_of_change(searches_++);
   for (const std::uint32_t number : records_.order()) {
+    const double change = damage[number] - settled_[number];
+    found.change = std::max(found.change, std::abs(change));
+    damage[number] = settled_[number] + part * change;
     if (damage[number] >= 1 - 1e-4) damage[number] = 1;
-    found.change = std::max(found.change, std::abs(damage[number] - settled_[number]));
     records_.set_damage(number, damage[number]);
     records_[number].marked = clock_.steps();
   }
@@ -194,7 +204,7 @@ void DamageField::accept_search(double time) {
   }
   settled_.resize(records_.numbers(), 0);
   set_damages(settled_, time);
-  settled_.clear();
+  forget_search();
 }
 
 }  // namespace hyperlattice

@@ -63,7 +63,10 @@ class DamageField {
   /// state. The damage of the field stays; the next search begins with the result.
   SettledDamage settle(const DamageBounds& bounds);
   /// Forgets the results of searches.
-  void forget_search() { settled_.clear(); }
+  void forget_search() {
+    settled_.clear();
+    searches_ = 0;
+  }
   /// Notes the elongations of springs before the displacements change, and lets damage become that
   /// of the last search, at `time`, s. finish() must follow.
   void accept_search(double time);
@@ -132,6 +135,7 @@ class DamageField {
   std::vector<std::uint32_t> soft_;   // records whose omega fell below 1 in this step
   std::vector<std::uint32_t> ended_;  // records whose omega became 0 in this step
   std::vector<double> settled_;       // damage of each record after the last search; empty: none
+  int searches_ = 0;                  // since the last accepted state of rest
 };
 
 }  // namespace hyperlattice
