@@ -280,4 +280,70 @@ TEST(DamageAtRest, StaysAtRestInStepsOfTime) {
   EXPECT_LT(std::abs(end.relative_error()), 1e-3);
 }
 
+// A strip between grips that part, thick h, high H, with a notch: the load falls and then stays
+// while the crack runs, and the energy ahead of it, 1/2 E / (1 - nu^2) u^2 / H, is what it takes.
+TEST(LongDamageAtRest, RunsAlongAStripWithTheEnergyAhead) {
+  const double length = 3e-3, energy = 100, height = 21e-3, notch = 20e-3;
+  const std::string text =
+      SceneBuilder{}
+          .lattice("lattices.cubic", spacing, box_mm(60, 21, 1),
+                   {{"boundary", "cells"},
+                    {"cuts", Json::array({Json{
+                                 {"polygon",
+                                  {{"corners", Json::array({Vec3{-1e-3, height / 2, -1e-3},
+                                                            Vec3{notch, height / 2, -1e-3},
+                                                            Vec3{notch, height / 2, 2e-3},
+                                                            Vec3{-1e-3, height / 2, 2e-3}})}}}}})}})
+          .material("materials.elastic", {{"young", young},
+                                          {"density", 2500},
+                                          {"poisson", 0.25},
+                                          {"membrane", "none"},
+                                          {"failure", Json{{"type", "failures.cohesive"},
+                                                           {"strength", strength},
+                                                           {"fracture_energy", energy},
+                                                           {"length", length}}}})
+          .load("loads.fixed", {{"name", "bottom"}, {"on", "y_min"}, {"axes", "xy"}})
+          .load("loads.fixed", {{"name", "side"},
+                                {"on", box({-1, -1, -1}, {1, spacing / 2, spacing / 2})},
+                                {"axes", "z"}})
+          .load("loads.displacement", {{"name", "top"},
+                                       {"on", "y_max"},
+                                       {"axes", "xy"},
+                                       {"value", Vec3{0, 3e-5, 0}},
+                                       {"rise", 1}})
+          .solver("solvers.static", {{"end_time", 1}, {"damage_step", 0.2}, {"snap_back", true}})
+          .text();
+  const auto plan = plan_of(text);
+  const Model& model = *plan->model;
+  Simulation simulation(model, 1);
+  struct State {
+    double tip, taken, dissipated;
+  };
+  std::vector<State> states;
+  StageCalls::Hooks hooks;
+  hooks.observe = [&] {
+    std::vector<double> damage(model.body.particles, 0);
+    simulation.copy_damage(damage);
+    double tip = 0;
+    for (Particle p = 0; p < model.body.particles; ++p)
+      if (damage[p] > 0.7) tip = std::max(tip, model.body.position(p).x);
+    const double opening = simulation.time() * 3e-5;
+    states.push_back({tip, 0.5 * young / (1 - 0.0625) * opening * opening / height,
+                      simulation.balance().dissipated_failure});
+  };
+  StageCalls(model, simulation, plan->stages.front(), 1, hooks).run();
+  double least = infinity, most = 0;
+  for (const State& state : states) {
+    if (state.tip > 0)
+      std::printf("tip %.0f mm, energy ahead %.3f G_c, dissipated %.3e J\n", 1e3 * state.tip,
+                  state.taken / energy, state.dissipated);
+    if (state.tip < notch + 0.4 * height || state.tip > 60e-3 - 0.8 * height) continue;
+    least = std::min(least, state.taken / energy);
+    most = std::max(most, state.taken / energy);
+  }
+  EXPECT_GT(least, 0.86);  // {100} at b / h = 3 takes 0.93 in the end, a part of it far behind
+  EXPECT_LT(most, 0.96);
+  EXPECT_LT(most, 1.02 * least);
+}
+
 }  // namespace damage_at_rest_test
