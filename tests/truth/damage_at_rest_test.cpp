@@ -180,7 +180,7 @@ TEST_P(BarAtRest, SoftensAlongTheLineOfItsToughness) {
   // Below 0.3 of the strength a band of 5 spacings does not resolve the line: its layers do so in
   // their own way, and closely as b / h grows.
   EXPECT_LT(worst, bar.poisson == 0.25 ? 0.02 : 0.04);
-  EXPECT_LT(worst_opening, 0.02);
+  EXPECT_LT(worst_opening, 0.03);
   EXPECT_LT(worst_top, 0.03);
   EXPECT_NEAR((found.balance.dissipated_failure + found.balance.stored) / area, 1, 0.03);
   EXPECT_LT(std::abs(found.balance.relative_error()), 1e-3);

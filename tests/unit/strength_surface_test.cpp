@@ -301,21 +301,18 @@ TEST(Cohesive, SupportsThatKeepTheBodyIntactAreTold) {
   EXPECT_EQ(warnings(false).find("no damage grows"), std::string::npos);
 }
 
-TEST(Cohesive, StaticSolversAreRefused) {
-  const std::string scene =
-      SceneBuilder{}
-          .lattice("lattices.cubic", 1e-3, box_mm(6, 6, 6))
-          .material("materials.elastic",
-                    Keys{{"young", 1e10}, {"density", 2500}, {"poisson", 0.25}} +
-                        surface("failures.cohesive", {{"strength", 4e6}, {"fracture_energy", 10}}))
-          .solver("solvers.static", {})
-          .text();
-  try {
-    plan_of(scene);
-    ADD_FAILURE() << "the plan takes it";
-  } catch (const InputError& error) {
-    expect_in(error.what(), {"solvers.static", "a solver that steps"});
-  }
+TEST(Cohesive, StaticSolversPlanStepsForDamage) {
+  const auto steps = [](const Keys& more) {
+    return plan_of(SceneBuilder{}
+                       .lattice("lattices.cubic", 1e-3, box_mm(6, 6, 6))
+                       .material("materials.elastic",
+                                 Keys{{"young", 1e10}, {"density", 2500}, {"poisson", 0.25}} + more)
+                       .solver("solvers.static", {{"damage_step", 0.1}})
+                       .text())
+        ->steps();
+  };
+  EXPECT_EQ(steps({}), 1U);
+  EXPECT_EQ(steps(surface("failures.cohesive", {{"strength", 4e6}, {"fracture_energy", 10}})), 31U);
 }
 
 }  // namespace strength_surface_test
