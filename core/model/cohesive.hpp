@@ -71,4 +71,14 @@ inline double remaining(double damage, double shape) {
   return q / (shape + (1 - shape) * q);
 }
 
+/// Returns the part that remains of a spring: its halves, of the parts a and b, are in series.
+inline double in_series(double a, double b) {
+  const double sum = a + b;
+  return sum > 0 ? 2 * a * b / sum : 0;
+}
+
+/// Returns the part of an alpha spring that remains: a thousandth at least, so that heights of dust
+/// stay bounded.
+inline double alpha_factor(double remaining) { return remaining < 1e-3 ? 1e-3 : remaining; }
+
 }  // namespace hyperlattice

@@ -4,7 +4,6 @@
 // the stress, so that a factor of the load can be found at which damage grows by a given amount:
 // an equation that has a solution also where the load must fall as cracks grow.
 #include <state/damage_field.hpp>
-#include <state/damage_growth.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,104 +11,6 @@
 namespace hyperlattice {
 
 namespace {
-
-/// The equations of the records that are driven, for projected over-relaxation in their order.
-class DamageEquations {
- public:
-  struct Equation {
-    std::uint32_t record = 0;
-    double start = 0;  ///< least damage
-    double shape = 1, drive = 0;
-    double diagonal = 0;              ///< b^2 times the sum of the weights of its Laplacian
-    std::size_t first = 0, last = 0;  ///< its other particles
-  };
-
-  explicit DamageEquations(std::vector<double>& damage) : damage_(damage) {}
-  void add(const Equation& equation) {
-    all_.push_back(equation);
-    all_.back().first = others_.size();
-  }
-  /// Adds another particle of the last equation, with b^2 times its weight. none: without damage.
-  void add_other(std::uint32_t record, double weight) {
-    all_.back().diagonal += weight;
-    if (record != DamageRecords::none) others_.push_back({record, weight});
-    all_.back().last = others_.size();
-  }
-  bool empty() const { return all_.empty(); }
-
-  /// Solves for drives times `factor`^2. Returns the largest growth.
-  double solve(double factor) {
-    constexpr double over_relaxation = 1.7, solved = 1e-7;
-    constexpr int most_sweeps = 2000;
-    double growth = 0;
-    for (int n = 0; n < most_sweeps; ++n) {
-      double change = 0;
-      growth = 0;
-      for (const Equation& equation : all_) {
-        double& damage = damage_[equation.record];
-        double others = 0;
-        for (std::size_t o = equation.first; o < equation.last; ++o)
-          others += others_[o].weight * damage_[others_[o].record];
-        // The rate of a step of length 1 with this viscosity is the growth at rest.
-        DamageStep step;
-        step.damage = equation.start;
-        step.rate = damage - equation.start;
-        step.shape = equation.shape;
-        step.drive = factor * factor * equation.drive;
-        step.spread = others - equation.diagonal * equation.start;
-        step.viscosity = equation.diagonal;
-        step.time_step = 1;
-        const double target = equation.start + damage_rate(step),
-                     next = std::clamp(damage + over_relaxation * (target - damage), equation.start,
-                                       1.0);
-        change = std::max(change, std::abs(next - damage));
-        damage = next;
-        growth = std::max(growth, damage - equation.start);
-      }
-      if (change < solved) break;
-    }
-    return growth;
-  }
-
-  /// Solves for the largest factor between the bounds at which damage grows by no more than
-  /// `most_growth`, or for the least. Returns the factor.
-  double solve(const DamageBounds& bounds) {
-    constexpr double nearly = 1e-4;
-    constexpr int tries = 60;
-    struct End {
-      double factor;
-      double excess;  ///< of growth over the wanted one, relative
-      bool known = false;
-    } low{bounds.least_factor, -1}, high{bounds.most_factor, 1};
-    // At rest the factor is 1.
-    double factor = std::clamp(1.0, low.factor, high.factor), step = 0.01;
-    for (int n = 0; n < tries; ++n) {
-      const double excess = solve(factor) / bounds.most_growth - 1;
-      if (std::abs(excess) < nearly || (excess < 0 && factor >= high.factor) ||
-          (excess > 0 && factor <= low.factor))
-        return factor;
-      (excess < 0 ? low : high) = {factor, excess, true};
-      if (low.known && high.known) {  // a secant, or halves where nothing grows at the lower end
-        const double part =
-            low.excess > -1 ? std::clamp(low.excess / (low.excess - high.excess), 0.02, 0.98) : 0.5;
-        factor = low.factor + part * (high.factor - low.factor);
-      } else {
-        factor = std::clamp(factor * (excess < 0 ? 1 + step : 1 - step), low.factor, high.factor);
-        step = std::min(4 * step, 0.5);
-      }
-    }
-    return factor;
-  }
-
- private:
-  struct Other {
-    std::uint32_t record;
-    double weight;
-  };
-  std::vector<double>& damage_;  // of each record
-  std::vector<Equation> all_;
-  std::vector<Other> others_;
-};
 
 /// Returns the part of its change that damage takes in a search, given the number of searches
 /// before. Searches that go to and fro come to rest in smaller parts.

@@ -13,22 +13,8 @@ constexpr std::uint64_t steps_of_rest = 4;
 /// Ratio of the strength below which a particle without damage rests.
 constexpr double safe_ratio = 0.8;
 
-/// Returns the part that remains of two half springs in series.
-double in_series(double a, double b) {
-  const double sum = a + b;
-  return sum > 0 ? 2 * a * b / sum : 0;
-}
-
 /// c_d in spacings per step. The wave of d is stable below 0.866.
 constexpr double damage_speed = 0.8 * 0.866;
-
-/// Least part of an alpha spring that remains, so that heights of dust stay bounded.
-constexpr double least_alpha = 1e-3;
-
-/// Returns the part of an alpha spring that remains.
-double alpha_factor(double remaining) {
-  return remaining < 1 ? std::max(remaining, least_alpha) : 1;
-}
 
 /// Adds pull r (x) r.
 void add_virial(Symmetric& sum, double pull, Vec3 r) {
@@ -368,37 +354,6 @@ void DamageField::copy_damage(std::vector<double>& values) const {
   for (Particle p = 0; p < values.size(); ++p)
     if (model_.cohesive[model_.kinds.material(p)].stage != nullptr)
       values[p] = records_.damage_of(p);
-}
-
-std::optional<double> DamageField::factor(Particle first, std::uint32_t neighbour) const {
-  const std::uint32_t number = records_.of(first);
-  if (number == DamageRecords::none) return std::nullopt;
-  for (const DamageSpring& spring : records_[number].springs())
-    if (spring.forward && spring.neighbour == neighbour && spring.handed_over && spring.present)
-      return in_series(records_.remaining(number), records_.remaining_of(spring.to));
-  return std::nullopt;
-}
-
-std::vector<SoftSpring> DamageField::soft_springs() const {
-  std::vector<SoftSpring> found;
-  for (const std::uint32_t number : records_.order()) {
-    const DamageRecord& record = records_[number];
-    for (const DamageSpring& spring : record.springs())
-      if (spring.forward && spring.present &&
-          (spring.handed_over || records_.remaining(number) < 1 ||
-           records_.remaining_of(spring.to) < 1))
-        found.push_back({record.particle, spring.to, spring.neighbour,
-                         in_series(records_.remaining(number), records_.remaining_of(spring.to))});
-  }
-  return found;
-}
-
-std::vector<SoftParticle> DamageField::soft_particles() const {
-  std::vector<SoftParticle> found;
-  for (const std::uint32_t number : records_.order())
-    if (records_[number].alpha > 0 && records_.remaining(number) < 1)
-      found.push_back({records_[number].particle, alpha_factor(records_.remaining(number))});
-  return found;
 }
 
 }  // namespace hyperlattice

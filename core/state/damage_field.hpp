@@ -9,6 +9,7 @@
 #pragma once
 
 #include <state/clock.hpp>
+#include <state/damage_equations.hpp>
 #include <state/damage_records.hpp>
 #include <state/soft_spring.hpp>
 
@@ -23,12 +24,6 @@ namespace hyperlattice {
 struct SoftParticle {
   Particle particle = 0;
   double alpha_factor = 1;
-};
-
-/// Bounds of a search for damage at rest. Stresses are those of the displacements times a factor.
-struct DamageBounds {
-  double least_factor = 1, most_factor = 1;
-  double most_growth = 1;  ///< of a particle's damage since the last accepted state
 };
 
 /// Damage at rest.

@@ -1,6 +1,6 @@
 // Cuts that close, with friction: against the body without the cut, Coulomb's law, and the closed
 // form of an inclined crack under compression.
-#include <state/archive.hpp>
+#include <support/archives.hpp>
 #include <support/cuts.hpp>
 #include <support/energy_balance.hpp>
 #include <support/loaded_block.hpp>
@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <numbers>
 
 namespace friction_test {
@@ -182,23 +181,8 @@ std::uint64_t interrupted(const Plan& plan, int steps, int threads, bool measure
     first.step(dt);
     if (measures) first.balance();
   }
-  std::vector<char> saved;
-  Archive out(
-      [&](void* data, std::size_t size) {
-        const char* from = static_cast<const char*>(data);
-        saved.insert(saved.end(), from, from + size);
-      },
-      false);
-  first.archive(out);
   Simulation second(*plan.model, threads);
-  std::size_t read = 0;
-  Archive in(
-      [&](void* data, std::size_t size) {
-        std::memcpy(data, saved.data() + read, size);
-        read += size;
-      },
-      true);
-  second.archive(in);
+  restore(second, saved(first));
   EXPECT_EQ(second.hash(), first.hash());
   for (int n = steps / 2; n < steps; ++n) second.step(dt);
   return second.hash();

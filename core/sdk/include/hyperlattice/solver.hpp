@@ -30,7 +30,7 @@ struct SolverPlan {
   /// The stage searches a state of rest: its steps are not steps in time, and time_step may be 0.
   /// Loads have their values at end_time.
   bool at_rest = false;
-  /// Of a search without steps in time: whether it grows the damage of cohesive materials.
+  /// Whether a search without steps in time lets the damage of cohesive materials grow.
   bool grows_damage = false;
   /// Whether run() can continue in the middle of a stage, after SolverHost::steps_done steps.
   bool resumes = false;
