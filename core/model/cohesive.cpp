@@ -61,11 +61,6 @@ void check_support(const Model& model, const Material& material, Faults& faults)
     refuse(*material.stage,
            "no membrane, or one that can move in the fourth dimension: a field of damage does not "
            "soften clamped ones");
-  if (material.constants.volumetric != 0)
-    refuse(
-        *material.stage,
-        "no volumetric energy, so poisson 0.25, or a membrane with poisson below 0.25: a field of "
-        "damage does not soften the volumetric energy");
 }
 
 /// Adds a fault if the length does not fit the strength or the spacing.

@@ -69,6 +69,12 @@ std::vector<Range> Volumetric::row(std::int32_t j, std::int32_t k) const {
   return found;
 }
 
+bool Volumetric::holds(Site cell) const {
+  if (!body_->cells.empty()) return body_->cells.holds(cell);
+  const std::array<Particle, 8> all = corners(cell);
+  return std::find(all.begin(), all.end(), Body::no_particle) == all.end();
+}
+
 double Volumetric::modulus(Site cell) const {
   if (!cut_.empty() && std::binary_search(cut_.begin(), cut_.end(), body_->at(cell))) return 0;
   if (uniform()) return of_materials_.front();

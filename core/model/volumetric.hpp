@@ -30,6 +30,8 @@ class Volumetric {
 
   /// Returns the cells of row (j, k), ascending and disjoint, by the sites of their lowest corners.
   std::vector<Range> row(std::int32_t j, std::int32_t k) const;
+  /// Returns whether the cell is one of them. Its site may be outside the grid.
+  bool holds(Site cell) const;
   /// Returns K_v times the cell's share, Pa, of an existing cell; 0 if one of its springs was cut
   /// from the start.
   double modulus(Site cell) const;
@@ -42,7 +44,7 @@ class Volumetric {
           for (Site cell{range.begin, j, k}; cell.i < range.end; ++cell.i)
             if (const double own = modulus(cell); own != 0) visit(cell, own);
   }
-  /// Returns the corners of an existing cell, in the order of CellCorners.
+  /// Returns the corners of a cell, in the order of CellCorners.
   std::array<Particle, 8> corners(Site cell) const;
 
  private:

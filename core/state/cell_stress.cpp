@@ -130,6 +130,7 @@ class Layer {
         springs_of_cell_.begin(), springs_of_cell_.end(),
         [&](const CellSpring& of) { return springs_.lives(cell.corners[of.a], of.neighbour); });
     cell.has_volumetric_energy = springs_.has_volumetric_energy(cell.corners[0]);
+    cell.remaining_tension = springs_.remaining_tension(cell.corners[0]);
     cell.force = {};
     cell.energy = 0;
     if (asked_ == Asked::motion) return;
@@ -172,7 +173,8 @@ class Layer {
       const double height = springs_.height(corner);
       const std::uint32_t kind =
           model_.kinds.mixtures.empty() ? model_.kinds.of(corner) : cell.material;
-      cell.energy += cell.share / 8 * model_.kinds.alphas[kind] * height * height;
+      cell.energy += cell.share / 8 * springs_.remaining_alpha(corner) * model_.kinds.alphas[kind] *
+                     height * height;
     }
   }
 
@@ -210,8 +212,9 @@ Tensor gradient_in(const PresentCell& cell, std::span<const double> xyz, double 
 
 void add_volumetric_energy(const Model& model, PresentCell& cell) {
   if (!cell.has_volumetric_energy) return;
-  const CellResponse own =
-      cell_response(cell.moved, model.body.grid.spacing, model.volumetric.modulus(cell.site));
+  const CellResponse own = soften(
+      cell_response(cell.moved, model.body.grid.spacing, model.volumetric.modulus(cell.site)),
+      cell.remaining_tension);
   for (std::size_t n = 0; n < 8; ++n) cell.force[n] += own.force[n];
   cell.energy += own.energy;
 }

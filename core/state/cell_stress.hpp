@@ -20,6 +20,7 @@ struct PresentCell {
   std::uint8_t material = 0;  ///< in a body of cells of several materials; else of the first corner
   bool is_whole = true;       ///< whether all its springs are there
   bool has_volumetric_energy = false;
+  double remaining_tension = 1;  ///< what damage leaves of its volumetric energy if it is stretched
   /// Mean displacement gradient H of the trilinear field between the corners; F = I + H.
   Tensor gradient;
   std::array<Vec3, 8> moved{};  ///< displacements of the corners less that of the first one, m

@@ -44,6 +44,7 @@ SettledDamage DamageField::settle(const DamageBounds& bounds) {
   if (settled_.empty()) settled_ = accepted;
   settled_.resize(records_.numbers(), 0);
   for (const std::uint32_t number : records_.order()) records_.set_damage(number, settled_[number]);
+  gather_cells(Part::stress);
   records_.for_each([this](std::uint32_t record) { gather(record, Part::stress); });
 
   SettledDamage found;
@@ -77,6 +78,8 @@ SettledDamage DamageField::settle(const DamageBounds& bounds) {
     damage.resize(records_.numbers(), 0);
     for (const std::uint32_t number : added) {
       accepted[number] = settled_[number] = damage[number] = 0;
+      for (const std::uint32_t cell : records_[number].cells.numbers)
+        if (cell != DamageCells::none) gather_cell(records_.cells()[cell], Part::stress);
       gather(number, Part::stress);
     }
   }
@@ -92,6 +95,7 @@ SettledDamage DamageField::settle(const DamageBounds& bounds) {
   settled_ = std::move(damage);
   found.springs = soft_springs();
   found.particles = soft_particles();
+  found.cells = soft_cells();
   for (const std::uint32_t number : records_.order()) records_.set_damage(number, accepted[number]);
   return found;
 }
@@ -103,6 +107,7 @@ void DamageField::accept_search(double time) {
     records_[number].rate = 0;
     note_elongations(number);
   }
+  note_extensions();
   settled_.resize(records_.numbers(), 0);
   set_damages(settled_, time);
   forget_search();

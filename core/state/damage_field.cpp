@@ -55,6 +55,7 @@ DamageField::Motion DamageField::motion_of(const Block& block, std::uint64_t ind
 }
 
 void DamageField::evaluate() {
+  gather_cells(Part::all);
   records_.for_each([this](std::uint32_t record) { gather(record); });
   for (const std::uint32_t number : records_.order()) {
     DamageRecord& record = records_[number];
@@ -133,10 +134,12 @@ void DamageField::gather(std::uint32_t number, Part part) {
     record.height = here.height;
     record.alpha_factor = f;
   }
+  const double tension = record.cells.share > 0 ? add_cells(number, part) : 0;
   if (record.material == nullptr) return;
   for (double& component : virial) component /= 2 * record.volume;
   for (double& component : of_heights) component /= 2 * record.volume;
   record.stress = record.correction ? corrected(virial, of_heights, *record.correction) : virial;
+  for (std::size_t axis = 0; axis < 3; ++axis) record.stress[axis] += tension;
   const double in_spacings = record.material->length / model_.body.grid.spacing;
   record.spread = in_spacings * in_spacings * spread;
 }
@@ -267,8 +270,10 @@ void DamageField::note_gone() {
 void DamageField::surround(const std::vector<std::uint32_t>& damaged) {
   std::vector<Particle> neighbours;
   neighbours.reserve(damaged.size() * DamageRecord::most_springs);
-  for (const std::uint32_t number : damaged)
+  for (const std::uint32_t number : damaged) {
     for (const DamageSpring& spring : records_[number].springs()) neighbours.push_back(spring.to);
+    for_opposite(records_[number], [&](Particle corner) { neighbours.push_back(corner); });
+  }
   std::vector<std::uint32_t> behind = records_.add(neighbours);
   for (const Particle neighbour : neighbours)
     if (rests(records_[records_.of(neighbour)])) behind.push_back(records_.of(neighbour));
@@ -299,14 +304,18 @@ bool DamageField::rests(const DamageRecord& record) const {
 
 bool DamageField::touches_damage(const DamageRecord& record) const {
   const auto springs = record.springs();
-  return std::any_of(springs.begin(), springs.end(), [this](const DamageSpring& spring) {
+  bool touches = std::any_of(springs.begin(), springs.end(), [this](const DamageSpring& spring) {
     return records_.damage_of(spring.to) > 0;
   });
+  for_opposite(record,
+               [&](Particle corner) { touches = touches || records_.damage_of(corner) > 0; });
+  return touches;
 }
 
 void DamageField::finish() {
   for (const std::uint32_t number : soft_) {
     DamageRecord& record = records_[number];
+    hand_over_cells(record);
     for (DamageSpring& spring : record.springs()) {
       if (spring.handed_over || !spring.present) continue;
       if (!records_.exists(record, spring)) {
@@ -341,12 +350,8 @@ void DamageField::follow_noted() {
 /// springs have been below their alarm for long.
 void DamageField::remove_idle() {
   records_.remove_if([this](const DamageRecord& record) {
-    if (records_.damage_of(record.particle) > 0 || record.marked + steps_followed > clock_.steps())
-      return false;
-    const auto springs = record.springs();
-    return std::none_of(springs.begin(), springs.end(), [this](const DamageSpring& spring) {
-      return records_.damage_of(spring.to) > 0;
-    });
+    return !(records_.damage_of(record.particle) > 0) &&
+           record.marked + steps_followed <= clock_.steps() && !touches_damage(record);
   });
 }
 

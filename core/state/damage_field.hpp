@@ -5,12 +5,15 @@
 //
 // A spring with an end of omega < 1 is handed over: its bit in Block::alive is cleared, so that
 // kernels skip it with its cross springs, and the field computes it. What kernels cost stays as it
-// is, and the field costs what lies near cracks.
+// is, and the field costs what lies near cracks. Likewise a cell with a volumetric energy
+// (damage_cells.hpp).
 #pragma once
 
 #include <state/clock.hpp>
+#include <state/damage_cells.hpp>
 #include <state/damage_equations.hpp>
 #include <state/damage_records.hpp>
+#include <state/soft_cell.hpp>
 #include <state/soft_spring.hpp>
 
 #include <hyperlattice/kernel_request.hpp>
@@ -20,12 +23,6 @@
 
 namespace hyperlattice {
 
-/// A particle of which a part of the alpha spring remains.
-struct SoftParticle {
-  Particle particle = 0;
-  double alpha_factor = 1;
-};
-
 /// Damage at rest.
 struct SettledDamage {
   double factor =
@@ -33,6 +30,7 @@ struct SettledDamage {
   double change = 0;                ///< largest change of a particle's damage since the last search
   std::vector<SoftSpring> springs;  ///< in the order of their first ends and neighbours
   std::vector<SoftParticle> particles;
+  std::vector<SoftCell> cells;  ///< in the order of their lowest corners
 };
 
 class DamageField {
@@ -94,6 +92,10 @@ class DamageField {
   /// Returns the springs that are handed over, in the order of their first ends and neighbours.
   std::vector<SoftSpring> soft_springs() const;
   std::vector<SoftParticle> soft_particles() const;
+  /// Returns the factor of a cell, given its lowest corner, if it is handed over.
+  std::optional<double> cell_factor(Particle lowest) const;
+  /// Returns the cells that are handed over, in the order of their lowest corners.
+  std::vector<SoftCell> soft_cells() const;
 
   void archive(Archive& archive) { records_.archive(archive); }
 
@@ -105,6 +107,23 @@ class DamageField {
   /// What gather() computes: all, or the stress alone, which leaves the energies as they are.
   enum class Part { all, stress };
   void gather(std::uint32_t number, Part part = Part::all);
+  // soft_cells.cpp
+  void gather_cells(Part part);
+  void gather_cell(DamageCell& cell, Part part) const;
+  CellResponse response(const DamageCell& cell) const;
+  double stiffness_of(const DamageCell& cell) const;
+  double factor(const DamageCell& cell) const;
+  double add_cells(std::uint32_t number, Part part);
+  void note_extensions();
+  void hand_over_cells(const DamageRecord& record);
+  /// Calls visit(particle) for the opposite corners of the cells around a record's particle.
+  template <class Visit>
+  void for_opposite(const DamageRecord& record, const Visit& visit) const {
+    for (std::size_t n = 0; n < 8; ++n)
+      if (record.cells.numbers[n] != DamageCells::none)
+        visit(records_.cells()[record.cells.numbers[n]].corners[7 - n]);
+  }
+
   void find_ratios(std::span<const std::uint32_t> records, std::vector<double>& ratios) const;
   void note_elongations(std::uint32_t number);
   void set_damages(const std::vector<double>& damages, double time);
@@ -116,6 +135,7 @@ class DamageField {
   void remove_idle();
   void note(Block& block, Particle particle) const;
   bool rests(const DamageRecord& record) const;
+  bool rests(const DamageCell& cell) const;
   bool touches_damage(const DamageRecord& record) const;
   double opening(std::uint32_t number) const;
 

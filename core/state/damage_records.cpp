@@ -17,7 +17,8 @@ Vector6 squares(Vec3 r) {
 
 }  // namespace
 
-DamageRecords::DamageRecords(BlockSet& blocks) : blocks_(blocks), model_(blocks.model()) {
+DamageRecords::DamageRecords(BlockSet& blocks)
+    : blocks_(blocks), model_(blocks.model()), cells_(blocks) {
   if (model_.cohesive.empty()) return;
   index_.assign(model_.body.particles, none);
   rows_.resize(blocks.size());
@@ -64,6 +65,8 @@ std::vector<std::uint32_t> DamageRecords::add(std::vector<Particle> particles) {
       fill(records_[added[n]], particles[n]);
     }
   });
+  for (const std::uint32_t record : added)
+    records_[record].cells = cells_.follow(records_[record].particle);
   const auto middle = static_cast<std::ptrdiff_t>(order_.size());
   order_.insert(order_.end(), added.begin(), added.end());
   std::inplace_merge(order_.begin(), order_.begin() + middle, order_.end(),
@@ -76,6 +79,7 @@ std::vector<std::uint32_t> DamageRecords::add(std::vector<Particle> particles) {
 
 void DamageRecords::forget(std::uint32_t record) {
   index_[records_[record].particle] = none;
+  cells_.release(records_[record].cells);
   unused_.push_back(record);
 }
 
@@ -253,7 +257,7 @@ void DamageRecords::archive(Archive& archive) {
     all.push_back(kept);
   }
   archive(all);
-  if (!archive.restores()) return;
+  if (!archive.restores()) return cells_.archive(archive);
   remove_if([](const DamageRecord&) { return true; });
   std::vector<Particle> particles;
   particles.reserve(all.size());
@@ -277,6 +281,7 @@ void DamageRecords::archive(Archive& archive) {
       std::copy_n(kept.factor[s], 2, spring.factor);
     }
   }
+  cells_.archive(archive);
 }
 
 }  // namespace hyperlattice

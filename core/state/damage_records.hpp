@@ -5,6 +5,7 @@
 #include <model/cohesive.hpp>
 #include <state/archive.hpp>
 #include <state/block_set.hpp>
+#include <state/damage_cells.hpp>
 #include <state/tensor.hpp>
 
 #include <array>
@@ -67,6 +68,8 @@ struct DamageRecord {
   /// For a particle whose cells are not symmetric; null: its virial is its stress.
   std::unique_ptr<const VirialCorrection> correction;
 
+  CellsOfParticle cells;
+
   // results of the last evaluation
   double height = 0, alpha_factor = 1;  ///< m
   Symmetric stress{};                   ///< Pa
@@ -115,6 +118,10 @@ class DamageRecords {
   double remaining_of(Particle particle) const {
     return index_[particle] == none ? 1 : remaining_[index_[particle]];
   }
+
+  /// The cells with a volumetric energy around the particles with records.
+  DamageCells& cells() { return cells_; }
+  const DamageCells& cells() const { return cells_; }
 
   /// Returns whether damage can grow at a particle.
   bool has_field(Particle particle) const;
@@ -169,6 +176,7 @@ class DamageRecords {
 
   BlockSet& blocks_;
   const Model& model_;
+  DamageCells cells_;
   std::deque<DamageRecord> records_;
   std::vector<double> damages_, remaining_;  // of each record
   std::vector<std::uint32_t> unused_;        // numbers of records

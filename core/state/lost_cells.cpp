@@ -1,4 +1,5 @@
 #include <state/lost_cells.hpp>
+#include <state/soft_cell.hpp>
 
 #include <hyperlattice/volumetric_cell.hpp>
 
@@ -42,9 +43,10 @@ double lose_cells(const BlockSet& blocks, Particle a, std::uint32_t neighbour, d
     if (lowest == Body::no_particle) return;
     const auto [block, index] = blocks.at(lowest);
     std::uint16_t& bits = block->alive[index];
-    if ((bits & cell_bit) == 0) return;
-    bits = static_cast<std::uint16_t>(bits & ~cell_bit);
-    energy += energy_of(blocks, cell, step);
+    const bool acts = (bits & cell_bit) != 0;
+    // The field of damage sees that its cell has lost the bit, and counts the energy.
+    bits = static_cast<std::uint16_t>(bits & ~(cell_bit | soft_cell_bit));
+    if (acts) energy += energy_of(blocks, cell, step);
   });
   return energy;
 }

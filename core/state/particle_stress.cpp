@@ -115,7 +115,8 @@ std::vector<double> energy_densities(const PresentSprings& springs) {
     if (volumes) energies[p] += volumes->energy(p);
     const double height = springs.height(p);
     if (height != 0)
-      energies[p] += body.share(p) * model.kinds.alphas[model.kinds.of(p)] * height * height;
+      energies[p] += body.share(p) * springs.remaining_alpha(p) *
+                     model.kinds.alphas[model.kinds.of(p)] * height * height;
     energies[p] /= volume_of(body, p);
   }
   return energies;

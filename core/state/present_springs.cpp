@@ -94,6 +94,10 @@ PresentSprings::PresentSprings(const Model& model, const Simulation& simulation)
       bits = static_cast<std::uint16_t>(bits | 1U << spring.neighbour);
       soft_[spring.neighbour].push_back(spring);
     }
+    for (const SoftCell& cell : simulation.soft_cells())
+      soft_cells_.emplace_back(cell.lowest, cell.factor);
+    for (const SoftParticle& soft : simulation.soft_particles())
+      soft_alphas_.emplace_back(soft.particle, soft.alpha_factor);
     return;
   }
   for (const Breakage& breakage : simulation.breakages()) {
@@ -105,6 +109,13 @@ PresentSprings::PresentSprings(const Model& model, const Simulation& simulation)
   memory_.resize(model.body.listed.springs.size());
   simulation.for_springs_of_list(
       [&](const Simulation::SpringMemory& spring) { memory_[spring.index] = spring; });
+}
+
+double PresentSprings::factor_of(Particle particle, const Factors& factors) {
+  const auto found =
+      std::lower_bound(factors.begin(), factors.end(), particle,
+                       [](const auto& factor, Particle wanted) { return factor.first < wanted; });
+  return found != factors.end() && found->first == particle ? found->second : 1;
 }
 
 /// The memory is that of the last step's start and stays so, as in a measurement.

@@ -5,9 +5,11 @@
 
 #include <model/spring_calls.hpp>
 #include <state/simulation.hpp>
+#include <state/soft_cell.hpp>
 #include <state/soft_spring.hpp>
 
 #include <functional>
+#include <utility>
 #include <vector>
 
 namespace hyperlattice {
@@ -59,7 +61,13 @@ class PresentSprings {
   }
   /// Returns whether the volumetric energy acts of the cell whose lowest corner is this particle of
   /// a structured body.
-  bool has_volumetric_energy(Particle lowest) const { return (alive_[lowest] & cell_bit) != 0; }
+  bool has_volumetric_energy(Particle lowest) const {
+    return (alive_[lowest] & (cell_bit | soft_cell_bit)) != 0;
+  }
+  /// Returns what damage leaves of its tension.
+  double remaining_tension(Particle lowest) const { return factor_of(lowest, soft_cells_); }
+  /// Returns what damage leaves of the alpha spring of a particle.
+  double remaining_alpha(Particle particle) const { return factor_of(particle, soft_alphas_); }
 
   /// Visits all springs that are not broken. Calls for springs that have a particle in common
   /// follow each other in an order that no number of threads changes; other calls may be at the
@@ -94,6 +102,9 @@ class PresentSprings {
                  const Layout::Memory (&memory)[2], std::uint32_t first = 0,
                  double remains = 1) const;
   std::span<const SoftSpring> soft_in(const Piece& piece) const;
+  /// Factors of some particles, ascending; the others have 1.
+  using Factors = std::vector<std::pair<Particle, double>>;
+  static double factor_of(Particle particle, const Factors& factors);
   void find_memory(Particle a, std::uint32_t neighbour, Layout::Memory (&memory)[2]) const;
 
   const Model& model_;
@@ -102,6 +113,7 @@ class PresentSprings {
   std::vector<std::uint16_t> alive_;             ///< of a structured body, see KernelRequest
   /// [neighbour]: springs that damage has softened, ascending by their first ends
   std::vector<std::vector<SoftSpring>> soft_;
+  Factors soft_cells_, soft_alphas_;              ///< by the cells' lowest corners, by particle
   std::vector<std::uint8_t> broken_;              ///< of a listed body; empty: no spring is
   std::vector<Simulation::SpringMemory> memory_;  ///< of a listed body whose laws keep some
 };

@@ -44,10 +44,16 @@ Vec3 SectionForces::moved(const End& end) {
 /// Adds the forces of a cell on its corners before the plane.
 void SectionForces::add(const Cell& cell, Vec3 about, Resultant& sum) const {
   const End& lowest = cell.corners.front();
-  if ((lowest.block->alive[lowest.index] & cell_bit) == 0) return;
+  double remains = 1;
+  if ((lowest.block->alive[lowest.index] & cell_bit) == 0) {
+    const auto factor = damage_.empty() ? std::nullopt : damage_.cell_factor(lowest.particle);
+    if (!factor) return;
+    remains = *factor;
+  }
   CellCorners displacement;
   for (std::size_t n = 0; n < 8; ++n) displacement[n] = moved(cell.corners[n]);
-  const CellResponse own = cell_response(displacement, model_.body.grid.spacing, cell.modulus);
+  const CellResponse own =
+      soften(cell_response(displacement, model_.body.grid.spacing, cell.modulus), remains);
   for (std::size_t n = 0; n < 8; ++n) {
     if ((cell.before >> n & 1U) == 0) continue;
     const Vec3 place = model_.body.position(cell.corners[n].particle) + displacement[n];

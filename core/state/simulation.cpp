@@ -77,6 +77,10 @@ std::vector<SoftParticle> Simulation::soft_particles() const {
   return state_->damage.empty() ? std::vector<SoftParticle>{} : state_->damage.soft_particles();
 }
 
+std::vector<SoftCell> Simulation::soft_cells() const {
+  return state_->damage.empty() ? std::vector<SoftCell>{} : state_->damage.soft_cells();
+}
+
 void Simulation::law_field(std::string_view name, std::vector<double>& values) const {
   state_->law_memory.field(name, values);
 }

@@ -20,6 +20,7 @@ class Archive;
 class ForceSums;
 struct DamageBounds;
 struct SettledDamage;
+struct SoftCell;
 struct SoftParticle;
 struct SoftSpring;
 
@@ -114,6 +115,7 @@ class Simulation {
   /// Returns the springs whose stiffness damage lowers, in the order of their ends.
   std::vector<SoftSpring> soft_springs() const;
   std::vector<SoftParticle> soft_particles() const;
+  std::vector<SoftCell> soft_cells() const;
   /// Finds the damage at rest for displacements other than the present ones (damage_field.hpp).
   /// The state stays; apply_equilibrium() takes the damage over.
   SettledDamage settle_damage(const std::vector<double>& xyz, const std::vector<double>& heights,

@@ -1,4 +1,4 @@
-// A spring whose stiffness the field of damage lowers.
+// Springs whose stiffness the field of damage lowers.
 #pragma once
 
 #include <hyperlattice/plain.hpp>
@@ -13,6 +13,12 @@ struct SoftSpring {
   Particle a = 0, b = 0;        ///< a is the first end
   std::uint32_t neighbour = 0;  ///< see Model::spring_properties
   double factor = 1;
+};
+
+/// A particle of which a part of the alpha spring remains.
+struct SoftParticle {
+  Particle particle = 0;
+  double alpha_factor = 1;
 };
 
 }  // namespace hyperlattice

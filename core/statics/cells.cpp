@@ -1,5 +1,6 @@
 // The volumetric energies of the cells of a grid (<hyperlattice/volumetric_cell.hpp>): forces,
 // energy and tangents. A cell belongs to the place of its lowest corner.
+#include <state/soft_cell.hpp>
 #include <statics/statics.hpp>
 
 #include <hyperlattice/volumetric_cell.hpp>
@@ -35,6 +36,7 @@ double Statics::respond_cells(std::int64_t first, std::size_t count, const doubl
       for (std::size_t corner = 0; corner < 8; ++corner)
         for (std::size_t c = 0; c < 3; ++c) displacement[corner][c] = u[of_corner(corner, c)];
       cell = cell_response(displacement, grid.spacing, modulus);
+      if (!cell_remains_.empty()) cell = soften(cell, cell_remains_[place]);
       energy += cell.energy;
       for (std::size_t corner = 0; corner < 8; ++corner)
         for (std::size_t c = 0; c < 3; ++c) force[of_corner(corner, c)] += cell.force[corner][c];

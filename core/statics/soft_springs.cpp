@@ -17,7 +17,15 @@ constexpr double least_tangent = 1e-6;
 }  // namespace
 
 void Statics::take_soft(const std::vector<SoftSpring>& springs,
-                        const std::vector<SoftParticle>& particles) {
+                        const std::vector<SoftParticle>& particles,
+                        const std::vector<SoftCell>& cells) {
+  cell_remains_.clear();
+  if (!cells.empty()) cell_remains_.assign(static_cast<std::size_t>(problem_.grid.places), 1);
+  for (const SoftCell& cell : cells) {
+    const auto place = static_cast<std::size_t>(place_of(cell.lowest));
+    cell_modulus_[place] = model_.volumetric.modulus(model_.body.site(cell.lowest));
+    cell_remains_[place] = cell.factor;
+  }
   for (const Soft& soft : soft_) weight_[soft.at] = soft.weight;
   soft_.clear();
   soft_alphas_.clear();
@@ -86,7 +94,7 @@ DamageFound Statics::grow_damage(const double* displacement, const DamageSearch&
       of_particles(displacement, 0, 3),
       problem_.grid.components == 4 ? of_particles(displacement, 3, 1) : std::vector<double>(),
       bounds);
-  take_soft(found.springs, found.particles);
+  take_soft(found.springs, found.particles, found.cells);
   return {std::clamp(found.factor * load(search.share) - preload_, search.least_share,
                      search.most_share),
           found.change};
@@ -94,7 +102,7 @@ DamageFound Statics::grow_damage(const double* displacement, const DamageSearch&
 
 void Statics::restore_damage() {
   simulation_.forget_damage_search();
-  take_soft(simulation_.soft_springs(), simulation_.soft_particles());
+  take_soft(simulation_.soft_springs(), simulation_.soft_particles(), simulation_.soft_cells());
 }
 
 }  // namespace hyperlattice

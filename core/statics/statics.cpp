@@ -75,7 +75,7 @@ void Statics::read_springs() {
     find_listed_weights();
   else
     make_weights();
-  take_soft(simulation_.soft_springs(), simulation_.soft_particles());
+  take_soft(simulation_.soft_springs(), simulation_.soft_particles(), simulation_.soft_cells());
 }
 
 void Statics::accept(double share, const double* displacement) {

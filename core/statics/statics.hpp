@@ -14,6 +14,7 @@
 namespace hyperlattice {
 
 struct RowBuffers;
+struct SoftCell;
 struct SoftParticle;
 struct SoftSpring;
 
@@ -68,9 +69,9 @@ class Statics {
                        const SpringTangents* tangents) const;
 
   // soft_springs.cpp
-  /// Takes over the springs and particles that damage softens; their former ones return.
-  void take_soft(const std::vector<SoftSpring>& springs,
-                 const std::vector<SoftParticle>& particles);
+  /// Takes over what damage softens; what it softened before returns.
+  void take_soft(const std::vector<SoftSpring>& springs, const std::vector<SoftParticle>& particles,
+                 const std::vector<SoftCell>& cells);
   DamageFound grow_damage(const double* displacement, const DamageSearch& search);
   void restore_damage();
   double respond_soft(const double* u, double* force, const SpringTangents* tangents) const;
@@ -130,6 +131,7 @@ class Statics {
   std::vector<float, ArrayMemory<float>> weight_;
   /// K_v times the share of the cell of each place, Pa; empty: no cells.
   Values cell_modulus_;
+  Values cell_remains_;  ///< what damage leaves of their tension; empty: all of it
   struct Soft {
     std::int64_t place, step;  ///< of the first end, and on to the other
     std::size_t at;            ///< in weight_

@@ -21,7 +21,7 @@ inline Keys cohesive(double poisson, double length, const Keys& more = {}) {
   return {{"young", young},
           {"density", 2500},
           {"poisson", poisson},
-          {"membrane", poisson == 0.25 ? "none" : "I-m"},
+          {"membrane", poisson < 0.25 ? "I-m" : "none"},
           {"failure", (Keys{{"type", "failures.cohesive"},
                             {"strength", strength},
                             {"fracture_energy", fracture_energy(poisson, length)},

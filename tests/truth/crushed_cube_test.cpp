@@ -56,7 +56,9 @@ std::pair<double, double> crush(const Keys& elastic) {
 
 TEST(CrushedCube, BearsItsCompressiveStrength) {
   const std::pair<const char*, Keys> membranes[] = {
-      {"none", {{"poisson", 0.25}}}, {"I-m", {{"poisson", 0.2}, {"membrane", "I-m"}}}};
+      {"none", {{"poisson", 0.25}}},
+      {"I-m", {{"poisson", 0.2}, {"membrane", "I-m"}}},
+      {"volumetric", {{"poisson", 0.35}}}};
   for (const auto& [name, elastic] : membranes) {
     const auto [most, last] = crush(elastic);
     std::printf("%s: peak %.4f of the compressive strength, %.3f at the end\n", name, most, last);

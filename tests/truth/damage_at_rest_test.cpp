@@ -40,7 +40,7 @@ struct Bar {
       return Keys{{"young", young},
                   {"density", 2500},
                   {"poisson", poisson},
-                  {"membrane", poisson == 0.25 ? "none" : "I-m"},
+                  {"membrane", poisson < 0.25 ? "I-m" : "none"},
                   {"failure", Keys{{"type", "failures.cohesive"},
                                    {"strength", share * strength},
                                    {"fracture_energy",
@@ -179,7 +179,7 @@ TEST_P(BarAtRest, SoftensAlongTheLineOfItsToughness) {
   EXPECT_NEAR(found.peak(), 0.9975, 0.01);  // between both strengths
   // Below 0.3 of the strength a band of 5 spacings does not resolve the line: its layers do so in
   // their own way, and closely as b / h grows.
-  EXPECT_LT(worst, bar.poisson == 0.25 ? 0.02 : 0.04);
+  EXPECT_LT(worst, bar.poisson < 0.25 ? 0.04 : 0.02);
   EXPECT_LT(worst_opening, 0.03);
   EXPECT_LT(worst_top, 0.03);
   EXPECT_NEAR((found.balance.dissipated_failure + found.balance.stored) / area, 1, 0.03);
@@ -193,7 +193,7 @@ TEST_P(BarAtRest, SoftensAlongTheLineOfItsToughness) {
     EXPECT_NEAR(found.damage[static_cast<std::size_t>(i)], expected, 0.04) << i;
   }
 }
-INSTANTIATE_TEST_SUITE_P(None, BarAtRest, testing::Values(0.25, 0.2));
+INSTANTIATE_TEST_SUITE_P(None, BarAtRest, testing::Values(0.25, 0.2, 0.3));
 
 // A bar longer than 2 E G / sigma^2 has no states of rest along the way at loads that grow.
 TEST(DamageAtRest, FollowsASnapBackOrRunsOn) {

@@ -4,11 +4,14 @@
 #include <support/cohesive_bar.hpp>
 
 #include <state/damage_field.hpp>
+#include <state/force_sums.hpp>
+#include <state/particle_stress.hpp>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace damage_test {
 using namespace hyperlattice;
@@ -22,7 +25,9 @@ struct Softening {
   double dissipated = 0, stored = 0, error = 0;
   std::vector<double> damage;
 };
-Softening pull(Bar& bar, double length) {
+/// A confined bar has the curve of a lattice's layers, which leaves the line below a third of the
+/// strength (docs/theory/cohesive.md).
+Softening pull(Bar& bar, double length, bool confined) {
   Softening found;
   const Model& model = *bar.plan->model;
   const double modulus = model.cohesive[0].modulus,
@@ -39,7 +44,7 @@ Softening pull(Bar& bar, double length) {
     const double w = (growth - stress * strength * compliance) / last;
     found.peak = std::max(found.peak, stress);
     if (w > 0.1) softens = true;
-    if (!softens || w > 0.95) continue;
+    if (!softens || w > 0.95 || (confined && stress < 0.35)) continue;
     found.worst = std::max(found.worst, std::abs(stress - (1 - w)));
     const double top = largest(damage_of(model, *bar.simulation));
     found.worst_top = std::max(found.worst_top, std::abs(top - (1 - stress)));
@@ -57,13 +62,16 @@ class BarOfDamage : public testing::TestWithParam<std::pair<int, double>> {};
 TEST_P(BarOfDamage, SoftensAlongTheLineOfItsToughness) {
   const auto [ratio, poisson] = GetParam();
   const double length = mm(ratio);
-  Bar bar((5 * ratio + 1) / 2, poisson, length, "double");
-  const Softening found = pull(bar, length);
+  // A bar whose E is far below C11 snaps: it gives back more energy than its crack takes. If it is
+  // confined it has C11.
+  const bool confined = poisson > 0.25;
+  Bar bar((5 * ratio + 1) / 2, poisson, length, "double", 1, confined);
+  const Softening found = pull(bar, length, confined);
   std::printf("b/h %d: peak %.4f line %.4f top %.4f D %.4f stored %.2e balance %.2e\n", ratio,
               found.peak, found.worst, found.worst_top, found.dissipated, found.stored,
               found.error);
   EXPECT_NEAR(found.peak, 1, 0.01);
-  EXPECT_LT(found.worst, poisson == 0.25 ? 0.02 : 0.04);
+  EXPECT_LT(found.worst, poisson < 0.25 ? 0.04 : 0.02);
   EXPECT_LT(found.worst_top, ratio == 3 ? 0.06 : 0.04);
   // Beyond w_c the traction falls as w^-3: the springs still hold what they will lose.
   EXPECT_NEAR(found.dissipated + found.stored, 1, 0.03);
@@ -80,7 +88,9 @@ TEST_P(BarOfDamage, SoftensAlongTheLineOfItsToughness) {
     EXPECT_NEAR(found.damage[static_cast<std::size_t>(i)], expected, 0.03) << i;
   }
 }
-INSTANTIATE_TEST_SUITE_P(None, BarOfDamage, testing::Values(std::pair(3, 0.25), std::pair(3, 0.2)));
+INSTANTIATE_TEST_SUITE_P(None, BarOfDamage,
+                         testing::Values(std::pair(3, 0.25), std::pair(3, 0.2), std::pair(3, 0.3),
+                                         std::pair(3, 0.45)));
 
 struct Torn {
   EnergyBalance balance;
@@ -101,8 +111,9 @@ Torn torn(const Plan& plan, int threads, int steps = 300) {
 }
 
 TEST(Damage, HasTheSameBitsForAnyNumberOfThreadsAndClosesItsBalance) {
-  for (const char* boundary : {"cells", "particles"}) {
-    const auto plan = torn_bar(0.25, "double", boundary);
+  for (const auto& [boundary, poisson] : {std::pair("cells", 0.25), std::pair("particles", 0.25),
+                                          std::pair("cells", 0.45), std::pair("particles", 0.4)}) {
+    const auto plan = torn_bar(poisson, "double", boundary);
     const Torn one = torn(*plan, 1), two = torn(*plan, 2), three = torn(*plan, 3);
     std::printf("%s: damaged %.3f broken %llu failure/scale %.3f balance %.2e\n", boundary,
                 largest(one.damage), static_cast<unsigned long long>(one.broken),
@@ -120,8 +131,47 @@ TEST(Damage, HasTheSameBitsForAnyNumberOfThreadsAndClosesItsBalance) {
   }
 }
 
-TEST(Damage, GoesOnFromACheckpointWithTheSameBits) {
-  const auto plan = torn_bar(0.25);
+// Fields and sections see the softened springs and cells as the step does.
+TEST(Damage, IsSeenAlikeByFieldsSectionsAndSteps) {
+  for (const double poisson : {0.25, 0.2, 0.45}) {
+    const auto plan = torn_bar(poisson);
+    const Model& model = *plan->model;
+    const double dt = 0.4 * model.step_limit.time_step, z = 10.2e-3;
+    Simulation simulation(model, 2);
+    set_tearing(model, simulation);
+    for (int n = 0; n < 200; ++n) simulation.step(dt);
+    ASSERT_GT(simulation.broken(), 0u);
+    const PresentSprings springs(model, simulation);
+    const std::vector<Vec3> forces = internal_forces(springs);
+    const std::vector<double> densities = energy_densities(springs);
+    std::vector<Particle> all(model.body.particles);
+    std::iota(all.begin(), all.end(), Particle{0});
+    const ForcesId id = simulation.force_sums().follow(cut(model, {0, 0, z}, {0, 0, 1}, all));
+    const Vec3 section = simulation.force_sums().sum(id, {}).force;
+    const double stored = simulation.balance().stored;
+    std::vector<double> before, after;
+    simulation.velocities(before);
+    simulation.step(dt);
+    simulation.velocities(after);
+    double scale = 0, energy = 0;
+    for (const Vec3 force : forces) scale = std::max(scale, norm(force));
+    Vec3 below;
+    for (const Particle p : all) {
+      for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_NEAR(model.mass(p) * (after[3 * p + c] - before[3 * p + c]) / dt, forces[p][c],
+                    1e-11 * scale);
+      energy += densities[p] * model.body.share(p) * spacing * spacing * spacing;
+      if (model.body.position(p).z < z) below += forces[p];
+    }
+    EXPECT_NEAR(energy, stored, 1e-12 * stored) << poisson;
+    EXPECT_LT(norm(section - below), 1e-12 * scale * static_cast<double>(all.size())) << poisson;
+  }
+}
+
+class RestartOfDamage : public testing::TestWithParam<double> {};
+
+TEST_P(RestartOfDamage, HasTheSameBits) {
+  const auto plan = torn_bar(GetParam());
   const double step = 0.4 * plan->model->step_limit.time_step;
   Simulation whole(*plan->model, 2), first(*plan->model, 2), second(*plan->model, 2);
   set_tearing(*plan->model, whole);
@@ -141,8 +191,12 @@ TEST(Damage, GoesOnFromACheckpointWithTheSameBits) {
   EXPECT_EQ(whole.broken(), second.broken());
 }
 
-TEST(Damage, IsTheSameInFloats) {
-  const auto doubles = torn_bar(0.25), floats = torn_bar(0.25, "float");
+INSTANTIATE_TEST_SUITE_P(Poisson, RestartOfDamage, testing::Values(0.25, 0.45));
+
+class FloatsOfDamage : public testing::TestWithParam<double> {};
+
+TEST_P(FloatsOfDamage, AreTheSame) {
+  const auto doubles = torn_bar(GetParam()), floats = torn_bar(GetParam(), "float");
   const Torn exact = torn(*doubles, 1, 150), rounded = torn(*floats, 1, 150);
   std::printf("floats: distance of damage %.2e, D %.2e, balance %.2e\n",
               distance(exact.damage, rounded.damage),
@@ -153,11 +207,13 @@ TEST(Damage, IsTheSameInFloats) {
   EXPECT_LT(std::abs(rounded.balance.relative_error()), 1e-3);
 }
 
+INSTANTIATE_TEST_SUITE_P(Poisson, FloatsOfDamage, testing::Values(0.25, 0.45));
+
 // In a uniform strain the stress is that of the material at every particle: at faces, edges and
 // corners too, whatever the boundary, and with a membrane whose heights are uniform.
 TEST(Damage, IsDrivenByTheStressOfAUniformStrainUpToTheCorners) {
   const Json corner = {{"difference", {box_mm(6, 5, 6), box({mm(3), mm(2), mm(3)}, {1, 1, 1})}}};
-  for (const double poisson : {0.25, 0.1})
+  for (const double poisson : {0.25, 0.1, 0.4})
     for (const char* boundary : {"cells", "particles"}) {
       const auto plan =
           plan_of(SceneBuilder{}
@@ -195,7 +251,7 @@ TEST(Damage, IsDrivenByTheStressOfAUniformStrainUpToTheCorners) {
         for (std::size_t n = 0; n < 6; ++n)
           EXPECT_NEAR(stress[n], expected[n], 1e-5 * std::abs(expected[0]))
               << boundary << " " << poisson << " particle " << particle;
-      if (poisson != 0.25) continue;  // with a membrane the heights decide too
+      if (poisson < 0.25) continue;  // with a membrane the heights decide too
       const double shear = young / (2 * (1 + poisson)), trace = rows[0].x + rows[1].y + rows[2].z,
                    lame = shear * 2 * poisson / (1 - 2 * poisson);
       EXPECT_NEAR(expected[0], lame * trace + 2 * shear * rows[0].x, 1e-5 * expected[0]);
@@ -206,7 +262,7 @@ TEST(Damage, IsDrivenByTheStressOfAUniformStrainUpToTheCorners) {
 
 // A plate that spins with stresses of 0.3 of the strength: frames do not matter, nothing cracks.
 TEST(Damage, StaysZeroInABodyThatSpins) {
-  for (const double poisson : {0.25, 0.2}) {
+  for (const double poisson : {0.25, 0.2, 0.45}) {
     const auto plan =
         plan_of(SceneBuilder{}
                     .lattice("lattices.cubic", spacing, box_mm(8, 8, 1), {{"boundary", "cells"}})

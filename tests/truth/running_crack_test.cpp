@@ -68,7 +68,7 @@ struct Strip {
     scene.material("materials.elastic", {{"young", young},
                                          {"poisson", nu},
                                          {"density", density},
-                                         {"membrane", nu == 0.25 ? "none" : "I-m"},
+                                         {"membrane", nu < 0.25 ? "I-m" : "none"},
                                          {"stiffness", "bulk"},
                                          {"failure", Keys{{"type", "failures.cohesive"},
                                                           {"strength", strength},
@@ -120,6 +120,11 @@ double energy_of_growth(const Case& one) {
     if (tip > strip.notch + 3 * strip.length && tip < strip.extent - 6 * strip.length)
       points.emplace_back(tip, simulation.balance().dissipated_failure);
   }
+  if (points.size() < 2) {
+    ADD_FAILURE() << one.name << ": the crack has not run, its tip is at " << tip / strip.length
+                  << " lengths";
+    return 0;
+  }
   // the slope of the line through the points
   double x = 0, y = 0, xx = 0, xy = 0;
   const auto count = static_cast<double>(points.size());
@@ -151,6 +156,9 @@ TEST(RunningCrack, TakesItsFractureEnergyInTwoDirections) {
 }
 TEST(LongRunningCrack, TakesItsFractureEnergyInThreeDirections) {
   expect_toughness({{"none", 0, 5}, {"none", 22.5, 5}, {"none", 45, 5}}, 0.05, 0.05);
+}
+TEST(LongRunningCrack, TakesItsFractureEnergyWithAVolumetricEnergy) {
+  expect_toughness({{"nu 0.3", 0, 3, 0.3}, {"nu 0.3", 45, 3, 0.3}}, 0.08, 0.08);
 }
 TEST(LongRunningCrack, TakesItsFractureEnergyWithAMembrane) {
   expect_toughness({{"I-m", 0, 5, 0.2}, {"I-m", 22.5, 5, 0.2}, {"I-m", 45, 5, 0.2}}, 0.05, 0.05);
