@@ -28,6 +28,7 @@ void History::begin() {
                                    "momentum_z",
                                    "broken_open",
                                    "broken_closed"};
+  if (has_cracks_) columns.insert(columns.end(), {"surface_energy", "crack_area"});
   for (const Load& load : loads_) columns.push_back("work_" + load.stage->name);
   table_ = &folder_.table("history.csv", columns);
 }
@@ -57,6 +58,7 @@ void History::write(const std::vector<double>& work) {
                              b.momentum.z,
                              static_cast<double>(last_.broken_open),
                              static_cast<double>(last_.broken_closed)};
+  if (has_cracks_) values.insert(values.end(), {last_.cracks.energy, last_.cracks.area});
   values.insert(values.end(), work.begin(), work.end());
   table_->row(values);
 }

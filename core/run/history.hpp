@@ -1,5 +1,5 @@
-// history.csv: the energy balance, the momentum, the number of broken springs and the work of each
-// load at every record.
+// history.csv: the energy balance, the momentum, the number of broken springs, what cracks there
+// are in cohesive materials, and the work of each load at every record.
 #pragma once
 
 #include <run/folder.hpp>
@@ -14,11 +14,13 @@ struct Record {
   std::uint64_t step = 0;
   EnergyBalance balance;
   std::uint64_t broken_open = 0, broken_closed = 0;
+  CrackSurface cracks;
 };
 
 class History {
  public:
-  History(RunFolder& folder, const LoadSet& loads) : folder_(folder), loads_(loads) {}
+  History(RunFolder& folder, const Model& model)
+      : folder_(folder), loads_(model.loads), has_cracks_(!model.cohesive.empty()) {}
   void archive(Archive& archive);
   /// Begins the table, or continues it. Throws OutsideError if the disk refuses.
   void begin();
@@ -38,6 +40,7 @@ class History {
  private:
   RunFolder& folder_;
   const LoadSet& loads_;
+  const bool has_cracks_;
   Table* table_ = nullptr;
   Record last_;
   bool has_record_ = false;

@@ -10,7 +10,7 @@ Recorder::Recorder(const Plan& plan, Simulation& simulation, RunFolder& folder,
       stopwatch_(stopwatch),
       guard_(*plan.model, simulation),
       cells_(*plan.model),
-      history_(folder, plan.model->loads),
+      history_(folder, *plan.model),
       outputs_(*plan.model, simulation, folder, plan.end_time(), plan.threads),
       planned_steps_(plan.steps()) {
   if (plan.model->springs.breakable || plan.model->springs.softens) failures_.emplace(folder);
@@ -68,8 +68,9 @@ void Recorder::observe_once() {
 void Recorder::record() {
   if (history_.has(simulation_.steps())) return;
   const std::uint64_t open = simulation_.broken_open();
-  const Record record{simulation_.time(), simulation_.steps(), simulation_.balance(), open,
-                      simulation_.broken() - open};
+  const Record record{simulation_.time(),          simulation_.steps(),
+                      simulation_.balance(),       open,
+                      simulation_.broken() - open, simulation_.crack_surface()};
   if (record.step > 0) guard_.check_motion(time_step_);
   guard_.check_finite(record.balance, time_step_);
   history_.take(record);

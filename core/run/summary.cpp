@@ -61,6 +61,9 @@ nlohmann::json summary_json(const Plan& plan, const Outcome& outcome) {
   summary["energy"] = energy_json(plan, outcome);
   summary["broken_springs"] = {{"open", outcome.last.broken_open},
                                {"closed", outcome.last.broken_closed}};
+  if (!plan.model->cohesive.empty())
+    summary["cracks"] = {{"surface_energy", outcome.last.cracks.energy},
+                         {"area", outcome.last.cracks.area}};
   if (outcome.rest) {
     auto& rest = summary["rest"] = {{"residual", outcome.rest->residual},
                                     {"iterations", outcome.rest->iterations}};

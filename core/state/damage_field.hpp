@@ -10,6 +10,7 @@
 #pragma once
 
 #include <state/clock.hpp>
+#include <state/crack_surface.hpp>
 #include <state/damage_cells.hpp>
 #include <state/damage_equations.hpp>
 #include <state/damage_records.hpp>
@@ -80,6 +81,8 @@ class DamageField {
   /// materials they are 0 and NaN.
   void copy_openings(std::vector<double>& values) const;
   void copy_crack_times(std::vector<double>& values) const;
+  /// Returns the energy and the area of the cracks.
+  CrackSurface surface() const;
   /// Calls visit(particle, damage, rate) for the particles with damage in their order.
   template <class Visit>
   void for_damaged(const Visit& visit) const {

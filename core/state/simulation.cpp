@@ -81,6 +81,10 @@ std::vector<SoftCell> Simulation::soft_cells() const {
   return state_->damage.empty() ? std::vector<SoftCell>{} : state_->damage.soft_cells();
 }
 
+CrackSurface Simulation::crack_surface() const {
+  return state_->damage.empty() ? CrackSurface{} : state_->damage.surface();
+}
+
 void Simulation::law_field(std::string_view name, std::vector<double>& values) const {
   state_->law_memory.field(name, values);
 }

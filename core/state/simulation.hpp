@@ -3,6 +3,7 @@
 
 #include <model/model.hpp>
 #include <state/breakage.hpp>
+#include <state/crack_surface.hpp>
 #include <state/energy_balance.hpp>
 #include <state/equilibrium_update.hpp>
 #include <state/layout.hpp>
@@ -116,6 +117,8 @@ class Simulation {
   std::vector<SoftSpring> soft_springs() const;
   std::vector<SoftParticle> soft_particles() const;
   std::vector<SoftCell> soft_cells() const;
+  /// Returns the energy and the area of the cracks of cohesive materials.
+  CrackSurface crack_surface() const;
   /// Finds the damage at rest for displacements other than the present ones (damage_field.hpp).
   /// The state stays; apply_equilibrium() takes the damage over.
   SettledDamage settle_damage(const std::vector<double>& xyz, const std::vector<double>& heights,

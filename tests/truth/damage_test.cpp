@@ -23,6 +23,7 @@ struct Softening {
   double worst = 0;      ///< distance from the line, over the strength
   double worst_top = 0;  ///< of the damage in the middle from 1 - stress / strength
   double dissipated = 0, stored = 0, error = 0;
+  double area = 0;  ///< of the crack over the cross-section
   std::vector<double> damage;
 };
 /// A confined bar has the curve of a lattice's layers, which leaves the line below a third of the
@@ -53,6 +54,7 @@ Softening pull(Bar& bar, double length, bool confined) {
   found.dissipated = balance.dissipated_failure / (toughness * spacing * spacing);
   found.stored = balance.stored / (toughness * spacing * spacing);
   found.error = balance.relative_error();
+  found.area = bar.simulation->crack_surface().area / (spacing * spacing);
   found.damage = damage_of(model, *bar.simulation);
   return found;
 }
@@ -67,15 +69,16 @@ TEST_P(BarOfDamage, SoftensAlongTheLineOfItsToughness) {
   const bool confined = poisson > 0.25;
   Bar bar((5 * ratio + 1) / 2, poisson, length, "double", 1, confined);
   const Softening found = pull(bar, length, confined);
-  std::printf("b/h %d: peak %.4f line %.4f top %.4f D %.4f stored %.2e balance %.2e\n", ratio,
-              found.peak, found.worst, found.worst_top, found.dissipated, found.stored,
-              found.error);
+  std::printf("b/h %d: peak %.4f line %.4f top %.4f D %.4f stored %.2e balance %.2e area %.4f\n",
+              ratio, found.peak, found.worst, found.worst_top, found.dissipated, found.stored,
+              found.error, found.area);
   EXPECT_NEAR(found.peak, 1, 0.01);
   EXPECT_LT(found.worst, poisson < 0.25 ? 0.04 : 0.02);
   EXPECT_LT(found.worst_top, ratio == 3 ? 0.06 : 0.04);
   // Beyond w_c the traction falls as w^-3: the springs still hold what they will lose.
   EXPECT_NEAR(found.dissipated + found.stored, 1, 0.03);
   EXPECT_GT(found.dissipated, 0.96);
+  EXPECT_NEAR(found.area, 1, 0.03);
   EXPECT_LT(std::abs(found.error), 1e-3);
   // What remains has the profile d = 1 - sin(|x| / b).
   const auto top = std::max_element(

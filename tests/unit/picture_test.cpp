@@ -192,6 +192,19 @@ TEST(Picture, ColoursByAField) {
   EXPECT_GT(right[0], right[2] + 80);
 }
 
+TEST(Picture, ShowsParticlesWithoutAValueGrey) {
+  Scene scene({5, 1, 1});
+  const Pixels pixels = scene.draw(
+      {{"colour_by", "velocity_x"}, {"view", {0, -1, 0}}, {"width", 500}, {"height", 300}},
+      [](FakeBody& body) { body.velocities[0] = std::numeric_limits<double>::quiet_NaN(); });
+  const png_byte* left = pixels.at(60, 150);
+  const png_byte* right = pixels.at(440, 150);
+  EXPECT_EQ(left[0], left[1]);
+  EXPECT_EQ(left[1], left[2]);
+  EXPECT_LT(left[0], 250);             // not the background
+  EXPECT_GT(right[1], right[2] + 80);  // yellow
+}
+
 TEST(Picture, TellsWhatItShows) {
   Scene scene({2, 2, 2});
   scene.draw(

@@ -263,13 +263,17 @@ class Picture {
                  high = options_.range ? options_.range->back() : greatest;
     Colouring colouring;
     for (const double value : values)
-      colouring.colours.push_back(viridis(high > low ? (value - low) / (high - low) : 0));
+      colouring.colours.push_back(
+          std::isfinite(value) ? viridis(high > low ? (value - low) / (high - low) : 0) : no_value);
     std::string name = quantity.names().front();
     std::replace(name.begin(), name.end(), '_', ' ');
     const FieldInfo* field_info = find_field(quantity.field());
     if (field_info != nullptr && !field_info->unit.empty())
       name += " (" + std::string(field_info->unit) + ")";
     colouring.meaning = name + " from " + short_number(low) + " to " + short_number(high);
+    if (!std::all_of(values.begin(), values.end(),
+                     [](double value) { return std::isfinite(value); }))
+      colouring.meaning += ", grey without a value";
     colouring.draw_legend = [=](Image& image) {
       draw_scale(image, short_number(low, 4), short_number(high, 4), name);
     };
