@@ -18,6 +18,7 @@ constexpr Quantity energies[] = {{"kinetic", "kinetic"},
                                  {"stored", "stored"},
                                  {"dissipated", "dissipated"},
                                  {"injected", "injected"}};
+constexpr const char* crack_area = "crack_area";
 constexpr Quantity broken[] = {{"broken_open", "open"}, {"broken_closed", "closed"}};
 
 /// Returns whether time passed in the run; states of rest may all have the same time.
@@ -63,6 +64,8 @@ std::vector<Plot> plots_of(const RunRecord& run) {
   for (const auto& [column, name] : broken)
     breakage.series.push_back(series_of(run, over_time, column, name));
   if (any_above_zero(breakage)) keep(plots, std::move(breakage));
+  Plot cracks{"Area of cracks", x, {"area", "m2"}, {series_of(run, over_time, crack_area, "area")}};
+  if (any_above_zero(cracks)) keep(plots, std::move(cracks));
   keep(plots, stress_over_strain(run));
   for (const Probe& probe : run.probes)
     for (Plot& plot : plots_of(probe)) keep(plots, std::move(plot));
@@ -87,6 +90,8 @@ std::vector<Plot> plots_together(std::span<const RunRecord> runs) {
             together(fmt::format("Broken springs, {}", name), {"springs", "", true}, column);
         any_above_zero(plot))
       keep(plots, std::move(plot));
+  if (Plot plot = together("Area of cracks", {"area", "m2"}, crack_area); any_above_zero(plot))
+    keep(plots, std::move(plot));
   Plot stress{"Stress over strain", {"strain", ""}, {"stress", "Pa"}, {}};
   for (const RunRecord& run : runs)
     for (Series& series : stress_over_strain(run).series) {

@@ -102,6 +102,19 @@ TEST_F(ReportCommand, TellsWhenSpringsBreak) {
   EXPECT_NE(page("breaking").find("<figcaption>Broken springs</figcaption>"), std::string::npos);
 }
 
+TEST_F(ReportCommand, ShowsTheAreaOfCracks) {
+  run("cracking", {{"/pipeline/1/failure",
+                    {{"type", "failures.cohesive"},
+                     {"strength", "0.2 MPa"},
+                     {"fracture_energy", 10},
+                     {"allow_coarse", true}}}});
+  ASSERT_EQ(report({out("cracking")}).exit_code, 0);
+  const json cracks = read_json(out("cracking") + "/summary.json").at("cracks");
+  EXPECT_GT(cracks.at("area"), 0);
+  EXPECT_GT(cracks.at("surface_energy"), 0);
+  EXPECT_NE(page("cracking").find("<figcaption>Area of cracks</figcaption>"), std::string::npos);
+}
+
 TEST_F(ReportCommand, TellsHowNearToRestABodyIs) {
   run("rest", {{"/pipeline/2",
                 {{"type", "loads.pressure"}, {"on", "inner_surface"}, {"pressure", "1 MPa"}}},
