@@ -103,8 +103,8 @@ TEST(History, keeps_the_latest_record_and_the_largest_error) {
   const auto folder = fresh_folder("history");
   RunFolder run(folder, true);
   run.begin(false, {});
-  const LoadSet no_loads;
-  History history(run, no_loads);
+  const Model model;
+  History history(run, model);
   history.begin();
   EXPECT_FALSE(history.has(0));
   for (const double error : {0.1, -0.3, 0.2}) {
