@@ -235,7 +235,7 @@ TEST(Cohesive, LengthsThatDoNotFitAreRefused) {
 
 TEST(Cohesive, BodiesThatDamageDoesNotKnowAreRefused) {
   const Keys failure = surface("failures.cohesive");
-  expect_in(refusal(failure, {{"poisson", 0.3}}), {"no volumetric energy"});
+  expect_in(refusal(failure, {{"poisson", 0.1}, {"volumetric", true}}), {"K_v below zero"});
   expect_in(refusal(failure, {{"membrane", "III"}, {"poisson", 0.2}}), {"no membrane, or one"});
   expect_in(faults_of(stage("lattices.bcc", {{"spacing", 1}, {"shape", box({}, {6, 6, 6})}}) +
                       elastic(Keys{{"poisson", 0.25}} + failure)),
