@@ -71,6 +71,10 @@ double Statics::respond_soft(const double* u, double* force, const SpringTangent
                               0.5 * stiffness * elongation * elongation};
     });
     add_forces(buffer, grid, grid.places, soft.step, force + soft.place);
+    // A compressed spring drives its ends aside. Particles of which next to nothing remains, and
+    // which compressed springs hold within their layer, would buckle out of it: motions of dust
+    // that end no state of rest. The forces are the true ones.
+    if (buffer.pull[0] < 0) buffer.pull[0] *= soft.factor;
     if (tangents != nullptr) keep_tangents(buffer, grid.components == 4, soft.at, *tangents);
   }
   for (const SoftAlpha& alpha : soft_alphas_) {

@@ -353,4 +353,42 @@ TEST(LongDamageAtRest, ACrackAlongAStripTakesItsFractureEnergy) {
   EXPECT_LT(std::abs(end.relative_error()), 1e-3);
 }
 
+// Compressed springs within the layer of a crack push its particles out of it, and nothing else
+// holds them: the solver passes over these motions.
+TEST(DamageAtRest, ACrackGoesOnThroughDust) {
+  const Json notch = {{"polygon",
+                       {{"corners", Json::array({Vec3{-1, -1, 0.5e-3}, Vec3{5.3e-3, -1, 0.5e-3},
+                                                 Vec3{5.3e-3, 1, 0.5e-3}, Vec3{-1, 1, 0.5e-3}})}}}};
+  const Keys elastic = {{"young", young}, {"density", 2500}, {"poisson", 0.3}};
+  SceneBuilder scene;
+  scene
+      .lattice("lattices.cubic", spacing, box({0, 0, -6e-3}, {16e-3, 3e-3, 6e-3}),
+               {{"boundary", "cells"}, {"cuts", Json::array({notch})}})
+      .material("materials.elastic", elastic + Keys{{"name", "arms"}})
+      .material("materials.elastic",
+                elastic + Keys{{"name", "middle"},
+                               {"region", box({3e-3, -1, -3e-3}, {1, 1, 3e-3})},
+                               {"failure", Json{{"type", "failures.cohesive"},
+                                                {"strength", strength},
+                                                {"fracture_energy", 45},
+                                                {"length", 2e-3},
+                                                {"allow_coarse", true},
+                                                {"intact_near_supports", false}}}});
+  for (const double side : {1.0, -1.0}) {
+    const Json arm =
+        box({-1, -1, side > 0 ? 1.2e-3 : -6.2e-3}, {1.1e-3, 1, side > 0 ? 6.2e-3 : -1.2e-3});
+    scene.load("loads.displacement", {{"name", side > 0 ? "up" : "down"},
+                                      {"on", arm},
+                                      {"axes", "xyz"},
+                                      {"value", Vec3{0, 0, side * 1.65e-5}},
+                                      {"rise", 1}});
+  }
+  const auto plan =
+      plan_of(scene.solver("solvers.static", {{"end_time", 1}, {"damage_step", 0.5}}).text());
+  Simulation simulation(*plan->model, 1);
+  StageCalls(*plan->model, simulation, plan->stages.front(), 1, {}).run();
+  EXPECT_GT(simulation.crack_surface().area, 1.2e-5);
+  EXPECT_LT(std::abs(simulation.balance().relative_error()), 1e-3);
+}
+
 }  // namespace damage_at_rest_test
