@@ -159,6 +159,11 @@ double Cohesive::energy_unit() const { return 2 * corrected / (pi * length); }
 
 double Cohesive::zone() const { return pi * length / 2; }
 
+double Cohesive::softening_zone() const {
+  const double mu = 0.75 * (modulus - bulk_modulus), plane = 4 * mu * (modulus - mu) / modulus;
+  return plane * corrected / (strength * strength);
+}
+
 double Cohesive::largest_admissible_strength() const {
   return std::sqrt(energy_unit() * modulus / least_shape);
 }

@@ -51,6 +51,9 @@ struct Cohesive {
   double final_opening() const { return 2 * fracture_energy / strength; }
   /// l_ch = C11 G_i / sigma_t^2, m.
   double characteristic_length() const { return modulus * corrected / (strength * strength); }
+  /// Returns the length of the zone that softens at the tip of a crack, m, about E' G_i / sigma_t^2
+  /// with E' = E / (1 - nu^2) = 4 mu (C11 - mu) / C11.
+  double softening_zone() const;
   /// Returns the largest strength, Pa, that this length carries (A = 3/4).
   double largest_admissible_strength() const;
   /// Returns the largest length, m, that a strength, Pa, allows on a lattice of this spacing, m;

@@ -71,7 +71,7 @@ std::vector<std::pair<std::string, std::string>> damage_lines(const nlohmann::js
 
 void warn_of_damage(Plan& plan) {
   Model& model = *plan.model;
-  constexpr double good = 5, round_off = 1e-9;
+  constexpr double good = 5, round_off = 1e-9, least_zone = 0.9;
   const auto intact =
       static_cast<std::uint64_t>(std::count(model.intact.begin(), model.intact.end(), 1));
   const double spacing = model.body.grid.spacing;
@@ -92,6 +92,12 @@ void warn_of_damage(Plan& plan) {
           fmt::format("the band of a crack, pi times its length, is {:.3g} m wide, more than a "
                       "quarter of the body's {:.3g} m",
                       band, size));
+    if (const double zone = of.softening_zone(); zone < of.length * least_zone)
+      warn(fmt::format(
+          "the zone that softens at a crack's tip, about {:.3g} m long, is shorter than "
+          "its length of {:.3g} m, as nu is near 1/2: cracks may take more than "
+          "fracture_energy; expected a length of at most {:.3g} m",
+          zone, of.length, zone));
     if (model.body.grid.boundary == Boundary::particles)
       warn(
           "with the boundary \"particles\" the stress at the body's surface is too low: its "

@@ -40,6 +40,17 @@ Pieces pieces_of(const Load& load) {
   return pieces;
 }
 
+/// Returns how much a load's factor changes in a piece; if it is constant there, by how much the
+/// piece stands out from what is before and after it.
+double change_in(const Load& load, double from, double to) {
+  const double edge = 1e-3 * (to - from);
+  const double before = load.factor(from - edge), after = load.factor(to + edge);
+  const auto inside = {load.factor(from + edge), load.factor(0.5 * (from + to)),
+                       load.factor(to - edge)};
+  const auto [least, most] = std::minmax(inside);
+  return std::max(most - least, std::min(std::abs(most - before), std::abs(most - after)));
+}
+
 ShortPiece shortest(const Load& load, const Pieces& pieces, const PlannedStage& stage) {
   constexpr double enough_steps = 2, round_off = 1e-6, fraction = 0.1;
   const double step = stage.plan.time_step, nearby = round_off * step;
@@ -49,13 +60,7 @@ ShortPiece shortest(const Load& load, const Pieces& pieces, const PlannedStage& 
   for (auto end = first; end != pieces.ends.end() && *(end - 1) <= stage.plan.end_time; ++end) {
     const double from = *(end - 1), to = *end, length = to - from;
     if (!(length > nearby) || !(length < (1 - round_off) * (shortest.to - shortest.from))) continue;
-    const double edge = 1e-3 * length;
-    double least = infinity, most = -infinity;
-    for (const double time : {from - edge, from + edge, 0.5 * (from + to), to - edge, to + edge}) {
-      least = std::min(least, load.factor(time));
-      most = std::max(most, load.factor(time));
-    }
-    if (most - least > fraction * largest) shortest = {from, to, true};
+    if (change_in(load, from, to) > fraction * largest) shortest = {from, to, true};
   }
   return shortest;
 }

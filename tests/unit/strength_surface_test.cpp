@@ -245,6 +245,24 @@ TEST(Cohesive, BodiesThatDamageDoesNotKnowAreRefused) {
             {"/failure/1", "one strength surface"});
 }
 
+// E' is 0.89 C11 at nu = 1/4 and 0.33 C11 at 0.45.
+TEST(Cohesive, ThePlanWarnsIfTheSofteningZoneIsShorterThanItsLength) {
+  const auto warns = [](double poisson, double length) {
+    const auto plan = plan_of(
+        block(12, 12, 12,
+              Keys{{"poisson", poisson}} +
+                  surface("failures.cohesive",
+                          {{"strength", 4e6}, {"fracture_energy", 30}, {"length", length}})));
+    return std::any_of(plan->model->warnings.begin(), plan->model->warnings.end(),
+                       [](const std::string& warning) {
+                         return warning.find("zone that softens") != std::string::npos;
+                       });
+  };
+  EXPECT_FALSE(warns(0.25, 12e-3));
+  EXPECT_FALSE(warns(0.45, 12e-3));
+  EXPECT_TRUE(warns(0.45, 36e-3));
+}
+
 TEST(Cohesive, NoDamageNearSupports) {
   const Stages load =
       stage("loads.displacement", {{"on", "x_min"}, {"value", {1e-6, 0, 0}}, {"rise", 1e-3}});
