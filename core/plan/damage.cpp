@@ -19,9 +19,7 @@ bool has_supports(const Model& model) {
 
 /// Returns the middle one of the body's three edges, m: the width of a plate, the height of a beam.
 double middle_size(const Vec3& size) {
-  double edges[] = {size.x, size.y, size.z};
-  std::sort(std::begin(edges), std::end(edges));
-  return edges[1];
+  return std::max(std::min(size.x, size.y), std::min(std::max(size.x, size.y), size.z));
 }
 
 }  // namespace
