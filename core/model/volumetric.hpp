@@ -44,7 +44,8 @@ class Volumetric {
           for (Site cell{range.begin, j, k}; cell.i < range.end; ++cell.i)
             if (const double own = modulus(cell); own != 0) visit(cell, own);
   }
-  /// Returns the corners of a cell, in the order of CellCorners.
+  /// Returns the corners of a cell, in the order of CellCorners; Body::no_particle where the body
+  /// has none.
   std::array<Particle, 8> corners(Site cell) const;
 
  private:

@@ -352,6 +352,20 @@ TEST(Resolution, JumpsOfExpressionsWithoutCornersAreToldByThePlan) {
       EXPECT_EQ(warning.find("it jumps"), std::string::npos) << smooth;
 }
 
+// A short rest before a load begins is none of its changes; a short pulse is one.
+TEST(Resolution, ARestBeforeALoadIsNoFastChange) {
+  const auto is_told = [](const char* expression, const Json& corners) {
+    const auto plan = plan_of(
+        scene(expression_load(expression, {{"corners", corners}}), explicit_to(1e-5, 1e-7)));
+    const auto& warnings = plan->model->warnings;
+    return std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+      return warning.find("it changes within") != std::string::npos;
+    });
+  };
+  EXPECT_FALSE(is_told("t < 1.5e-7 ? 0 : 1", {1.5e-7}));
+  EXPECT_TRUE(is_told("t < 1.5e-7 ? 0 : (t < 3e-7 ? 1 : 0)", {1.5e-7, 3e-7}));
+}
+
 TEST(Resolution, OfLoadsIsToldByThePlan) {
   const auto with = [](const Keys& keys, double step) {
     return scene(pressed(1, keys), explicit_to(10e-6, step));

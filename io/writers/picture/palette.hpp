@@ -11,7 +11,7 @@ namespace hyperlattice::picture {
 
 inline constexpr Colour intact{70, 118, 190}, open_failure{214, 48, 38},
     closed_failure{58, 168, 76};
-/// Of a particle that has no value.
+/// The colour of a particle without a value.
 inline constexpr Colour no_value{196, 196, 196};
 
 /// Returns the colour of the map viridis at `share` in [0, 1], interpolated between eleven samples.
