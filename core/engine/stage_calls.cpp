@@ -18,10 +18,12 @@ bool StageCalls::guarded(Code&& code) noexcept {
   });
 }
 
-Statics& StageCalls::statics() {
+Statics& StageCalls::statics(Statics::Search search) {
   if (!statics_)
-    statics_ = std::make_unique<Statics>(model_, simulation_, stage_.start_time,
+    statics_ = std::make_unique<Statics>(model_, simulation_, search, stage_.start_time,
                                          stage_.plan.end_time, threads_);
+  if (statics_->problem().grid.inertia != (search == Statics::Search::motion))
+    throw PluginMistake("it searches states of rest and steps in time in one stage");
   return *statics_;
 }
 
@@ -55,6 +57,23 @@ StageCalls::StageCalls(const Model& model, Simulation& simulation, const Planned
   host_.open = [](void* self) noexcept -> const StaticProblem* {
     auto& calls = *static_cast<StageCalls*>(self);
     return calls.guarded([&] { calls.statics(); }) ? &calls.statics_->problem() : nullptr;
+  };
+  host_.open_motion = [](void* self) noexcept -> const StaticProblem* {
+    auto& calls = *static_cast<StageCalls*>(self);
+    return calls.guarded([&] { calls.statics(Statics::Search::motion); })
+               ? &calls.statics_->problem()
+               : nullptr;
+  };
+  host_.take_motion = [](void* self, const double* mean) noexcept {
+    auto& calls = *static_cast<StageCalls*>(self);
+    return calls.guarded([&] {
+      const double before = calls.simulation_.time();
+      calls.statics(Statics::Search::motion).accept_step(mean);
+      const double length = calls.simulation_.time() - before;
+      calls.meet_end(length);
+      calls.host_.time = calls.simulation_.time();
+      if (calls.hooks_.stepped) calls.hooks_.stepped(length);
+    });
   };
   host_.take = [](void* self, double fraction, const double* displacement) noexcept {
     auto& calls = *static_cast<StageCalls*>(self);

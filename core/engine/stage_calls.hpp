@@ -36,7 +36,8 @@ class StageCalls {
  private:
   template <class Code>
   bool guarded(Code&& code) noexcept;
-  Statics& statics();  ///< made at the first call
+  /// Returns the body for solvers, made at the first call.
+  Statics& statics(Statics::Search search = Statics::Search::rest);
   void meet_end(double time_step);
 
   const Model& model_;

@@ -99,14 +99,14 @@ double CompositeSpring::elongation_of(std::size_t n, double elongation, const do
   return n == 0 ? kept[memory_ - 1] : 2 * elongation - kept[memory_ - 1];
 }
 
-double CompositeSpring::tangent(const Spring& spring, const double* kept) const {
+double CompositeSpring::tangent(const Spring& spring, double time_step, const double* kept) const {
   const double h = 1e-7 * spring.rest_length;
   const auto force = [&](double elongation) {
     std::array<double, max_spring_memory> trial{};
     std::copy_n(kept, memory_, trial.begin());
     Spring moved = spring;
     moved.elongation = elongation;
-    return take(moved, 0, trial.data()).force;
+    return take(moved, time_step, trial.data()).force;
   };
   return (force(spring.elongation + h) - force(spring.elongation - h)) / (2 * h);
 }

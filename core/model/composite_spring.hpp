@@ -73,9 +73,9 @@ class CompositeSpring {
       visit(laws_[parts_[n].law], part, series ? 0.5 : parts_[n].weight);
     }
   }
-  /// Returns the derivative of the force, N/m, after a load step without a duration that starts
-  /// from the memory `kept`: a central difference.
-  double tangent(const Spring& spring, const double* kept) const;
+  /// Returns the derivative of the force, N/m, after a step of `time_step` seconds, 0 in statics,
+  /// that starts from the memory `kept`: a central difference.
+  double tangent(const Spring& spring, double time_step, const double* kept) const;
   /// Returns the elongation, m, of a whole spring of the material of part n with the same force,
   /// for the memory after a step.
   double elongation_of(std::size_t n, double elongation, const double* kept) const;

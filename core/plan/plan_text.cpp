@@ -27,9 +27,13 @@ std::string stage_text(const PlannedStage& stage) {
   if (plan.at_rest && plan.time_step == 0)
     return fmt::format("to rest under the loads of {:.6g} s, in {} step{} of load", plan.end_time,
                        count_text(plan.steps), plan.steps == 1 ? "" : "s");
+  const std::string of_stable =
+      std::isfinite(plan.stable_time_step)
+          ? fmt::format(", {:.3g} of the stable {:.6g} s", plan.time_step / plan.stable_time_step,
+                        plan.stable_time_step)
+          : ", stable for any length";
   const std::string steps =
-      fmt::format("steps of at most {:.6g} s, {:.3g} of the stable {:.6g} s{}", plan.time_step,
-                  plan.time_step / plan.stable_time_step, plan.stable_time_step, damped);
+      fmt::format("steps of at most {:.6g} s{}{}", plan.time_step, of_stable, damped);
   if (plan.at_rest)
     return fmt::format("to rest under the loads of {:.6g} s, in about {} {}", plan.end_time,
                        count_text(plan.steps), steps);

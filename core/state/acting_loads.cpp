@@ -142,7 +142,10 @@ void ActingLoads::set_supports(Block& block, const Sweep& sweep) const {
     BoundaryParticle& support = block.boundary_particles[part.support];
     for (int c = 0; c < 3; ++c) {
       if (((part.displaced | part.driven) >> c & 1u) == 0) continue;
-      double velocity = prescribed_velocity(block, part, c, sweep);
+      // After a state of rest or an implicit step, velocities are those at the present time.
+      const bool known = sweep.step == 0 && clock_.last_step() == 0;
+      double velocity =
+          known ? block.velocity[c][support.index] : prescribed_velocity(block, part, c, sweep);
       // The velocity after a kick of that duration with the same acceleration.
       if (sweep.measured > 0) {
         const double now = block.velocity[c][support.index];

@@ -23,9 +23,9 @@ void Clock::advance(double step) {
   ++steps_;
 }
 
-void Clock::jump(double time) {
+void Clock::jump(double time, double step) {
   set(time);
-  advanced_ = 0;  // failure criteria know no times between the states of rest
+  advanced_ = step;  // 0: failure criteria know no times between the states of rest
   ++steps_;
 }
 

@@ -23,8 +23,9 @@ class Clock {
   void release() { held_ = false; }
   /// Counts a step of this length, s.
   void advance(double step);
-  /// Counts a change from one state of rest to another, which ends at `time`, s.
-  void jump(double time);
+  /// Counts a change from one state of rest to another, which ends at `time`, s; or an implicit
+  /// step of the length `step`, s.
+  void jump(double time, double step = 0);
   /// Lets the next step start from rest.
   void rest() { last_step_ = 0; }
 

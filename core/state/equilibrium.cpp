@@ -1,5 +1,5 @@
-// From one state of rest to the next: holds the time, stops the motion, takes over the result of a
-// static solver and continues the energy balance of the steps in time.
+// From one state of rest to the next, and implicit steps in time: holds the time, stops the motion,
+// takes over the result of a solver and continues the energy balance of the explicit steps.
 #include <state/load_work.hpp>
 #include <state/state.hpp>
 
@@ -23,7 +23,8 @@ void Simulation::halt() {
 }
 
 void Simulation::apply_equilibrium(const EquilibriumUpdate& to) {
-  halt();  // finds the start of the balance; the work on the way from there is counted here
+  if (to.time_step == 0)
+    halt();  // finds the start of the balance; the work on the way from there is counted here
   count_work(state_->blocks, to);
   const Model& model = state_->blocks.model();
   if (!(model.loads.acceleration == Vec3{})) {
@@ -42,10 +43,31 @@ void Simulation::apply_equilibrium(const EquilibriumUpdate& to) {
   if (!state_->damage.empty()) state_->damage.accept_search(to.time);
   set({false, 0, 3}, to.xyz);
   if (!to.heights.empty()) set({false, 3, 1}, to.heights);
+  if (to.time_step > 0) set({true, 0, 3}, to.velocity);
+  if (!to.height_rate.empty()) set({true, 3, 1}, to.height_rate);
   if (!state_->damage.empty()) state_->damage.finish();
   state_->failures.collect(0);
-  state_->loads.rest(to.factor, to.gravity);
-  state_->clock.jump(to.time);
+  if (to.time_step == 0) state_->loads.rest(to.factor, to.gravity);
+  state_->clock.jump(to.time, to.time_step);
+}
+
+/// The energy of explicit steps is less than that of the velocities at the time of the
+/// displacements; the energy at the start takes up the change (step.cpp).
+void Simulation::begin_implicit_steps(double time_step, const std::vector<double>& velocity,
+                                      const std::vector<double>& height_rate) {
+  EnergyAccount& energy = state_->energy;
+  const double last = state_->clock.last_step();
+  state_->loads.leave_rest();
+  if (last > 0) {
+    energy.find_start();
+    const RowSums sums = state_->sweeps.measure(Sweep::present(last));
+    energy.shift_start(sums.kinetic_mean - sums.kinetic);
+    set_velocities(velocity, height_rate);
+    state_->clock.rest();
+  } else if (state_->loads.start_motion(time_step)) {
+    energy.forget_start();
+  }
+  energy.find_start();
 }
 
 SettledDamage Simulation::settle_damage(const std::vector<double>& xyz,

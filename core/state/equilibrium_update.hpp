@@ -1,12 +1,12 @@
-// What a static solver hands over to the state of a run.
+// What a static or an implicit solver hands over to the state of a run.
 #pragma once
 
 #include <vector>
 
 namespace hyperlattice {
 
-/// A change from one state of rest to another without a time step. Fields have x, y, z of each
-/// particle; heights exist only in free membranes.
+/// A change from one state of rest to another without a time step, or an implicit step in time.
+/// Fields have x, y, z of each particle; heights exist only in free membranes.
 struct EquilibriumUpdate {
   double time = 0;                   ///< after the change, s
   std::vector<double> xyz, heights;  ///< displacements after the change, m
@@ -14,7 +14,12 @@ struct EquilibriumUpdate {
   std::vector<double> force, force_before;
   std::vector<double> factor, factor_before;  ///< load factor of each load
   double gravity = 1, gravity_before = 1;     ///< fractions of the body accelerations
-  double dissipated = 0;  ///< by the forces that held the earlier state in place, J
+  /// By the forces that held the earlier state in place, or by the method of a step in time, J.
+  double dissipated = 0;
+  // Of a step in time; `force` and `force_before` are then both its mean force, less inertia where
+  // a load prescribes motion, and so are the factors.
+  double time_step = 0;                       ///< s; 0: a change between states of rest
+  std::vector<double> velocity, height_rate;  ///< after the step, m/s
 };
 
 }  // namespace hyperlattice

@@ -29,7 +29,7 @@ void LawMemory::advance(const EquilibriumUpdate& to) {
         const double before =
             ask_spring(model_, properties, cross, elongation, kept.data()).integrity;
         const CompositeAnswer answer =
-            take_spring(model_, properties, cross, elongation, 0, kept.data());
+            take_spring(model_, properties, cross, elongation, to.time_step, kept.data());
         const Layout::Memory memory =
             blocks_.layout().memory(block, spring.row, spring.neighbour, spring.site, cross != 0);
         for (std::uint32_t n = 0; n < model_.springs.memory; ++n)

@@ -48,8 +48,14 @@ class Simulation {
   void release_time();
   /// Stops all motion. Its kinetic energy counts as dissipated.
   void halt();
-  /// Stops all motion and takes over the update's state. Counts as one step.
+  /// Stops all motion and takes over the update's state; or takes over the end of an implicit step
+  /// in time. Counts as one step.
   void apply_equilibrium(const EquilibriumUpdate& settling);
+  /// Prepares the first implicit step, of `time_step` seconds, after explicit steps or from rest.
+  /// `velocity`, m/s, of all particles at the time of the displacements: only after explicit steps,
+  /// whose velocities are those of half a step before.
+  void begin_implicit_steps(double time_step, const std::vector<double>& velocity,
+                            const std::vector<double>& height_rate);
   /// Sets the present error of the balance to zero.
   void reset_energy_balance();
   std::uint64_t steps() const;

@@ -35,7 +35,18 @@ double Statics::respond_cells(std::int64_t first, std::size_t count, const doubl
       };
       for (std::size_t corner = 0; corner < 8; ++corner)
         for (std::size_t c = 0; c < 3; ++c) displacement[corner][c] = u[of_corner(corner, c)];
-      cell = cell_response(displacement, grid.spacing, modulus);
+      cell = cell_shape(displacement, grid.spacing);
+      if (moves()) {  // the mean of the growth at the step's start and at its end
+        CellCorners start = displacement, end = displacement;
+        for (std::size_t corner = 0; corner < 8; ++corner)
+          for (std::size_t c = 0; c < 3; ++c) {
+            start[corner][c] = state_[of_corner(corner, c)];
+            end[corner][c] = end_of(of_corner(corner, c), u);
+          }
+        cell.volume_growth = step_->mean(cell_shape(start, grid.spacing).volume_growth,
+                                         cell_shape(end, grid.spacing).volume_growth);
+      }
+      respond_to_growth(cell, grid.spacing, modulus);
       if (!cell_remains_.empty()) cell = soften(cell, cell_remains_[place]);
       energy += cell.energy;
       for (std::size_t corner = 0; corner < 8; ++corner)

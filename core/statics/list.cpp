@@ -76,11 +76,16 @@ double Statics::respond_list(const double* u, double* force, const SpringTangent
     RowBuffers buffer(grid, 1);
     SpringRow& row = buffer.springs;
     row.count = 1;
-    double here[4][lanes] = {}, there[4][lanes] = {};
+    double here[4][lanes] = {}, there[4][lanes] = {}, here_before[4][lanes] = {},
+           there_before[4][lanes] = {};
     for (int c = 0; c < grid.components; ++c) {
       row.here[c] = here[c];
       row.there[c] = there[c];
+      if (!moves()) continue;
+      row.here_before[c] = here_before[c];
+      row.there_before[c] = there_before[c];
     }
+    time_row(row);
     for (std::size_t s = n * piece; s < std::min(springs, (n + 1) * piece); ++s) {
       const ListedSpring& ends = model_.body.listed.springs[s];
       const SpringConstants& constants =
@@ -95,6 +100,8 @@ double Statics::respond_list(const double* u, double* force, const SpringTangent
       for (int c = 0; c < grid.components; ++c) {
         here[c][0] = u[c * grid.places + spring.a];
         there[c][0] = u[c * grid.places + spring.b];
+        here_before[c][0] = state_[static_cast<std::size_t>(c * grid.places + spring.a)];
+        there_before[c][0] = state_[static_cast<std::size_t>(c * grid.places + spring.b)];
       }
       LawMemory memory;
       for (std::size_t cross = 0; cross < 2 && !spring_memory_.empty(); ++cross)

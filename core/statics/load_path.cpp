@@ -14,11 +14,34 @@
 
 namespace hyperlattice {
 
+void Statics::find_loaded() {
+  const std::int64_t places = problem_.grid.places;
+  for (std::size_t l = 0; l < model_.loads.size(); ++l)
+    for (const LoadedParticle& loaded : model_.loads[l].particles) {
+      const std::int64_t place = place_of(loaded.particle);
+      if (!(loaded.force == Vec3{})) loaded_.push_back({place, l, loaded.force});
+      for (int c = 0; c < 3; ++c) {
+        const bool displaced = (loaded.displaced >> c & 1u) != 0;
+        if (!displaced && (loaded.driven >> c & 1u) == 0) continue;
+        prescribed_.push_back(
+            {place, c, l, displaced, displaced ? loaded.displacement[c] : loaded.velocity[c]});
+        free_[static_cast<std::size_t>(place)] =
+            static_cast<std::uint8_t>(free_[static_cast<std::size_t>(place)] & ~(1u << c));
+      }
+    }
+  if (model_.loads.acceleration == Vec3{} && !problem_.grid.inertia) return;
+  mass_.assign(static_cast<std::size_t>(places), 0);
+  for_runs([&](std::int64_t place, Particle particle, std::uint64_t count) {
+    for (std::uint64_t n = 0; n < count; ++n)
+      mass_[static_cast<std::size_t>(place) + n] = model_.mass(particle + n);
+  });
+}
+
 void Statics::make_loads() {
   const bool fresh = simulation_.steps() == 0;  // no load acted before the run
   gravity_start_ = fresh ? 0 : 1;
   const std::int64_t places = problem_.grid.places;
-  std::map<std::int64_t, Held> held;
+  std::vector<double> ways;  // of each load that drives particles
   for (std::size_t l = 0; l < model_.loads.size(); ++l) {
     const Load& load = model_.loads[l];
     factor_start_.push_back(fresh ? 0 : load.after(start_));
@@ -38,30 +61,18 @@ void Statics::make_loads() {
           fmt::format(
               "the way that it drives particles from {:.6g} s to {:.6g} s is no finite number",
               start_, end_));
-    for (const LoadedParticle& loaded : load.particles) {
-      const std::int64_t place = place_of(loaded.particle);
-      if (!(loaded.force == Vec3{})) loaded_.push_back({place, l, loaded.force});
-      if ((loaded.displaced | loaded.driven) == 0) continue;
-      Held& hold = held.try_emplace(place, Held{place, 0, {}, {}}).first->second;
-      for (int c = 0; c < 3; ++c) {
-        if (((loaded.displaced | loaded.driven) >> c & 1u) == 0) continue;
-        hold.axes |= 1u << c;
-        hold.from[c] = state_[static_cast<std::size_t>(c * places + place)];
-        hold.to[c] = (loaded.displaced >> c & 1u) != 0 ? factor_end_[l] * loaded.displacement[c]
-                                                       : hold.from[c] + way * loaded.velocity[c];
-        free_[static_cast<std::size_t>(place)] =
-            static_cast<std::uint8_t>(free_[static_cast<std::size_t>(place)] & ~(1u << c));
-      }
-    }
+    ways.push_back(way);
+  }
+  std::map<std::int64_t, Held> held;
+  for (const Prescribed& axis : prescribed_) {
+    Held& hold = held.try_emplace(axis.place, Held{axis.place, 0, {}, {}}).first->second;
+    const int c = axis.component;
+    hold.axes |= 1u << c;
+    hold.from[c] = state_[static_cast<std::size_t>(c * places + axis.place)];
+    hold.to[c] = axis.displaced ? factor_end_[axis.load] * axis.amplitude
+                                : hold.from[c] + ways[axis.load] * axis.amplitude;
   }
   for (const auto& [place, hold] : held) held_.push_back(hold);
-  if (!(model_.loads.acceleration == Vec3{})) {
-    mass_.assign(static_cast<std::size_t>(places), 0);
-    for_runs([&](std::int64_t place, Particle particle, std::uint64_t count) {
-      for (std::uint64_t n = 0; n < count; ++n)
-        mass_[static_cast<std::size_t>(place) + n] = model_.mass(particle + n);
-    });
-  }
 
   find_preload();
 

@@ -26,8 +26,9 @@ double Statics::respond(const double* u, double* force, const SpringTangents* ta
   std::fill_n(force, problem_.grid.numbers(), 0.0);
   const double energy =
       problem_.grid.listed ? respond_list(u, force, tangents) : respond_grid(u, force, tangents);
-  if (tangents != nullptr && problem_.grid.components == 4) fill_alpha(*tangents);
+  if (tangents != nullptr && tangents->own != nullptr) fill_own(*tangents);
   const double of_heights = hold_heights(u, force);
+  if (moves()) add_inertia(u, force);
   return energy + of_heights + (soft_.empty() ? 0 : respond_soft(u, force, tangents));
 }
 
@@ -85,7 +86,11 @@ double Statics::respond_plane(std::int32_t k, const double* u, double* force,
       for (int c = 0; c < grid.components; ++c) {
         springs.here[c] = u + c * grid.places + first;
         springs.there[c] = springs.here[c] + step;
+        if (!moves()) continue;
+        springs.here_before[c] = state_.data() + c * grid.places + first;
+        springs.there_before[c] = springs.here_before[c] + step;
       }
+      time_row(springs);
       energy += linearise_row(n, row.begin, j, k, buffer);
       add_forces(buffer, grid, grid.places, step, force + first);
       if (tangents != nullptr) keep_tangents(buffer, grid.components == 4, at, *tangents);
@@ -165,8 +170,9 @@ double Statics::linearise_composite(const CompositeSpring& composite, const Alik
     const Layout::Memory& memory = alike.memory[cross];
     for (std::uint32_t n = 0; n < model_.springs.memory; ++n)
       kept[n] = memory.first[n * memory.stride];
-    const double tangent = composite.tangent(spring, kept.data());
-    const CompositeAnswer answer = composite.take(spring, 0, kept.data());
+    const double time_step = buffer.springs.time_step,
+                 tangent = composite.tangent(spring, time_step, kept.data());
+    const CompositeAnswer answer = composite.take(spring, time_step, kept.data());
     return LinearisedSpring{answer.force, tangent, answer.stored};
   });
 }
@@ -189,11 +195,18 @@ double Statics::hold_heights(const double* u, double* force) const {
   return energy;
 }
 
-void Statics::fill_alpha(const SpringTangents& tangents) const {
-  for (std::size_t place = 0; place < particle_weight_.size(); ++place)
-    tangents.alpha[place] =
+void Statics::fill_own(const SpringTangents& tangents) const {
+  const auto places = static_cast<std::size_t>(problem_.grid.places);
+  std::fill_n(tangents.own, problem_.grid.numbers(), 0.0F);
+  for (std::size_t place = 0; problem_.grid.components == 4 && place < particle_weight_.size();
+       ++place)
+    tangents.own[3 * places + place] =
         static_cast<float>(2 * model_.kinds.alphas[kind_.empty() ? 0 : kind_[place]] *
                            static_cast<double>(particle_weight_[place]));
+  if (!moves()) return;
+  const double factor = step_->inertia();
+  for (std::size_t n = 0; n < problem_.grid.numbers(); ++n)
+    tangents.own[n] += static_cast<float>(factor * mass_[n % places]);
 }
 
 }  // namespace hyperlattice

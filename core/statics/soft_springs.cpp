@@ -83,7 +83,7 @@ double Statics::respond_soft(const double* u, double* force, const SpringTangent
     const std::size_t height = 3 * static_cast<std::size_t>(grid.places) + place;
     force[height] += 2 * alpha.lost * u[height];
     energy -= alpha.lost * u[height] * u[height];
-    if (tangents != nullptr) tangents->alpha[place] -= static_cast<float>(2 * alpha.lost);
+    if (tangents != nullptr) tangents->own[height] -= static_cast<float>(2 * alpha.lost);
   }
   return energy;
 }

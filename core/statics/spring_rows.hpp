@@ -1,6 +1,8 @@
 // Buffers for rows of springs that the material's kernel evaluates, and the use of its results.
 #pragma once
 
+#include <model/spring_calls.hpp>
+
 #include <hyperlattice/statics.hpp>
 
 #include <algorithm>
@@ -48,7 +50,12 @@ inline void copy_row(const RowBuffers& from, std::size_t start, std::size_t coun
   for (int c = 0; c < components; ++c) {
     to.springs.here[c] = from.springs.here[c] + start;
     to.springs.there[c] = from.springs.there[c] + start;
+    if (from.springs.here_before[c] == nullptr) continue;
+    to.springs.here_before[c] = from.springs.here_before[c] + start;
+    to.springs.there_before[c] = from.springs.there_before[c] + start;
   }
+  to.springs.forward = from.springs.forward;
+  to.springs.time_step = from.springs.time_step;
 }
 
 /// Writes the results of such a row into the whole row.
@@ -110,24 +117,40 @@ struct LinearisedSpring {
   double force = 0, tangent = 0, stored = 0;  ///< N, N/m and J
 };
 
+/// The ends of the one spring of a row at one time: displacement of b less that of a, and heights.
+inline SpringMotion motion_of_one(const double* const* here, const double* const* there) {
+  const auto apart = [&](int c) { return here[c] == nullptr ? 0 : there[c][0] - here[c][0]; };
+  const bool has_heights = here[3] != nullptr;
+  return {
+      {apart(0), apart(1), apart(2)}, has_heights ? here[3][0] : 0, has_heights ? there[3][0] : 0};
+}
+
 /// Linearises the one spring of a row and, with `kinds` = 2, its cross spring, whose answers are
 /// answer(cross, rest length, elongation). Returns their energy, J.
 template <class Answer>
 double linearise_one(RowBuffers& buffer, std::size_t kinds, const Answer& answer) {
   const SpringRow& row = buffer.springs;
-  const auto difference = [&](std::size_t c) {
-    return row.here[c] == nullptr ? 0 : row.there[c][0] - row.here[c][0];
-  };
-  const Vec3 d{difference(0), difference(1), difference(2)};
-  const double in_space = dot(d, 2 * row.rest + d);
+  const SpringMotion mean = motion_of_one(row.here, row.there);
   double energy = 0;
   for (std::size_t cross = 0; cross < kinds; ++cross) {
-    const double rise =
-        row.here[3] == nullptr ? 0 : row.there[3][0] + (cross == 0 ? -1 : 1) * row.here[3][0];
-    const double growth = in_space + rise * (cross == 0 ? rise : 2 * row.membrane_distance + rise),
-                 rest_length = cross == 0 ? row.rest_length : row.cross_rest_length,
-                 length = std::sqrt(rest_length * rest_length + growth);
-    const LinearisedSpring found = answer(cross, rest_length, growth / (length + rest_length));
+    const double rest_length = cross == 0 ? row.rest_length : row.cross_rest_length;
+    const auto elongation_at = [&](const SpringMotion& at) {
+      const double rise = cross == 0 ? at.height_b - at.height_a : at.height_b + at.height_a,
+                   growth = dot(at.apart, 2 * row.rest + at.apart) +
+                            rise * (cross == 0 ? rise : 2 * row.membrane_distance + rise);
+      return growth / (std::sqrt(rest_length * rest_length + growth) + rest_length);
+    };
+    double elongation = elongation_at(mean);
+    if (row.here_before[0] != nullptr) {  // as in kernels/tangent.hpp
+      const SpringMotion before = motion_of_one(row.here_before, row.there_before);
+      const auto after = [&](double from, double to) { return from + (to - from) / row.forward; };
+      SpringMotion end{
+          {}, after(before.height_a, mean.height_a), after(before.height_b, mean.height_b)};
+      for (int c = 0; c < 3; ++c) end.apart[c] = after(before.apart[c], mean.apart[c]);
+      elongation = (1 - row.forward) * elongation_at(before) + row.forward * elongation_at(end);
+    }
+    const double length = rest_length + elongation;
+    const LinearisedSpring found = answer(cross, rest_length, elongation);
     const double pull = found.force / length;
     (cross == 0 ? row.pull : row.cross_pull)[0] = row.weight[0] * pull;
     (cross == 0 ? row.axial : row.cross_axial)[0] =

@@ -9,8 +9,10 @@
 
 namespace hyperlattice {
 
-Statics::Statics(const Model& model, Simulation& simulation, double start, double end, int threads)
+Statics::Statics(const Model& model, Simulation& simulation, Search search, double start,
+                 double end, int threads)
     : model_(model), simulation_(simulation), start_(start), end_(end) {
+  problem_.grid.inertia = search == Search::motion;
   problem_.grid.listed = model.body.is_listed();
   if (problem_.grid.listed)
     make_list();
@@ -25,7 +27,8 @@ Statics::Statics(const Model& model, Simulation& simulation, double start, doubl
   force_.assign(problem_.grid.numbers(), 0);
   read_state(state_.data());
   respond(state_.data(), force_.data(), nullptr);
-  make_loads();
+  find_loaded();
+  if (!problem_.grid.inertia) make_loads();
 
   problem_.self = this;
   problem_.state = state_.data();
@@ -35,14 +38,26 @@ Statics::Statics(const Model& model, Simulation& simulation, double start, doubl
         0.0, [&] { return static_cast<const Statics*>(self)->respond(u, force, tangents); });
   };
   problem_.load_at = [](void* self, double share, double* force) noexcept {
-    PluginCall::answer([&] { static_cast<const Statics*>(self)->add_loads(share, force); });
+    PluginCall::answer([&] {
+      const auto& statics = *static_cast<const Statics*>(self);
+      statics.moves() ? statics.add_step_loads(force) : statics.add_loads(share, force);
+    });
   };
   problem_.prescribe_at = [](void* self, double share, double* u) noexcept {
-    PluginCall::answer([&] { static_cast<const Statics*>(self)->prescribe(share, u); });
+    PluginCall::answer([&] {
+      const auto& statics = *static_cast<const Statics*>(self);
+      statics.moves() ? statics.prescribe_mean(u) : statics.prescribe(share, u);
+    });
   };
   problem_.scale_of = [](void* self, const double* internal, const double* external) noexcept {
-    return PluginCall::answer(
-        0.0, [&] { return static_cast<Statics*>(self)->force_scale(internal, external); });
+    return PluginCall::answer(0.0, [&] {
+      auto& statics = *static_cast<Statics*>(self);
+      return statics.moves() ? statics.motion_scale(external)
+                             : statics.force_scale(internal, external);
+    });
+  };
+  problem_.begin_step_of = [](void* self, const TimeStep& step) noexcept {
+    PluginCall::answer([&] { static_cast<Statics*>(self)->begin_step(step); });
   };
   problem_.damages = !model_.cohesive.empty();
   problem_.grow_damage_at = [](void* self, const double* displacement,

@@ -1,6 +1,6 @@
-// Connects static solvers and the simulation: makes the StaticProblem of a model and a state, and
-// brings the result of a solver into the simulation. The functions are in grid.cpp, cells.cpp,
-// list.cpp, response.cpp, load_path.cpp, rest.cpp and statics.cpp.
+// Connects static and implicit solvers and the simulation: makes the StaticProblem of a model and a
+// state, and brings the result of a solver into the simulation. The functions are in grid.cpp,
+// cells.cpp, list.cpp, response.cpp, load_path.cpp, time_step.cpp, rest.cpp and statics.cpp.
 #pragma once
 
 #include <state/simulation.hpp>
@@ -10,6 +10,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 
 namespace hyperlattice {
 
@@ -20,8 +21,11 @@ struct SoftSpring;
 
 class Statics {
  public:
+  /// What a solver searches: states of rest, or mean displacements of steps in time.
+  enum class Search { rest, motion };
   /// Makes the problem of a stage from `start` to `end`, s, that begins with the present state.
-  Statics(const Model& model, Simulation& simulation, double start, double end, int threads);
+  Statics(const Model& model, Simulation& simulation, Search search, double start, double end,
+          int threads);
   Statics(const Statics&) = delete;
   Statics& operator=(const Statics&) = delete;
 
@@ -29,6 +33,8 @@ class Statics {
   /// Makes `displacement` the simulation's state, at the fraction `share` of the load path from the
   /// loads of the stage's start to those of its end.
   void accept(double share, const double* displacement);
+  /// Ends the step in time that the solver began, with the mean displacements `mean`.
+  void accept_step(const double* mean);
   /// Returns how near to rest the present state is under the loads of the stage's end. The report
   /// has an error from the third call on.
   RestReport rest();
@@ -106,10 +112,25 @@ class Statics {
                              RowBuffers& buffer) const;
   double respond_plane(std::int32_t k, const double* u, double* force,
                        const SpringTangents* tangents) const;
-  void fill_alpha(const SpringTangents& tangents) const;
+  void fill_own(const SpringTangents& tangents) const;
   double hold_heights(const double* u, double* force) const;
 
+  // time_step.cpp
+  bool moves() const { return step_.has_value(); }
+  void time_row(SpringRow& row) const;
+  double end_of(std::size_t number, const double* mean) const {
+    return state_[number] + (mean[number] - state_[number]) / step_->of.forward;
+  }
+  void read_velocity(double time_step);
+  void begin_step(const TimeStep& step);
+  void add_inertia(const double* mean, double* force) const;
+  void add_step_loads(double* force) const;
+  void prescribe_mean(double* mean) const;
+  double motion_scale(const double* external);
+  double numerical_dissipation(const Values& after, const Values& speed);
+
   // load_path.cpp
+  void find_loaded();
   void make_loads();
   void find_preload();
   void add_loads(double share, double* force) const;
@@ -150,18 +171,44 @@ class Statics {
   Values state_;              ///< displacements, m
   double share_ = 0;          ///< place of the state on the load path, 0 to 1
   double largest_scale_ = 0;  ///< largest force so far that residuals were compared with, N
-  Values force_;              ///< forces of the springs at the state, N
-  Values holding_;            ///< further forces that hold the state at share 0 at rest, N
+  /// A step in time (StaticProblem::begin_step).
+  struct Step {
+    TimeStep of;
+    std::vector<double> factor;  ///< mean of each load
+    std::vector<double> held;    ///< displacement of each prescribed number at the end, m
+    Values anchor;               ///< u + forward h v, m
+    double mean(double start, double end) const {
+      return (1 - of.forward) * start + of.forward * end;
+    }
+    double inertia() const {  ///< 1/s2, times mass
+      const double time = of.forward * of.length;
+      return 1 / (time * time);
+    }
+  };
+  std::optional<Step> step_;
+  mutable double mean_force_ = 0;  ///< of the springs on a particle, N, in the last response
+  Values velocity_;                ///< at the time of the state, m/s; empty at rest
+  Values force_;                   ///< forces of the springs at the state, N
+  Values holding_;                 ///< further forces that hold the state at share 0 at rest, N
   std::vector<double> factor_start_, factor_end_;  ///< one per load
   double gravity_start_ = 1;
   std::uint64_t broken_ = 0;  ///< springs when they were read last
   double preload_ = 0;        ///< loads of the start over their change in the stage
-  std::vector<double> mass_;  ///< at each place, kg; empty without body acceleration
+  std::vector<double> mass_;  ///< at each place, kg; empty without body acceleration and inertia
   struct Loaded {
     std::int64_t place;
     std::size_t load;
     Vec3 force;  ///< amplitude, N
   };
+  /// A number that a load prescribes.
+  struct Prescribed {
+    std::int64_t place;
+    int component;
+    std::size_t load;
+    bool displaced;    ///< else driven with a velocity
+    double amplitude;  ///< m, or m/s
+  };
+  std::vector<Prescribed> prescribed_;
   struct Held {
     std::int64_t place;
     unsigned axes;

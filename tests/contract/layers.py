@@ -6,7 +6,8 @@ Argument: the project's folder.
   scenes.
 - A room of core includes itself, the rooms that its target links (directly or through others), the
   SDK and the kernels. The kernels include the SDK; the SDK includes nothing else of the project.
-  Any other folder of core is a library: it includes itself and the SDK.
+  Any other folder of core is a library: it includes itself and the SDK, and the kernels if it
+  links them.
 - A tool under apps includes rooms, itself, and the tools that it links. No other part includes
   apps.
 - A component's folder includes itself, the SDK and the kernels, never another component.
@@ -115,7 +116,8 @@ check_includes(source / "core/kernels", "the kernels", set(), [kernels, sdk])
 for name, linked in rooms.items():
     check_includes(source / "core" / name, f"the room {name}", {name, *linked}, [kernels, sdk])
 for name in sorted(libraries):
-    check_includes(source / "core" / name, f"the library {name}", {name}, [sdk])
+    kernels_too = [kernels] if "hyperlattice_kernels" in recipe_of(source / "core" / name) else []
+    check_includes(source / "core" / name, f"the library {name}", {name}, [*kernels_too, sdk])
 for name, linked in tools.items():
     check_names(source / "apps" / name)
     check_includes(source / "apps" / name, f"the tool {name}", {*rooms, name, *linked}, [kernels, sdk])

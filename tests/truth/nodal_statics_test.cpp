@@ -1,6 +1,6 @@
 // States of rest and sections of lists with nodal volumes: the exact tangent, relaxation, energy,
 // the Poisson ratio of finite bodies, the force through a plane at rest and while it opens.
-#include <listed_system.hpp>
+#include <equilibrium/listed_system.hpp>
 #include <model/homogenise.hpp>
 #include <model/section.hpp>
 #include <statics/statics.hpp>
@@ -17,10 +17,10 @@ using namespace hyperlattice;
 using namespace hyperlattice::test;
 
 /// The assembled tangent without a preconditioner.
-struct Tangent : statics::ListedSystem {
+struct Tangent : equilibrium::ListedSystem {
   using ListedSystem::ListedSystem;
   void prepare() override {}
-  void apply(const statics::Field& r, statics::Field& z) override { z = r; }
+  void apply(const equilibrium::Field& r, equilibrium::Field& z) override { z = r; }
 };
 
 std::string random_scene(int n, double poisson, const Keys& lattice, const Stages& stages,
@@ -46,26 +46,26 @@ TEST(NodalStatics, TheTangentIsTheDerivativeOfTheForces) {
     const std::size_t numbers = problem.grid.numbers();
     const auto field = [&](double size, unsigned seed) {
       const std::vector<double> rough = noise(numbers, size, seed);
-      return statics::Field(rough.begin(), rough.end());
+      return equilibrium::Field(rough.begin(), rough.end());
     };
-    const statics::Field u = field(1e-4, 1), v = field(1e-4, 2);
-    statics::Field force(numbers), product(numbers);
+    const equilibrium::Field u = field(1e-4, 1), v = field(1e-4, 2);
+    equilibrium::Field force(numbers), product(numbers);
     const double energy = tangent.linearise(u, force);
     tangent.multiply(v.data(), product.data());
     const auto force_at = [&](double share) {
-      statics::Field moved = u, found(numbers);
+      equilibrium::Field moved = u, found(numbers);
       for (std::size_t n = 0; n < numbers; ++n) moved[n] += share * v[n];
       problem.respond(moved.data(), found.data(), nullptr);
       return found;
     };
     constexpr double h = 1e-3;
-    const statics::Field a = force_at(h), b = force_at(-h), c = force_at(2 * h),
-                         d = force_at(-2 * h);
+    const equilibrium::Field a = force_at(h), b = force_at(-h), c = force_at(2 * h),
+                             d = force_at(-2 * h);
     double worst = 0;
     for (std::size_t n = 0; n < numbers; ++n)
       worst =
           std::max(worst, std::abs(product[n] + (8 * (a[n] - b[n]) - (c[n] - d[n])) / (12 * h)));
-    const double size = statics::largest(product);
+    const double size = equilibrium::largest(product);
     EXPECT_GT(energy, 0);
     EXPECT_LT(worst, 1e-6 * size) << poisson;
     std::printf("nu %g: tangent against differences %.1e\n", poisson, worst / size);

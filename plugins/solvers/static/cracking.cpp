@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hyperlattice::statics {
+namespace hyperlattice::equilibrium {
 
 Outcome Cracking::solve_load_step(double most_share, double most_growth, double& share,
                                   Field& displacement) {
@@ -42,4 +42,4 @@ Outcome Cracking::solve_load_step(double most_share, double most_growth, double&
   return {.why = "its damage does not come to rest"};
 }
 
-}  // namespace hyperlattice::statics
+}  // namespace hyperlattice::equilibrium

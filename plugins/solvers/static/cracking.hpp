@@ -4,9 +4,9 @@
 // damage has grown by a given amount, even where the load must fall for that.
 #pragma once
 
-#include "newton.hpp"
+#include <equilibrium/newton.hpp>
 
-namespace hyperlattice::statics {
+namespace hyperlattice::equilibrium {
 
 class Cracking {
  public:
@@ -28,4 +28,4 @@ class Cracking {
   bool cracked_ = false;  ///< whether damage has ended a step
 };
 
-}  // namespace hyperlattice::statics
+}  // namespace hyperlattice::equilibrium

@@ -1,7 +1,7 @@
 #include "failure.hpp"
-#include "words.hpp"
+#include <equilibrium/words.hpp>
 
-namespace hyperlattice::statics {
+namespace hyperlattice::equilibrium {
 
 namespace {
 
@@ -84,4 +84,4 @@ std::string failure_text(const StaticProblem& problem, double share, double time
                        : ". The body may buckle there.");
 }
 
-}  // namespace hyperlattice::statics
+}  // namespace hyperlattice::equilibrium

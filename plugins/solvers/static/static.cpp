@@ -1,11 +1,10 @@
 // Static equilibrium by Newton's method,
 //   F_springs(u) + F_loads = 0,
 // in load steps that are halved (cutback) if the method does not converge.
-#include "aggregated_system.hpp"
 #include "cracking.hpp"
-#include "factorised_system.hpp"
 #include "failure.hpp"
-#include "grid_system.hpp"
+
+#include <equilibrium/systems.hpp>
 
 #include <hyperlattice/rest.hpp>
 
@@ -13,10 +12,6 @@
 #include <stdexcept>
 
 namespace hyperlattice {
-
-enum class Preconditioner : std::uint32_t { automatic, whole, incomplete, multigrid };
-constexpr std::string_view preconditioner_names[] = {"automatic", "whole", "incomplete",
-                                                     "multigrid"};
 
 class Static {
  public:
@@ -26,7 +21,7 @@ class Static {
     std::optional<bool> stability;
     double damage_step = 0.05;
     bool snap_back = false;
-    Preconditioner preconditioner = Preconditioner::automatic;
+    equilibrium::Preconditioner preconditioner = equilibrium::Preconditioner::automatic;
     std::optional<double> end_time;
   };
 
@@ -93,7 +88,7 @@ class Static {
             "of listed lattices: a factorisation of the tangent, whole or with no more entries "
             "than it has, or algebraic multigrid; automatic: whole "
             "up to 4000 numbers, multigrid beyond")
-        .choices(preconditioner_names)
+        .choices(equilibrium::preconditioner_names)
         .fallback("\"automatic\"")
         .add<&Options::end_time>("end_time", "s",
                                  "instant whose loads act at the end, from the start of the run; "
@@ -123,12 +118,14 @@ class Static {
     if (!host.observe()) return;
     const StaticProblem* problem = host.statics();
     if (problem == nullptr) return;
-    const std::unique_ptr<statics::System> system = system_of(*problem);
-    statics::Newton newton(*system, host,
-                           {.tolerance = o_.tolerance,
-                            .stable = o_.stability.value_or(!facts.listed && !problem->damages)});
-    statics::Cracking cracking(*problem, newton, o_.snap_back);
-    statics::Field u(problem->state, problem->state + problem->grid.numbers());
+    const std::unique_ptr<equilibrium::System> system =
+        equilibrium::make_system(*problem, o_.preconditioner);
+    equilibrium::Newton newton(
+        *system, host,
+        {.tolerance = o_.tolerance,
+         .stable = o_.stability.value_or(!facts.listed && !problem->damages)});
+    equilibrium::Cracking cracking(*problem, newton, o_.snap_back);
+    equilibrium::Field u(problem->state, problem->state + problem->grid.numbers());
     const double whole = 1 / static_cast<double>(o_.load_steps),
                  shortest = whole * std::exp2(-static_cast<double>(o_.most_cutbacks));
     double share = 0, length = whole;
@@ -136,7 +133,7 @@ class Static {
       constexpr double nearly = 1e-9;
       const double next = share + length > 1 - nearly ? 1 : share + length;
       double reached = problem->damages ? share : next;
-      const statics::Outcome found =
+      const equilibrium::Outcome found =
           problem->damages
               ? cracking.solve_load_step(next, o_.damage_step * length / whole, reached, u)
               : newton.solve_load_step(next, u);
@@ -152,25 +149,12 @@ class Static {
         if (!found.direction.empty() && !host.show_motion(found.direction.data())) return;
         const double start = facts.start_time,
                      time = start + share * (plan(facts).end_time - start);
-        throw std::runtime_error(statics::failure_text(*problem, share, time, found));
+        throw std::runtime_error(equilibrium::failure_text(*problem, share, time, found));
       }
     }
   }
 
  private:
-  std::unique_ptr<statics::System> system_of(const StaticProblem& problem) const {
-    constexpr std::int64_t few =
-        4000;  // unknowns up to which a complete factorisation is as fast as multigrid
-    const bool small = static_cast<std::int64_t>(problem.grid.numbers()) <= few;
-    if (problem.grid.listed && (o_.preconditioner == Preconditioner::multigrid ||
-                                (o_.preconditioner == Preconditioner::automatic && !small)))
-      return std::make_unique<statics::AggregatedSystem>(problem);
-    if (problem.grid.listed)
-      return std::make_unique<statics::FactorisedSystem>(
-          problem, o_.preconditioner != Preconditioner::incomplete);
-    return std::make_unique<statics::GridSystem>(problem);
-  }
-
   Options o_;
 };
 

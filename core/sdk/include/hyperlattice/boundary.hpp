@@ -78,7 +78,7 @@
   CROSSES(KernelRequest, rows_per_plane, planes, reach, rows, displacement, velocity, alive, material, mixture, mixture_springs, memory, memory_numbers, memory_stride, weight_sets, weights, \
           listed, neighbours, springs, mass, alpha, materials, spring_classes, membrane_distance, exact, cells, back, forward, damping, damping_rate, acceleration, \
           boundary_particles, self, review, receive_gone, other_row, scratch, scratch_width, damped_work, fracture_work, sums)                                                                          \
-  CROSSES(SpringRow, count, here, there, stiffness, cross_stiffness, weight, law, memory, memory_stride, rest, rest_length, cross_rest_length, membrane_distance, spacing, pull,  \
+  CROSSES(SpringRow, count, here, there, here_before, there_before, forward, time_step, stiffness, cross_stiffness, weight, law, memory, memory_stride, rest, rest_length, cross_rest_length, membrane_distance, spacing, pull,  \
           axial, cross_pull, cross_axial)                                                                                                             \
   CROSSES(SpringFacts, rest_length, stiffness, spacing, spring_class, crossings)                                                                      \
   CROSSES(SpringBatch, time, spring, elongation, a, b, rate, memory, time_step)                                                                       \
@@ -98,15 +98,16 @@
   CROSSES(LoadFunctions, declare, factor, answer, prepare, update)                                                                                            \
   CROSSES(StaticRow, begin, end)                                                                                                                      \
   CROSSES(StaticSpring, a, b, rest)                                                                                                                   \
-  CROSSES(StaticGrid, sites, row, plane, origin, places, components, spacing, membrane_distance, neighbours, rows, cells, listed, springs, tetrahedra, free, threads) \
-  CROSSES(SpringTangents, axial, pull, cross_axial, cross_pull, alpha, cell_stiffness, cell_pressure, volume_stiffness, volume_pressure)                                             \
+  CROSSES(StaticGrid, sites, row, plane, origin, places, components, spacing, membrane_distance, neighbours, rows, cells, inertia, listed, springs, tetrahedra, free, threads) \
+  CROSSES(SpringTangents, axial, pull, cross_axial, cross_pull, own, cell_stiffness, cell_pressure, volume_stiffness, volume_pressure)                                             \
   CROSSES(DamageSearch, share, least_share, most_share, most_growth)                                                                                  \
+  CROSSES(TimeStep, length, forward)                                                                                                                  \
   CROSSES(DamageFound, share, change)                                                                                                                 \
-  CROSSES(StaticProblem, self, grid, state, respond_to, load_at, prescribe_at, scale_of, position_of, damages, grow_damage_at, restore_damage_at)                                                 \
+  CROSSES(StaticProblem, self, grid, state, respond_to, load_at, prescribe_at, scale_of, position_of, damages, grow_damage_at, restore_damage_at, begin_step_of)                                                 \
   CROSSES(RestReport, residual, displacement_error, iterations)                                                                                       \
-  CROSSES(SolverFacts, start_time, critical_time_step, corners, sites_across, listed, nodal_volumes, remembers, damages, answering)                             \
+  CROSSES(SolverFacts, start_time, critical_time_step, corners, sites_across, listed, nodal_volumes, remembers, damages, answering, breaks)                             \
   CROSSES(SolverPlan, end_time, time_step, stable_time_step, damping, steps, at_rest, grows_damage, resumes, bytes_per_site, sweeps_per_step)                       \
-  CROSSES(SolverHost, self, time, steps_done, take_step, show, open, take, measure_rest, stop_motion, set_damping_rate, show_rest, keep_motion)       \
+  CROSSES(SolverHost, self, time, steps_done, take_step, show, open, take, measure_rest, stop_motion, set_damping_rate, show_rest, keep_motion, open_motion, take_motion)       \
   CROSSES(SolverFunctions, plan, run)                                                                                                                 \
   CROSSES(Field, components, values)                                                                                                                  \
   CROSSES(Resultant, force, moment)                                                                                                                   \

@@ -239,6 +239,10 @@ struct SpringRow {
   int count = 0;
   /// Displacements of both ends, m; the last is null without a free membrane.
   const double *here[4] = {}, *there[4] = {};
+  /// In a step in time (StaticProblem::begin_step): displacements at its start, null at rest; the
+  /// part of the step at which mean values lie, and the time from the start to it, s.
+  const double *here_before[4] = {}, *there_before[4] = {};
+  double forward = 1, time_step = 0;
   const double *stiffness = nullptr, *cross_stiffness = nullptr;  ///< N/m
   const double* weight = nullptr;  ///< fraction of a whole spring; 0: no spring
   /// Constants of the law for base and cross springs, if it has any.

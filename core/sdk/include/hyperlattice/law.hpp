@@ -273,8 +273,8 @@ class SpringWithMemory {
     std::memcpy(values, &fields, sizeof fields);
   }
 
-  /// Returns the derivative, N/m, of the force after a load step without a duration that starts
-  /// from `memory`.
+  /// Returns the derivative, N/m, of the force after a step of state.time_step seconds, 0 in
+  /// statics, that starts from `memory`.
   double tangent(const SpringState& state, const double* memory) const {
     const auto kept = struct_of<Memory>(memory);
     if constexpr (requires { &Law::tangent; }) {
@@ -285,6 +285,7 @@ class SpringWithMemory {
         Memory trial = kept;
         SpringState at = state;
         at.elongation = elongation;
+        if (at.time_step > 0) at.rate = (elongation - memory[own]) / at.time_step;
         return force_after_update(at, trial);
       };
       return (force(state.elongation + h) - force(state.elongation - h)) / (2 * h);

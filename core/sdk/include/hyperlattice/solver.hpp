@@ -18,13 +18,14 @@ struct SolverFacts {
   bool remembers = false;  ///< a law has a memory, which advances with each accepted state of rest
   bool damages = false;    ///< materials are cohesive: their damage grows
   bool answering = false;  ///< a load answers to the motion; statics() does not include such loads
+  bool breaks = false;     ///< springs may break by a failure criterion
 };
 
 /// What the solver will do, for the plan, `summary.json` and the progress line.
 struct SolverPlan {
   double end_time = 0;
   double time_step = 0;         ///< largest time step, s
-  double stable_time_step = 0;  ///< stability limit of this scheme, s
+  double stable_time_step = 0;  ///< stability limit of this scheme, s; infinite: it has none
   double damping = 0;           ///< local damping, alpha; 0: none
   std::uint64_t steps = 0;
   /// The stage searches a state of rest: its steps are not steps in time, and time_step may be 0.
@@ -63,6 +64,8 @@ struct SolverHost {
   void (*set_damping_rate)(void* self, double rate) noexcept = nullptr;
   bool (*show_rest)(void* self, const RestReport& report) noexcept = nullptr;
   bool (*keep_motion)(void* self, const double* motion) noexcept = nullptr;
+  const StaticProblem* (*open_motion)(void* self) noexcept = nullptr;
+  bool (*take_motion)(void* self, const double* mean) noexcept = nullptr;
 
   /// Returns the body for a static solver, built at the first call; valid during the stage. Null:
   /// the run must stop.
@@ -72,6 +75,15 @@ struct SolverHost {
   bool accept(double share, const double* displacement) const {
     return take(self, share, displacement);
   }
+
+  // For implicit steps in time.
+  /// Returns the body for an implicit solver, built at the first call; valid during the stage, in
+  /// which step() and accept() must not be called. Null: the run must stop.
+  const StaticProblem* motion() const { return open_motion(self); }
+  /// Ends the step that StaticProblem::begin_step() began with the mean displacements w. Returns
+  /// false if the run must stop.
+  bool accept_step(const double* mean) const { return take_motion(self, mean); }
+
   /// Computes the residual and the estimated error of the present state, with one evaluation of all
   /// springs, and its kinetic energy, J, at little cost. Either pointer may be null. The error
   /// compares successive states: it is known from the third call on. Returns false if the run must

@@ -1,7 +1,7 @@
-// The body as a static solver sees it: a box of sites with one number for each component, the
-// forces of the springs for given displacements, and the forces of the loads. Plain data and
-// functions; the numerical method belongs to the solver. A listed lattice has no box: each particle
-// is a place, and the springs are listed too.
+// The body as a static or an implicit solver sees it: a box of sites with one number for each
+// component, the forces of the springs for given displacements, and the forces of the loads. Plain
+// data and functions; the numerical method belongs to the solver. A listed lattice has no box: each
+// particle is a place, and the springs are listed too.
 //
 // A field has one number for each component and place, [c * places + place]: m or N along x, y, z
 // and, with a free membrane, of the height. Site (i, j, k) of the box is at
@@ -40,6 +40,7 @@ struct StaticGrid {
   std::span<const NeighbourGeometry> neighbours;
   std::span<const StaticRow> rows;        ///< [k * ny + j]
   bool cells = false;                     ///< cells have volumetric energies
+  bool inertia = false;                   ///< forces include inertia, see StaticProblem::begin_step
   bool listed = false;                    ///< sites, neighbours and rows are empty
   std::span<const StaticSpring> springs;  ///< springs of a listed lattice
   /// Tetrahedra of a listed lattice whose places have volumetric energies; else empty.
@@ -54,6 +55,8 @@ struct StaticGrid {
   }
   /// Returns the constant step from a place to its neighbour.
   std::int64_t step_to(const Neighbour& n) const { return n.dx + n.dy * row + n.dz * plane; }
+  /// Returns whether numbers have a stiffness of their own.
+  bool has_own() const { return components == 4 || inertia; }
   /// Returns the size of a field.
   std::size_t numbers() const {
     return static_cast<std::size_t>(components) * static_cast<std::size_t>(places);
@@ -66,7 +69,9 @@ struct StaticGrid {
 /// springs, and the last three arrays are not used.
 struct SpringTangents {
   float *axial = nullptr, *pull = nullptr, *cross_axial = nullptr, *cross_pull = nullptr;
-  float* alpha = nullptr;  ///< stiffness of the alpha spring of each place
+  /// Stiffness of each number against its own change, [component * places + place]: of alpha
+  /// springs and, with StaticGrid::inertia, of inertia. Only with StaticGrid::has_own().
+  float* own = nullptr;
   /// Volumetric energy of the cell of which each place is the lowest corner, times its share: p' l
   /// / 16 and p l / 16, with the pressure p and its derivative (volumetric_cell.hpp), N/m; 0 where
   /// there is no cell. Only with StaticGrid::cells.
@@ -92,7 +97,12 @@ struct DamageFound {
   double change = 0;  ///< largest change of a particle's damage since the last search
 };
 
-/// A body in the form that a static solver needs.
+/// A step in time: mean values lie at the part `forward` of the step, 0.5 to 1.
+struct TimeStep {
+  double length = 0, forward = 0.5;  ///< s; -
+};
+
+/// A body in the form that a static or an implicit solver needs.
 struct StaticProblem {
   void* self = nullptr;
   StaticGrid grid;
@@ -107,6 +117,7 @@ struct StaticProblem {
   DamageFound (*grow_damage_at)(void* self, const double* displacement,
                                 const DamageSearch& search) noexcept = nullptr;
   void (*restore_damage_at)(void* self) noexcept = nullptr;
+  void (*begin_step_of)(void* self, const TimeStep& step) noexcept = nullptr;
 
   /// Computes the forces of the springs on every particle, N, held particles included, and the
   /// tangents if `tangents` is not null. Returns the stored energy, J.
@@ -133,6 +144,17 @@ struct StaticProblem {
   }
   /// Returns to the damage of the last accepted state.
   void restore_damage() const { restore_damage_at(self); }
+  /// Begins a step of length h in time from the present state, u and v. Its unknown is the mean
+  /// displacement w = u + forward (u' - u), where u' and v' are the state at the step's end:
+  ///   m (v' - v) / h = f + F,   (u' - u) / h = v + forward (v' - v).
+  /// F are the mean loads. The force f of a spring has the direction of its ends at w and the size
+  /// of its mean elongation, e + forward (e' - e), over its mean length. So a spring in proportion
+  /// to its elongation neither gains nor loses energy with forward = 0.5, however far it turns.
+  ///
+  /// Until the next step respond(w) gives f and inertia, -m (w - u - forward h v) / (forward h)^2,
+  /// with the tangent of inertia in SpringTangents::own, and no energy; load() gives F and
+  /// prescribe() sets the held components of w, at any share. Only of SolverHost::motion().
+  void begin_step(const TimeStep& step) const { begin_step_of(self, step); }
   /// Returns the position at rest, m.
   Vec3 position(std::int64_t place) const { return position_of(self, place); }
 };

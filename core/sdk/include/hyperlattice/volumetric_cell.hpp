@@ -89,9 +89,9 @@ constexpr double corner_sign(std::size_t corner, std::size_t axis) {
   return (corner >> axis & 1U) != 0 ? 1 : -1;
 }
 
-/// Returns the response of a cell. `displacement`: of its corners, m; `spacing`: l, m; `modulus`:
-/// K_v times the cell's share, Pa. A cell without corners' springs has only this response.
-inline CellResponse cell_response(const CellCorners& displacement, double spacing, double modulus) {
+/// Returns the gradient of a cell, its cofactors and its growth; no response. `displacement`: of
+/// its corners, m; `spacing`: l, m.
+inline CellResponse cell_shape(const CellCorners& displacement, double spacing) {
   CellResponse cell;
   for (std::size_t d = 0; d < 3; ++d) {
     Vec3 sum;  // over the four edges along d
@@ -101,6 +101,12 @@ inline CellResponse cell_response(const CellCorners& displacement, double spacin
   }
   set_cofactors(cell.gradient, cell.cofactors);
   cell.volume_growth = volume_growth(cell.gradient);
+  return cell;
+}
+
+/// Adds the response to the growth of a cell, which may be another one than that of its shape.
+/// `modulus`: K_v times the cell's share, Pa.
+inline void respond_to_growth(CellResponse& cell, double spacing, double modulus) {
   const VolumetricResponse response = volumetric_response(cell.volume_growth);
   cell.pressure = modulus * response.pressure;
   cell.stiffness = modulus * response.stiffness;
@@ -110,6 +116,12 @@ inline CellResponse cell_response(const CellCorners& displacement, double spacin
     for (std::size_t c = 0; c < 3; ++c)
       for (std::size_t d = 0; d < 3; ++d)
         cell.force[a][c] += factor * cell.cofactors[c][d] * corner_sign(a, d);
+}
+
+/// Returns the response of a cell. A cell without corners' springs has only this response.
+inline CellResponse cell_response(const CellCorners& displacement, double spacing, double modulus) {
+  CellResponse cell = cell_shape(displacement, spacing);
+  respond_to_growth(cell, spacing, modulus);
   return cell;
 }
 

@@ -4,7 +4,9 @@
 // tangent with respect to the difference of its ends is
 //   K = axial r r^T / l^2 + pull I,   pull = f / L,   axial = (f' - f / L) l^2 / L^2,
 // with the lattice constant l, so that both are in N/m. The force is pull r. The same holds for
-// cross springs, with the fourth component Delta + h_i + h_j. See docs/theory/statics.md.
+// cross springs, with the fourth component Delta + h_i + h_j. See docs/theory/statics.md. In a step
+// in time elongation and length are means over the step, and r is the vector between mean places:
+// docs/theory/implicit.md.
 #pragma once
 
 #include <hyperlattice/kernels/springs.hpp>
@@ -43,38 +45,68 @@ struct Tangent {
   /// Writes pull and axial of the springs. Returns their stored energy, J.
   static double run(const SpringRow& row) {
     Pack stored{};
-    for (int t = 0; t < row.count; t += lanes) {
-      Pack difference{}, total{};  // difference and sum of the heights
-      Pack q{};
-      const double rest[3] = {row.rest.x, row.rest.y, row.rest.z};
-      for (int c = 0; c < 3; ++c) {
-        const Pack d = load(row.there[c] + t) - load(row.here[c] + t);
-        q += d * (2 * rest[c] + d);
-      }
-      if constexpr (membrane == Membrane::free) {
-        const Pack here = load(row.here[3] + t), there = load(row.there[3] + t);
-        difference = there - here;
-        total = there + here;
-      }
-      stored += one(row, 0, t, q + difference * difference);
-      if constexpr (membrane != Membrane::none)
-        stored += one(row, 1, t, q + total * (2 * row.membrane_distance + total));
-    }
+    for (int t = 0; t < row.count; t += lanes)
+      for (std::size_t cross = 0; cross < (membrane == Membrane::none ? 1 : 2); ++cross)
+        stored += one(row, cross, t);
     return sum(stored);
   }
 
  private:
-  /// Writes the results of a vector of springs, base (cross 0) or cross (1), whose squared lengths
-  /// grew by `q`. Returns their energy.
-  static Pack one(const SpringRow& row, std::size_t cross, int t, Pack q) {
-    const double rest_length = cross == 0 ? row.rest_length : row.cross_rest_length;
-    const Pack weight = load(row.weight + t);
+  struct Stretch {
+    Pack elongation, length, square;  ///< m, m, m2: of the length
+  };
+
+  /// Returns the stretch of springs whose squared lengths grew by `q`.
+  static Stretch grown(double rest_length, Pack q) {
     const Pack square = rest_length * rest_length + q, length = root(square);
+    return {q / (length + rest_length), length, square};
+  }
+
+  /// Returns the stretch of a vector of springs, base (cross 0) or cross (1): in a step in time the
+  /// mean of that at the start and that at the end.
+  static Stretch stretch(const SpringRow& row, std::size_t cross, int t) {
+    const double rest[3] = {row.rest.x, row.rest.y, row.rest.z},
+                 rest_length = cross == 0 ? row.rest_length : row.cross_rest_length;
+    const bool moves = row.here_before[0] != nullptr;
+    Pack now{}, before{};  // growth of squared lengths
+    const auto add = [&](Pack apart, Pack apart_before, double twice) {
+      if (moves) {
+        apart = apart_before + (apart - apart_before) * (1 / row.forward);
+        before += apart_before * (twice + apart_before);
+      }
+      now += apart * (twice + apart);
+    };
+    for (int c = 0; c < 3; ++c)
+      add(load(row.there[c] + t) - load(row.here[c] + t),
+          moves ? load(row.there_before[c] + t) - load(row.here_before[c] + t) : Pack{},
+          2 * rest[c]);
+    if constexpr (membrane == Membrane::free) {
+      const auto rise = [&](const double* there, const double* here) {
+        return cross == 0 ? load(there + t) - load(here + t) : load(there + t) + load(here + t);
+      };
+      add(rise(row.there[3], row.here[3]),
+          moves ? rise(row.there_before[3], row.here_before[3]) : Pack{},
+          cross == 0 ? 0 : 2 * row.membrane_distance);
+    }
+    const Stretch at = grown(rest_length, now);
+    if (!moves) return at;
+    const Pack elongation = (1 - row.forward) * grown(rest_length, before).elongation +
+                            row.forward * at.elongation,
+               length = rest_length + elongation;
+    return {elongation, length, length * length};
+  }
+
+  /// Writes the results of a vector of springs, base (cross 0) or cross (1). Returns their energy.
+  static Pack one(const SpringRow& row, std::size_t cross, int t) {
+    const Pack weight = load(row.weight + t);
+    const Stretch at_ends = stretch(row, cross, t);
     const SpringOf<Pack> spring{load((cross == 0 ? row.stiffness : row.cross_stiffness) + t),
-                                Pack(rest_length), q / (length + rest_length)};
+                                Pack(cross == 0 ? row.rest_length : row.cross_rest_length),
+                                at_ends.elongation};
     const Linearised at = linearised(row, cross, t, spring, weight);
-    const Pack force_over_length = at.force / length;
-    const Pack along = (at.tangent - force_over_length) * (row.spacing * row.spacing) / square;
+    const Pack force_over_length = at.force / at_ends.length;
+    const Pack along =
+        (at.tangent - force_over_length) * (row.spacing * row.spacing) / at_ends.square;
     const LanesOf<double> there_is =
         not_zero(weight);  // missing springs have values that may not be finite
     store((cross == 0 ? row.pull : row.cross_pull) + t,
@@ -92,7 +124,7 @@ struct Tangent {
               energy_of<Law>(spring, row.law[cross])};
   }
 
-  /// Calls a law with a memory, which stays that of the start of the load step.
+  /// Calls a law with a memory, which stays that of the start of the step.
   static Linearised lane_by_lane(const SpringRow& row, std::size_t cross, int t,
                                  const SpringOf<Pack>& spring, Pack weight) {
     double k[lanes], rest[lanes], elongation[lanes], there[lanes],
@@ -108,7 +140,7 @@ struct Tangent {
       double own[numbers];
       for (std::size_t n = 0; n < numbers; ++n)
         own[n] = row.memory[cross][n * row.memory_stride + static_cast<std::size_t>(t + lane)];
-      const SpringState state{k[lane], rest[lane], elongation[lane], 0, 0};
+      const SpringState state{k[lane], rest[lane], elongation[lane], 0, row.time_step};
       tangent[lane] = law.tangent(state, own);
       const SpringStep step = law.take(state, own);
       force[lane] = step.force;

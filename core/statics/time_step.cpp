@@ -1,0 +1,213 @@
+// Implicit steps in time. With the mean displacement w = u + g (u' - u) at the part g of a step of
+// the length h, and with mean loads F,
+//   m (w - u - g h v) / (g h)^2 = f + F,   u' = u + (w - u) / g,   v' = v + ((u' - u) / h - v) / g.
+// The force f of a spring points along its ends at w and has the size of its mean elongation over
+// its mean length. For a linear spring then f.(u' - u) = -(E' - E) at g = 1/2: energy, momentum and
+// angular momentum stay, however far the body turns (LaBudde and Greenspan, Numer. Math. 26 (1976)
+// 1-16). See docs/theory/implicit.md.
+#include <model/blame.hpp>
+#include <statics/statics.hpp>
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace hyperlattice {
+
+void Statics::time_row(SpringRow& row) const {
+  if (!moves()) return;
+  row.forward = step_->of.forward;
+  row.time_step = step_->of.forward * step_->of.length;
+}
+
+/// Finds the velocities at the time of the present state, before the first step.
+void Statics::read_velocity(double time_step) {
+  const auto places = static_cast<std::size_t>(problem_.grid.places);
+  const double last = simulation_.last_step();
+  std::vector<double> xyz, heights;
+  const auto read = [&] {
+    simulation_.velocities(xyz);
+    simulation_.height_rates(heights);
+    for_runs([&](std::int64_t first, Particle particle, std::uint64_t count) {
+      for (std::uint64_t n = 0; n < count; ++n) {
+        const std::size_t place = static_cast<std::size_t>(first) + n;
+        for (std::size_t c = 0; c < 3; ++c)
+          velocity_[c * places + place] = xyz[3 * (particle + n) + c];
+        if (!heights.empty()) velocity_[3 * places + place] = heights[particle + n];
+      }
+    });
+  };
+  velocity_.assign(problem_.grid.numbers(), 0);
+  read();
+  if (last > 0) {  // they are those of half a step before
+    Values force = force_;
+    for (const Loaded& loaded : loaded_)
+      for (int c = 0; c < 3; ++c)
+        force[static_cast<std::size_t>(c) * places + static_cast<std::size_t>(loaded.place)] +=
+            model_.loads[loaded.load].mean(simulation_.time() - last / 2, simulation_.time()) *
+            loaded.force[c];
+    for (std::size_t n = 0; n < force.size(); ++n) {
+      const std::size_t place = n % places, c = n / places;
+      if ((free_[place] >> c & 1u) == 0) continue;
+      velocity_[n] +=
+          0.5 * last *
+          (force[n] / mass_[place] + (c < 3 ? model_.loads.acceleration[static_cast<int>(c)] : 0));
+    }
+  }
+  simulation_.begin_implicit_steps(
+      time_step, of_particles(velocity_.data(), 0, 3),
+      problem_.grid.components == 4 ? of_particles(velocity_.data(), 3, 1) : std::vector<double>());
+  read();
+}
+
+void Statics::begin_step(const TimeStep& step) {
+  step_.reset();
+  if (velocity_.empty()) read_velocity(step.length);
+  const double start = simulation_.time(), end = start + step.length;
+  Step now;
+  now.of = step;
+  for (std::size_t l = 0; l < model_.loads.size(); ++l) {
+    const double mean = model_.loads[l].integral(start, end) / step.length;
+    if (!std::isfinite(mean))
+      blame_load(model_, l,
+                 fmt::format("the mean of its factor from {:.6g} s to {:.6g} s is no finite number",
+                             start, end));
+    now.factor.push_back(mean);
+  }
+  for (const Prescribed& axis : prescribed_) {
+    const double from =
+        state_[static_cast<std::size_t>(axis.component * problem_.grid.places + axis.place)];
+    now.held.push_back(axis.displaced
+                           ? model_.loads[axis.load].factor(end) * axis.amplitude
+                           : from + now.factor[axis.load] * step.length * axis.amplitude);
+    if (!std::isfinite(now.held.back()))
+      blame_load(model_, axis.load,
+                 fmt::format("its factor at t = {:.6g} s is no finite number", end));
+  }
+  now.anchor.resize(state_.size());
+  for (std::size_t n = 0; n < state_.size(); ++n)
+    now.anchor[n] = state_[n] + step.forward * step.length * velocity_[n];
+  step_ = std::move(now);
+}
+
+void Statics::add_inertia(const double* mean, double* force) const {
+  const double factor = step_->inertia();
+  const auto places = static_cast<std::size_t>(problem_.grid.places);
+  mean_force_ = 0;
+  for (std::size_t p = 0; p < places; ++p)
+    mean_force_ += norm({force[p], force[places + p], force[2 * places + p]}) /
+                   static_cast<double>(model_.body.particles);
+  for (std::size_t n = 0; n < state_.size(); ++n)
+    if ((free_[n % places] >> (n / places) & 1u) != 0)
+      force[n] -= factor * mass_[n % places] * (mean[n] - step_->anchor[n]);
+}
+
+void Statics::add_step_loads(double* force) const {
+  const std::int64_t places = problem_.grid.places;
+  std::fill_n(force, problem_.grid.numbers(), 0.0);
+  for (const Loaded& loaded : loaded_)
+    for (int c = 0; c < 3; ++c)
+      force[c * places + loaded.place] += step_->factor[loaded.load] * loaded.force[c];
+  for (int c = 0; c < 3; ++c)
+    if (const double acceleration = model_.loads.acceleration[c]; acceleration != 0)
+      for (std::size_t p = 0; p < mass_.size(); ++p)
+        force[static_cast<std::size_t>(c * places) + p] += mass_[p] * acceleration;
+}
+
+void Statics::prescribe_mean(double* mean) const {
+  for (std::size_t n = 0; n < prescribed_.size(); ++n) {
+    const auto at = static_cast<std::size_t>(prescribed_[n].component * problem_.grid.places +
+                                             prescribed_[n].place);
+    mean[at] = step_->mean(state_[at], step_->held[n]);
+  }
+}
+
+/// Returns the reference of out-of-balance forces: the mean force of springs, or of loads on the
+/// particles that they load, and at least a thousandth of the force that would stop the body within
+/// the step.
+double Statics::motion_scale(const double* external) {
+  constexpr double least = 1e-3, share = 1e-6;
+  const auto places = static_cast<std::size_t>(problem_.grid.places);
+  const double stop = 1 / (step_->of.forward * step_->of.length);
+  double loads = 0, motion = 0;
+  std::uint64_t loaded = 0;
+  for_runs([&](std::int64_t first, Particle, std::uint64_t count) {
+    for (std::size_t p = static_cast<std::size_t>(first);
+         p < static_cast<std::size_t>(first) + count; ++p) {
+      const auto of = [&](const double* field) {
+        return Vec3{field[p], field[places + p], field[2 * places + p]};
+      };
+      const Vec3 load = of(external);
+      motion += mass_[p] * stop * norm(of(velocity_.data()));
+      if (load == Vec3{}) continue;
+      ++loaded;
+      loads += norm(load);
+    }
+  });
+  const double mean =
+      std::max({mean_force_, least * motion / static_cast<double>(model_.body.particles),
+                loaded > 0 ? loads / static_cast<double>(loaded) : 0});
+  if (std::isfinite(mean)) largest_scale_ = std::max(largest_scale_, mean);
+  return std::max(mean, share * largest_scale_);
+}
+
+/// Returns the energy, J, that the method takes: (g - 1/2) times that of the changes of velocities
+/// and of forces; and that of jumps of prescribed velocities.
+double Statics::numerical_dissipation(const Values& after, const Values& speed) {
+  const auto places = static_cast<std::size_t>(problem_.grid.places);
+  const double part = step_->of.forward - 0.5;
+  const bool damps = part > 0;
+  Values force_after(damps ? force_.size() : 0);
+  if (damps) {
+    auto step = std::exchange(step_, std::nullopt);
+    respond(after.data(), force_after.data(), nullptr);
+    step_ = std::move(step);
+  }
+  double dissipated = 0;
+  for (std::size_t n = 0; n < state_.size(); ++n) {
+    const double gained = speed[n] - velocity_[n], square = mass_[n % places] * gained * gained;
+    const bool free = (free_[n % places] >> (n / places) & 1u) != 0;
+    dissipated += (free ? part : 0.5) * square;
+    if (damps) dissipated -= part * (force_after[n] - force_[n]) * (after[n] - state_[n]);
+  }
+  if (damps) force_ = std::move(force_after);
+  return dissipated;
+}
+
+void Statics::accept_step(const double* mean) {
+  const auto places = static_cast<std::size_t>(problem_.grid.places);
+  const double length = step_->of.length;
+  Values force(state_.size()), after(state_.size()), speed(state_.size());
+  respond(mean, force.data(), nullptr);
+  for (std::size_t n = 0; n < state_.size(); ++n) {
+    after[n] = end_of(n, mean);
+    speed[n] = velocity_[n] + ((after[n] - state_[n]) / length - velocity_[n]) / step_->of.forward;
+  }
+  for (std::size_t n = 0; n < prescribed_.size(); ++n) {
+    const auto at = static_cast<std::size_t>(prescribed_[n].component) * places +
+                    static_cast<std::size_t>(prescribed_[n].place);
+    after[at] = step_->held[n];
+    speed[at] = (after[at] - state_[at]) / length;
+    force[at] -= mass_[at % places] * (speed[at] - velocity_[at]) / length;
+  }
+  EquilibriumUpdate to;
+  to.time = simulation_.time() + length;
+  to.time_step = length;
+  to.xyz = of_particles(after.data(), 0, 3);
+  to.velocity = of_particles(speed.data(), 0, 3);
+  if (problem_.grid.components == 4) {
+    to.heights = of_particles(after.data(), 3, 1);
+    to.height_rate = of_particles(speed.data(), 3, 1);
+  }
+  to.force = to.force_before = of_particles(force.data(), 0, 3);
+  to.factor = to.factor_before = step_->factor;
+  to.dissipated = numerical_dissipation(after, speed);
+  simulation_.apply_equilibrium(to);
+  state_ = std::move(after);
+  problem_.state = state_.data();
+  velocity_ = std::move(speed);
+}
+
+}  // namespace hyperlattice

@@ -1,0 +1,63 @@
+#include "step_length.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace hyperlattice::implicit {
+
+namespace {
+
+double root_mean_square(const equilibrium::Field& field) {
+  const double unit = equilibrium::power_of_two(equilibrium::largest(field));
+  if (!(unit > 0)) return 0;
+  double square = 0;
+  for (const double value : field) square += value / unit * (value / unit);
+  return unit * std::sqrt(square / static_cast<double>(field.size()));
+}
+
+}  // namespace
+
+double StepLength::next(double left) const {
+  const double h = std::min(length_, longest_);
+  const double parts = std::ceil(left / h * (1 - 1e-9));
+  return parts <= 2 ? left / std::max(1.0, parts) : h;
+}
+
+/// Returns the local error, m, of a step with this mean velocity; 0 if it is not known yet.
+double StepLength::error(double h, const equilibrium::Field& velocity) const {
+  if (one_before_ == 0) return 0;
+  const double slope = (h + last_) / (last_ + one_before_);
+  equilibrium::Field bend(velocity.size());
+  for (std::size_t n = 0; n < bend.size(); ++n)
+    bend[n] = velocity[n] - velocity_[n] - slope * (velocity_[n] - velocity_before_[n]);
+  return h / 12 * root_mean_square(bend);
+}
+
+bool StepLength::accept(double h, const equilibrium::Field& change, const equilibrium::Field& end) {
+  constexpr double safety = 0.9, most = 2, least = 0.3, worth = 1.2, too_much = 2;
+  equilibrium::Field velocity(change.size());
+  for (std::size_t n = 0; n < change.size(); ++n) velocity[n] = change[n] / h;
+  largest_ = std::max({largest_, root_mean_square(end), root_mean_square(change)});
+  if (tolerance_ > 0 && largest_ > 0) {
+    const double relative = error(h, velocity) / (tolerance_ * largest_);
+    const double factor =
+        one_before_ == 0 ? 1
+                         : std::clamp(safety / std::cbrt(std::max(relative, 1e-12)), least, most);
+    if (factor > worth || factor < 1) length_ = std::min(h * factor, longest_);
+    if (relative > too_much) return false;
+  } else if (tolerance_ == 0) {
+    length_ = std::min(longest_, 2 * length_);
+  }
+  one_before_ = std::exchange(last_, h);
+  velocity_before_ = std::exchange(velocity_, std::move(velocity));
+  return true;
+}
+
+bool StepLength::shorten(double h) {
+  constexpr double hopeless = 1e-6;
+  length_ = h / 2;
+  return length_ > hopeless * longest_;
+}
+
+}  // namespace hyperlattice::implicit
