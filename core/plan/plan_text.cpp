@@ -7,6 +7,7 @@
 #include <spdlog/fmt/fmt.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <iterator>
 
 namespace hyperlattice {
