@@ -19,6 +19,7 @@ struct EquilibriumUpdate {
   // Of a step in time; `force` and `force_before` are then both its mean force, less inertia where
   // a load prescribes motion, and so are the factors.
   double time_step = 0;                       ///< s; 0: a change between states of rest
+  double forward = 1;                         ///< part of the step at which its means lie
   std::vector<double> velocity, height_rate;  ///< after the step, m/s
 };
 

@@ -7,6 +7,12 @@
 
 namespace hyperlattice {
 
+std::pair<Vec3, double> LawMemory::motion_of(Particle particle) const {
+  const auto [home, index] = blocks_.at(particle);
+  const auto number = [&, &of = *home, n = index](std::size_t c) { return of.displacement[c][n]; };
+  return {{number(0), number(1), number(2)}, model_.degrees_of_freedom == 4 ? number(3) : 0.0};
+}
+
 void LawMemory::advance(const EquilibriumUpdate& to) {
   if (model_.springs.memory == 0) return;
   const double delta = model_.body.grid.membrane_distance;
@@ -26,8 +32,24 @@ void LawMemory::advance(const EquilibriumUpdate& to) {
             properties.elongation(cross, properties.growth(cross, d, rise, delta));
         LawNumbers kept =
             blocks_.law_numbers(block, spring.row, spring.neighbour, spring.site, cross != 0);
-        const double before =
-            ask_spring(model_, properties, cross, elongation, kept.data()).integrity;
+        const CompositeAnswer before =
+            ask_spring(model_, properties, cross, elongation, kept.data());
+        /// Returns by how much the work of the mean force of a step in time exceeds the work of the
+        /// mean of the forces at its ends, J, which the laws count.
+        const auto work_beyond = [&, start = kept](double force_before, double force) {
+          LawNumbers own = start;
+          if (to.time_step == 0) return 0.0;
+          const auto [a_before, height_a] = motion_of(a);
+          const auto [b_before, height_b] = motion_of(b);
+          const double from = properties.elongation(
+              cross,
+              properties.growth(cross, b_before - a_before,
+                                cross == 0 ? height_b - height_a : height_b + height_a, delta));
+          const CompositeAnswer mean =
+              take_spring(model_, properties, cross, from + to.forward * (elongation - from),
+                          to.forward * to.time_step, own.data());
+          return (mean.force - 0.5 * (force_before + force)) * (elongation - from);
+        };
         const CompositeAnswer answer =
             take_spring(model_, properties, cross, elongation, to.time_step, kept.data());
         const Layout::Memory memory =
@@ -35,9 +57,10 @@ void LawMemory::advance(const EquilibriumUpdate& to) {
         for (std::uint32_t n = 0; n < model_.springs.memory; ++n)
           memory.first[n * memory.stride] = kept[n];
         if (!spring.counts) continue;
-        energy_.count_halted(properties.share * answer.dissipated);
+        energy_.count_halted(properties.share *
+                             (answer.dissipated + work_beyond(before.force, answer.force)));
         energy_.count_softened(properties.share * answer.fractured);
-        if (cross == 0 && before > 0 && answer.integrity <= 0)
+        if (cross == 0 && before.integrity > 0 && answer.integrity <= 0)
           blocks_.note_gone(block,
                             {spring.row, spring.neighbour, {&spring.site, 1}, {&elongation, 1}});
       }
@@ -48,19 +71,11 @@ void LawMemory::advance(const EquilibriumUpdate& to) {
 /// once.
 template <class Visit>
 void LawMemory::for_base_springs(const Block& block, const Visit& visit) const {
-  const auto place = [&](Particle particle) {
-    const auto [home, index] = blocks_.at(particle);
-    const auto number = [&, &of = *home, n = index](std::size_t c) {
-      return of.displacement[c][n];
-    };
-    return std::pair{Vec3{number(0), number(1), number(2)},
-                     model_.degrees_of_freedom == 4 ? number(3) : 0.0};
-  };
   blocks_.layout().for_springs(block, [&](const SpringPlace& spring) {
     if (!spring.counts) return;
     const Particle a = spring.ends.a, b = spring.ends.b;
-    const auto [at_a, height_a] = place(a);
-    const auto [at_b, height_b] = place(b);
+    const auto [at_a, height_a] = motion_of(a);
+    const auto [at_b, height_b] = motion_of(b);
     const SpringProperties properties = model_.spring_properties(a, b, spring.ends.neighbour);
     const double elongation = properties.elongation(
         0,

@@ -1,5 +1,5 @@
-// The memory of laws outside a step: its advance to a state of rest, and the integrity of springs
-// that soften.
+// The memory of laws outside an explicit step: its advance to a state of rest or by an implicit
+// step, and the integrity of springs that soften.
 #pragma once
 
 #include <state/block_set.hpp>
@@ -8,6 +8,7 @@
 #include <state/weakened_spring.hpp>
 
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace hyperlattice {
@@ -17,7 +18,8 @@ class LawMemory {
   LawMemory(BlockSet& blocks, EnergyAccount& energy)
       : blocks_(blocks), model_(blocks.model()), energy_(energy) {}
 
-  /// Advances the memory of all laws to a state of rest, without a duration. Adds what the laws
+  /// Advances the memory of all laws to a state of rest, without a duration, or by an implicit step
+  /// in time; before the state of the blocks changes. Adds what the laws
   /// dissipate to the energy account, and notes in the blocks the springs whose integrity becomes
   /// 0.
   void advance(const EquilibriumUpdate& to);
@@ -31,6 +33,8 @@ class LawMemory {
  private:
   template <class Visit>
   void for_base_springs(const Block& block, const Visit& visit) const;
+  /// Returns the displacement and the height of a particle, m.
+  std::pair<Vec3, double> motion_of(Particle particle) const;
 
   BlockSet& blocks_;
   const Model& model_;

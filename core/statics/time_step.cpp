@@ -195,6 +195,7 @@ void Statics::accept_step(const double* mean) {
   EquilibriumUpdate to;
   to.time = simulation_.time() + length;
   to.time_step = length;
+  to.forward = step_->of.forward;
   to.xyz = of_particles(after.data(), 0, 3);
   to.velocity = of_particles(speed.data(), 0, 3);
   if (problem_.grid.components == 4) {

@@ -40,7 +40,7 @@ TEST(NodalStatics, TheTangentIsTheDerivativeOfTheForces) {
     const auto plan =
         plan_of(listed_scene(random_lattice(6, 6, 6, {{"sample", 8}}), {{"poisson", poisson}}));
     Simulation simulation(*plan->model, 1);
-    const Statics body(*plan->model, simulation, 0, 1, 1);
+    const Statics body(*plan->model, simulation, Statics::Search::rest, 0, 1, 1);
     const StaticProblem& problem = body.problem();
     Tangent tangent(problem);
     const std::size_t numbers = problem.grid.numbers();

@@ -104,13 +104,17 @@ inline CellResponse cell_shape(const CellCorners& displacement, double spacing) 
   return cell;
 }
 
-/// Adds the response to the growth of a cell, which may be another one than that of its shape.
-/// `modulus`: K_v times the cell's share, Pa.
+/// Adds pressure, stiffness and energy of a cell's growth. `modulus`: K_v times the cell's share,
+/// Pa.
 inline void respond_to_growth(CellResponse& cell, double spacing, double modulus) {
   const VolumetricResponse response = volumetric_response(cell.volume_growth);
   cell.pressure = modulus * response.pressure;
   cell.stiffness = modulus * response.stiffness;
   cell.energy = modulus * response.energy * spacing * spacing * spacing;
+}
+
+/// Adds the forces of a cell's pressure on its corners.
+inline void push_corners(CellResponse& cell, double spacing) {
   const double factor = -cell.pressure * spacing * spacing / 4;
   for (std::size_t a = 0; a < 8; ++a)
     for (std::size_t c = 0; c < 3; ++c)
@@ -122,6 +126,7 @@ inline void respond_to_growth(CellResponse& cell, double spacing, double modulus
 inline CellResponse cell_response(const CellCorners& displacement, double spacing, double modulus) {
   CellResponse cell = cell_shape(displacement, spacing);
   respond_to_growth(cell, spacing, modulus);
+  push_corners(cell, spacing);
   return cell;
 }
 
