@@ -36,6 +36,7 @@ class ActingLoads {
   void prepare_answers();
   /// Lets loads advance their memory, after the answers of a step.
   void update_memory();
+  std::span<double> memory(std::size_t load) { return acting_[load].memory; }
   /// Calls visit(number) for each number that loads keep, in the order of the loads.
   template <class Visit>
   void for_memory(const Visit& visit) const {

@@ -1,6 +1,8 @@
 // What a static or an implicit solver hands over to the state of a run.
 #pragma once
 
+#include <hyperlattice/plain.hpp>
+
 #include <vector>
 
 namespace hyperlattice {
@@ -21,6 +23,7 @@ struct EquilibriumUpdate {
   double time_step = 0;                       ///< s; 0: a change between states of rest
   double forward = 1;                         ///< part of the step at which its means lie
   std::vector<double> velocity, height_rate;  ///< after the step, m/s
+  std::vector<std::vector<Vec3>> answers;     ///< mean answers of each load, N
 };
 
 }  // namespace hyperlattice

@@ -46,20 +46,21 @@ void count_work(Block& block, double kick) {
 
 void count_work(BlockSet& blocks, const EquilibriumUpdate& to) {
   const Model& model = blocks.model();
-  const auto mean_factor = [&](const Contribution& part) {
-    return 0.5 * (to.factor_before[part.load] + to.factor[part.load]);
+  const auto mean_force = [&](const Contribution& part) {
+    return part.watched != not_watched && !to.answers.empty()
+               ? to.answers[part.load][part.watched]
+               : 0.5 * (to.factor_before[part.load] + to.factor[part.load]) * part.force;
   };
   const Vec3 gravity = 0.5 * (to.gravity_before + to.gravity) * model.loads.acceleration;
   for (Block& block : blocks) {
     std::vector<Vec3> pushed(block.boundary_particles.size());  // mean force of all loads, N
-    for (const Contribution& part : block.contributions)
-      pushed[part.support] += mean_factor(part) * part.force;
+    for (const Contribution& part : block.contributions) pushed[part.support] += mean_force(part);
     for (Contribution& part : block.contributions) {
       BoundaryParticle& support = block.boundary_particles[part.support];
       for (int c = 0; c < 3; ++c) {
         const std::size_t n = 3 * part.particle + static_cast<std::size_t>(c);
         const double moved = to.xyz[n] - block.displacement[c][support.index];
-        part.work += mean_factor(part) * part.force[c] * moved;
+        part.work += mean_force(part)[c] * moved;
         if (!prescribes(part, c)) continue;
         const double internal = 0.5 * (to.force[n] + to.force_before[n]);
         part.reaction_work -=

@@ -29,6 +29,7 @@ EnergyBalance Simulation::balance() { return state_->energy.balance(); }
 void Simulation::reset_energy_balance() { state_->energy.clear_error(); }
 std::vector<double> Simulation::injected_by_load() { return state_->energy.injected_by_load(); }
 const std::vector<double>& Simulation::work_of_loads() const { return state_->energy.work(); }
+std::span<double> Simulation::load_memory(std::size_t load) { return state_->loads.memory(load); }
 ForceSums& Simulation::force_sums() { return state_->force_sums; }
 std::vector<Vec3> Simulation::force_on_load() {
   state_->sweeps.measure(Sweep::present(state_->clock.last_step()));

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -81,6 +82,8 @@ class Simulation {
   /// Returns the force of the loads on every particle, N, in the present state. `internal` gives
   /// the forces of the springs; it is called only if a load prescribes motion.
   std::vector<Vec3> external_forces(const ForcesOnAll& internal) const;
+  /// Returns the numbers that a load keeps from one step to the next.
+  std::span<double> load_memory(std::size_t load);
   /// Returns the sums of forces that probes follow.
   ForceSums& force_sums();
 

@@ -29,6 +29,14 @@ void Statics::find_loaded() {
             static_cast<std::uint8_t>(free_[static_cast<std::size_t>(place)] & ~(1u << c));
       }
     }
+  if (problem_.grid.inertia)
+    for (const Load& load : model_.loads) {
+      Watching& watching = watching_.emplace_back();
+      for (const WatchedParticle& watched : load.watched)
+        watching.places.push_back(place_of(watched.particle));
+      for (std::vector<Vec3>* values : {&watching.moved, &watching.velocity, &watching.answers})
+        values->resize(load.watched.size());
+    }
   if (model_.loads.acceleration == Vec3{} && !problem_.grid.inertia) return;
   mass_.assign(static_cast<std::size_t>(places), 0);
   for_runs([&](std::int64_t place, Particle particle, std::uint64_t count) {

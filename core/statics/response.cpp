@@ -26,9 +26,12 @@ double Statics::respond(const double* u, double* force, const SpringTangents* ta
   std::fill_n(force, problem_.grid.numbers(), 0.0);
   const double energy =
       problem_.grid.listed ? respond_list(u, force, tangents) : respond_grid(u, force, tangents);
-  if (tangents != nullptr && tangents->own != nullptr) fill_own(*tangents);
   const double of_heights = hold_heights(u, force);
-  if (moves()) add_inertia(u, force);
+  if (moves()) {
+    add_inertia(u, force);
+    add_answers(u, force);
+  }
+  if (tangents != nullptr && tangents->own != nullptr) fill_own(*tangents);
   return energy + of_heights + (soft_.empty() ? 0 : respond_soft(u, force, tangents));
 }
 
@@ -207,6 +210,17 @@ void Statics::fill_own(const SpringTangents& tangents) const {
   const double factor = step_->inertia();
   for (std::size_t n = 0; n < problem_.grid.numbers(); ++n)
     tangents.own[n] += static_cast<float>(factor * mass_[n % places]);
+  // Loads give bounds of their tangents. Those of particles that they do not push now are left out.
+  for (std::size_t l = 0; l < watching_.size(); ++l)
+    for (std::size_t n = 0; n < watching_[l].places.size(); ++n) {
+      if (watching_[l].answers[n] == Vec3{}) continue;
+      const LoadStiffnessBound& bound = model_.loads[l].watched[n].reaction;
+      const double stiffness =
+          bound.stiffness + bound.viscosity / (step_->of.forward * step_->of.length);
+      for (std::size_t c = 0; c < 3; ++c)
+        tangents.own[c * places + static_cast<std::size_t>(watching_[l].places[n])] +=
+            static_cast<float>(stiffness);
+    }
 }
 
 }  // namespace hyperlattice

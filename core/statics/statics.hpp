@@ -124,6 +124,8 @@ class Statics {
   void read_velocity(double time_step);
   void begin_step(const TimeStep& step);
   void add_inertia(const double* mean, double* force) const;
+  WatchedMotion watched_motion(std::size_t load, const double* mean) const;
+  void add_answers(const double* mean, double* force) const;
   void add_step_loads(double* force) const;
   void prescribe_mean(double* mean) const;
   double motion_scale(const double* external);
@@ -188,8 +190,14 @@ class Statics {
   std::optional<Step> step_;
   mutable double mean_force_ = 0;  ///< of the springs on a particle, N, in the last response
   Values velocity_;                ///< at the time of the state, m/s; empty at rest
-  Values force_;                   ///< forces of the springs at the state, N
-  Values holding_;                 ///< further forces that hold the state at share 0 at rest, N
+  /// The particles that a load watches, in its order, and its last answers to their mean motion.
+  struct Watching {
+    std::vector<std::int64_t> places;
+    std::vector<Vec3> moved, velocity, answers;  ///< m, m/s and N
+  };
+  mutable std::vector<Watching> watching_;  ///< of each load
+  Values force_;                            ///< forces of the springs at the state, N
+  Values holding_;  ///< further forces that hold the state at share 0 at rest, N
   std::vector<double> factor_start_, factor_end_;  ///< one per load
   double gravity_start_ = 1;
   std::uint64_t broken_ = 0;  ///< springs when they were read last

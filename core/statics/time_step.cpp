@@ -104,6 +104,40 @@ void Statics::add_inertia(const double* mean, double* force) const {
       force[n] -= factor * mass_[n % places] * (mean[n] - step_->anchor[n]);
 }
 
+/// Returns the mean motion in the step that a load watches.
+WatchedMotion Statics::watched_motion(std::size_t load, const double* mean) const {
+  Watching& watching = watching_[load];
+  const std::int64_t places = problem_.grid.places;
+  const double time = step_->of.forward * step_->of.length;
+  for (std::size_t n = 0; n < watching.places.size(); ++n)
+    for (int c = 0; c < 3; ++c) {
+      const auto at = static_cast<std::size_t>(c * places + watching.places[n]);
+      watching.moved[n][c] = mean[at];
+      watching.velocity[n][c] = (mean[at] - state_[at]) / time;
+    }
+  return {simulation_.time() + time, step_->factor[load], watching.moved, watching.velocity,
+          simulation_.load_memory(load)};
+}
+
+/// Adds the answers of loads to the mean motion.
+void Statics::add_answers(const double* mean, double* force) const {
+  for (std::size_t l = 0; l < watching_.size(); ++l) {
+    Watching& watching = watching_[l];
+    const Load& load = model_.loads[l];
+    if (watching.places.empty()) continue;
+    const WatchedMotion motion = watched_motion(l, mean);
+    if (load.prepares()) load.prepare(motion);
+    for (std::size_t n = 0; n < watching.places.size(); ++n) {
+      const Vec3 answer = load.watched[n].answered ? load.answer(motion, n) : Vec3{};
+      if (!std::isfinite(norm(answer)))
+        blame_load(model_, l,
+                   fmt::format("its answer at t = {:.6g} s is no finite force", motion.time));
+      watching.answers[n] = answer;
+      for (int c = 0; c < 3; ++c) force[c * problem_.grid.places + watching.places[n]] += answer[c];
+    }
+  }
+}
+
 void Statics::add_step_loads(double* force) const {
   const std::int64_t places = problem_.grid.places;
   std::fill_n(force, problem_.grid.numbers(), 0.0);
@@ -193,6 +227,16 @@ void Statics::accept_step(const double* mean) {
     force[at] -= mass_[at % places] * (speed[at] - velocity_[at]) / length;
   }
   EquilibriumUpdate to;
+  for (const Watching& watching : watching_) {
+    to.answers.push_back(watching.answers);
+    for (std::size_t n = 0; n < watching.places.size(); ++n)
+      for (int c = 0; c < 3; ++c)
+        force[static_cast<std::size_t>(c) * places +
+              static_cast<std::size_t>(watching.places[n])] -= watching.answers[n][c];
+  }
+  for (std::size_t l = 0; l < watching_.size(); ++l)
+    if (const std::span<double> memory = simulation_.load_memory(l); !memory.empty())
+      model_.loads[l].update(watched_motion(l, mean), memory);
   to.time = simulation_.time() + length;
   to.time_step = length;
   to.forward = step_->of.forward;

@@ -291,37 +291,95 @@ TEST(Implicit, GivesTheSameBitsOnAnyNumberOfThreads) {
   EXPECT_EQ(hash(1), hash(3));
 }
 
-struct Refusal {
-  const char* name;
-  const char* stages;
-  const char* sentence;
-};
-class Refused : public testing::TestWithParam<Refusal> {};
-INSTANTIATE_TEST_SUITE_P(
-    Implicit, Refused,
-    testing::ValuesIn(
-        {Refusal{"failure",
-                 R"({"type": "materials.elastic", "young": 1e9, "poisson": 0.25, "density": 1000,
-                                                    "failure": {"type": "failures.elongation", "limit": 1e-3}})",
-                 "materials without failure"},
-         Refusal{"contact",
-                 R"({"type": "materials.elastic", "young": 1e9, "poisson": 0.25, "density": 1000},
-                                                    {"type": "loads.contact"})",
-                 "loads that do not answer to the motion"}}),
-    [](const auto& info) { return std::string(info.param.name); });
-
-TEST_P(Refused, WithWhatHelps) {
-  try {
-    plan_of(SceneBuilder{}
-                .lattice("lattices.cubic", 1e-3, box_mm(4, 3, 3))
-                .stages(GetParam().stages)
-                .stages(implicit_to(1e-3, 1e-4))
-                .text());
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find(GetParam().sentence), std::string::npos)
-        << error.what();
+TEST(Implicit, LoadsAnswerToTheMeanMotion) {
+  // A block that falls on a floor and jumps off again, in steps of several critical ones.
+  const auto falling = [](const Stages& solver) {
+    return SceneBuilder{}
+        .lattice("lattices.cubic", 1e-3, box_mm(5, 4, 4))
+        .material("materials.elastic", {{"young", 1e7}, {"poisson", 0.25}, {"density", 1000}})
+        .stage("loads.start_velocity", {{"linear", {0, 0, -1}}})
+        .stage("loads.floor", {{"point", {0, 0, -2e-4}}, {"normal", {0, 0, 1}}})
+        .stages(solver)
+        .text();
+  };
+  constexpr double end = 4e-4;
+  Motion truth(falling(stage("solvers.explicit", {{"end_time", end}, {"safety", 0.2}})));
+  truth.go();
+  const double whole = truth.simulation.balance().momentum.z;
+  double last = 0;
+  for (const double step : {3.2e-5, 1.6e-5, 8e-6}) {
+    Motion run(falling(implicit_to(end, step)));
+    double largest = 0;
+    run.go(
+        [&] { largest = std::max(largest, std::abs(run.simulation.balance().relative_error())); });
+    last = std::abs(run.simulation.balance().momentum.z / whole - 1);
+    std::printf("step %.1f critical: momentum after the jump within %.1e, balance %.1e\n",
+                step / run.critical(), last, largest);
+    EXPECT_LT(largest, 1e-6);
+    EXPECT_LT(last, 0.05);
   }
+  EXPECT_LT(last, 0.01);
+}
+
+TEST(Implicit, FollowerForcesActInTheMeanDirection) {
+  // A free bar whose middle is driven apart on one side: it bends and turns.
+  const auto robot = [](const Stages& solver) {
+    return SceneBuilder{}
+        .lattice("lattices.cubic", 1e-3, box_mm(16, 3, 3))
+        .material("materials.elastic", {{"young", 1e7}, {"poisson", 0.25}, {"density", 1000}})
+        .region("muscle", box({0.006, 0, 0}, {0.010, 0.001, 0.003}))
+        .stage("loads.actuation", {{"on", "muscle"},
+                                   {"force", 0.5},
+                                   {"form", "triangle"},
+                                   {"rise", 2e-3},
+                                   {"fall", 2e-3}})
+        .stages(solver)
+        .text();
+  };
+  constexpr double end = 4e-3;
+  Motion truth(robot(stage("solvers.explicit", {{"end_time", end}, {"safety", 0.5}})));
+  truth.go();
+  const std::vector<double> u = displacements(truth.simulation);
+  double before = 0;
+  for (const double step : {1e-4, 5e-5}) {
+    Motion run(robot(implicit_to(end, step, {{"residual", 1e-8}})));
+    run.go();
+    const std::vector<double> found = displacements(run.simulation);
+    double error = 0;
+    for (std::size_t n = 0; n < u.size(); ++n) error = std::max(error, std::abs(found[n] - u[n]));
+    const EnergyBalance now = run.simulation.balance();
+    std::printf("step %.1f critical: %.2e of %.2e m, momentum %.1e, balance %.1e\n",
+                step / run.critical(), error, largest(u), norm(now.momentum), now.relative_error());
+    EXPECT_LT(error, 0.15 * largest(u));
+    EXPECT_LT(std::abs(now.relative_error()), 1e-5);
+    if (before > 0) {
+      EXPECT_GT(before / error, 2.5);
+    }
+    before = error;
+  }
+}
+
+TEST(Implicit, RefusesWhatItCannotDo) {
+  const auto fault = [](const std::string& lattice, const Keys& material, const Keys& more = {}) {
+    try {
+      plan_of(SceneBuilder{}
+                  .lattice(lattice, 1e-3, box_mm(5, 4, 4), more)
+                  .material("materials.elastic", Keys{{"young", 1e9}, {"density", 1000}} + material)
+                  .stages(implicit_to(1e-3, 1e-4))
+                  .text());
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const auto expect = [&](const std::string& found, const char* sentence) {
+    EXPECT_NE(found.find(sentence), std::string::npos) << found;
+  };
+  expect(fault("lattices.cubic", {{"poisson", 0.25},
+                                  {"failure", {{"type", "failures.elongation"}, {"limit", 1e-6}}}}),
+         "materials without failure");
+  expect(fault("lattices.random", {{"poisson", 0.4}}, {{"sample", 8}}),
+         "a list without nodal volumes");
 }
 
 }  // namespace implicit_test

@@ -36,9 +36,10 @@ class Implicit {
             "LaBudde and Greenspan, Numer. Math. 25 (1976) 323-346 and 26 (1976) 1-16; "
             "docs/theory/implicit.md")
         .restrictions(
-            "Elastic bodies and laws with a memory; no failure criteria, cohesive materials, loads "
-            "that answer to the motion, or nodal volumes of lists. Loads act by their mean over "
-            "each step. A run that is interrupted in this stage resumes at the stage's start.")
+            "Elastic bodies and laws with a memory; no failure criteria, cohesive materials, or "
+            "nodal volumes of lists. Loads act by their mean over each step; those that answer to "
+            "the motion, by their answer to the mean motion. A run that is interrupted in this "
+            "stage resumes at the stage's start.")
         .add<&Options::end_time>("end_time", "s",
                                  "instant at which the stage ends, counted from the start of the "
                                  "whole run, not of the stage")
@@ -85,9 +86,6 @@ class Implicit {
   SolverPlan plan(const SolverFacts& facts) const {
     if (facts.breaks || facts.damages)
       throw std::runtime_error("materials without failure; explicit steps let springs break");
-    if (facts.answering)
-      throw std::runtime_error(
-          "loads that do not answer to the motion; explicit steps have such loads");
     if (facts.nodal_volumes)
       throw std::runtime_error(
           "a list without nodal volumes, or a structured lattice; explicit steps have both");
