@@ -51,6 +51,7 @@ class Implicit {
             "from `tolerance`")
         .word("auto")
         .fallback("\"auto\"")
+        .example("\"0.1 ms\"")
         .positive()
         .add<&Options::tolerance>("tolerance", "",
                                   "of automatic steps: error of the displacements in one step over "
