@@ -2,6 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace hyperlattice {
@@ -13,7 +14,9 @@ void Guard::check_motion(double time_step) const {
   if (!finite) fail("the state is no longer finite", time_step);
   // A body may fly faster than its own waves, but no sound motion is as fast as this.
   constexpr double spacings = 100;
-  if (speed * time_step > spacings * model_.body.grid.spacing)
+  // Implicit steps may be much longer than the critical one.
+  const double step = std::min(time_step, model_.step_limit.time_step);
+  if (speed * step > spacings * model_.body.grid.spacing)
     fail("a particle moves by more than 100 lattice spacings in one step", time_step);
 }
 

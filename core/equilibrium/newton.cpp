@@ -4,6 +4,7 @@
 #include <equilibrium/height_change.hpp>
 #include <equilibrium/stability.hpp>
 
+#include <limits>
 #include <utility>
 
 namespace hyperlattice::equilibrium {
@@ -143,7 +144,7 @@ bool Newton::evaluate_residual(const Field& u, const Field& moved, double part) 
   for (std::size_t n = 0; n < rest_.size(); ++n) rest_[n] += external_[n];
   system_.mask(rest_.data());
   const double left = largest(rest_);
-  report_.residual = left == 0 ? 0 : left / scale_;
+  report_.residual = left <= round_off_ ? 0 : left / scale_;
   return std::isfinite(left);
 }
 
@@ -175,6 +176,9 @@ Newton::StepResult Newton::step(const Field& change, Field& u) {
   constexpr double first_look = 1e-2, agreement = 0.5, done = 0.7;
   const bool prepared = std::exchange(prepared_, false);
   if (!prepared) system_.linearise(u, force_);
+  // A body that flies far has no more digits left for its strains.
+  constexpr double digits = 4 * std::numeric_limits<double>::epsilon();
+  round_off_ = problem_.grid.inertia ? digits * system_.stiffest() * largest(u) : 0;
   for (std::size_t n = 0; n < u.size(); ++n) right_[n] = force_[n] + external_[n];
   const bool moves = largest(change) > 0;
   if (moves) {

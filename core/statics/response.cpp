@@ -29,7 +29,7 @@ double Statics::respond(const double* u, double* force, const SpringTangents* ta
   const double of_heights = hold_heights(u, force);
   if (moves()) {
     add_inertia(u, force);
-    add_answers(u, force);
+    add_answers(step_->factor, mean_motion(u), force);
   }
   if (tangents != nullptr && tangents->own != nullptr) fill_own(*tangents);
   return energy + of_heights + (soft_.empty() ? 0 : respond_soft(u, force, tangents));

@@ -124,8 +124,15 @@ class Statics {
   void read_velocity(double time_step);
   void begin_step(const TimeStep& step);
   void add_inertia(const double* mean, double* force) const;
-  WatchedMotion watched_motion(std::size_t load, const double* mean) const;
-  void add_answers(const double* mean, double* force) const;
+  /// A motion that loads answer to.
+  struct Seen {
+    double time;  ///< s
+    const double* displacement;
+    std::function<double(std::size_t number)> velocity;  ///< m/s
+  };
+  Seen mean_motion(const double* mean) const;
+  WatchedMotion watched_motion(std::size_t load, double factor, const Seen& seen) const;
+  void add_answers(const std::vector<double>& factors, const Seen& seen, double* force) const;
   void add_step_loads(double* force) const;
   void prescribe_mean(double* mean) const;
   double motion_scale(const double* external);

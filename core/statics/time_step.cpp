@@ -43,11 +43,15 @@ void Statics::read_velocity(double time_step) {
   read();
   if (last > 0) {  // they are those of half a step before
     Values force = force_;
+    const double now = simulation_.time();
+    std::vector<double> factors;
+    for (const Load& load : model_.loads) factors.push_back(load.mean(now - last / 2, now));
     for (const Loaded& loaded : loaded_)
       for (int c = 0; c < 3; ++c)
         force[static_cast<std::size_t>(c) * places + static_cast<std::size_t>(loaded.place)] +=
-            model_.loads[loaded.load].mean(simulation_.time() - last / 2, simulation_.time()) *
-            loaded.force[c];
+            factors[loaded.load] * loaded.force[c];
+    add_answers(factors, {now, state_.data(), [&](std::size_t n) { return velocity_[n]; }},
+                force.data());
     for (std::size_t n = 0; n < force.size(); ++n) {
       const std::size_t place = n % places, c = n / places;
       if ((free_[place] >> c & 1u) == 0) continue;
@@ -104,28 +108,32 @@ void Statics::add_inertia(const double* mean, double* force) const {
       force[n] -= factor * mass_[n % places] * (mean[n] - step_->anchor[n]);
 }
 
-/// Returns the mean motion in the step that a load watches.
-WatchedMotion Statics::watched_motion(std::size_t load, const double* mean) const {
-  Watching& watching = watching_[load];
-  const std::int64_t places = problem_.grid.places;
+Statics::Seen Statics::mean_motion(const double* mean) const {
   const double time = step_->of.forward * step_->of.length;
-  for (std::size_t n = 0; n < watching.places.size(); ++n)
-    for (int c = 0; c < 3; ++c) {
-      const auto at = static_cast<std::size_t>(c * places + watching.places[n]);
-      watching.moved[n][c] = mean[at];
-      watching.velocity[n][c] = (mean[at] - state_[at]) / time;
-    }
-  return {simulation_.time() + time, step_->factor[load], watching.moved, watching.velocity,
-          simulation_.load_memory(load)};
+  return {simulation_.time() + time, mean,
+          [=, this](std::size_t n) { return (mean[n] - state_[n]) / time; }};
 }
 
-/// Adds the answers of loads to the mean motion.
-void Statics::add_answers(const double* mean, double* force) const {
+/// Returns what a load sees of a motion.
+WatchedMotion Statics::watched_motion(std::size_t load, double factor, const Seen& seen) const {
+  Watching& watching = watching_[load];
+  for (std::size_t n = 0; n < watching.places.size(); ++n)
+    for (int c = 0; c < 3; ++c) {
+      const auto at = static_cast<std::size_t>(c * problem_.grid.places + watching.places[n]);
+      watching.moved[n][c] = seen.displacement[at];
+      watching.velocity[n][c] = seen.velocity(at);
+    }
+  return {seen.time, factor, watching.moved, watching.velocity, simulation_.load_memory(load)};
+}
+
+/// Adds the answers of loads to a motion. `factors`: of each load.
+void Statics::add_answers(const std::vector<double>& factors, const Seen& seen,
+                          double* force) const {
   for (std::size_t l = 0; l < watching_.size(); ++l) {
     Watching& watching = watching_[l];
     const Load& load = model_.loads[l];
     if (watching.places.empty()) continue;
-    const WatchedMotion motion = watched_motion(l, mean);
+    const WatchedMotion motion = watched_motion(l, factors[l], seen);
     if (load.prepares()) load.prepare(motion);
     for (std::size_t n = 0; n < watching.places.size(); ++n) {
       const Vec3 answer = load.watched[n].answered ? load.answer(motion, n) : Vec3{};
@@ -236,7 +244,7 @@ void Statics::accept_step(const double* mean) {
   }
   for (std::size_t l = 0; l < watching_.size(); ++l)
     if (const std::span<double> memory = simulation_.load_memory(l); !memory.empty())
-      model_.loads[l].update(watched_motion(l, mean), memory);
+      model_.loads[l].update(watched_motion(l, step_->factor[l], mean_motion(mean)), memory);
   to.time = simulation_.time() + length;
   to.time_step = length;
   to.forward = step_->of.forward;

@@ -55,7 +55,7 @@ bool StepLength::accept(double h, const equilibrium::Field& change, const equili
 }
 
 bool StepLength::shorten(double h) {
-  constexpr double hopeless = 1e-6;
+  constexpr double hopeless = 1e-3;
   length_ = h / 2;
   return length_ > hopeless * longest_;
 }
