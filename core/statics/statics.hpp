@@ -1,6 +1,7 @@
 // Connects static and implicit solvers and the simulation: makes the StaticProblem of a model and a
 // state, and brings the result of a solver into the simulation. The functions are in grid.cpp,
-// cells.cpp, list.cpp, response.cpp, load_path.cpp, time_step.cpp, rest.cpp and statics.cpp.
+// cells.cpp, list.cpp, response.cpp, soft_springs.cpp, load_path.cpp, time_step.cpp, answers.cpp,
+// rest.cpp and statics.cpp.
 #pragma once
 
 #include <state/simulation.hpp>
@@ -124,6 +125,12 @@ class Statics {
   void read_velocity(double time_step);
   void begin_step(const TimeStep& step);
   void add_inertia(const double* mean, double* force) const;
+  void add_step_loads(double* force) const;
+  void prescribe_mean(double* mean) const;
+  double motion_scale(const double* external);
+  double numerical_dissipation(const Values& after, const Values& speed);
+
+  // answers.cpp
   /// A motion that loads answer to.
   struct Seen {
     double time;  ///< s
@@ -133,10 +140,6 @@ class Statics {
   Seen mean_motion(const double* mean) const;
   WatchedMotion watched_motion(std::size_t load, double factor, const Seen& seen) const;
   void add_answers(const std::vector<double>& factors, const Seen& seen, double* force) const;
-  void add_step_loads(double* force) const;
-  void prescribe_mean(double* mean) const;
-  double motion_scale(const double* external);
-  double numerical_dissipation(const Values& after, const Values& speed);
 
   // load_path.cpp
   void find_loaded();
