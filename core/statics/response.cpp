@@ -208,8 +208,9 @@ void Statics::fill_own(const SpringTangents& tangents) const {
                            static_cast<double>(particle_weight_[place]));
   if (!moves()) return;
   const double factor = step_->inertia();
-  for (std::size_t n = 0; n < problem_.grid.numbers(); ++n)
-    tangents.own[n] += static_cast<float>(factor * mass_[n % places]);
+  for_numbers([&](std::size_t n, std::size_t place, int, bool) {
+    tangents.own[n] += static_cast<float>(factor * mass_[place]);
+  });
   // Loads give bounds of their tangents. Those of particles that they do not push now are left out.
   for (std::size_t l = 0; l < watching_.size(); ++l)
     for (std::size_t n = 0; n < watching_[l].places.size(); ++n) {

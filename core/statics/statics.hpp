@@ -122,6 +122,14 @@ class Statics {
   double end_of(std::size_t number, const double* mean) const {
     return state_[number] + (mean[number] - state_[number]) / step_->of.forward;
   }
+  /// Calls visit(number, place, component, whether it can move) for each number of a field.
+  template <class Visit>
+  void for_numbers(const Visit& visit) const {
+    std::size_t number = 0;
+    for (int c = 0; c < problem_.grid.components; ++c)
+      for (std::size_t place = 0; place < free_.size(); ++place, ++number)
+        visit(number, place, c, (free_[place] >> c & 1u) != 0);
+  }
   void read_velocity(double time_step);
   void begin_step(const TimeStep& step);
   void add_inertia(const double* mean, double* force) const;

@@ -52,13 +52,11 @@ void Statics::read_velocity(double time_step) {
             factors[loaded.load] * loaded.force[c];
     add_answers(factors, {now, state_.data(), [&](std::size_t n) { return velocity_[n]; }},
                 force.data());
-    for (std::size_t n = 0; n < force.size(); ++n) {
-      const std::size_t place = n % places, c = n / places;
-      if ((free_[place] >> c & 1u) == 0) continue;
+    for_numbers([&](std::size_t n, std::size_t place, int c, bool free) {
+      if (!free) return;
       velocity_[n] +=
-          0.5 * last *
-          (force[n] / mass_[place] + (c < 3 ? model_.loads.acceleration[static_cast<int>(c)] : 0));
-    }
+          0.5 * last * (force[n] / mass_[place] + (c < 3 ? model_.loads.acceleration[c] : 0));
+    });
   }
   simulation_.begin_implicit_steps(
       time_step, of_particles(velocity_.data(), 0, 3),
@@ -103,9 +101,9 @@ void Statics::add_inertia(const double* mean, double* force) const {
   for (std::size_t p = 0; p < places; ++p)
     mean_force_ += norm({force[p], force[places + p], force[2 * places + p]}) /
                    static_cast<double>(model_.body.particles);
-  for (std::size_t n = 0; n < state_.size(); ++n)
-    if ((free_[n % places] >> (n / places) & 1u) != 0)
-      force[n] -= factor * mass_[n % places] * (mean[n] - step_->anchor[n]);
+  for_numbers([&](std::size_t n, std::size_t place, int, bool free) {
+    if (free) force[n] -= factor * mass_[place] * (mean[n] - step_->anchor[n]);
+  });
 }
 
 void Statics::add_step_loads(double* force) const {
@@ -160,7 +158,6 @@ double Statics::motion_scale(const double* external) {
 /// Returns the energy, J, that the method takes: (g - 1/2) times that of the changes of velocities
 /// and of forces; and that of jumps of prescribed velocities.
 double Statics::numerical_dissipation(const Values& after, const Values& speed) {
-  const auto places = static_cast<std::size_t>(problem_.grid.places);
   const double part = step_->of.forward - 0.5;
   const bool damps = part > 0;
   Values force_after(damps ? force_.size() : 0);
@@ -170,12 +167,11 @@ double Statics::numerical_dissipation(const Values& after, const Values& speed) 
     step_ = std::move(step);
   }
   double dissipated = 0;
-  for (std::size_t n = 0; n < state_.size(); ++n) {
-    const double gained = speed[n] - velocity_[n], square = mass_[n % places] * gained * gained;
-    const bool free = (free_[n % places] >> (n / places) & 1u) != 0;
-    dissipated += (free ? part : 0.5) * square;
+  for_numbers([&](std::size_t n, std::size_t place, int, bool free) {
+    const double gained = speed[n] - velocity_[n];
+    dissipated += (free ? part : 0.5) * mass_[place] * gained * gained;
     if (damps) dissipated -= part * (force_after[n] - force_[n]) * (after[n] - state_[n]);
-  }
+  });
   if (damps) force_ = std::move(force_after);
   return dissipated;
 }
@@ -194,7 +190,8 @@ void Statics::accept_step(const double* mean) {
                     static_cast<std::size_t>(prescribed_[n].place);
     after[at] = step_->held[n];
     speed[at] = (after[at] - state_[at]) / length;
-    force[at] -= mass_[at % places] * (speed[at] - velocity_[at]) / length;
+    force[at] -= mass_[static_cast<std::size_t>(prescribed_[n].place)] *
+                 (speed[at] - velocity_[at]) / length;
   }
   EquilibriumUpdate to;
   for (const Watching& watching : watching_) {

@@ -30,7 +30,7 @@ class StepLength {
  private:
   double error(double h, const equilibrium::Field& velocity) const;
 
-  double length_, longest_, tolerance_, shortest_ = 0;
+  double length_, longest_, tolerance_;
   double largest_ = 0;                             // displacement so far, m
   double last_ = 0, one_before_ = 0;               // lengths of the last two steps, s
   equilibrium::Field velocity_, velocity_before_;  // mean velocities in them, m/s
