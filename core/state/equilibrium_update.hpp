@@ -18,8 +18,8 @@ struct EquilibriumUpdate {
   double gravity = 1, gravity_before = 1;     ///< fractions of the body accelerations
   /// By the forces that held the earlier state in place, or by the method of a step in time, J.
   double dissipated = 0;
-  // Of a step in time; `force` and `force_before` are then both its mean force, less inertia where
-  // a load prescribes motion, and so are the factors.
+  // The members below belong to a step in time; `force` and `force_before` are then both its mean
+  // force, less inertia where a load prescribes motion, and so are the factors.
   double time_step = 0;                       ///< s; 0: a change between states of rest
   double forward = 1;                         ///< part of the step at which its means lie
   std::vector<double> velocity, height_rate;  ///< after the step, m/s

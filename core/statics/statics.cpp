@@ -40,13 +40,14 @@ Statics::Statics(const Model& model, Simulation& simulation, Search search, doub
   problem_.load_at = [](void* self, double share, double* force) noexcept {
     PluginCall::answer([&] {
       const auto& statics = *static_cast<const Statics*>(self);
-      statics.moves() ? statics.add_step_loads(force) : statics.add_loads(share, force);
+      statics.problem_.grid.inertia ? statics.add_step_loads(force)
+                                    : statics.add_loads(share, force);
     });
   };
   problem_.prescribe_at = [](void* self, double share, double* u) noexcept {
     PluginCall::answer([&] {
       const auto& statics = *static_cast<const Statics*>(self);
-      statics.moves() ? statics.prescribe_mean(u) : statics.prescribe(share, u);
+      statics.problem_.grid.inertia ? statics.prescribe_mean(u) : statics.prescribe(share, u);
     });
   };
   problem_.scale_of = [](void* self, const double* internal, const double* external) noexcept {

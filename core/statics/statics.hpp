@@ -130,6 +130,7 @@ class Statics {
       for (std::size_t place = 0; place < free_.size(); ++place, ++number)
         visit(number, place, c, (free_[place] >> c & 1u) != 0);
   }
+  void expect_step() const;
   void read_velocity(double time_step);
   void begin_step(const TimeStep& step);
   void add_inertia(const double* mean, double* force) const;

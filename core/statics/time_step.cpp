@@ -5,6 +5,7 @@
 // its mean length. For a linear spring then f.(u' - u) = -(E' - E) at g = 1/2: energy, momentum and
 // angular momentum stay, however far the body turns (LaBudde and Greenspan, Numer. Math. 26 (1976)
 // 1-16). See docs/theory/implicit.md.
+#include <host/plugin_call.hpp>
 #include <model/blame.hpp>
 #include <statics/statics.hpp>
 
@@ -106,7 +107,14 @@ void Statics::add_inertia(const double* mean, double* force) const {
   });
 }
 
+/// Checks that a step has begun. begin_step() may have failed: its error waits until the solver
+/// has returned (plugin_call.hpp).
+void Statics::expect_step() const {
+  if (!moves()) throw PluginMistake("it takes an implicit step that has not begun");
+}
+
 void Statics::add_step_loads(double* force) const {
+  expect_step();
   const std::int64_t places = problem_.grid.places;
   std::fill_n(force, problem_.grid.numbers(), 0.0);
   for (const Loaded& loaded : loaded_)
@@ -119,6 +127,7 @@ void Statics::add_step_loads(double* force) const {
 }
 
 void Statics::prescribe_mean(double* mean) const {
+  expect_step();
   for (std::size_t n = 0; n < prescribed_.size(); ++n) {
     const auto at = static_cast<std::size_t>(prescribed_[n].component * problem_.grid.places +
                                              prescribed_[n].place);
@@ -177,6 +186,7 @@ double Statics::numerical_dissipation(const Values& after, const Values& speed) 
 }
 
 void Statics::accept_step(const double* mean) {
+  expect_step();
   const auto places = static_cast<std::size_t>(problem_.grid.places);
   const double length = step_->of.length;
   Values force(state_.size()), after(state_.size()), speed(state_.size());

@@ -374,6 +374,25 @@ TEST(Implicit, FollowerForcesActInTheMeanDirection) {
   }
 }
 
+TEST(Implicit, NamesALoadThatIsNoNumberWithinAStep) {
+  Motion run(
+      SceneBuilder{}
+          .lattice("lattices.cubic", 1e-3, box_mm(4, 3, 3))
+          .material("materials.elastic", {{"young", 1e9}, {"poisson", 0.25}, {"density", 1000}})
+          .stage("loads.expression",
+                 {{"on", "all"}, {"total", {1, 0, 0}}, {"expression", "sqrt(0.00105 - t)"}})
+          .stages(implicit_to(2e-3, 1e-4))
+          .text());
+  try {
+    run.go();
+    FAIL();
+  } catch (const RunError& error) {
+    EXPECT_NE(std::string(error.what()).find("loads.expression"), std::string::npos)
+        << error.what();
+    EXPECT_NE(std::string(error.what()).find("0.001 s"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Implicit, RefusesWhatItCannotDo) {
   const auto fault = [](const std::string& lattice, const Keys& material, const Keys& more = {}) {
     try {

@@ -39,14 +39,15 @@ bool StepLength::accept(double h, const equilibrium::Field& change, const equili
   equilibrium::Field velocity(change.size());
   for (std::size_t n = 0; n < change.size(); ++n) velocity[n] = change[n] / h;
   largest_ = std::max({largest_, root_mean_square(end), root_mean_square(change)});
-  if (tolerance_ > 0 && largest_ > 0) {
-    const double relative = error(h, velocity) / (tolerance_ * largest_);
+  failures_ = 0;
+  if (tolerance_ > 0) {
+    const double relative = largest_ > 0 ? error(h, velocity) / (tolerance_ * largest_) : 0;
     const double factor =
         one_before_ == 0 ? 1
                          : std::clamp(safety / std::cbrt(std::max(relative, 1e-12)), least, most);
     if (factor > worth || factor < 1) length_ = std::min(h * factor, longest_);
     if (relative > too_much) return false;
-  } else if (tolerance_ == 0) {
+  } else {
     length_ = std::min(longest_, 2 * length_);
   }
   one_before_ = std::exchange(last_, h);
@@ -55,9 +56,9 @@ bool StepLength::accept(double h, const equilibrium::Field& change, const equili
 }
 
 bool StepLength::shorten(double h) {
-  constexpr double hopeless = 1e-3;
+  constexpr int most_failures = 10;
   length_ = h / 2;
-  return length_ > hopeless * longest_;
+  return ++failures_ < most_failures;
 }
 
 }  // namespace hyperlattice::implicit

@@ -22,7 +22,7 @@ class StepLength {
   /// Looks at a step of the length h that changed the displacements by `change` to `end`. Returns
   /// false if its error is too large and the step must be repeated with the next length.
   bool accept(double h, const equilibrium::Field& change, const equilibrium::Field& end);
-  /// Halves the length after a search that failed. Returns false if it is hopelessly short.
+  /// Halves the length after a search that failed. Returns false after the tenth failure in a row.
   bool shorten(double h);
   /// Returns the mean velocity of the last step, m/s; empty before the first.
   const equilibrium::Field& velocity() const { return velocity_; }
@@ -31,6 +31,7 @@ class StepLength {
   double error(double h, const equilibrium::Field& velocity) const;
 
   double length_, longest_, tolerance_;
+  int failures_ = 0;                               // of searches, in a row
   double largest_ = 0;                             // displacement so far, m
   double last_ = 0, one_before_ = 0;               // lengths of the last two steps, s
   equilibrium::Field velocity_, velocity_before_;  // mean velocities in them, m/s

@@ -8,7 +8,7 @@
 
 namespace hyperlattice::equilibrium {
 
-/// Of listed lattices; structured ones have geometric multigrid.
+/// The preconditioner of listed lattices; structured ones have geometric multigrid.
 enum class Preconditioner : std::uint32_t { automatic, whole, incomplete, multigrid };
 inline constexpr std::string_view preconditioner_names[] = {"automatic", "whole", "incomplete",
                                                             "multigrid"};
