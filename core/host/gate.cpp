@@ -112,7 +112,7 @@ std::string differs(const std::string& what, unsigned library, unsigned own,
 
 }  // namespace
 
-GateNumbers own_gate() { return numbers_of(static_cast<ThisGate*>(nullptr)); }
+GateNumbers own_gate() { return numbers_of(static_cast<ThisGate<>*>(nullptr)); }
 
 GateNumbers read_gate(const std::filesystem::path& library) {
   for (const std::string& symbol : ElfFile(library).exported()) {

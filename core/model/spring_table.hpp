@@ -31,9 +31,10 @@ struct SpringTable {
   KernelChoice choice;
   std::vector<Law> laws;     ///< each once; the first one's kernels move the particles
   std::uint32_t memory = 0;  ///< numbers that each base or cross spring keeps
-  bool breakable = false;    ///< whether a material has a failure criterion
-  bool softens = false;      ///< whether a law softens
-  bool asks_rate = false;    ///< whether a failure criterion needs the rate of elongation
+  bool criteria = false;     ///< whether a material has a failure criterion of springs
+  bool breakable = false;  ///< whether kernels watch for alarms: of criteria or cohesive materials
+  bool softens = false;    ///< whether a law softens
+  bool asks_rate = false;  ///< whether a failure criterion needs the rate of elongation
 
   /// Returns the index in `constants` of the springs of a class between two materials.
   std::size_t spring_index(std::uint8_t a, std::uint8_t b, std::uint32_t spring_class) const {

@@ -319,7 +319,7 @@ void set_springs(Model& model, Faults& faults) {
   springs.choice.precision = model.scene->precision;
   for (const Material& material : model.materials)
     for (const Material::Criterion& criterion : material.failures) {
-      springs.breakable = true;
+      springs.criteria = true;
       if (!criterion.stage->functions<FailureFunctions>().asks_rate) continue;
       springs.asks_rate = true;
       if (model.body.is_listed())
@@ -328,7 +328,7 @@ void set_springs(Model& model, Faults& faults) {
     }
   find_laws(model);
   set_cohesive(model, faults);
-  springs.breakable = springs.breakable || !model.cohesive.empty();
+  springs.breakable = springs.criteria || !model.cohesive.empty();
   add_springs(model);
   for (const Material& material : model.materials) {
     const MaterialConstants& constants = material.constants;

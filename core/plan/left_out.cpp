@@ -45,12 +45,6 @@ void leave_out_kernel_parts(const Plan& plan, std::vector<LeftOut>& out) {
     out.push_back({"field of damage", "no material has a strength surface: no stress is watched"});
   if (model.springs.breakable && !criteria_remember(model))
     out.push_back({"memory of failure laws", "none keeps one: springs break by what they are now"});
-  const auto is_static = [](const PlannedStage& stage) {
-    return stage.plan.at_rest && stage.plan.time_step == 0;
-  };
-  if (model.springs.breakable && std::any_of(plan.stages.begin(), plan.stages.end(), is_static))
-    out.push_back({"failure during static stages",
-                   "springs beyond their limit break in the first step in time that follows"});
   if (model.springs.memory == 0)
     out.push_back({"memory of springs", "no law has one: a spring is where its ends are"});
   if (model.springs.composites.empty())

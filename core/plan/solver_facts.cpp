@@ -27,7 +27,7 @@ SolverFacts solver_facts(const Model& model, double start_time) {
   facts.remembers = model.springs.memory > 0;
   facts.damages = !model.cohesive.empty();
   facts.answering = model.loads.answering;
-  facts.breaks = model.springs.breakable;
+  facts.breaks = model.springs.criteria;
   return facts;
 }
 

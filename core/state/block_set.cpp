@@ -141,6 +141,19 @@ LawNumbers BlockSet::law_numbers(const Block& block, std::uint32_t row, std::uin
   return read_numbers(layout_->memory(block, row, neighbour, site, cross), model_.springs.memory);
 }
 
+std::pair<Vec3, double> BlockSet::motion(Particle particle) const {
+  const auto [home, index] = at(particle);
+  const auto number = [&, &of = *home, n = index](std::size_t c) { return of.displacement[c][n]; };
+  return {{number(0), number(1), number(2)}, model_.degrees_of_freedom == 4 ? number(3) : 0.0};
+}
+
+double BlockSet::elongation(const SpringEnds& spring, const SpringProperties& properties) const {
+  const auto [at_a, height_a] = motion(spring.a);
+  const auto [at_b, height_b] = motion(spring.b);
+  return properties.elongation(0, properties.growth(0, at_b - at_a, height_b - height_a,
+                                                    model_.body.grid.membrane_distance));
+}
+
 void BlockSet::note_gone(Block& block, const AlarmRow& springs) const {
   for (std::size_t n = 0; n < springs.sites.size(); ++n)
     block.broken.push_back(

@@ -60,6 +60,10 @@ class BlockSet {
   /// place, as in AlarmRow.
   LawNumbers law_numbers(const Block& block, std::uint32_t row, std::uint32_t neighbour,
                          std::int32_t site, bool cross) const;
+  /// Returns the displacement of a particle and its height, m.
+  std::pair<Vec3, double> motion(Particle particle) const;
+  /// Returns the present elongation of a base spring, m.
+  double elongation(const SpringEnds& spring, const SpringProperties& properties) const;
   /// Notes in the block that the integrity of these springs became 0.
   void note_gone(Block& block, const AlarmRow& springs) const;
 

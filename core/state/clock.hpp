@@ -26,6 +26,8 @@ class Clock {
   /// Counts a change from one state of rest to another, which ends at `time`, s; or an implicit
   /// step of the length `step`, s.
   void jump(double time, double step = 0);
+  /// Says that criteria have reviewed the present time.
+  void review() { advanced_ = 0; }
   /// Lets the next step start from rest.
   void rest() { last_step_ = 0; }
 

@@ -4,6 +4,34 @@
 #include <state/state.hpp>
 
 namespace hyperlattice {
+/// Gives the body another motion, for its lifetime.
+class Simulation::OtherMotion {
+ public:
+  OtherMotion(Simulation& simulation, const EquilibriumUpdate& other) : simulation_(simulation) {
+    simulation.displacements(own_.xyz);
+    simulation.heights(own_.heights);
+    if (!other.velocity.empty()) {
+      simulation.velocities(own_.velocity);
+      simulation.height_rates(own_.height_rate);
+    }
+    simulation.set_motion(other);
+  }
+  ~OtherMotion() { simulation_.set_motion(own_); }
+  OtherMotion(const OtherMotion&) = delete;
+  OtherMotion& operator=(const OtherMotion&) = delete;
+
+ private:
+  Simulation& simulation_;
+  EquilibriumUpdate own_;
+};
+
+/// Sets displacements and heights, and velocities if the update has them.
+void Simulation::set_motion(const EquilibriumUpdate& to) {
+  set({false, 0, 3}, to.xyz);
+  if (!to.heights.empty()) set({false, 3, 1}, to.heights);
+  if (!to.velocity.empty()) set({true, 0, 3}, to.velocity);
+  if (!to.height_rate.empty()) set({true, 3, 1}, to.height_rate);
+}
 
 void Simulation::hold_time(double time) {
   if (state_->clock.is_held()) return;
@@ -23,6 +51,7 @@ void Simulation::halt() {
 }
 
 void Simulation::apply_equilibrium(const EquilibriumUpdate& to) {
+  const double error = to.settles ? state_->energy.balance().error : 0;
   if (to.time_step == 0)
     halt();  // finds the start of the balance; the work on the way from there is counted here
   count_work(state_->blocks, to);
@@ -41,14 +70,23 @@ void Simulation::apply_equilibrium(const EquilibriumUpdate& to) {
   state_->energy.count_halted(to.dissipated);
   state_->law_memory.advance(to);
   if (!state_->damage.empty()) state_->damage.accept_search(to.time);
-  set({false, 0, 3}, to.xyz);
-  if (!to.heights.empty()) set({false, 3, 1}, to.heights);
-  if (to.time_step > 0) set({true, 0, 3}, to.velocity);
-  if (!to.height_rate.empty()) set({true, 3, 1}, to.height_rate);
+  set_motion(to);
   if (!state_->damage.empty()) state_->damage.finish();
-  state_->failures.collect(0);
   if (to.time_step == 0) state_->loads.rest(to.factor, to.gravity);
   state_->clock.jump(to.time, to.time_step);
+  if (model.springs.criteria) state_->whole_review.remove_broken();
+  state_->failures.collect(0);
+  state_->clock.review();
+  if (to.settles) state_->energy.count_halted(error - state_->energy.balance().error);
+}
+
+double Simulation::overshoot(const EquilibriumUpdate& to) {
+  const Clock clock = state_->clock;
+  const OtherMotion motion(*this, to);
+  state_->clock.jump(to.time, to.time_step);
+  const double found = state_->whole_review.overshoot();
+  state_->clock = clock;
+  return found;
 }
 
 /// The energy of explicit steps is less than that of the velocities at the time of the
@@ -73,13 +111,11 @@ void Simulation::begin_implicit_steps(double time_step, const std::vector<double
 SettledDamage Simulation::settle_damage(const std::vector<double>& xyz,
                                         const std::vector<double>& heights,
                                         const DamageBounds& bounds) {
-  std::vector<double> now, heights_now;
-  displacements(now);
-  this->heights(heights_now);
-  set_displacements(xyz, heights);
-  SettledDamage found = state_->damage.settle(bounds);
-  set_displacements(now, heights_now);
-  return found;
+  EquilibriumUpdate other;
+  other.xyz = xyz;
+  other.heights = heights;
+  const OtherMotion motion(*this, other);
+  return state_->damage.settle(bounds);
 }
 
 void Simulation::forget_damage_search() { state_->damage.forget_search(); }

@@ -16,6 +16,9 @@ struct EquilibriumUpdate {
   std::vector<double> force, force_before;
   std::vector<double> factor, factor_before;  ///< load factor of each load
   double gravity = 1, gravity_before = 1;     ///< fractions of the body accelerations
+  /// Whether springs broke in the earlier state, which is not at rest: all energy that the change
+  /// sets free counts as dissipated.
+  bool settles = false;
   /// By the forces that held the earlier state in place, or by the method of a step in time, J.
   double dissipated = 0;
   // The members below belong to a step in time; `force` and `force_before` are then both its mean

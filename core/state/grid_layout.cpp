@@ -214,6 +214,13 @@ bool GridLayout::exists(const Block& block, const Place& first, std::uint32_t nu
   return (block.alive[first.index] >> number & 1U) != 0;
 }
 
+void GridLayout::remove(Block& block, std::uint32_t row, std::uint32_t neighbour,
+                        std::int32_t site) const {
+  const Row& of = block.rows[row];
+  std::uint16_t& bits = block.alive[of.start + static_cast<std::uint64_t>(site - of.begin)];
+  bits = static_cast<std::uint16_t>(bits & ~(1U << neighbour));
+}
+
 Layout::Memory GridLayout::memory(const Block& block, std::uint32_t row, std::uint32_t neighbour,
                                   std::int32_t site, bool cross) const {
   const std::uint64_t sites = block.layout->sites,

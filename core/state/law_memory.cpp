@@ -7,12 +7,6 @@
 
 namespace hyperlattice {
 
-std::pair<Vec3, double> LawMemory::motion_of(Particle particle) const {
-  const auto [home, index] = blocks_.at(particle);
-  const auto number = [&, &of = *home, n = index](std::size_t c) { return of.displacement[c][n]; };
-  return {{number(0), number(1), number(2)}, model_.degrees_of_freedom == 4 ? number(3) : 0.0};
-}
-
 void LawMemory::advance(const EquilibriumUpdate& to) {
   if (model_.springs.memory == 0) return;
   const double delta = model_.body.grid.membrane_distance;
@@ -39,8 +33,8 @@ void LawMemory::advance(const EquilibriumUpdate& to) {
         const auto work_beyond = [&, start = kept](double force_before, double force) {
           LawNumbers own = start;
           if (to.time_step == 0) return 0.0;
-          const auto [a_before, height_a] = motion_of(a);
-          const auto [b_before, height_b] = motion_of(b);
+          const auto [a_before, height_a] = blocks_.motion(a);
+          const auto [b_before, height_b] = blocks_.motion(b);
           const double from = properties.elongation(
               cross,
               properties.growth(cross, b_before - a_before,
@@ -73,16 +67,11 @@ template <class Visit>
 void LawMemory::for_base_springs(const Block& block, const Visit& visit) const {
   blocks_.layout().for_springs(block, [&](const SpringPlace& spring) {
     if (!spring.counts) return;
-    const Particle a = spring.ends.a, b = spring.ends.b;
-    const auto [at_a, height_a] = motion_of(a);
-    const auto [at_b, height_b] = motion_of(b);
-    const SpringProperties properties = model_.spring_properties(a, b, spring.ends.neighbour);
-    const double elongation = properties.elongation(
-        0,
-        properties.growth(0, at_b - at_a, height_b - height_a, model_.body.grid.membrane_distance));
+    const SpringProperties properties =
+        model_.spring_properties(spring.ends.a, spring.ends.b, spring.ends.neighbour);
     const LawNumbers kept =
         blocks_.law_numbers(block, spring.row, spring.neighbour, spring.site, false);
-    visit(spring.ends, properties, elongation, kept);
+    visit(spring.ends, properties, blocks_.elongation(spring.ends, properties), kept);
   });
 }
 

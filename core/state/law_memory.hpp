@@ -8,7 +8,6 @@
 #include <state/weakened_spring.hpp>
 
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace hyperlattice {
@@ -33,8 +32,6 @@ class LawMemory {
  private:
   template <class Visit>
   void for_base_springs(const Block& block, const Visit& visit) const;
-  /// Returns the displacement and the height of a particle, m.
-  std::pair<Vec3, double> motion_of(Particle particle) const;
 
   BlockSet& blocks_;
   const Model& model_;

@@ -82,6 +82,9 @@ class Layout {
                                                      std::uint32_t neighbour) const = 0;
   /// Returns whether a spring that a kernel names so still exists.
   virtual bool exists(const Block& block, const Place& first, std::uint32_t number) const = 0;
+  /// Removes a spring that a kernel names so. Of a listed body its other end still names it.
+  virtual void remove(Block& block, std::uint32_t row, std::uint32_t neighbour,
+                      std::int32_t site) const = 0;
   /// The memory of the law for one spring: its first number, and the distance to the next one.
   struct Memory {
     double* first = nullptr;

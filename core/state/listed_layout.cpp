@@ -166,6 +166,12 @@ bool ListedLayout::exists(const Block& block, const Place& first, std::uint32_t 
   return block.listed.neighbour[number * width_ + first.index % width_] != first.index;
 }
 
+void ListedLayout::remove(Block& block, std::uint32_t row, std::uint32_t slot,
+                          std::int32_t site) const {
+  const std::uint64_t here = block.rows[row].start + static_cast<std::uint64_t>(site);
+  block.listed.neighbour[slot * width_ + here % width_] = static_cast<std::uint32_t>(here);
+}
+
 Layout::Memory ListedLayout::memory(const Block& block, std::uint32_t, std::uint32_t slot,
                                     std::int32_t site, bool cross) const {
   const std::size_t numbers =

@@ -18,6 +18,8 @@ class ListedLayout final : public Layout {
   std::optional<std::uint32_t> number_in_row(const Block& block, const Place& first,
                                              std::uint32_t neighbour) const override;
   bool exists(const Block& block, const Place& first, std::uint32_t number) const override;
+  void remove(Block& block, std::uint32_t row, std::uint32_t neighbour,
+              std::int32_t site) const override;
   Memory memory(const Block& block, std::uint32_t row, std::uint32_t slot, std::int32_t site,
                 bool cross) const override;
   std::uint64_t other_end(std::size_t block, std::uint32_t row, std::uint32_t neighbour,

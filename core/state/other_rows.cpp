@@ -169,20 +169,6 @@ double OtherRows::add_soft_springs(const Block& block, const KernelRequest& requ
   return energy;
 }
 
-/// Returns whether a criterion must be asked about a spring. `alarm`: elongation, m, from which it
-/// must be asked about a spring of one law.
-bool OtherRows::reaches_alarm(const SpringProperties& properties, double alarm, double elongation,
-                              const Layout::Memory& memory) const {
-  if (properties.composite == nullptr || !properties.composite->in_series())
-    return elongation > alarm;
-  const LawNumbers kept = read_numbers(memory, model_.springs.memory);
-  const auto parts = properties.composite->parts();
-  return std::any_of(parts.begin(), parts.end(), [&](const SpringPart& part) {
-    return model_.elongation_in(part.material, properties, elongation, kept.data()) >
-           model_.own_alarm(part.material, properties);
-  });
-}
-
 RowEnergies OtherRows::several_laws_of_grid(Block& block, const KernelRequest& request,
                                             const RowPlace& place, bool measures) const {
   const Row& row = request.rows[place.index];
@@ -244,8 +230,8 @@ RowEnergies OtherRows::several_laws_of_grid(Block& block, const KernelRequest& r
       }
       if (measures || !owned) continue;
       if (result.gone) blocks_.note_gone(block, {place.index, n, {&i, 1}, {&result.elongation, 1}});
-      if (!model_.springs.breakable ||
-          !reaches_alarm(spring.properties, constants.alarm, result.elongation, spring.memory[0]))
+      if (!model_.springs.breakable || !review_.reaches_alarm(spring.properties, constants.alarm,
+                                                              result.elongation, spring.memory[0]))
         continue;
       rung.push_back(i);
       elongations.push_back(result.elongation);
@@ -253,11 +239,7 @@ RowEnergies OtherRows::several_laws_of_grid(Block& block, const KernelRequest& r
     if (rung.empty()) continue;
     const std::uint8_t* broken = review_.review(block, {place.index, n, rung, elongations});
     for (std::size_t s = 0; s < rung.size(); ++s)
-      if (broken[s] != 0) {
-        std::uint16_t& bits =
-            block.alive[row.start + static_cast<std::uint64_t>(rung[s] - row.begin)];
-        bits = static_cast<std::uint16_t>(bits & ~(1U << n));
-      }
+      if (broken[s] != 0) blocks_.layout().remove(block, place.index, n, rung[s]);
   }
   for (int c = 0; c < components; ++c) {
     double* received = scratch.received(c, place.j, place.k) + row.begin;
@@ -287,7 +269,7 @@ RowEnergies OtherRows::several_laws_of_list(Block& block, const KernelRequest& r
     const double* own = record(here);
     for (std::uint32_t slot = slots.first[here / lanes]; slot < slots.first[here / lanes + 1];
          ++slot) {
-      std::uint32_t& there = slots.neighbour[std::uint64_t{slot} * lanes + lane];
+      const std::uint32_t there = slots.neighbour[std::uint64_t{slot} * lanes + lane];
       if (there == here) continue;
       const double* other = record(there);
       const auto material = static_cast<std::uint8_t>(own[record_material]);
@@ -319,9 +301,9 @@ RowEnergies OtherRows::several_laws_of_list(Block& block, const KernelRequest& r
       const double growth =
           static_cast<const double*>(slots.alarm)[std::uint64_t{slot} * lanes + lane];
       const double alarm = std::sqrt(of.rest_length * of.rest_length + growth) - of.rest_length;
-      if (reaches_alarm(of, alarm, result.elongation, spring.memory[0]) &&
+      if (review_.reaches_alarm(of, alarm, result.elongation, spring.memory[0]) &&
           *review_.review(block, {place.index, slot, {&t, 1}, {&result.elongation, 1}}) != 0)
-        there = static_cast<std::uint32_t>(here);
+        blocks_.layout().remove(block, place.index, slot, t);
     }
   }
   energies.stored *= 0.5;  // the other half is counted at the other end

@@ -36,8 +36,6 @@ class OtherRows {
                                    const RowPlace& place, bool measures) const;
   RowEnergies several_laws_of_list(Block& block, const KernelRequest& request,
                                    const RowPlace& place, bool measures) const;
-  bool reaches_alarm(const SpringProperties& properties, double alarm, double elongation,
-                     const Layout::Memory& memory) const;
 
   const BlockSet& blocks_;
   const Model& model_;

@@ -50,8 +50,12 @@ class Simulation {
   /// Stops all motion. Its kinetic energy counts as dissipated.
   void halt();
   /// Stops all motion and takes over the update's state; or takes over the end of an implicit step
-  /// in time. Counts as one step.
+  /// in time. Springs that failure criteria break there are removed. Counts as one step.
   void apply_equilibrium(const EquilibriumUpdate& settling);
+  /// Returns how far the state after an update is beyond the first failure: the largest fraction by
+  /// which all elongations could be smaller and some spring would still break; negative if none
+  /// breaks. The state stays. Reads only times, displacements, heights and velocities.
+  double overshoot(const EquilibriumUpdate& to);
   /// Prepares the first implicit step, of `time_step` seconds, after explicit steps or from rest.
   /// `velocity`, m/s, of all particles at the time of the displacements: only after explicit steps,
   /// whose velocities are those of half a step before.
@@ -164,6 +168,8 @@ class Simulation {
   void copy(const Quantity& quantity, std::vector<double>& values) const;
   void copy(const Quantity& quantity, Particle first, std::uint64_t count, double* values) const;
   void set(const Quantity& quantity, const std::vector<double>& values);
+  class OtherMotion;
+  void set_motion(const EquilibriumUpdate& to);
 
   std::unique_ptr<State> state_;
 };

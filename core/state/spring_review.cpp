@@ -62,6 +62,18 @@ const std::uint8_t* SpringReview::review(Block& block, const AlarmRow& alarm) co
   return block.answers.data();
 }
 
+bool SpringReview::reaches_alarm(const SpringProperties& properties, double alarm,
+                                 double elongation, const Layout::Memory& memory) const {
+  if (properties.composite == nullptr || !properties.composite->in_series())
+    return elongation > alarm;
+  const LawNumbers kept = read_numbers(memory, model_.springs.memory);
+  const auto parts = properties.composite->parts();
+  return std::any_of(parts.begin(), parts.end(), [&](const SpringPart& part) {
+    return model_.elongation_in(part.material, properties, elongation, kept.data()) >
+           model_.own_alarm(part.material, properties);
+  });
+}
+
 /// Asks a criterion about alike springs from number `first` on, with these elongations of whole
 /// springs of the criterion's material. The criterion is shown only springs that are above its own
 /// alarm and not broken yet.

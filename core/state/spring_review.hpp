@@ -19,6 +19,10 @@ class SpringReview {
   /// holds. Criteria answer in the order of the scene; a spring that one of them breaks is not
   /// shown to those after it.
   const std::uint8_t* review(Block& block, const AlarmRow& alarm) const;
+  /// Returns whether criteria must be asked about a spring. `alarm`: elongation, m, from which they
+  /// must be asked about a spring of one law; `memory`: what the laws keep of the spring.
+  bool reaches_alarm(const SpringProperties& properties, double alarm, double elongation,
+                     const Layout::Memory& memory) const;
 
  private:
   struct Asked;

@@ -15,6 +15,7 @@
 #include <state/simulation.hpp>
 #include <state/spring_review.hpp>
 #include <state/sweeps.hpp>
+#include <state/whole_review.hpp>
 
 namespace hyperlattice {
 
@@ -27,6 +28,7 @@ struct Simulation::State {
   NodalPressures pressures{blocks};
   OtherRows other_rows{blocks, review, pressures, damage};
   Sweeps sweeps{blocks, loads, review, pressures, damage, other_rows};
+  WholeReview whole_review{blocks, review};
   FailureRecord failures{blocks, clock, pressures};
   EnergyAccount energy{blocks, clock, failures, sweeps};
   LawMemory law_memory{blocks, energy};

@@ -60,6 +60,10 @@ Statics::Statics(const Model& model, Simulation& simulation, Search search, doub
   problem_.begin_step_of = [](void* self, const TimeStep& step) noexcept {
     PluginCall::answer([&] { static_cast<Statics*>(self)->begin_step(step); });
   };
+  problem_.overshoot_at = [](void* self, double share, const double* displacement) noexcept {
+    return PluginCall::answer(
+        -1.0, [&] { return static_cast<Statics*>(self)->overshoot(share, displacement); });
+  };
   problem_.damages = !model_.cohesive.empty();
   problem_.grow_damage_at = [](void* self, const double* displacement,
                                const DamageSearch& search) noexcept {
@@ -94,24 +98,45 @@ void Statics::read_springs() {
   take_soft(simulation_.soft_springs(), simulation_.soft_particles(), simulation_.soft_cells());
 }
 
-void Statics::accept(double share, const double* displacement) {
-  Values force(force_.size());
-  respond(displacement, force.data(), nullptr);
+EquilibriumUpdate Statics::rest_at(double share, const double* displacement) const {
   EquilibriumUpdate to;
   to.time = share == 1 ? end_ : start_ + share * (end_ - start_);
   to.xyz = of_particles(displacement, 0, 3);
   if (problem_.grid.components == 4) to.heights = of_particles(displacement, 3, 1);
+  return to;
+}
+
+double Statics::overshoot(double share, const double* displacement) {
+  if (!model_.springs.criteria) return -1;
+  if (!moves()) return simulation_.overshoot(rest_at(share, displacement));
+  Values after, speed;
+  return simulation_.overshoot(end_of_step(displacement, after, speed));
+}
+
+/// Takes over the update, and what broke in it.
+void Statics::apply(const EquilibriumUpdate& to) {
+  simulation_.apply_equilibrium(to);
+  problem_.broke = simulation_.broken() - broken_;
+  if (problem_.broke > 0) read_springs();
+}
+
+void Statics::accept(double share, const double* displacement) {
+  Values force(force_.size());
+  respond(displacement, force.data(), nullptr);
+  EquilibriumUpdate to = rest_at(share, displacement);
+  to.settles = problem_.broke > 0;
   to.force = of_particles(force.data(), 0, 3);
   to.force_before = of_particles(force_.data(), 0, 3);
   to.factor = factors(share);
   to.factor_before = factors(share_);
   to.gravity = (1 - share) * gravity_start_ + share;
   to.gravity_before = (1 - share_) * gravity_start_ + share_;
-  for (std::size_t n = 0; n < holding_.size(); ++n)
+  for (std::size_t n = 0; n < holding_.size() && !to.settles; ++n)
     to.dissipated -= (1 - 0.5 * (share_ + share)) * holding_[n] * (displacement[n] - state_[n]);
-  simulation_.apply_equilibrium(to);
+  apply(to);
   std::copy_n(displacement, state_.size(), state_.begin());
   force_ = std::move(force);
+  if (problem_.broke > 0) respond(state_.data(), force_.data(), nullptr);
   share_ = share;
 }
 

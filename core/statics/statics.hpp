@@ -46,6 +46,9 @@ class Statics {
   using Values = std::vector<double, ArrayMemory<double>>;
 
   void read_springs();
+  EquilibriumUpdate rest_at(double share, const double* displacement) const;
+  double overshoot(double share, const double* displacement);
+  void apply(const EquilibriumUpdate& to);
 
   // grid.cpp
   void make_grid();
@@ -137,6 +140,7 @@ class Statics {
   void add_step_loads(double* force) const;
   void prescribe_mean(double* mean) const;
   double motion_scale(const double* external);
+  EquilibriumUpdate end_of_step(const double* mean, Values& after, Values& speed) const;
   double numerical_dissipation(const Values& after, const Values& speed);
 
   // answers.cpp

@@ -185,25 +185,46 @@ double Statics::numerical_dissipation(const Values& after, const Values& speed) 
   return dissipated;
 }
 
-void Statics::accept_step(const double* mean) {
+/// Finds the state at the end of the step: displacements, m, velocities, m/s, and the update that
+/// has both.
+EquilibriumUpdate Statics::end_of_step(const double* mean, Values& after, Values& speed) const {
   expect_step();
-  const auto places = static_cast<std::size_t>(problem_.grid.places);
   const double length = step_->of.length;
-  Values force(state_.size()), after(state_.size()), speed(state_.size());
-  respond(mean, force.data(), nullptr);
+  after.resize(state_.size());
+  speed.resize(state_.size());
   for (std::size_t n = 0; n < state_.size(); ++n) {
     after[n] = end_of(n, mean);
     speed[n] = velocity_[n] + ((after[n] - state_[n]) / length - velocity_[n]) / step_->of.forward;
   }
   for (std::size_t n = 0; n < prescribed_.size(); ++n) {
-    const auto at = static_cast<std::size_t>(prescribed_[n].component) * places +
-                    static_cast<std::size_t>(prescribed_[n].place);
+    const auto at = static_cast<std::size_t>(prescribed_[n].component * problem_.grid.places +
+                                             prescribed_[n].place);
     after[at] = step_->held[n];
     speed[at] = (after[at] - state_[at]) / length;
-    force[at] -= mass_[static_cast<std::size_t>(prescribed_[n].place)] *
-                 (speed[at] - velocity_[at]) / length;
   }
   EquilibriumUpdate to;
+  to.time = simulation_.time() + length;
+  to.time_step = length;
+  to.forward = step_->of.forward;
+  to.xyz = of_particles(after.data(), 0, 3);
+  to.velocity = of_particles(speed.data(), 0, 3);
+  if (problem_.grid.components == 4) {
+    to.heights = of_particles(after.data(), 3, 1);
+    to.height_rate = of_particles(speed.data(), 3, 1);
+  }
+  return to;
+}
+
+void Statics::accept_step(const double* mean) {
+  const auto places = static_cast<std::size_t>(problem_.grid.places);
+  Values force(state_.size()), after, speed;
+  EquilibriumUpdate to = end_of_step(mean, after, speed);
+  respond(mean, force.data(), nullptr);
+  for (const Prescribed& axis : prescribed_) {
+    const auto place = static_cast<std::size_t>(axis.place),
+               at = static_cast<std::size_t>(axis.component) * places + place;
+    force[at] -= mass_[place] * (speed[at] - velocity_[at]) / to.time_step;
+  }
   for (const Watching& watching : watching_) {
     to.answers.push_back(watching.answers);
     for (std::size_t n = 0; n < watching.places.size(); ++n)
@@ -214,22 +235,15 @@ void Statics::accept_step(const double* mean) {
   for (std::size_t l = 0; l < watching_.size(); ++l)
     if (const std::span<double> memory = simulation_.load_memory(l); !memory.empty())
       model_.loads[l].update(watched_motion(l, step_->factor[l], mean_motion(mean)), memory);
-  to.time = simulation_.time() + length;
-  to.time_step = length;
-  to.forward = step_->of.forward;
-  to.xyz = of_particles(after.data(), 0, 3);
-  to.velocity = of_particles(speed.data(), 0, 3);
-  if (problem_.grid.components == 4) {
-    to.heights = of_particles(after.data(), 3, 1);
-    to.height_rate = of_particles(speed.data(), 3, 1);
-  }
   to.force = to.force_before = of_particles(force.data(), 0, 3);
   to.factor = to.factor_before = step_->factor;
   to.dissipated = numerical_dissipation(after, speed);
-  simulation_.apply_equilibrium(to);
+  apply(to);
   state_ = std::move(after);
   problem_.state = state_.data();
   velocity_ = std::move(speed);
+  step_.reset();
+  if (problem_.broke > 0) respond(state_.data(), force_.data(), nullptr);
 }
 
 }  // namespace hyperlattice

@@ -2,8 +2,7 @@
 // momentum and energy at large rotations, the order of the method, its damping, and steps that are
 // much longer than the critical one.
 #include <base/errors.hpp>
-#include <engine/stage_calls.hpp>
-#include <support/scenes.hpp>
+#include <support/motion.hpp>
 
 #include <gtest/gtest.h>
 
@@ -13,46 +12,6 @@
 namespace implicit_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
-
-/// A scene whose stages run one after the other. `look`: called at each observation.
-struct Motion {
-  std::unique_ptr<Plan> plan;
-  Simulation simulation;
-
-  explicit Motion(const std::string& scene, int threads = 1)
-      : plan(plan_of(scene, threads)), simulation(*plan->model, threads) {}
-  void go(const std::function<void()>& look = {}) {
-    for (const PlannedStage& stage : plan->stages) {
-      StageCalls::Hooks hooks;
-      hooks.observe = look;
-      StageCalls(*plan->model, simulation, stage, plan->threads, std::move(hooks)).run();
-    }
-  }
-  const Model& model() const { return *plan->model; }
-  double critical() const { return model().step_limit.time_step; }
-  /// Mean displacement along x of the particles with the largest x.
-  double end() const {
-    const std::vector<double> u = displacements(simulation);
-    double sum = 0, count = 0;
-    for (Particle p = 0; p < model().body.particles; ++p)
-      if (model().body.site(p).i == model().body.high.i) {
-        sum += u[3 * p];
-        ++count;
-      }
-    return sum / count;
-  }
-  Vec3 angular_momentum() const {
-    const std::vector<double> u = displacements(simulation);
-    std::vector<double> v;
-    simulation.velocities(v);
-    Vec3 sum;
-    for (Particle p = 0; p < model().body.particles; ++p)
-      sum += model().mass(p) *
-             cross(model().body.position(p) + Vec3{u[3 * p], u[3 * p + 1], u[3 * p + 2]},
-                   Vec3{v[3 * p], v[3 * p + 1], v[3 * p + 2]});
-    return sum;
-  }
-};
 
 Stages implicit_to(double end, double step, const Keys& more = {}) {
   return stage("solvers.implicit", Keys{{"end_time", end}, {"time_step", step}} + more);
@@ -409,9 +368,11 @@ TEST(Implicit, RefusesWhatItCannotDo) {
   const auto expect = [&](const std::string& found, const char* sentence) {
     EXPECT_NE(found.find(sentence), std::string::npos) << found;
   };
-  expect(fault("lattices.cubic", {{"poisson", 0.25},
-                                  {"failure", {{"type", "failures.elongation"}, {"limit", 1e-6}}}}),
-         "materials without failure");
+  expect(fault("lattices.cubic",
+               {{"poisson", 0.25},
+                {"failure",
+                 {{"type", "failures.cohesive"}, {"strength", 1e6}, {"fracture_energy", 100}}}}),
+         "materials that are not cohesive");
   expect(fault("lattices.random", {{"poisson", 0.4}}, {{"sample", 8}}),
          "a list without nodal volumes");
 }

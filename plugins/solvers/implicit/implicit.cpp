@@ -22,7 +22,7 @@ class Implicit {
   struct Options {
     double end_time = 0;
     std::optional<double> time_step;
-    double tolerance = 1e-4, residual = 1e-6, damping = 0;
+    double tolerance = 1e-4, residual = 1e-6, damping = 0, overshoot = 1e-2;
     equilibrium::Preconditioner preconditioner = equilibrium::Preconditioner::automatic;
   };
 
@@ -36,8 +36,8 @@ class Implicit {
             "LaBudde and Greenspan, Numer. Math. 25 (1976) 323-346 and 26 (1976) 1-16; "
             "docs/theory/implicit.md")
         .restrictions(
-            "Elastic bodies and laws with a memory; no failure criteria, cohesive materials, or "
-            "nodal volumes of lists. Loads act by their mean over each step; those that answer to "
+            "No cohesive materials or nodal volumes of lists. Springs break at the ends of steps. "
+            "Loads act by their mean over each step; those that answer to "
             "the motion, by their answer to the mean motion. A run that is interrupted in this "
             "stage resumes at the stage's start.")
         .add<&Options::end_time>("end_time", "s",
@@ -73,6 +73,14 @@ class Implicit {
         .at_least(0)
         .at_most(1)
         .fallback("0")
+        .add<&Options::overshoot>(
+            "overshoot", "",
+            "of failure criteria: how far elongations may be beyond the first failure, relative, "
+            "when springs break; a step that goes further is cut, to the critical step of explicit "
+            "solvers at least")
+        .positive()
+        .below(1)
+        .fallback("1e-2")
         .add<&Options::preconditioner>(
             "preconditioner", "",
             "of listed lattices: a factorisation of the tangent, whole or with no more entries "
@@ -85,8 +93,9 @@ class Implicit {
   explicit Implicit(const Options& options) : o_(options) {}
 
   SolverPlan plan(const SolverFacts& facts) const {
-    if (facts.breaks || facts.damages)
-      throw std::runtime_error("materials without failure; explicit steps let springs break");
+    if (facts.damages)
+      throw std::runtime_error(
+          "materials that are not cohesive; the damage of these grows in explicit steps");
     if (facts.nodal_volumes)
       throw std::runtime_error(
           "a list without nodal volumes, or a structured lattice; explicit steps have both");
@@ -137,6 +146,11 @@ class Implicit {
       if (!found.at_rest) {
         if (steps.shorten(h)) continue;
         throw std::runtime_error(failure_text(host.time, h, found));
+      }
+      if (facts.breaks && h > facts.critical_time_step &&
+          problem->overshoot(1, mean.data()) > o_.overshoot) {
+        steps.cut(h, facts.critical_time_step);
+        continue;
       }
       for (std::size_t n = 0; n < numbers; ++n) {
         change[n] = (mean[n] - problem->state[n]) / forward;

@@ -64,13 +64,16 @@ class MotionText {
 
 }  // namespace
 
-std::string failure_text(const StaticProblem& problem, double share, double time,
-                         const Outcome& found) {
+std::string failure_text(const StaticProblem& problem, const LastRest& last, const Outcome& found) {
+  const double share = last.share;
   std::string text = "the body finds no state of rest ";
-  text += share == 0 ? "under its loads"
-                     : "beyond " + short_number(100 * share) + "% of the load, at " +
-                           short_number(time) + " s";
-  text += ": " + found.why;
+  const std::string where =
+      short_number(100 * share) + "% of the load, at " + short_number(last.time) + " s";
+  if (last.broke > 0)
+    text += "at " + where + ", where " + short_number(static_cast<double>(last.broke)) +
+            (last.broke == 1 ? " spring" : " springs") + " broke: " + found.why;
+  else
+    text += (share == 0 ? "under its loads" : "beyond " + where) + ": " + found.why;
   if (found.direction.empty() || found.rigid) return text;
   const MotionText motion(problem, found.direction);
   if (motion.is_nothing()) return text;
@@ -79,6 +82,7 @@ std::string failure_text(const StaticProblem& problem, double share, double time
                               "soft holds its heights no longer under such a "
                               "compression (docs/theory/mirror.md)."
           : found.buckles   ? ". There the body buckles."
+          : last.broke > 0  ? ". The body tears there."
           : share == 0 ? ". Supports may be missing, parts not joined, or loads far beyond what "
                          "the body can resist."
                        : ". The body may buckle there.");

@@ -5,9 +5,13 @@
 
 namespace hyperlattice::equilibrium {
 
-/// Returns the error message. The last state of rest was at the fraction `share` of the load, at
-/// `time`, s; `found` is the outcome of the search that failed.
-std::string failure_text(const StaticProblem& problem, double share, double time,
-                         const Outcome& found);
+/// The last state of rest.
+struct LastRest {
+  double share = 0, time = 0;  ///< fraction of the load, and s
+  std::uint64_t broke = 0;     ///< springs that broke in it
+};
+
+/// Returns the error message. `found`: the outcome of the search that failed.
+std::string failure_text(const StaticProblem& problem, const LastRest& last, const Outcome& found);
 
 }  // namespace hyperlattice::equilibrium

@@ -8,6 +8,7 @@
 
 #include <hyperlattice/rest.hpp>
 
+#include <algorithm>
 #include <optional>
 #include <stdexcept>
 
@@ -21,6 +22,7 @@ class Static {
     std::optional<bool> stability;
     double damage_step = 0.05;
     bool snap_back = false;
+    double overshoot = 1e-3;
     equilibrium::Preconditioner preconditioner = equilibrium::Preconditioner::automatic;
     std::optional<double> end_time;
   };
@@ -34,9 +36,8 @@ class Static {
             "small listed lattices with a factorisation")
         .source("docs/theory/statics.md")
         .restrictions(
-            "Springs do not break during the stage; those beyond their limit at its end break in "
-            "the first step in time that "
-            "follows. The damage of cohesive materials grows between its states of rest. A law "
+            "Springs break in states of rest, and loads are held until the body is at rest without "
+            "them. The damage of cohesive materials grows between its states of rest. A law "
             "with a memory starts each load step with the memory of the last state "
             "of "
             "rest; the memory advances when the step is accepted, and no time passes for the law. "
@@ -83,6 +84,13 @@ class Static {
             "of cohesive materials: whether loads and time fall where a crack would run on under "
             "loads that are held; if not, it runs to its next state of rest at once")
         .fallback("false")
+        .add<&Options::overshoot>(
+            "overshoot", "",
+            "of failure criteria: how far elongations may be beyond the first failure, relative, "
+            "when springs break; a load step that goes further is cut")
+        .positive()
+        .below(1)
+        .fallback("1e-3")
         .add<&Options::preconditioner>(
             "preconditioner", "",
             "of listed lattices: a factorisation of the tangent, whole or with no more entries "
@@ -129,28 +137,53 @@ class Static {
     const double whole = 1 / static_cast<double>(o_.load_steps),
                  shortest = whole * std::exp2(-static_cast<double>(o_.most_cutbacks));
     double share = 0, length = whole;
+    const auto time = [&] {
+      return facts.start_time + share * (plan(facts).end_time - facts.start_time);
+    };
+    const auto fail = [&](const equilibrium::Outcome& found) {
+      if (!found.direction.empty() && !host.show_motion(found.direction.data())) return;
+      throw std::runtime_error(
+          equilibrium::failure_text(*problem, {share, time(), problem->broke}, found));
+    };
+    const auto search = [&](double most, double& reached) {
+      return problem->damages
+                 ? cracking.solve_load_step(most, o_.damage_step * length / whole, reached, u)
+                 : newton.solve_load_step(most, u);
+    };
     while (share < 1) {
       constexpr double nearly = 1e-9;
       const double next = share + length > 1 - nearly ? 1 : share + length;
       double reached = problem->damages ? share : next;
-      const equilibrium::Outcome found =
-          problem->damages
-              ? cracking.solve_load_step(next, o_.damage_step * length / whole, reached, u)
-              : newton.solve_load_step(next, u);
+      const equilibrium::Outcome found = search(next, reached);
       if (newton.stopped()) return;
-      if (found.at_rest) {
-        share = reached;
-        length = std::min(whole, 2 * length);
-        if (!host.accept(share, u.data()) || !host.report(newton.report()) || !host.observe())
-          return;
-      } else {
+      const double beyond = found.at_rest && facts.breaks && length > shortest
+                                ? problem->overshoot(reached, u.data())
+                                : 0;
+      if (!found.at_rest) {
         length /= 2;
         if (!found.hopeless && length >= 0.99 * shortest) continue;
-        if (!found.direction.empty() && !host.show_motion(found.direction.data())) return;
-        const double start = facts.start_time,
-                     time = start + share * (plan(facts).end_time - start);
-        throw std::runtime_error(equilibrium::failure_text(*problem, share, time, found));
+        return fail(found);
       }
+      if (beyond > o_.overshoot) {  // the elongations are about in proportion to the load
+        constexpr double least = 0.1, most = 0.9;
+        const double wanted = reached * (1 - beyond + o_.overshoot / 2) - share;
+        length *= std::clamp(wanted / length, least, most);
+        std::copy_n(problem->state, u.size(), u.begin());
+        newton.forget_tangent();
+        if (problem->damages) problem->restore_damage();
+        continue;
+      }
+      share = reached;
+      if (!host.accept(share, u.data())) return;
+      while (problem->broke > 0) {
+        newton.forget_tangent();
+        const equilibrium::Outcome settled = search(share, share);
+        if (newton.stopped()) return;
+        if (!settled.at_rest) return fail(settled);
+        if (!host.accept(share, u.data())) return;
+      }
+      length = std::min(whole, 2 * length);
+      if (!host.report(newton.report()) || !host.observe()) return;
     }
   }
 

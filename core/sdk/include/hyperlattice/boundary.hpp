@@ -103,7 +103,7 @@
   CROSSES(DamageSearch, share, least_share, most_share, most_growth)                                                                                  \
   CROSSES(TimeStep, length, forward)                                                                                                                  \
   CROSSES(DamageFound, share, change)                                                                                                                 \
-  CROSSES(StaticProblem, self, grid, state, respond_to, load_at, prescribe_at, scale_of, position_of, damages, grow_damage_at, restore_damage_at, begin_step_of)                                                 \
+  CROSSES(StaticProblem, self, grid, state, respond_to, load_at, prescribe_at, scale_of, position_of, damages, grow_damage_at, restore_damage_at, begin_step_of, broke, overshoot_at)                                                 \
   CROSSES(RestReport, residual, displacement_error, iterations)                                                                                       \
   CROSSES(SolverFacts, start_time, critical_time_step, corners, sites_across, listed, nodal_volumes, remembers, damages, answering, breaks)                             \
   CROSSES(SolverPlan, end_time, time_step, stable_time_step, damping, steps, at_rest, grows_damage, resumes, bytes_per_site, sweeps_per_step)                       \
@@ -128,6 +128,8 @@ namespace detail {
 
 HYPERLATTICE_BOUNDARY(HYPERLATTICE_LAYOUT)
 
+/// A template, so that only what loads plugins and what is one computes it.
+template <class = void>
 constexpr std::uint32_t boundary_hash() {
   LayoutHash hash;
   for (const std::uint64_t constant :
@@ -174,8 +176,9 @@ struct HYPERLATTICE_EXPORT Gate {
 template <unsigned A, unsigned B, unsigned C, unsigned D, unsigned E>
 const char Gate<A, B, C, D, E>::marker = 1;
 
+template <class Now = void>
 using ThisGate = Gate<HYPERLATTICE_INTERFACE_VERSION, detail::compiler_abi, detail::library_abi,
-                      detail::eigen_alignment, detail::boundary_hash()>;
+                      detail::eigen_alignment, detail::boundary_hash<Now>()>;
 
 }  // namespace hyperlattice
 
@@ -183,7 +186,7 @@ using ThisGate = Gate<HYPERLATTICE_INTERFACE_VERSION, detail::compiler_abi, deta
 #define HYPERLATTICE_PLUGIN(version_text)                                                         \
   static void hyperlattice_register_body(::hyperlattice::Registrar& plugin);                      \
   extern "C" HYPERLATTICE_EXPORT const char* hyperlattice_gate() {                                \
-    return &::hyperlattice::ThisGate::marker;                                                     \
+    return &::hyperlattice::ThisGate<>::marker;                                                   \
   }                                                                                               \
   extern "C" HYPERLATTICE_EXPORT const ::hyperlattice::PluginInfo hyperlattice_plugin{            \
       version_text,                                                                               \

@@ -71,7 +71,8 @@ struct SolverHost {
   /// the run must stop.
   const StaticProblem* statics() const { return open(self); }
   /// Sets the state to these displacements, at rest, under the fraction `share` of the stage's
-  /// change of load. Returns false if the run must stop.
+  /// change of load. If springs break there (StaticProblem::broke), the next state that is accepted
+  /// must be at rest without them, under the same loads. Returns false if the run must stop.
   bool accept(double share, const double* displacement) const {
     return take(self, share, displacement);
   }

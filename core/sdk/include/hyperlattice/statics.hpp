@@ -118,6 +118,8 @@ struct StaticProblem {
                                 const DamageSearch& search) noexcept = nullptr;
   void (*restore_damage_at)(void* self) noexcept = nullptr;
   void (*begin_step_of)(void* self, const TimeStep& step) noexcept = nullptr;
+  std::uint64_t broke = 0;  ///< springs that broke when the present state was accepted
+  double (*overshoot_at)(void* self, double share, const double* displacement) noexcept = nullptr;
 
   /// Computes the forces of the springs on every particle, N, held particles included, and the
   /// tangents if `tangents` is not null. Returns the stored energy, J.
@@ -144,6 +146,13 @@ struct StaticProblem {
   }
   /// Returns to the damage of the last accepted state.
   void restore_damage() const { restore_damage_at(self); }
+  /// Returns how far displacements, or the end of a step in time with this mean, are beyond the
+  /// first failure of a spring: the largest fraction by which all elongations could be smaller and
+  /// some failure criterion would still break a spring; negative if none would. Springs that break
+  /// are removed when the state is accepted: see `broke`.
+  double overshoot(double share, const double* displacement) const {
+    return overshoot_at(self, share, displacement);
+  }
   /// Begins a step of length h in time from the present state, u and v. Its unknown is the mean
   /// displacement w = u + forward (u' - u), where u' and v' are the state at the step's end:
   ///   m (v' - v) / h = f + F,   (u' - u) / h = v + forward (v' - v).
