@@ -1,3 +1,5 @@
+#include <host/plugin_call.hpp>
+#include <model/local_limits.hpp>
 #include <plan/solver_facts.hpp>
 
 #include <algorithm>
@@ -28,6 +30,17 @@ SolverFacts solver_facts(const Model& model, double start_time) {
   facts.damages = !model.cohesive.empty();
   facts.answering = model.loads.answering;
   facts.breaks = model.springs.criteria;
+  facts.self = &model;
+  facts.divide = [](const void* self, std::int64_t parts, LocalSteps& steps,
+                    const Complaint& why) noexcept {
+    return PluginCall::answer(false, [&] {
+      const auto& of = *static_cast<const Model*>(self);
+      const std::string objection = objection_to_local_steps(of);
+      if (!objection.empty()) return why.say(objection), false;
+      steps = LocalLimits(of).divide(parts);
+      return true;
+    });
+  };
   return facts;
 }
 

@@ -59,7 +59,8 @@ struct SpringPlace {
 };
 
 /// Row::law of rows whose springs have the first law, and to whose particles the host adds forces:
-/// those of volumetric energies (nodal_pressures.hpp) or of soft springs (damage_field.hpp).
+/// those of volumetric energies (nodal_pressures.hpp), of soft springs (damage_field.hpp) or of
+/// local steps (local_steps.hpp).
 inline constexpr std::int32_t first_law_and_more = -2;
 
 class Layout {

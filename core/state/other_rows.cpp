@@ -126,9 +126,12 @@ void OtherRows::compute(Block& block, const KernelRequest& request, const RowPla
                                  : add_volumes<double>(block, request, row);
   const bool owned = place.index >= block.layout->first_own && place.index < block.layout->last_own;
   if (!owned) return;
-  if (!damage_.empty())
-    energies.stored += in_floats ? add_soft_springs<float>(block, request, place)
-                                 : add_soft_springs<double>(block, request, place);
+  const auto add = [&](const auto& source) {
+    energies.stored += in_floats ? add_forces<float>(source, block, request, place)
+                                 : add_forces<double>(source, block, request, place);
+  };
+  if (!damage_.empty()) add(damage_);
+  if (!local_.empty()) add(local_);
   if (measures) {
     block.other_sums[place.index] = energies;
     return;
@@ -153,18 +156,19 @@ double OtherRows::add_volumes(const Block& block, const KernelRequest& request,
   return energy;
 }
 
-/// Adds the forces of soft springs to those on the row. Returns half of their energy, J.
-template <class Real>
-double OtherRows::add_soft_springs(const Block& block, const KernelRequest& request,
-                                   const RowPlace& place) const {
+/// Adds the forces of springs that kernels do not see to those on the row. Returns their energy, J.
+template <class Real, class Source>
+double OtherRows::add_forces(const Source& source, const Block& block, const KernelRequest& request,
+                             const RowPlace& place) const {
   const ScratchRows<Real> scratch(request, model_.degrees_of_freedom);
   const std::int32_t begin = request.rows[place.index].begin;
   double energy = 0;
-  damage_.for_row(block, place.index, [&](const DamageRecord& record) {
-    for (int c = 0; c < model_.degrees_of_freedom; ++c)
-      scratch.own(c)[record.site - begin] +=
-          static_cast<Real>(record.force[static_cast<std::size_t>(c)]);
-    energy += record.stored;
+  source.for_row(block, place.index, [&](const auto& particle) {
+    for (std::size_t c = 0;
+         c < particle.force.size() && c < static_cast<std::size_t>(model_.degrees_of_freedom); ++c)
+      scratch.own(static_cast<int>(c))[particle.site - begin] +=
+          static_cast<Real>(particle.force[c]);
+    energy += particle.stored;
   });
   return energy;
 }

@@ -15,6 +15,9 @@ Simulation::Simulation(const Model& model, int threads)
 Simulation::~Simulation() = default;
 
 void Simulation::set_damping(double alpha, double rate) { state_->sweeps.set_damping(alpha, rate); }
+void Simulation::set_local_steps(double time_step, std::int64_t parts) {
+  state_->local.start(time_step, parts);
+}
 void Simulation::step(double time_step) { state_->step(time_step); }
 void Simulation::set_time(double time) { state_->clock.set(time); }
 double Simulation::time() const { return state_->clock.time(); }

@@ -10,6 +10,7 @@
 #include <state/force_sums.hpp>
 #include <state/kinetic_energy.hpp>
 #include <state/law_memory.hpp>
+#include <state/local_steps.hpp>
 #include <state/nodal_pressures.hpp>
 #include <state/other_rows.hpp>
 #include <state/simulation.hpp>
@@ -26,8 +27,9 @@ struct Simulation::State {
   DamageField damage{blocks, clock};
   SpringReview review{blocks, clock, damage};
   NodalPressures pressures{blocks};
-  OtherRows other_rows{blocks, review, pressures, damage};
-  Sweeps sweeps{blocks, loads, review, pressures, damage, other_rows};
+  LocalForces local{blocks, loads, review};
+  OtherRows other_rows{blocks, review, pressures, damage, local};
+  Sweeps sweeps{blocks, loads, review, pressures, damage, local, other_rows};
   WholeReview whole_review{blocks, review};
   FailureRecord failures{blocks, clock, pressures};
   EnergyAccount energy{blocks, clock, failures, sweeps};

@@ -7,13 +7,15 @@
 namespace hyperlattice {
 
 Sweeps::Sweeps(BlockSet& blocks, ActingLoads& loads, const SpringReview& review,
-               NodalPressures& pressures, DamageField& damage, const OtherRows& other_rows)
+               NodalPressures& pressures, DamageField& damage, LocalForces& local,
+               const OtherRows& other_rows)
     : blocks_(blocks),
       model_(blocks.model()),
       loads_(loads),
       review_(review),
       pressures_(pressures),
       damage_(damage),
+      local_(local),
       other_rows_(other_rows),
       exact_(asked_for_exact_springs()) {}
 
@@ -28,9 +30,10 @@ void Sweeps::step(const Sweep& sweep) {
   if (!damage_.empty()) damage_.update(2 * sweep.after);
   read_motion();
   if (!pressures_.empty()) pressures_.update();
+  const LocalForces::Taken taken = local_steps(sweep, true);
   blocks_.team().for_each(blocks_.size(), [&](std::size_t b) {
     Block& block = blocks_[b];
-    loads_.set_supports(block, sweep);
+    if (local_.empty()) loads_.set_supports(block, sweep);
     if (!damage_.empty()) damage_.watch_shortening(block);
     run_kernel(model_.springs.kernels().step, block, sweep.before, sweep.after, false);
     count_work(block, sweep.before + sweep.after);
@@ -45,8 +48,9 @@ RowSums Sweeps::measure(const Sweep& sweep) {
   if (!damage_.empty()) damage_.evaluate();
   read_motion();
   if (!pressures_.empty()) pressures_.update();
+  const LocalForces::Taken taken = local_steps(sweep, false);
   blocks_.team().for_each(blocks_.size(), [&](std::size_t b) {
-    loads_.set_supports(blocks_[b], sweep);
+    if (local_.empty()) loads_.set_supports(blocks_[b], sweep);
     run_kernel(model_.springs.kernels().measure, blocks_[b], sweep.measured, 0, true);
   });
   RowSums total;
@@ -68,6 +72,15 @@ RowSums Sweeps::measure(const Sweep& sweep) {
       if (!block.fracture_work.empty()) total.fractured += row.fractured + block.fracture_work[r];
     }
   return total;
+}
+
+/// Computes the forces of local steps, if there are any. These need the external forces of all
+/// blocks.
+LocalForces::Taken Sweeps::local_steps(const Sweep& sweep, bool breaks) {
+  if (local_.empty()) return LocalForces::Taken(nullptr);
+  blocks_.team().for_each(blocks_.size(),
+                          [&](std::size_t b) { loads_.set_supports(blocks_[b], sweep); });
+  return local_.compute(sweep.step > 0 ? sweep.step : 2 * sweep.before, breaks);
 }
 
 void Sweeps::set_loads(const Sweep& sweep) {

@@ -1,9 +1,10 @@
-// Evaluations of all forces: damage, ghost planes, loads, nodal volumes, then the kernel on every
-// block.
+// Evaluations of all forces: damage, ghost planes, loads, nodal volumes, local steps, then the
+// kernel on every block.
 #pragma once
 
 #include <state/acting_loads.hpp>
 #include <state/block_set.hpp>
+#include <state/local_steps.hpp>
 #include <state/other_rows.hpp>
 #include <state/spring_review.hpp>
 
@@ -12,7 +13,8 @@ namespace hyperlattice {
 class Sweeps {
  public:
   Sweeps(BlockSet& blocks, ActingLoads& loads, const SpringReview& review,
-         NodalPressures& pressures, DamageField& damage, const OtherRows& other_rows);
+         NodalPressures& pressures, DamageField& damage, LocalForces& local,
+         const OtherRows& other_rows);
 
   /// Sets the damping: `alpha` of local damping and the rate of damping in proportion to mass, 1/s.
   void set_damping(double alpha, double rate);
@@ -33,6 +35,7 @@ class Sweeps {
   using Kernel = decltype(KernelSet::step);
 
   void read_motion();
+  LocalForces::Taken local_steps(const Sweep& sweep, bool breaks);
   /// Calls a kernel for a block. `back` and `forward`: durations of its kick before and after the
   /// present time, s.
   [[gnu::always_inline]] void run_kernel(Kernel kernel, Block& block, double back, double forward,
@@ -45,6 +48,7 @@ class Sweeps {
   const SpringReview& review_;
   NodalPressures& pressures_;
   DamageField& damage_;
+  LocalForces& local_;
   const OtherRows& other_rows_;
   double damping_ = 0, damping_rate_ = 0;  // local; in proportion to mass, 1/s
   const bool exact_;                       // whether kernels take exact springs

@@ -24,6 +24,7 @@ class Explicit {
     std::optional<double> time_step;
     double safety = 0.9;
     double damping = 0;
+    std::optional<std::int64_t> local_steps = 1;
   };
 
   static Schema<Options> schema() {
@@ -61,7 +62,20 @@ class Explicit {
             "damping", "", "local non-viscous damping alpha, towards a static solution; 0: none")
         .at_least(0)
         .below(1)
-        .fallback("0");
+        .fallback("0")
+        .add<&Options::local_steps>(
+            "local_steps", "",
+            "steps that stiff particles take within one step of the others, which is so many times "
+            "longer than the stable step of all, or as long as the others allow; auto: as many as "
+            "cost least; 1: all take the same steps")
+        .word("auto")
+        .at_least(1)
+        .at_most(1e6)
+        .fallback("1")
+        .check([](const Options& o, const FaultSink& faults) {
+          if (o.local_steps != 1 && o.damping > 0)
+            faults.add("local_steps", "1 with `damping`: damping acts in whole steps");
+        });
   }
 
   explicit Explicit(const Options& options) : options_(options) {}
@@ -72,7 +86,13 @@ class Explicit {
     plan.damping = options_.damping;
     plan.resumes = true;
     plan.stable_time_step = facts.critical_time_step / std::sqrt(1 + options_.damping);
-    const double longest = longest_step(facts), length = options_.end_time - facts.start_time;
+    if (options_.local_steps != 1) {
+      const LocalSteps local = facts.local_steps(options_.local_steps.value_or(0));
+      plan.local_parts = local.parts;
+      if (local.parts > 1) plan.stable_time_step = local.time_step;
+    }
+    const double longest = longest_step(facts, plan.stable_time_step),
+                 length = options_.end_time - facts.start_time;
     constexpr double round_off =
         1 - 1e-12;  // keeps a time_step that divides the length of the stage
     const double parts = std::ceil(length / longest * round_off);
@@ -92,12 +112,11 @@ class Explicit {
   }
 
  private:
-  double longest_step(const SolverFacts& facts) const {
+  double longest_step(const SolverFacts& facts, double stable) const {
     if (!(options_.end_time > facts.start_time))
       throw std::runtime_error(
           "end_time after " + short_number(facts.start_time) +
           " s, where the stage starts: it counts from the start of the whole run");
-    const double stable = facts.critical_time_step / std::sqrt(1 + options_.damping);
     const double longest = options_.time_step.value_or(options_.safety * stable);
     if (!(longest <= stable))
       throw std::runtime_error(

@@ -5,7 +5,18 @@
 #include <hyperlattice/component.hpp>
 #include <hyperlattice/statics.hpp>
 
+#include <stdexcept>
+#include <string>
+
 namespace hyperlattice {
+
+/// A division of the body into stiff particles, which take several steps within one step of the
+/// others.
+struct LocalSteps {
+  double time_step = 0;         ///< longest stable step of the other particles, s
+  std::int64_t parts = 1;       ///< steps of the stiff particles within it
+  std::uint64_t particles = 0;  ///< number of stiff ones
+};
 
 /// Facts that a solver gets before the run.
 struct SolverFacts {
@@ -19,6 +30,21 @@ struct SolverFacts {
   bool damages = false;    ///< materials are cohesive: their damage grows
   bool answering = false;  ///< a load answers to the motion; statics() does not include such loads
   bool breaks = false;     ///< springs may break by a failure criterion
+  const void* self = nullptr;
+  bool (*divide)(const void* self, std::int64_t parts, LocalSteps& steps,
+                 const Complaint& why) noexcept = nullptr;
+
+  /// Returns the division of the body into particles that take `parts` steps within one step of the
+  /// others; the cheapest one if `parts` is 0. Throws std::runtime_error if the body allows none.
+  LocalSteps local_steps(std::int64_t parts) const {
+    LocalSteps steps;
+    std::string objection;
+    const Complaint why{&objection, [](void* text, std::string_view sentence) noexcept {
+                          *static_cast<std::string*>(text) = sentence;
+                        }};
+    if (!divide(self, parts, steps, why)) throw std::runtime_error(objection);
+    return steps;
+  }
 };
 
 /// What the solver will do, for the plan, `summary.json` and the progress line.
@@ -35,6 +61,8 @@ struct SolverPlan {
   bool grows_damage = false;
   /// Whether run() can continue in the middle of a stage, after SolverHost::steps_done steps.
   bool resumes = false;
+  /// Steps that stiff particles take within each step, see SolverFacts::local_steps().
+  std::int64_t local_parts = 1;
   /// Memory that the solver needs besides the state, for each site of the body's box, bytes.
   double bytes_per_site = 0;
   double sweeps_per_step = 1;  ///< approximate number of evaluations of all springs in a step

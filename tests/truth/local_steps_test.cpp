@@ -1,0 +1,174 @@
+// Local steps: stiff particles take several steps within one step of the others. Against equal
+// short steps: order, stability, momentum, energy, loads and failure; bits on any threads.
+#include <base/errors.hpp>
+#include <support/motion.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+namespace local_steps_test {
+using namespace hyperlattice;
+using namespace hyperlattice::test;
+
+struct Bar {
+  double contrast = 100;
+  Stages loads;
+  double end = 6e-5;
+  Keys solver;
+  Keys soft, stiff;
+  Keys scene;
+};
+
+/// A bar along x of 24 x 3 x 3 particles with a stiff layer, whose soft waves take 1 us a cell.
+std::string text_of(const Bar& bar) {
+  const Keys elastic{{"young", 1e9}, {"density", 1000}, {"poisson", 0.25}};
+  SceneBuilder scene;
+  for (const auto& [key, value] : bar.scene.json().items()) scene.key(key, value);
+  return scene.lattice("lattices.cubic", 1e-3, box_mm(24, 3, 3))
+      .material("materials.elastic", elastic + bar.soft)
+      .material("materials.elastic", elastic +
+                                         Keys{{"name", "stiff"},
+                                              {"region", box({9.9e-3, -1, -1}, {13.1e-3, 1, 1})},
+                                              {"young", 1e9 * bar.contrast}} +
+                                         bar.stiff)
+      .stages(bar.loads)
+      .solver("solvers.explicit", Keys{{"end_time", bar.end}} + bar.solver)
+      .text();
+}
+
+Keys parts(int number) { return {{"local_steps", number}}; }
+
+/// A push along x on the left face that begins and ends smoothly.
+Stages push() {
+  return stage("loads.expression",
+               {{"on", "x_min"},
+                {"total", {2, 0, 0}},
+                {"expression", "t < 20e-6 ? 0.5 * (1 - cos(2 * pi * t / 20e-6)) : 0"},
+                {"corners", {2e-5}}});
+}
+
+TEST(LocalSteps, AreOfSecondOrder) {
+  Motion truth(text_of({.loads = push(), .solver = {{"safety", 0.2}}}));
+  truth.go();
+  const std::vector<double> u = displacements(truth.simulation);
+  double before = 0;
+  for (const double step : {3e-7, 1.5e-7, 0.75e-7}) {
+    Motion run(text_of({.loads = push(), .solver = parts(10) + Keys{{"time_step", step}}}));
+    run.go();
+    const double error = distance(displacements(run.simulation), u) / largest(u);
+    std::printf("step %.2e s (%.2f critical): error %.2e, balance %.1e\n", step,
+                step / run.critical(), error, run.simulation.balance().relative_error());
+    EXPECT_GT(step, 0.9 * run.critical());
+    if (before > 0) EXPECT_GT(before / error, 3);
+    before = error;
+  }
+  EXPECT_LT(before, 2e-3);
+}
+
+class Contrast : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Stiff, Contrast, testing::Values(1e1, 1e2, 1e4, 1e6));
+
+TEST_P(Contrast, StaysStableAndKeepsMomentum) {
+  Motion run(text_of({.contrast = GetParam(),
+                      .end = 1e-3,
+                      .solver = parts(static_cast<int>(std::ceil(std::sqrt(GetParam()))))}));
+  const PlannedStage& stage = run.plan->stages.front();
+  EXPECT_GT(stage.plan.time_step, 0.6 * std::sqrt(GetParam()) * run.critical());
+  Simulation& simulation = run.simulation;
+  const std::size_t particles = run.model().body.particles;
+  simulation.set_velocities(noise(3 * particles, 1e-3, 3), {});
+  const Vec3 momentum = simulation.balance().momentum;
+  double first = 0, most = 0;
+  run.go([&] {
+    const EnergyBalance now = simulation.balance();
+    if (simulation.steps() == 100) first = now.kinetic + now.stored;
+    if (simulation.steps() > 100) most = std::max(most, now.kinetic + now.stored);
+  });
+  const EnergyBalance end = simulation.balance();
+  std::printf("contrast %.0e: %llu steps of %.1f critical, energy at most %.3f of that at 100\n",
+              GetParam(), static_cast<unsigned long long>(simulation.steps()),
+              stage.plan.time_step / run.critical(), most / first);
+  EXPECT_GT(first, 0);
+  EXPECT_LT(most, 3 * first);
+  EXPECT_LT(norm(end.momentum - momentum), 1e-9 * std::sqrt(end.kinetic_mean));
+}
+
+TEST(LocalSteps, LoadsAndSupportsOfStiffParticlesAct) {
+  // A weight and a support on the stiff layer: the body comes to the same places.
+  const Stages loads = stage("loads.fixed", {{"on", box({11.9e-3, -1, -1}, {12.1e-3, 1, 1})}}) +
+                       stage("loads.gravity", {{"acceleration", {1000, 200, 0}}}) +
+                       stage("loads.force", {{"on", box({9.9e-3, -1, -1}, {10.1e-3, 1, 1})},
+                                             {"total", {-3, 0, 0}},
+                                             {"rise", 2e-5}});
+  Motion truth(text_of({.contrast = 1e4, .loads = loads}));
+  Motion run(text_of({.contrast = 1e4, .loads = loads, .solver = {{"local_steps", "auto"}}}));
+  EXPECT_GT(run.plan->stages.front().plan.local_parts, 50);
+  truth.go();
+  run.go();
+  const std::vector<double> u = displacements(truth.simulation);
+  const double error = distance(displacements(run.simulation), u) / largest(u);
+  std::printf("%llu steps, short ones %llu: error %.2e, balance %.1e\n",
+              static_cast<unsigned long long>(run.simulation.steps()),
+              static_cast<unsigned long long>(truth.simulation.steps()), error,
+              run.simulation.balance().relative_error());
+  EXPECT_LT(error, 5e-3);
+}
+
+TEST(LocalSteps, TheSameSpringsBreakBesideTheStiffLayer) {
+  const Keys brittle = {{"failure", {{"type", "failures.strain"}, {"limit", 2e-3}}}};
+  const auto broken = [&](const Keys& solver) {
+    Motion run(text_of({.loads = push() + stage("loads.fixed", {{"on", "x_max"}}),
+                        .solver = solver,
+                        .soft = brittle,
+                        .stiff = {{"failure", {{"type", "failures.strain"}, {"limit", 1.0}}}}}));
+    run.go();
+    std::set<std::pair<Particle, Particle>> springs;
+    for (const Breakage& one : run.simulation.breakages()) springs.emplace(one.a, one.b);
+    return springs;
+  };
+  const auto truth = broken({{"time_step", 2e-8}}),
+             found = broken(parts(10) + Keys{{"time_step", 2e-7}});
+  EXPECT_FALSE(truth.empty());
+  EXPECT_EQ(found, truth);
+}
+
+TEST(LocalSteps, GiveTheSameBitsOnAnyThreadsAndReturnTheirSprings) {
+  const auto run_on = [](int threads) {
+    Motion run(text_of({.loads = push(), .solver = parts(10)}), threads);
+    run.go();
+    EXPECT_EQ(run.simulation.broken(), 0U);
+    return run.simulation.hash();
+  };
+  const std::uint64_t one = run_on(1);
+  EXPECT_EQ(run_on(2), one);
+  EXPECT_EQ(run_on(3), one);
+}
+
+TEST(LocalSteps, InFloats) {
+  const auto end = [](const Keys& scene) {
+    Motion run(text_of({.loads = push(), .solver = parts(10), .scene = scene}));
+    run.go();
+    return displacements(run.simulation);
+  };
+  const std::vector<double> doubles = end({}), floats = end({{"precision", "float"}});
+  EXPECT_LT(distance(doubles, floats), 1e-4 * largest(doubles));
+  EXPECT_GT(distance(doubles, floats), 0);
+}
+
+TEST(LocalSteps, RefuseWhatTheyCannotDo) {
+  const auto fault = [](const Keys& soft, const Keys& solver) {
+    try {
+      plan_of(text_of({.solver = solver, .soft = soft}));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(fault({{"poisson", 0.4}}, parts(4)).find("volumetric"), std::string::npos);
+  EXPECT_NE(fault({}, parts(4) + Keys{{"damping", 0.1}}).find("local_steps"), std::string::npos);
+  EXPECT_EQ(fault({{"poisson", 0.4}}, {}), "");
+}
+
+}  // namespace local_steps_test
