@@ -134,7 +134,7 @@ void StageCalls::meet_end(double time_step) {
 void StageCalls::run() {
   const Stage& stage = *stage_.stage;
   simulation_.set_damping(stage_.plan.damping);
-  simulation_.set_local_steps(stage_.plan.stable_time_step, stage_.plan.local_parts);
+  simulation_.set_local_steps(stage_.plan.local.time_step, stage_.plan.local.parts);
   if (stage_.plan.at_rest && stage_.plan.time_step > 0)
     simulation_.hold_time(stage_.plan.end_time);  // otherwise the solver sets the time
   const SolverFacts facts = solver_facts(model_, stage_.start_time);

@@ -33,8 +33,14 @@ std::string stage_text(const PlannedStage& stage) {
           ? fmt::format(", {:.3g} of the stable {:.6g} s", plan.time_step / plan.stable_time_step,
                         plan.stable_time_step)
           : ", stable for any length";
+  const std::string local =
+      plan.local.parts > 1
+          ? fmt::format("; {:.3g}% of the particles are stiff and take {} steps within each",
+                        100 * plan.local.share,
+                        count_text(static_cast<std::uint64_t>(plan.local.parts)))
+          : "";
   const std::string steps =
-      fmt::format("steps of at most {:.6g} s{}{}", plan.time_step, of_stable, damped);
+      fmt::format("steps of at most {:.6g} s{}{}{}", plan.time_step, of_stable, damped, local);
   if (plan.at_rest)
     return fmt::format("to rest under the loads of {:.6g} s, in about {} {}", plan.end_time,
                        count_text(plan.steps), steps);

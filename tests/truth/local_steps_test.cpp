@@ -104,7 +104,7 @@ TEST(LocalSteps, LoadsAndSupportsOfStiffParticlesAct) {
                                              {"rise", 2e-5}});
   Motion truth(text_of({.contrast = 1e4, .loads = loads}));
   Motion run(text_of({.contrast = 1e4, .loads = loads, .solver = {{"local_steps", "auto"}}}));
-  EXPECT_GT(run.plan->stages.front().plan.local_parts, 50);
+  EXPECT_GT(run.plan->stages.front().plan.local.parts, 50);
   truth.go();
   run.go();
   const std::vector<double> u = displacements(truth.simulation);

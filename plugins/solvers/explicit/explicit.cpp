@@ -74,7 +74,7 @@ class Explicit {
         .fallback("1")
         .check([](const Options& o, const FaultSink& faults) {
           if (o.local_steps != 1 && o.damping > 0)
-            faults.add("local_steps", "1 with `damping`: damping acts in whole steps");
+            faults.fault("local_steps", "1 with `damping`: damping acts in whole steps");
         });
   }
 
@@ -87,9 +87,9 @@ class Explicit {
     plan.resumes = true;
     plan.stable_time_step = facts.critical_time_step / std::sqrt(1 + options_.damping);
     if (options_.local_steps != 1) {
-      const LocalSteps local = facts.local_steps(options_.local_steps.value_or(0));
-      plan.local_parts = local.parts;
-      if (local.parts > 1) plan.stable_time_step = local.time_step;
+      plan.local = facts.local_steps(options_.local_steps.value_or(0));
+      plan.sweeps_per_step = plan.local.cost;
+      if (plan.local.parts > 1) plan.stable_time_step = plan.local.time_step;
     }
     const double longest = longest_step(facts, plan.stable_time_step),
                  length = options_.end_time - facts.start_time;

@@ -13,9 +13,10 @@ namespace hyperlattice {
 /// A division of the body into stiff particles, which take several steps within one step of the
 /// others.
 struct LocalSteps {
-  double time_step = 0;         ///< longest stable step of the other particles, s
-  std::int64_t parts = 1;       ///< steps of the stiff particles within it
-  std::uint64_t particles = 0;  ///< number of stiff ones
+  double time_step = 0;    ///< longest stable step of the other particles, s
+  std::int64_t parts = 1;  ///< steps of the stiff particles within it
+  double share = 0;        ///< of the particles that are stiff
+  double cost = 1;         ///< time of a step over that of a step without such a division, about
 };
 
 /// Facts that a solver gets before the run.
@@ -61,8 +62,7 @@ struct SolverPlan {
   bool grows_damage = false;
   /// Whether run() can continue in the middle of a stage, after SolverHost::steps_done steps.
   bool resumes = false;
-  /// Steps that stiff particles take within each step, see SolverFacts::local_steps().
-  std::int64_t local_parts = 1;
+  LocalSteps local;  ///< from SolverFacts::local_steps()
   /// Memory that the solver needs besides the state, for each site of the body's box, bytes.
   double bytes_per_site = 0;
   double sweeps_per_step = 1;  ///< approximate number of evaluations of all springs in a step
