@@ -200,10 +200,10 @@ double Statics::hold_heights(const double* u, double* force) const {
 
 void Statics::fill_own(const SpringTangents& tangents) const {
   const auto places = static_cast<std::size_t>(problem_.grid.places);
-  std::fill_n(tangents.own, problem_.grid.numbers(), 0.0F);
+  std::fill_n(tangents.own, problem_.grid.numbers(), static_cast<float>(hold_));
   for (std::size_t place = 0; problem_.grid.components == 4 && place < particle_weight_.size();
        ++place)
-    tangents.own[3 * places + place] =
+    tangents.own[3 * places + place] +=
         static_cast<float>(2 * model_.kinds.alphas[kind_.empty() ? 0 : kind_[place]] *
                            static_cast<double>(particle_weight_[place]));
   if (!moves()) return;

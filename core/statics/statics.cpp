@@ -13,6 +13,7 @@ Statics::Statics(const Model& model, Simulation& simulation, Search search, doub
                  double end, int threads)
     : model_(model), simulation_(simulation), start_(start), end_(end) {
   problem_.grid.inertia = search == Search::motion;
+  problem_.grid.tears = !problem_.grid.inertia && model.springs.criteria;
   problem_.grid.listed = model.body.is_listed();
   if (problem_.grid.listed)
     make_list();
@@ -59,6 +60,9 @@ Statics::Statics(const Model& model, Simulation& simulation, Search search, doub
   };
   problem_.begin_step_of = [](void* self, const TimeStep& step) noexcept {
     PluginCall::answer([&] { static_cast<Statics*>(self)->begin_step(step); });
+  };
+  problem_.hold_with = [](void* self, double stiffness) noexcept {
+    static_cast<Statics*>(self)->hold_ = stiffness;
   };
   problem_.overshoot_at = [](void* self, double share, const double* displacement) noexcept {
     return PluginCall::answer(

@@ -194,6 +194,7 @@ class Statics {
   std::vector<float> particle_weight_;  ///< fraction of a whole particle at each place
 
   Values state_;              ///< displacements, m
+  double hold_ = 0;           ///< see StaticProblem::hold, N/m
   double share_ = 0;          ///< place of the state on the load path, 0 to 1
   double largest_scale_ = 0;  ///< largest force so far that residuals were compared with, N
   /// A step in time (StaticProblem::begin_step).

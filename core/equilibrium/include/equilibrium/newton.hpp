@@ -36,7 +36,7 @@ class Newton {
 
   /// Changes the displacements from those of a state of rest to those at the fraction `share` of
   /// the load. The first search takes full Newton steps; a second one, with a line search, follows
-  /// if the first fails.
+  /// if the first fails; in a body that tears a third one, in which all particles are held softly.
   Outcome solve_load_step(double share, Field& displacement);
   double tolerance() const { return limits_.tolerance; }
   void set_tolerance(double tolerance) { limits_.tolerance = tolerance; }
@@ -56,6 +56,7 @@ class Newton {
     not_finite
   };
   Outcome iterate(double share, Field& displacement);
+  bool iterate_held(double share, Field& displacement);
   StepResult step(const Field& change_of_held, Field& u);
   bool evaluate_residual(const Field& u, const Field& moved, double part = 1);
   bool step_along(const Field& moved, Field& u);

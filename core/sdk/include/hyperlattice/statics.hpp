@@ -41,6 +41,7 @@ struct StaticGrid {
   std::span<const StaticRow> rows;        ///< [k * ny + j]
   bool cells = false;                     ///< cells have volumetric energies
   bool inertia = false;                   ///< forces include inertia, see StaticProblem::begin_step
+  bool tears = false;                     ///< springs may break, so that pieces may be loose
   bool listed = false;                    ///< sites, neighbours and rows are empty
   std::span<const StaticSpring> springs;  ///< springs of a listed lattice
   /// Tetrahedra of a listed lattice whose places have volumetric energies; else empty.
@@ -56,7 +57,7 @@ struct StaticGrid {
   /// Returns the constant step from a place to its neighbour.
   std::int64_t step_to(const Neighbour& n) const { return n.dx + n.dy * row + n.dz * plane; }
   /// Returns whether numbers have a stiffness of their own.
-  bool has_own() const { return components == 4 || inertia; }
+  bool has_own() const { return components == 4 || inertia || tears; }
   /// Returns the size of a field.
   std::size_t numbers() const {
     return static_cast<std::size_t>(components) * static_cast<std::size_t>(places);
@@ -70,7 +71,8 @@ struct StaticGrid {
 struct SpringTangents {
   float *axial = nullptr, *pull = nullptr, *cross_axial = nullptr, *cross_pull = nullptr;
   /// Stiffness of each number against its own change, [component * places + place]: of alpha
-  /// springs and, with StaticGrid::inertia, of inertia. Only with StaticGrid::has_own().
+  /// springs, with StaticGrid::inertia of inertia, and what StaticProblem::hold() adds. Only with
+  /// StaticGrid::has_own().
   float* own = nullptr;
   /// Volumetric energy of the cell of which each place is the lowest corner, times its share: p' l
   /// / 16 and p l / 16, with the pressure p and its derivative (volumetric_cell.hpp), N/m; 0 where
@@ -119,6 +121,7 @@ struct StaticProblem {
   void (*restore_damage_at)(void* self) noexcept = nullptr;
   void (*begin_step_of)(void* self, const TimeStep& step) noexcept = nullptr;
   std::uint64_t broke = 0;  ///< springs that broke when the present state was accepted
+  void (*hold_with)(void* self, double stiffness) noexcept = nullptr;
   double (*overshoot_at)(void* self, double share, const double* displacement) noexcept = nullptr;
 
   /// Computes the forces of the springs on every particle, N, held particles included, and the
@@ -153,6 +156,10 @@ struct StaticProblem {
   double overshoot(double share, const double* displacement) const {
     return overshoot_at(self, share, displacement);
   }
+  /// Adds a stiffness, N/m, of each number against its own change to the tangents that follow, not
+  /// to the forces: equations of loose pieces then have a solution. 0 ends it. Only with
+  /// StaticGrid::tears.
+  void hold(double stiffness) const { hold_with(self, stiffness); }
   /// Begins a step of length h in time from the present state, u and v. Its unknown is the mean
   /// displacement w = u + forward (u' - u), where u' and v' are the state at the step's end:
   ///   m (v' - v) / h = f + F,   (u' - u) / h = v + forward (v' - v).
