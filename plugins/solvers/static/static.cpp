@@ -69,9 +69,8 @@ class Static {
         .add<&Options::stability>("stability", "",
                                   "whether states of rest must be stable: each that took more than "
                                   "one tangent is searched for a motion along which its "
-                                  "stiffness is negative; left out: of structured lattices "
-                                  "without cohesive materials, as particles of a list that hang on "
-                                  "two springs buckle alone")
+                                  "stiffness is negative; left out: of structured lattices without "
+                                  "failure, as particles that hang on two springs buckle alone")
         .add<&Options::damage_step>("damage_step", "",
                                     "of cohesive materials: largest growth of a particle's damage "
                                     "from one state of rest to "
@@ -131,7 +130,7 @@ class Static {
     equilibrium::Newton newton(
         *system, host,
         {.tolerance = o_.tolerance,
-         .stable = o_.stability.value_or(!facts.listed && !problem->damages)});
+         .stable = o_.stability.value_or(!facts.listed && !problem->damages && !facts.breaks)});
     equilibrium::Cracking cracking(*problem, newton, o_.snap_back);
     equilibrium::Field u(problem->state, problem->state + problem->grid.numbers());
     const double whole = 1 / static_cast<double>(o_.load_steps),
