@@ -1,3 +1,4 @@
+#include <engine/diagnosis.hpp>
 #include <engine/guard.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -6,6 +7,15 @@
 #include <cmath>
 
 namespace hyperlattice {
+
+Guard::Guard(const Model& model, const Simulation& simulation)
+    : model_(model), simulation_(simulation), shortest_(infinity) {
+  for (const NeighbourGeometry& neighbour : model.springs.neighbours)
+    shortest_ = std::min(shortest_, neighbour.rest_length);
+  const Listed& list = model.body.listed;
+  for (const ListedSpring& spring : list.springs)
+    shortest_ = std::min(shortest_, norm(list.positions[spring.b] - list.positions[spring.a]));
+}
 
 void Guard::check_motion(double time_step) const {
   double speed = 0;
@@ -18,6 +28,21 @@ void Guard::check_motion(double time_step) const {
   const double step = std::min(time_step, model_.step_limit.time_step);
   if (speed * step > spacings * model_.body.grid.spacing)
     fail("a particle moves by more than 100 lattice spacings in one step", time_step);
+}
+
+void Guard::check_approach(double time_step) const {
+  const double limit = stage_->stage->approach_limit;
+  double speed = 0;
+  bool finite = true;
+  simulation_.fastest(speed, finite);
+  // Particles slower than this cannot pass through each other: the springs need not be read.
+  if (!(limit > 0) || 2 * speed * time_step < limit * shortest_) return;
+  const SpringState state = spring_state(model_, simulation_, time_step);
+  if (state.closing.value > limit)
+    fail(fmt::format("two particles come nearer by {:.3g} of their distance in one step, and "
+                     "approach_limit is {:.3g}",
+                     state.closing.value, limit),
+         time_step);
 }
 
 void Guard::check_finite(const EnergyBalance& balance, double time_step) const {
@@ -46,13 +71,16 @@ void Guard::fail(const std::string& what, double time_step) const {
     law += fmt::format("{}{}", &criterion == &material.failures.front() ? " with " : ", ",
                        criterion.stage->component->type());
   if (material.surface) law += fmt::format(", {}", material.surface->stage->component->type());
+  std::string cause;
+  if (finite) cause = likely_cause(model_, spring_state(model_, simulation_, time_step), time_step);
+  if (!cause.empty()) cause = " " + cause;
   throw RunError(fmt::format(
       "step {}, t = {:.6g} s: {}. {} particle {} at ({:.4g}, {:.4g}, {:.4g}) m{}, law {}. "
-      "The step was {:.4g} s, {:.3g} of the critical {:.4g} s.",
+      "The step was {:.4g} s, {:.3g} of the critical {:.4g} s.{}",
       simulation_.steps(), simulation_.time(), what,
       finite ? "The fastest is" : "The first bad one is", particle, x.x, x.y, x.z,
       finite ? fmt::format(" with {:.4g} m/s", speed) : std::string(), law, time_step,
-      time_step / model_.step_limit.time_step, model_.step_limit.time_step));
+      time_step / model_.step_limit.time_step, model_.step_limit.time_step, cause));
 }
 
 }  // namespace hyperlattice

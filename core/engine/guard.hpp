@@ -1,5 +1,5 @@
-// Stops a failing run with a message that has the time, the place, the law, and the ratio of the
-// time step to the critical one.
+// Stops a failing run with a message that has the time, the place, the law, the ratio of the time
+// step to the critical one, and the likely cause.
 #pragma once
 
 #include <plan/plan.hpp>
@@ -9,12 +9,14 @@ namespace hyperlattice {
 
 class Guard {
  public:
-  Guard(const Model& model, const Simulation& simulation)
-      : model_(model), simulation_(simulation) {}
+  Guard(const Model& model, const Simulation& simulation);
 
   void start(const PlannedStage& stage) { stage_ = &stage; }
   /// Reads all velocities once. Throws RunError if a number is not finite or a particle runs away.
   void check_motion(double time_step) const;
+  /// Throws RunError if ends of a spring approach too fast for the step (the stage's
+  /// `approach_limit`). Reads the springs only where particles are fast enough for it.
+  void check_approach(double time_step) const;
   /// Throws RunError if an energy is not a number.
   void check_finite(const EnergyBalance& balance, double time_step) const;
   /// Throws RunError if the error of the balance passes the stage's tolerance.
@@ -26,6 +28,7 @@ class Guard {
   const Model& model_;
   const Simulation& simulation_;
   const PlannedStage* stage_ = nullptr;
+  double shortest_;  ///< rest length of a spring, m
 };
 
 }  // namespace hyperlattice

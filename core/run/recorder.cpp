@@ -73,6 +73,7 @@ void Recorder::record() {
                       simulation_.broken() - open, simulation_.crack_surface()};
   if (record.step > 0) guard_.check_motion(time_step_);
   guard_.check_finite(record.balance, time_step_);
+  if (!stage_->plan.at_rest) guard_.check_approach(time_step_);
   history_.take(record);
   if (cells_.is_due(record.step)) look_at_cells();
   stopwatch_.output([&] {

@@ -49,7 +49,13 @@ struct CommonSchema {
               "energy_tolerance", "",
               "relative error of the energy balance at which the run stops; 0: never")
           .at_least(0)
-          .fallback("0.05");
+          .fallback("0.05")
+          .add<&Options::approach_limit>(
+              "approach_limit", "",
+              "largest part of their distance by which the ends of a spring may come nearer in one "
+              "step; beyond it the run stops before they pass through each other; 0: never")
+          .at_least(0)
+          .fallback("0.5");
     if (family == Family::writers || family == Family::probes)
       declared
           .add<&Options::every>("every", "s",

@@ -51,6 +51,8 @@ struct Stage {
   double record_every = 0;
   /// solvers: relative error of the energy balance at which the run stops; 0: no limit
   double energy_tolerance = 0;
+  /// solvers: part of their distance by which ends of a spring may come nearer in a step; 0: any
+  double approach_limit = 0;
 
   Family family() const { return component->info.family; }
   /// Returns the family's table of functions: stage.functions<LoadFunctions>().
