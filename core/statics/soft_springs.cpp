@@ -62,7 +62,11 @@ double Statics::respond_soft(const double* u, double* force, const SpringTangent
     for (int c = 0; c < grid.components; ++c) {
       row.here[c] = u + c * grid.places + soft.place;
       row.there[c] = row.here[c] + soft.step;
+      if (!moves()) continue;
+      row.here_before[c] = state_.data() + c * grid.places + soft.place;
+      row.there_before[c] = row.here_before[c] + soft.step;
     }
+    time_row(row);
     energy += linearise_one(buffer, kinds, [&](std::size_t cross, double, double elongation) {
       const bool degrades = cross == 1 || elongation > 0;
       const double whole = soft.of.stiffness_of(cross),
@@ -89,15 +93,19 @@ double Statics::respond_soft(const double* u, double* force, const SpringTangent
 }
 
 DamageFound Statics::grow_damage(const double* displacement, const DamageSearch& search) {
+  EquilibriumUpdate at;
+  if (moves()) {
+    Values after, speed;
+    at = end_of_step(displacement, after, speed);
+  } else {
+    at = rest_at(search.share, displacement);
+  }
   const auto load = [&](double share) { return preload_ + share; };
   DamageBounds bounds;
   bounds.least_factor = load(search.least_share) / load(search.share);
   bounds.most_factor = load(search.most_share) / load(search.share);
   bounds.most_growth = search.most_growth;
-  const SettledDamage found = simulation_.settle_damage(
-      of_particles(displacement, 0, 3),
-      problem_.grid.components == 4 ? of_particles(displacement, 3, 1) : std::vector<double>(),
-      bounds);
+  const SettledDamage found = simulation_.settle_damage(at.xyz, at.heights, bounds);
   take_soft(found.springs, found.particles, found.cells);
   return {std::clamp(found.factor * load(search.share) - preload_, search.least_share,
                      search.most_share),

@@ -368,11 +368,6 @@ TEST(Implicit, RefusesWhatItCannotDo) {
   const auto expect = [&](const std::string& found, const char* sentence) {
     EXPECT_NE(found.find(sentence), std::string::npos) << found;
   };
-  expect(fault("lattices.cubic",
-               {{"poisson", 0.25},
-                {"failure",
-                 {{"type", "failures.cohesive"}, {"strength", 1e6}, {"fracture_energy", 100}}}}),
-         "materials that are not cohesive");
   expect(fault("lattices.random", {{"poisson", 0.4}}, {{"sample", 8}}),
          "a list without nodal volumes");
 }

@@ -22,7 +22,7 @@ class Implicit {
   struct Options {
     double end_time = 0;
     std::optional<double> time_step;
-    double tolerance = 1e-4, residual = 1e-6, damping = 0, overshoot = 1e-2;
+    double tolerance = 1e-4, residual = 1e-6, damping = 0, overshoot = 1e-2, damage_step = 0.05;
     equilibrium::Preconditioner preconditioner = equilibrium::Preconditioner::automatic;
   };
 
@@ -36,8 +36,9 @@ class Implicit {
             "LaBudde and Greenspan, Numer. Math. 25 (1976) 323-346 and 26 (1976) 1-16; "
             "docs/theory/implicit.md")
         .restrictions(
-            "No cohesive materials or nodal volumes of lists. Springs break at the ends of steps. "
-            "Loads act by their mean over each step; those that answer to "
+            "No nodal volumes of lists. Springs break at the ends of steps. Damage of cohesive "
+            "materials follows the stress without delay. Loads act by their mean over each step; "
+            "those that answer to "
             "the motion, by their answer to the mean motion. A run that is interrupted in this "
             "stage resumes at the stage's start.")
         .add<&Options::end_time>("end_time", "s",
@@ -81,6 +82,13 @@ class Implicit {
         .positive()
         .below(1)
         .fallback("1e-2")
+        .add<&Options::damage_step>(
+            "damage_step", "",
+            "of cohesive materials: largest growth of a particle's damage in one step; a step in "
+            "which it grows more is cut, to the critical step at least")
+        .above(0)
+        .at_most(1)
+        .fallback("0.05")
         .add<&Options::preconditioner>(
             "preconditioner", "",
             "of listed lattices: a factorisation of the tangent, whole or with no more entries "
@@ -93,9 +101,6 @@ class Implicit {
   explicit Implicit(const Options& options) : o_(options) {}
 
   SolverPlan plan(const SolverFacts& facts) const {
-    if (facts.damages)
-      throw std::runtime_error(
-          "materials that are not cohesive; the damage of these grows in explicit steps");
     if (facts.nodal_volumes)
       throw std::runtime_error(
           "a list without nodal volumes, or a structured lattice; explicit steps have both");
@@ -141,27 +146,55 @@ class Implicit {
       std::copy_n(problem->state, numbers, mean.begin());
       for (std::size_t n = 0; n < steps.velocity().size(); ++n)
         mean[n] += forward * h * steps.velocity()[n];
-      const equilibrium::Outcome found = newton.solve_load_step(1, mean);
+      const bool may_cut = h > facts.critical_time_step;
+      double growth = 0;
+      const equilibrium::Outcome found =
+          search(*problem, newton, may_cut ? o_.damage_step : infinity, mean, growth);
       if (newton.stopped()) return;
+      const bool goes_too_far =
+          found.at_rest && may_cut &&
+          (growth > o_.damage_step ||
+           (facts.breaks && problem->overshoot(1, mean.data()) > o_.overshoot));
+      if (problem->damages && (!found.at_rest || goes_too_far)) problem->restore_damage();
+      if (goes_too_far) {
+        steps.cut(h, facts.critical_time_step);
+        continue;
+      }
       if (!found.at_rest) {
         if (steps.shorten(h)) continue;
         throw std::runtime_error(failure_text(host.time, h, found));
-      }
-      if (facts.breaks && h > facts.critical_time_step &&
-          problem->overshoot(1, mean.data()) > o_.overshoot) {
-        steps.cut(h, facts.critical_time_step);
-        continue;
       }
       for (std::size_t n = 0; n < numbers; ++n) {
         change[n] = (mean[n] - problem->state[n]) / forward;
         end[n] = problem->state[n] + change[n];
       }
-      if (!steps.accept(h, change, end)) continue;
+      if (!steps.accept(h, change, end)) {
+        if (problem->damages) problem->restore_damage();
+        continue;
+      }
       if (!host.accept_step(mean.data()) || !host.observe()) return;
     }
   }
 
  private:
+  /// Solves a step. The mean displacements with the damage held, and the damage at rest under the
+  /// stress at the step's end, follow each other until neither changes, or until the sum of the
+  /// changes of damage, `growth`, passes `most_growth`.
+  static equilibrium::Outcome search(const StaticProblem& problem, equilibrium::Newton& newton,
+                                     double most_growth, equilibrium::Field& mean, double& growth) {
+    constexpr int most_alternations = 200;
+    constexpr double still = 1e-4;
+    for (int n = 0; n < most_alternations; ++n) {
+      if (problem.damages) newton.forget_tangent();
+      equilibrium::Outcome found = newton.solve_load_step(1, mean);
+      if (!problem.damages || !found.at_rest || newton.stopped()) return found;
+      const double change = problem.grow_damage(mean.data(), {1, 1, 1, 1}).change;
+      growth += change;
+      if (change <= still || growth > most_growth) return found;
+    }
+    return {.why = "its damage does not come to rest"};
+  }
+
   static constexpr double first_step = 2;  // automatic, of the critical step
 
   static std::string failure_text(double time, double h, const equilibrium::Outcome& found) {

@@ -141,8 +141,8 @@ struct StaticProblem {
   double force_scale(const double* internal, const double* external) const {
     return scale_of(self, internal, external);
   }
-  /// Finds the damage at rest under the stress of the displacements, never below that of the last
-  /// accepted state. respond() has this damage from then on, and accept() keeps it. Only with
+  /// Finds the damage at rest under the stress of the displacements, or of the end of a step in time
+  /// with this mean, never below that of the last accepted state. respond() has this damage from then on, and accept() keeps it. Only with
   /// `damages`.
   DamageFound grow_damage(const double* displacement, const DamageSearch& search) const {
     return grow_damage_at(self, displacement, search);
