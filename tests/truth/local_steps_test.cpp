@@ -14,11 +14,9 @@ using namespace hyperlattice::test;
 
 struct Bar {
   double contrast = 100;
-  Stages loads;
+  Stages loads{};
   double end = 6e-5;
-  Keys solver;
-  Keys soft, stiff;
-  Keys scene;
+  Keys solver{}, soft{}, stiff{}, scene{};
 };
 
 /// A bar along x of 24 x 3 x 3 particles with a stiff layer, whose soft waves take 1 us a cell.
@@ -61,7 +59,9 @@ TEST(LocalSteps, AreOfSecondOrder) {
     std::printf("step %.2e s (%.2f critical): error %.2e, balance %.1e\n", step,
                 step / run.critical(), error, run.simulation.balance().relative_error());
     EXPECT_GT(step, 0.9 * run.critical());
-    if (before > 0) EXPECT_GT(before / error, 3);
+    if (before > 0) {
+      EXPECT_GT(before / error, 3);
+    }
     before = error;
   }
   EXPECT_LT(before, 2e-3);
