@@ -24,25 +24,28 @@ Outcome Newton::solve_load_step(double share, Field& displacement) {
   for (const bool careful : {false, true}) {
     careful_ = careful;
     found = iterate(share, displacement);
-    if (found.at_rest || found.hopeless || found.buckles || stopped_) break;
+    if (found.at_rest || stopped_) break;
+    if (!careful && problem_.grid.tears) {
+      found.at_rest = iterate_held(share, displacement);
+      if (found.at_rest || stopped_) break;
+    }
+    if (found.hopeless || found.buckles) break;
   }
-  if (!found.at_rest && !stopped_ && problem_.grid.tears)
-    found.at_rest = iterate_held(share, displacement);
   return found;
 }
 
-/// Searches with a stiffness against every motion in the tangent, K + hold, which falls while the
-/// residual does. Pieces that hang on too few springs, or that buckle aside, so come to their own
-/// rest in small steps. The forces are the true ones. Returns whether the body came to rest.
+/// Searches with a stiffness against every motion in the tangent, K + hold, which falls as far as
+/// the tangent allows. Pieces that hang on too few springs, or that buckle aside, so come to their
+/// own rest in small steps. The forces are the true ones. Returns whether the body came to rest.
 bool Newton::iterate_held(double share, Field& displacement) {
   constexpr int most_steps = 200;
   constexpr double first = 1e-2, least = 1e-6, most = 1;  // of the stiffest spring
   Field u = displacement;
   const Field none(u.size(), 0);
-  careful_ = false;
+  careful_ = true;
   problem_.load(share, external_.data());
   problem_.prescribe(share, u.data());
-  double part = first, before = infinity;
+  double part = first;
   bool at_rest = false;
   for (int n = 0; n < most_steps && !at_rest && !stopped_; ++n) {
     problem_.hold(part * system_.stiffest());
@@ -50,9 +53,9 @@ bool Newton::iterate_held(double share, Field& displacement) {
     const StepResult result = step(none, u);
     at_rest = result == StepResult::converged;
     stopped_ = result == StepResult::cancelled;
-    const bool nearer = result == StepResult::reduced_residual && report_.residual < before;
-    part = nearer ? std::max(part / 2, least) : std::min(4 * part, most);
-    if (result == StepResult::reduced_residual) before = report_.residual;
+    // Residuals may rise while pieces move far to their rest.
+    part = result == StepResult::reduced_residual ? std::max(part / 2, least)
+                                                  : std::min(4 * part, most);
   }
   problem_.hold(0);
   prepared_ = false;

@@ -3,6 +3,7 @@
 #include <state/local_steps.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 namespace hyperlattice {
@@ -20,8 +21,31 @@ struct Buffers {
 
 }  // namespace
 
+std::vector<LocalMove> local_moves(std::int64_t parts) {
+  constexpr double nu = 0.01;
+  const auto p = static_cast<double>(parts);
+  const double at = std::acosh(1 + nu / (p * p));
+  const auto chebyshev = [&](std::int64_t m) { return std::cosh(static_cast<double>(m) * at); };
+  // T_p'(cosh a) = p sinh(p a) / sinh a
+  const double c = 2 * p * std::tanh(p * at) / std::sinh(at);
+  std::vector<LocalMove> moves(static_cast<std::size_t>(parts));
+  for (std::int64_t m = 0; m < parts; ++m) {
+    LocalMove& move = moves[static_cast<std::size_t>(m)];
+    move.keeps = m == 0 ? 0 : chebyshev(m - 1) / chebyshev(m + 1);
+    move.kick = (m == 0 ? 1 : 2) * chebyshev(m) / (c * chebyshev(m + 1));
+  }
+  // A kick counts in the place at the end by what all later moves keep of it.
+  double later = 0;
+  for (std::size_t m = moves.size(); m-- > 0;) {
+    const double kept = m + 1 < moves.size() ? moves[m + 1].keeps : 0;
+    later = 1 + kept * later;
+    moves[m].weight = 2 * moves[m].kick * later;
+  }
+  return moves;
+}
+
 void LocalForces::start(double time_step, std::int64_t parts) {
-  parts_ = parts;
+  moves_.clear();
   springs_.clear();
   for (const End& end : ends_) {
     Block& block = blocks_[end.block];
@@ -29,6 +53,7 @@ void LocalForces::start(double time_step, std::int64_t parts) {
   }
   ends_.clear();
   if (parts <= 1) return;
+  moves_ = local_moves(parts);
   const LocalLimits limits(model_);
   constexpr double round_off = 1e-9;
   std::vector<std::uint8_t> stiff(model_.body.particles);
@@ -76,7 +101,7 @@ void LocalForces::find_ends(const std::vector<std::uint8_t>& stiff) {
     ends_.push_back(end);
     particles_.push_back(p);
   }
-  for (auto* fields : {&moved_, &speed_, &outer_})
+  for (auto* fields : {&moved_, &change_, &outer_})
     for (std::vector<double>& field : *fields) field.assign(ends_.size(), 0);
 }
 
@@ -185,7 +210,7 @@ void LocalForces::read_motion() {
     for (int c = 0; c < 3; ++c) {
       const auto axis = static_cast<std::size_t>(c);
       moved_[axis][n] = block.displacement[c][end.index];
-      speed_[axis][n] = 0;
+      change_[axis][n] = 0;
       outer_[axis][n] = end.mass * acceleration[c] + (support == nullptr ? 0 : support->force[c]);
     }
   }
@@ -237,9 +262,9 @@ void LocalForces::find_forces(Piece& piece, bool keeps_energy) {
   }
 }
 
-/// Adds `weight` times the forces on these ends to their means, and moves the stiff ones.
-void LocalForces::move(std::uint32_t first, std::uint32_t last, double weight, double kick,
-                       double drift) {
+/// Adds the forces on these ends to their means, and moves the stiff ones.
+void LocalForces::move(std::uint32_t first, std::uint32_t last, const LocalMove& move,
+                       double step) {
   for (std::uint32_t n = first; n < last; ++n) {
     End& end = ends_[n];
     double force[3] = {};
@@ -248,10 +273,11 @@ void LocalForces::move(std::uint32_t first, std::uint32_t last, double weight, d
     const std::uint32_t held =
         end.support == no_support ? 0 : blocks_[end.block].boundary_particles[end.support].axes;
     for (std::size_t c = 0; c < 3; ++c) {
-      end.force[c] += weight * force[c];
+      end.force[c] += move.weight * force[c];
       if (!end.stiff || (held >> c & 1U) != 0) continue;
-      speed_[c][n] += kick / end.mass * (force[c] + outer_[c][n]);
-      moved_[c][n] += drift * speed_[c][n];
+      change_[c][n] = move.keeps * change_[c][n] +
+                      step * step * move.kick / end.mass * (force[c] + outer_[c][n]);
+      moved_[c][n] += change_[c][n];
     }
   }
 }
@@ -266,18 +292,15 @@ LocalForces::Taken LocalForces::compute(double step, bool breaks) {
     end.force = {};
     end.stored = 0;
   }
-  const std::int64_t parts = step > 0 ? parts_ : 1;
-  const double h = step / static_cast<double>(parts),
-               all = static_cast<double>(parts) * static_cast<double>(parts);
   const auto count = static_cast<std::uint32_t>(ends_.size());
-  for (std::int64_t m = 0; m < parts; ++m) {
-    const bool first = m == 0;
+  const std::vector<LocalMove> at_once{{0, 0, 1}};  // the forces of the present state
+  const std::vector<LocalMove>& moves = step > 0 ? moves_ : at_once;
+  for (const LocalMove& one : moves) {
+    const bool first = &one == &moves.front();
     blocks_.team().for_each(pieces_.size(), [&](std::size_t n) { find_forces(pieces_[n], first); });
-    const double weight =
-        (first ? static_cast<double>(parts) : 2 * static_cast<double>(parts - m)) / all;
     blocks_.team().for_each((count + piece_length - 1) / piece_length, [&](std::size_t n) {
       const auto begin = static_cast<std::uint32_t>(n) * piece_length;
-      move(begin, std::min(begin + piece_length, count), weight, first ? h / 2 : h, h);
+      move(begin, std::min(begin + piece_length, count), one, step);
     });
   }
   for (const Piece& piece : pieces_)  // only sums over the whole body have a meaning

@@ -1,14 +1,14 @@
 // Stiff particles take several steps within one step of the others, so that they do not dictate the
 // step of all (docs/theory/local_steps.md):
 //
-//   From the state at the start of a step H, at rest, the stiff particles move by p steps h = H / p
-//   under the springs that they touch and under their loads; the ends of these springs at other
-//   particles are held. The springs act in the whole step by the mean of their forces f(m) over
-//   these steps, with the weights (2 / p^2) (p / 2, p - 1, p - 2, ..., 1).
+//   From the state at the start of a step H, at rest, the stiff particles make p moves under the
+//   springs that they touch and under their loads; the ends of these springs at other particles are
+//   held. The springs act in the whole step by a weighted mean of their forces over the moves.
 //
 // For linear springs this is the scheme of Diaz and Grote, SIAM J. Sci. Comput. 31 (2009)
-// 1985-2014, of second order, which conserves an energy. The forces on both ends of a spring are
-// opposite, so that momentum stays.
+// 1985-2014, of second order, which conserves an energy, with the weights of Grote, Michel and
+// Sauter, Math. Comp. 90 (2021) 2603-2643, which keep it stable. The forces on both ends of a
+// spring are opposite, so that momentum stays.
 #pragma once
 
 #include <state/acting_loads.hpp>
@@ -20,6 +20,19 @@
 #include <vector>
 
 namespace hyperlattice {
+
+/// One of the moves within a step H. The change of place since the last move is
+///   s := keeps s + H^2 kick F / m.
+struct LocalMove {
+  double keeps = 0, kick = 0;
+  double weight = 0;  ///< of the forces at its start in the mean
+};
+/// Returns the moves of a division into `parts`: with Chebyshev's polynomials T, x = 1 + nu / p^2
+/// and c = 2 T_p'(x) / T_p(x),
+///   keeps(m) = T_(m-1)(x) / T_(m+1)(x),   kick(m) = 2 T_m(x) / (c T_(m+1)(x)),
+/// and half that kick in the first move. With nu = 0 they are p equal steps of leapfrog; nu = 0.01
+/// keeps all motions of stiff particles away from resonance with the step.
+std::vector<LocalMove> local_moves(std::int64_t parts);
 
 class LocalForces {
  public:
@@ -101,13 +114,13 @@ class LocalForces {
   void find_forces(Piece& piece, bool keeps_energy);
   void give_back();
   void read_motion();
-  void move(std::uint32_t first, std::uint32_t last, double weight, double kick, double drift);
+  void move(std::uint32_t first, std::uint32_t last, const LocalMove& move, double step);
 
   BlockSet& blocks_;
   const Model& model_;
   const ActingLoads& loads_;
   const SpringReview& review_;
-  std::int64_t parts_ = 1;
+  std::vector<LocalMove> moves_;
   std::vector<End> ends_;               // in the order of their particles
   std::vector<Particle> particles_;     // of the ends
   std::vector<Spring> springs_;         // by neighbour, constants and first end
@@ -117,8 +130,8 @@ class LocalForces {
   std::vector<Pull> pulls_;
   /// [block][row]: its range in ends_.
   std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> rows_;
-  std::array<std::vector<double>, 3> moved_, speed_, outer_;  // of each end: m, m/s, N
-  std::array<std::vector<double>, 3> force_;                  // of each spring on its first end, N
+  std::array<std::vector<double>, 3> moved_, change_, outer_;  // of each end: m, m, N
+  std::array<std::vector<double>, 3> force_;                   // of each spring on its first end, N
 };
 
 }  // namespace hyperlattice

@@ -52,7 +52,7 @@ TEST(LocalSteps, AreOfSecondOrder) {
   truth.go();
   const std::vector<double> u = displacements(truth.simulation);
   double before = 0;
-  for (const double step : {3e-7, 1.5e-7, 0.75e-7}) {
+  for (const double step : {6e-7, 3e-7, 1.5e-7}) {
     Motion run(text_of({.loads = push(), .solver = parts(10) + Keys{{"time_step", step}}}));
     run.go();
     const double error = distance(displacements(run.simulation), u) / largest(u);
@@ -80,26 +80,27 @@ TEST_P(Contrast, StaysStableAndKeepsMomentum) {
   const std::size_t particles = run.model().body.particles;
   simulation.set_velocities(noise(3 * particles, 1e-3, 3), {});
   const Vec3 momentum = simulation.balance().momentum;
-  double first = 0, most = 0;
+  double first = 0, second = 0;  // largest energies in both halves of the run
   run.go([&] {
     const EnergyBalance now = simulation.balance();
-    if (simulation.steps() == 100) first = now.kinetic + now.stored;
-    if (simulation.steps() > 100) most = std::max(most, now.kinetic + now.stored);
+    double& largest = simulation.time() < 0.5 * stage.plan.end_time ? first : second;
+    largest = std::max(largest, now.kinetic + now.stored);
   });
   const EnergyBalance end = simulation.balance();
-  std::printf("contrast %.0e: %llu steps of %.1f critical, energy at most %.3f of that at 100\n",
-              GetParam(), static_cast<unsigned long long>(simulation.steps()),
-              stage.plan.time_step / run.critical(), most / first);
+  std::printf(
+      "contrast %.0e: %llu steps of %.1f critical, energy of the second half %.3f of the first\n",
+      GetParam(), static_cast<unsigned long long>(simulation.steps()),
+      stage.plan.time_step / run.critical(), second / first);
   EXPECT_GT(first, 0);
-  EXPECT_LT(most, 3 * first);
+  EXPECT_LT(second, 1.3 * first);
   EXPECT_LT(norm(end.momentum - momentum), 1e-9 * std::sqrt(end.kinetic_mean));
 }
 
 TEST(LocalSteps, LoadsAndSupportsOfStiffParticlesAct) {
   // A weight and a support on the stiff layer: the body comes to the same places.
-  const Stages loads = stage("loads.fixed", {{"on", box({11.9e-3, -1, -1}, {12.1e-3, 1, 1})}}) +
+  const Stages loads = stage("loads.fixed", {{"on", box({11.4e-3, -1, -1}, {11.6e-3, 1, 1})}}) +
                        stage("loads.gravity", {{"acceleration", {1000, 200, 0}}}) +
-                       stage("loads.force", {{"on", box({9.9e-3, -1, -1}, {10.1e-3, 1, 1})},
+                       stage("loads.force", {{"on", box({10.4e-3, -1, -1}, {10.6e-3, 1, 1})},
                                              {"total", {-3, 0, 0}},
                                              {"rise", 2e-5}});
   Motion truth(text_of({.contrast = 1e4, .loads = loads}));
@@ -117,7 +118,7 @@ TEST(LocalSteps, LoadsAndSupportsOfStiffParticlesAct) {
 }
 
 TEST(LocalSteps, TheSameSpringsBreakBesideTheStiffLayer) {
-  const Keys brittle = {{"failure", {{"type", "failures.strain"}, {"limit", 2e-3}}}};
+  const Keys brittle = {{"failure", {{"type", "failures.strain"}, {"limit", 1e-3}}}};
   const auto broken = [&](const Keys& solver) {
     Motion run(text_of({.loads = push() + stage("loads.fixed", {{"on", "x_max"}}),
                         .solver = solver,

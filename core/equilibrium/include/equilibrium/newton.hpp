@@ -35,8 +35,8 @@ class Newton {
   Newton(System& system, const SolverHost& host, const Limits& limits);
 
   /// Changes the displacements from those of a state of rest to those at the fraction `share` of
-  /// the load. The first search takes full Newton steps; a second one, with a line search, follows
-  /// if the first fails; in a body that tears a third one, in which all particles are held softly.
+  /// the load. The first search takes full Newton steps. If it fails, others follow: in a body that
+  /// tears one in which all particles are held softly, then one with a line search.
   Outcome solve_load_step(double share, Field& displacement);
   double tolerance() const { return limits_.tolerance; }
   void set_tolerance(double tolerance) { limits_.tolerance = tolerance; }
