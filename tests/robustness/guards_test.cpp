@@ -1,0 +1,68 @@
+// Runs that go wrong stop with exit code 3 and say where, when, and the likely cause.
+#include "support/program.hpp"
+
+#include <gtest/gtest.h>
+
+namespace guards_test {
+using namespace hyperlattice::test;
+using nlohmann::json;
+
+/// A block of 6 x 4 x 4 particles of 1 GPa, in which waves take about 1 us from particle to
+/// particle.
+json block(const json& more, const json& solver) {
+  json scene = json::parse(R"({ "format": "hyperlattice/1", "pipeline": [
+      { "type": "lattices.cubic", "spacing": "1 mm", "shape": { "box": { "low": [0, 0, 0], "high": ["6 mm", "4 mm", "4 mm"] } } },
+      { "type": "materials.elastic", "young": "1 GPa", "poisson": 0.25, "density": 1000 } ] })");
+  for (const json& stage : more) scene["pipeline"].push_back(stage);
+  json last{{"type", "solvers.explicit"}};
+  last.update(solver);
+  scene["pipeline"].push_back(last);
+  return scene;
+}
+
+class Guards : public testing::Test {
+ protected:
+  /// Runs a scene that must fail. Returns the reason.
+  std::string reason(const json& scene) {
+    const Result result =
+        run_program({"run", write_scene(folder, scene), "--out", out, "--overwrite"});
+    EXPECT_EQ(result.exit_code, 3) << result.err;
+    const json summary = read_json(out + "/summary.json");
+    EXPECT_EQ(summary.at("status"), "failed");
+    EXPECT_TRUE(summary.contains("state_hash"));
+    return summary.at("reason");
+  }
+  Folder folder{"guards"};
+  std::string out = folder.file("out");
+};
+
+TEST_F(Guards, StopBeforeParticlesPassThroughEachOther) {
+  // The left half meets the right half at twice the speed of sound.
+  const json start{{"type", "loads.start_velocity"},
+                   {"on", {{"box", {{"low", {-1, -1, -1}}, {"high", {"3 mm", 1, 1}}}}}},
+                   {"value", {3000, 0, 0}}};
+  const json solver{{"end_time", "20 us"}, {"energy_tolerance", 0}, {"record_every", "0.1 us"}};
+  const std::string text = reason(block({start}, solver));
+  EXPECT_NE(text.find("come nearer by"), std::string::npos) << text;
+  EXPECT_NE(text.find("approach_limit is 0.5"), std::string::npos) << text;
+  EXPECT_NE(text.find("Likely cause: particles pass through each other"), std::string::npos)
+      << text;
+}
+
+TEST_F(Guards, NameSpringsThatAreStretched) {
+  // A block drawn to several times its length by a force that its law cannot resist.
+  const json held{{"type", "loads.fixed"}, {"on", "x_min"}};
+  const json force{{"type", "loads.force"}, {"on", "x_max"}, {"total", {2e5, 0, 0}}};
+  const std::string text = reason(block({held, force}, {{"end_time", "1 ms"}, {"safety", 0.99}}));
+  EXPECT_NE(text.find("Likely cause: springs"), std::string::npos) << text;
+}
+
+TEST_F(Guards, AreSilentWhereNothingIsWrong) {
+  const json force{{"type", "loads.force"}, {"on", "x_max"}, {"total", {1, 0, 0}}};
+  const Result result = run_program(
+      {"run", write_scene(folder, block({force}, {{"end_time", "50 us"}})), "--out", out});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err.find("Likely"), std::string::npos) << result.err;
+}
+
+}  // namespace guards_test
