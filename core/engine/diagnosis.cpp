@@ -43,7 +43,7 @@ void add(StiffnessBound& bound, Vec3 vector, double tangent, double pull) {
 
 /// What the springs that start at a particle say.
 struct FromParticle {
-  SpringState::Extreme longest{1}, shortest{1}, closing;
+  SpringExtremes::Extreme longest{1}, shortest{1}, closing;
 };
 
 std::string place_of(const Model& model, Particle particle) {
@@ -53,8 +53,8 @@ std::string place_of(const Model& model, Particle particle) {
 
 }  // namespace
 
-SpringState spring_state(const Model& model, const Simulation& simulation, double time_step) {
-  SpringState state;
+SpringExtremes spring_extremes(const Model& model, const Simulation& simulation, double time_step) {
+  SpringExtremes state;
   const PresentSprings springs(model, simulation);
   std::vector<double> velocity;
   simulation.velocities(velocity);
@@ -71,7 +71,7 @@ SpringState spring_state(const Model& model, const Simulation& simulation, doubl
     const Vec3 vector = spring.rest + spring.apart;
     const double length = norm(vector), rest_length = norm(spring.rest);
     FromParticle& first = from[spring.a];
-    const auto take = [&](SpringState::Extreme& extreme, double value, bool larger) {
+    const auto take = [&](SpringExtremes::Extreme& extreme, double value, bool larger) {
       if (larger) extreme = {value, spring.a, spring.b};
     };
     take(first.longest, length / rest_length, length / rest_length > first.longest.value);
@@ -104,10 +104,10 @@ SpringState spring_state(const Model& model, const Simulation& simulation, doubl
   return state;
 }
 
-std::string likely_cause(const Model& model, const SpringState& state, double time_step) {
+std::string likely_cause(const Model& model, const SpringExtremes& state, double time_step) {
   constexpr double crosses = 0.5, far = 1.5, folded = 0.5;
   const double critical = model.step_limit.time_step, present = state.critical * critical;
-  const auto ends = [&](const SpringState::Extreme& extreme) {
+  const auto ends = [&](const SpringExtremes::Extreme& extreme) {
     return fmt::format("at {} and {}", place_of(model, extreme.a), place_of(model, extreme.b));
   };
   if (state.closing.value > crosses)

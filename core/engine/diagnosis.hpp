@@ -9,7 +9,7 @@
 namespace hyperlattice {
 
 /// What springs say about the present state.
-struct SpringState {
+struct SpringExtremes {
   /// A spring that is an extreme, by its value.
   struct Extreme {
     double value = 0;
@@ -25,10 +25,10 @@ struct SpringState {
 };
 
 /// Reads all springs. `time_step`: of the last step, s.
-SpringState spring_state(const Model& model, const Simulation& simulation, double time_step);
+SpringExtremes spring_extremes(const Model& model, const Simulation& simulation, double time_step);
 
 /// Returns one or two sentences: the likeliest cause, and what to change; empty if the springs show
 /// nothing unusual.
-std::string likely_cause(const Model& model, const SpringState& state, double time_step);
+std::string likely_cause(const Model& model, const SpringExtremes& state, double time_step);
 
 }  // namespace hyperlattice

@@ -37,7 +37,7 @@ void Guard::check_approach(double time_step) const {
   simulation_.fastest(speed, finite);
   // Particles slower than this cannot pass through each other: the springs need not be read.
   if (!(limit > 0) || 2 * speed * time_step < limit * shortest_) return;
-  const SpringState state = spring_state(model_, simulation_, time_step);
+  const SpringExtremes state = spring_extremes(model_, simulation_, time_step);
   if (state.closing.value > limit)
     fail(fmt::format("two particles come nearer by {:.3g} of their distance in one step, and "
                      "approach_limit is {:.3g}",
@@ -72,7 +72,8 @@ void Guard::fail(const std::string& what, double time_step) const {
                        criterion.stage->component->type());
   if (material.surface) law += fmt::format(", {}", material.surface->stage->component->type());
   std::string cause;
-  if (finite) cause = likely_cause(model_, spring_state(model_, simulation_, time_step), time_step);
+  if (finite)
+    cause = likely_cause(model_, spring_extremes(model_, simulation_, time_step), time_step);
   if (!cause.empty()) cause = " " + cause;
   throw RunError(fmt::format(
       "step {}, t = {:.6g} s: {}. {} particle {} at ({:.4g}, {:.4g}, {:.4g}) m{}, law {}. "
