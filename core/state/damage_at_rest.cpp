@@ -100,8 +100,9 @@ SettledDamage DamageField::settle(const DamageBounds& bounds) {
   return found;
 }
 
-void DamageField::accept_search(double time) {
+void DamageField::accept_search(double time, double forward) {
   if (settled_.empty()) return;
+  forward_ = forward;
   for (const std::uint32_t number : records_.order()) {
     records_[number].rests_until = 0;
     records_[number].rate = 0;

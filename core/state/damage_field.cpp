@@ -62,6 +62,7 @@ void DamageField::evaluate() {
     blocks_[record.block].fracture_work[record.row] += record.dissipated;
     record.dissipated = 0;
   }
+  forward_ = 0;
 }
 
 /// Computes a record's springs in their order.
@@ -72,7 +73,9 @@ void DamageField::evaluate() {
 ///   stored energy:   1/2 k (f_{n+1} u_{n+1}^2 - f_n u_n^2),
 /// whose sum is -1/2 (f_n - f_{n+1}) k u_n u_{n+1}. So the spring dissipates
 ///   D = 1/2 (f_n - f_{n+1}) k u_n u_{n+1}
-/// in the step, and the balance is as exact as that of springs that do not change.
+/// in the step, and the balance is as exact as that of springs that do not change. In an implicit
+/// step the force is that of the new factor f_(n+1) at the mean elongation u = u_n + g (u_(n+1) -
+/// u_n), and the spring dissipates its work less the change of the stored energy.
 void DamageField::gather(std::uint32_t number, Part part) {
   DamageRecord& record = records_[number];
   const bool whole = part == Part::all;
@@ -117,8 +120,9 @@ void DamageField::gather(std::uint32_t number, Part part) {
         record.force[3] += cross == 0 ? pull * (there.height - here.height)
                                       : -pull * (delta + (there.height + here.height));
         record.stored += 0.25 * spring.stiffness[cross] * f * u * u;
-        record.dissipated += 0.25 * (spring.factor[cross] - f) * spring.stiffness[cross] *
-                             spring.elongation[cross] * u;
+        record.dissipated += 0.5 * spring.stiffness[cross] *
+                             lost({spring.factor[cross], spring.elongation[cross]}, {f, u},
+                                  [&](double at) { return cross == 1 || at > 0 ? factor : 1; });
       }
       spring.elongation[cross] = u;
       spring.factor[cross] = f;
@@ -130,7 +134,9 @@ void DamageField::gather(std::uint32_t number, Part part) {
     const double f = alpha_factor(own);
     record.force[3] += 2 * (1 - f) * record.alpha * here.height;
     record.stored -= (1 - f) * record.alpha * here.height * here.height;
-    record.dissipated += (record.alpha_factor - f) * record.alpha * record.height * here.height;
+    record.dissipated +=
+        2 * record.alpha *
+        lost({record.alpha_factor, record.height}, {f, here.height}, [&](double) { return f; });
     record.height = here.height;
     record.alpha_factor = f;
   }

@@ -62,8 +62,10 @@ class DamageField {
     searches_ = 0;
   }
   /// Notes the elongations of springs before the displacements change, and lets damage become that
-  /// of the last search, at `time`, s. finish() must follow.
-  void accept_search(double time);
+  /// of the last search, at `time`, s. `forward`: the part of an implicit step at which its forces
+  /// lie; 0 between states of rest. finish() must follow, and evaluate() before the next search is
+  /// accepted.
+  void accept_search(double time, double forward = 0);
 
   /// Computes the forces and energies of the present state, and what the last step dissipated.
   void evaluate();
@@ -107,6 +109,21 @@ class DamageField {
   Motion motion_of(const Block& block, std::uint64_t index) const;
   double elongation(const DamageSpring& spring, std::size_t cross, const Motion& here,
                     const Motion& there) const;
+  /// What remains of a spring or cell, and its elongation.
+  struct Softened {
+    double factor = 1, elongation = 0;
+  };
+  /// Returns the energy, J, that a spring of the stiffness 1 dissipates from one state to the next.
+  /// `factor_at`: of the new state, for any elongation.
+  template <class FactorAt>
+  double lost(Softened before, Softened now, const FactorAt& factor_at) const {
+    if (forward_ == 0)
+      return 0.5 * (before.factor - now.factor) * before.elongation * now.elongation;
+    const double way = now.elongation - before.elongation,
+                 mean = before.elongation + forward_ * way;
+    const auto stored = [](Softened at) { return 0.5 * at.factor * at.elongation * at.elongation; };
+    return factor_at(mean) * mean * way - (stored(now) - stored(before));
+  }
   /// What gather() computes: all, or the stress alone, which leaves the energies as they are.
   enum class Part { all, stress };
   void gather(std::uint32_t number, Part part = Part::all);
@@ -154,6 +171,7 @@ class DamageField {
   std::vector<std::uint32_t> ended_;  // records whose omega became 0 in this step
   std::vector<double> settled_;       // damage of each record after the last search; empty: none
   int searches_ = 0;                  // since the last accepted state of rest
+  double forward_ = 0;                // of an implicit step whose dissipation is not counted yet
 };
 
 }  // namespace hyperlattice

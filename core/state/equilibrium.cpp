@@ -69,9 +69,12 @@ void Simulation::apply_equilibrium(const EquilibriumUpdate& to) {
   }
   state_->energy.count_halted(to.dissipated);
   state_->law_memory.advance(to);
-  if (!state_->damage.empty()) state_->damage.accept_search(to.time);
+  if (!state_->damage.empty()) state_->damage.accept_search(to.time, to.time_step > 0 ? to.forward : 0);
   set_motion(to);
-  if (!state_->damage.empty()) state_->damage.finish();
+  if (!state_->damage.empty()) {
+    state_->damage.finish();
+    state_->damage.evaluate();
+  }
   if (to.time_step == 0) state_->loads.rest(to.factor, to.gravity);
   state_->clock.jump(to.time, to.time_step);
   if (model.springs.criteria) state_->whole_review.remove_broken();

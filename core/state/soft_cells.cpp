@@ -57,21 +57,23 @@ void DamageField::gather_cell(DamageCell& cell, Part part) const {
   if (whole) cell.force = {}, cell.stored = cell.dissipated = 0;
   cell.tension = 0;
   if (!cell.present) return;
-  const bool lost = (cell.bits() & (cell_bit | soft_cell_bit)) == 0;
-  if (lost && !whole) return;
+  const bool lost_for_good = (cell.bits() & (cell_bit | soft_cell_bit)) == 0;
+  if (lost_for_good && !whole) return;
   const CellResponse undamaged = response(cell);
-  if (!lost) cell.tension = (1 + undamaged.volume_growth) * undamaged.pressure;
+  if (!lost_for_good) cell.tension = (1 + undamaged.volume_growth) * undamaged.pressure;
   if (!whole) return;
   const double stiffness = stiffness_of(cell), extension = extension_of(undamaged, stiffness);
-  double f = lost ? 0 : 1;
-  if (!lost && undamaged.volume_growth > 0) f = factor(cell);
+  double f = lost_for_good ? 0 : 1;
+  if (!lost_for_good && undamaged.volume_growth > 0) f = factor(cell);
   if (cell.handed_over) {
-    if (!lost) {
+    if (!lost_for_good) {
       const CellResponse own = soften(undamaged, f);
       cell.force = own.force;
       cell.stored = own.energy;
     }
-    cell.dissipated = 0.5 * (cell.factor - f) * stiffness * cell.extension * extension;
+    const double stretched = lost_for_good ? 0 : factor(cell);
+    cell.dissipated = stiffness * lost({cell.factor, cell.extension}, {f, extension},
+                                       [&](double at) { return at > 0 ? stretched : 1; });
   }
   cell.extension = extension;
   cell.factor = f;

@@ -42,7 +42,7 @@ TEST_F(Guards, StopBeforeParticlesPassThroughEachOther) {
                    {"on", {{"box", {{"low", {-1, -1, -1}}, {"high", {"3 mm", 1, 1}}}}}},
                    {"value", {3000, 0, 0}}};
   const json solver{{"end_time", "20 us"}, {"energy_tolerance", 0}, {"record_every", "0.1 us"}};
-  const std::string text = reason(block({start}, solver));
+  const std::string text = reason(block(json::array({start}), solver));
   EXPECT_NE(text.find("come nearer by"), std::string::npos) << text;
   EXPECT_NE(text.find("approach_limit is 0.5"), std::string::npos) << text;
   EXPECT_NE(text.find("Likely cause: particles pass through each other"), std::string::npos)
@@ -53,14 +53,16 @@ TEST_F(Guards, NameSpringsThatAreStretched) {
   // A block drawn to several times its length by a force that its law cannot resist.
   const json held{{"type", "loads.fixed"}, {"on", "x_min"}};
   const json force{{"type", "loads.force"}, {"on", "x_max"}, {"total", {2e5, 0, 0}}};
-  const std::string text = reason(block({held, force}, {{"end_time", "1 ms"}, {"safety", 0.99}}));
+  const std::string text =
+      reason(block(json::array({held, force}), {{"end_time", "1 ms"}, {"safety", 0.99}}));
   EXPECT_NE(text.find("Likely cause: springs"), std::string::npos) << text;
 }
 
 TEST_F(Guards, AreSilentWhereNothingIsWrong) {
   const json force{{"type", "loads.force"}, {"on", "x_max"}, {"total", {1, 0, 0}}};
-  const Result result = run_program(
-      {"run", write_scene(folder, block({force}, {{"end_time", "50 us"}})), "--out", out});
+  const Result result =
+      run_program({"run", write_scene(folder, block(json::array({force}), {{"end_time", "50 us"}})),
+                   "--out", out});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.err.find("Likely"), std::string::npos) << result.err;
 }

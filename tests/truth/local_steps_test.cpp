@@ -118,7 +118,7 @@ TEST(LocalSteps, LoadsAndSupportsOfStiffParticlesAct) {
 }
 
 TEST(LocalSteps, TheSameSpringsBreakBesideTheStiffLayer) {
-  const Keys brittle = {{"failure", {{"type", "failures.strain"}, {"limit", 1e-3}}}};
+  const Keys brittle = {{"failure", {{"type", "failures.strain"}, {"limit", 1.5e-4}}}};
   const auto broken = [&](const Keys& solver) {
     Motion run(text_of({.loads = push() + stage("loads.fixed", {{"on", "x_max"}}),
                         .solver = solver,
