@@ -119,10 +119,13 @@ class DamageField {
   double lost(Softened before, Softened now, const FactorAt& factor_at) const {
     if (forward_ == 0)
       return 0.5 * (before.factor - now.factor) * before.elongation * now.elongation;
-    const double way = now.elongation - before.elongation,
-                 mean = before.elongation + forward_ * way;
-    const auto stored = [](Softened at) { return 0.5 * at.factor * at.elongation * at.elongation; };
-    return factor_at(mean) * mean * way - (stored(now) - stored(before));
+    // The force of statics/soft_springs.cpp: energies at the start count by the new factor.
+    const auto stored = [](double factor, double u) { return 0.5 * factor * u * u; };
+    const double late = 2 * forward_ - 1, u = now.elongation, start = before.elongation,
+                 now_stored = stored(now.factor, u),
+                 mean_work = now_stored - stored(factor_at(start), start),
+                 work = (1 - late) * mean_work + late * now.factor * u * (u - start);
+    return work - (now_stored - stored(before.factor, start));
   }
   /// What gather() computes: all, or the stress alone, which leaves the energies as they are.
   enum class Part { all, stress };

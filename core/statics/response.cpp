@@ -166,18 +166,19 @@ double Statics::linearise(const AlikeSprings& alike, RowBuffers& buffer) const {
 double Statics::linearise_composite(const CompositeSpring& composite, const AlikeSprings& alike,
                                     RowBuffers& buffer) const {
   const std::size_t kinds = model_.springs.choice.membrane == KernelChoice::Membrane::none ? 1 : 2;
-  return linearise_one(buffer, kinds, [&](std::size_t cross, double rest_length, double u) {
-    const CompositeSpring::Spring spring{cross, alike.stiffness / alike.constants.stiffness,
-                                         rest_length, u};
-    std::array<double, max_spring_memory> kept{};
-    const Layout::Memory& memory = alike.memory[cross];
-    for (std::uint32_t n = 0; n < model_.springs.memory; ++n)
-      kept[n] = memory.first[n * memory.stride];
-    const double time_step = buffer.springs.time_step,
-                 tangent = composite.tangent(spring, time_step, kept.data());
-    const CompositeAnswer answer = composite.take(spring, time_step, kept.data());
-    return LinearisedSpring{answer.force, tangent, answer.stored};
-  });
+  return linearise_one(
+      buffer, kinds, [&](std::size_t cross, double rest_length, const StepElongations& at) {
+        const CompositeSpring::Spring spring{cross, alike.stiffness / alike.constants.stiffness,
+                                             rest_length, at.mean};
+        std::array<double, max_spring_memory> kept{};
+        const Layout::Memory& memory = alike.memory[cross];
+        for (std::uint32_t n = 0; n < model_.springs.memory; ++n)
+          kept[n] = memory.first[n * memory.stride];
+        const double time_step = buffer.springs.time_step,
+                     tangent = composite.tangent(spring, time_step, kept.data());
+        const CompositeAnswer answer = composite.take(spring, time_step, kept.data());
+        return LinearisedSpring{answer.force, tangent, answer.stored};
+      });
 }
 
 /// Adds the forces of the alpha springs, of length Delta + 2 h, on the heights; returns their

@@ -14,6 +14,29 @@ namespace {
 /// remains have a solution. Forces do not have it, so that states of rest do not depend on it.
 constexpr double least_tangent = 1e-6;
 
+/// What remains of the stiffness of a spring that is stretched, and of one that is compressed.
+struct SoftParts {
+  double stretched = 1, compressed = 1;
+  double at(double elongation) const { return elongation > 0 ? stretched : compressed; }
+};
+
+/// Returns the answer of a soft spring. In a step in time its force is the change of its energy
+/// over the change of its elongation, so that a crack that closes within the step gains no energy;
+/// with numerical damping it moves on towards the force at the end.
+LinearisedSpring soft_answer(double stiffness, const SoftParts& parts, const StepElongations& at,
+                             double forward) {
+  const auto force = [&](double e) { return stiffness * parts.at(e) * e; };
+  const auto energy = [&](double e) { return 0.5 * e * force(e); };
+  const double way = at.end - at.start;
+  if (way == 0 || parts.at(at.start) == parts.at(at.end))
+    return {force(at.mean), stiffness * parts.at(at.end), energy(at.mean)};
+  const double late = 2 * forward - 1, mean = (energy(at.end) - energy(at.start)) / way;
+  return {
+      (1 - late) * mean + late * force(at.end),
+      ((1 - late) * (force(at.end) - mean) / way + late * stiffness * parts.at(at.end)) / forward,
+      energy(at.mean)};
+}
+
 }  // namespace
 
 void Statics::take_soft(const std::vector<SoftSpring>& springs,
@@ -67,13 +90,15 @@ double Statics::respond_soft(const double* u, double* force, const SpringTangent
       row.there_before[c] = row.here_before[c] + soft.step;
     }
     time_row(row);
-    energy += linearise_one(buffer, kinds, [&](std::size_t cross, double, double elongation) {
-      const bool degrades = cross == 1 || elongation > 0;
-      const double whole = soft.of.stiffness_of(cross),
-                   stiffness = degrades ? soft.factor * whole : whole;
-      return LinearisedSpring{stiffness * elongation, std::max(stiffness, least_tangent * whole),
-                              0.5 * stiffness * elongation * elongation};
-    });
+    energy +=
+        linearise_one(buffer, kinds, [&](std::size_t cross, double, const StepElongations& at) {
+          const double whole = soft.of.stiffness_of(cross);
+          LinearisedSpring found = soft_answer(
+              whole, cross == 1 ? SoftParts{soft.factor, soft.factor} : SoftParts{soft.factor, 1},
+              at, row.forward);
+          found.tangent = std::max(found.tangent, least_tangent * whole);
+          return found;
+        });
     add_forces(buffer, grid, grid.places, soft.step, force + soft.place);
     // A compressed spring drives its ends aside. Particles of which next to nothing remains, and
     // which compressed springs hold within their layer, would buckle out of it: motions of dust

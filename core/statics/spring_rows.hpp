@@ -125,8 +125,14 @@ inline SpringMotion motion_of_one(const double* const* here, const double* const
       {apart(0), apart(1), apart(2)}, has_heights ? here[3][0] : 0, has_heights ? there[3][0] : 0};
 }
 
+/// Elongations of a spring, m: at the start and the end of a step in time, and between them where
+/// the forces of the step lie. All are the same at rest.
+struct StepElongations {
+  double start = 0, mean = 0, end = 0;
+};
+
 /// Linearises the one spring of a row and, with `kinds` = 2, its cross spring, whose answers are
-/// answer(cross, rest length, elongation). Returns their energy, J.
+/// answer(cross, rest length, elongations). Returns their energy, J.
 template <class Answer>
 double linearise_one(RowBuffers& buffer, std::size_t kinds, const Answer& answer) {
   const SpringRow& row = buffer.springs;
@@ -140,17 +146,20 @@ double linearise_one(RowBuffers& buffer, std::size_t kinds, const Answer& answer
                             rise * (cross == 0 ? rise : 2 * row.membrane_distance + rise);
       return growth / (std::sqrt(rest_length * rest_length + growth) + rest_length);
     };
-    double elongation = elongation_at(mean);
+    StepElongations at;
+    at.start = at.mean = at.end = elongation_at(mean);
     if (row.here_before[0] != nullptr) {  // as in kernels/tangent.hpp
       const SpringMotion before = motion_of_one(row.here_before, row.there_before);
       const auto after = [&](double from, double to) { return from + (to - from) / row.forward; };
       SpringMotion end{
           {}, after(before.height_a, mean.height_a), after(before.height_b, mean.height_b)};
       for (int c = 0; c < 3; ++c) end.apart[c] = after(before.apart[c], mean.apart[c]);
-      elongation = (1 - row.forward) * elongation_at(before) + row.forward * elongation_at(end);
+      at.start = elongation_at(before);
+      at.end = elongation_at(end);
+      at.mean = (1 - row.forward) * at.start + row.forward * at.end;
     }
-    const double length = rest_length + elongation;
-    const LinearisedSpring found = answer(cross, rest_length, elongation);
+    const double length = rest_length + at.mean;
+    const LinearisedSpring found = answer(cross, rest_length, at);
     const double pull = found.force / length;
     (cross == 0 ? row.pull : row.cross_pull)[0] = row.weight[0] * pull;
     (cross == 0 ? row.axial : row.cross_axial)[0] =

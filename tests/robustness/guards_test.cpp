@@ -40,7 +40,7 @@ TEST_F(Guards, StopBeforeParticlesPassThroughEachOther) {
   // The left half meets the right half at twice the speed of sound.
   const json start{{"type", "loads.start_velocity"},
                    {"on", {{"box", {{"low", {-1, -1, -1}}, {"high", {"3 mm", 1, 1}}}}}},
-                   {"value", {3000, 0, 0}}};
+                   {"linear", {3000, 0, 0}}};
   const json solver{{"end_time", "20 us"}, {"energy_tolerance", 0}, {"record_every", "0.1 us"}};
   const std::string text = reason(block(json::array({start}), solver));
   EXPECT_NE(text.find("come nearer by"), std::string::npos) << text;
