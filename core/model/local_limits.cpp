@@ -13,7 +13,8 @@ std::string objection_to_local_steps(const Model& model) {
   if (model.degrees_of_freedom == 4) return "the membrane \"none\" or one that holds its heights";
   if (!model.cohesive.empty()) return "materials that are not cohesive";
   if (model.springs.memory > 0) return "laws without a memory";
-  if (!model.springs.composites.empty()) return "materials of one law";
+  if (model.springs.laws.size() > 1 || !model.springs.composites.empty())
+    return "materials of one law";
   return {};
 }
 

@@ -14,8 +14,7 @@ constexpr std::uint32_t piece_length = 256;  // springs, or ends
 
 /// Buffers for the springs of a piece.
 struct Buffers {
-  double here[3][piece_length], there[3][piece_length], stiffness[piece_length],
-      cross_stiffness[piece_length], weight[piece_length], pull[piece_length], axial[piece_length],
+  double here[3][piece_length], there[3][piece_length], pull[piece_length], axial[piece_length],
       cross_pull[piece_length], cross_axial[piece_length];
 };
 
@@ -151,8 +150,24 @@ void LocalForces::find_pieces() {
                          springs_[n].neighbour == springs_[pieces_.back().begin].neighbour &&
                          springs_[n].constants == springs_[pieces_.back().begin].constants &&
                          n - pieces_.back().begin < piece_length;
-    if (!goes_on) pieces_.push_back({n, n, 0});
+    if (!goes_on) {
+      pieces_.emplace_back();
+      pieces_.back().begin = n;
+    }
     pieces_.back().end = n + 1;
+    springs_[n].piece = static_cast<std::uint32_t>(pieces_.size() - 1);
+  }
+  for (Piece& piece : pieces_) {
+    const std::uint32_t count = piece.end - piece.begin,
+                        padded = (count + lanes - 1) / lanes * lanes;
+    for (std::uint32_t t = 0; t < padded; ++t) {
+      const Spring& spring = springs_[piece.begin + std::min(t, count - 1)];
+      piece.a.push_back(spring.a);
+      piece.b.push_back(spring.b);
+      piece.weight.push_back(t < count ? spring.share : 0);
+      piece.stiffness.push_back(spring.constants->stiffness);
+      piece.cross_stiffness.push_back(spring.constants->cross_stiffness);
+    }
   }
   first_pull_.assign(ends_.size() + 1, 0);
   for (const Spring& spring : springs_)
@@ -177,7 +192,7 @@ void LocalForces::take_springs() {
 void LocalForces::give_back() {
   blocks_.team().for_each(blocks_.size(), [&](std::size_t b) {
     for (const Bit& bit : bits_[b])
-      if (springs_[bit.spring].weight > 0)
+      if (springs_[bit.spring].share > 0)
         blocks_[b].alive[bit.index] =
             static_cast<std::uint16_t>(blocks_[b].alive[bit.index] | bit.bit);
   });
@@ -187,15 +202,19 @@ void LocalForces::give_back() {
 void LocalForces::review() {
   blocks_.team().for_each(blocks_.size(), [&](std::size_t b) {
     for (Spring& spring : springs_) {
-      if (spring.block != b || !(spring.weight > 0) || !(spring.constants->alarm < infinity))
+      if (spring.block != b || !(spring.share > 0) || !(spring.constants->alarm < infinity))
         continue;
       const SpringEnds ends{particles_[spring.a], particles_[spring.b], spring.neighbour, true};
       const double elongation =
           blocks_.elongation(ends, model_.spring_properties(ends.a, ends.b, ends.neighbour));
       if (!(elongation > spring.constants->alarm)) continue;
       if (*review_.review(blocks_[b],
-                          {spring.row, spring.neighbour, {&spring.site, 1}, {&elongation, 1}}) != 0)
-        spring.weight = 0;
+                          {spring.row, spring.neighbour, {&spring.site, 1}, {&elongation, 1}}) !=
+          0) {
+        pieces_[spring.piece].weight[static_cast<std::size_t>(&spring - springs_.data()) -
+                                     pieces_[spring.piece].begin] = 0;
+        spring.share = 0;
+      }
     }
   });
 }
@@ -221,17 +240,12 @@ void LocalForces::find_forces(Piece& piece, bool keeps_energy) {
   thread_local Buffers buffer;
   const Spring& first = springs_[piece.begin];
   const NeighbourGeometry& geometry = model_.springs.neighbours[first.neighbour];
-  const std::uint32_t count = piece.end - piece.begin, padded = (count + lanes - 1) / lanes * lanes;
-  for (std::uint32_t t = 0; t < padded; ++t) {
-    const Spring& spring = springs_[piece.begin + std::min(t, count - 1)];
-    for (std::size_t c = 0; c < 3; ++c) {
-      buffer.here[c][t] = moved_[c][spring.a];
-      buffer.there[c][t] = moved_[c][spring.b];
+  const std::uint32_t count = piece.end - piece.begin;
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t t = 0; t < piece.a.size(); ++t) {
+      buffer.here[c][t] = moved_[c][piece.a[t]];
+      buffer.there[c][t] = moved_[c][piece.b[t]];
     }
-    buffer.weight[t] = t < count ? spring.weight : 0;
-    buffer.stiffness[t] = spring.constants->stiffness;
-    buffer.cross_stiffness[t] = spring.constants->cross_stiffness;
-  }
   SpringRow row;
   row.count = static_cast<int>(count);
   for (int c = 0; c < 3; ++c) {
@@ -243,9 +257,9 @@ void LocalForces::find_forces(Piece& piece, bool keeps_energy) {
   row.cross_rest_length = geometry.cross_rest_length;
   row.membrane_distance = model_.body.grid.membrane_distance;
   row.spacing = model_.body.grid.spacing;
-  row.stiffness = buffer.stiffness;
-  row.cross_stiffness = buffer.cross_stiffness;
-  row.weight = buffer.weight;
+  row.stiffness = piece.stiffness.data();
+  row.cross_stiffness = piece.cross_stiffness.data();
+  row.weight = piece.weight.data();
   row.pull = buffer.pull;
   row.axial = buffer.axial;
   row.cross_pull = buffer.cross_pull;

@@ -85,9 +85,10 @@ class LocalForces {
     std::uint32_t a = 0, b = 0;  ///< numbers of its ends
     std::uint32_t neighbour = 0;
     const SpringConstants* constants = nullptr;
-    double weight = 1;  ///< fraction of a whole spring; 0: broken
+    double share = 1;  ///< fraction of a whole spring; 0: broken
     std::uint32_t block = 0, row = 0;
     std::int32_t site = 0;
+    std::uint32_t piece = 0;  ///< number of its piece
   };
   /// The bit of a spring in the arrays of a block, its own or a copy's.
   struct Bit {
@@ -95,9 +96,12 @@ class LocalForces {
     std::uint16_t bit = 0;
     std::uint32_t spring = 0;
   };
-  /// Consecutive springs of one neighbour and one set of constants.
+  /// Consecutive springs of one neighbour and one set of constants. The arrays have a number for
+  /// each spring, padded to whole vectors by springs of weight 0.
   struct Piece {
     std::uint32_t begin = 0, end = 0;
+    std::vector<std::uint32_t> a, b;  ///< numbers of the ends
+    std::vector<double> weight, stiffness, cross_stiffness;
     double stored = 0;  ///< J
   };
   /// Sum over a spring's force: +1 at its first end.
