@@ -21,7 +21,8 @@ double part_of_change(int searches) {
 
 }  // namespace
 
-SettledDamage DamageField::settle(const DamageBounds& bounds) {
+/// Follows the particles beside springs beyond their alarms in the present state.
+void DamageField::watch_all() {
   double stretch = infinity, shortening = infinity;
   for (const Cohesive& material : model_.cohesive) {
     if (material.stage == nullptr) continue;
@@ -32,7 +33,10 @@ SettledDamage DamageField::settle(const DamageBounds& bounds) {
   blocks_.team().for_each(blocks_.size(),
                           [&](std::size_t b) { watch(blocks_[b], stretch, shortening); });
   follow_noted();
+}
 
+SettledDamage DamageField::settle(const DamageBounds& bounds) {
+  watch_all();
   // The records get the damage of the search for its time, so that stresses are those of this
   // damage.
   const auto of_records = [this] {
@@ -100,9 +104,8 @@ SettledDamage DamageField::settle(const DamageBounds& bounds) {
   return found;
 }
 
-void DamageField::accept_search(double time, double forward) {
+void DamageField::accept_search(double time) {
   if (settled_.empty()) return;
-  forward_ = forward;
   for (const std::uint32_t number : records_.order()) {
     records_[number].rests_until = 0;
     records_[number].rate = 0;
@@ -112,6 +115,17 @@ void DamageField::accept_search(double time, double forward) {
   settled_.resize(records_.numbers(), 0);
   set_damages(settled_, time);
   forget_search();
+}
+
+double DamageField::grow_after_implicit(double time_step, double forward) {
+  forward_ = forward;
+  update(time_step);
+  double growth = 0;
+  for (const std::uint32_t number : records_.order())
+    growth = std::max(growth, time_step * records_[number].rate);
+  watch_all();
+  finish();
+  return growth;
 }
 
 }  // namespace hyperlattice

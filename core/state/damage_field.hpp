@@ -62,10 +62,12 @@ class DamageField {
     searches_ = 0;
   }
   /// Notes the elongations of springs before the displacements change, and lets damage become that
-  /// of the last search, at `time`, s. `forward`: the part of an implicit step at which its forces
-  /// lie; 0 between states of rest. finish() must follow, and evaluate() before the next search is
-  /// accepted.
-  void accept_search(double time, double forward = 0);
+  /// of the last search, at `time`, s. finish() must follow.
+  void accept_search(double time);
+  /// Lets damage grow at the end of an implicit step of the length `time_step`, s, as after an
+  /// explicit one. `forward`: the part of the step at which its forces lay. Returns the largest
+  /// growth of a particle's damage.
+  double grow_after_implicit(double time_step, double forward);
 
   /// Computes the forces and energies of the present state, and what the last step dissipated.
   void evaluate();
@@ -151,6 +153,7 @@ class DamageField {
   void note_elongations(std::uint32_t number);
   void set_damages(const std::vector<double>& damages, double time);
   void follow_noted();
+  void watch_all();
   void watch(Block& block, double stretch, double shortening) const;
   void grow(std::span<const std::uint32_t> records, double time_step);
   void note_gone();

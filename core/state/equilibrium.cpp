@@ -50,7 +50,7 @@ void Simulation::halt() {
   energy.count_halted(error - energy.balance().error);
 }
 
-void Simulation::apply_equilibrium(const EquilibriumUpdate& to) {
+double Simulation::apply_equilibrium(const EquilibriumUpdate& to) {
   const double error = to.settles ? state_->energy.balance().error : 0;
   if (to.time_step == 0)
     halt();  // finds the start of the balance; the work on the way from there is counted here
@@ -69,18 +69,20 @@ void Simulation::apply_equilibrium(const EquilibriumUpdate& to) {
   }
   state_->energy.count_halted(to.dissipated);
   state_->law_memory.advance(to);
-  if (!state_->damage.empty()) state_->damage.accept_search(to.time, to.time_step > 0 ? to.forward : 0);
+  const bool damages = !state_->damage.empty();
+  if (damages && to.time_step == 0) state_->damage.accept_search(to.time);
   set_motion(to);
-  if (!state_->damage.empty()) {
-    state_->damage.finish();
-    state_->damage.evaluate();
-  }
+  if (damages && to.time_step == 0) state_->damage.finish();
   if (to.time_step == 0) state_->loads.rest(to.factor, to.gravity);
   state_->clock.jump(to.time, to.time_step);
+  const double growth = damages && to.time_step > 0
+                            ? state_->damage.grow_after_implicit(to.time_step, to.forward)
+                            : 0;
   if (model.springs.criteria) state_->whole_review.remove_broken();
   state_->failures.collect(0);
   state_->clock.review();
   if (to.settles) state_->energy.count_halted(error - state_->energy.balance().error);
+  return growth;
 }
 
 double Simulation::overshoot(const EquilibriumUpdate& to) {
@@ -98,6 +100,7 @@ void Simulation::begin_implicit_steps(double time_step, const std::vector<double
                                       const std::vector<double>& height_rate) {
   EnergyAccount& energy = state_->energy;
   const double last = state_->clock.last_step();
+  if (!state_->damage.empty()) state_->damage.evaluate();  // what explicit steps dissipated
   state_->loads.leave_rest();
   if (last > 0) {
     energy.find_start();

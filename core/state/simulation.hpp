@@ -53,8 +53,9 @@ class Simulation {
   /// Stops all motion. Its kinetic energy counts as dissipated.
   void halt();
   /// Stops all motion and takes over the update's state; or takes over the end of an implicit step
-  /// in time. Springs that failure criteria break there are removed. Counts as one step.
-  void apply_equilibrium(const EquilibriumUpdate& settling);
+  /// in time. Springs that failure criteria break there are removed. Counts as one step. Returns
+  /// the largest growth of damage after an implicit step, which acts from the next one on.
+  double apply_equilibrium(const EquilibriumUpdate& to);
   /// Returns how far the state after an update is beyond the first failure: the largest fraction by
   /// which all elongations could be smaller and some spring would still break; negative if none
   /// breaks. The state stays. Reads only times, displacements, heights and velocities.

@@ -118,13 +118,7 @@ double Statics::respond_soft(const double* u, double* force, const SpringTangent
 }
 
 DamageFound Statics::grow_damage(const double* displacement, const DamageSearch& search) {
-  EquilibriumUpdate at;
-  if (moves()) {
-    Values after, speed;
-    at = end_of_step(displacement, after, speed);
-  } else {
-    at = rest_at(search.share, displacement);
-  }
+  const EquilibriumUpdate at = rest_at(search.share, displacement);
   const auto load = [&](double share) { return preload_ + share; };
   DamageBounds bounds;
   bounds.least_factor = load(search.least_share) / load(search.share);

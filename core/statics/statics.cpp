@@ -119,9 +119,12 @@ double Statics::overshoot(double share, const double* displacement) {
 
 /// Takes over the update, and what broke in it.
 void Statics::apply(const EquilibriumUpdate& to) {
-  simulation_.apply_equilibrium(to);
+  problem_.growth = simulation_.apply_equilibrium(to);
   problem_.broke = simulation_.broken() - broken_;
-  if (problem_.broke > 0) read_springs();
+  if (problem_.broke > 0)
+    read_springs();
+  else if (problem_.damages && to.time_step > 0)
+    restore_damage();
 }
 
 void Statics::accept(double share, const double* displacement) {

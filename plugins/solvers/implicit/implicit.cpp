@@ -84,8 +84,8 @@ class Implicit {
         .fallback("1e-2")
         .add<&Options::damage_step>(
             "damage_step", "",
-            "of cohesive materials: largest growth of a particle's damage in one step; a step in "
-            "which it grows more is cut, to the critical step at least")
+            "of cohesive materials: growth of a particle's damage in a step beyond which the next "
+            "step is shorter, to the critical step at least")
         .above(0)
         .at_most(1)
         .fallback("0.05")
@@ -146,18 +146,11 @@ class Implicit {
       std::copy_n(problem->state, numbers, mean.begin());
       for (std::size_t n = 0; n < steps.velocity().size(); ++n)
         mean[n] += forward * h * steps.velocity()[n];
-      const bool may_cut = h > facts.critical_time_step;
-      double growth = 0;
-      const equilibrium::Outcome found =
-          search(*problem, newton, may_cut ? o_.damage_step : infinity, mean, growth);
+      const equilibrium::Outcome found = newton.solve_load_step(1, mean);
       if (newton.stopped()) return;
-      const bool goes_too_far =
-          found.at_rest && may_cut &&
-          (growth > o_.damage_step ||
-           (facts.breaks && problem->overshoot(1, mean.data()) > o_.overshoot));
-      if (problem->damages && (!found.at_rest || goes_too_far)) problem->restore_damage();
-      if (goes_too_far) {
-        steps.cut(h, facts.critical_time_step);
+      if (found.at_rest && facts.breaks && h > facts.critical_time_step &&
+          problem->overshoot(1, mean.data()) > o_.overshoot) {
+        steps.cut(h / 2, facts.critical_time_step);
         continue;
       }
       if (!found.at_rest) {
@@ -168,33 +161,15 @@ class Implicit {
         change[n] = (mean[n] - problem->state[n]) / forward;
         end[n] = problem->state[n] + change[n];
       }
-      if (!steps.accept(h, change, end)) {
-        if (problem->damages) problem->restore_damage();
-        continue;
-      }
+      if (!steps.accept(h, change, end)) continue;
       if (!host.accept_step(mean.data()) || !host.observe()) return;
+      if (problem->damages) newton.forget_tangent();
+      if (problem->growth > o_.damage_step)
+        steps.cut(h * o_.damage_step / problem->growth, facts.critical_time_step);
     }
   }
 
  private:
-  /// Solves a step. The mean displacements with the damage held, and the damage at rest under the
-  /// stress at the step's end, follow each other until neither changes, or until the sum of the
-  /// changes of damage, `growth`, passes `most_growth`.
-  static equilibrium::Outcome search(const StaticProblem& problem, equilibrium::Newton& newton,
-                                     double most_growth, equilibrium::Field& mean, double& growth) {
-    constexpr int most_alternations = 200;
-    constexpr double still = 1e-4;
-    for (int n = 0; n < most_alternations; ++n) {
-      if (problem.damages) newton.forget_tangent();
-      equilibrium::Outcome found = newton.solve_load_step(1, mean);
-      if (!problem.damages || !found.at_rest || newton.stopped()) return found;
-      const double change = problem.grow_damage(mean.data(), {1, 1, 1, 1}).change;
-      growth += change;
-      if (change <= still || growth > most_growth) return found;
-    }
-    return {.why = "its damage does not come to rest"};
-  }
-
   static constexpr double first_step = 2;  // automatic, of the critical step
 
   static std::string failure_text(double time, double h, const equilibrium::Outcome& found) {

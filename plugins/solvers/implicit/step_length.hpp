@@ -25,8 +25,9 @@ class StepLength {
   bool accept(double h, const equilibrium::Field& change, const equilibrium::Field& end);
   /// Halves the length after a search that failed. Returns false after the tenth failure in a row.
   bool shorten(double h);
-  /// Halves the length, to `least` at least, s, after a step in which a spring breaks too late.
-  void cut(double h, double least) { length_ = std::max(h / 2, least); }
+  /// Sets the length of the next step, s: `length`, or `least` if that is longer. For steps in
+  /// which springs break or damage grows.
+  void cut(double length, double least) { length_ = std::max(length, least); }
   /// Returns the mean velocity of the last step, m/s; empty before the first.
   const equilibrium::Field& velocity() const { return velocity_; }
 

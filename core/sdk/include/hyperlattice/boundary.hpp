@@ -103,7 +103,7 @@
   CROSSES(DamageSearch, share, least_share, most_share, most_growth)                                                                                  \
   CROSSES(TimeStep, length, forward)                                                                                                                  \
   CROSSES(DamageFound, share, change)                                                                                                                 \
-  CROSSES(StaticProblem, self, grid, state, respond_to, load_at, prescribe_at, scale_of, position_of, damages, grow_damage_at, restore_damage_at, begin_step_of, broke, hold_with, overshoot_at)                                                 \
+  CROSSES(StaticProblem, self, grid, state, respond_to, load_at, prescribe_at, scale_of, position_of, damages, grow_damage_at, restore_damage_at, begin_step_of, broke, growth, hold_with, overshoot_at)                                                 \
   CROSSES(RestReport, residual, displacement_error, iterations)                                                                                       \
   CROSSES(LocalSteps, time_step, parts, share, cost)                                                                                                                            \
   CROSSES(SolverFacts, start_time, critical_time_step, corners, sites_across, listed, nodal_volumes, remembers, damages, answering, breaks, self, divide)                             \

@@ -121,6 +121,7 @@ struct StaticProblem {
   void (*restore_damage_at)(void* self) noexcept = nullptr;
   void (*begin_step_of)(void* self, const TimeStep& step) noexcept = nullptr;
   std::uint64_t broke = 0;  ///< springs that broke when the present state was accepted
+  double growth = 0;        ///< largest growth of damage after a step in time
   void (*hold_with)(void* self, double stiffness) noexcept = nullptr;
   double (*overshoot_at)(void* self, double share, const double* displacement) noexcept = nullptr;
 
@@ -141,8 +142,8 @@ struct StaticProblem {
   double force_scale(const double* internal, const double* external) const {
     return scale_of(self, internal, external);
   }
-  /// Finds the damage at rest under the stress of the displacements, or of the end of a step in time
-  /// with this mean, never below that of the last accepted state. respond() has this damage from then on, and accept() keeps it. Only with
+  /// Finds the damage at rest under the stress of the displacements, never below that of the last
+  /// accepted state. respond() has this damage from then on, and accept() keeps it. Only with
   /// `damages`.
   DamageFound grow_damage(const double* displacement, const DamageSearch& search) const {
     return grow_damage_at(self, displacement, search);
