@@ -210,9 +210,9 @@ Newton::StepResult Newton::step(const Field& change, Field& u) {
   constexpr double first_look = 1e-2, agreement = 0.5, done = 0.7;
   const bool prepared = std::exchange(prepared_, false);
   if (!prepared) system_.linearise(u, force_);
-  // A body that flies far has no more digits left for its strains.
+  // A body that moves far, or that has a part far stiffer than the rest, has no more digits left.
   constexpr double digits = 4 * std::numeric_limits<double>::epsilon();
-  round_off_ = problem_.grid.inertia ? digits * system_.stiffest() * largest(u) : 0;
+  round_off_ = digits * system_.stiffest() * largest(u);
   for (std::size_t n = 0; n < u.size(); ++n) right_[n] = force_[n] + external_[n];
   const bool moves = largest(change) > 0;
   if (moves) {

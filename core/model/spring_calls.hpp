@@ -86,14 +86,13 @@ SpringPull pull_of(const Model& model, const SpringProperties& properties,
   for (std::size_t cross = 0; cross < kinds; ++cross) {
     const double rise = cross == 0 ? motion.height_b - motion.height_a
                                    : motion.height_b + motion.height_a,
-                 rest_length = properties.rest_length_of(cross),
                  growth = properties.growth(cross, motion.apart, rise,
                                             model.body.grid.membrane_distance);
     auto kept = memory(cross);
     const CompositeAnswer answer = take_spring(
         model, properties, cross, properties.elongation(cross, growth), time_step, kept.data());
     const double factor = cross == 1 || growth > 0 ? remains : 1;
-    sum.pull += factor * answer.force / std::sqrt(rest_length * rest_length + growth);
+    sum.pull += factor * answer.force / properties.length(cross, growth);
     sum.energy += factor * answer.stored;
   }
   return sum;

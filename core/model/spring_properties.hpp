@@ -3,6 +3,7 @@
 
 #include <model/composite_spring.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -34,10 +35,19 @@ struct SpringProperties {
   double growth(std::size_t cross, const Vec3& apart, double rise, double membrane_distance) const {
     return dot(apart, 2 * rest + apart) + rise * (cross == 0 ? rise : 2 * membrane_distance + rise);
   }
+  /// Returns the present length, m, for a growth of the squared length, m2. Where the ends meet, a
+  /// part of the rest length remains (kernels/response.hpp).
+  double length(std::size_t cross, double growth) const {
+    return present_length(rest_length_of(cross), growth);
+  }
+  static double present_length(double rest_length, double growth) {
+    constexpr double least = 1e-24;
+    const double square = rest_length * rest_length;
+    return std::sqrt(std::max(square + growth, least * square));
+  }
   /// Returns the elongation, m, for a growth of the squared length, m2, without cancellation.
   double elongation(std::size_t cross, double growth) const {
-    const double length = rest_length_of(cross);
-    return growth / (std::sqrt(length * length + growth) + length);
+    return growth / (length(cross, growth) + rest_length_of(cross));
   }
   double stiffness_of(std::size_t cross) const { return cross == 0 ? stiffness : cross_stiffness; }
 };

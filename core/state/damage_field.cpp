@@ -157,7 +157,7 @@ double DamageField::elongation(const DamageSpring& spring, std::size_t cross, co
   const double twice = cross == 0 ? 0 : 2 * model_.body.grid.membrane_distance;
   const double growth = dot(d, 2 * spring.rest + d) + rise * (twice + rise),
                length = spring.rest_length[cross];
-  return growth / (std::sqrt(length * length + growth) + length);
+  return growth / (SpringProperties::present_length(length, growth) + length);
 }
 
 void DamageField::update(double time_step) {

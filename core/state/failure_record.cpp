@@ -114,8 +114,7 @@ double FailureRecord::energy_of(std::size_t index, const Block& block, const Blo
   const double delta = model.body.grid.membrane_distance;
   const auto lost = [&](std::size_t cross, double rise, double rate) {
     const double growth = properties.growth(cross, d, rise, delta),
-                 rest_length = properties.rest_length_of(cross),
-                 length = std::sqrt(rest_length * rest_length + growth);
+                 length = properties.length(cross, growth);
     const LawNumbers memory =
         blocks_.law_numbers(block, broken.row, broken.neighbour, broken.site, cross != 0);
     const CompositeAnswer answer =

@@ -43,8 +43,7 @@ class SeveralLaws {
     for (std::size_t cross = 0; cross < kinds_; ++cross) {
       const double rise = cross == 0 ? spring.difference[3] : spring.height_sum,
                    growth = of.growth(cross, d, rise, delta_),
-                   rest_length = of.rest_length_of(cross),
-                   length = std::sqrt(rest_length * rest_length + growth),
+                   rest_length = of.rest_length_of(cross), length = of.length(cross, growth),
                    elongation = growth / (length + rest_length);
       const CompositeAnswer answer =
           advance(of, cross, elongation, spring.memory[cross], cross == 0 ? &result : nullptr);

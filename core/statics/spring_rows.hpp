@@ -144,7 +144,7 @@ double linearise_one(RowBuffers& buffer, std::size_t kinds, const Answer& answer
       const double rise = cross == 0 ? at.height_b - at.height_a : at.height_b + at.height_a,
                    growth = dot(at.apart, 2 * row.rest + at.apart) +
                             rise * (cross == 0 ? rise : 2 * row.membrane_distance + rise);
-      return growth / (std::sqrt(rest_length * rest_length + growth) + rest_length);
+      return growth / (SpringProperties::present_length(rest_length, growth) + rest_length);
     };
     StepElongations at;
     at.start = at.mean = at.end = elongation_at(mean);

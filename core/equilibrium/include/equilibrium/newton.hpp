@@ -77,7 +77,7 @@ class Newton {
                            ///< next search starts
   Field external_, force_, trial_, rest_, right_, held_part_;
   double scale_ = 0;
-  double round_off_ = 0;  ///< of forces, N, in bodies with inertia
+  double round_off_ = 0;  ///< of forces, N
   bool stopped_ = false;
   RestReport report_;
 };

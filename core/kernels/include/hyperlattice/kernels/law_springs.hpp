@@ -28,7 +28,7 @@ struct LawSprings {
   /// the previous step.
   template <LawWithMemory Law, bool Keep>
   LawResponse ask(const Pack& stiffness, const Pack& q) const {
-    const Pack length = root(rest_length * rest_length + q);
+    const Pack length = root(present_square(rest_length * rest_length, q));
     double k[lanes], rest[lanes], elongation[lanes], force[lanes] = {}, energy[lanes] = {},
                                                      dissipated[lanes] = {};
     store(k, stiffness);

@@ -273,7 +273,8 @@ class ListedForces {
   /// Reports the springs of a slot whose integrity became 0. `gone`: bits of lanes.
   void report_gone(const Reach& reach, const Slot& slot, std::uint32_t gone) const {
     Real elongation[width];
-    store(elongation, reach.growth / (root(reach.square + reach.growth) + root(reach.square)));
+    store(elongation,
+          reach.growth / (root(present_square(reach.square, reach.growth)) + root(reach.square)));
     for (int lane = 0; lane < width; ++lane) {
       if ((gone >> lane & 1u) == 0) continue;
       const std::int32_t site = slot.site + lane;
@@ -291,7 +292,8 @@ class ListedForces {
     Real growth[width], elongation[width];
     const Pack rest_length = root(reach.square);
     store(growth, reach.growth);
-    store(elongation, reach.growth / (root(reach.square + reach.growth) + rest_length));
+    store(elongation,
+          reach.growth / (root(present_square(reach.square, reach.growth)) + rest_length));
     for (int lane = 0; lane < width; ++lane) {
       const std::int32_t site = slot.site + lane;
       const std::uint32_t own = own_place(slot, static_cast<std::uint32_t>(lane));

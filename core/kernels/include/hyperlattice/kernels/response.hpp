@@ -22,12 +22,22 @@ struct ResponseOf {
 };
 using Response = ResponseOf<Pack>;
 
+/// Returns the squares of the present lengths of springs, given those of their rest lengths and
+/// their growth. Where the ends of a spring meet, a part of its rest length remains, so that its
+/// force over its length stays finite; the direction of its force is then not known.
+template <class Real>
+HYPERLATTICE_INLINE PackOf<Real> present_square(const PackOf<Real>& rest_square,
+                                                const PackOf<Real>& growth) {
+  constexpr Real least = std::is_same_v<Real, double> ? Real(1e-24) : Real(1e-10);
+  return larger(rest_square + growth, least * rest_square);
+}
+
 /// Returns force over length and, if Energy, energy of springs whose squared length grew by q from
 /// rest_length^2. Length: one number for all lanes, or a pack. `constants`: those of the law.
 template <class Law, bool Energy, class Pack, class Length>
 inline ResponseOf<Pack> respond(Pack stiffness, Length rest_length, Pack q,
                                 const double* constants) {
-  const Pack length = root(rest_length * rest_length + q);
+  const Pack length = root(present_square(Pack(rest_length * rest_length), q));
   const Pack inverse = 1.0 / (length * (length + rest_length));
   const Pack elongation = q * length * inverse;
   const auto spring = [&](Pack along) {

@@ -285,6 +285,12 @@ HYPERLATTICE_INLINE PackOf<Real> product(const PackOf<Real>& a, const PackOf<Rea
 #endif
 }
 template <class Real>
+HYPERLATTICE_INLINE PackOf<Real> larger(const PackOf<Real>& a, const PackOf<Real>& b) {
+  return PackOf<Real>::of([&](std::size_t p) __attribute__((always_inline)) {
+    return a.part[p] > b.part[p] ? a.part[p] : b.part[p];
+  });
+}
+template <class Real>
 HYPERLATTICE_INLINE PackOf<Real> root(const PackOf<Real>& x) {
   return PackOf<Real>::of([&](std::size_t p) __attribute__((always_inline)) {
     constexpr bool wide = std::is_same_v<Real, double>;

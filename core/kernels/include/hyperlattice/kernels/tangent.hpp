@@ -58,7 +58,7 @@ struct Tangent {
 
   /// Returns the stretch of springs whose squared lengths grew by `q`.
   static Stretch grown(double rest_length, Pack q) {
-    const Pack square = rest_length * rest_length + q, length = root(square);
+    const Pack square = present_square(Pack(rest_length * rest_length), q), length = root(square);
     return {q / (length + rest_length), length, square};
   }
 
