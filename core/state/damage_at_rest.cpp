@@ -122,7 +122,7 @@ double DamageField::grow_after_implicit(double time_step, double forward) {
   update(time_step);
   double growth = 0;
   for (const std::uint32_t number : records_.order())
-    growth = std::max(growth, time_step * records_[number].rate);
+    growth = std::max({growth, time_step * records_[number].rate, records_[number].lag});
   watch_all();
   finish();
   return growth;

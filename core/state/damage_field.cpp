@@ -210,6 +210,7 @@ void DamageField::grow(std::span<const std::uint32_t> records, double time_step)
     step.viscosity = material.viscosity;
     step.time_step = time_step;
     record.rate = damage_rate(step);
+    record.lag = damage_lag(step);
     const double damage = step.damage + time_step * record.rate;
     next_[driven[n]] = damage >= 1 - 1e-4 ? 1 : damage;
     if (damage == 0 && ratios[n] < safe_ratio && !touches_damage(record))

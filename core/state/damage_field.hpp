@@ -66,7 +66,7 @@ class DamageField {
   void accept_search(double time);
   /// Lets damage grow at the end of an implicit step of the length `time_step`, s, as after an
   /// explicit one. `forward`: the part of the step at which its forces lay. Returns the largest
-  /// growth of a particle's damage.
+  /// growth of a particle's damage, or how far it lags behind its stress if that is more.
   double grow_after_implicit(double time_step, double forward);
 
   /// Computes the forces and energies of the present state, and what the last step dissipated.

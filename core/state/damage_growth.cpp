@@ -20,6 +20,11 @@ PrincipalStress principal_values(const Symmetric& stress) {
   return {first, 3 * mean - first - third, third};
 }
 
+double damage_lag(const DamageStep& of) {
+  const double left = 1 - of.damage, bottom = of.shape + (1 - of.shape) * left * left;
+  return left / (bottom * bottom) * of.drive - left + of.spread;
+}
+
 double damage_rate(const DamageStep& of) {
   /// The left side of the equation and its derivative.
   struct Side {

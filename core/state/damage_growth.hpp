@@ -27,5 +27,8 @@ struct DamageStep {
 /// in [0, (1 - d) / dt], with g(d) = (1 - d) / (A + (1 - A) (1 - d)^2)^2; 0 if the left side is
 /// not positive at 0. The left side falls with x if A >= 3/4 and c_d dt <= b.
 double damage_rate(const DamageStep& step);
+/// Returns how far damage is from rest: g(d) q - (1 - d) + b^2 lap d, above 0 where it grows. At
+/// its first growth it is the square of the stress over the strength, less 1.
+double damage_lag(const DamageStep& step);
 
 }  // namespace hyperlattice

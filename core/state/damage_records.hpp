@@ -61,6 +61,7 @@ struct DamageRecord {
   double shape = 1;                    ///< A
   double alpha = 0;                    ///< of the alpha spring, N/m
   double rate = 0;                     ///< of damage in the last step, 1/s
+  double lag = 0;                      ///< how far its damage is from rest, see damage_lag()
   /// Time, s, of the state in which damage first reached `cracked`; NaN: it has not.
   double crack_time = std::numeric_limits<double>::quiet_NaN();
   std::uint64_t marked = 0;       ///< step in which a spring was last above its alarm
