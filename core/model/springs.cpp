@@ -189,6 +189,15 @@ double crossings(const Model& model) {
 
 /// Returns the membrane of the body: free if one material's membrane is free. Adds a fault if
 /// another one is clamped.
+/// Refuses an alpha spring that alone pushes the heights away. The analysis of waves does not see
+/// it, because a body without cross springs has no heights.
+void check_alpha_alone(const Material& material, Faults& faults) {
+  if (material.constants.has_cross_springs() || material.constants.alpha_ratio >= 0) return;
+  faults.add(material.stage->pointer, material.stage->component->type(),
+             "springs that make a stable lattice, or allow_unstable in the scene; with a negative "
+             "k_alpha alone every height grows");
+}
+
 Membrane membrane_of(const std::vector<Material>& materials, Faults& faults) {
   const Material *clamped = nullptr, *free = nullptr;
   for (const Material& material : materials)
@@ -313,6 +322,8 @@ void set_springs(Model& model, Faults& faults) {
   springs.neighbours = geometry_of(model.body.grid);
   springs.crossings = crossings(model);
   springs.choice.membrane = membrane_of(model.materials, faults);
+  if (!model.scene->allow_unstable)
+    for (const Material& material : model.materials) check_alpha_alone(material, faults);
   if (springs.choice.membrane == Membrane::free) hold_heights(model);
   model.degrees_of_freedom = springs.choice.membrane == Membrane::free ? 4 : 3;
   springs.choice.listed = model.body.is_listed();

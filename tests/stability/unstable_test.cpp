@@ -56,6 +56,8 @@ const Case unstable[] = {
      "within (0, 0.3333), the reach of membrane IV", "grows"},
     {R"("membrane": "free", "k_alpha": 3, "k_beta": -2.5, "k_gamma": 2)",
      "/pipeline/1: ", "springs that make a stable lattice", "wave with vector"},
+    {R"("membrane": "free", "k_alpha": -1)", "/pipeline/1: ", "k_alpha alone every height grows",
+     ""},
     {R"("membrane": "free", "k_alpha": "infinite", "k_beta": -2.2, "k_gamma": 1)",
      "/pipeline/1: ", "allow_unstable", "grows"},
 };
