@@ -31,23 +31,35 @@ Field softening_motion(System& system, numerics::ConjugateGradients& gradients,
                            product(motion.data(), motion.data(), motion.size(), system.threads());
   };
   const FreeMotions free(system, displacement);
-  const Field rough = rough_field(system);
-  gradients.start(rough, &free);
-  const Field& left = gradients.residual();
+  Field right = rough_field(system), resisting(right.size());
+  const auto resisted = [&](const Field& motion) {
+    system.multiply(motion.data(), resisting.data());
+    return product(motion.data(), resisting.data(), motion.size(), system.threads());
+  };
   bool goes_on = true;
-  for (int n = 0; goes_on && n < system.most_iterations(); ++n) {
-    if (gradients.unit() * largest(left) <= solved) return {};
-    goes_on = gradients.advance();
+  // A preconditioner that solves the equations, as it does for small bodies, hides negative
+  // stiffness from the gradients. The solutions of a few inverse iterations then show it.
+  constexpr int iterations = 4, few = 20;
+  for (int i = 0; goes_on && i < iterations; ++i) {
+    gradients.start(right, &free);
+    int n = 0;
+    for (; goes_on && n < system.most_iterations(); ++n) {
+      if (gradients.unit() * largest(gradients.residual()) <= solved * largest(right)) break;
+      goes_on = gradients.advance();
+    }
+    if (!goes_on || n == system.most_iterations()) break;
+    const Field& motion = gradients.x();
+    if (softens(motion, resisted(motion))) return motion;
+    const double size = largest(motion);
+    if (n > few || i + 1 == iterations || !(size > 0)) return {};
+    for (std::size_t m = 0; m < right.size(); ++m) right[m] = motion[m] / size;
   }
+  const Field& left = gradients.residual();
   if (!goes_on && softens(gradients.direction(), gradients.curvature()))
     return gradients.direction();
   // The preconditioner does not act on components without stiffness, such as heights that have lost
   // theirs by compression: these remain in the residual.
-  Field resisting(left.size());
-  system.multiply(left.data(), resisting.data());
-  return softens(left, product(left.data(), resisting.data(), left.size(), system.threads()))
-             ? left
-             : Field{};
+  return softens(left, resisted(left)) ? left : Field{};
 }
 
 }  // namespace hyperlattice::equilibrium
