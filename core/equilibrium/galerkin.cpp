@@ -137,6 +137,7 @@ int parts_of(const StencilLevel& coarse, const Parent& from, const End* ends, in
 class Parts {
  public:
   Parts(const StencilLevel& coarse, const TrilinearTransfer& transfer, const StaticGrid& grid) {
+    std::vector<CoarsePart> most(most_parts);
     for (const NeighbourGeometry& neighbour : grid.neighbours)
       for (std::int64_t n = 0; n < 8; ++n) {
         const Neighbour& to = neighbour.site;
@@ -145,9 +146,8 @@ class Parts {
         const Family near(transfer, i, j, k), far(transfer, i + to.dx, j + to.dy, k + to.dz);
         End ends[16];
         const int count = collect_ends(near, 15, far, 15, ends);
-        std::vector<CoarsePart>& parts = of_.emplace_back(most_parts);
-        parts.resize(
-            static_cast<std::size_t>(parts_of(coarse, near.of[0], ends, count, parts.data())));
+        const int found = parts_of(coarse, near.of[0], ends, count, most.data());
+        of_.emplace_back(most.begin(), most.begin() + found);
       }
   }
   const std::vector<CoarsePart>& of(std::size_t neighbour, std::int64_t i, std::int64_t j,
