@@ -2,12 +2,12 @@
 from verification.scenes import DENSITY, SPACING, YOUNG, cubic, elastic, fixed, mean, scene, stage
 from verification.theory import Chain, confined
 
-STRAIN = 1e-6  # of the bar at rest under its force; so small that the springs do not turn
+STRAIN = 1e-9  # of the softest part at rest; so small that the motion is linear to 1e-8
 
 
 class Bar:
     """Parts from the held end on: cells, stiffness over YOUNG, density over DENSITY. The force at the free end would
-    stretch a part of stiffness 1 by `strain`."""
+    strain the softest part by `strain`."""
 
     def __init__(self, parts, spacing=SPACING, poisson=0.25, strain=STRAIN, young=YOUNG, density=DENSITY):
         self.parts, self.spacing, self.poisson = parts, spacing, poisson

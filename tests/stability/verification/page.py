@@ -19,13 +19,22 @@ compares what comes out with what is known from outside of the program. {good} o
 TABLE = """| case | what | must come out | came out | drift | step | s | |
 |---|---|---|---|---|---|---|---|
 """
-WORDS = 160  # of a message, on the page
+LENGTH = 200  # of a message, on the page
+OTHER = ("the body:", "wrong input,")
 
 
 def came_out(outcome):
     if outcome.code == 0:
         return "done" if outcome.value is None else f"{outcome.value:.7g}"
-    return f"exit code {outcome.code}: {' '.join(outcome.message.split())[:WORDS]}"
+    return f"exit code {outcome.code}: {reason(outcome.message)}"
+
+
+def reason(message):
+    """The sentence of a message that says what is wrong, without what a run says about itself before."""
+    lines = [line.strip().removeprefix("hyperlattice: ") for line in message.splitlines()]
+    failed = [line for line in lines if line.startswith("failed:")]
+    said = " ".join(failed or [line for line in lines if not line.startswith(OTHER)])
+    return said if len(said) <= LENGTH else said[:LENGTH].rsplit(" ", 1)[0] + " ..."
 
 
 def cell(text):

@@ -11,7 +11,7 @@ import numpy as np
 
 from verification.case import Outcome
 
-PATIENCE = 300  # s, after which a run is ended
+PATIENCE = 100  # s, after which a run is ended
 
 
 class Result:

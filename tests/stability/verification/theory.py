@@ -58,13 +58,17 @@ class Homogeneous:
             total += n * stiffness * (math.sqrt(r * s * s + c * c) - math.sqrt(r + 1))**2 / 2
         return total + self.membrane * (c - 1)**2 / 4
 
+    def force(self, a, b=1.0, c=1.0):
+        """Along x on a face of a cell, over k l."""
+        return slope(lambda x: self.energy(x, b, c), a)
+
     def pulled(self, a):
         """Stretches b and c, and the force over k l on a cell, when the sides are free."""
         b = c = 1.0
         for _ in range(200):
             b = minimum(lambda x: self.energy(a, x, c), b)
             c = minimum(lambda x: self.energy(a, b, x), c) if self.membrane else 1.0
-        return b, c, slope(lambda x: self.energy(x, b, c), a)
+        return b, c, self.force(a, b, c)
 
 
 def slope(function, x, h=1e-5):

@@ -26,7 +26,7 @@ def swinging(nu, **more):
     return Case(f"poisson/motion_{nu:g}" + "".join(f"_{value}" for value in more.values()),
                 f"nu {nu:g}, a bar swinging for 200 steps" + "".join(f", {key} {value}" for key, value in more.items()),
                 bar.scene(explicit(200 * step, time_step=step * (1 + 1e-9)), **more),
-                near(bar.moved(200 * step, central(step)), 1e-3 if more else 2e-5, HELD), bar.measured,
+                near(bar.moved(200 * step, central(step)), 1e-3 if more else 1e-6, HELD), bar.measured,
                 series="" if more else "in motion", at=nu)
 
 

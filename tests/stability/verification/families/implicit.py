@@ -1,0 +1,80 @@
+"""Implicit steps of 10, 100 and 1000 critical ones."""
+from verification.bars import Bar
+from verification.case import Case, Error, Family, Number, Plot, near
+from verification.scenes import implicit
+from verification.theory import midpoint
+
+RULE = "chain of masses under the implicit rule, closed form"
+CONTRAST = 1e6  # the critical step is that of the stiff half, a thousandth of that of the soft half
+PERIOD = 20 * 1000  # of the soft half, about, in critical steps
+
+
+def bar():
+    return Bar([(4, CONTRAST, 1), (4, 1, 1)])
+
+
+def swinging(factor, **more):
+    """Two swings of the soft half, in steps of `factor` critical ones."""
+    of = bar()
+    step = factor * of.critical()
+    steps = 2 * PERIOD // factor
+    end = steps * step
+    added = "".join(f", {key} {value:g}" for key, value in more.items())
+    return Case(f"implicit/steps_{factor}", f"bar, half of it {CONTRAST:g} times as stiff, steps of {factor} critical ones{added}",
+                of.scene(implicit(end, step * (1 + 1e-9), residual=1e-8, **more)),
+                near(of.moved(end, midpoint(step)), 1e-4, RULE), of.measured, series="steps of fixed length", at=factor)
+
+
+def energy(factor):
+    of = bar()
+    step = factor * of.critical()
+    end = 2 * PERIOD // factor * step
+    return Case(f"implicit/energy_{factor}", f"the same bar, its energy, steps of {factor} critical ones",
+                of.scene(implicit(end, step * (1 + 1e-9), residual=1e-8)),
+                Number(1, 1e-6, "kinetic and stored energy over the work of the force"), kept)
+
+
+def kept(result):
+    energy_of = result.summary["energy"]
+    return (energy_of["kinetic"] + energy_of["stored"]) / energy_of["injected"]
+
+
+def damped():
+    """Euler's backward method takes all motion out: the bar comes to rest."""
+    of = bar()
+    end = 100 * PERIOD * of.critical()
+    return Case("implicit/damped", "the same bar, damping 1, 100 steps of 20,000 critical ones",
+                of.scene(implicit(end, PERIOD * of.critical(), damping=1)), near(1, 1e-5, "the state of rest"), of.measured)
+
+
+def automatic(tolerance):
+    of = bar()
+    end = 2 * PERIOD * of.critical()
+    stage = implicit(end, "auto", tolerance=tolerance, residual=1e-8)
+    return Case(f"implicit/auto_{tolerance:.0e}", f"the same bar, steps from the tolerance {tolerance:g}", of.scene(stage),
+                near(of.moved(end, midpoint(1e-3 * of.critical())), 200 * tolerance, "chain of masses, closed form; 200 x tolerance"),
+                of.measured)
+
+
+def incompressible():
+    of = Bar([(8, 1, 1)], poisson=0.499)
+    step = 10 * of.critical()
+    return Case("implicit/nu_0.499", "bar of nu 0.499, 40 steps of 10 critical ones", of.scene(implicit(40 * step, step * (1 + 1e-9), residual=1e-8)),
+                near(of.moved(40 * step, midpoint(step)), 1e-5, RULE), of.measured)
+
+
+def breaking():
+    scene = bar().scene(implicit(1e-3, 1e-5))
+    scene["pipeline"][1]["failure"] = {"type": "failures.elongation", "limit": 1e-6}
+    return Case("implicit/breaking", "a body whose springs may break", scene,
+                Error(2, "materials without failure", "no springs break in implicit steps"))
+
+
+FAMILY = Family(
+    "implicit", "Implicit steps of 10, 100 and 1000 critical ones",
+    "A stiff half makes the critical step a thousandth of what the soft half needs. The implicit rule is stable for any step, "
+    "and keeps the energy; it swings too slowly by a known factor. Tolerances are those of this factor, not of the continuum.",
+    [swinging(factor) for factor in (10, 100, 1000)] + [energy(factor) for factor in (100, 1000)]
+    + [damped(), automatic(1e-3), automatic(1e-4), incompressible(), breaking()],
+    Plot("step over critical step", "error of the displacement", "xy", height=lambda outcome: max(outcome.error, 1e-16)),
+    "")
