@@ -3,6 +3,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 
+LEAST = 1e-16
+
+
 @dataclass(frozen=True)
 class Number:
     """A number that a run must give. `tolerance`: largest difference, in the unit of the number."""
@@ -64,8 +67,13 @@ class Outcome:
 
     @property
     def error(self):
-        """The distance from the expected number, as a share of it."""
-        return abs(self.value / self.case.expected.value - 1)
+        """The distance from the expected number, as a share of it; at least LEAST, for logarithmic scales."""
+        return max(abs(self.value / self.case.expected.value - 1), LEAST)
+
+    @property
+    def distance(self):
+        """The distance from the expected number, at least LEAST."""
+        return max(abs(self.value - self.case.expected.value), LEAST)
 
 
 @dataclass(frozen=True)

@@ -21,6 +21,13 @@ def stretched(solver, material, stretch, rise=1.0, **more):
                  stage("probes.reaction", on="x_max", name="grip", every=0), **more)
 
 
+def hit(material, solver, **more):
+    """A free block of 3 x 3 x 3 cells whose corner has a velocity."""
+    corner = {"box": {"low": [-1, -1, -1], "high": [0.5e-3, 0.5e-3, 0.5e-3]}}
+    return scene(cubic([3, 3, 3]), material, stage("loads.start_velocity", on=corner, linear=[1e-6, 2e-6, 3e-6]),
+                 solver, **more)
+
+
 def poisson(result):
     """The ratio of the strains."""
     return -result.last("probes/side", "displacement_y_mean") / result.last("probes/end", "displacement_x_mean")

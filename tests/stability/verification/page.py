@@ -6,8 +6,8 @@ HEAD = """# Stiff and extreme cases
 `tests/stability/verify` makes this page: it runs {count} scenes with the installed program, each on one thread, and
 compares what comes out with what is known from outside of the program. {good} of {count} came out as expected{bad}.
 
-- *must come out*: a number with the largest difference that is allowed, and where the number is known from; or an error,
-  with its exit code and words of its message.
+- *must come out*: a number with the largest difference that is allowed, and where the number is known from; or an
+  error, with its exit code and words of its message.
 - *drift*: the error of the energy balance over the gross energy (`energy.relative_error` of `summary.json`).
 - *step*: the step over the critical step that the program states. States of rest have no step.
 - *s*: seconds of the whole run, the start of the program included, on a machine that was busy with other work.
@@ -46,8 +46,9 @@ def row(outcome):
     drift = "" if outcome.drift is None else f"{outcome.drift:.0e}"
     step = "" if outcome.step is None else f"{outcome.step:.3g}"
     verdict = "as expected" if outcome.as_expected else "**not expected**"
-    return f"| `{case.name}` | {cell(case.what)} | {cell(str(case.expected))} | {cell(came_out(outcome))} | {drift} | {step} | " \
-           f"{outcome.seconds:.2f} | {verdict} |\n"
+    cells = (f"`{case.name}`", cell(case.what), cell(str(case.expected)), cell(came_out(outcome)), drift, step,
+             f"{outcome.seconds:.2f}", verdict)
+    return f"| {' | '.join(cells)} |\n"
 
 
 def section(family, outcomes):

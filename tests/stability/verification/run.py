@@ -11,7 +11,7 @@ import numpy as np
 
 from verification.case import Outcome
 
-PATIENCE = 100  # s, after which a run is ended
+PATIENCE = 300  # s, after which a run is ended
 
 
 class Result:
@@ -29,6 +29,12 @@ class Result:
 
     def last(self, name, column):
         return self.table(name)[column][-1]
+
+    def energy_kept(self):
+        """Kinetic and stored energy at the end over that at the start."""
+        history = self.table("history")
+        energy = history["kinetic"] + history["stored"]
+        return energy[-1] / energy[0]
 
 
 def run(program, case):
@@ -53,4 +59,4 @@ def run(program, case):
                 step = result.summary["time_step"] / result.summary["critical_time_step"]
             if done.returncode == 0 and case.measure:
                 value = float(case.measure(result))
-        return Outcome(case, done.returncode, done.stderr.strip(), value, drift, step, seconds)
+        return Outcome(case, done.returncode, done.stderr.strip().replace(f"{name}/", ""), value, drift, step, seconds)

@@ -3,6 +3,16 @@
 SPACING, YOUNG, DENSITY = 1e-3, 1e9, 1000.0
 
 
+def tag(options):
+    """The end of a case's name for options that it has besides."""
+    return "".join(f"_{value}" for value in options.values())
+
+
+def told(options):
+    """The same in words."""
+    return "".join(f", {key} {value}" for key, value in options.items())
+
+
 def stage(kind, **options):
     return {"type": kind, **options}
 

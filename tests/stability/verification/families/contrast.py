@@ -25,8 +25,10 @@ def at_rest(contrast, **options):
                 series="" if options else "at rest", at=contrast)
 
 
-# Mean displacement of a face of a cube of 0.1 m, 1 GPa, nu 0.2, with a stiffer cube of 0.04 m in its middle, under 1 MPa.
-INCLUSIONS = {1e2: 4.344748526e-5, 1e4: 4.322144236e-5, 1e6: 4.321902847e-5}
+# Mean displacement of a face of a cube of 0.1 m, 1 GPa, nu 0.2, with a stiffer cube of 0.04 m in its middle, under a
+# tension of 1 MPa.
+# By finite elements of second order, and frozen here; at 1 by the uniform strain, at 1e9 as at 1e6, where it is rigid.
+INCLUSIONS = {1: 5e-5, 1e2: 4.344748526e-5, 1e4: 4.322144236e-5, 1e6: 4.321902847e-5, 1e9: 4.321902847e-5}
 
 
 def inclusion(contrast, expected):
@@ -38,23 +40,22 @@ def inclusion(contrast, expected):
                       *(fixed(f"{axis}_min", axis) for axis in "xyz"),
                       stage("loads.pressure", on="x_max", pressure=-1e6), static(),
                       stage("probes.region", region="x_max", name="end", every=0)),
-                near(expected, 0.06, "finite elements, two meshes within 0.3 % (frozen)"),
-                lambda result: result.last("probes/end", "displacement_x_mean"), series="inclusion at rest", at=contrast)
+                near(expected, 0.02, "finite elements, two meshes within 0.3 %"),
+                lambda result: result.last("probes/end", "displacement_x_mean"), series="inclusion at rest",
+                at=contrast)
 
 
-def centre(name, what, curve, at, **inner):
-    """A free cube with an inclusion under gravity for 2000 steps: its centre falls freely, whatever is inside."""
+def pushed(name, what, **inner):
+    """A free cube with an inclusion is pushed for 2000 steps: its momentum is the impulse, whatever is inside."""
     end = 2000 * 4e-7 / max(1, inner.get("young", 1e9) / 1e9)**0.5
     cells = 5
-    outer_density = 1000
-    mass = (cells**3 - 1) * 1e-9 * outer_density + 1e-9 * inner.get("density", outer_density)
     return Case(f"contrast/{name}", what,
                 scene(cubic([cells] * 3), elastic(poisson=0.1, membrane="I-m"),
                       elastic(**{"poisson": 0.1, "membrane": "I-m", "name": "inclusion",
                                  "region": box([2, 2, 2], [3, 3, 3]), **inner}),
                       stage("loads.force", on="x_max", total=[1e-3, 0, 0]), explicit(end)),
                 near(1e-3 * end, 1e-9, "force x time: momentum"),
-                lambda result: result.last("history", "momentum_x"), series=curve, at=at)
+                lambda result: result.last("history", "momentum_x"))
 
 
 FAMILY = Family(
@@ -74,8 +75,9 @@ FAMILY = Family(
               1e-4, precision="float")]
     + [at_rest(c) for c in (1.0, 1e3, 1e6, 1e9)] + [at_rest(1e6, tolerance=1e-9)]
     + [inclusion(c, u) for c, u in INCLUSIONS.items()]
-    + [centre("stiff_inclusion_1e9", "stiff cell in the middle of a free cube, pushed", "", 0, young=1e18),
-       centre("heavy_inclusion_1e9", "cell 1e9 times as heavy in a free cube, pushed", "", 0, density=1e12)],
-    Plot("contrast", "error of the displacement", "xy",
-         height=lambda outcome: max(outcome.error, 1e-16)),
-    "")
+    + [pushed("stiff_inclusion_1e9", "stiff cell in the middle of a free cube, pushed", young=1e18),
+       pushed("heavy_inclusion_1e9", "cell 1e9 times as heavy in a free cube, pushed", density=1e12)],
+    Plot("contrast", "error of the displacement", "xy"),
+    "The error does not grow with the contrast: in motion it is the nonlinearity of strains of 1e-9, at rest it is "
+    "round-off for ten decades. The inclusion keeps the distance between this lattice and finite elements. The price "
+    "is the step: a bar whose half is 1e9 times as stiff needs 500,000 steps for a swing and a half of its soft half.")

@@ -1,10 +1,12 @@
 """Every membrane at both ends of its range of Poisson ratios, and just beyond."""
 from verification import cubes
 from verification.case import Case, Error, Family, Number, Plot
-from verification.scenes import cubic, elastic, explicit, scene, stage, static
+from verification.run import Result
+from verification.scenes import elastic, explicit, static, tag, told
 
 # Lower and upper end of nu in the cubic lattice, and how far the case is from an end that is not in the range.
-RANGES = {"I": (-25 / 118, 0.25), "II": (-0.5, 0.25), "I-m": (-0.2, 0.25), "III": (0, 4 / 15), "IV": (0, 1 / 3), "none": (0.25, 0.5)}
+RANGES = {"I": (-25 / 118, 0.25), "II": (-0.5, 0.25), "I-m": (-0.2, 0.25), "III": (0, 4 / 15), "IV": (0, 1 / 3),
+          "none": (0.25, 0.5)}
 CLOSED = {("I", "upper"), ("II", "upper"), ("I-m", "upper"), ("none", "lower")}
 NEAR, BEYOND = 1e-4, 1e-3
 
@@ -31,30 +33,22 @@ def at_rest(membrane, nu, name, what, series="", at=0):
 def beyond(membrane, side):
     value, inwards = limit(membrane, side)
     nu = value - inwards * BEYOND
-    words = {"I": "the reach of membrane I", "none": {"upper": "above -1 and below 0.5", "lower": "expected poisson 0.25"}[side]}
+    words = {"I": "the reach of membrane I", "none": {"upper": "above -1 and below 0.5",
+                                                      "lower": "expected poisson 0.25"}[side]}
     return Case(f"membranes/{membrane}_{side}_beyond", f"membrane {membrane} beyond its {side} end, nu {nu:.6g}",
                 cubes.pulled(static(), of(membrane, nu)),
-                Error(2, words.get(membrane, f"the reach of membrane {membrane}"), "no such lattice, or an unstable one"))
+                Error(2, words.get(membrane, f"the reach of membrane {membrane}"),
+                      "no such lattice, or an unstable one"))
 
 
 def in_motion(membrane, side, **more):
     """A free block whose corner is hit, for 2000 steps of 0.99 critical ones."""
     nu = inside(membrane, side)
-    corner = {"box": {"low": [-1, -1, -1], "high": [0.5e-3, 0.5e-3, 0.5e-3]}}
-    return Case(f"membranes/{membrane}_{side}_motion" + "".join(f"_{value}" for value in more.values()),
+    return Case(f"membranes/{membrane}_{side}_motion" + tag(more),
                 f"membrane {membrane}, nu {nu:.6g}, a block hit at its corner, 0.99 of the critical step"
-                + "".join(f", {key} {value}" for key, value in more.items()),
-                scene(cubic([3, 3, 3]), elastic(**of(membrane, nu)),
-                      stage("loads.start_velocity", on=corner, linear=[1e-6, 2e-6, 3e-6]),
-                      explicit(1e-3 if nu > -0.15 else 1e-4, safety=0.99), **more),
-                Number(1, 1e-3 if more else 1e-6, "energy that central differences keep"), kept)
-
-
-def kept(result):
-    """Energy at the end over that at the start."""
-    history = result.table("history")
-    total = history["kinetic"] + history["stored"]
-    return total[-1] / total[0]
+                + told(more),
+                cubes.hit(elastic(**of(membrane, nu)), explicit(1e-3 if nu > -0.15 else 1e-4, safety=0.99), **more),
+                Number(1, 1e-3 if more else 1e-6, "energy that central differences keep"), Result.energy_kept)
 
 
 def approach(side, distance):
@@ -66,15 +60,17 @@ def approach(side, distance):
 SIDES = ("lower", "upper")
 FAMILY = Family(
     "membranes", "Membranes at the ends of their ranges",
-    "At the lower end of its range a membrane becomes infinitely stiff (I, II, I-m, IV), or a spring of the lattice loses its "
-    "stiffness (III, and IV at its upper end); at the upper end the fourth dimension has no stiffness left (I, II, I-m). A "
-    "value beyond the range must be refused.",
+    "At the lower end of its range a membrane becomes infinitely stiff (I, II, I-m, IV), or a spring of the lattice "
+    "loses its stiffness (III, and IV at its upper end); at the upper end the fourth dimension has no stiffness left "
+    "(I, II, I-m). A value beyond the range must be refused.",
     [at_rest(membrane, inside(membrane, side), f"{membrane}_{side}",
-             f"membrane {membrane} at its {side} end, nu {inside(membrane, side):.6g}") for membrane in RANGES for side in SIDES]
+             f"membrane {membrane} at its {side} end, nu {inside(membrane, side):.6g}")
+     for membrane in RANGES for side in SIDES]
     + [beyond(membrane, side) for membrane in RANGES for side in SIDES]
     + [in_motion(membrane, side) for membrane in RANGES for side in SIDES]
     + [in_motion("I-m", "lower", precision="float")]
     + [approach(side, 10.0**-n) for side in SIDES for n in (1, 2, 3, 5, 6, 7)],
     Plot("distance of nu from the end of the range of I-m", "error of nu", "xy",
-         height=lambda outcome: max(abs(outcome.value - outcome.case.expected.value), 1e-16)),
-    "")
+         height=lambda outcome: outcome.distance),
+    "The error of nu stays below 1e-8 up to a distance of 1e-7 from both ends, where lambda is 2.5e7 or 1.2e-6: the "
+    "range ends where the program says, and not before.")

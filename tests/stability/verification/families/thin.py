@@ -1,6 +1,7 @@
 """Rods and plates one cell thick, and bars 20,000 times as long as thick."""
-from verification.case import Case, Family, Number, Plot, near
-from verification.scenes import DENSITY, SPACING, YOUNG, cubic, elastic, explicit, fixed, mean, scene, stage, static
+from verification.case import Case, Family, Plot, near
+from verification.scenes import (DENSITY, SPACING, YOUNG, cubic, elastic, explicit, fixed, mean, scene, stage, static,
+                                 tag, told)
 
 STRAIN = 1e-6
 
@@ -36,27 +37,33 @@ def hanging(length, series="", at=0):
                 lambda result: result.last("probes/end", "displacement_z_mean"), series=series, at=at)
 
 
-def pushed(length):
+def pushed(length, tolerance=1e-9, **more):
     """A free bar is pushed at one end: its momentum is force x time, and most of it has not felt it yet."""
     end, force = 1e-4, 1e-3
-    return Case(f"thin/pushed_{length}", f"free bar of 1 x 1 x {length} cells, pushed at its end",
-                scene(cubic([1, 1, length]), elastic(), stage("loads.force", on="z_min", total=[0, 0, force]), explicit(end)),
-                near(force * end, 1e-9, "force x time: momentum"), lambda result: result.last("history", "momentum_z"))
+    return Case(f"thin/pushed_{length}" + tag(more),
+                f"free bar of 1 x 1 x {length} cells, pushed at its end{told(more)}",
+                scene(cubic([1, 1, length]), elastic(), stage("loads.force", on="z_min", total=[0, 0, force]),
+                      explicit(end), **more),
+                near(force * end, tolerance, "force x time: momentum"),
+                lambda result: result.last("history", "momentum_z"))
 
 
 LENGTHS = (20, 200, 2000, 20000)
 FAMILY = Family(
     "thin", "One cell thick, and 1 : 20,000",
-    "A body one cell thick consists of edges only, and a row of single particles has no stiffness across. A slender bar is hard "
-    "for a solver of equations, since a load at its end has to travel through all cells.",
-    [pulled(f"rod_{n}", f"rod of 1 x 1 x {n} cells, pulled", [n, 1, 1], series="pulled at its end, cells", at=n) for n in LENGTHS]
+    "A body one cell thick consists of edges only, and a row of single particles has no stiffness across. A slender "
+    "bar is hard for a solver of equations, since a load at its end has to travel through all cells.",
+    [pulled(f"rod_{n}", f"rod of 1 x 1 x {n} cells, pulled", [n, 1, 1], series="pulled at its end, cells", at=n)
+     for n in LENGTHS]
     + [pulled("rod_I-m", "rod of 1 x 1 x 20 cells, membrane I-m, nu 0", [20, 1, 1], poisson=0.0, membrane="I-m"),
        pulled("rod_volumetric", "rod of 1 x 1 x 20 cells, nu 0.49", [20, 1, 1], poisson=0.49),
        pulled("plate", "plate of 60 x 60 x 1 cells, pulled", [60, 60, 1]),
-       pulled("plate_I-m", "plate of 60 x 60 x 1 cells, membrane I-m, nu 0.1", [60, 60, 1], poisson=0.1, membrane="I-m")]
-    + [row(n, static(), f"row_{n}", f"row of {n} particles, pulled", STRAIN * SPACING * (n - 1), 1e-5, "force / k of each spring",
-           "pulled at its end, particles", n) for n in LENGTHS]
+       pulled("plate_I-m", "plate of 60 x 60 x 1 cells, membrane I-m, nu 0.1", [60, 60, 1], poisson=0.1,
+              membrane="I-m")]
+    + [row(n, static(), f"row_{n}", f"row of {n} particles, pulled", STRAIN * SPACING * (n - 1), 1e-5,
+           "force / k of each spring", "pulled at its end, particles", n) for n in LENGTHS]
     + [hanging(n, "own weight, cells", n) for n in LENGTHS[:-1]]
-    + [pushed(20000)],
-    Plot("length over thickness", "error of the displacement", "xy", height=lambda outcome: max(outcome.error, 1e-16)),
-    "")
+    + [pushed(20000), pushed(20000, 1e-5, precision="float")],
+    Plot("length over thickness", "error of the displacement", "xy"),
+    "The error is that of the residual asked for, at any length. What grows is the work: conjugate gradients take "
+    "some 15 iterations for 2,000 cells and some 100 for 20,000.")
