@@ -1,4 +1,5 @@
 """Closed forms that the cases are compared with. Nothing here comes from the program."""
+import itertools
 import math
 
 import numpy as np
@@ -81,3 +82,30 @@ def minimum(function, x, h=1e-4):
         curvature = (function(x + h) - 2 * function(x) + function(x - h)) / h**2
         x -= slope(function, x, h) / curvature
     return x
+
+
+def softest(stretch, cells):
+    """The least eigenvalue, over k, of the stiffness of a cube of cells between frictionless planes whose end along x is
+    held at a homogeneous stretch: below 0 the cube buckles. No membrane."""
+    side = Homogeneous().pulled(stretch)[0]
+    deformed = np.diag([stretch, side, side])
+    sites = {site: n for n, site in enumerate(itertools.product(range(cells + 1), repeat=3))}
+    stiffness = np.zeros((len(sites), 3, len(sites), 3))
+    for cell in itertools.product(range(cells), repeat=3):
+        corners = [tuple(np.add(cell, step)) for step in itertools.product((0, 1), repeat=3)]
+        for one, other in itertools.combinations(corners, 2):
+            rest = np.subtract(other, one)
+            if rest @ rest > 2:
+                continue
+            share = 1 / 4 if rest @ rest == 1 else 1 / 2
+            place = deformed @ rest
+            length = np.linalg.norm(place)
+            along = np.outer(place, place) / length**2
+            spring = share * (along + (1 - np.sqrt(rest @ rest) / length) * (np.eye(3) - along))
+            i, j = sites[one], sites[other]
+            for a, b, sign in ((i, i, 1), (j, j, 1), (i, j, -1), (j, i, -1)):
+                stiffness[a, :, b, :] += sign * spring
+    free = [3 * n + axis for site, n in sites.items() for axis in range(3)
+            if site[axis] > 0 and not (axis == 0 and site[0] == cells)]
+    flat = stiffness.reshape(3 * len(sites), 3 * len(sites))
+    return np.linalg.eigvalsh(flat[np.ix_(free, free)])[0]

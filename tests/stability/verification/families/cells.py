@@ -9,10 +9,10 @@ FLAT = 1 / 64  # ratio of volumes below which the pressure goes on in a straight
 BULK = YOUNG / (2 * (1 + NU)) * (4 * NU - 1) / (1 - 2 * NU)  # K_v = C (4 nu - 1) / (1 - 2 nu), C = E / (2 (1 + nu))
 
 
-def springs(stretch, young=YOUNG, nu=0.25):
+def springs(stretch, nu):
     """Energy of the springs of a cell, J, whose height is scaled by `stretch`: four edges of a quarter spring, and
     eight diagonals of half a spring."""
-    k = young * SPACING / (2 * (1 + nu))
+    k = YOUNG * SPACING / (2 * (1 + nu))
     edges = (abs(stretch) - 1)**2
     diagonals = 4 * (math.sqrt(1 + stretch**2) - math.sqrt(2))**2
     return k * SPACING**2 / 2 * (edges + diagonals)
@@ -30,22 +30,25 @@ def pressure(J):
 def volumetric(J):
     """Energy of the volume, J: 9/2 K_v (J^(1/3) - 1)^2, below FLAT with a pressure that is linear in J."""
     inside = max(J, FLAT)
-    energy = 4.5 * BULK * (inside**(1 / 3) - 1)**2
+    density = 4.5 * BULK * (inside**(1 / 3) - 1)**2
     if J < FLAT:
-        energy += (pressure(FLAT) + pressure(J)) / 2 * (J - FLAT)
-    return energy * SPACING**3
+        density += (pressure(FLAT) + pressure(J)) / 2 * (J - FLAT)
+    return density * SPACING**3
+
+
+def energy(stretch, nu):
+    return springs(stretch, nu) + (volumetric(stretch) if nu > 0.25 else 0)
 
 
 def flattened(stretch, nu=0.25, tolerance=1e-6, **more):
     """One cell; its upper face goes down to `stretch` slowly, and its sides are held."""
-    expected = springs(stretch, nu=nu) + (volumetric(stretch) if nu > 0.25 else 0)
     name = "volumetric" if nu > 0.25 else "springs"
     return Case(f"cells/{name}_{stretch:g}" + tag(more), f"one cell, height {stretch:g}, nu {nu:g}{told(more)}",
                 scene(cubic([1, 1, 1]), elastic(poisson=nu), fixed("all", "xy"), fixed("z_min", "z"),
                       stage("loads.displacement", on="z_max", axes="z", value=[0, 0, (stretch - 1) * SPACING],
                             rise=1e-3),
                       explicit(1e-3), **more),
-                near(expected, tolerance, "energy of the springs and of the volume, closed form"),
+                near(energy(stretch, nu), tolerance, "energy of the springs and of the volume, closed form"),
                 lambda result: result.summary["energy"]["stored"], series="" if more else f"nu {nu:g}", at=stretch)
 
 
@@ -60,8 +63,7 @@ FAMILY = Family(
     + [flattened(a, NU, 1e-4, precision="float") for a in (0.1, -0.5)],
     Plot("height of the cell over its height at rest", "stored energy, mJ", "y",
          height=lambda outcome: outcome.value * SCALE,
-         curves={f"theory, nu {nu:g}": [(h / 50, SCALE * (springs(h / 50,
-                                                                  nu=nu) + (volumetric(h / 50) if nu > 0.25 else 0)))
-                                        for h in range(-75, 50)] for nu in (0.25, NU)}),
+         curves={f"theory, nu {nu:g}": [(n / 50, SCALE * energy(n / 50, nu)) for n in range(-75, 50)]
+                 for nu in (0.25, NU)}),
     "The energies lie on the curves through the flat cell down to a height of -1.5. The border is the height 0 itself: "
     "a spring between two particles at exactly one place has no direction, and its force is no number.")

@@ -72,7 +72,7 @@ def through(safety):
     made = meeting(speed, explicit(2 / WAVE, safety=safety, energy_tolerance=0))
     return Case(f"degenerate/through_{safety:g}",
                 f"two particles fly through each other, {safety:g} of the critical step", made,
-                Number(1, 0.4 * safety, "energy: at the end over at the start"), Result.energy_kept, series="energy",
+                Number(1, 0.36 * safety, "energy: at the end over at the start"), Result.energy_kept, series="energy",
                 at=safety)
 
 

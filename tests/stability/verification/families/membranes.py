@@ -4,10 +4,12 @@ from verification.case import Case, Error, Family, Number, Plot
 from verification.run import Result
 from verification.scenes import elastic, explicit, static, tag, told
 
-# Lower and upper end of nu in the cubic lattice, and how far the case is from an end that is not in the range.
+# Lower and upper end of nu in the cubic lattice.
 RANGES = {"I": (-25 / 118, 0.25), "II": (-0.5, 0.25), "I-m": (-0.2, 0.25), "III": (0, 4 / 15), "IV": (0, 1 / 3),
           "none": (0.25, 0.5)}
+# Ends that belong to the range. At the others a case is NEAR the end.
 CLOSED = {("I", "upper"), ("II", "upper"), ("I-m", "upper"), ("none", "lower")}
+OF_NONE = {"lower": "expected poisson 0.25", "upper": "above -1 and below 0.5"}  # words of refusals
 NEAR, BEYOND = 1e-4, 1e-3
 
 
@@ -33,20 +35,17 @@ def at_rest(membrane, nu, name, what, series="", at=0):
 def beyond(membrane, side):
     value, inwards = limit(membrane, side)
     nu = value - inwards * BEYOND
-    words = {"I": "the reach of membrane I", "none": {"upper": "above -1 and below 0.5",
-                                                      "lower": "expected poisson 0.25"}[side]}
+    words = OF_NONE[side] if membrane == "none" else f"the reach of membrane {membrane};"
     return Case(f"membranes/{membrane}_{side}_beyond", f"membrane {membrane} beyond its {side} end, nu {nu:.6g}",
                 cubes.pulled(static(), of(membrane, nu)),
-                Error(2, words.get(membrane, f"the reach of membrane {membrane}"),
-                      "no such lattice, or an unstable one"))
+                Error(2, words, "no such lattice, or an unstable one"))
 
 
 def in_motion(membrane, side, **more):
-    """A free block whose corner is hit, for 2000 steps of 0.99 critical ones."""
+    """A free block whose corner is hit, for more than a thousand steps."""
     nu = inside(membrane, side)
     return Case(f"membranes/{membrane}_{side}_motion" + tag(more),
-                f"membrane {membrane}, nu {nu:.6g}, a block hit at its corner, 0.99 of the critical step"
-                + told(more),
+                f"membrane {membrane}, nu {nu:.6g}, a block hit at its corner, 0.99 of the critical step{told(more)}",
                 cubes.hit(elastic(**of(membrane, nu)), explicit(1e-3 if nu > -0.15 else 1e-4, safety=0.99), **more),
                 Number(1, 1e-3 if more else 1e-6, "energy that central differences keep"), Result.energy_kept)
 

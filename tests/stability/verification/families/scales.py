@@ -44,7 +44,7 @@ FAMILY = Family(
     "Loads are given as the strain that they would cause. The dimensionless answer of small strains is the same for "
     "all loads, sizes, stiffnesses and densities. Small loads get lost where a length is the difference of two "
     "places; very small ones become denormal numbers, which have fewer digits. A load 1e12 times the stiffness of the "
-    "body must end with an error.",
+    "body moves it faster than any step can follow, and that must be said.",
     [moving(f"load_{e:.0e}", f"load for a strain of {e:g}, in motion", series="load, in motion", at=e,
             strain=e) for e in STRAINS]
     + [resting(f"load_{e:.0e}_rest", f"load for a strain of {e:g}, at rest", series="load, at rest", at=e, strain=e)
