@@ -85,8 +85,8 @@ def minimum(function, x, h=1e-4):
 
 
 def softest(stretch, cells):
-    """The least eigenvalue, over k, of the stiffness of a cube of cells between frictionless planes whose end along x is
-    held at a homogeneous stretch: below 0 the cube buckles. No membrane."""
+    """The least eigenvalue, over k, of the stiffness of a cube of cells between frictionless planes whose end along x
+    is held at a homogeneous stretch: below 0 the cube buckles. No membrane."""
     side = Homogeneous().pulled(stretch)[0]
     deformed = np.diag([stretch, side, side])
     sites = {site: n for n, site in enumerate(itertools.product(range(cells + 1), repeat=3))}
