@@ -36,8 +36,9 @@ class Static {
             "small listed lattices with a factorisation")
         .source("docs/theory/statics.md")
         .restrictions(
-            "Springs break in states of rest, and loads are held until the body is at rest without "
-            "them. The damage of cohesive materials grows between its states of rest. A law "
+            "Springs break in states of rest, and loads are held, or fall with `snap_back`, until "
+            "the body is at rest without them. The damage of cohesive materials grows between its "
+            "states of rest. A law "
             "with a memory starts each load step with the memory of the last state "
             "of "
             "rest; the memory advances when the step is accepted, and no time passes for the law. "
@@ -80,8 +81,9 @@ class Static {
         .fallback("0.05")
         .add<&Options::snap_back>(
             "snap_back", "",
-            "of cohesive materials: whether loads and time fall where a crack would run on under "
-            "loads that are held; if not, it runs to its next state of rest at once")
+            "whether loads and time fall where a crack would run on under loads that are held, so "
+            "that damage, or springs, go one after the other; if not, the crack runs to its next "
+            "state of rest at once")
         .fallback("false")
         .add<&Options::overshoot>(
             "overshoot", "",
@@ -175,10 +177,18 @@ class Static {
       share = reached;
       if (!host.accept(share, u.data())) return;
       while (problem->broke > 0) {
-        newton.forget_tangent();
-        const equilibrium::Outcome settled = search(share, share);
-        if (newton.stopped()) return;
-        if (!settled.at_rest) return fail(settled);
+        for (int tries = 0;; ++tries) {
+          newton.forget_tangent();
+          const equilibrium::Outcome settled = search(share, share);
+          if (newton.stopped()) return;
+          if (!settled.at_rest) return fail(settled);
+          const double over =
+              o_.snap_back && tries < most_tries ? problem->overshoot(share, u.data()) : 0;
+          if (over <= o_.overshoot) break;
+          share *= 1 - over + o_.overshoot / 2;
+          std::copy_n(problem->state, u.size(), u.begin());
+          if (problem->damages) problem->restore_damage();
+        }
         if (!host.accept(share, u.data())) return;
       }
       length = std::min(whole, 2 * length);
@@ -187,6 +197,7 @@ class Static {
   }
 
  private:
+  static constexpr int most_tries = 20;  // to find the load at which the next spring breaks
   Options o_;
 };
 
