@@ -1,14 +1,14 @@
 // Static equilibrium by Newton's method,
 //   F_springs(u) + F_loads = 0,
 // in load steps that are halved (cutback) if the method does not converge.
-#include "cracking.hpp"
 #include "failure.hpp"
+#include "load_steps.hpp"
 
 #include <equilibrium/systems.hpp>
 
 #include <hyperlattice/rest.hpp>
 
-#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 
@@ -129,75 +129,27 @@ class Static {
     if (problem == nullptr) return;
     const std::unique_ptr<equilibrium::System> system =
         equilibrium::make_system(*problem, o_.preconditioner);
-    equilibrium::Newton newton(
-        *system, host,
-        {.tolerance = o_.tolerance,
-         .stable = o_.stability.value_or(!facts.listed && !problem->damages && !facts.breaks)});
-    equilibrium::Cracking cracking(*problem, newton, o_.snap_back);
-    equilibrium::Field u(problem->state, problem->state + problem->grid.numbers());
-    const double whole = 1 / static_cast<double>(o_.load_steps),
-                 shortest = whole * std::exp2(-static_cast<double>(o_.most_cutbacks));
-    double share = 0, length = whole;
-    const auto time = [&] {
-      return facts.start_time + share * (plan(facts).end_time - facts.start_time);
-    };
-    const auto fail = [&](const equilibrium::Outcome& found) {
-      if (!found.direction.empty() && !host.show_motion(found.direction.data())) return;
-      throw std::runtime_error(
-          equilibrium::failure_text(*problem, {share, time(), problem->broke}, found));
-    };
-    const auto search = [&](double most, double& reached) {
-      return problem->damages
-                 ? cracking.solve_load_step(most, o_.damage_step * length / whole, reached, u)
-                 : newton.solve_load_step(most, u);
-    };
-    while (share < 1) {
-      constexpr double nearly = 1e-9;
-      const double next = share + length > 1 - nearly ? 1 : share + length;
-      double reached = problem->damages ? share : next;
-      const equilibrium::Outcome found = search(next, reached);
-      if (newton.stopped()) return;
-      const double beyond = found.at_rest && facts.breaks && length > shortest
-                                ? problem->overshoot(reached, u.data())
-                                : 0;
-      if (!found.at_rest) {
-        length /= 2;
-        if (!found.hopeless && length >= 0.99 * shortest) continue;
-        return fail(found);
-      }
-      if (beyond > o_.overshoot) {  // the elongations are about in proportion to the load
-        constexpr double least = 0.1, most = 0.9;
-        const double wanted = reached * (1 - beyond + o_.overshoot / 2) - share;
-        length *= std::clamp(wanted / length, least, most);
-        std::copy_n(problem->state, u.size(), u.begin());
-        newton.forget_tangent();
-        if (problem->damages) problem->restore_damage();
-        continue;
-      }
-      share = reached;
-      if (!host.accept(share, u.data())) return;
-      while (problem->broke > 0) {
-        for (int tries = 0;; ++tries) {
-          newton.forget_tangent();
-          const equilibrium::Outcome settled = search(share, share);
-          if (newton.stopped()) return;
-          if (!settled.at_rest) return fail(settled);
-          const double over =
-              o_.snap_back && tries < most_tries ? problem->overshoot(share, u.data()) : 0;
-          if (over <= o_.overshoot) break;
-          share *= 1 - over + o_.overshoot / 2;
-          std::copy_n(problem->state, u.size(), u.begin());
-          if (problem->damages) problem->restore_damage();
-        }
-        if (!host.accept(share, u.data())) return;
-      }
-      length = std::min(whole, 2 * length);
-      if (!host.report(newton.report()) || !host.observe()) return;
-    }
+    const bool stable = o_.stability.value_or(!facts.listed && !problem->damages && !facts.breaks);
+    equilibrium::Newton newton(*system, host, {.tolerance = o_.tolerance, .stable = stable});
+    const double whole = 1 / static_cast<double>(o_.load_steps);
+    equilibrium::LoadSteps steps(
+        *problem, host, newton,
+        {.longest = whole,
+         .shortest = whole * std::exp2(-static_cast<double>(o_.most_cutbacks)),
+         .damage_step = o_.damage_step,
+         .overshoot = facts.breaks ? o_.overshoot : infinity,
+         .snap_back = o_.snap_back});
+    if (steps.run()) return;
+    const equilibrium::Outcome& found = steps.outcome();
+    if (found.at_rest || newton.stopped()) return;  // the host has ended the stage
+    if (!found.direction.empty() && !host.show_motion(found.direction.data())) return;
+    const double start = facts.start_time,
+                 time = start + steps.share() * (plan(facts).end_time - start);
+    throw std::runtime_error(
+        equilibrium::failure_text(*problem, {steps.share(), time, problem->broke}, found));
   }
 
  private:
-  static constexpr int most_tries = 20;  // to find the load at which the next spring breaks
   Options o_;
 };
 

@@ -1,0 +1,47 @@
+// The way from the loads of a stage's start to those of its end, in steps from one state of rest to
+// the next. A step is cut where no state of rest is found and where it goes too far beyond the
+// first failure of a spring.
+#pragma once
+
+#include "cracking.hpp"
+
+namespace hyperlattice::equilibrium {
+
+/// Fractions of the load are lengths of steps.
+struct LoadStepOptions {
+  double longest = 1, shortest = 1;
+  double damage_step = 0.05;  ///< largest growth of damage in a step of the longest length
+  double overshoot =
+      infinity;            ///< of the first failure of a spring, relative; infinite: none breaks
+  bool snap_back = false;  ///< whether loads fall where cracks would run on
+};
+
+class LoadSteps {
+ public:
+  LoadSteps(const StaticProblem& problem, const SolverHost& host, Newton& newton,
+            const LoadStepOptions& options);
+
+  /// Goes to the end. Returns false if the run must stop or no further state of rest was found.
+  bool run();
+  /// Returns the outcome of the last search.
+  const Outcome& outcome() const { return found_; }
+  /// Returns the fraction of the load of the last state of rest.
+  double share() const { return share_; }
+
+ private:
+  bool advance();
+  bool settle();
+  bool search(double most_share, double& reached);
+  void go_back();
+
+  const StaticProblem& problem_;
+  const SolverHost& host_;
+  Newton& newton_;
+  LoadStepOptions options_;
+  Cracking cracking_;
+  Field u_;  ///< displacements, m
+  double share_ = 0, length_;
+  Outcome found_;
+};
+
+}  // namespace hyperlattice::equilibrium
