@@ -22,7 +22,7 @@ class Implicit {
   struct Options {
     double end_time = 0;
     std::optional<double> time_step;
-    double tolerance = 1e-4, residual = 1e-6, damping = 0, overshoot = 1e-2, damage_step = 0.05;
+    double tolerance = 1e-4, residual = 1e-6, damping = 0, overshoot = 1e-2, damage_step = 0.02;
     equilibrium::Preconditioner preconditioner = equilibrium::Preconditioner::automatic;
   };
 
@@ -88,7 +88,7 @@ class Implicit {
             "step is shorter, to the critical step at least")
         .above(0)
         .at_most(1)
-        .fallback("0.05")
+        .fallback("0.02")
         .add<&Options::preconditioner>(
             "preconditioner", "",
             "of listed lattices: a factorisation of the tangent, whole or with no more entries "
