@@ -52,7 +52,7 @@ bool WholeReview::any_breaks(double part) {
 }
 
 double WholeReview::overshoot() {
-  constexpr int halvings = 14;
+  constexpr int halvings = 20;
   exchange();
   if (!any_breaks(1)) return -1;
   double beyond = 0, step = 1;

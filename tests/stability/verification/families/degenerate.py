@@ -69,11 +69,17 @@ def through(safety):
     """They meet and fly through each other within a step. The force K x SPACING turns around only at the end of that
     step, up to half a step too late. That is up to 0.36 of the energy for the critical step."""
     speed = 2000.0
-    made = meeting(speed, explicit(2 / WAVE, safety=safety, energy_tolerance=0))
+    made = meeting(speed, explicit(2 / WAVE, safety=safety, energy_tolerance=0, approach_limit=0))
     return Case(f"degenerate/through_{safety:g}",
                 f"two particles fly through each other, {safety:g} of the critical step", made,
                 Number(1, 0.36 * safety, "energy: at the end over at the start"), Result.energy_kept, series="energy",
                 at=safety)
+
+
+def stopped():
+    """The same with the guard as it is by default."""
+    return Case("degenerate/through_stopped", "two particles about to fly through each other, approach_limit 0.5",
+                meeting(2000.0, explicit(2 / WAVE, safety=0.9)), Error(3, "come nearer by", "a guard while running"))
 
 
 CLOSE = [10.0**-n for n in (1, 3, 6, 9)]
@@ -104,7 +110,7 @@ FAMILY = Family(
     + [alone(), alone(precision="float")]
     + [pair(speed, f"spring_{speed:.0e}", f"a single spring, {speed:g} m/s", 1e-5)
        for speed in (1e-9, 1e-3, 1.0, 100.0)]
-    + [through(safety) for safety in (0.01, 0.03, 0.1, 0.3, 0.9)],
+    + [through(safety) for safety in (0.01, 0.03, 0.1, 0.3, 0.9)] + [stopped()],
     Plot("step over critical step", "change of the energy over the energy", "xy",
          curves={"bound": [(0.01, 0.0036), (0.9, 0.9 * 0.36)]}),
     "Two particles on one spring that fly through each other change their energy by less than the bound, which is in "
