@@ -4,6 +4,7 @@
 #include <state/state.hpp>
 
 namespace hyperlattice {
+
 /// Gives the body another motion, for its lifetime.
 class Simulation::OtherMotion {
  public:

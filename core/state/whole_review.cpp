@@ -5,60 +5,80 @@
 
 namespace hyperlattice {
 
-void WholeReview::exchange() {
+/// Returns the springs of each block that are above their alarm.
+WholeReview::AlarmedOfBlocks WholeReview::alarmed() {
+  const Model& model = blocks_.model();
+  AlarmedOfBlocks found(blocks_.size());
   blocks_.team().for_each(blocks_.size(), [&](std::size_t b) { blocks_.exchange(blocks_[b]); });
+  blocks_.team().for_each(blocks_.size(), [&](std::size_t b) {
+    const Block& block = blocks_[b];
+    blocks_.layout().for_springs(block, [&](const SpringPlace& spring) {
+      // Ghosts of a structured body are copied from their owners.
+      if (!model.body.is_listed() && !spring.counts) return;
+      const SpringProperties properties =
+          model.spring_properties(spring.ends.a, spring.ends.b, spring.ends.neighbour);
+      const double elongation = blocks_.elongation(spring.ends, properties);
+      if (reaches_alarm(block, spring, elongation)) found[b].push_back({spring, elongation});
+    });
+  });
+  return found;
 }
 
-/// Asks the criteria about all springs of the block, with `part` of their elongations.
-void WholeReview::review(Block& block, double part, bool removes) const {
+bool WholeReview::reaches_alarm(const Block& block, const SpringPlace& spring,
+                                double elongation) const {
   const Model& model = blocks_.model();
-  const Layout& layout = blocks_.layout();
-  layout.for_springs(block, [&](const SpringPlace& spring) {
-    if (!model.body.is_listed() && !spring.counts) return;  // ghosts are copied from their owners
-    const auto& [a, b, neighbour, is_first] = spring.ends;
-    const SpringProperties properties = model.spring_properties(a, b, neighbour);
-    const double elongation = part * blocks_.elongation(spring.ends, properties);
-    const Layout::Memory memory =
-        model.springs.memory > 0
-            ? layout.memory(block, spring.row, spring.neighbour, spring.site, false)
-            : Layout::Memory{};
-    if (!review_.reaches_alarm(properties, model.alarm(a, b, neighbour, properties), elongation,
-                               memory))
-      return;
-    const std::uint8_t* broken =
-        review_.review(block, {spring.row, spring.neighbour, {&spring.site, 1}, {&elongation, 1}});
-    if (removes && *broken != 0) layout.remove(block, spring.row, spring.neighbour, spring.site);
-  });
+  const auto& [a, b, neighbour, is_first] = spring.ends;
+  const SpringProperties properties = model.spring_properties(a, b, neighbour);
+  const Layout::Memory memory =
+      model.springs.memory > 0
+          ? blocks_.layout().memory(block, spring.row, spring.neighbour, spring.site, false)
+          : Layout::Memory{};
+  return review_.reaches_alarm(properties, model.alarm(a, b, neighbour, properties), elongation,
+                               memory);
+}
+
+/// Asks the criteria about a spring with `part` of its elongation.
+bool WholeReview::breaks(Block& block, const Alarmed& alarmed, double part) const {
+  const SpringPlace& spring = alarmed.spring;
+  const double elongation = part * alarmed.elongation;
+  return reaches_alarm(block, spring, elongation) &&
+         *review_.review(block,
+                         {spring.row, spring.neighbour, {&spring.site, 1}, {&elongation, 1}}) != 0;
 }
 
 void WholeReview::remove_broken() {
-  exchange();
-  blocks_.team().for_each(blocks_.size(), [&](std::size_t b) { review(blocks_[b], 1, true); });
+  const AlarmedOfBlocks all = alarmed();
+  blocks_.team().for_each(blocks_.size(), [&](std::size_t b) {
+    for (const Alarmed& one : all[b])
+      if (breaks(blocks_[b], one, 1))
+        blocks_.layout().remove(blocks_[b], one.spring.row, one.spring.neighbour, one.spring.site);
+  });
 }
 
-bool WholeReview::any_breaks(double part) {
-  std::vector<std::uint8_t> breaks(blocks_.size(), 0);
+bool WholeReview::any_breaks(const AlarmedOfBlocks& alarmed, double part) {
+  std::vector<std::uint8_t> found(blocks_.size(), 0);
   blocks_.team().for_each(blocks_.size(), [&](std::size_t b) {
     Block& block = blocks_[b];
+    if (alarmed[b].empty()) return;
     FailureMemory memory = block.failure_memory;
     std::vector<Particle> noted = block.noted;
-    review(block, part, false);
-    breaks[b] = block.broken.empty() ? 0 : 1;
+    for (const Alarmed& one : alarmed[b])
+      if (breaks(block, one, part)) found[b] = 1;
     block.broken.clear();
     block.failure_memory = std::move(memory);
     block.noted = std::move(noted);
   });
-  return std::any_of(breaks.begin(), breaks.end(), [](std::uint8_t any) { return any != 0; });
+  return std::any_of(found.begin(), found.end(), [](std::uint8_t any) { return any != 0; });
 }
 
 double WholeReview::overshoot() {
   constexpr int halvings = 20;
-  exchange();
-  if (!any_breaks(1)) return -1;
+  const AlarmedOfBlocks all = alarmed();
+  if (!any_breaks(all, 1)) return -1;
   double beyond = 0, step = 1;
   for (int n = 0; n < halvings; ++n) {
     step /= 2;
-    if (any_breaks(1 - beyond - step)) beyond += step;
+    if (any_breaks(all, 1 - beyond - step)) beyond += step;
   }
   return beyond;
 }

@@ -5,7 +5,7 @@
 #include <state/block_set.hpp>
 #include <state/spring_review.hpp>
 
-#include <cstdint>
+#include <vector>
 
 namespace hyperlattice {
 
@@ -21,9 +21,17 @@ class WholeReview {
   double overshoot();
 
  private:
-  void exchange();
-  void review(Block& block, double part, bool removes) const;
-  bool any_breaks(double part);
+  /// A spring above its alarm.
+  struct Alarmed {
+    SpringPlace spring;
+    double elongation = 0;  ///< m
+  };
+  using AlarmedOfBlocks = std::vector<std::vector<Alarmed>>;
+
+  AlarmedOfBlocks alarmed();
+  bool reaches_alarm(const Block& block, const SpringPlace& spring, double elongation) const;
+  bool breaks(Block& block, const Alarmed& alarmed, double part) const;
+  bool any_breaks(const AlarmedOfBlocks& alarmed, double part);
 
   BlockSet& blocks_;
   const SpringReview& review_;

@@ -119,8 +119,12 @@ double Statics::overshoot(double share, const double* displacement) {
 
 /// Takes over the update, and what broke in it.
 void Statics::apply(const EquilibriumUpdate& to) {
+  const auto before = static_cast<std::ptrdiff_t>(simulation_.breakages().size());
   problem_.growth = simulation_.apply_equilibrium(to);
-  problem_.broke = simulation_.broken() - broken_;
+  const std::vector<Breakage>& all = simulation_.breakages();
+  // A spring that its law or damage has softened away carries nothing already.
+  problem_.broke = static_cast<std::uint64_t>(std::count_if(
+      all.begin() + before, all.end(), [](const Breakage& one) { return !one.softened; }));
   if (problem_.broke > 0)
     read_springs();
   else if (problem_.damages && to.time_step > 0)
