@@ -47,33 +47,16 @@ void DamageField::watch_shortening(Block& block) const {
 
 /// Notes both ends of springs that are stretched or shortened beyond these parts of their length.
 void DamageField::watch(Block& block, double stretch, double shortening) const {
-  for (std::uint32_t r = block.layout->first_own; r < block.layout->last_own; ++r) {
-    const Row& row = block.rows[r];
-    for (std::uint32_t n = 0; n < model_.springs.neighbours.size(); ++n) {
-      if ((row.neighbours >> n & 1U) == 0) continue;
-      const NeighbourGeometry& to = model_.springs.neighbours[n];
-      const double square = to.rest_length * to.rest_length,
-                   least = std::isfinite(shortening)
-                               ? square * ((1 - shortening) * (1 - shortening) - 1)
-                               : -infinity,
-                   most = square * ((1 + stretch) * (1 + stretch) - 1);
-      // In a grid the other ends of a row's springs are as far apart as the sites.
-      const std::uint64_t other = blocks_.layout().other_end(block.number, r, n, row.begin);
-      for (std::int32_t i = row.begin; i < row.end; ++i) {
-        const auto along = static_cast<std::uint64_t>(i - row.begin);
-        const std::uint64_t here = row.start + along, there = other + along;
-        if ((block.alive[here] >> n & 1U) == 0) continue;
-        const auto apart = [&](int c) {
-          return block.displacement[c][there] - block.displacement[c][here];
-        };
-        const Vec3 d{apart(0), apart(1), apart(2)};
-        const double growth = dot(d, 2 * to.rest + d);
-        if (growth > least && growth <= most) continue;
-        const SpringEnds ends = blocks_.layout().spring(block, r, n, i);
-        for (const Particle end : {ends.a, ends.b}) note(block, end);
-      }
-    }
+  std::vector<GrowthBounds> bounds;
+  for (const NeighbourGeometry& to : model_.springs.neighbours) {
+    const double square = to.rest_length * to.rest_length;
+    bounds.push_back(
+        {std::isfinite(shortening) ? square * ((1 - shortening) * (1 - shortening) - 1) : -infinity,
+         square * ((1 + stretch) * (1 + stretch) - 1)});
   }
+  blocks_.layout().for_springs_beyond(block, bounds, [&](const SpringPlace& spring) {
+    for (const Particle end : {spring.ends.a, spring.ends.b}) note(block, end);
+  });
 }
 
 }  // namespace hyperlattice

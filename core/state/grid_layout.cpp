@@ -254,6 +254,33 @@ void GridLayout::for_springs(const Block& block,
   }
 }
 
+void GridLayout::for_springs_beyond(const Block& block, std::span<const GrowthBounds> bounds,
+                                    const std::function<void(const SpringPlace&)>& visit) const {
+  for (std::uint32_t r = block.layout->first_own; r < block.layout->last_own; ++r) {
+    const Row& row = block.rows[r];
+    for (std::uint32_t n = 0; n < model_.springs.neighbours.size(); ++n) {
+      if ((row.neighbours >> n & 1U) == 0) continue;
+      const Vec3 twice = 2 * model_.springs.neighbours[n].rest;
+      const auto [least, most] = bounds[n];
+      // The other ends of a row's springs are as far apart as the sites.
+      const std::uint64_t other = other_end(block.number, r, n, row.begin);
+      for (std::int32_t i = row.begin; i < row.end; ++i) {
+        const auto along = static_cast<std::uint64_t>(i - row.begin);
+        const std::uint64_t here = row.start + along, there = other + along;
+        if ((block.alive[here] >> n & 1U) == 0) continue;
+        const auto apart = [&](int c) {
+          return block.displacement[c][there] - block.displacement[c][here];
+        };
+        const Vec3 d{apart(0), apart(1), apart(2)};
+        double growth = dot(d, twice + d);
+        if (model_.degrees_of_freedom == 4) growth += apart(3) * apart(3);
+        if (growth > least && growth <= most) continue;
+        visit({r, n, i, spring(block, r, n, i)});
+      }
+    }
+  }
+}
+
 std::uint64_t GridLayout::alive_bits(const Block& block, std::uint64_t index) const {
   return block.alive[index];
 }

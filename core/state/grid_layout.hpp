@@ -26,6 +26,8 @@ class GridLayout final : public Layout {
                           std::int32_t site) const override;
   void for_springs(const Block& block,
                    const std::function<void(const SpringPlace&)>& visit) const override;
+  void for_springs_beyond(const Block& block, std::span<const GrowthBounds> bounds,
+                          const std::function<void(const SpringPlace&)>& visit) const override;
   std::uint64_t alive_bits(const Block& block, std::uint64_t index) const override;
   void fill(Block& block) const override;
   void exchange(const std::vector<Block>& all, Block& block) const override;

@@ -58,6 +58,11 @@ struct SpringPlace {
   bool counts = true;  ///< false for copies: in ghost rows, or from the second end
 };
 
+/// Growth of the squared length of a spring, m2, between which it is of no interest.
+struct GrowthBounds {
+  double least = -infinity, most = infinity;
+};
+
 /// Row::law of rows whose springs have the first law, and to whose particles the host adds forces:
 /// those of volumetric energies (nodal_pressures.hpp), of soft springs (damage_field.hpp) or of
 /// local steps (local_steps.hpp).
@@ -102,6 +107,11 @@ class Layout {
   /// is visited once from each of its ends in the block.
   virtual void for_springs(const Block& block,
                            const std::function<void(const SpringPlace&)>& visit) const = 0;
+  /// Visits the springs of a block whose squared length has grown by less than `least` or by more
+  /// than `most`, those of its ghost rows excluded. `bounds`: of each neighbour. Of a listed body
+  /// all springs are visited, once from each of their ends in the block.
+  virtual void for_springs_beyond(const Block& block, std::span<const GrowthBounds> bounds,
+                                  const std::function<void(const SpringPlace&)>& visit) const = 0;
   /// Returns which springs of a particle exist, as bits for hashes.
   virtual std::uint64_t alive_bits(const Block& block, std::uint64_t index) const = 0;
 

@@ -201,6 +201,11 @@ void ListedLayout::for_springs(const Block& block,
     }
 }
 
+void ListedLayout::for_springs_beyond(const Block& block, std::span<const GrowthBounds>,
+                                      const std::function<void(const SpringPlace&)>& visit) const {
+  for_springs(block, visit);
+}
+
 std::uint64_t ListedLayout::alive_bits(const Block& block, std::uint64_t index) const {
   const std::vector<std::uint32_t>& first = parts_[block.number].first_slot;
   std::uint64_t bits = 0;

@@ -1,20 +1,47 @@
 #include <state/whole_review.hpp>
 
+#include <hyperlattice/kernel_request.hpp>
+
 #include <algorithm>
 #include <utility>
 
 namespace hyperlattice {
 
+namespace {
+
+/// Returns bounds within which no spring of a structured body can be above its alarm.
+std::vector<GrowthBounds> quiet_bounds(const SpringTable& springs) {
+  std::vector<GrowthBounds> bounds(springs.neighbours.size());
+  for (std::size_t n = 0; n < bounds.size(); ++n) {
+    const NeighbourGeometry& to = springs.neighbours[n];
+    bounds[n].most =
+        springs.composites.empty() && springs.mixture_springs.empty() ? infinity : -infinity;
+    for (std::size_t a = 0; a < springs.materials; ++a)
+      for (std::size_t b = 0; b < springs.materials; ++b) {
+        const double alarm = springs
+                                 .spring(static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(b),
+                                         to.site.spring_class)
+                                 .alarm;
+        if (alarm < infinity)
+          bounds[n].most =
+              std::min(bounds[n].most,
+                       alarm > -to.rest_length ? squared_growth(to.rest_length, alarm) : -infinity);
+      }
+  }
+  return bounds;
+}
+
+}  // namespace
+
 /// Returns the springs of each block that are above their alarm.
 WholeReview::AlarmedOfBlocks WholeReview::alarmed() {
   const Model& model = blocks_.model();
   AlarmedOfBlocks found(blocks_.size());
+  const std::vector<GrowthBounds> quiet = quiet_bounds(model.springs);
   blocks_.team().for_each(blocks_.size(), [&](std::size_t b) { blocks_.exchange(blocks_[b]); });
   blocks_.team().for_each(blocks_.size(), [&](std::size_t b) {
     const Block& block = blocks_[b];
-    blocks_.layout().for_springs(block, [&](const SpringPlace& spring) {
-      // Ghosts of a structured body are copied from their owners.
-      if (!model.body.is_listed() && !spring.counts) return;
+    blocks_.layout().for_springs_beyond(block, quiet, [&](const SpringPlace& spring) {
       const SpringProperties properties =
           model.spring_properties(spring.ends.a, spring.ends.b, spring.ends.neighbour);
       const double elongation = blocks_.elongation(spring.ends, properties);
