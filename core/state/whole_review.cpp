@@ -9,26 +9,22 @@ namespace hyperlattice {
 
 namespace {
 
-/// Returns bounds within which no spring of a structured body can be above its alarm.
-std::vector<GrowthBounds> quiet_bounds(const SpringTable& springs) {
-  std::vector<GrowthBounds> bounds(springs.neighbours.size());
-  for (std::size_t n = 0; n < bounds.size(); ++n) {
-    const NeighbourGeometry& to = springs.neighbours[n];
-    bounds[n].most =
-        springs.composites.empty() && springs.mixture_springs.empty() ? infinity : -infinity;
-    for (std::size_t a = 0; a < springs.materials; ++a)
-      for (std::size_t b = 0; b < springs.materials; ++b) {
-        const double alarm = springs
-                                 .spring(static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(b),
-                                         to.site.spring_class)
-                                 .alarm;
-        if (alarm < infinity)
-          bounds[n].most =
-              std::min(bounds[n].most,
-                       alarm > -to.rest_length ? squared_growth(to.rest_length, alarm) : -infinity);
-      }
-  }
-  return bounds;
+/// Returns the growth of the squared length, m2, below which no spring to a neighbour is above its
+/// alarm.
+double quiet_growth(const SpringTable& springs, const NeighbourGeometry& to) {
+  // The parts of a composite spring, and the cells of several materials, have alarms of their own.
+  if (!springs.composites.empty() || !springs.mixture_springs.empty()) return -infinity;
+  double most = infinity;
+  for (std::size_t a = 0; a < springs.materials; ++a)
+    for (std::size_t b = 0; b < springs.materials; ++b) {
+      const double alarm = springs
+                               .spring(static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(b),
+                                       to.site.spring_class)
+                               .alarm;
+      if (alarm <= -to.rest_length) return -infinity;
+      if (alarm < infinity) most = std::min(most, squared_growth(to.rest_length, alarm));
+    }
+  return most;
 }
 
 }  // namespace
@@ -37,7 +33,9 @@ std::vector<GrowthBounds> quiet_bounds(const SpringTable& springs) {
 WholeReview::AlarmedOfBlocks WholeReview::alarmed() {
   const Model& model = blocks_.model();
   AlarmedOfBlocks found(blocks_.size());
-  const std::vector<GrowthBounds> quiet = quiet_bounds(model.springs);
+  std::vector<GrowthBounds> quiet;
+  for (const NeighbourGeometry& to : model.springs.neighbours)
+    quiet.push_back({-infinity, quiet_growth(model.springs, to)});
   blocks_.team().for_each(blocks_.size(), [&](std::size_t b) { blocks_.exchange(blocks_[b]); });
   blocks_.team().for_each(blocks_.size(), [&](std::size_t b) {
     const Block& block = blocks_[b];

@@ -132,12 +132,14 @@ class Static {
     const bool stable = o_.stability.value_or(!facts.listed && !problem->damages && !facts.breaks);
     equilibrium::Newton newton(*system, host, {.tolerance = o_.tolerance, .stable = stable});
     const double whole = 1 / static_cast<double>(o_.load_steps);
+    double overshoot = infinity;
+    if (facts.breaks) overshoot = o_.overshoot;
     equilibrium::LoadSteps steps(
         *problem, host, newton,
         {.longest = whole,
          .shortest = whole * std::exp2(-static_cast<double>(o_.most_cutbacks)),
          .damage_step = o_.damage_step,
-         .overshoot = facts.breaks ? o_.overshoot : infinity,
+         .overshoot = overshoot,
          .snap_back = o_.snap_back});
     if (steps.run()) return;
     const equilibrium::Outcome& found = steps.outcome();
