@@ -66,7 +66,10 @@ bool LoadSteps::settle() {
   constexpr int most_tries = 20;
   for (int tries = 0; problem_.broke > 0;) {
     newton_.forget_tangent();
-    if (!search(share_, share_)) return false;
+    if (!search(share_, share_)) {
+      host_.observe();  // records what broke, though the body is not at rest
+      return false;
+    }
     const bool may_fall = options_.snap_back && tries < most_tries;
     if (const double over = may_fall ? problem_.overshoot(share_, u_.data()) : 0;
         over > options_.overshoot) {
