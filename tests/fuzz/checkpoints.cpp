@@ -1,5 +1,7 @@
-// Checkpoints. The first byte chooses: the input is the whole file, or it says how a sound
-// checkpoint is changed before the checksums are made, so that the reading goes beyond them.
+// Checkpoints. The first byte chooses what the run resumes from: the input as the whole file; a
+// sound file with changed bytes, which must be refused; or a file with sound checksums whose head
+// is changed and whose state is shorter or longer. The numbers of a state behind sound checksums
+// are the program's own, so that they are not changed.
 #include "target.hpp"
 
 #include <fuzzer/FuzzedDataProvider.h>
@@ -34,10 +36,13 @@ class SmallRun {
     RecordReader records(options_.directory / checkpoint_file);
     head_ = records.take_all("head");
     state_ = records.take_all("stat");
+    std::ifstream file(options_.directory / checkpoint_file, std::ios::binary);
+    bytes_.assign(std::istreambuf_iterator<char>(file), {});
   }
 
   const std::string& head() const { return head_; }
   const std::string& state() const { return state_; }
+  const std::string& bytes() const { return bytes_; }
 
   void write(std::string_view bytes) const { folder_.write("out/checkpoint.bin", bytes); }
   void write(std::string_view head, std::string_view state) const {
@@ -49,7 +54,6 @@ class SmallRun {
     file.commit();
   }
   void resume() {
-    holds_progress(options_.directory);
     const Checkpoint checkpoint = find_checkpoint(*plan_, options_.directory);
     Simulation simulation(*plan_->model, 1);
     StageSequence stages(*plan_, options_, run_folder_, simulation);
@@ -62,7 +66,7 @@ class SmallRun {
   std::unique_ptr<Plan> plan_;
   RunOptions options_;
   RunFolder run_folder_;
-  std::string head_, state_;
+  std::string head_, state_, bytes_;
 };
 
 /// Overwrites, removes and inserts bytes, as the input says.
@@ -82,15 +86,28 @@ std::string changed(std::string bytes, FuzzedDataProvider& input) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static SmallRun run;
-  if (size == 0) return 0;
   FuzzedDataProvider input(data, size);
-  if (input.ConsumeBool()) {
-    run.write(input.ConsumeRemainingBytesAsString());
-  } else {
-    const std::string head =
-        input.ConsumeIntegralInRange(0, 3) == 0 ? changed(run.head(), input) : run.head();
-    run.write(head, changed(run.state(), input));
+  bool may_be_accepted = true;
+  switch (input.ConsumeIntegralInRange(0, 2)) {
+    case 0:
+      run.write(input.ConsumeRemainingBytesAsString());
+      break;
+    case 1: {
+      const std::string bytes = changed(run.bytes(), input);
+      may_be_accepted = bytes == run.bytes();
+      run.write(bytes);
+      break;
+    }
+    default: {
+      std::string state = run.state();
+      if (input.ConsumeBool())
+        state.resize(input.ConsumeIntegralInRange<std::size_t>(0, 2 * state.size()));
+      run.write(changed(run.head(), input), state);
+    }
   }
-  fuzz::read_or_refuse<std::runtime_error>([&] { run.resume(); });
+  fuzz::read_or_refuse<std::runtime_error>([&] {
+    run.resume();
+    fuzz::require(may_be_accepted);
+  });
   return 0;
 }
