@@ -11,16 +11,19 @@ using namespace hyperlattice;
 
 namespace {
 
-/// Returns whether the lattice of a resolved scene has few particles. A lattice without a shape has
-/// those of its files.
+/// Returns whether a resolved scene has few particles and draws small pictures. A lattice without a
+/// shape has the particles of its files.
 bool is_small(const Scene& scene) {
-  constexpr double most = 300;
+  constexpr double most = 300, pixels = 64 * 64;
   const Json resolved = Json::parse(scene.resolved);
   Faults faults;
   Regions regions;
   std::deque<std::string> texts;
   RegionReader reader(resolved["regions"], regions, faults, texts, scene.file.parent_path());
   for (const Json& stage : resolved["pipeline"]) {
+    if (stage.contains("width") && stage["width"].is_number() &&
+        stage["width"].get<double>() * stage.value("height", 1.0) > pixels)
+      return false;
     if (!word_in(stage, "type").starts_with("lattices.") || !stage.contains("shape") ||
         !stage.contains("spacing"))
       continue;
