@@ -48,13 +48,6 @@ LatticeFacts facts_of(const Model& model, const LatticeGeometry& geometry) {
   return facts;
 }
 
-/// Returns the largest stiffness, N/m, of a material's springs, those of the membrane included.
-double stiffest(const MaterialConstants& constants) {
-  double ratio = constants.clamped ? 1 : std::max(1.0, std::abs(constants.alpha_ratio));
-  for (const double cross : constants.cross_ratio) ratio = std::max(ratio, std::abs(cross));
-  return ratio * constants.base_stiffness;
-}
-
 /// Throws InputError if a constant of the material has no valid value. Constants of the law may be
 /// infinite: a limit that is never reached.
 void check_constants(const Stage& stage, const MaterialConstants& constants, double spacing) {
@@ -72,11 +65,10 @@ void check_constants(const Stage& stage, const MaterialConstants& constants, dou
     throw refusal(stage,
                   "the stiffness of its cross springs, its K_v or a constant of its law came out "
                   "as no number");
-  constexpr double most = 1e290;  // J; sums over all particles stay finite
-  if (const double energy = stiffest(constants) * spacing * spacing; !(energy <= most))
+  if (const double energy = largest_energy(constants, spacing); !(energy <= most_energy))
     throw refusal(stage, fmt::format("the stiffness of its springs times the squared spacing came "
                                      "out as {:.3g} J, and {:g} J is the most that can be added up",
-                                     energy, most));
+                                     energy, most_energy));
 }
 
 /// Returns an addition to the error about a Poisson ratio that a random body does not reach; empty
