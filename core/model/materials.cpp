@@ -50,7 +50,7 @@ LatticeFacts facts_of(const Model& model, const LatticeGeometry& geometry) {
 
 /// Throws InputError if a constant of the material has no valid value. Constants of the law may be
 /// infinite: a limit that is never reached.
-void check_constants(const Stage& stage, const MaterialConstants& constants) {
+void check_constants(const Stage& stage, const MaterialConstants& constants, double spacing) {
   if (!(constants.density > 0 && constants.base_stiffness > 0 && std::isfinite(constants.density) &&
         std::isfinite(constants.base_stiffness)))
     throw refusal(stage, "its density or its stiffness came out as not positive or not finite");
@@ -65,6 +65,10 @@ void check_constants(const Stage& stage, const MaterialConstants& constants) {
     throw refusal(stage,
                   "the stiffness of its cross springs, its K_v or a constant of its law came out "
                   "as no number");
+  if (const double energy = largest_energy(constants, spacing); !(energy <= most_energy))
+    throw refusal(stage, fmt::format("the stiffness of its springs times the squared spacing came "
+                                     "out as {:.3g} J, and {:g} J is the most that can be added up",
+                                     energy, most_energy));
 }
 
 /// Returns an addition to the error about a Poisson ratio that a random body does not reach; empty
@@ -115,7 +119,7 @@ Material make_material(const Model& model, const Stage& stage, const LatticeFact
   });
   if (refused)
     throw objection(*model.scene, stage, *refused + reach_of_sample(model.body, *refused));
-  check_constants(stage, material.constants);
+  check_constants(stage, material.constants, facts.spacing);
   const MaterialConstants& constants = material.constants;
   material.mass = constants.density * facts.site_volume;
   return material;

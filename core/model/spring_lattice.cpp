@@ -70,6 +70,12 @@ InfiniteLattice SpringLattice::endless() const {
           constants_.volumetric};
 }
 
+double largest_energy(const MaterialConstants& constants, double spacing) {
+  double ratio = constants.clamped ? 1 : std::max(1.0, std::abs(constants.alpha_ratio));
+  for (const double cross : constants.cross_ratio) ratio = std::max(ratio, std::abs(cross));
+  return ratio * constants.base_stiffness * spacing * spacing;
+}
+
 LatticeFacts facts_of(const LatticeGeometry& geometry) {
   LatticeFacts facts;
   facts.spacing = geometry.spacing;
@@ -96,7 +102,8 @@ LatticeFacts facts_of(const LatticeGeometry& geometry) {
       // A list counts as stable only without negative springs: no wave analysis exists for it.
       if (of.listed)
         return constants.cross_ratio[0] >= 0 && (constants.clamped || constants.alpha_ratio >= 0);
-      return !find_instability(SpringLattice(of, constants).endless(), Sector::mirrored);
+      return largest_energy(constants, of.spacing) <= most_energy &&
+             !find_instability(SpringLattice(of, constants).endless(), Sector::mirrored);
     });
   };
   return facts;

@@ -44,6 +44,12 @@ class SpringLattice {
   KernelChoice::Membrane membrane_;
 };
 
+/// Returns the stiffness of a material's stiffest springs, those of the membrane included, times
+/// the squared spacing, J.
+double largest_energy(const MaterialConstants& constants, double spacing);
+/// J; the sums of more would not be finite.
+constexpr double most_energy = 1e290;
+
 /// Returns the facts that a material may ask about a geometry, which must outlive them. Facts about
 /// the body stay empty.
 LatticeFacts facts_of(const LatticeGeometry& geometry);

@@ -102,7 +102,8 @@ class Points {
 
  private:
   static constexpr double most_apart = 20;  // ratio; the surface has cubes of half a spacing
-  static constexpr double farthest = 1e50;  // m; products of a few lengths stay finite
+  // m; products of a few lengths stay finite, and of the body's width above 0
+  static constexpr double farthest = 1e50, narrowest = 1e-50;
 
   std::vector<Vec3> positions_of(const NumberTable& table) const {
     std::vector<Vec3> positions;
@@ -225,8 +226,14 @@ class Points {
     }
     const double count = static_cast<double>(positions.size());
     const Vec3 size = high - low;
-    const double box = std::max({size.x * size.y * size.z, 1e-9 * std::pow(norm(size), 3)});
-    const double about = o_.spacing.value_or(std::cbrt(o_.particle_volume.value_or(box / count)));
+    const double width = norm(size);
+    if (!(width >= narrowest))
+      throw std::invalid_argument("points that are " + short_number(narrowest) +
+                                  " m apart or more, not " + short_number(width) + " m");
+    const double box = std::max({size.x * size.y * size.z, 1e-9 * std::pow(width, 3)});
+    // The search begins with pairs about as far apart as this, and ends only if it is not nearly 0.
+    const double about = std::max(
+        1e-15 * width, o_.spacing.value_or(std::cbrt(o_.particle_volume.value_or(box / count))));
     const std::vector<NearPair> pairs =
         pairs_with_coordination(positions, low, high, about, *o_.coordination);
     std::vector<ListedSpring> springs;

@@ -294,4 +294,33 @@ TEST(Points, RefusesPointsThatCannotBeParticles) {
             std::string::npos);
 }
 
+/// Returns how a lattice of five points at the corners of a cube of this edge, m, that joins the
+/// nearest is refused; "" if it is not.
+std::string refusal_of_nearest(double edge, const Keys& more = {}) {
+  const ListFiles files({{0, 0, 0}, {edge, 0, 0}, {0, edge, 0}, {0, 0, edge}, {edge, edge, edge}},
+                        {});
+  try {
+    plan_of(SceneBuilder{}
+                .stages(stage("lattices.points",
+                              Keys{{"points", files.points.string()}, {"coordination", 3}} + more))
+                .material("materials.elastic",
+                          {{"density", 2500}, {"young", 1e10}, {"membrane", "none"}})
+                .solver("solvers.explicit", {{"end_time", 1e-6 * edge}})
+                .text());
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Points, TheNearestAreSoughtAtEveryScaleOrRefused) {
+  for (const double edge : {1e-3, 1e-40, 1e10}) EXPECT_EQ(refusal_of_nearest(edge), "") << edge;
+  for (const double edge : {1e-110, 1e-300})
+    EXPECT_NE(refusal_of_nearest(edge).find("apart or more"), std::string::npos) << edge;
+  for (const double spacing : {5e-324, 1e-300})
+    EXPECT_NE(refusal_of_nearest(1, {{"spacing", spacing}}).find("expected spacing between"),
+              std::string::npos)
+        << spacing;
+}
+
 }  // namespace random_lattice_test
