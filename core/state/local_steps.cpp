@@ -44,32 +44,39 @@ std::vector<LocalMove> local_moves(std::int64_t parts) {
 }
 
 void LocalForces::start(double time_step, std::int64_t parts) {
-  moves_.clear();
-  springs_.clear();
+  stiff_.clear();
+  if (parts > 1) {
+    moves_ = local_moves(parts);
+    const LocalLimits limits(model_);
+    constexpr double round_off = 1e-9;
+    stiff_.resize(model_.body.particles);
+    for (Particle p = 0; p < stiff_.size(); ++p)
+      stiff_[p] = limits[p] < time_step * (1 - round_off) ? 1 : 0;
+  }
+  arrange();
+}
+
+/// Finds the springs that exist now, so that a run that is resumed has the same arrays.
+void LocalForces::arrange() {
   for (const End& end : ends_) {
     Block& block = blocks_[end.block];
     block.rows[end.row].law = block.layout->rows[end.row].law;
   }
   ends_.clear();
-  if (parts <= 1) return;
-  moves_ = local_moves(parts);
-  const LocalLimits limits(model_);
-  constexpr double round_off = 1e-9;
-  std::vector<std::uint8_t> stiff(model_.body.particles);
-  for (Particle p = 0; p < stiff.size(); ++p)
-    stiff[p] = limits[p] < time_step * (1 - round_off) ? 1 : 0;
-  find_ends(stiff);
-  add_springs(stiff);
+  springs_.clear();
+  if (stiff_.empty()) return;
+  find_ends();
+  add_springs();
   find_pieces();
 }
 
 /// Finds the stiff particles and those beside them.
-void LocalForces::find_ends(const std::vector<std::uint8_t>& stiff) {
-  std::vector<std::uint8_t> chosen = stiff;
+void LocalForces::find_ends() {
+  std::vector<std::uint8_t> chosen = stiff_;
   for (const Block& block : blocks_)
     blocks_.layout().for_springs(block, [&](const SpringPlace& spring) {
       const Particle a = spring.ends.a, b = spring.ends.b;
-      if (spring.counts && (stiff[a] | stiff[b]) != 0) chosen[a] = chosen[b] = 1;
+      if (spring.counts && (stiff_[a] | stiff_[b]) != 0) chosen[a] = chosen[b] = 1;
     });
   particles_.clear();
   rows_.assign(blocks_.size(), {});
@@ -86,7 +93,7 @@ void LocalForces::find_ends(const std::vector<std::uint8_t>& stiff) {
     end.site = place.site;
     end.index = place.index;
     end.mass = model_.mass(p);
-    end.stiff = stiff[p] != 0;
+    end.stiff = stiff_[p] != 0;
     Block& block = blocks_[place.block];
     const auto& supports = block.boundary_particles;
     for (std::uint32_t n = block.rows[place.row].first_boundary_particle;
@@ -104,7 +111,7 @@ void LocalForces::find_ends(const std::vector<std::uint8_t>& stiff) {
     for (std::vector<double>& field : *fields) field.assign(ends_.size(), 0);
 }
 
-void LocalForces::add_springs(const std::vector<std::uint8_t>& stiff) {
+void LocalForces::add_springs() {
   const auto number_of = [&](Particle p) {
     return static_cast<std::uint32_t>(std::lower_bound(particles_.begin(), particles_.end(), p) -
                                       particles_.begin());
@@ -112,7 +119,7 @@ void LocalForces::add_springs(const std::vector<std::uint8_t>& stiff) {
   for (const Block& block : blocks_)
     blocks_.layout().for_springs(block, [&](const SpringPlace& place) {
       const auto [a, b, neighbour, is_first] = place.ends;
-      if (!place.counts || (stiff[a] | stiff[b]) == 0) return;
+      if (!place.counts || (stiff_[a] | stiff_[b]) == 0) return;
       springs_.push_back(
           {number_of(a), number_of(b), neighbour,
            &model_.springs.spring_to(neighbour, model_.kinds.of(a), model_.kinds.of(b)),
@@ -126,7 +133,7 @@ void LocalForces::add_springs(const std::vector<std::uint8_t>& stiff) {
   for (const Block& block : blocks_)
     blocks_.layout().for_springs(block, [&](const SpringPlace& place) {
       const auto [a, b, neighbour, is_first] = place.ends;
-      if ((stiff[a] | stiff[b]) == 0) return;
+      if ((stiff_[a] | stiff_[b]) == 0) return;
       const SpringConstants* constants =
           &model_.springs.spring_to(neighbour, model_.kinds.of(a), model_.kinds.of(b));
       const std::uint32_t first = number_of(a);
@@ -135,6 +142,10 @@ void LocalForces::add_springs(const std::vector<std::uint8_t>& stiff) {
           [](const Spring& spring, const auto& key) {
             return std::tuple(spring.neighbour, spring.constants, spring.a) < key;
           });
+      // The bits of ghosts may be out of date.
+      if (found == springs_.end() || found->neighbour != neighbour ||
+          found->constants != constants || found->a != first)
+        return;
       const Row& row = block.rows[place.row];
       bits_[block.number].push_back({row.start + static_cast<std::uint64_t>(place.site - row.begin),
                                      static_cast<std::uint16_t>(1U << place.neighbour),
@@ -155,7 +166,6 @@ void LocalForces::find_pieces() {
       pieces_.back().begin = n;
     }
     pieces_.back().end = n + 1;
-    springs_[n].piece = static_cast<std::uint32_t>(pieces_.size() - 1);
   }
   for (Piece& piece : pieces_) {
     const std::uint32_t count = piece.end - piece.begin,
@@ -181,42 +191,44 @@ void LocalForces::find_pieces() {
   }
 }
 
-void LocalForces::take_springs() {
+/// Calls visit(block, bit) for the bits of all springs, and of their copies in other blocks.
+template <class Visit>
+void LocalForces::for_bits(const Visit& visit) {
   blocks_.team().for_each(blocks_.size(), [&](std::size_t b) {
-    for (const Bit& bit : bits_[b])
-      blocks_[b].alive[bit.index] =
-          static_cast<std::uint16_t>(blocks_[b].alive[bit.index] & ~bit.bit);
+    for (const Bit& bit : bits_[b]) visit(blocks_[b], bit);
   });
+}
+
+void LocalForces::clear(Block& block, const Bit& bit) {
+  block.alive[bit.index] = static_cast<std::uint16_t>(block.alive[bit.index] & ~bit.bit);
 }
 
 void LocalForces::give_back() {
-  blocks_.team().for_each(blocks_.size(), [&](std::size_t b) {
-    for (const Bit& bit : bits_[b])
-      if (springs_[bit.spring].share > 0)
-        blocks_[b].alive[bit.index] =
-            static_cast<std::uint16_t>(blocks_[b].alive[bit.index] | bit.bit);
+  for_bits([](Block& block, const Bit& bit) {
+    block.alive[bit.index] = static_cast<std::uint16_t>(block.alive[bit.index] | bit.bit);
   });
 }
 
-/// Asks the failure criteria about the springs, in the present state.
+/// Asks the failure criteria about the springs, in the present state, and removes those that break.
 void LocalForces::review() {
   blocks_.team().for_each(blocks_.size(), [&](std::size_t b) {
     for (Spring& spring : springs_) {
-      if (spring.block != b || !(spring.share > 0) || !(spring.constants->alarm < infinity))
-        continue;
+      if (spring.block != b || !(spring.constants->alarm < infinity)) continue;
       const SpringEnds ends{particles_[spring.a], particles_[spring.b], spring.neighbour, true};
       const double elongation =
           blocks_.elongation(ends, model_.spring_properties(ends.a, ends.b, ends.neighbour));
-      if (!(elongation > spring.constants->alarm)) continue;
-      if (*review_.review(blocks_[b],
-                          {spring.row, spring.neighbour, {&spring.site, 1}, {&elongation, 1}}) !=
-          0) {
-        pieces_[spring.piece].weight[static_cast<std::size_t>(&spring - springs_.data()) -
-                                     pieces_[spring.piece].begin] = 0;
-        spring.share = 0;
-      }
+      if (elongation > spring.constants->alarm &&
+          *review_.review(blocks_[b],
+                          {spring.row, spring.neighbour, {&spring.site, 1}, {&elongation, 1}}) != 0)
+        spring.broken = true;
     }
   });
+  if (std::none_of(springs_.begin(), springs_.end(), [](const Spring& one) { return one.broken; }))
+    return;
+  for_bits([&](Block& block, const Bit& bit) {
+    if (springs_[bit.spring].broken) clear(block, bit);
+  });
+  arrange();
 }
 
 void LocalForces::read_motion() {
@@ -299,7 +311,8 @@ void LocalForces::move(std::uint32_t first, std::uint32_t last, const LocalMove&
 LocalForces::Taken LocalForces::compute(double step, bool breaks) {
   if (empty()) return Taken(nullptr);
   if (breaks && model_.springs.criteria) review();
-  take_springs();
+  if (empty()) return Taken(nullptr);
+  for_bits([](Block& block, const Bit& bit) { clear(block, bit); });
   Taken taken(this);
   read_motion();
   for (End& end : ends_) {

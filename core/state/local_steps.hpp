@@ -85,10 +85,10 @@ class LocalForces {
     std::uint32_t a = 0, b = 0;  ///< numbers of its ends
     std::uint32_t neighbour = 0;
     const SpringConstants* constants = nullptr;
-    double share = 1;  ///< fraction of a whole spring; 0: broken
+    double share = 1;  ///< fraction of a whole spring
     std::uint32_t block = 0, row = 0;
     std::int32_t site = 0;
-    std::uint32_t piece = 0;  ///< number of its piece
+    bool broken = false;  ///< in this step
   };
   /// The bit of a spring in the arrays of a block, its own or a copy's.
   struct Bit {
@@ -110,10 +110,13 @@ class LocalForces {
     double sign = 1;
   };
 
-  void add_springs(const std::vector<std::uint8_t>& stiff);
-  void find_ends(const std::vector<std::uint8_t>& stiff);
+  void arrange();
+  void find_ends();
+  void add_springs();
   void find_pieces();
-  void take_springs();
+  template <class Visit>
+  void for_bits(const Visit& visit);
+  static void clear(Block& block, const Bit& bit);
   void review();
   void find_forces(Piece& piece, bool keeps_energy);
   void give_back();
@@ -125,6 +128,7 @@ class LocalForces {
   const ActingLoads& loads_;
   const SpringReview& review_;
   std::vector<LocalMove> moves_;
+  std::vector<std::uint8_t> stiff_;     // of each particle; empty: there are no local steps
   std::vector<End> ends_;               // in the order of their particles
   std::vector<Particle> particles_;     // of the ends
   std::vector<Spring> springs_;         // by neighbour, constants and first end

@@ -157,6 +157,32 @@ TEST(LocalSteps, GiveTheSameBitsOnAnyThreadsAndReturnTheirSprings) {
   EXPECT_EQ(run_on(3), one);
 }
 
+TEST(LocalSteps, BreakTheSameOnAnyThreadsAndAfterANewStart) {
+  // Springs of the stiff layer itself break, too.
+  const Keys brittle = {{"failure", {{"type", "failures.strain"}, {"limit", 1.5e-4}}}};
+  const auto text = [&](const Stages& more) {
+    SceneBuilder scene(text_of({.contrast = 4,
+                                .loads = push() + stage("loads.fixed", {{"on", "x_max"}}),
+                                .end = 4e-5,
+                                .solver = parts(2) + Keys{{"time_step", 2e-7}},
+                                .soft = brittle,
+                                .stiff = brittle}));
+    return scene.stages(more).text();
+  };
+  const Stages rest =
+      stage("solvers.explicit", parts(2) + Keys{{"end_time", 6e-5}, {"time_step", 2e-7}});
+  const auto run_on = [&](int threads) {
+    Motion run(text(rest), threads);
+    run.go();
+    EXPECT_GT(run.simulation.broken(), 0U);
+    EXPECT_LT(std::abs(run.simulation.balance().relative_error()), 0.02);
+    return run.simulation.hash();
+  };
+  const std::uint64_t one = run_on(1);
+  EXPECT_EQ(run_on(2), one);
+  EXPECT_EQ(run_on(3), one);
+}
+
 TEST(LocalSteps, InFloats) {
   const auto end = [](const Keys& scene) {
     Motion run(text_of({.loads = push(), .solver = parts(10), .scene = scene}));
