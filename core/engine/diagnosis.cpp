@@ -110,17 +110,18 @@ std::string likely_cause(const Model& model, const SpringExtremes& state, double
   const auto ends = [&](const SpringExtremes::Extreme& extreme) {
     return fmt::format("at {} and {}", place_of(model, extreme.a), place_of(model, extreme.b));
   };
+  // Steps beyond the critical one also make particles fast.
+  if (time_step < critical && time_step > present)
+    return fmt::format(
+        "Likely cause: springs that stiffen or are stretched have shortened the critical step to "
+        "about {:.3g} s, at {}. Take a time_step of at most {:.3g} s or a `safety` of {:.2g}.",
+        present, place_of(model, state.stiffest), 0.9 * present, 0.9 * state.critical);
   if (state.closing.value > crosses)
     return fmt::format(
         "Likely cause: particles pass through each other: those {} come nearer by {:.3g} of their "
         "distance in one step. Take a shorter time_step, a smaller or slower load, or a failure "
         "law.",
         ends(state.closing), state.closing.value);
-  if (time_step < critical && time_step > present)
-    return fmt::format(
-        "Likely cause: springs that stiffen or are stretched have shortened the critical step to "
-        "about {:.3g} s, at {}. Take a time_step of at most {:.3g} s or a `safety` of {:.2g}.",
-        present, place_of(model, state.stiffest), 0.9 * present, 0.9 * state.critical);
   if (state.longest.value > far)
     return fmt::format(
         "Likely cause: springs are stretched to {:.3g} times their length, {}: loads beyond what "

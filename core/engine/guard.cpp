@@ -45,6 +45,20 @@ void Guard::check_approach(double time_step) const {
          time_step);
 }
 
+std::string Guard::early_warning(const EnergyBalance& balance, double time_step) {
+  constexpr double early = 0.1;
+  const double tolerance = stage_->stage->energy_tolerance;
+  if (has_warned_ || !(tolerance > 0) || std::abs(balance.relative_error()) < early * tolerance)
+    return {};
+  has_warned_ = true;
+  const std::string cause =
+      likely_cause(model_, spring_extremes(model_, simulation_, time_step), time_step);
+  if (cause.empty()) return {};
+  return fmt::format(
+      "the error of the energy balance is {:.2g} of the largest energy at {:.6g} s. {}",
+      std::abs(balance.relative_error()), simulation_.time(), cause);
+}
+
 void Guard::check_finite(const EnergyBalance& balance, double time_step) const {
   const double total = balance.kinetic + balance.stored + balance.dissipated() + balance.injected;
   if (!std::isfinite(total)) fail("the energy is no longer finite", time_step);

@@ -11,12 +11,18 @@ class Guard {
  public:
   Guard(const Model& model, const Simulation& simulation);
 
-  void start(const PlannedStage& stage) { stage_ = &stage; }
+  void start(const PlannedStage& stage) {
+    stage_ = &stage;
+    has_warned_ = false;
+  }
   /// Reads all velocities once. Throws RunError if a number is not finite or a particle runs away.
   void check_motion(double time_step) const;
   /// Throws RunError if ends of a spring approach too fast for the step (the stage's
   /// `approach_limit`). Reads the springs only where particles are fast enough for it.
   void check_approach(double time_step) const;
+  /// Returns the likely cause if the error of the balance has passed a tenth of the stage's
+  /// tolerance, once in a stage; empty otherwise.
+  std::string early_warning(const EnergyBalance& balance, double time_step);
   /// Throws RunError if an energy is not a number.
   void check_finite(const EnergyBalance& balance, double time_step) const;
   /// Throws RunError if the error of the balance passes the stage's tolerance.
@@ -29,6 +35,7 @@ class Guard {
   const Simulation& simulation_;
   const PlannedStage* stage_ = nullptr;
   double shortest_;  ///< rest length of a spring, m
+  bool has_warned_ = false;
 };
 
 }  // namespace hyperlattice

@@ -1,3 +1,4 @@
+#include <base/errors.hpp>
 #include <run/recorder.hpp>
 
 #include <spdlog/spdlog.h>
@@ -43,9 +44,23 @@ void Recorder::start_stage(const PlannedStage& stage, bool is_resumed) {
   time_step_ = stage.plan.time_step;
 }
 
+/// Makes a check. If it fails, outputs see the state that shows where the run goes wrong.
+template <class Check>
+void Recorder::guarded(const Check& check) {
+  try {
+    check();
+  } catch (const RunError&) {
+    double speed = 0;
+    bool finite = true;
+    simulation_.fastest(speed, finite);
+    if (finite) stopwatch_.output([&] { outputs_.show_now(); });
+    throw;
+  }
+}
+
 void Recorder::take_step(double time_step) {
   time_step_ = time_step;
-  if (simulation_.steps() % guard_every == 0) guard_.check_motion(time_step);
+  if (simulation_.steps() % guard_every == 0) guarded([&] { guard_.check_motion(time_step); });
 }
 
 void Recorder::observe() {
@@ -71,16 +86,23 @@ void Recorder::record() {
   const Record record{simulation_.time(),          simulation_.steps(),
                       simulation_.balance(),       open,
                       simulation_.broken() - open, simulation_.crack_surface()};
-  if (record.step > 0) guard_.check_motion(time_step_);
-  guard_.check_finite(record.balance, time_step_);
-  if (!stage_->plan.at_rest) guard_.check_approach(time_step_);
+  guarded([&] {
+    if (record.step > 0) guard_.check_motion(time_step_);
+    guard_.check_finite(record.balance, time_step_);
+    if (!stage_->plan.at_rest) guard_.check_approach(time_step_);
+  });
   history_.take(record);
   if (cells_.is_due(record.step)) look_at_cells();
   stopwatch_.output([&] {
     history_.write(simulation_.work_of_loads());
     if (failures_) failures_->write_new(simulation_.breakages());
   });
-  if (!stage_->plan.at_rest) guard_.check_balance(record.balance, time_step_);
+  if (stage_->plan.at_rest) return;
+  guarded([&] { guard_.check_balance(record.balance, time_step_); });
+  if (std::string early = guard_.early_warning(record.balance, time_step_); !early.empty()) {
+    spdlog::warn("warning: {}", early);
+    warnings_.push_back(std::move(early));
+  }
 }
 
 void Recorder::look_at_cells() {
@@ -124,6 +146,7 @@ void Recorder::note(Outcome& outcome) {
   }
   if (std::string sentence = cells_.sentence(); !sentence.empty())
     outcome.warnings.push_back(std::move(sentence));
+  outcome.warnings.insert(outcome.warnings.end(), warnings_.begin(), warnings_.end());
 }
 
 }  // namespace hyperlattice

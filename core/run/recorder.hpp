@@ -12,6 +12,8 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace hyperlattice {
 
@@ -49,6 +51,8 @@ class Recorder {
   /// Steps between checks. A check reads the velocities once, a fraction of a step's work.
   static constexpr std::uint64_t guard_every = 50;
 
+  template <class Check>
+  void guarded(const Check& check);
   void record();
   void look_at_cells();
 
@@ -67,6 +71,7 @@ class Recorder {
   double time_step_ = 0;            ///< the latest, s
   std::uint64_t observed_ = 0;      ///< number of steps at the last observation
   std::optional<RestReport> rest_;  ///< latest report of a solver
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace hyperlattice

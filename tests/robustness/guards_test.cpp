@@ -58,6 +58,37 @@ TEST_F(Guards, NameSpringsThatAreStretched) {
   EXPECT_NE(text.find("Likely cause: springs"), std::string::npos) << text;
 }
 
+TEST_F(Guards, LeaveAFrameOfTheStateThatFailed) {
+  const json held{{"type", "loads.fixed"}, {"on", "x_min"}};
+  const json force{{"type", "loads.force"}, {"on", "x_max"}, {"total", {2e5, 0, 0}}};
+  json scene = block(json::array({held, force}), {{"end_time", "1 ms"}, {"safety", 0.99}});
+  scene["pipeline"].push_back(
+      {{"type", "writers.csv"}, {"fields", {"displacement"}}, {"every", 0}});
+  reason(scene);
+  // The first state and the one that failed.
+  const json summary = read_json(out + "/summary.json");
+  const std::vector<std::string> rows = table_rows(out + "/frames_times.csv");
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_NE(rows.back().find("," + std::to_string(summary.at("steps").get<int>())),
+            std::string::npos)
+      << rows.back();
+}
+
+TEST_F(Guards, NameStretchedSpringsThatShortenTheCriticalStep) {
+  // A strain of a half: the stretched springs resist motions across them, too.
+  const json held{{"type", "loads.fixed"}, {"on", "x_min"}};
+  const json force{
+      {"type", "loads.force"}, {"on", "x_max"}, {"total", {8000, 0, 0}}, {"rise", "0.2 ms"}};
+  const json stages = json::array({held, force});
+  const std::string text = reason(block(stages, {{"end_time", "1 ms"}, {"safety", 0.99}}));
+  EXPECT_NE(text.find("have shortened the critical step to about"), std::string::npos) << text;
+  // With the step that the message asks for the run ends well.
+  const Result result = run_program(
+      {"run", write_scene(folder, block(stages, {{"end_time", "1 ms"}, {"safety", 0.75}})), "--out",
+       out, "--overwrite"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
 TEST_F(Guards, AreSilentWhereNothingIsWrong) {
   const json force{{"type", "loads.force"}, {"on", "x_max"}, {"total", {1, 0, 0}}};
   const Result result =
