@@ -36,7 +36,7 @@ SolverFacts solver_facts(const Model& model, double start_time) {
     return PluginCall::answer(false, [&] {
       const auto& of = *static_cast<const Model*>(self);
       const std::string objection = objection_to_local_steps(of);
-      if (!objection.empty()) return why.say("local_steps need " + objection), false;
+      if (!objection.empty()) return why.say("local_steps 1, or " + objection), false;
       steps = LocalLimits(of).divide(parts);
       return true;
     });

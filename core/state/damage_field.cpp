@@ -74,8 +74,8 @@ void DamageField::evaluate() {
 /// whose sum is -1/2 (f_n - f_{n+1}) k u_n u_{n+1}. So the spring dissipates
 ///   D = 1/2 (f_n - f_{n+1}) k u_n u_{n+1}
 /// in the step, and the balance is as exact as that of springs that do not change. In an implicit
-/// step the force is that of the new factor f_(n+1) at the mean elongation u = u_n + g (u_(n+1) -
-/// u_n), and the spring dissipates its work less the change of the stored energy.
+/// step the force is the change of the energy with the new factor over the change of elongation
+/// (statics/soft_springs.cpp): without numerical damping D = 1/2 (f_n - f_{n+1}) k u_n^2.
 void DamageField::gather(std::uint32_t number, Part part) {
   DamageRecord& record = records_[number];
   const bool whole = part == Part::all;

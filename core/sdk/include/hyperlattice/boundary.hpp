@@ -129,7 +129,7 @@ namespace detail {
 
 HYPERLATTICE_BOUNDARY(HYPERLATTICE_LAYOUT)
 
-/// A template, so that only what loads plugins and what is one computes it.
+/// A template, so that the compiler computes it only for plugins and for the program's own gate.
 template <class = void>
 constexpr std::uint32_t boundary_hash() {
   LayoutHash hash;

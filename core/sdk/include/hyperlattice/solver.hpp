@@ -100,7 +100,8 @@ struct SolverHost {
   const StaticProblem* statics() const { return open(self); }
   /// Sets the state to these displacements, at rest, under the fraction `share` of the stage's
   /// change of load. If springs break there (StaticProblem::broke), the next state that is accepted
-  /// must be at rest without them, under the same loads. Returns false if the run must stop.
+  /// must be at rest without them, under the same loads or smaller ones. Returns false if the run
+  /// must stop.
   bool accept(double share, const double* displacement) const {
     return take(self, share, displacement);
   }
